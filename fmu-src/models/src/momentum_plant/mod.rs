@@ -100,8 +100,11 @@ impl Model for MomentumPlant {
     ) -> Result<StepEnd, Failure> {
         inputs::check_span(context, values, state, step.end_s)?;
         let mut changed = step.changed;
-        let changes =
-            if changed { state.inputs_changed(context, values, step.start_s)? } else { Changes::default() };
+        let changes = if changed {
+            state.inputs_changed(context, values, step.inputs, step.start_s)?
+        } else {
+            Changes::default()
+        };
         if state.waiting && unset_places(context, values).is_empty() {
             state.waiting = false;
             begin(context, values, state, step.start_s)?;
@@ -128,6 +131,7 @@ impl Model for MomentumPlant {
             }
         };
         if changed {
+            inputs::move_panels(context, values, step.inputs, &mut configuration);
             state.propagator.cut(&configuration, step.start_s, changes.light);
             if changes.orbit && inputs::is_given(context.variables, values) {
                 state.propagator.move_to(&configuration, step.start_s).map_err(outputs::failure)?;

@@ -4,6 +4,7 @@ use fmi_export::model::Log;
 use std::cell::RefCell;
 
 use fmi_export::fmi2::{description_of, references, scalar_variables};
+use fmi_export::model::InputDerivative;
 use fmi_export::model_description::{Causality, Description, Variability, VariableKind};
 use fmi_export::{BaseType, Context, Declare, Failure, InputsOverTime, Model, Step, Values, Variables};
 use physics::numerics::intervals::next_multiple_s;
@@ -157,7 +158,7 @@ impl<M: Model> NamedModel<M> {
         }
         let state = M::initialize(&self.context(), &mut values, start_s)?;
         M::settle_parameters(&self.context(), &mut values);
-        Ok(NamedInstance { named: self, values, state, time_s: start_s, before: None })
+        Ok(NamedInstance { named: self, values, state, time_s: start_s, before: None, moved: false })
     }
 
     fn set(&self, values: &mut Values, name: &str, value: f64) {
@@ -258,6 +259,8 @@ pub struct NamedInstance<'a, M: Model> {
     time_s: f64,
     /// Once something was set: the values as the last step left them. What is set back is no change.
     before: Option<Values>,
+    /// Whether inputs moved in the last step.
+    moved: bool,
 }
 
 impl<M: Model> NamedInstance<'_, M> {
@@ -268,10 +271,26 @@ impl<M: Model> NamedInstance<'_, M> {
 
     /// One step.
     pub fn step_to(&mut self, end_s: f64) -> Result<(), Failure> {
+        self.step_moving(end_s, &[])
+    }
+
+    /// One step in which these inputs move, per second.
+    pub fn step_moving(&mut self, end_s: f64, rates: &[(&str, f64)]) -> Result<(), Failure> {
+        let moved = std::mem::replace(&mut self.moved, !rates.is_empty());
         // Who set a value is no matter.
         let unmarked = |values: &Values| Tables { set: Default::default(), ..Tables::of(values) };
-        let changed = self.before.as_ref().is_some_and(|before| unmarked(before) != unmarked(&self.values));
-        let step = Step { start_s: self.time_s, end_s, changed, inputs: InputsOverTime::held() };
+        let set = self.before.as_ref().is_some_and(|before| unmarked(before) != unmarked(&self.values));
+        let derivatives: Vec<InputDerivative> = rates
+            .iter()
+            .map(|(name, value)| {
+                let bytes =
+                    postcard::to_stdvec(&(self.named.find(name, Kind::Real) as u32, 1_u32, value)).unwrap();
+                postcard::from_bytes(&bytes).unwrap()
+            })
+            .collect();
+        let inputs = InputsOverTime::new(self.time_s, &derivatives);
+        let changed = set || moved || !rates.is_empty();
+        let step = Step { start_s: self.time_s, end_s, changed, inputs };
         M::step(&self.named.context(), &mut self.values, &mut self.state, &step)?;
         self.time_s = end_s;
         self.before = None;
@@ -331,7 +350,14 @@ impl<M: Model> NamedInstance<'_, M> {
     pub fn restored(&self) -> Self {
         let bytes = postcard::to_stdvec(&(&self.values, &self.state)).unwrap();
         let (values, state) = postcard::from_bytes(&bytes).unwrap();
-        Self { named: self.named, values, state, time_s: self.time_s, before: self.before.clone() }
+        Self {
+            named: self.named,
+            values,
+            state,
+            time_s: self.time_s,
+            before: self.before.clone(),
+            moved: self.moved,
+        }
     }
 
     /// The state's bytes.
@@ -350,6 +376,7 @@ impl<M: Model> NamedInstance<'_, M> {
             state,
             time_s: self.time_s,
             before: None,
+            moved: false,
         })
     }
 }

@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use super::gyrostat::Gyrostat;
 use super::imbalance::ImbalanceMotion;
+use super::internal_motion::InternalMotion;
 use super::mass_flow::MassFlow;
 use super::oscillator::OscillatorMotion;
 use super::quaternion::Quaternion;
@@ -46,6 +47,8 @@ pub struct BodyLoad {
     pub flow_kg_s: [f64; 2],
     /// What that does to the body beside its force; absent where nothing flows.
     pub mass_flow: Option<MassFlow>,
+    /// What turns on hinges; absent where nothing does.
+    pub internal: Option<InternalMotion>,
 }
 
 impl BodyLoad {
@@ -58,6 +61,7 @@ impl BodyLoad {
             mass_kg,
             flow_kg_s: [0.0; 2],
             mass_flow: None,
+            internal: None,
         }
     }
 
@@ -89,6 +93,7 @@ impl BodyLoad {
         let vectors = self.torque_body_n_m.iter().chain(&self.force_body_n);
         vectors.flatten_all().chain(&self.flow_kg_s).all(|x| x.abs() <= GREATEST_IN_STATE)
             && self.mass_flow.as_ref().is_none_or(MassFlow::is_sound)
+            && self.internal.as_ref().is_none_or(InternalMotion::is_sound)
             && self.mass_kg > 0.0
             && self.mass_kg <= GREATEST_IN_STATE
     }
@@ -214,6 +219,43 @@ impl GyrostatMotion {
             })
     }
 
+    /// Before the first segment, what turns on hinges adds to the momentum.
+    pub fn add_hinges(&mut self, internal: Option<InternalMotion>) {
+        if let Some(internal) = &internal {
+            let added_body = internal.momentum_after(0.0);
+            self.momentum_inertial_n_m_s += Quaternion(self.attitude[0]).inertial_from_body(&added_body);
+        }
+        self.load.internal = internal;
+    }
+
+    /// At the end the body stands like this at once, of the inertia that it has now, and what turns on hinges does so like this
+    /// from there on: the momentum is kept, those of rotors and modal coordinates along their axes too, and the rate follows.
+    pub fn displace(&mut self, gyrostat: &Gyrostat, attitude: Quaternion, internal: Option<InternalMotion>) {
+        let elapsed_s = self.end_s - self.start_s;
+        [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s] = self.totals_after(elapsed_s);
+        for it in &mut self.rotors {
+            it.axial[0] = polynomial(&it.axial[..=self.order], elapsed_s);
+        }
+        for it in &mut self.oscillators {
+            it.stand(self.order, elapsed_s);
+        }
+        for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
+            it.begin(imbalance, gyrostat.center_of_mass_body_m(), self.order, elapsed_s);
+        }
+        self.load.mass_kg = self.load.mass_after_kg(elapsed_s);
+        self.load.internal = internal;
+        self.attitude[0] = attitude.0;
+        (self.start_s, self.order) = (self.end_s, 0);
+        self.set_inverse_inertia(gyrostat);
+    }
+
+    /// What turns the body at once by a momentum within, in 1/(kg m2), where it has the inertia of `gyrostat`: rotors that turn
+    /// and what swings stay behind.
+    pub fn inverse_inertia_of(&self, gyrostat: &Gyrostat) -> Matrix3<f64> {
+        let swinging = self.oscillators.iter().map(OscillatorMotion::inertia_body_kg_m2);
+        gyrostat.inverse_inertia(self.rotors.iter().map(|it| &it.rotor), swinging)
+    }
+
     /// Up to where the motion is known, in s.
     pub fn end_s(&self) -> f64 {
         self.end_s
@@ -245,15 +287,25 @@ impl GyrostatMotion {
             });
         let swinging = self.oscillators.iter().map(|it| it.carried_after(self.order, elapsed_s));
         let rest = swinging.fold(rest, |rest, carried| rest - carried);
+        let rest = self.load.internal.iter().fold(rest, |rest, it| rest - it.momentum_after(elapsed_s));
         BodyMotion {
             attitude,
-            rate_body_rad_s: match &self.load.mass_flow {
-                Some(flow) => flow.inverse_inertia_after(&self.inverse_inertia, elapsed_s) * rest,
-                None => self.inverse_inertia * rest,
-            },
+            rate_body_rad_s: self.inverse_inertia_after(elapsed_s) * rest,
             momentum_inertial_n_m_s,
             delta_v_inertial_m_s,
         }
+    }
+
+    /// Inverse of the inertia that body and held rotors have alone, after `elapsed_s`, in 1/(kg m2).
+    fn inverse_inertia_after(&self, elapsed_s: f64) -> Matrix3<f64> {
+        let BodyLoad { mass_flow, internal, .. } = &self.load;
+        if mass_flow.is_none() && internal.is_none() {
+            return self.inverse_inertia;
+        }
+        let flown = mass_flow.map_or(Matrix3::zeros(), |flow| flow.inertia_rate_kg_m2_s * elapsed_s);
+        let turned = internal.as_ref().map_or(Matrix3::zeros(), |it| it.inertia_change_after(elapsed_s));
+        let grown = Matrix3::identity() + self.inverse_inertia * (flown + turned);
+        grown.try_inverse().map_or(self.inverse_inertia, |inverse| inverse * self.inverse_inertia)
     }
 
     /// Change of the total momentum since the start of the segment by each of these torques, body frame in N m with slopes in
@@ -454,12 +506,12 @@ impl GyrostatMotion {
             Some(flow) if j > 0 => rest - flow.inertia_rate_kg_m2_s * self.rate[j - 1],
             _ => rest,
         };
+        let rest = self.load.internal.iter().fold(rest, |rest, it| rest - it.carried_term(&self.rate, j));
         self.inverse_inertia * rest
     }
 
     fn set_inverse_inertia(&mut self, gyrostat: &Gyrostat) {
-        let swinging = self.oscillators.iter().map(OscillatorMotion::inertia_body_kg_m2);
-        self.inverse_inertia = gyrostat.inverse_inertia(self.rotors.iter().map(|it| &it.rotor), swinging);
+        self.inverse_inertia = self.inverse_inertia_of(gyrostat);
     }
 
     /// Greatest coefficient `j` of what swings, as a momentum: no coupling exceeds the root of the inertia.

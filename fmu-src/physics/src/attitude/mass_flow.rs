@@ -32,12 +32,6 @@ impl MassFlow {
         -(start * rates[j] + from_slope)
     }
 
-    /// Inverse of the inertia after `elapsed_s`, of the inverse at the start, in 1/(kg m2).
-    pub(super) fn inverse_inertia_after(&self, start: &Matrix3<f64>, elapsed_s: f64) -> Matrix3<f64> {
-        let grown = Matrix3::identity() + start * self.inertia_rate_kg_m2_s * elapsed_s;
-        grown.try_inverse().map_or(*start, |inverse| inverse * start)
-    }
-
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
         let matrices = self.jet_damping_kg_m2_s.iter().chain([&self.inertia_rate_kg_m2_s]);

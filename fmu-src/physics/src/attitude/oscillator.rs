@@ -109,6 +109,12 @@ impl OscillatorMotion {
         self.momentum[0] = oscillator.mass_share * speed + oscillator.coupling_body_sqrt_kg_m.dot(rate);
     }
 
+    /// Stands still in time at `elapsed_s`.
+    pub(super) fn stand(&mut self, order: usize, elapsed_s: f64) {
+        self.displacement[0] = polynomial(&self.displacement[..=order], elapsed_s);
+        self.momentum[0] = polynomial(&self.momentum[..=order], elapsed_s);
+    }
+
     /// Coefficient `j` of what the body's momentum holds of it.
     pub(super) fn carried_term(&self, j: usize) -> Vector3<f64> {
         self.carried(self.momentum[j])

@@ -53,10 +53,16 @@ impl Totals {
         }
     }
 
-    /// What ideal wheels hold, body frame, in N m s: the system's momentum less what the body's own rotation takes.
-    pub fn wheels_body_n_m_s(&self, inertia_body_kg_m2: &Matrix3<f64>, frame: &MovingFrame) -> Vector3<f64> {
+    /// What ideal wheels hold, body frame, in N m s: the system's momentum less what the body's own rotation and panels that turn
+    /// take.
+    pub fn wheels_body_n_m_s(
+        &self,
+        inertia_body_kg_m2: &Matrix3<f64>,
+        panels_body_n_m_s: &Vector3<f64>,
+        frame: &MovingFrame,
+    ) -> Vector3<f64> {
         let system = self.momentum_body_n_m_s(Convention::Inertial, &frame.inertial_from_body);
-        system - inertia_body_kg_m2 * frame.rate_body_rad_s
+        system - inertia_body_kg_m2 * frame.rate_body_rad_s - panels_body_n_m_s
     }
 
     /// Rate of the same under an external torque (body frame, N m) at an angular acceleration (rad/s2), in N m: what wheels that

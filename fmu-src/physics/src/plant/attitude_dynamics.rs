@@ -24,9 +24,10 @@ use super::configuration::Command;
 use super::disturbance_interval::{DisturbanceInterval, Linear};
 use super::dynamics_settings::{Control, DynamicsInputs, DynamicsSettings, Tracked};
 use super::error::PlantError;
-use super::evaluation::{Evaluation, ExternalLoad};
+use super::evaluation::{Evaluation, ExternalLoad, Plant, PreparedSpacecraft};
 use super::flight::Flight;
 use super::outlook::StartMomentum;
+use super::panel_motion::PanelMotion;
 use super::reaction_control::ReactionControl;
 use super::wheel_control::WheelControl;
 use super::work::{Cost, Work};
@@ -53,6 +54,7 @@ pub struct AttitudeDynamics {
     segment_mass: MassProperties,
     /// The same with every panel at angle 0; absent while no propellant is used.
     left: Option<MassProperties>,
+    panels: PanelMotion,
     disturbance: DisturbanceInterval,
     /// Number of the next sample and its time, in s.
     next_sample: (i64, f64),
@@ -99,6 +101,7 @@ impl AttitudeDynamics {
             mass,
             segment_mass: mass,
             left: None,
+            panels: PanelMotion::default(),
             disturbance: DisturbanceInterval::before(),
             next_sample: (number, time_s),
             sampled_s: time_s,
@@ -122,9 +125,17 @@ impl AttitudeDynamics {
         }
     }
 
-    /// Whether its numbers can come from a flight of a body with so many wheels, thrusters and modal coordinates; bytes from
-    /// elsewhere may hold anything.
-    pub fn is_sound(&self, wheels: usize, thrusters: usize, oscillators: usize) -> bool {
+    /// The same with panels that turn.
+    #[must_use]
+    pub fn with_panels(mut self, prepared: &PreparedSpacecraft<'_>, panels: PanelMotion) -> Self {
+        self.motion.add_hinges(panels.internal(prepared.panels, &self.mass, self.motion.end_s()));
+        self.panels = panels;
+        self
+    }
+
+    /// Whether its numbers can come from a flight of a body with so many wheels, thrusters, modal coordinates and panels; bytes
+    /// from elsewhere may hold anything.
+    pub fn is_sound(&self, wheels: usize, thrusters: usize, oscillators: usize, panels: usize) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let vector = |vector: &Vector3<f64>| vector.iter().all(sound);
         let mass = |mass: &MassProperties| {
@@ -139,6 +150,7 @@ impl AttitudeDynamics {
             && mass(&self.mass)
             && mass(&self.segment_mass)
             && self.left.as_ref().is_none_or(mass)
+            && self.panels.is_sound(panels)
             && self.disturbance.is_sound()
             && self.by_source.is_sound()
             && self.source_torques.iter().flatten().all(vector)
@@ -215,7 +227,8 @@ impl AttitudeDynamics {
             if let Some(dump) = &self.dump {
                 limit_s = limit_s.min(dump.until_s);
             }
-            let load = self.load(inputs, time_s);
+            let mut load = self.load(inputs, time_s);
+            load.internal = self.panels.internal(flight.prepared.panels, &self.segment_mass, time_s);
             self.source_torques = self.torques_by_source(inputs, time_s);
             self.motion.advance(&settings.gyrostat, self.wheels.motors(), &load, limit_s);
             flight.take_thrust(self.thrusters.load(), &self.motion)?;
@@ -265,11 +278,15 @@ impl AttitudeDynamics {
             if grid_due {
                 self.begin_interval(settings, flight, &body, work)?;
             }
+            // Panels with a mass may have turned the body at once.
+            let body =
+                if settings.panels_have_mass { self.motion.at(&settings.gyrostat, time_s) } else { body };
             if sample_due {
                 self.sample(settings, flight, inputs, &body, work, report)?;
                 self.thrusters.take_edges(&settings.thrusters, flight.propellant, time_s);
             }
         }
+        self.turn_mass(settings, flight, time_s);
         self.segment_mass.mass_kg = flight.configuration.mass_kg - flight.propellant.total_used_kg(time_s);
         self.thrusters.exert(&settings.thrusters, flight.propellant, &self.segment_mass, time_s);
         Ok(())
@@ -300,15 +317,63 @@ impl AttitudeDynamics {
             }
         };
         let mut plant = flight.turning_plant(time_s, body, rate_terms_body, *work);
+        let displaced =
+            if settings.panels_have_mass { self.follow_panels(settings, &mut plant) } else { None };
+        if let Some(body) = &displaced {
+            plant = flight.turning_plant(time_s, body, rate_terms_body, *work);
+        }
         self.disturbance = self.disturbance.next(&mut plant, time_s, settings.grid_s)?;
         *work = plant.work(time_s)?;
         if settings.panels_have_mass || self.left.is_some() || !settings.thrusters.thrusters.is_empty() {
             let instant = plant.instant(time_s);
-            self.mass = plant.mass_properties(&instant);
+            self.mass = plant.mass_properties(&instant, time_s);
             self.segment_mass = self.mass;
             settings.set_mass_properties(&self.mass);
         }
+        if settings.panels_have_mass {
+            let was_turning = self.panels.is_turning();
+            let end_s = self.disturbance.end_s();
+            let [now, end] = [time_s, end_s].map(|at_s| plant.instant(at_s));
+            self.panels.turn_until(plant.hinged(), &now, &end, end_s);
+            if was_turning || self.panels.is_turning() {
+                self.turn_mass(settings, flight, time_s);
+                let internal = self.panels.internal(flight.prepared.panels, &self.segment_mass, time_s);
+                self.motion.displace(&settings.gyrostat, self.motion.attitude_at(time_s), internal);
+            }
+        }
         Ok(())
+    }
+
+    /// The panels go where their laws have them at the end of the motion; the body after that, where they were elsewhere.
+    fn follow_panels<L: Fn(f64) -> ExternalLoad>(
+        &mut self,
+        settings: &mut DynamicsSettings,
+        plant: &mut Plant<'_, L>,
+    ) -> Option<BodyMotion> {
+        let time_s = self.motion.end_s();
+        let to_sun = plant.instant(time_s).geometry.to_sun.position_m.normalize();
+        let hinged = plant.hinged();
+        let attitude = self.panels.follow(hinged, &mut settings.gyrostat, &self.motion, &to_sun)?;
+        self.mass = self.panels.mass_properties(&hinged.configuration.mass_at_zero(), hinged.panels, time_s);
+        self.segment_mass = self.mass;
+        settings.set_mass_properties(&self.mass);
+        let internal = self.panels.internal(hinged.panels, &self.mass, time_s);
+        self.motion.displace(&settings.gyrostat, attitude, internal);
+        Some(self.motion.at(&settings.gyrostat, time_s))
+    }
+
+    /// Panels that turn have the body with the mass properties of `time_s`.
+    fn turn_mass(&mut self, settings: &mut DynamicsSettings, flight: &Flight<'_>, time_s: f64) {
+        if !self.panels.is_turning() {
+            return;
+        }
+        let loaded = flight.configuration.loaded();
+        let at_zero = match self.left {
+            Some(_) => flight.propellant.mass_properties(&loaded, &settings.thrusters.tanks, time_s),
+            None => loaded,
+        };
+        self.segment_mass = self.panels.mass_properties(&at_zero, flight.prepared.panels, time_s);
+        settings.set_mass_properties(&self.segment_mass);
     }
 
     /// Sensors, watch of the momentum, controller.
@@ -548,6 +613,7 @@ impl AttitudeDynamics {
             mass_kg: thrusters.mass_kg,
             flow_kg_s: thrusters.law.flow_kg_s,
             mass_flow: (!thrusters.law.is_none()).then_some(thrusters.mass_flow),
+            internal: None,
         }
     }
 
@@ -588,7 +654,8 @@ impl AttitudeDynamics {
         });
         let mut plant = flight.plant_at(time_s, body);
         let instant = plant.instant(time_s);
-        let mass = MassProperties { mass_kg: left_kg, ..plant.mass_properties(&instant) };
+        let mass = MassProperties { mass_kg: left_kg, ..plant.mass_properties(&instant, time_s) };
+        let panels_body_n_m_s = plant.panel_momentum_body_n_m_s(&instant, &mass, time_s);
         let mut loads = self.disturbance.loads_at(time_s);
         let [torque_body_n_m, force_body_n] = self.motion.swinging_load(&settings.gyrostat, time_s, body);
         loads[Effect::Applied] = ForceTorque {
@@ -600,7 +667,7 @@ impl AttitudeDynamics {
             force_body_n: thrusters.law.force_at_n(time_s),
             torque_body_n_m: thrusters.torque_at_n_m(time_s, &body.rate_body_rad_s),
         };
-        Evaluation { instant, loads, mass }
+        Evaluation { instant, loads, mass, panels_body_n_m_s }
     }
 
     /// Momentum of wheel `k` (0-based) relative to the body, in N m s.

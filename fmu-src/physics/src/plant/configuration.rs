@@ -17,8 +17,9 @@ use crate::environment::sun::pressure_n_m2;
 use crate::guidance::{Guided, SunPlace};
 use crate::momentum::Settings;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
-use crate::spacecraft::{MassProperties, Panel, SunshadeModel, with_panels};
+use crate::spacecraft::{MassProperties, Panel, SunshadeModel, hinged_masses, with_panels};
 
+use super::panel_setting::PanelSetting;
 use super::settings::RadiationSettings;
 
 /// Where the attitude comes from.
@@ -187,35 +188,6 @@ impl SunLight {
     }
 }
 
-/// How one panel stands.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PanelSetting {
-    /// Left out.
-    Disabled,
-    /// Cell normal at a constant angle from the Sun.
-    SunOffset {
-        /// That angle, in rad.
-        offset_rad: f64,
-        /// +1 or -1: the sense of the tilt about the axis.
-        tilt_sign: f64,
-    },
-    /// At this angle about its axis, in rad.
-    Angle(f64),
-}
-
-impl PanelSetting {
-    /// Angle about the panel's axis, in rad, with the Sun at `sun_body` (unit vector); `None` when left out.
-    pub fn angle_rad(&self, panel: &Panel, sun_body: &Vector3<f64>) -> Option<f64> {
-        match *self {
-            Self::Disabled => None,
-            Self::Angle(angle_rad) => Some(angle_rad),
-            Self::SunOffset { offset_rad, tilt_sign } => {
-                Some(panel.angle_for_sun_offset(sun_body, offset_rad, tilt_sign))
-            }
-        }
-    }
-}
-
 /// Two-body orbit about `center`, in EME2000, of `elements` given in `frame`.
 ///
 /// # Errors
@@ -251,12 +223,37 @@ impl Configuration {
         }
     }
 
-    /// Mass, centre of mass and inertia as the panels stand, the Sun being there (unit vector, body frame).
-    pub fn mass_properties(&self, panels: &[Panel], sun_body: &Vector3<f64>) -> MassProperties {
+    /// Mass, centre of mass and inertia as the panels stand at `time_s`, the Sun being there (unit vector, body frame).
+    pub fn mass_properties(&self, panels: &[Panel], sun_body: &Vector3<f64>, time_s: f64) -> MassProperties {
         with_panels(&self.mass_at_zero(), panels, |index| {
-            let set = self.panels.get(index).zip(panels.get(index));
-            set.and_then(|(setting, panel)| setting.angle_rad(panel, sun_body)).unwrap_or(0.0)
+            self.panel_angle_rad(panels, index, sun_body, time_s)
         })
+    }
+
+    /// Momentum of the panels relative to the body in N m s, body frame, as they turn at `time_s` about the centre of `mass`, the
+    /// Sun moving in the body frame by `sun_rate_body_1_s`.
+    pub fn panel_momentum_body_n_m_s(
+        &self,
+        panels: &[Panel],
+        mass: &MassProperties,
+        [sun_body, sun_rate_body_1_s]: [&Vector3<f64>; 2],
+        time_s: f64,
+    ) -> Vector3<f64> {
+        let turn = |index: usize| {
+            let set = self.panels.get(index).zip(panels.get(index));
+            let rate_rad_s = set.map_or(0.0, |(setting, panel)| {
+                setting.rate_rad_s(panel, sun_body, sun_rate_body_1_s, time_s)
+            });
+            [self.panel_angle_rad(panels, index, sun_body, time_s), rate_rad_s, 0.0]
+        };
+        let center = &mass.center_of_mass_body_m;
+        hinged_masses(panels, turn).map(|it| it.momentum_body_n_m_s(center)).sum()
+    }
+
+    /// Angle of panel `index`, in rad; of one that is left out 0.
+    fn panel_angle_rad(&self, panels: &[Panel], index: usize, sun_body: &Vector3<f64>, time_s: f64) -> f64 {
+        let set = self.panels.get(index).zip(panels.get(index));
+        set.and_then(|(setting, panel)| setting.angle_rad(panel, sun_body, time_s)).unwrap_or(0.0)
     }
 }
 

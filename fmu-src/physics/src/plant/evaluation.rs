@@ -22,6 +22,7 @@ use super::error::PlantError;
 use super::instant::Instant;
 use super::kinematics::Kinematics;
 use super::light_and_heat::RadiationBuilder;
+use super::panel_motion::Hinged;
 use super::propagator_state::PropagatorState;
 use super::radiation_segment::RadiationSegment;
 use super::radiation_solver::RadiationSolver;
@@ -50,12 +51,19 @@ pub struct Evaluation {
     pub loads: Loads,
     /// Mass, centre of mass and inertia as the panels stand.
     pub mass: MassProperties,
+    /// Momentum of panels that turn, relative to the body, body frame, in N m s.
+    pub panels_body_n_m_s: Vector3<f64>,
 }
 
 impl Evaluation {
     /// Of a spacecraft of which nothing is known but how it stands: no Sun, no planet, no force.
     pub fn nowhere(frame: MovingFrame, mass: MassProperties) -> Self {
-        Self { instant: Instant::nowhere(frame), loads: Loads::zero(), mass }
+        Self {
+            instant: Instant::nowhere(frame),
+            loads: Loads::zero(),
+            mass,
+            panels_body_n_m_s: Vector3::zeros(),
+        }
     }
 
     /// Checks that a spacecraft can be there at `time_s`: outside the planet and the Sun, the planet outside
@@ -105,17 +113,19 @@ impl PreparedSpacecraft<'_> {
         configuration: &Configuration,
         beam: &Beam<f64>,
         center_of_mass_body_m: &Vector3<f64>,
+        time_s: f64,
     ) -> ForceTorque<f64> {
-        self.sunlit(configuration).load(beam, center_of_mass_body_m)
+        self.sunlit(configuration, time_s).load(beam, center_of_mass_body_m)
     }
 
-    /// The spacecraft as sunlight meets it.
-    pub(super) fn sunlit<'c>(&'c self, configuration: &'c Configuration) -> SunlitCraft<'c> {
+    /// The spacecraft as sunlight meets it at `time_s`.
+    pub(super) fn sunlit<'c>(&'c self, configuration: &'c Configuration, time_s: f64) -> SunlitCraft<'c> {
         SunlitCraft {
             solar: self.solar,
             panels: self.panels,
             settings: &configuration.panels,
             mass_at_zero: configuration.mass_at_zero(),
+            time_s,
         }
     }
 }
@@ -162,7 +172,7 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
     pub fn evaluate(&mut self, time_s: f64) -> Evaluation {
         let instant = self.kinematics.instant(time_s);
         let configuration = self.kinematics.configuration;
-        let mass = self.mass_properties(&instant);
+        let mass = self.mass_properties(&instant, time_s);
         let mut loads = self.radiation(time_s, &instant, &mass.center_of_mass_body_m);
         if let Some(planet_body_m) = &instant.planet_body_m {
             loads[Effect::GravityGradient].torque_body_n_m = gravity_gradient_n_m(
@@ -173,12 +183,34 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
         }
         let ExternalLoad { force_body_n, torque_body_n_m } = (self.external)(time_s);
         loads[Effect::Applied] = ForceTorque { force_body_n, torque_body_n_m };
-        Evaluation { instant, loads, mass }
+        let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass, time_s);
+        Evaluation { instant, loads, mass, panels_body_n_m_s }
     }
 
-    /// Mass, centre of mass and inertia as the panels stand.
-    pub fn mass_properties(&self, instant: &Instant) -> MassProperties {
-        self.kinematics.configuration.mass_properties(self.prepared.panels, &instant.sun_body)
+    /// Mass, centre of mass and inertia as the panels stand at `time_s`.
+    pub fn mass_properties(&self, instant: &Instant, time_s: f64) -> MassProperties {
+        self.kinematics.configuration.mass_properties(self.prepared.panels, &instant.sun_body, time_s)
+    }
+
+    /// Momentum in N m s of the panels relative to the body, body frame, as their laws turn them at `time_s`.
+    pub(super) fn panel_momentum_body_n_m_s(
+        &self,
+        instant: &Instant,
+        mass: &MassProperties,
+        time_s: f64,
+    ) -> Vector3<f64> {
+        let panels = self.prepared.panels;
+        if panels.iter().all(|panel| panel.mass.is_none()) {
+            return Vector3::zeros();
+        }
+        let configuration = self.kinematics.configuration;
+        let sun = [&instant.sun_body, &instant.sun_rate_body_1_s()];
+        configuration.panel_momentum_body_n_m_s(panels, mass, sun, time_s)
+    }
+
+    /// The panels with what they belong to.
+    pub(super) fn hinged(&self) -> Hinged<'a> {
+        Hinged { panels: self.prepared.panels, configuration: self.kinematics.configuration }
     }
 
     /// Where everything is and how the body stands at `time_s`.
@@ -232,7 +264,8 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
             let pressure_pa = configuration.light.pressure_pa(instant.sun_distance_m);
             let beam =
                 Beam { source_body: instant.sun_body, pressure_pa: pressure_pa * instant.lit_fraction };
-            loads[Effect::Solar] = self.prepared.sunlight(configuration, &beam, center_of_mass_body_m);
+            loads[Effect::Solar] =
+                self.prepared.sunlight(configuration, &beam, center_of_mass_body_m, time_s);
         }
         loads
     }

@@ -13,6 +13,7 @@ use super::configuration::{AttitudeSource, Command, Configuration, DynamicAttitu
 use super::error::PlantError;
 use super::evaluation::{ExternalLoad, Plant, PreparedSpacecraft};
 use super::outlook::{Outlook, StartMomentum, SunPlanner};
+use super::panel_motion::PanelMotion;
 use super::propagator_state::PropagatorState;
 use super::radiation_solver::RadiationSolver;
 use super::thruster_load::ThrusterLoad;
@@ -147,7 +148,25 @@ impl Flight<'_> {
         };
         let mut plant = self.plant_at(time_s, &body);
         let instant = plant.instant(time_s);
-        plant.mass_properties(&instant)
+        plant.mass_properties(&instant, time_s)
+    }
+
+    /// The panels as their laws turn them where the flight begins in this attitude and at this rate.
+    pub fn panels_at_start(
+        &mut self,
+        time_s: f64,
+        attitude: Attitude,
+        rate_body_rad_s: Vector3<f64>,
+    ) -> PanelMotion {
+        let body = BodyMotion {
+            attitude: attitude.unit_quaternion(),
+            rate_body_rad_s,
+            momentum_inertial_n_m_s: Vector3::zeros(),
+            delta_v_inertial_m_s: Vector3::zeros(),
+        };
+        let mut plant = self.plant_at(time_s, &body);
+        let instant = plant.instant(time_s);
+        PanelMotion::at_start(plant.hinged(), &instant, time_s)
     }
 
     /// The plant with the body as it turns now, where work is not counted.

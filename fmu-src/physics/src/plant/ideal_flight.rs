@@ -127,7 +127,7 @@ impl IdealFlight<'_, '_> {
         let mut plant = flight.as_configured(*work_limit);
         let sample = plant.sample(time_s);
         let instant = plant.instant(time_s);
-        let mass = plant.mass_properties(&instant);
+        let mass = plant.mass_properties(&instant, time_s);
         let Ok(selection) = thrusters.dump_selection(&mass.center_of_mass_body_m) else {
             side_effect.delta_v_inertial_m_s = Vector3::zeros();
             side_effect.unserved = side_effect.unserved.saturating_add(1);

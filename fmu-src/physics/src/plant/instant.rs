@@ -60,6 +60,15 @@ impl Instant {
         }
     }
 
+    /// How the unit vector to the Sun moves in the body frame, in 1/s.
+    pub fn sun_rate_body_1_s(&self) -> Vector3<f64> {
+        let to_sun = &self.geometry.to_sun;
+        let moving = to_sun.position_m.try_normalize(0.0).map_or(Vector3::zeros(), |unit| {
+            (to_sun.velocity_m_s - unit * unit.dot(&to_sun.velocity_m_s)) / self.sun_distance_m
+        });
+        self.to_body * moving - self.frame.rate_body_rad_s.cross(&self.sun_body)
+    }
+
     /// From the spacecraft to the Sun, body frame, in m.
     pub fn sun_position_body_m(&self) -> Vector3<f64> {
         self.sun_body * self.sun_distance_m

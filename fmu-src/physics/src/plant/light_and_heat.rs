@@ -44,7 +44,7 @@ impl RadiationBuilder<'_, '_> {
         // Inside the planet there is no fraction; what is wrong there is the place.
         viewing.lit_fraction = if instant.lit_fraction.is_nan() { 0.0 } else { instant.lit_fraction };
         viewing.center_of_mass_body_m =
-            configuration.mass_properties(self.panels, &instant.sun_body).center_of_mass_body_m;
+            configuration.mass_properties(self.panels, &instant.sun_body, time_s).center_of_mass_body_m;
         viewing.planet = instant.planet_body_m.map(|position_body_m| {
             let sun_from_planet_body_m = instant.sun_position_body_m() - position_body_m;
             let sun_flux_w_m2 = flux_w_m2(sun_from_planet_body_m.norm());
@@ -58,7 +58,7 @@ impl RadiationBuilder<'_, '_> {
         for (angle_rad, &index) in viewing.panel_angles_rad.iter_mut().zip(light_panels) {
             let setting = configuration.panels.get(index).zip(self.panels.get(index));
             *angle_rad = setting
-                .and_then(|(setting, panel)| setting.angle_rad(panel, &viewing.sun_direction_body))
+                .and_then(|(setting, panel)| setting.angle_rad(panel, &viewing.sun_direction_body, time_s))
                 .unwrap_or(0.0);
         }
     }

@@ -28,6 +28,8 @@ mod instant;
 mod kinematics;
 mod light_and_heat;
 mod outlook;
+mod panel_motion;
+mod panel_setting;
 mod propagator_state;
 mod pulsed_dump;
 mod radiation_node;
@@ -46,7 +48,7 @@ mod work;
 
 pub use attitude_dynamics::AttitudeDynamics;
 pub use configuration::{
-    AttitudeSource, Command, Configuration, DynamicAttitude, EphemerisSource, Motion, PanelSetting, SunLight,
+    AttitudeSource, Command, Configuration, DynamicAttitude, EphemerisSource, Motion, SunLight,
     orbit_from_elements,
 };
 pub use control_defaults::ControlDefaults;
@@ -58,6 +60,8 @@ pub use geometry::Geometry;
 pub use ideal_flight::{DumpSideEffect, IdealFlight};
 pub use instant::{Instant, Regime};
 pub use outlook::{ForecastMomentum, Outlook, StartMomentum, SunPlanner};
+pub use panel_motion::PanelMotion;
+pub use panel_setting::{PanelSetting, Ramp};
 pub use propagator_state::PropagatorState;
 pub use radiation_segment::RadiationSegment;
 pub use radiation_solver::RadiationSolver;

@@ -105,12 +105,12 @@ pub struct Outlook<'o> {
 impl Outlook<'_> {
     /// Torque of direct sunlight without shadows in N m, body frame, the Sun being there in the body frame.
     pub fn torque_body_n_m(&self, sun_body: &Vector3<f64>) -> Vector3<f64> {
-        self.prepared.sunlit(self.configuration).torque_body_n_m(sun_body, self.pressure_pa)
+        self.prepared.sunlit(self.configuration, self.time_s).torque_body_n_m(sun_body, self.pressure_pa)
     }
 
     /// Centre of mass with the panels as they stand to a Sun on -Y, body frame, in m.
     pub fn center_of_mass_body_m(&self) -> Vector3<f64> {
-        self.prepared.sunlit(self.configuration).center_of_mass_body_m()
+        self.prepared.sunlit(self.configuration, self.time_s).center_of_mass_body_m()
     }
 
     /// Length of a cycle of science and downlink, in s; infinite where none follows, and where nothing may be forecast.

@@ -4,7 +4,8 @@ use crate::bodies::surface::PlanetSurface;
 use crate::radiation::disturbance::{DisturbanceModel, ModelError, Options, PlanetLightMethod};
 use crate::spacecraft::Spacecraft;
 
-use super::configuration::{Configuration, PanelSetting};
+use super::configuration::Configuration;
+use super::panel_setting::PanelSetting;
 use super::radiation_node::RadiationNode;
 use super::radiation_segment::NODES;
 use super::stored_heat::HeatRule;

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::configuration::PanelSetting;
+use super::panel_setting::PanelSetting;
 use crate::radiation::{Beam, ForceTorque, SolarModel};
 use crate::spacecraft::{MassProperties, Panel, with_panels};
 
@@ -17,6 +17,8 @@ pub struct SunlitCraft<'a> {
     pub settings: &'a [PanelSetting],
     /// Mass, centre of mass and inertia with every panel at angle 0.
     pub mass_at_zero: MassProperties,
+    /// When, in s: angles that are set may change evenly.
+    pub time_s: f64,
 }
 
 impl SunlitCraft<'_> {
@@ -24,7 +26,7 @@ impl SunlitCraft<'_> {
     pub fn mass_properties(&self, sun_body: &Vector3<f64>) -> MassProperties {
         with_panels(&self.mass_at_zero, self.panels, |index| {
             let set = self.settings.get(index).zip(self.panels.get(index));
-            set.and_then(|(setting, panel)| setting.angle_rad(panel, sun_body)).unwrap_or(0.0)
+            set.and_then(|(setting, panel)| setting.angle_rad(panel, sun_body, self.time_s)).unwrap_or(0.0)
         })
     }
 
@@ -33,7 +35,7 @@ impl SunlitCraft<'_> {
         let (solar, center_of_mass) = (self.solar, center_of_mass_body_m);
         let mut sum = solar.sunshade(beam, center_of_mass) + solar.body(beam, center_of_mass);
         for (index, (panel, setting)) in self.panels.iter().zip(self.settings).enumerate() {
-            if let Some(angle_rad) = setting.angle_rad(panel, &beam.source_body) {
+            if let Some(angle_rad) = setting.angle_rad(panel, &beam.source_body, self.time_s) {
                 sum += solar.panel(index, beam, angle_rad, center_of_mass);
             }
         }

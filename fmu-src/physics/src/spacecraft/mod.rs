@@ -56,7 +56,7 @@ pub(crate) use mass::steiner;
 pub use mass::{MassProperties, PanelMass, check_inertia};
 pub use optics::Optics;
 pub use panel::{Panel, PanelControl};
-pub use panel_mass::with_panels;
+pub use panel_mass::{hinged_masses, with_panels};
 pub use place::Place;
 pub use planet_map::{PlanetCell, PlanetMap, PlanetMapError};
 pub use polygon::{Polygon, PolygonError};

@@ -73,7 +73,7 @@ impl Panel {
     pub fn angle_for_sun_offset<T: Scalar>(
         &self,
         sun_body: &Vector3<T>,
-        sun_offset_rad: f64,
+        sun_offset_rad: T,
         tilt_sign: f64,
     ) -> T {
         let toward_zero = dot(&self.zero_normal_body, sun_body);
@@ -160,7 +160,7 @@ mod tests {
     fn with_the_sun_on_the_axis_the_answer_is_finite() {
         assert_eq!(panel().angle_for_sun_offset(&Vector3::<f64>::x(), 1.0, 1.0), 0.0);
         let sun = Vector3::x().map(Dual64::constant);
-        assert_eq!(panel().angle_for_sun_offset(&sun, 1.0, 1.0).eps, 0.0);
+        assert_eq!(panel().angle_for_sun_offset(&sun, Dual64::constant(1.0), 1.0).eps, 0.0);
     }
 
     proptest! {

@@ -2,12 +2,14 @@
 //!
 //! Equations: r_c' = r_c + sum m_p / M (r_p' - r_p); J' = J_O' - M [r_c'], with J_O' = J + M [r_c] + sum over the panels of
 //! (J_p' + m_p [r_p']) - (J_p + m_p [r_p]) about the origin and [r] = r.r 1 - r r^T (Steiner). The mass properties of the
-//! spacecraft are those with every panel at angle 0. Momentum that a panel has by turning against the body is left out.
+//! spacecraft are those with every panel at angle 0. What a panel has of momentum by turning against
+//! the body is [`HingedMass`]'s.
 
 use nalgebra::{Rotation3, Unit};
 
 use super::mass::{MassProperties, steiner};
 use super::panel::Panel;
+use crate::attitude::HingedMass;
 
 /// Mass properties of a spacecraft that has `at_zero` with every panel at angle 0, with the panels at these angles (by index,
 /// in rad).
@@ -40,6 +42,27 @@ pub fn with_panels(
         center_of_mass_body_m,
         inertia_body_kg_m2: about_origin_kg_m2 - steiner(&center_of_mass_body_m) * mass_kg,
     }
+}
+
+/// The panels that have a mass, turning at these angles in rad, rates in rad/s and accelerations in rad/s2 (by index).
+pub fn hinged_masses(
+    panels: &[Panel],
+    turn: impl Fn(usize) -> [f64; 3] + Clone,
+) -> impl Iterator<Item = HingedMass> + Clone {
+    panels.iter().enumerate().filter_map(move |(index, panel)| {
+        let mass = panel.mass.as_ref()?;
+        let [angle_rad, rate_rad_s, acceleration_rad_s2] = turn(index);
+        Some(HingedMass {
+            mass_kg: mass.mass_kg,
+            axis_body: panel.axis_body,
+            hinge_body_m: panel.center_body_m,
+            arm_body_m: mass.center_body_m - panel.center_body_m,
+            inertia_body_kg_m2: mass.inertia_body_kg_m2,
+            angle_rad,
+            rate_rad_s,
+            acceleration_rad_s2,
+        })
+    })
 }
 
 #[cfg(test)]

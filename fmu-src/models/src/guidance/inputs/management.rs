@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use physics::guidance::keep_in::KeepIn;
 use physics::management::{Manager, SampledManager, Strategy};
 use physics::momentum::{Convention, DumpPolicy, Reinitialise};
-use physics::plant::{PanelSetting, SunlitCraft};
+use physics::plant::{PanelSetting, Ramp, SunlitCraft};
 use physics::spacecraft::{MassProperties, SunshadeModel};
 
 use crate::common::choices::PanelTilt;
@@ -20,7 +20,7 @@ pub fn set_panels(context: &Plan<'_>, values: &Values, panels: &mut Vec<PanelSet
             return PanelSetting::Disabled;
         }
         PanelSetting::SunOffset {
-            offset_rad: values.real(panel.nominal_sun_offset),
+            offset: Ramp::held(values.real(panel.nominal_sun_offset)),
             tilt_sign: values.choice(panel.tilt).map_or(1.0, PanelTilt::sign),
         }
     }));
@@ -63,6 +63,8 @@ pub fn manager<'a>(
                 center_of_mass_body_m: Vector3::from(values.vector(v.spacecraft.center_of_mass)),
                 ..spacecraft.mass_properties
             },
+            // The panels are held.
+            time_s: 0.0,
         },
         light: v.solar.read(values),
         convention: values.choice(v.momentum.convention).map_or(Convention::Inertial, |it| it.0),

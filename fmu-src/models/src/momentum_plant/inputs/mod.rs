@@ -7,7 +7,7 @@ mod given;
 pub mod propulsion;
 pub mod state;
 
-use fmi_export::{Elements, Failure, Values};
+use fmi_export::{Elements, Failure, InputsOverTime, Real, Values};
 use nalgebra::Vector3;
 use physics::bodies::{Body, BodyData};
 use physics::constants;
@@ -19,7 +19,7 @@ use physics::guidance::keep_in::{KeepIn, KeepInMethod};
 use physics::management::Manager;
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
-    self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, RadiationSolver,
+    self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, RadiationSolver, Ramp,
 };
 use physics::spacecraft::{PanelControl, SunshadeModel};
 
@@ -79,11 +79,11 @@ pub fn refreshed(
             return PanelSetting::Disabled;
         }
         let offset = |sun_offset| PanelSetting::SunOffset {
-            offset_rad: values.real(sun_offset),
+            offset: Ramp::held(values.real(sun_offset)),
             tilt_sign: values.choice(panel.tilt).map_or(1.0, PanelTilt::sign),
         };
         match values.choice(panel.control).map_or(PanelControl::SunOffset, |it| it.0) {
-            PanelControl::Angle => PanelSetting::Angle(values.real(panel.angle)),
+            PanelControl::Angle => PanelSetting::Angle(Ramp::held(values.real(panel.angle))),
             PanelControl::SunOffset => offset(panel.sun_offset),
             PanelControl::Command => offset(panel.sun_offset_command),
         }
@@ -125,6 +125,36 @@ pub fn refreshed(
         configuration.left = Some(left);
     }
     Ok(configuration)
+}
+
+/// The panels' angles move as the inputs do within a step.
+pub fn move_panels(
+    context: &Plan<'_>,
+    values: &Values,
+    inputs: InputsOverTime<'_>,
+    configuration: &mut Configuration,
+) {
+    let ramp = |input: Real| Ramp {
+        angle_rad: values.real(input),
+        rate_rad_s: inputs.rate(input, inputs.start_s()),
+        since_s: inputs.start_s(),
+    };
+    for (panel, setting) in context.variables.panel.iter().zip(&mut configuration.panels) {
+        let is_commanded = values.choice(panel.control).is_some_and(|it| it.0 == PanelControl::Command);
+        match setting {
+            PanelSetting::Angle(angle) => *angle = ramp(panel.angle),
+            PanelSetting::SunOffset { offset, .. } if is_commanded => {
+                *offset = ramp(panel.sun_offset_command)
+            }
+            PanelSetting::SunOffset { .. } | PanelSetting::Disabled => {}
+        }
+    }
+}
+
+/// Whether a panel's angle moves as an input does within a step.
+pub fn panels_move(context: &Plan<'_>, inputs: InputsOverTime<'_>) -> bool {
+    let moves = |input: Real| inputs.derivatives(input).next().is_some();
+    context.variables.panel.iter().any(|panel| moves(panel.angle) || moves(panel.sun_offset_command))
 }
 
 /// Warns of what is set, or stands in the file, and is without effect.

@@ -1,6 +1,6 @@
 //! What the plant remembers between steps.
 
-use fmi_export::{Enumeration, Failure, Values};
+use fmi_export::{Enumeration, Failure, InputsOverTime, Values};
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::attitude::control::SunSensor;
@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use super::dynamics::guides_itself;
 use super::given::is_given;
+use super::panels_move;
 use super::propulsion::{SaidOfThrusters, reaction_control};
 use crate::common::choices::{CommandKind, OrbitCenter};
 use crate::momentum_plant::setup::Plan;
@@ -54,6 +55,8 @@ pub struct PlantState {
     orbit_inputs: [[f64; 3]; 2],
     /// Inputs and tunables that light and heat depend on, beside command and orbit, at the last change.
     light_inputs: Vec<f64>,
+    /// Whether a panel's angle moved as an input in the last step.
+    panels_moved: bool,
     /// Other tunables at the last change.
     tunables: [f64; 8],
     /// Force from outside at the last change.
@@ -131,7 +134,7 @@ impl PlantState {
     /// Checks numbers that were decoded; bytes from elsewhere may hold anything.
     pub fn check(&self, spacecraft: &Spacecraft) -> Result<(), Failure> {
         let (wheels, thrusters) = (spacecraft.wheels.len(), spacecraft.thrusters.len());
-        let oscillators = spacecraft.oscillator_count();
+        let (oscillators, panels) = (spacecraft.oscillator_count(), spacecraft.panels.len());
         let finite = |x: &f64| x.is_finite();
         let CommandInputs { q, rate, error, .. } = &self.command_inputs;
         let inputs = q.iter().chain(rate).chain(error).chain(self.orbit_inputs.iter().flatten());
@@ -152,7 +155,7 @@ impl PlantState {
                 "body, wheels, thrusters, sensors and control",
                 self.dynamics
                     .as_ref()
-                    .is_none_or(|dynamics| dynamics.is_sound(wheels, thrusters, oscillators)),
+                    .is_none_or(|dynamics| dynamics.is_sound(wheels, thrusters, oscillators, panels)),
             ),
             (
                 "propellant and dumps",
@@ -190,6 +193,7 @@ impl PlantState {
             orbit_since_s: start_s,
             orbit_inputs: orbit_inputs(context, values),
             light_inputs: light_inputs(context, values).collect(),
+            panels_moved: false,
             tunables: tunables(context, values),
             force: values.vector(context.variables.force.applied),
             request: Request::default(),
@@ -213,6 +217,7 @@ impl PlantState {
         &mut self,
         context: &Plan<'_>,
         values: &Values,
+        over_time: InputsOverTime<'_>,
         time_s: f64,
     ) -> Result<Changes, Failure> {
         let inputs = CommandInputs::read(context, values);
@@ -231,7 +236,12 @@ impl PlantState {
             self.orbit_inputs = orbit;
             self.orbit_since_s = time_s;
         }
-        let lit = !light_inputs(context, values).eq(self.light_inputs.iter().copied());
+        // Panels that move in this step or did in the last are elsewhere than was computed.
+        let panels_move = panels_move(context, over_time);
+        let panels_moved = std::mem::replace(&mut self.panels_moved, panels_move);
+        let lit = panels_move
+            || panels_moved
+            || !light_inputs(context, values).eq(self.light_inputs.iter().copied());
         if lit {
             self.light_inputs.clear();
             self.light_inputs.extend(light_inputs(context, values));

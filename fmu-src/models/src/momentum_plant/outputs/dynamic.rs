@@ -94,7 +94,12 @@ pub fn begin(
     }
     let wheels = &context.variables.wheel;
     let held = |k: usize| wheels.get(k).map_or(0.0, |wheel| values.real(wheel.start_momentum));
-    let begun = AttitudeDynamics::new(&settings, mass, time_s, attitude, rate_body_rad_s, held);
+    let mut begun = AttitudeDynamics::new(&settings, mass, time_s, attitude, rate_body_rad_s, held);
+    if settings.panels_have_mass {
+        let mut flight = flight(context, state, &mut configuration, &acting, &manager)?;
+        let panels = flight.panels_at_start(time_s, attitude, rate_body_rad_s);
+        begun = begun.with_panels(&flight.prepared, panels);
+    }
     state.dynamics = Some(Box::new(begun));
     state.take_first_command(context, values, attitude, time_s)?;
     outputs::write_calculated(context, values, state, &configuration);
@@ -141,6 +146,9 @@ pub fn step(
             (configuration, settings)
         }
     };
+    if changes.is_some() {
+        inputs::move_panels(context, values, step.inputs, &mut configuration);
+    }
     if state.light.is_none() {
         state.light = inputs::light(context, values, &configuration)?;
     }

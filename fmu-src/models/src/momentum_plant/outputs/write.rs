@@ -28,7 +28,7 @@ pub fn write(
     time_s: f64,
 ) {
     let variables = context.variables;
-    let Evaluation { instant, loads, mass } = evaluation;
+    let Evaluation { instant, loads, mass, .. } = evaluation;
     let rotation = &instant.frame.inertial_from_body;
     values.set_real(variables.epoch, time::epoch_at_s(time_s, configuration.epoch_minus_time_s));
     values.set_vector(variables.attitude.q, Attitude::from_rotation(rotation).quaternion(None));
@@ -100,7 +100,8 @@ pub fn write(
     values.set_boolean(variables.sunshade.polynomial_valid, valid);
     let panels = context.setup.spacecraft.panels.iter().zip(&configuration.panels);
     for (panel, (body, setting)) in variables.panel.iter().zip(panels) {
-        values.set_real(panel.angle_actual, setting.angle_rad(body, &instant.sun_body).unwrap_or(0.0));
+        values
+            .set_real(panel.angle_actual, setting.angle_rad(body, &instant.sun_body, time_s).unwrap_or(0.0));
     }
 
     values.set_vector(
@@ -251,7 +252,7 @@ pub fn wheels(context: &Plan<'_>, values: &Values) -> Option<WheelArray> {
     WheelArray::new(&axes.collect::<Option<Vec<_>>>()?)
 }
 
-/// Ideal wheels hold the system's momentum less what the body's own rotation takes.
+/// Ideal wheels hold the system's momentum less what the body's own rotation and panels that turn take.
 fn write_wheels(
     context: &Plan<'_>,
     values: &mut Values,
@@ -264,7 +265,8 @@ fn write_wheels(
     let Some(array) = state.wheels.get_or_insert_with(|| wheels(context, values)) else { return };
     let frame = &evaluation.instant.frame;
     let inertia_body_kg_m2 = &evaluation.mass.inertia_body_kg_m2;
-    let wheels_body_n_m_s = totals.wheels_body_n_m_s(inertia_body_kg_m2, frame);
+    let wheels_body_n_m_s =
+        totals.wheels_body_n_m_s(inertia_body_kg_m2, &evaluation.panels_body_n_m_s, frame);
     let torque_body_n_m = evaluation.loads.total().torque_body_n_m;
     let rate_body_n_m =
         totals.wheels_rate_body_n_m(inertia_body_kg_m2, frame, &torque_body_n_m, &acceleration);

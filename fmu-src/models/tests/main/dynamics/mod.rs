@@ -4,6 +4,7 @@ mod burns;
 mod control;
 mod flexibility;
 mod momentum;
+mod panel_momentum;
 mod panels;
 mod refusals;
 mod sensors;
