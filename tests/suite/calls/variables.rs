@@ -63,11 +63,11 @@ const fn row(
 
 /// By base type; the order within is free.
 pub const VARIABLES: &[Variable] = &[
-    row("parameter.real", Real, PARAMETER, Value::Real(1.5), AsSet, finite),
+    row("parameter.real", Real, PARAMETER, Value::Real(1.5), AsSet, bounded),
     row("tunable.real", Real, TUNABLE, Value::Real(2.5), AsSet, |v| real(v, 0.0, 10.0)),
     row("input.real", Real, INPUT, Value::Real(0.0), AsSet, |v| real(v, -1e6, 1e6)),
-    row("input.discreteReal", Real, DISCRETE_INPUT, Value::Real(0.25), AsSet, finite),
-    row("end.time", Real, TUNABLE, Value::Real(1e6), AsSet, finite),
+    row("input.discreteReal", Real, DISCRETE_INPUT, Value::Real(0.25), AsSet, bounded),
+    row("end.time", Real, TUNABLE, Value::Real(1e6), AsSet, bounded),
     row("output.real", Real, OUTPUT, Value::Real(0.0), Echo("input.real"), finite),
     row("output.discreteReal", Real, DISCRETE_OUTPUT, Value::Real(0.0), Echo("input.discreteReal"), finite),
     row("echo.real", Real, DISCRETE_OUTPUT, Value::Real(0.0), Echo("tunable.real"), finite),
@@ -115,6 +115,11 @@ pub const VARIABLES: &[Variable] = &[
 
 fn real(value: Value, min: f64, max: f64) -> bool {
     matches!(value, Value::Real(x) if (min..=max).contains(&x))
+}
+
+/// A Real that declares no limit.
+fn bounded(value: Value) -> bool {
+    real(value, -1e100, 1e100)
 }
 
 fn finite(value: Value) -> bool {

@@ -81,19 +81,19 @@ fn a_torque_that_no_body_bears_fails_the_first_step_it_acts_in() {
     let fast = failed_step(Spinner::new().set("torque.applied[3]", 7.1e6).start());
     assert_names(&fast, &["rad/s; allowed", "1e4 rad/s", "torque.applied"]);
     // A thruster does not hide it, nor do slopes.
-    let mut spinner = Spinner::new().set("torque.applied[2]", -1e300).set_integer("burn.plan", 4).start();
+    let mut spinner = Spinner::new().set("torque.applied[2]", -1e100).set_integer("burn.plan", 4).start();
     spinner.fire(8, true);
-    assert_names(&failed_step(spinner), &["1e300 N m", "torque.applied"]);
+    assert_names(&failed_step(spinner), &["1e100 N m", "torque.applied"]);
     let mut spinner = Spinner::new().set_integer("burn.plan", 4).start();
     let reference = spinner.at("torque.applied[1]");
-    assert_eq!(spinner.fmu.set_input_derivatives(&[reference], &[1], &[1e200]), Status::Ok);
+    assert_eq!(spinner.fmu.set_input_derivatives(&[reference], &[1], &[1e100]), Status::Ok);
     assert_names(&failed_step(spinner), &["torque.applied"]);
 }
 
 /// Every row a master could read while the torque grows tenfold from flight to flight is finite.
 #[test]
 fn no_step_that_went_well_leaves_a_number_that_is_none() {
-    for exponent in 0..300 {
+    for exponent in 0..100 {
         let torque_n_m = 10.0_f64.powi(exponent);
         let mut spinner =
             Spinner::new().set("torque.applied[1]", torque_n_m).set("torque.applied[3]", torque_n_m).start();
@@ -119,14 +119,15 @@ fn a_direction_too_short_or_too_long_is_refused_where_it_is_used() {
     };
     for name in ["sun.direction", "earth.direction", "star.direction"] {
         assert_names(&with(name, 1e-120, false).refusal(), &[name, "1e-120", "length"]);
-        assert_names(&with(name, 1e300, false).refusal(), &[name, "1e300", "length"]);
+        assert_names(&with(name, 1e100, false).refusal(), &[name, "1e100", "length"]);
         // In flight as well, by value and by slope.
         let mut spinner = Spinner::new().start();
         (1..=3).for_each(|axis| spinner.put(&format!("{name}[{axis}]"), 1e-120));
         assert_names(&failed_step(spinner), &[name, "1e-120"]);
         let mut spinner = Spinner::new().start();
-        let reference = spinner.at(&format!("{name}[1]"));
-        assert_eq!(spinner.fmu.set_input_derivatives(&[reference], &[1], &[1e200]), Status::Ok);
+        let references = [1, 2, 3].map(|axis| spinner.at(&format!("{name}[{axis}]")));
+        // Longer than 1e100 after a second, by the root of 3.
+        assert_eq!(spinner.fmu.set_input_derivatives(&references, &[1; 3], &[1e100; 3]), Status::Ok);
         assert_names(&failed_step(spinner), &[name]);
     }
     // The L1 orbit has Sun and Earth of its own.
