@@ -34,7 +34,7 @@ impl Turned {
         match self.rule {
             Rule::SunOffset { offset_rad, tilt_sign } => {
                 let moving = sun.zip_map(change, Dual64::new);
-                self.panel.angle_for_sun_offset(&moving, offset_rad, tilt_sign).eps
+                self.panel.angle_for_sun_offset(&moving, offset_rad.into(), tilt_sign).eps
             }
             Rule::Angle(_) => 0.0,
         }
