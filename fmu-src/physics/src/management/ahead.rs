@@ -197,8 +197,8 @@ impl Components {
         for cycle in 0..self.count {
             // The last science has no downlink after it within the horizon.
             let reaches = self.downlinks.get(cycle + 1).filter(|_| cycle + 1 < self.count).map(&reach);
-            for axis in [0, 1] {
-                cycles[axis][cycle] =
+            for (axis, cycles) in cycles.iter_mut().enumerate() {
+                cycles[cycle] =
                     Cycle { swing: self.swings[axis][cycle], reach: reaches.map_or([0.0; 2], |it| it[axis]) };
             }
         }

@@ -226,8 +226,7 @@ impl MomentumSegment {
         };
         let rows = totals.coefficients().fixed_rows::<3>(row);
         let most_n_m_s: f64 = rows.column_iter().map(|terms| terms.norm()).sum();
-        // Written so that a NaN is not watched.
-        if !(most_n_m_s >= settings.policy.threshold_body_n_m_s.min()) {
+        if most_n_m_s.is_nan() || most_n_m_s < settings.policy.threshold_body_n_m_s.min() {
             return None;
         }
         let (start_s, end_s) = (self.start_s, self.end_s);

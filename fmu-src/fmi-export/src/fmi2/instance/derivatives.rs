@@ -22,8 +22,7 @@ impl Instance {
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
             self.require(reference, INPUT | CONTINUOUS, INPUT | CONTINUOUS, "continuous Real input")?;
             check_order(order, MAX_INPUT_DERIVATIVE_ORDER)?;
-            // Written so that a NaN is refused too.
-            if !(value.abs() <= GREATEST_SET) {
+            if !(-GREATEST_SET..=GREATEST_SET).contains(&value) {
                 return Err(Problem::DerivativeOutOfRange { reference, value });
             }
         }

@@ -111,7 +111,8 @@ impl InstanceState {
                 .copied()
                 .unwrap_or(0);
             let fits = flags & INPUT != 0 && flags & CONTINUOUS != 0;
-            if !fits || !(1..=MAX_INPUT_DERIVATIVE_ORDER).contains(&order) || !(value.abs() <= GREATEST_SET) {
+            let is_within = (-GREATEST_SET..=GREATEST_SET).contains(&value);
+            if !fits || !(1..=MAX_INPUT_DERIVATIVE_ORDER).contains(&order) || !is_within {
                 return Err(content(format!(
                     "input derivative {value:?} of order {order} for Real value reference {reference}"
                 )));

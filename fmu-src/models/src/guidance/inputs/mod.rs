@@ -405,7 +405,7 @@ impl<'a> Reader<'a> {
         let valid = self.flag(v.estimate.valid);
         let given = self.context.given(self.values, &[v.estimate.q.into(), v.estimate.valid.into()]);
         let is_connected = q != [0.0; 4] && (q != NOT_CONNECTED || given.has(v.estimate.q));
-        let is_estimated = is_placed && !(valid && !is_connected);
+        let is_estimated = is_placed && (is_connected || !valid);
         let estimate = if !is_estimated {
             Some(commanded)
         } else if valid {
