@@ -5,7 +5,7 @@ use fmi_export::fmi2::description_of;
 use fmi_export::model_description::{
     Causality, Description, Initial, ScalarVariable, Variability, VariableKind, rules,
 };
-use models::{Guidance, MomentumPlant, SpinPlant};
+use models::{MomentumPlant, SpinPlant};
 
 fn with(entries: &str) -> Description {
     let text = format!("{}\n[fixed]\n{entries}\n", MomentumPlant::DEFAULT_SETUP);
@@ -57,9 +57,6 @@ fn the_guid_follows_what_is_fixed() {
     let fixed = with(entry).guid;
     let open = description_of::<MomentumPlant>("my.toml", MomentumPlant::DEFAULT_SETUP).unwrap().guid;
     assert!(open != default && default != fixed && fixed != open);
-    // A file serves several models: what another has is fixed there.
-    let text = format!("{}\n[fixed]\n{entry}\n", Guidance::DEFAULT_SETUP);
-    assert!(description_of::<Guidance>("my.toml", &text).is_ok());
     assert!(
         description_of::<SpinPlant>("my.toml", &format!("{}\n[fixed]\nseed = 3\n", SpinPlant::DEFAULT_SETUP))
             .is_ok_and(|it| variable(&it, "seed").causality == Causality::Local)
