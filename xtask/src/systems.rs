@@ -63,8 +63,13 @@ const SYSTEMS: &[System] = &[
                 spacecraft: Some("messenger-full.toml"),
                 // Forces and torques every 10 s: shadows then cost what a second without them does.
                 start: &["shadowing.enabled=true", "solver.dynamicsStep=10"],
-                // No command turns the body at once: there is no algebraic loop.
-                fixed: &["attitude.source=controlled", "command.source=inputs"],
+                // No command turns the body at once, nor while it waits for orbit or Sun: there is no algebraic loop.
+                fixed: &[
+                    "attitude.source=controlled",
+                    "command.source=inputs",
+                    "orbit.source=elements",
+                    "ephemeris.source=vsop87",
+                ],
                 starts_guided: true,
             },
         ],

@@ -38,8 +38,8 @@ impl Inputs {
         let panels_weigh = setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some());
         // The Sun's place in a downlink follows the momentum, and that the dump.
         let guided = knowns![&v.panel, &v.dump].only_if(choice.guided);
-        let ideal = knowns![&v.command].only_if(choice.ideal);
-        let attitude = knowns![&places, guided, ideal, knowns![&v.panel].only_if(panels_weigh)];
+        let commanded = knowns![&v.command].only_if(choice.ideal || choice.waits);
+        let attitude = knowns![&places, guided, commanded, knowns![&v.panel].only_if(panels_weigh)];
         let sensors = v.sun_sensor.iter().map(|sensor| sensor.failed).collect::<Knowns>();
         let wheels = v.wheel.iter().map(|wheel| wheel.failed).collect::<Knowns>();
         Self {
@@ -133,8 +133,9 @@ fn loads(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramete
 fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, parameters: &Parameters) {
     let momentum = &parameters.momentum;
     let dumped = &knowns![&inputs.attitude, &inputs.dumped_at_once];
-    let outputs = knowns![v.momentum.body, v.momentum.inertial, &v.momentum.by_source];
-    table.output(outputs, dumped, momentum);
+    table.output(knowns![v.momentum.body, v.momentum.inertial], dumped, momentum);
+    // They count from the last dump on.
+    table.output(&v.momentum.by_source, knowns![dumped, &v.dump, v.torque.applied], momentum);
     let target = knowns![&inputs.attitude, &v.panel, &v.dump];
     table.output(knowns![v.momentum.target_clamped], &target, momentum);
     let spent = knowns![v.mass, &v.propellant, &v.tank, v.center_of_mass];

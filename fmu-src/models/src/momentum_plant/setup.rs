@@ -11,7 +11,7 @@ use physics::plant::{ControlDefaults, PreparedSpacecraft};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
 
-use super::variables::choices::{AttitudeSource, CommandSource};
+use super::variables::choices::{AttitudeSource, CommandSource, EphemerisSource, OrbitSource};
 use crate::common::center::center_of;
 use crate::common::effects::check_start;
 use crate::common::spacecraft::{PreparedShapes, ReportedFace, reported_faces};
@@ -93,6 +93,10 @@ impl PlantSetup {
         let source = fixed_item::<AttitudeSource>(start, MomentumPlant::NAME, "attitude.source");
         let command = fixed_item::<CommandSource>(start, MomentumPlant::NAME, "command.source");
         let is_inputs = matches!(command, Some(CommandSource::Inputs));
+        let orbit = fixed_item::<OrbitSource>(start, MomentumPlant::NAME, "orbit.source");
+        let ephemeris = fixed_item::<EphemerisSource>(start, MomentumPlant::NAME, "ephemeris.source");
+        let has_places = matches!(orbit, Some(OrbitSource::Elements))
+            && !matches!(ephemeris, None | Some(EphemerisSource::Inputs));
         OpenChoices {
             ideal: matches!(source, None | Some(Guided | Commanded)),
             guided: match source {
@@ -100,6 +104,7 @@ impl PlantSetup {
                 Some(Commanded | Controlled) => !is_inputs,
                 Some(Free) => false,
             },
+            waits: !has_places,
         }
     }
 }
@@ -111,4 +116,6 @@ pub struct OpenChoices {
     pub ideal: bool,
     /// The orbit phase's own guidance sets the attitude, if only where a flight by torque begins.
     pub guided: bool,
+    /// Orbit or Sun may come by inputs: until they do, the attitude is the commanded one in any flight.
+    pub waits: bool,
 }

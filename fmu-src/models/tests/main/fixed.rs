@@ -5,10 +5,10 @@ use fmi_export::fmi2::description_of;
 use fmi_export::model_description::{
     Causality, Description, Initial, ScalarVariable, Variability, VariableKind, rules,
 };
-use models::{Guidance, MomentumPlant, SpinPlant};
+use models::{MomentumPlant, SpinPlant};
 
-fn with(table: &str, entries: &str) -> Description {
-    let text = format!("{}\n[{table}]\n{entries}\n", MomentumPlant::DEFAULT_SETUP);
+fn with(entries: &str) -> Description {
+    let text = format!("{}\n[fixed]\n{entries}\n", MomentumPlant::DEFAULT_SETUP);
     description_of::<MomentumPlant>("my.toml", &text).unwrap()
 }
 
@@ -27,7 +27,10 @@ fn acts_on(description: &Description, output: &str) -> Vec<String> {
 #[test]
 fn a_fixed_choice_is_a_local_constant_and_no_command_acts_at_once() {
     let open = description_of::<MomentumPlant>("my.toml", MomentumPlant::DEFAULT_SETUP).unwrap();
-    let fixed = with("fixed", "\"attitude.source\" = \"controlled\"\n\"command.source\" = \"inputs\"");
+    let fixed = with(
+        "\"attitude.source\" = \"controlled\"\n\"command.source\" = \"inputs\"\n\"orbit.source\" = \"elements\"\n\
+         \"ephemeris.source\" = \"vsop87\"",
+    );
     assert_eq!(open.variables.len(), fixed.variables.len());
     let source = variable(&fixed, "attitude.source");
     assert_eq!((source.causality, source.variability), (Causality::Local, Variability::Constant));
@@ -49,12 +52,11 @@ fn a_fixed_choice_is_a_local_constant_and_no_command_acts_at_once() {
 #[test]
 fn the_guid_follows_what_is_fixed() {
     let entry = "\"attitude.source\" = \"controlled\"";
-    let [start, fixed] = ["start", "fixed"].map(|table| with(table, entry).guid);
-    let other = with("fixed", "\"attitude.source\" = \"free\"").guid;
-    assert!(start != fixed && fixed != other && start != other);
-    // A file serves several models: what another has is fixed there.
-    let text = format!("{}\n[fixed]\n{entry}\n", Guidance::DEFAULT_SETUP);
-    assert!(description_of::<Guidance>("my.toml", &text).is_ok());
+    // The default, fixed, is another FMU too.
+    let default = with("\"attitude.source\" = \"guided\"").guid;
+    let fixed = with(entry).guid;
+    let open = description_of::<MomentumPlant>("my.toml", MomentumPlant::DEFAULT_SETUP).unwrap().guid;
+    assert!(open != default && default != fixed && fixed != open);
     assert!(
         description_of::<SpinPlant>("my.toml", &format!("{}\n[fixed]\nseed = 3\n", SpinPlant::DEFAULT_SETUP))
             .is_ok_and(|it| variable(&it, "seed").causality == Causality::Local)

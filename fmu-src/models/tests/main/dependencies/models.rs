@@ -220,9 +220,16 @@ fn plant(text: &str) -> Search<MomentumPlant> {
 }
 
 const FULL: &str = include_str!("../../../../resources/messenger-full.toml");
-/// Flight by torque after commands, as in the shipped system.
+/// Flight by torque after commands, as in the shipped system but for the theory of the planets, which costs most.
 fn controlled() -> String {
-    format!("{FULL}\n[fixed]\n\"attitude.source\" = \"controlled\"\n\"command.source\" = \"inputs\"\n")
+    let fixed = [
+        ("attitude.source", "controlled"),
+        ("command.source", "inputs"),
+        ("orbit.source", "elements"),
+        ("ephemeris.source", "kepler"),
+    ];
+    let entries = fixed.map(|(name, item)| format!("\"{name}\" = \"{item}\"\n")).concat();
+    format!("{FULL}\n[fixed]\n{entries}")
 }
 
 const FLOWN: &str = include_str!("still_ephemeris.toml");
