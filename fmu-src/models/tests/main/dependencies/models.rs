@@ -188,7 +188,7 @@ impl<M: Model> Search<M> {
         };
         bench.step(&mut flight, length_s)?;
         // Inputs as they may be after a while.
-        if drawn % 4 == 0 {
+        if drawn.is_multiple_of(4) {
             let inputs: Vec<usize> =
                 (0..bench.variables.len()).filter(|at| bench.variables[*at].input).collect();
             let mut other = values.clone();
