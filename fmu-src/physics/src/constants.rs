@@ -47,3 +47,9 @@ pub const RADIUS_JUPITER_M: f64 = 6.991_1e7;
 pub const J2_MERCURY: f64 = 5.032_3e-5;
 /// Radius to which [`J2_MERCURY`] refers, m (HgM005).
 pub const J2_REFERENCE_RADIUS_MERCURY_M: f64 = 2.44e6;
+
+/// Least and greatest azimuth, and any angle counted both ways, in rad.
+pub const HALF_TURNS_RAD: [f64; 2] = [-core::f64::consts::PI, core::f64::consts::PI];
+
+/// Least and greatest elevation, in rad.
+pub const QUARTER_TURNS_RAD: [f64; 2] = [-core::f64::consts::FRAC_PI_2, core::f64::consts::FRAC_PI_2];

@@ -5,7 +5,10 @@ use std::{ffi::OsString, path::PathBuf};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
-use crate::values::{duration, span};
+use crate::{
+    patience::Patience,
+    values::{duration, span},
+};
 
 const PACK_EXAMPLE: &str = "\
 Example:
@@ -87,15 +90,6 @@ pub enum Command {
     /// Puts the FMU of a mission's files together for `run`
     #[command(hide = true)]
     Assemble(Assemble),
-}
-
-/// How long an FMU is waited for.
-#[derive(Clone, Copy, Debug, Args)]
-pub struct Patience {
-    /// Longest time that a call of the FMU's library may take, in s or with a unit; it runs in a process of its own, which is
-    /// ended then
-    #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true, default_value = "60s")]
-    pub timeout: f64,
 }
 
 /// `heliotorque in-child`.

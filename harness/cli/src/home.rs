@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use model_description::Description;
+
 /// Where they stand as seen from the program's folder; `cargo xtask install` puts them there.
 const FROM_PROGRAM: &str = "../lib/heliotorque";
 /// Where `cargo xtask dist` leaves FMUs, for a program that is not installed.
@@ -9,6 +11,12 @@ const DIST: &str = "dist";
 
 /// The model that is packed and read for unless another is named.
 pub const DEFAULT_MODEL: &str = "MomentumPlant";
+
+/// Whether this project's program packed the FMU with this description.
+pub fn is_ours(description: &Description) -> bool {
+    let tool = description.generation_tool.as_deref().unwrap_or_default();
+    tool.split(' ').next() == Some(env!("CARGO_PKG_NAME"))
+}
 
 /// The folder beside the program, if the program is installed.
 pub fn installed() -> Option<PathBuf> {

@@ -24,6 +24,7 @@ mod new;
 mod outcome;
 mod output;
 mod pack;
+mod patience;
 mod plan;
 mod run;
 mod start_value;

@@ -7,15 +7,16 @@ use physics::{
     spacecraft::Spacecraft,
 };
 
+use crate::home;
+
 /// Its name in the resources.
 pub const FILE: &str = "timeline.toml";
 
 /// The timeline of an FMU, or what is wrong with it, a line for each problem; `None` where there is none.
 pub fn of(fmu: &Fmu) -> Option<Result<Timeline, String>> {
     // Other exporters' files of this name mean something else.
-    let tool = fmu.description().generation_tool.as_deref().unwrap_or_default();
     let resources = fmu.folder().join("resources");
-    if !tool.starts_with("fmi-export") || !resources.join(FILE).exists() {
+    if !home::is_ours(fmu.description()) || !resources.join(FILE).exists() {
         return None;
     }
     let text = |file: &str| files::read_text(&resources.join(file));

@@ -432,9 +432,10 @@ mod tests {
                 }
                 assert_eq!(used.evaluations() - before, fresh.evaluations());
             }
-            // 40 and 71 days later are other segments than the first, for five planets.
+            // 40 and 71 days later are other segments than the first, for five planets; each time may be another segment than
+            // the one before it.
             let planets = 4 * ELEMENT_TERMS as u64 + EARTH_TERMS as u64;
-            assert!((2 * planets..=4 * planets).contains(&fresh.evaluations()), "{}", fresh.evaluations());
+            assert!((2 * planets..=5 * planets).contains(&fresh.evaluations()), "{}", fresh.evaluations());
         }
     }
 

@@ -46,6 +46,8 @@ pub(super) struct Kinematics<'a> {
     work: Work,
     /// Spent on event functions and not counted yet.
     searched_units: u32,
+    /// Spent on the attitude alone, where a dump is sought, and not counted yet.
+    dump_search_units: u32,
 }
 
 impl<'a> Kinematics<'a> {
@@ -56,13 +58,15 @@ impl<'a> Kinematics<'a> {
         ephemeris: &'a mut Ephemeris,
         work: Work,
     ) -> Self {
-        Self { configuration, trajectory, ephemeris, work, searched_units: 0 }
+        Self { configuration, trajectory, ephemeris, work, searched_units: 0, dump_search_units: 0 }
     }
 
     /// Counts work, the flight having come to `time_s`.
     pub fn spend_units(&mut self, cost: Cost, units: u32, time_s: f64) -> Result<(), PlantError> {
         let searched = core::mem::take(&mut self.searched_units);
         self.work.spend(Cost::Search, searched, self.ephemeris.evaluations(), time_s)?;
+        let for_dumps = core::mem::take(&mut self.dump_search_units);
+        self.work.spend(Cost::Dump, for_dumps, self.ephemeris.evaluations(), time_s)?;
         Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
     }
 
@@ -81,9 +85,9 @@ impl<'a> Kinematics<'a> {
         self.instant(time_s).events
     }
 
-    /// Matrix that takes body components to EME2000 alone, counted as a search.
+    /// Matrix that takes body components to EME2000 alone, by which a dump is sought and for which it counts.
     pub fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64> {
-        self.searched_units = self.searched_units.saturating_add(1);
+        self.dump_search_units = self.dump_search_units.saturating_add(1);
         let geometry = self.geometry(time_s);
         self.attitude(time_s, &geometry).frame.inertial_from_body
     }

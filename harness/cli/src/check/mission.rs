@@ -23,7 +23,7 @@ pub fn run(arguments: &Check) -> Outcome {
         Err(error) => {
             let problems = loader::Error::chain(error.as_ref());
             terminal::print(&problems)?;
-            let count = super::problem_count(&problems, &file);
+            let count = super::problems::problem_count(&problems, &file);
             terminal::note(&format!("{file}: {count}, judged as a mission"));
             Ok(ExitCode::FAILURE)
         }

@@ -93,7 +93,7 @@ pub fn run(arguments: &Check) -> Outcome {
 /// Tells the problems that a model finds in the file.
 fn refused(file: &str, model: &Described, problems: &str) -> Outcome {
     terminal::print(problems)?;
-    let count = super::problem_count(problems, file);
+    let count = super::problems::problem_count(problems, file);
     let model = &model.model;
     terminal::note(&format!("{file}: {count}, judged as a file of {model}, which cannot be packed with it"));
     Ok(ExitCode::FAILURE)

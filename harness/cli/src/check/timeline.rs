@@ -27,7 +27,7 @@ pub fn run(arguments: &Check, text: &str) -> Outcome {
         Err(problems) => {
             let problems = problems.to_string();
             terminal::print(&problems)?;
-            let count = super::problem_count(&problems, &file);
+            let count = super::problems::problem_count(&problems, &file);
             terminal::note(&format!("{file}: {count}, judged as a timeline"));
             Ok(ExitCode::FAILURE)
         }

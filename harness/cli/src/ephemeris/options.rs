@@ -7,7 +7,7 @@ use physics::environment::{dates, flown::FlownTarget};
 
 #[cfg(feature = "spk")]
 use super::kernel::KernelOptions;
-use crate::{args::Patience, home, values::span};
+use crate::{home, patience::Patience, values::span};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\

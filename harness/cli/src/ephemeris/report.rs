@@ -12,15 +12,16 @@ use physics::{
 };
 use toml::de::DeTable;
 
+use crate::home;
+
 /// Its name in the resources.
 pub const FILE: &str = "ephemeris.toml";
 
 /// The ephemeris of an FMU, or what is wrong with it, a line for each problem; `None` where there is none.
 pub fn of(fmu: &Fmu) -> Option<Result<FlownEphemeris, String>> {
     // Other exporters' files of this name mean something else.
-    let tool = fmu.description().generation_tool.as_deref().unwrap_or_default();
     let path = fmu.folder().join("resources").join(FILE);
-    if !tool.starts_with("fmi-export") || !path.exists() {
+    if !home::is_ours(fmu.description()) || !path.exists() {
         return None;
     }
     let read = |text: String| FlownEphemeris::from_toml(FILE, &text).map_err(|error| error.to_string());

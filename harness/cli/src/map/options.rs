@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::{args::Patience, draw::options::angle, home};
+use crate::{draw::options::angle, home, patience::Patience};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\

@@ -2,6 +2,7 @@
 
 mod csv;
 mod exporter;
+mod file;
 mod known;
 mod shown;
 mod standing;
@@ -24,28 +25,11 @@ use standing::Kind;
 use summary::{Summary, last_values};
 use svg::Svg;
 
+pub use file::OutputFile;
 pub use known::Known;
 pub use shown::Shown;
 pub use svg::is_lit_fraction;
 pub use svg_path::{check_path as check_svg_path, is_svg_path};
-
-/// A file that a run writes.
-#[derive(Clone, Debug)]
-pub struct OutputFile {
-    /// Where it is.
-    pub path: PathBuf,
-    /// What gave it.
-    pub option: &'static str,
-    /// The folder that it may not leave: that of the mission whose file names it.
-    pub home: Option<PathBuf>,
-}
-
-impl OutputFile {
-    /// Given on the command line.
-    pub fn of_option(path: &Path, option: &'static str) -> Self {
-        Self { path: path.to_owned(), option, home: None }
-    }
-}
 
 /// A picture of a run.
 #[derive(Clone, Debug)]

@@ -5,7 +5,7 @@ use std::{io::Read, path::Path};
 use files::Destination;
 use studies::chart;
 
-use super::OutputFile;
+use super::file::OutputFile;
 
 /// How much of a file is looked at.
 const HEAD: u64 = 1 << 16;

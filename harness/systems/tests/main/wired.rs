@@ -44,7 +44,9 @@ fn what_is_set_stands_at_the_component_in_its_own_unit() {
     let folder = tempfile::tempdir().unwrap();
     let components = [opened(folder.path(), "giver", &giver()), opened(folder.path(), "taker", &taker())];
     let wiring = |set: &str| Wiring { sets: vec![set.to_owned()], ..Wiring::default() };
-    let wired = wire("Pair", &components, Experiment::default(), &wiring("taker.angle=180 deg")).unwrap();
+    let wired =
+        wire("Pair", &components, Experiment::default(), &wiring("taker.angle=3.141592653589793 rad"))
+            .unwrap();
     let binding = &wired.structure.components[1].bindings[0];
     assert_eq!(binding.source.as_deref(), Some("resources/taker.ssv"));
     let text = to_parameter_set(&binding.sets[0]);

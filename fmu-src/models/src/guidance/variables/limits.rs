@@ -3,6 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
+use physics::constants::HALF_TURNS_RAD;
 use physics::guidance::{boresight, command, downlink, hot_pole, keep_in, modes};
 
 use super::super::setup::GuidanceSetup;
@@ -111,7 +112,7 @@ pub struct AntennaVariables {
     #[output]
     pub select: Choice<AntennaSelect>,
     /// Its beam's azimuth in the body frame, from -Y toward +X.
-    #[output(discrete, unit = "rad", display = "deg", min = -core::f64::consts::PI, max = core::f64::consts::PI)]
+    #[output(discrete, unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1])]
     pub azimuth: Real,
 }
 

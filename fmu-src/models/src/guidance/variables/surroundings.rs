@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
+use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD};
 use physics::environment::{ephemeris, time};
 use physics::guidance::{command, lighting};
 
@@ -83,10 +84,10 @@ pub struct SunVariables {
     #[input(start = false)]
     pub sensed_valid: Boolean,
     /// Azimuth of the Sun in the commanded body frame, from -Y toward +X.
-    #[output(unit = "rad", display = "deg", min = -core::f64::consts::PI, max = core::f64::consts::PI)]
+    #[output(unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1])]
     pub azimuth: Real,
     /// Elevation of the Sun in the commanded body frame, positive toward -Z.
-    #[output(unit = "rad", display = "deg", min = -core::f64::consts::FRAC_PI_2, max = core::f64::consts::FRAC_PI_2)]
+    #[output(unit = "rad", display = "deg", min = QUARTER_TURNS_RAD[0], max = QUARTER_TURNS_RAD[1])]
     pub elevation: Real,
 }
 

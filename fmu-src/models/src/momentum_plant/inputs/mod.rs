@@ -151,12 +151,6 @@ pub fn move_panels(
     }
 }
 
-/// Whether a panel's angle moves as an input does within a step.
-pub fn panels_move(context: &Plan<'_>, inputs: InputsOverTime<'_>) -> bool {
-    let moves = |input: Real| inputs.derivatives(input).next().is_some();
-    context.variables.panel.iter().any(|panel| moves(panel.angle) || moves(panel.sun_offset_command))
-}
-
 /// Warns of what is set, or stands in the file, and is without effect.
 ///
 /// # Errors

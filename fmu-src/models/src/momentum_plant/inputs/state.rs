@@ -17,8 +17,7 @@ use physics::spacecraft::Spacecraft;
 use serde::{Deserialize, Serialize};
 
 use super::dynamics::guides_itself;
-use super::given::is_given;
-use super::panels_move;
+use super::given::{is_given, panels_move};
 use super::propulsion::{SaidOfThrusters, reaction_control};
 use crate::common::choices::{CommandKind, OrbitCenter};
 use crate::momentum_plant::setup::Plan;
@@ -134,7 +133,10 @@ impl PlantState {
     /// Checks numbers that were decoded; bytes from elsewhere may hold anything.
     pub fn check(&self, spacecraft: &Spacecraft) -> Result<(), Failure> {
         let (wheels, thrusters) = (spacecraft.wheels.len(), spacecraft.thrusters.len());
-        let (oscillators, panels) = (spacecraft.oscillator_count(), spacecraft.panels.len());
+        let oscillators = spacecraft.oscillator_count();
+        // Panels without mass have no motion of their own.
+        let has_mass = spacecraft.panels.iter().any(|panel| panel.mass.is_some());
+        let panels = if has_mass { spacecraft.panels.len() } else { 0 };
         let finite = |x: &f64| x.is_finite();
         let CommandInputs { q, rate, error, .. } = &self.command_inputs;
         let inputs = q.iter().chain(rate).chain(error).chain(self.orbit_inputs.iter().flatten());

@@ -2,6 +2,7 @@
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 use physics::constants::RADIUS_SUN_M;
+use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD};
 
 use super::super::setup::PlantSetup;
 use super::choices::EphemerisSource;
@@ -75,10 +76,10 @@ pub struct SunVariables {
     #[output(unit = "1", nominal = 1.0)]
     pub direction: RealVector<3>,
     /// Azimuth of the Sun in the body frame, from -Y toward +X.
-    #[output(unit = "rad", display = "deg", min = -core::f64::consts::PI, max = core::f64::consts::PI)]
+    #[output(unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1])]
     pub azimuth: Real,
     /// Elevation of the Sun in the body frame, positive toward -Z.
-    #[output(unit = "rad", display = "deg", min = -core::f64::consts::FRAC_PI_2, max = core::f64::consts::FRAC_PI_2)]
+    #[output(unit = "rad", display = "deg", min = QUARTER_TURNS_RAD[0], max = QUARTER_TURNS_RAD[1])]
     pub elevation: Real,
     /// Visible part of the Sun's disc: 1 in full light, 0 in the planet's shadow.
     #[output(unit = "1", min = 0.0, max = 1.0, nominal = 1.0)]
@@ -111,10 +112,10 @@ pub struct EarthVariables {
     #[output(unit = "m/s", display = "km/s", nominal = 1e4)]
     pub velocity_inertial: RealVector<3>,
     /// Azimuth of the Earth in the body frame, from -Y toward +X.
-    #[output(unit = "rad", display = "deg", min = -core::f64::consts::PI, max = core::f64::consts::PI)]
+    #[output(unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1])]
     pub azimuth: Real,
     /// Elevation of the Earth in the body frame, positive toward -Z.
-    #[output(unit = "rad", display = "deg", min = -core::f64::consts::FRAC_PI_2, max = core::f64::consts::FRAC_PI_2)]
+    #[output(unit = "rad", display = "deg", min = QUARTER_TURNS_RAD[0], max = QUARTER_TURNS_RAD[1])]
     pub elevation: Real,
 }
 
