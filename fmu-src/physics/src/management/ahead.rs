@@ -15,8 +15,10 @@ use crate::plant::ForecastMomentum;
 /// The greatest number of cycles that are looked ahead.
 pub const LONGEST_HORIZON: usize = 100;
 
-/// Samples of each coming span of science, of components that are integrated on their own.
-const SCIENCE_SAMPLES: usize = 32;
+/// Samples of the next science, of components that are integrated on their own: peaks at the slews in it are short.
+const NEXT_SAMPLES: usize = 128;
+/// Samples of each science after it.
+const LATER_SAMPLES: usize = 32;
 /// Samples of the next cycle, of the physical momentum.
 const SAMPLES: usize = 96;
 
@@ -109,7 +111,7 @@ pub struct Components {
     count: usize,
     swings: [[Swing; LONGEST_HORIZON]; 2],
     downlinks: [DownlinkAhead; LONGEST_HORIZON],
-    path: [[f64; SCIENCE_SAMPLES]; 2],
+    path: [[f64; NEXT_SAMPLES]; 2],
     /// When thrusters dump, and what they leave.
     pub policy: DumpPolicy,
 }
@@ -122,30 +124,30 @@ impl Components {
             count,
             swings: [[Swing::default(); LONGEST_HORIZON]; 2],
             downlinks: [DownlinkAhead::default(); LONGEST_HORIZON],
-            path: [[0.0; SCIENCE_SAMPLES]; 2],
+            path: [[0.0; NEXT_SAMPLES]; 2],
             policy: forecast.dump_policy(),
         };
-        let step_s = science_s / SCIENCE_SAMPLES as f64;
         let spans_s = [forecast.span_s(), forecast.downlink_s()];
         let first_end_s = begin_s + spans_s[0];
-        // The begin of each downlink, then its science, whose last sample is the next downlink's begin.
-        let per_cycle = SCIENCE_SAMPLES + 1;
-        let times_s = (0..=count * per_cycle).map(|k| match (k / per_cycle, k % per_cycle) {
+        let times_s = (0..visits_before(count) + 1).map(|visit| match cycle_and_sample(visit) {
             (0, 0) => begin_s,
             (cycle, 0) => first_end_s + (cycle - 1) as f64 * cycle_s + science_s,
-            (cycle, sample) => first_end_s + cycle as f64 * cycle_s + (sample - 1) as f64 * step_s,
+            (cycle, sample) => {
+                let share = (sample - 1) as f64 / samples_of(cycle) as f64;
+                first_end_s + cycle as f64 * cycle_s + share * science_s
+            }
         });
         let (mut visited, mut base) = (0, [0.0; 2]);
-        forecast.fly(times_s, step_s, |at| {
+        forecast.fly(times_s, science_s / LATER_SAMPLES as f64, |at| {
             let separation_rad = at.to_earth.map(|earth| angle_between_rad(&at.to_sun, &earth));
-            let (cycle, sample) = (visited / per_cycle, visited % per_cycle);
+            let (cycle, sample) = cycle_and_sample(visited);
             visited += 1;
             let momentum = [at.momentum_body_n_m_s.x, at.momentum_body_n_m_s.z];
             let since = [momentum[0] - base[0], momentum[1] - base[1]];
             match sample {
                 0 => {
                     if let Some(ended) = cycle.checked_sub(1) {
-                        components.note(ended, SCIENCE_SAMPLES - 1, since);
+                        components.note(ended, samples_of(ended) - 1, since);
                     }
                     if let Some(downlink) = components.downlinks.get_mut(cycle) {
                         *downlink = DownlinkAhead {
@@ -211,8 +213,27 @@ impl Components {
     }
 
     /// X and Z through the first science, relative to its start, in N m s.
-    pub fn path(&self) -> &[[f64; SCIENCE_SAMPLES]; 2] {
+    pub fn path(&self) -> &[[f64; NEXT_SAMPLES]; 2] {
         &self.path
+    }
+}
+
+/// Samples of the science of a cycle.
+fn samples_of(cycle: usize) -> usize {
+    if cycle == 0 { NEXT_SAMPLES } else { LATER_SAMPLES }
+}
+
+/// Visits before a cycle. Each has the begin of its downlink, then its science, whose last sample is the next downlink's begin.
+fn visits_before(cycle: usize) -> usize {
+    let first = if cycle == 0 { 0 } else { NEXT_SAMPLES + 1 };
+    first + cycle.saturating_sub(1) * (LATER_SAMPLES + 1)
+}
+
+/// Which cycle a visit is in, and its number there.
+fn cycle_and_sample(visit: usize) -> (usize, usize) {
+    match visit.checked_sub(visits_before(1)) {
+        None => (0, visit),
+        Some(later) => (1 + later / (LATER_SAMPLES + 1), later % (LATER_SAMPLES + 1)),
     }
 }
 

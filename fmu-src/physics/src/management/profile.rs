@@ -8,7 +8,7 @@
 //! a_k = max(-low_k, a_(k+1) - change_k - most_k), b_k = min(-high_k, b_(k+1) - change_k - least_k),
 //!
 //! without the second terms at the last science. The target is the middle of I_1, or what this downlink reaches nearest to it. A
-//! horizon that cannot be kept, with a hundredth of the threshold to spare, is shortened until it can. Where a dump cannot be
+//! horizon that cannot be kept, with a little of the threshold to spare, is shortened until it can. Where a dump cannot be
 //! avoided in the science that follows, and would not stay the only one there, the nearest target within reach with fewer is taken.
 
 /// What a span of science does to one component, in N m s, from its start.
@@ -64,7 +64,7 @@ pub struct Component<'a, D: Fn(f64) -> f64> {
 const TARGETS: usize = 64;
 /// Part of a threshold that a forecast may be off by: a horizon is kept with that much to spare, and a dump has to stay the only
 /// one for targets off by it.
-const MARGIN: f64 = 0.01;
+const MARGIN: f64 = 0.004;
 /// Momenta that are looked at on either side of a target within that part: those from which a second dump follows lie close together.
 const SPREAD: i32 = 4;
 
@@ -74,7 +74,7 @@ impl<D: Fn(f64) -> f64> Component<'_, D> {
         let [low, high] = [self.now + self.reach[0], self.now + self.reach[1]];
         let nearest = middle(self.cycles, (1.0 - MARGIN) * self.threshold).max(low).min(high);
         let fewest = self.dumps_about(nearest);
-        if fewest <= 1 || self.dumps(nearest) == 0 {
+        if fewest <= 1 {
             return nearest;
         }
         let targets = (0..=TARGETS).map(|k| low + (high - low) * k as f64 / TARGETS as f64);
@@ -188,8 +188,8 @@ mod tests {
 
     #[test]
     fn what_leaves_no_room_for_a_forecasts_error_is_not_aimed_at() {
-        // From 4 the second science would end at -3.96, and the first below that is all that can be relied on.
-        assert_eq!(target(0.0, [-9.0, 9.0], &cycles(&[-3.98; 2], [0.0; 2]), 4.0), 1.99);
+        // From 4 the second science would end at -3.98: the first one is all that can be relied on.
+        assert_eq!(target(0.0, [-9.0, 9.0], &cycles(&[-3.99; 2], [0.0; 2]), 4.0), 1.995);
         assert_eq!(target(0.0, [-9.0, 9.0], &cycles(&[-3.9; 2], [0.0; 2]), 4.0), 3.9);
     }
 
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_hundredth_is_missing_to_is_not_given_up_for_a_dump() {
+    fn what_stays_just_below_the_threshold_is_not_given_up_for_a_dump() {
         // The dip of 0.1 and the rise behind it leave 0.02 to the threshold; a little lower two dumps would follow, much lower one.
         let path = [-0.05, -0.1, -0.08, -0.06];
         let mut swing = Swing::default();
@@ -235,7 +235,7 @@ mod tests {
         let component =
             Component { now: -4.0, reach: [-0.1, 0.12], cycles: &ahead, path: &path, threshold: 4.0, dumped };
         assert_relative_eq!(component.target(), -3.88, epsilon = 1e-12);
-        assert_eq!((component.dumps(-3.88), component.dumps(-3.92), component.dumps_about(-3.88)), (0, 2, 2));
+        assert_eq!((component.dumps_about(-3.88), component.dumps(-3.92)), (0, 2));
         // Neither is a place taken for good about which some bring a second one.
         assert_eq!(component.dumps_about(-3.9), 2);
     }
@@ -326,13 +326,13 @@ mod tests {
             let dumps = component.dumps_about(found);
             for k in 0..=TARGETS {
                 let other = now + reach[0] + (reach[1] - reach[0]) * k as f64 / TARGETS as f64;
-                let is_fewer = dumps > 1 && component.dumps(found) > 0 && other.abs() <= 2.0 && component.dumps_about(other) < dumps;
+                let is_fewer = dumps > 1 && other.abs() <= 2.0 && component.dumps_about(other) < dumps;
                 prop_assert!(!is_fewer, "{other}: {} < {dumps} of {found}", component.dumps_about(other));
             }
             // What needs no dump is never given up for what does.
             let inside = |at: f64| at + swing.lowest >= -2.0 && at + swing.highest <= 2.0;
             let any_inside = (0..=1000).any(|k| inside(now + reach[0] + (reach[1] - reach[0]) * f64::from(k) / 1000.0));
-            prop_assert!(!any_inside || component.dumps(found) == 0, "{found}");
+            prop_assert!(!any_inside || component.dumps(found) == 0 || dumps <= 1, "{found}");
         }
     }
 }
