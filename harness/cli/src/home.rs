@@ -12,10 +12,13 @@ const DIST: &str = "dist";
 /// The model that is packed and read for unless another is named.
 pub const DEFAULT_MODEL: &str = "MomentumPlant";
 
-/// Whether this project's program packed the FMU with this description.
+/// What this project's exporter writes as `generationTool`: its own name where a model names no tool.
+const TOOLS: [&str; 2] = [env!("CARGO_PKG_NAME"), "fmi-export"];
+
+/// Whether this project's exporter made the FMU with this description.
 pub fn is_ours(description: &Description) -> bool {
-    let tool = description.generation_tool.as_deref().unwrap_or_default();
-    tool.split(' ').next() == Some(env!("CARGO_PKG_NAME"))
+    let tool = description.generation_tool.as_deref().and_then(|tool| tool.split(' ').next());
+    tool.is_some_and(|tool| TOOLS.contains(&tool))
 }
 
 /// The folder beside the program, if the program is installed.

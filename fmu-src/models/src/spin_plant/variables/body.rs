@@ -3,6 +3,7 @@
 use fmi_export::{Choice, Integer, Real, RealVector, Variables};
 
 use super::choices::MassSource;
+use physics::constants::HALF_TURNS_RAD;
 use physics::spin::{plant, spinner::Spinner};
 
 /// Mass properties.
@@ -108,7 +109,7 @@ pub struct NutationVariables {
     #[output(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, nominal = 1e-4)]
     pub angle: Real,
     /// Azimuth of the transverse momentum about the spin axis, from body X toward Y.
-    #[output(unit = "rad", display = "deg", min = -core::f64::consts::PI, max = core::f64::consts::PI, nominal = 1.0)]
+    #[output(unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1], nominal = 1.0)]
     pub phase: Real,
     /// Foreseen after the last pulse by the linear theory (paper 002 eq 8 with the nutation kick for Gamma/n, for any
     /// train), without damper and initial nutation.

@@ -5,6 +5,7 @@ use core::f64::consts::PI;
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use super::choices::{GeometrySource, StarSampling};
+use physics::constants::QUARTER_TURNS_RAD;
 use physics::spin::{plant::Sampling, spinner::Spinner};
 
 /// Where Sun and Earth stand.
@@ -128,7 +129,7 @@ pub struct StarTrackerVariables {
     #[output(discrete, unit = "rad", display = "deg", nominal = 1e-2)]
     pub declination: Real,
     /// Declination of the star now, without noise.
-    #[output(unit = "rad", display = "deg", min = -core::f64::consts::FRAC_PI_2, max = core::f64::consts::FRAC_PI_2, nominal = 1e-2)]
+    #[output(unit = "rad", display = "deg", min = QUARTER_TURNS_RAD[0], max = QUARTER_TURNS_RAD[1], nominal = 1e-2)]
     pub declination_true: Real,
     /// Time of the last sample; -1 before any.
     #[output(discrete, unit = "s")]
