@@ -168,7 +168,7 @@ MOMENTA = vector("momentum.body") + vector("momentum.inertial") + vector("attitu
 def guided(momentum_plant):
     """Sixty days under guidance, with dumps, slews and every component of momentum."""
     start = {"guided.slewRate": 1e-3, "wheel[2].capacity": 1.2} | elements("start.momentum", [0.5, -1.0, 2.0])
-    start |= elements("dump.threshold", [3.0, 2.0, 2.5])
+    start |= elements("dump.threshold", [2.5, 2.0, 2.0])
     wheels = [f"wheel[{k}].{what}" for k in (1, 2, 3, 4) for what in ("momentum", "saturated", "capacity")]
     return simulate(momentum_plant, 600.0, days=60.0, start=start, output=MOMENTA + wheels + ["dump.lastTime", "dump.closest"])
 
