@@ -9,7 +9,7 @@ use super::sampled_forecast::SampledForecast;
 use super::strategy::{Manager, Strategy};
 use super::targeting::Aim;
 use crate::attitude::angle_between_rad;
-use crate::guidance::moving::value;
+use crate::guidance::geometry::moving::value;
 use crate::guidance::{ChosenPlace, DownlinkStart, Guided, OrbitAhead, Schedule, SunChooser};
 use crate::momentum::{Convention, DumpPolicy, Totals};
 use crate::numerics::intervals::sampled_range;
