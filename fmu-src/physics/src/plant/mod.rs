@@ -17,18 +17,19 @@
 mod disturbances;
 mod flight;
 mod light;
+mod mass;
 mod motion;
 mod settings;
 mod thrusters;
 
-pub use disturbances::evaluation::{Evaluation, ExternalLoad, Plant, PreparedSpacecraft};
-pub use flight::attitude_dynamics::AttitudeDynamics;
-pub use flight::current::Flight;
-pub use flight::ideal_flight::{DumpSideEffect, IdealFlight};
+pub use disturbances::evaluation::{Evaluation, External, ExternalLoad, Plant, PreparedSpacecraft, World};
 pub use flight::outlook::{ForecastMomentum, Outlook, StartMomentum, SunPlanner};
 pub use flight::propagator_state::PropagatorState;
+pub use flight::report::{ControlReport, Report, Shown, WheelReport};
 pub use flight::sun_choice::SunChoice;
 pub use flight::wheel_control::{WheelControl, WheelControlSettings};
+pub use flight::whole::{Changes, Flight, ModeSettings, Start, Undo};
+pub use flight::{Given, StartMotion};
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;
 pub use light::sunlit::SunlitCraft;
@@ -43,9 +44,10 @@ pub use settings::configuration::{
 pub use settings::control_defaults::ControlDefaults;
 pub use settings::dynamics_settings::{Control, DynamicsInputs, DynamicsSettings, ThrusterControl, Tracked};
 pub use settings::error::PlantError;
+pub use settings::ideal_settings::IdealSettings;
 pub use settings::panel_setting::{PanelSetting, Ramp};
 pub use settings::radiation_settings::RadiationSettings;
 pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
 pub use settings::work::{Cost, Work, WorkExceeded};
-pub use thrusters::reaction_control::ReactionControl;
+pub use thrusters::reaction_control::Thrusters;
 pub use thrusters::thruster_load::{ThrusterLoad, ThrusterTotals};

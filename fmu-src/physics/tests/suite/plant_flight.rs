@@ -9,7 +9,6 @@ use physics::bodies::surface::MERCURY;
 use physics::constants::{GM_MERCURY_M3_S2, RADIUS_MERCURY_M, SPEED_OF_LIGHT_M_S};
 use physics::environment::CartesianState;
 use physics::environment::eclipse::{Shadow, ShadowModel};
-use physics::environment::ephemeris::Ephemeris;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::{Elements, OrbitMethod, TwoBodyOrbit};
 use physics::guidance::{Guided, Schedule, ScienceRule};
@@ -18,8 +17,8 @@ use physics::momentum::{
 };
 use physics::numerics::quadrature;
 use physics::plant::{
-    AttitudeSource, Command, Configuration, EphemerisSource, ExternalLoad, Motion, PanelSetting, Plant,
-    PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver, SunLight, Work,
+    AttitudeSource, Command, Configuration, EphemerisSource, External, ExternalLoad, Motion, PanelSetting,
+    Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver, SunLight, World,
     orbit_from_elements,
 };
 use physics::radiation::{Effect, SolarModel};
@@ -52,7 +51,6 @@ pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Co
         sunshade: SunshadeModel::Plates,
         panels: vec![PanelSetting::Disabled; 2],
         center_of_mass_body_m: Vector3::new(0.0, 0.01, -0.03),
-        left: None,
         mass_kg: 700.0,
         inertia_body_kg_m2: Matrix3::from_diagonal(&Vector3::new(199.6, 507.1, 484.9)),
         gravity_gradient_m3_s2: GM_MERCURY_M3_S2,
@@ -102,7 +100,7 @@ pub(crate) struct Rig {
     solar: SolarModel,
     method: OrbitMethod,
     pub(crate) propagator: PropagatorState,
-    ephemeris: Ephemeris,
+    world: Option<World>,
 }
 
 impl Rig {
@@ -113,42 +111,40 @@ impl Rig {
             spacecraft,
             method: OrbitMethod::default(),
             propagator: PropagatorState::default(),
-            ephemeris: Ephemeris::default(),
+            world: None,
         }
     }
 
-    fn plant<'a>(&'a mut self, configuration: &'a Configuration) -> Plant<'a, fn(f64) -> ExternalLoad> {
-        self.plant_with(configuration, |_| ExternalLoad::default())
+    fn plant(&mut self, configuration: &Configuration) -> Plant<'_> {
+        self.plant_with(configuration, &|_| [ExternalLoad::default(); 2])
     }
 
-    fn plant_in_light<'a>(
+    fn plant_in_light(&mut self, configuration: &Configuration, light: RadiationSolver) -> Plant<'_> {
+        self.world_of(configuration).light = Some(light);
+        self.plant_now(&|_| [ExternalLoad::default(); 2])
+    }
+
+    /// Goes on under this configuration.
+    fn world_of(&mut self, configuration: &Configuration) -> &mut World {
+        self.world.insert(World::new(configuration.clone()))
+    }
+
+    pub(crate) fn plant_with<'a>(
         &'a mut self,
-        configuration: &'a Configuration,
-        light: &'a mut RadiationSolver,
-    ) -> Plant<'a, fn(f64) -> ExternalLoad> {
+        configuration: &Configuration,
+        load: &'a External<'a>,
+    ) -> Plant<'a> {
+        self.world_of(configuration);
+        self.plant_now(load)
+    }
+
+    fn plant_now<'a>(&'a mut self, load: &'a External<'a>) -> Plant<'a> {
         let prepared = PreparedSpacecraft {
             panels: &self.spacecraft.panels,
             solar: &self.solar,
             orbit_method: &self.method,
         };
-        let load: fn(f64) -> ExternalLoad = |_| ExternalLoad::default();
-        let (propagator, ephemeris) = (&mut self.propagator, &mut self.ephemeris);
-        let work = Work::new(u32::MAX, ephemeris.evaluations());
-        Plant::new(prepared, configuration, propagator, ephemeris, Some(light), load, work)
-    }
-
-    pub(crate) fn plant_with<'a, L: Fn(f64) -> ExternalLoad>(
-        &'a mut self,
-        configuration: &'a Configuration,
-        load: L,
-    ) -> Plant<'a, L> {
-        let prepared = PreparedSpacecraft {
-            panels: &self.spacecraft.panels,
-            solar: &self.solar,
-            orbit_method: &self.method,
-        };
-        let work = Work::new(u32::MAX, self.ephemeris.evaluations());
-        Plant::new(prepared, configuration, &mut self.propagator, &mut self.ephemeris, None, load, work)
+        Plant::new(prepared, self.world.as_mut().unwrap(), &mut self.propagator, load)
     }
 }
 
@@ -291,7 +287,7 @@ fn light_follows_an_attitude_that_is_known_only_up_to_now() {
     let spacecraft = spacecraft();
     let light = RadiationSolver::new(&spacecraft, &with(truth), &MERCURY, 6).unwrap();
     let fly = |sample_s: Option<f64>| {
-        let (mut rig, mut light, mut command) = (Rig::new(), light.clone(), truth);
+        let (mut rig, mut command) = (Rig::new(), truth);
         let mut loads = Vec::new();
         for k in 0..=60 {
             let time_s = 5.0 * f64::from(k);
@@ -300,7 +296,7 @@ fn light_follows_an_attitude_that_is_known_only_up_to_now() {
                 command = Command { attitude: truth.attitude_at(time_s), since_s: time_s, ..truth };
             }
             let configuration = with(command);
-            let mut plant = rig.plant_in_light(&configuration, &mut light);
+            let mut plant = rig.plant_in_light(&configuration, light.clone());
             plant.prepare(time_s, f64::INFINITY).unwrap();
             loads.push(plant.evaluate(time_s).loads.total());
         }

@@ -68,7 +68,7 @@ fn attitude_toward_x() -> Attitude {
 
 fn momentum_after(configuration: &Configuration, time_s: f64) -> Vector3<f64> {
     let mut rig = Rig::new();
-    let mut plant = rig.plant_with(configuration, |_| ExternalLoad::default());
+    let mut plant = rig.plant_with(configuration, &|_| [ExternalLoad::default(); 2]);
     let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
     integrator.advance(&mut plant, &configuration.momentum, time_s, |_| {}).unwrap();
     integrator.totals(time_s).momentum_inertial_n_m_s
@@ -84,7 +84,7 @@ fn the_momentum_of_a_grazing_passage_is_torque_times_time_in_light() {
                 let dark = in_light(orbit, ShadowModel::AllOrNothingCylinder, grid_s);
                 let mut rig = Rig::new();
                 let sample = rig
-                    .plant_with(&dark, |_| ExternalLoad::default())
+                    .plant_with(&dark, &|_| [ExternalLoad::default(); 2])
                     .sample(midnight_s - 0.5 * shadow_s - 1.0);
                 let torque_n_m = sample.inertial_from_body * sample.torque_body_n_m;
                 let expected = torque_n_m * (FLOWN_S - shadow_s);

@@ -7,15 +7,18 @@ use physics::attitude::control::{
     SunSensor, WheelAllocator,
 };
 use physics::attitude::{Attitude, Gyrostat, ReactionWheel};
-use physics::momentum::Convention;
+use physics::guidance::modes::system::CommandKind as Kind;
+use physics::momentum::{Convention, WheelArray};
 use physics::plant::{
-    Configuration, Control, DynamicsSettings, ExternalLoad, ThrusterControl, WheelControlSettings,
+    Configuration, Control, DynamicsInputs, DynamicsSettings, ExternalLoad, IdealSettings, StartMotion,
+    ThrusterControl, Tracked, WheelControlSettings,
 };
+use physics::propulsion::PulseCommand;
 
-use super::propulsion::reaction_control;
-
-use super::flexibility;
+use super::{flexibility, propulsion};
+use crate::common::choices::CommandKind;
 use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::state::PlantState;
 use crate::momentum_plant::variables::choices::{AttitudeSource, CommandSource};
 
 /// Whether the attitude follows from dynamics.
@@ -135,10 +138,8 @@ pub fn settings(
             seed,
         },
         dump: configuration.momentum.policy,
-        thrusters: reaction_control(context, values)?,
         grid_s: real(v.solver.dynamics_step),
         panels_have_mass: context.setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some()),
-        work_limit: v.solver.work.units(values),
     })
 }
 
@@ -187,8 +188,7 @@ fn control(context: &Plan<'_>, values: &Values) -> Result<Control, Failure> {
     })
 }
 
-/// The Sun sensors.
-pub fn sun_sensors(context: &Plan<'_>, values: &Values) -> Result<Vec<SunSensor>, Failure> {
+fn sun_sensors(context: &Plan<'_>, values: &Values) -> Result<Vec<SunSensor>, Failure> {
     let sensors = context.variables.sun_sensor.iter().enumerate();
     let sensors = sensors.map(|(index, sensor)| {
         let found = values.vector(sensor.axis);
@@ -207,13 +207,52 @@ pub fn sun_sensors(context: &Plan<'_>, values: &Values) -> Result<Vec<SunSensor>
     sensors.collect()
 }
 
-/// Which of star trackers and gyros work: the spare takes over where the first has failed.
-pub fn health(context: &Plan<'_>, values: &Values) -> SensorHealth {
-    let tracker = &context.variables.star_tracker;
-    SensorHealth {
-        star_tracker: !(values.boolean(tracker.failed) && values.boolean(tracker.spare_failed)),
-        gyro: !values.boolean(context.variables.gyro.failed),
-    }
+/// Wheels and sensors of a flight that is followed ideally.
+pub fn ideal_settings(context: &Plan<'_>, values: &Values) -> Result<IdealSettings, Failure> {
+    let v = context.variables;
+    Ok(IdealSettings {
+        array: wheel_array(context, values),
+        wheels: v.wheel.iter().map(|it| [it.inertia, it.capacity].map(|it| values.real(it))).collect(),
+        sun_sensors: sun_sensors(context, values)?,
+        rate_hz: values.real(v.control.rate),
+        seed: values.integer(v.noise.seed).unsigned_abs().into(),
+    })
+}
+
+/// Distribution of momentum over the wheels; `None` unless they span all directions.
+pub fn wheel_array(context: &Plan<'_>, values: &Values) -> Option<WheelArray> {
+    let wheels = context.variables.wheel.iter();
+    let axes = wheels.map(|wheel| Vector3::from(values.vector(wheel.axis)).try_normalize(0.0));
+    WheelArray::new(&axes.collect::<Option<Vec<_>>>()?)
+}
+
+/// What the inputs of a step say, in the memory that `state` has for it.
+pub fn step_inputs(context: &Plan<'_>, values: &Values, state: &mut PlantState) -> DynamicsInputs {
+    let v = context.variables;
+    let tracked = if guides_itself(context, values) {
+        Tracked::Guidance
+    } else if matches!(values.choice(v.command.kind), Some(CommandKind(Kind::RateOnly))) {
+        Tracked::Rate(state.command.rate_body_rad_s)
+    } else {
+        Tracked::Attitude(state.command)
+    };
+    let thrust = propulsion::thrust_command(context, values);
+    // The spare takes over where the first star tracker has failed.
+    let health = SensorHealth {
+        star_tracker: !(values.boolean(v.star_tracker.failed) && values.boolean(v.star_tracker.spare_failed)),
+        gyro: !values.boolean(v.gyro.failed),
+    };
+    let mut inputs = state.inputs.take().unwrap_or_else(|| DynamicsInputs::new(tracked, thrust, health));
+    (inputs.tracked, inputs.thrust, inputs.health) = (tracked, thrust, health);
+    inputs.dump_to_body_n_m_s = None;
+    inputs.refill(
+        v.wheel.iter().map(|it| (values.real(it.torque_command), values.boolean(it.failed))),
+        v.sun_sensor.iter().map(|it| values.boolean(it.failed)),
+        v.thruster
+            .iter()
+            .map(|it| PulseCommand { delay_s: values.real(it.on_delay), on_s: values.real(it.on_time) }),
+    );
+    inputs
 }
 
 /// Force and torque from outside at a time, and how they change.
@@ -231,18 +270,6 @@ pub fn external(
         ExternalLoad { force_body_n: value(v.force.applied), torque_body_n_m: value(v.torque.applied) },
         ExternalLoad { force_body_n: rate(v.force.applied), torque_body_n_m: rate(v.torque.applied) },
     ]
-}
-
-/// How the body stands and turns at the start.
-pub struct StartMotion {
-    /// By start.q.
-    pub attitude: Attitude,
-    /// By start.rate.
-    pub rate_body_rad_s: Vector3<f64>,
-    /// Whether internal guidance gives the attitude: start.q was not set.
-    pub attitude_is_guided: bool,
-    /// Whether internal guidance gives the rate too: start.rate was not set either.
-    pub rate_is_guided: bool,
 }
 
 /// What start.q and start.rate say of the motion at the start.

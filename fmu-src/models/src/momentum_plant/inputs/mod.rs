@@ -5,7 +5,6 @@ pub mod dynamics;
 mod flexibility;
 mod given;
 pub mod propulsion;
-pub mod state;
 
 use fmi_export::{Elements, Failure, InputsOverTime, Real, Values};
 use nalgebra::Vector3;
@@ -25,9 +24,9 @@ use physics::spacecraft::{PanelControl, SunshadeModel};
 
 use self::center::Center;
 use self::given::given_state;
-pub use self::given::is_given;
-use self::state::PlantState;
+pub use self::given::{is_given, panels_move};
 use super::setup::Plan;
+use super::state::PlantState;
 use super::variables::PlantVariables;
 use super::variables::choices::{AttitudeSource, DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource};
 use crate::common::choices::PanelTilt;
@@ -36,21 +35,13 @@ use crate::common::ephemeris;
 use crate::common::management::{Limits, check_windows};
 use crate::common::spacecraft::inertia_body_kg_m2;
 
-/// The configuration that parameters, inputs and state describe.
+/// The configuration that parameters, inputs and state describe, in the memory of `panels`; angles of panels move as the inputs do.
 pub fn configuration(
     context: &Plan<'_>,
     values: &Values,
     state: &PlantState,
-) -> Result<Configuration, Failure> {
-    refreshed(context, values, state, None)
-}
-
-/// The same, reusing the memory of `previous`.
-pub fn refreshed(
-    context: &Plan<'_>,
-    values: &Values,
-    state: &PlantState,
-    previous: Option<Configuration>,
+    over_time: InputsOverTime<'_>,
+    mut panels: Vec<PanelSetting>,
 ) -> Result<Configuration, Failure> {
     let variables = context.variables;
     let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
@@ -72,23 +63,27 @@ pub fn refreshed(
         ephemeris::check_start(epoch_s)?;
     }
     let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
-    let mut panels = previous.map_or_else(|| Vec::with_capacity(variables.panel.len()), |old| old.panels);
     panels.clear();
     panels.extend(variables.panel.iter().map(|panel| {
         if !values.boolean(panel.enabled) {
             return PanelSetting::Disabled;
         }
-        let offset = |sun_offset| PanelSetting::SunOffset {
-            offset: Ramp::held(values.real(sun_offset)),
+        let ramp = |input: Real| Ramp {
+            angle_rad: values.real(input),
+            rate_rad_s: over_time.rate(input, over_time.start_s()),
+            since_s: over_time.start_s(),
+        };
+        let offset = |offset| PanelSetting::SunOffset {
+            offset,
             tilt_sign: values.choice(panel.tilt).map_or(1.0, PanelTilt::sign),
         };
         match values.choice(panel.control).map_or(PanelControl::SunOffset, |it| it.0) {
-            PanelControl::Angle => PanelSetting::Angle(Ramp::held(values.real(panel.angle))),
-            PanelControl::SunOffset => offset(panel.sun_offset),
-            PanelControl::Command => offset(panel.sun_offset_command),
+            PanelControl::Angle => PanelSetting::Angle(ramp(panel.angle)),
+            PanelControl::SunOffset => offset(Ramp::held(values.real(panel.sun_offset))),
+            PanelControl::Command => offset(ramp(panel.sun_offset_command)),
         }
     }));
-    let mut configuration = Configuration {
+    Ok(Configuration {
         epoch_minus_time_s,
         center: body,
         attitude: attitude(context, values, state, body, &orbit)?,
@@ -108,7 +103,6 @@ pub fn refreshed(
         },
         sunshade: values.choice(variables.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0),
         panels,
-        left: None,
         center_of_mass_body_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass)),
         mass_kg: values.real(variables.spacecraft.mass),
         inertia_body_kg_m2,
@@ -118,37 +112,7 @@ pub fn refreshed(
             0.0
         },
         momentum: settings(context, values),
-    };
-    if let Some(thrusters) = &state.thrusters {
-        let loaded = configuration.loaded();
-        let left = state.propellant.mass_properties(&loaded, &thrusters.tanks, state.start_s);
-        configuration.left = Some(left);
-    }
-    Ok(configuration)
-}
-
-/// The panels' angles move as the inputs do within a step.
-pub fn move_panels(
-    context: &Plan<'_>,
-    values: &Values,
-    inputs: InputsOverTime<'_>,
-    configuration: &mut Configuration,
-) {
-    let ramp = |input: Real| Ramp {
-        angle_rad: values.real(input),
-        rate_rad_s: inputs.rate(input, inputs.start_s()),
-        since_s: inputs.start_s(),
-    };
-    for (panel, setting) in context.variables.panel.iter().zip(&mut configuration.panels) {
-        let is_commanded = values.choice(panel.control).is_some_and(|it| it.0 == PanelControl::Command);
-        match setting {
-            PanelSetting::Angle(angle) => *angle = ramp(panel.angle),
-            PanelSetting::SunOffset { offset, .. } if is_commanded => {
-                *offset = ramp(panel.sun_offset_command)
-            }
-            PanelSetting::SunOffset { .. } | PanelSetting::Disabled => {}
-        }
-    }
+    })
 }
 
 /// Warns of what is set, or stands in the file, and is without effect.
@@ -340,7 +304,7 @@ fn attitude(
         let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
         let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in)?;
         let management = &variables.momentum.management;
-        let (managed, sun_place) = (management.manages(values), state.propagator.sun_choice.place());
+        let (managed, sun_place) = (management.manages(values), state.flight.sun_choice().place());
         if managed && !state.waiting {
             check_windows(&law.schedule)?;
         }
@@ -360,11 +324,11 @@ fn attitude(
 }
 
 /// Who chooses the Sun's place during downlinks.
-pub fn manager<'s>(context: &Plan<'s>, values: &Values, configuration: &Configuration) -> Manager<'s> {
+pub fn manager<'s>(context: &Plan<'s>, values: &Values, sunshade: SunshadeModel) -> Manager<'s> {
     let variables = context.variables;
     let limits = Limits { azimuth: variables.keep_in.azimuth, elevation: variables.keep_in.elevation };
     let spacecraft = &context.setup.spacecraft;
-    variables.momentum.management.manager(values, limits, spacecraft, configuration.sunshade)
+    variables.momentum.management.manager(values, limits, spacecraft, sunshade)
 }
 
 /// Whether no dump begins by itself: in free flight, where the master controls, unless thresholds are set.

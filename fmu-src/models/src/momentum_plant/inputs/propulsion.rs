@@ -2,11 +2,11 @@
 
 use fmi_export::{Failure, Step, Values};
 use nalgebra::Vector3;
-use physics::plant::{Configuration, ReactionControlSettings, ThrustCommand};
+use physics::plant::{DynamicsInputs, ReactionControlSettings, ThrustCommand, Thrusters};
 use physics::propulsion::{PulseCommand, ThrustErrors};
 use physics::spacecraft::{Tank, Thruster, ValveTiming};
 
-use super::super::setup::Plan;
+use crate::momentum_plant::setup::Plan;
 
 /// Thrusters and tanks as parameters say.
 pub fn reaction_control(context: &Plan<'_>, values: &Values) -> Result<ReactionControlSettings, Failure> {
@@ -53,32 +53,30 @@ pub fn reaction_control(context: &Plan<'_>, values: &Values) -> Result<ReactionC
 }
 
 /// Refuses tanks that hold more than there is.
-pub fn check(settings: &ReactionControlSettings, configuration: &Configuration) -> Result<(), Failure> {
+pub fn check(settings: &ReactionControlSettings, mass_kg: f64) -> Result<(), Failure> {
     let held_kg: f64 = settings.tanks.iter().map(|tank| tank.propellant_kg).sum();
-    if held_kg >= configuration.mass_kg {
+    if held_kg >= mass_kg {
         return Err(Failure::new(format!(
-            "tank[k].propellant: found {held_kg:?} kg in all tanks, allowed: less than spacecraft.mass = {:?} kg, of which it \
-             is a part",
-            configuration.mass_kg
+            "tank[k].propellant: found {held_kg:?} kg in all tanks, allowed: less than spacecraft.mass = {mass_kg:?} kg, of which \
+             it is a part"
         )));
     }
     Ok(())
 }
 
-/// Says once that a dump found no thrusters, `unserved` dumps having done so before and now.
+/// Says once that a dump found no thrusters, `before` dumps having done so already.
 pub fn warn_unserved(
     context: &Plan<'_>,
     values: &Values,
-    settings: &ReactionControlSettings,
+    thrusters: &Thrusters,
     said: &mut SaidOfThrusters,
-    unserved: [u32; 2],
+    before: u32,
 ) {
-    let [before, now] = unserved;
     let center_of_mass_body_m = Vector3::from(values.vector(context.variables.center_of_mass));
-    if said.unserved || before == now {
+    if said.unserved || before == thrusters.unserved_dumps() {
         return;
     }
-    if let Err(error) = settings.dump_selection(&center_of_mass_body_m) {
+    if let Err(error) = thrusters.settings.dump_selection(&center_of_mass_body_m) {
         said.unserved = true;
         context.log.warning(&format!(
             "dump.count: {error} (centerOfMass = {:?} m); dumps are as those of a file without [[thrusters]]: at once in guided \
@@ -86,14 +84,6 @@ pub fn warn_unserved(
             center_of_mass_body_m.as_slice()
         ));
     }
-}
-
-/// The pulse that thruster `k` (0-based) is commanded.
-pub fn pulse(context: &Plan<'_>, values: &Values, k: usize) -> PulseCommand {
-    context.variables.thruster.get(k).map_or(PulseCommand::default(), |thruster| PulseCommand {
-        delay_s: values.real(thruster.on_delay),
-        on_s: values.real(thruster.on_time),
-    })
 }
 
 /// The delta-v commanded.
@@ -110,14 +100,14 @@ pub fn thrust_command(context: &Plan<'_>, values: &Values) -> ThrustCommand {
 /// What a step's commands to thrusters leave undone, once each.
 pub fn warn(
     context: &Plan<'_>,
-    values: &Values,
+    inputs: &DynamicsInputs,
     settings: &ReactionControlSettings,
     said: &mut SaidOfThrusters,
     step: &Step<'_>,
 ) {
     if !said.cut {
-        let is_cut = |k: &usize| pulse(context, values, *k).is_cut(step.start_s, step.end_s);
-        if let Some(k) = (0..settings.thrusters.len()).find(is_cut) {
+        let is_cut = |pulse: &PulseCommand| pulse.is_cut(step.start_s, step.end_s);
+        if let Some(k) = inputs.pulses.iter().position(is_cut) {
             said.cut = true;
             context.log.warning(&format!(
                 "thruster[{}].onDelay and onTime reach beyond the step from {} to {} s: the pulse is cut there, and others \
@@ -128,7 +118,7 @@ pub fn warn(
             ));
         }
     }
-    if let Some(set) = thrust_command(context, values).set
+    if let Some(set) = inputs.thrust.set
         && !said.no_set
         && settings.thrusters.iter().all(|thruster| thruster.set != Some(set))
     {

@@ -25,7 +25,7 @@ use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::intervals::next_multiple_s;
 use crate::radiation::{Effect, ForceTorque, Loads};
 
-use super::evaluation::{Evaluation, ExternalLoad, Plant};
+use super::evaluation::{Evaluation, Plant};
 use crate::plant::light::light_and_heat::LEAST_ARM_M;
 use crate::plant::settings::error::PlantError;
 
@@ -79,12 +79,7 @@ impl DisturbanceInterval {
     ///
     /// # Errors
     /// What ends a flight.
-    pub fn next<L: Fn(f64) -> ExternalLoad>(
-        &self,
-        plant: &mut Plant<'_, L>,
-        start_s: f64,
-        grid_s: f64,
-    ) -> Result<Self, PlantError> {
+    pub fn next(&self, plant: &mut Plant<'_>, start_s: f64, grid_s: f64) -> Result<Self, PlantError> {
         plant.spend(Effort::Segment, start_s)?;
         let known_s = plant.prepare(start_s, next_multiple_s(start_s, grid_s))?;
         let limit_s = plant.smooth_until(start_s, known_s);

@@ -95,6 +95,43 @@ impl Evaluation {
     }
 }
 
+/// Force and torque from outside at a time, body frame, and how they change per second.
+pub type External<'a> = dyn Fn(f64) -> [ExternalLoad; 2] + 'a;
+
+/// Where a flight takes place, and what is known of it beside its state.
+#[derive(Clone, Debug)]
+pub struct World {
+    /// What flies, where; its attitude is set as the flight goes on.
+    pub configuration: Configuration,
+    /// With every panel at angle 0, of what is left of the propellant.
+    pub mass_at_zero: MassProperties,
+    /// Planets.
+    pub ephemeris: Ephemeris,
+    /// Light and heat beyond direct sunlight.
+    pub light: Option<RadiationSolver>,
+    /// What the step has cost so far.
+    pub work: Work,
+}
+
+impl World {
+    /// Of this configuration with full tanks, without light and heat beyond direct sunlight.
+    pub fn new(configuration: Configuration) -> Self {
+        Self {
+            mass_at_zero: configuration.loaded(),
+            configuration,
+            ephemeris: Ephemeris::default(),
+            light: None,
+            work: Work::new(u32::MAX, 0),
+        }
+    }
+
+    /// A step begins: nothing spent of `limit` units of about a microsecond.
+    pub fn begin_work(&mut self, limit: u32) {
+        self.ephemeris.count_from_here();
+        self.work = Work::new(limit, self.ephemeris.evaluations());
+    }
+}
+
 /// What flies, prepared once.
 #[derive(Clone, Copy, Debug)]
 pub struct PreparedSpacecraft<'a> {
@@ -107,65 +144,49 @@ pub struct PreparedSpacecraft<'a> {
 }
 
 impl PreparedSpacecraft<'_> {
-    /// Direct sunlight without self-shadows, about the centre of mass.
-    pub(crate) fn sunlight(
-        &self,
-        configuration: &Configuration,
-        beam: &Beam<f64>,
-        center_of_mass_body_m: &Vector3<f64>,
-        time_s: f64,
-    ) -> ForceTorque<f64> {
-        self.sunlit(configuration, time_s).load(beam, center_of_mass_body_m)
-    }
-
     /// The spacecraft as sunlight meets it at `time_s`.
-    pub(crate) fn sunlit<'c>(&'c self, configuration: &'c Configuration, time_s: f64) -> SunlitCraft<'c> {
+    pub(crate) fn sunlit<'c>(
+        &'c self,
+        configuration: &'c Configuration,
+        mass_at_zero: &MassProperties,
+        time_s: f64,
+    ) -> SunlitCraft<'c> {
         SunlitCraft {
             solar: self.solar,
             panels: self.panels,
             settings: &configuration.panels,
-            mass_at_zero: configuration.mass_at_zero(),
+            mass_at_zero: *mass_at_zero,
             time_s,
         }
     }
 }
 
 /// A configured flight, ready to be evaluated.
-pub struct Plant<'a, L> {
+pub struct Plant<'a> {
     prepared: PreparedSpacecraft<'a>,
     kinematics: Kinematics<'a>,
     segment: &'a mut Option<RadiationSegment>,
     light: Option<&'a mut RadiationSolver>,
     sun_choice: SunChoice,
-    external: L,
+    external: &'a External<'a>,
 }
 
-impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
+impl<'a> Plant<'a> {
     /// Units of a sample, sunlight on many faces aside: everything that is not read from a polynomial.
     const SAMPLE_UNITS: u32 = 3;
 
-    /// `propagator` belongs to this configuration, and so does `light`, without which direct sunlight is all there is;
-    /// `external` gives the load from outside at any time; `work` is what the step has cost so far.
+    /// `propagator` belongs to this world; `external` gives the load from outside at any time.
     pub fn new(
         prepared: PreparedSpacecraft<'a>,
-        configuration: &'a Configuration,
+        world: &'a mut World,
         propagator: &'a mut PropagatorState,
-        ephemeris: &'a mut Ephemeris,
-        light: Option<&'a mut RadiationSolver>,
-        external: L,
-        work: Work,
+        external: &'a External<'a>,
     ) -> Self {
+        let World { configuration, mass_at_zero, ephemeris, light, work } = world;
         let PropagatorState { trajectory, light: segment, sun_choice } = propagator;
-        let kinematics = Kinematics::new(configuration, trajectory, ephemeris, work);
-        Self { prepared, kinematics, segment, light, sun_choice: *sun_choice, external }
-    }
-
-    /// What the step has cost, the flight having come to `time_s`.
-    ///
-    /// # Errors
-    /// More than it may.
-    pub(crate) fn work(&mut self, time_s: f64) -> Result<Work, PlantError> {
-        self.kinematics.work(time_s)
+        let kinematics =
+            Kinematics { configuration, trajectory, ephemeris, work, mass_at_zero: *mass_at_zero };
+        Self { prepared, kinematics, segment, light: light.as_mut(), sun_choice: *sun_choice, external }
     }
 
     /// Everything at `time_s`, which the propagator must have reached ([`TorqueModel::prepare`]).
@@ -181,7 +202,7 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
                 planet_body_m,
             );
         }
-        let ExternalLoad { force_body_n, torque_body_n_m } = (self.external)(time_s);
+        let [ExternalLoad { force_body_n, torque_body_n_m }, _] = (self.external)(time_s);
         loads[Effect::Applied] = ForceTorque { force_body_n, torque_body_n_m };
         let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass, time_s);
         Evaluation { instant, loads, mass, panels_body_n_m_s }
@@ -189,7 +210,7 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
 
     /// Mass, centre of mass and inertia as the panels stand at `time_s`.
     pub fn mass_properties(&self, instant: &Instant, time_s: f64) -> MassProperties {
-        self.kinematics.configuration.mass_properties(self.prepared.panels, &instant.sun_body, time_s)
+        self.kinematics.mass_properties(self.prepared.panels, &instant.sun_body, time_s)
     }
 
     /// Momentum in N m s of the panels relative to the body, body frame, as their laws turn them at `time_s`.
@@ -210,7 +231,8 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
 
     /// The panels with what they belong to.
     pub(crate) fn hinged(&self) -> Hinged<'a> {
-        Hinged { panels: self.prepared.panels, configuration: self.kinematics.configuration }
+        let Kinematics { configuration, mass_at_zero, .. } = self.kinematics;
+        Hinged { panels: self.prepared.panels, configuration, mass_at_zero }
     }
 
     /// Where everything is and how the body stands at `time_s`.
@@ -264,8 +286,8 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
             let pressure_pa = configuration.light.pressure_pa(instant.sun_distance_m);
             let beam =
                 Beam { source_body: instant.sun_body, pressure_pa: pressure_pa * instant.lit_fraction };
-            loads[Effect::Solar] =
-                self.prepared.sunlight(configuration, &beam, center_of_mass_body_m, time_s);
+            let sunlit = self.prepared.sunlit(configuration, &self.kinematics.mass_at_zero, time_s);
+            loads[Effect::Solar] = sunlit.load(&beam, center_of_mass_body_m);
         }
         loads
     }
@@ -330,7 +352,7 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
     }
 }
 
-impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
+impl TorqueModel for Plant<'_> {
     type Failure = PlantError;
 
     fn prepare(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {

@@ -1,9 +1,18 @@
-//! The spacecraft in flight: ideal and dynamic attitude, forecasts.
+//! The spacecraft in flight: one flight in two modes, an attitude that is followed ideally and one by dynamics; forecasts.
 
-pub mod attitude_dynamics;
-pub mod current;
-pub mod ideal_flight;
+mod control_loop;
+mod craft;
+mod dynamic;
+mod ideal;
+mod momentum_dumps;
+mod sensing;
+
 pub mod outlook;
 pub mod propagator_state;
+pub mod report;
 pub mod sun_choice;
 pub mod wheel_control;
+pub mod whole;
+
+pub use craft::Given;
+pub use dynamic::StartMotion;

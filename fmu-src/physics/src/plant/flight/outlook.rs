@@ -6,14 +6,12 @@
 use nalgebra::{Rotation3, Vector3};
 
 use super::propagator_state::PropagatorState;
-use crate::environment::ephemeris::Ephemeris;
 use crate::guidance::{ChosenPlace, Guided};
 use crate::momentum::{Convention, DumpPolicy, MomentumIntegrator, Totals};
-use crate::plant::disturbances::evaluation::{ExternalLoad, Plant, PreparedSpacecraft};
-use crate::plant::light::radiation_solver::RadiationSolver;
-use crate::plant::settings::configuration::{AttitudeSource, Configuration};
+use crate::plant::disturbances::evaluation::{ExternalLoad, Plant, PreparedSpacecraft, World};
+use crate::plant::light::sunlit::SunlitCraft;
+use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::work::Work;
 
 /// Greatest last Chebyshev term of a forecast's totals, in N m s and m/s: far below any threshold.
 const FORECAST_TOLERANCE: f64 = 1e-6;
@@ -77,15 +75,12 @@ pub trait SunPlanner {
 /// Where a downlink begins.
 pub struct Outlook<'o> {
     pub(crate) prepared: PreparedSpacecraft<'o>,
-    pub(crate) configuration: &'o mut Configuration,
+    pub(crate) world: &'o mut World,
     pub(crate) propagator: &'o PropagatorState,
-    pub(crate) ephemeris: &'o mut Ephemeris,
-    pub(crate) light: Option<&'o mut RadiationSolver>,
     pub(crate) applied: ExternalLoad,
     pub(crate) law: Guided,
     pub(crate) totals: Totals,
     pub(crate) forecasts: bool,
-    pub(crate) work: &'o mut Work,
     /// When, in s.
     pub time_s: f64,
     /// How long the downlink lasts, in s.
@@ -103,14 +98,19 @@ pub struct Outlook<'o> {
 }
 
 impl Outlook<'_> {
+    fn sunlit(&self) -> SunlitCraft<'_> {
+        let World { configuration, mass_at_zero, .. } = &*self.world;
+        self.prepared.sunlit(configuration, mass_at_zero, self.time_s)
+    }
+
     /// Torque of direct sunlight without shadows in N m, body frame, the Sun being there in the body frame.
     pub fn torque_body_n_m(&self, sun_body: &Vector3<f64>) -> Vector3<f64> {
-        self.prepared.sunlit(self.configuration, self.time_s).torque_body_n_m(sun_body, self.pressure_pa)
+        self.sunlit().torque_body_n_m(sun_body, self.pressure_pa)
     }
 
     /// Centre of mass with the panels as they stand to a Sun on -Y, body frame, in m.
     pub fn center_of_mass_body_m(&self) -> Vector3<f64> {
-        self.prepared.sunlit(self.configuration, self.time_s).center_of_mass_body_m()
+        self.sunlit().center_of_mass_body_m()
     }
 
     /// Length of a cycle of science and downlink, in s; infinite where none follows, and where nothing may be forecast.
@@ -133,7 +133,8 @@ impl Outlook<'_> {
         step_s: f64,
         mut visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), PlantError> {
-        let Self { configuration, law, totals, work, time_s, applied, .. } = self;
+        let Self { world, law, totals, time_s, applied, .. } = self;
+        let configuration = &mut world.configuration;
         let guided = Guided { managed: false, sun_place: None, ..*law };
         let attitude = core::mem::replace(&mut configuration.attitude, AttitudeSource::Guided(guided));
         let (momentum, light_and_heat) = (configuration.momentum, configuration.light_and_heat);
@@ -145,27 +146,15 @@ impl Outlook<'_> {
         let settings = configuration.momentum;
         let mut propagator = self.propagator.clone();
         propagator.cut(configuration, *time_s, true);
-        let applied = *applied;
+        let applied = [*applied, ExternalLoad::default()];
+        let external = |_: f64| applied;
         let mut integrator = MomentumIntegrator::new(*time_s, *totals);
         let mut flown = Ok(());
         for at_s in times_s {
-            let mut plant = Plant::new(
-                self.prepared,
-                configuration,
-                &mut propagator,
-                self.ephemeris,
-                self.light.as_deref_mut(),
-                |_| applied,
-                **work,
-            );
-            let cost =
-                integrator.advance(&mut plant, &settings, at_s, |_| {}).and_then(|()| plant.work(at_s));
-            match cost {
-                Ok(cost) => **work = cost,
-                Err(error) => {
-                    flown = Err(error);
-                    break;
-                }
+            let mut plant = Plant::new(self.prepared, world, &mut propagator, &external);
+            flown = integrator.advance(&mut plant, &settings, at_s, |_| {});
+            if flown.is_err() {
+                break;
             }
             let instant = plant.instant(at_s);
             let (totals, inertial_from_body) = (integrator.totals(at_s), instant.frame.inertial_from_body);
@@ -180,6 +169,7 @@ impl Outlook<'_> {
                 body_from_inertial: inertial_from_body.inverse(),
             });
         }
+        let configuration = &mut world.configuration;
         configuration.attitude = attitude;
         (configuration.momentum, configuration.light_and_heat) = (momentum, light_and_heat);
         flown
@@ -187,11 +177,11 @@ impl Outlook<'_> {
 
     /// Which momentum the flight's convention watches.
     pub fn convention(&self) -> Convention {
-        self.configuration.momentum.convention
+        self.world.configuration.momentum.convention
     }
 
     /// When thrusters dump, and what they leave.
     pub fn dump_policy(&self) -> DumpPolicy {
-        self.configuration.momentum.policy
+        self.world.configuration.momentum.policy
     }
 }

@@ -63,9 +63,9 @@ impl WheelControl {
     }
 
     /// Takes note of which wheels (0-based) failed: their motors give nothing.
-    pub fn fail(&mut self, failed: &dyn Fn(usize) -> bool) {
-        for (k, motor) in self.motors.iter_mut().enumerate() {
-            motor.failed = failed(k);
+    pub fn fail(&mut self, failed: &[bool]) {
+        for (motor, failed) in self.motors.iter_mut().zip(failed) {
+            motor.failed = *failed;
             if motor.failed {
                 motor.torque_n_m = 0.0;
             }
@@ -73,10 +73,10 @@ impl WheelControl {
     }
 
     /// Torques from outside, in N m, as far as the motors give them.
-    pub fn drive(&mut self, gyrostat: &Gyrostat, torque_n_m: &dyn Fn(usize) -> f64) {
-        for (k, (motor, wheel)) in self.motors.iter_mut().zip(gyrostat.wheels()).enumerate() {
+    pub fn drive(&mut self, gyrostat: &Gyrostat, torques_n_m: &[f64]) {
+        for ((motor, wheel), torque_n_m) in self.motors.iter_mut().zip(gyrostat.wheels()).zip(torques_n_m) {
             if !motor.failed {
-                motor.torque_n_m = torque_n_m(k).clamp(-wheel.max_torque_n_m, wheel.max_torque_n_m);
+                motor.torque_n_m = torque_n_m.clamp(-wheel.max_torque_n_m, wheel.max_torque_n_m);
             }
         }
     }

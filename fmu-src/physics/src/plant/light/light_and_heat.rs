@@ -44,7 +44,7 @@ impl RadiationBuilder<'_, '_> {
         // Inside the planet there is no fraction; what is wrong there is the place.
         viewing.lit_fraction = if instant.lit_fraction.is_nan() { 0.0 } else { instant.lit_fraction };
         viewing.center_of_mass_body_m =
-            configuration.mass_properties(self.panels, &instant.sun_body, time_s).center_of_mass_body_m;
+            self.kinematics.mass_properties(self.panels, &instant.sun_body, time_s).center_of_mass_body_m;
         viewing.planet = instant.planet_body_m.map(|position_body_m| {
             let sun_from_planet_body_m = instant.sun_position_body_m() - position_body_m;
             let sun_flux_w_m2 = flux_w_m2(sun_from_planet_body_m.norm());

@@ -13,8 +13,9 @@ use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
 use crate::numerics::intervals::{first_change_s, sampled_range};
 use crate::numerics::spacing::spacing;
+use crate::spacecraft::{MassProperties, Panel};
 
-use nalgebra::Rotation3;
+use nalgebra::{Rotation3, Vector3};
 
 use super::geometry::Geometry;
 use super::instant::{Instant, Regime};
@@ -43,51 +44,32 @@ pub(crate) struct Kinematics<'a> {
     pub configuration: &'a Configuration,
     pub trajectory: &'a mut Trajectory,
     pub ephemeris: &'a mut Ephemeris,
-    work: Work,
-    /// Spent on event functions and not counted yet.
-    searched_units: u32,
-    /// Spent on the attitude alone, where a dump is sought, and not counted yet.
-    dump_search_units: u32,
+    /// What the step has cost so far.
+    pub work: &'a mut Work,
+    /// With every panel at angle 0, of what is left of the propellant.
+    pub mass_at_zero: MassProperties,
 }
 
-impl<'a> Kinematics<'a> {
-    /// `trajectory` belongs to this configuration; `work` is what the step has cost so far.
-    pub fn new(
-        configuration: &'a Configuration,
-        trajectory: &'a mut Trajectory,
-        ephemeris: &'a mut Ephemeris,
-        work: Work,
-    ) -> Self {
-        Self { configuration, trajectory, ephemeris, work, searched_units: 0, dump_search_units: 0 }
-    }
-
+impl Kinematics<'_> {
     /// Counts work, the flight having come to `time_s`.
     pub fn spend_units(&mut self, cost: Cost, units: u32, time_s: f64) -> Result<(), PlantError> {
-        let searched = core::mem::take(&mut self.searched_units);
-        self.work.spend(Cost::Search, searched, self.ephemeris.evaluations(), time_s)?;
-        let for_dumps = core::mem::take(&mut self.dump_search_units);
-        self.work.spend(Cost::Dump, for_dumps, self.ephemeris.evaluations(), time_s)?;
         Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
     }
 
-    /// What the step has cost, the flight having come to `time_s`.
-    ///
-    /// # Errors
-    /// More than it may.
-    pub fn work(&mut self, time_s: f64) -> Result<Work, PlantError> {
-        self.spend_units(Cost::Search, 0, time_s)?;
-        Ok(self.work)
+    /// Mass, centre of mass and inertia as the panels stand at `time_s`, the Sun being there (unit vector, body frame).
+    pub fn mass_properties(&self, panels: &[Panel], sun_body: &Vector3<f64>, time_s: f64) -> MassProperties {
+        self.configuration.mass_properties(&self.mass_at_zero, panels, sun_body, time_s)
     }
 
     /// The event functions alone, counted as a search.
     pub fn events(&mut self, time_s: f64) -> EventValues {
-        self.searched_units = self.searched_units.saturating_add(1);
+        self.work.note_search();
         self.instant(time_s).events
     }
 
     /// Matrix that takes body components to EME2000 alone, by which a dump is sought and for which it counts.
     pub fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64> {
-        self.dump_search_units = self.dump_search_units.saturating_add(1);
+        self.work.note_dump_search();
         let geometry = self.geometry(time_s);
         self.attitude(time_s, &geometry).frame.inertial_from_body
     }

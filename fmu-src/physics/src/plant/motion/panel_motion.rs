@@ -57,11 +57,13 @@ pub struct PanelMotion {
 pub(crate) struct Hinged<'a> {
     pub panels: &'a [Panel],
     pub configuration: &'a Configuration,
+    /// With every panel at angle 0.
+    pub mass_at_zero: MassProperties,
 }
 
 impl Hinged<'_> {
     fn mass_at(&self, angle_rad: impl Fn(usize) -> f64) -> MassProperties {
-        with_panels(&self.configuration.mass_at_zero(), self.panels, angle_rad)
+        with_panels(&self.mass_at_zero, self.panels, angle_rad)
     }
 }
 

@@ -209,12 +209,7 @@ pub fn orbit_from_elements(
 }
 
 impl Configuration {
-    /// Mass, centre of mass and inertia with every panel at angle 0, of what is left.
-    pub fn mass_at_zero(&self) -> MassProperties {
-        self.left.unwrap_or_else(|| self.loaded())
-    }
-
-    /// The same with full tanks.
+    /// Mass, centre of mass and inertia with every panel at angle 0 and full tanks.
     pub fn loaded(&self) -> MassProperties {
         MassProperties {
             mass_kg: self.mass_kg,
@@ -223,11 +218,15 @@ impl Configuration {
         }
     }
 
-    /// Mass, centre of mass and inertia as the panels stand at `time_s`, the Sun being there (unit vector, body frame).
-    pub fn mass_properties(&self, panels: &[Panel], sun_body: &Vector3<f64>, time_s: f64) -> MassProperties {
-        with_panels(&self.mass_at_zero(), panels, |index| {
-            self.panel_angle_rad(panels, index, sun_body, time_s)
-        })
+    /// The same of a body that has `at_zero`, as the panels stand at `time_s`, the Sun being there (unit vector, body frame).
+    pub fn mass_properties(
+        &self,
+        at_zero: &MassProperties,
+        panels: &[Panel],
+        sun_body: &Vector3<f64>,
+        time_s: f64,
+    ) -> MassProperties {
+        with_panels(at_zero, panels, |index| self.panel_angle_rad(panels, index, sun_body, time_s))
     }
 
     /// Momentum of the panels relative to the body in N m s, body frame, as they turn at `time_s` about the centre of `mass`, the
@@ -282,8 +281,6 @@ pub struct Configuration {
     pub sunshade: SunshadeModel,
     /// One setting a panel.
     pub panels: Vec<PanelSetting>,
-    /// Mass properties without the propellant used, with every panel at angle 0; absent while none is.
-    pub left: Option<MassProperties>,
     /// Centre of mass, body frame, in m, with every panel at angle 0 and full tanks.
     pub center_of_mass_body_m: Vector3<f64>,
     /// Mass, in kg, with full tanks.

@@ -11,8 +11,7 @@ use crate::propulsion::PulseCommand;
 use crate::spacecraft::MassProperties;
 
 use super::configuration::Command;
-use super::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
-use crate::plant::disturbances::evaluation::ExternalLoad;
+use super::reaction_control_settings::ThrustCommand;
 use crate::plant::flight::wheel_control::WheelControlSettings;
 
 /// What parameters say about dynamics and control.
@@ -32,14 +31,10 @@ pub struct DynamicsSettings {
     pub control: Option<Control>,
     /// Thresholds and what a dump leaves.
     pub dump: DumpPolicy,
-    /// Thrusters and tanks; without thrusters a dump is a constant torque.
-    pub thrusters: ReactionControlSettings,
     /// Edges of the disturbance grid are multiples of this, in s.
     pub grid_s: f64,
     /// Whether panels that turn have a mass: the inertia then follows them from one edge of the grid to the next.
     pub panels_have_mass: bool,
-    /// Units of about a microsecond that a step may take.
-    pub work_limit: u32,
 }
 
 impl DynamicsSettings {
@@ -92,22 +87,59 @@ pub enum Tracked {
     Rate(Vector3<f64>),
 }
 
-/// What the inputs of a step say.
-pub struct DynamicsInputs<'i> {
+/// What the inputs of a step say; filled anew in every step.
+#[derive(Clone, Debug)]
+pub struct DynamicsInputs {
     /// What the controller tracks.
     pub tracked: Tracked,
-    /// Torque that wheel k (0-based) is commanded in free flight, in N m.
-    pub wheel_torque_n_m: &'i dyn Fn(usize) -> f64,
-    /// Whether wheel k (0-based) failed.
-    pub wheel_failed: &'i dyn Fn(usize) -> bool,
-    /// Whether Sun sensor k (0-based) failed.
-    pub sun_sensor_failed: &'i dyn Fn(usize) -> bool,
-    /// Pulse that thruster k (0-based) is commanded within the step.
-    pub pulse: &'i dyn Fn(usize) -> PulseCommand,
+    /// Torque that each wheel is commanded in free flight, in N m.
+    pub wheel_torques_n_m: Vec<f64>,
+    /// Which wheels failed.
+    pub wheel_failed: Vec<bool>,
+    /// Which Sun sensors failed.
+    pub sun_sensor_failed: Vec<bool>,
+    /// Pulse that each thruster is commanded within the step.
+    pub pulses: Vec<PulseCommand>,
     /// The delta-v commanded.
     pub thrust: ThrustCommand,
     /// Which of star tracker and gyros work.
     pub health: SensorHealth,
-    /// Force and torque from outside at a time, body frame, and how they change per second.
-    pub external: &'i dyn Fn(f64) -> [ExternalLoad; 2],
+    /// Momentum that a dump which is requested leaves, body frame, in N m s.
+    pub dump_to_body_n_m_s: Option<Vector3<f64>>,
+}
+
+impl DynamicsInputs {
+    /// Of a spacecraft without wheels, Sun sensors and thrusters.
+    pub fn new(tracked: Tracked, thrust: ThrustCommand, health: SensorHealth) -> Self {
+        Self {
+            tracked,
+            wheel_torques_n_m: Vec::new(),
+            wheel_failed: Vec::new(),
+            sun_sensor_failed: Vec::new(),
+            pulses: Vec::new(),
+            thrust,
+            health,
+            dump_to_body_n_m_s: None,
+        }
+    }
+
+    /// Puts these in the place of the last ones: torque of each wheel in N m and whether it failed, which Sun sensors failed,
+    /// pulses of the thrusters.
+    pub fn refill(
+        &mut self,
+        wheels: impl Iterator<Item = (f64, bool)>,
+        sun_sensors: impl Iterator<Item = bool>,
+        pulses: impl Iterator<Item = PulseCommand>,
+    ) {
+        self.wheel_torques_n_m.clear();
+        self.wheel_failed.clear();
+        for (torque_n_m, failed) in wheels {
+            self.wheel_torques_n_m.push(torque_n_m);
+            self.wheel_failed.push(failed);
+        }
+        self.sun_sensor_failed.clear();
+        self.sun_sensor_failed.extend(sun_sensors);
+        self.pulses.clear();
+        self.pulses.extend(pulses);
+    }
 }

@@ -56,6 +56,9 @@ pub enum PlantError {
     /// More work than a step may take.
     #[error(transparent)]
     Work(#[from] WorkExceeded),
+    /// Restored bytes of another way to fly.
+    #[error("the state holds another kind of flight: it belongs to another attitude.source")]
+    OtherMode,
     /// An orbit that goes no further: restored bytes that belong to another kind of motion.
     #[error(
         "the orbit ends at {end_s:?} s and does not go on from {start_s:?} s: the state belongs to another orbit.dynamics"

@@ -4,6 +4,7 @@ pub mod configuration;
 pub mod control_defaults;
 pub mod dynamics_settings;
 pub mod error;
+pub mod ideal_settings;
 pub mod panel_setting;
 pub mod radiation_settings;
 pub mod reaction_control_settings;

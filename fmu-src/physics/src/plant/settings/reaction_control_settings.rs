@@ -65,22 +65,31 @@ impl ReactionControlSettings {
             [force + it.force_body_n, torque + it.torque_about_n_m(center_of_mass_body_m)]
         })
     }
+}
 
+/// Thrusters as their tanks feed them at a time.
+pub(crate) struct Feed<'a> {
+    pub settings: &'a ReactionControlSettings,
+    pub propellant: &'a PropellantState,
+    pub time_s: f64,
+}
+
+impl Feed<'_> {
     /// Thrust of thruster `k` over its nominal one, by the pressure of its tank.
-    pub fn pressure_ratio(&self, propellant: &PropellantState, k: usize, time_s: f64) -> f64 {
-        let thruster = &self.thrusters[k];
-        self.tanks.get(thruster.tank).map_or(0.0, |tank| {
-            let used_kg = propellant.used_kg(thruster.tank, time_s);
+    pub fn pressure_ratio(&self, k: usize) -> f64 {
+        let thruster = &self.settings.thrusters[k];
+        self.settings.tanks.get(thruster.tank).map_or(0.0, |tank| {
+            let used_kg = self.propellant.used_kg(thruster.tank, self.time_s);
             tank.pressure_pa(used_kg) / thruster.at_pressure_pa.unwrap_or(tank.pressure_pa)
         })
     }
 
     /// How long the valve of thruster `k` opens for so many seconds of nominal thrust; not below zero.
-    pub fn opens_for_s(&self, propellant: &PropellantState, k: usize, full_s: f64, time_s: f64) -> f64 {
+    pub fn opens_for_s(&self, k: usize, full_s: f64) -> f64 {
         if full_s <= 0.0 {
             return 0.0;
         }
-        self.thrusters[k].valve.on_s(full_s / self.pressure_ratio(propellant, k, time_s)).max(0.0)
+        self.settings.thrusters[k].valve.on_s(full_s / self.pressure_ratio(k)).max(0.0)
     }
 }
 

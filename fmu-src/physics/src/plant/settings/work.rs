@@ -51,6 +51,8 @@ pub struct Work {
     spent: numerics::work::Work<{ Cost::ALL.len() }>,
     /// Evaluations of the theory of the planets counted so far.
     evaluations: u64,
+    /// Units of event functions, and of the attitude alone where a dump is sought, that are not counted yet.
+    searched: [u32; 2],
 }
 
 /// A step that costs more than it may.
@@ -73,7 +75,17 @@ impl Work {
 
     /// Nothing spent of `limit` units; the ephemeris counts this many evaluations of its theory so far.
     pub fn new(limit: u32, evaluations: u64) -> Self {
-        Self { spent: numerics::work::Work::new(limit), evaluations }
+        Self { spent: numerics::work::Work::new(limit), evaluations, searched: [0; 2] }
+    }
+
+    /// A unit for an event function, to be counted with the next that is spent.
+    pub(crate) fn note_search(&mut self) {
+        self.searched[0] = self.searched[0].saturating_add(1);
+    }
+
+    /// A unit for the attitude alone, by which a dump is sought, to be counted with the next that is spent.
+    pub(crate) fn note_dump_search(&mut self) {
+        self.searched[1] = self.searched[1].saturating_add(1);
     }
 
     /// Counts `units`, the flight having come to `time_s`, and what the ephemeris counts by now.
@@ -87,6 +99,9 @@ impl Work {
         evaluations: u64,
         time_s: f64,
     ) -> Result<(), WorkExceeded> {
+        for (search, noted) in [Cost::Search, Cost::Dump].into_iter().zip(&mut self.searched) {
+            self.spent.spend(search as usize, core::mem::take(noted));
+        }
         self.spent.spend(cost as usize, units);
         let fitted = evaluations.saturating_sub(self.evaluations).saturating_mul(Self::EVALUATION_UNITS);
         self.evaluations = evaluations;

@@ -2,4 +2,5 @@
 
 pub mod pulsed_dump;
 pub mod reaction_control;
+mod selected;
 pub mod thruster_load;

@@ -9,11 +9,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::Quaternion;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
-use crate::propulsion::{PropellantState, ThrusterSelection};
-use crate::spacecraft::{MOST_THRUSTERS, MassProperties};
+use crate::propulsion::ThrusterSelection;
+use crate::spacecraft::MOST_THRUSTERS;
 
 use super::thruster_load::ThrusterTotals;
-use crate::plant::settings::reaction_control_settings::ReactionControlSettings;
+use crate::plant::settings::reaction_control_settings::Feed;
 
 /// A pulse at the end of a dump leaves less than this share of what was left.
 const NEARER: f64 = 0.7;
@@ -76,17 +76,16 @@ impl PulsedDump {
             && self.owed_s.iter().all(|owed_s| *owed_s >= 0.0 && sound(owed_s))
     }
 
-    /// Decides the pulses at `time_s`: for how long each thruster opens, where this is left to give, body frame, in N m s.
+    /// Decides the pulses now: for how long each thruster opens, where this is left to give, body frame, in N m s.
     pub(crate) fn decide(
         &mut self,
-        settings: &ReactionControlSettings,
+        feed: &Feed<'_>,
         selection: &ThrusterSelection,
-        propellant: &PropellantState,
         left_body_n_m_s: &Vector3<f64>,
-        mass: &MassProperties,
-        time_s: f64,
+        center_of_mass_body_m: &Vector3<f64>,
     ) -> [f64; MOST_THRUSTERS] {
-        let torque = |k: usize| settings.thrusters[k].torque_about_n_m(&mass.center_of_mass_body_m);
+        let Feed { settings, time_s, .. } = *feed;
+        let torque = |k: usize| settings.thrusters[k].torque_about_n_m(center_of_mass_body_m);
         let shortest_s = |k: usize| settings.thrusters[k].valve.min_on_s;
         let most_n_m_s = settings.dump_torque_n_m * settings.dump_period_s;
         let owed = |owed_s: &[f64; MOST_THRUSTERS]| -> Vector3<f64> {
@@ -98,7 +97,7 @@ impl PulsedDump {
         let mut given_body_n_m_s = Vector3::zeros();
         for (k, full_s) in selection.on_times_s(&new_body_n_m_s).enumerate() {
             self.owed_s[k] += full_s * part;
-            let on_s = settings.opens_for_s(propellant, k, self.owed_s[k], time_s);
+            let on_s = feed.opens_for_s(k, self.owed_s[k]);
             if on_s > 0.0 && on_s >= shortest_s(k) {
                 given_body_n_m_s += torque(k) * self.owed_s[k];
                 (opened_s[k], self.owed_s[k]) = (on_s, 0.0);
@@ -108,7 +107,7 @@ impl PulsedDump {
             // All that is left is owed, each thruster less than its shortest pulse: those that come nearest.
             let shortest = |k: usize| {
                 let full_s = settings.thrusters[k].valve.full_thrust_s(shortest_s(k));
-                torque(k) * (full_s * settings.pressure_ratio(propellant, k, time_s))
+                torque(k) * (full_s * feed.pressure_ratio(k))
             };
             let mut left = owed(&self.owed_s);
             let pulses = (0..settings.thrusters.len()).filter(|k| selection.uses(*k) && shortest_s(*k) > 0.0);

@@ -10,14 +10,16 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::GyrostatMotion;
+use crate::momentum::DumpEvent;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::quadrature::GAUSS_3;
-use crate::propulsion::{PropellantState, PulseCommand, PulseSchedule, ThrusterSelection, Valve, due_s};
+use crate::propulsion::{PropellantState, PulseCommand, PulseSchedule, Valve, due_s};
 use crate::spacecraft::{MassProperties, Thrust, Thruster, ThrusterSet};
 
 use super::pulsed_dump::PulsedDump;
+use super::selected::{Purpose, Selected};
 use super::thruster_load::{ThrusterLoad, ThrusterTotals};
-use crate::plant::settings::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
+use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings, ThrustCommand};
 
 /// A delta-v at hand.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,9 +29,14 @@ struct Burn {
     stop_s: f64,
 }
 
-/// Thrusters of the plant.
+/// Thrusters of the plant: what they are, what is left in their tanks, and what their valves do.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct ReactionControl {
+pub struct Thrusters {
+    /// What parameters say; in a state that was restored nothing, until it is said again.
+    #[serde(skip)]
+    pub settings: ReactionControlSettings,
+    /// Propellant used so far.
+    pub propellant: PropellantState,
     valves: Vec<Valve>,
     schedule: Vec<PulseSchedule>,
     burn: Option<Burn>,
@@ -39,24 +46,18 @@ pub struct ReactionControl {
     /// How many dumps found no thrusters that give torque all ways about the centre of mass.
     unserved_dumps: u32,
     #[serde(skip)]
-    for_dumps: Option<Selected>,
+    for_dumps: Selected,
     #[serde(skip)]
-    for_attitude: Option<Selected>,
+    for_attitude: Selected,
 }
 
-/// Which thrusters give which torque about a centre of mass while a set fires; a cache.
-#[derive(Clone, Debug)]
-struct Selected {
-    center_of_mass_body_m: Vector3<f64>,
-    burning: Option<ThrusterSet>,
-    selection: Option<ThrusterSelection>,
-}
-
-impl ReactionControl {
-    /// With every valve closed.
-    pub fn new(settings: &ReactionControlSettings, time_s: f64) -> Self {
+impl Thrusters {
+    /// With every valve closed and every tank as loaded.
+    pub fn new(settings: ReactionControlSettings, time_s: f64) -> Self {
         let count = settings.thrusters.len();
         Self {
+            propellant: PropellantState::new(settings.tanks.len(), time_s),
+            settings,
             valves: vec![Valve::default(); count],
             schedule: vec![PulseSchedule::default(); count],
             burn: None,
@@ -64,17 +65,18 @@ impl ReactionControl {
             load: ThrusterLoad::none(time_s, 1.0),
             totals: ThrusterTotals::default(),
             unserved_dumps: 0,
-            for_dumps: None,
-            for_attitude: None,
+            for_dumps: Selected::default(),
+            for_attitude: Selected::default(),
         }
     }
 
-    /// Whether its numbers can come from a flight with so many thrusters; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self, thrusters: usize) -> bool {
+    /// Whether its numbers can come from a flight with so many thrusters and tanks; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self, thrusters: usize, tanks: usize) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let later = |x: &f64| sound(x) || *x == f64::INFINITY;
         self.valves.len() == thrusters
             && self.schedule.len() == thrusters
+            && self.propellant.is_sound(tanks)
             && self.valves.iter().all(Valve::is_sound)
             && self.schedule.iter().all(PulseSchedule::is_sound)
             && self.burn.is_none_or(|it| sound(&it.since_s) && later(&it.stop_s))
@@ -83,38 +85,28 @@ impl ReactionControl {
             && self.totals.is_sound()
     }
 
-    /// Takes the pulses commanded for the step from `start_s` to `end_s`, by the law of [`PulseSchedule`]. Whether there are any.
-    pub fn command_pulses(
-        &mut self,
-        settings: &ReactionControlSettings,
-        pulse: &dyn Fn(usize) -> PulseCommand,
-        start_s: f64,
-        end_s: f64,
-    ) -> bool {
+    /// Takes the pulses commanded for the step over `span_s`, by the law of [`PulseSchedule`]. Whether there are any.
+    pub fn command_pulses(&mut self, pulses: &[PulseCommand], span_s: [f64; 2]) -> bool {
         let mut any = false;
-        for (k, thruster) in settings.thrusters.iter().enumerate() {
+        let is_dumping = self.is_dumping();
+        for (k, (thruster, pulse)) in self.settings.thrusters.iter().zip(pulses).enumerate() {
             // What thrusters do on their own goes on.
-            let is_own = self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) || self.is_dumping();
-            any |= self.schedule[k].command(&thruster.valve, &pulse(k), [start_s, end_s], !is_own);
+            let is_own = self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) || is_dumping;
+            any |= self.schedule[k].command(&thruster.valve, pulse, span_s, !is_own);
         }
         any
     }
 
     /// Takes the command of a delta-v that holds from `time_s` on; whether it changes what was going to happen.
-    pub fn command_thrust(
-        &mut self,
-        settings: &ReactionControlSettings,
-        command: &ThrustCommand,
-        time_s: f64,
-    ) -> bool {
+    pub fn command_thrust(&mut self, command: &ThrustCommand, time_s: f64) -> bool {
         // A set without thrusters gives no delta-v.
-        let has_thrusters = |set| settings.thrusters.iter().any(|it| it.set == Some(set));
+        let has_thrusters = |set| self.settings.thrusters.iter().any(|it| it.set == Some(set));
         let wanted = command.set.filter(|set| command.stop_s > due_s(time_s) && has_thrusters(*set));
         let before = self.burn.map(|burn| (burn.set, burn.stop_s));
         if wanted.map(|set| (set, command.stop_s)) == before {
             return false;
         }
-        for (k, thruster) in settings.thrusters.iter().enumerate() {
+        for (k, thruster) in self.settings.thrusters.iter().enumerate() {
             if self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) {
                 self.schedule[k].end(time_s);
             }
@@ -132,29 +124,25 @@ impl ReactionControl {
     }
 
     /// When something about the thrusters next changes by itself, in s.
-    pub fn next_edge_s(&self, settings: &ReactionControlSettings, propellant: &PropellantState) -> f64 {
+    pub fn next_edge_s(&self) -> f64 {
         let mut next_s = f64::INFINITY;
-        for (k, thruster) in settings.thrusters.iter().enumerate() {
+        for (k, thruster) in self.settings.thrusters.iter().enumerate() {
             let (valve, pulse) = (&self.valves[k], &self.schedule[k]);
             let edge_s = pulse.opens_s().min(pulse.closes_s());
             next_s = next_s.min(edge_s).min(valve.ramp_end_s(&thruster.valve));
         }
         if !self.load.law.is_none() {
-            for (k, tank) in settings.tanks.iter().enumerate() {
-                next_s = next_s.min(propellant.dry_s(k, tank));
+            for (k, tank) in self.settings.tanks.iter().enumerate() {
+                next_s = next_s.min(self.propellant.dry_s(k, tank));
             }
         }
         next_s
     }
 
     /// Opens and closes the valves whose time has come.
-    pub fn take_edges(
-        &mut self,
-        settings: &ReactionControlSettings,
-        propellant: &mut PropellantState,
-        time_s: f64,
-    ) {
+    pub fn take_edges(&mut self, time_s: f64) {
         let due_s = due_s(time_s);
+        let Self { settings, propellant, .. } = self;
         for (index, tank) in settings.tanks.iter().enumerate() {
             if propellant.dry_s(index, tank) <= due_s {
                 propellant.empty(index, tank);
@@ -190,73 +178,61 @@ impl ReactionControl {
     }
 
     /// Counts what thrusters did up to `time_s`, the end of the motion's present segment.
-    pub fn settle(&mut self, motion: &GyrostatMotion, propellant: &mut PropellantState, time_s: f64) {
+    pub fn settle(&mut self, motion: &GyrostatMotion, time_s: f64) {
         if !self.load.law.is_none() {
             self.totals = self.totals_at(motion, time_s);
-            propellant.settle(time_s);
+            self.propellant.settle(time_s);
         }
     }
 
     /// Works out what the thrusters exert from `time_s` on, on a spacecraft with these mass properties then.
-    pub fn exert(
-        &mut self,
-        settings: &ReactionControlSettings,
-        propellant: &mut PropellantState,
-        mass: &MassProperties,
-        time_s: f64,
-    ) {
-        let center_of_mass_body_m = &mass.center_of_mass_body_m;
+    pub fn exert(&mut self, mass: &MassProperties, time_s: f64) {
         self.load = ThrusterLoad::none(time_s, mass.mass_kg);
-        let thrusters = || settings.thrusters.iter().enumerate();
-        let thrust = |k: usize, thruster: &Thruster| self.valves[k].thrust(&thruster.valve, time_s);
-        if thrusters().all(|(k, thruster)| thrust(k, thruster) == [0.0; 2]) {
+        let (thrusters, valves) = (&self.settings.thrusters, &self.valves);
+        let thrust = |k: usize| valves[k].thrust(&thrusters[k].valve, time_s);
+        if (0..thrusters.len()).all(|k| thrust(k) == [0.0; 2]) {
             return;
         }
-        propellant.settle(time_s);
-        let mut load = self.load;
+        self.propellant.settle(time_s);
         let mut nozzles_kg_m_s = Vector3::zeros();
-        for (index, tank) in settings.tanks.iter().enumerate() {
-            let fed = || thrusters().filter(|(_, thruster)| thruster.tank == index);
-            let used_kg = propellant.used_kg(index, time_s);
+        for (index, tank) in self.settings.tanks.iter().enumerate() {
+            let fed = || thrusters.iter().enumerate().filter(|(_, thruster)| thruster.tank == index);
+            let used_kg = self.propellant.used_kg(index, time_s);
             // Pressure over that of the nominal thrust, and its slope.
             let over = |thruster: &Thruster| {
                 let nominal_pa = thruster.at_pressure_pa.unwrap_or(tank.pressure_pa);
                 [tank.pressure_pa(used_kg), tank.pressure_slope_pa_kg(used_kg)].map(|it| it / nominal_pa)
             };
-            let flow_kg_s: f64 = fed()
-                .map(|(k, thruster)| thruster.flow_kg_s * thrust(k, thruster)[0] * over(thruster)[0])
-                .sum();
+            let flow_kg_s: f64 =
+                fed().map(|(k, thruster)| thruster.flow_kg_s * thrust(k)[0] * over(thruster)[0]).sum();
             for (k, thruster) in fed() {
-                let ([fraction, slope], [pressure, per_kg]) = (thrust(k, thruster), over(thruster));
+                let ([fraction, slope], [pressure, per_kg]) = (thrust(k), over(thruster));
                 let share = [fraction * pressure, slope * pressure + fraction * per_kg * flow_kg_s];
                 if share == [0.0; 2] {
                     continue;
                 }
-                let force_body_n = self.force_body_n(settings, k, time_s);
-                let arm_m = thruster.position_body_m - center_of_mass_body_m;
+                let force_body_n = self.force_body_n(k, time_s);
+                let arm_m = thruster.position_body_m - mass.center_of_mass_body_m;
                 let torque_body_n_m = arm_m.cross(&force_body_n);
-                propellant.add_flow(index, share.map(|part| thruster.flow_kg_s * part));
                 let flow_kg_s = thruster.flow_kg_s;
+                self.propellant.add_flow(index, share.map(|part| flow_kg_s * part));
                 nozzles_kg_m_s += arm_m * (flow_kg_s * share[0]);
-                load.add(&Thrust { force_body_n, torque_body_n_m, flow_kg_s }, &arm_m, share);
+                self.load.add(&Thrust { force_body_n, torque_body_n_m, flow_kg_s }, &arm_m, share);
             }
         }
-        let drained = settings
-            .tanks
-            .iter()
-            .enumerate()
-            .map(|(k, tank)| (propellant.flow_kg_s(k), tank.position_body_m - center_of_mass_body_m));
-        load.drain(drained, &nozzles_kg_m_s);
-        self.load = load;
+        let drained = self.settings.tanks.iter().enumerate().map(|(k, tank)| {
+            (self.propellant.flow_kg_s(k), tank.position_body_m - mass.center_of_mass_body_m)
+        });
+        self.load.drain(drained, &nozzles_kg_m_s);
     }
 
     /// Full thrust of thruster `k` as it points now.
-    fn force_body_n(&self, settings: &ReactionControlSettings, k: usize, time_s: f64) -> Vector3<f64> {
-        let thruster = &settings.thrusters[k];
+    fn force_body_n(&self, k: usize, time_s: f64) -> Vector3<f64> {
+        let thruster = &self.settings.thrusters[k];
         match self.burn {
             Some(burn) if thruster.set == Some(burn.set) => {
-                let [along, _] = settings.nominal_thrust(burn.set, &Vector3::zeros());
-                settings.errors.turned(&thruster.force_body_n, &along, time_s - burn.since_s)
+                let [along, _] = self.settings.nominal_thrust(burn.set, &Vector3::zeros());
+                self.settings.errors.turned(&thruster.force_body_n, &along, time_s - burn.since_s)
             }
             _ => thruster.force_body_n,
         }
@@ -290,32 +266,51 @@ impl ReactionControl {
         self.burn.map(|burn| burn.set)
     }
 
-    /// Whether there are thrusters that dump about this centre of mass; a dump that is about to begin and finds none is counted.
-    pub fn serves_dump(
-        &mut self,
-        settings: &ReactionControlSettings,
-        center_of_mass_body_m: &Vector3<f64>,
-    ) -> bool {
-        let selection = selected(&mut self.for_dumps, None, center_of_mass_body_m, || {
-            settings.dump_selection(center_of_mass_body_m).ok()
-        });
-        let serves = selection.is_some();
-        if !serves {
-            self.dump = None;
-            self.unserved_dumps = self.unserved_dumps.saturating_add(1);
-        }
-        serves
-    }
-
     /// How many dumps so far began or ended without thrusters that give torque all ways about the centre of mass.
     pub fn unserved_dumps(&self) -> u32 {
         self.unserved_dumps
     }
 
-    /// Begins a dump at `time_s` toward a total momentum, EME2000, in N m s.
-    pub fn begin_dump(&mut self, motion: &GyrostatMotion, target_inertial_n_m_s: Vector3<f64>, time_s: f64) {
+    /// A dump at once by nominal thrust without a shortest pulse, about this centre of mass: takes the propellant and gives the
+    /// impulse of force, body frame, in N s. None without thrusters that give torque all ways.
+    pub fn dump_at_once(
+        &mut self,
+        event: &DumpEvent,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> Option<Vector3<f64>> {
+        let Self { settings, propellant, unserved_dumps, for_dumps, .. } = self;
+        let Some(selection) = for_dumps.about(settings, Purpose::Dump, center_of_mass_body_m) else {
+            *unserved_dumps = unserved_dumps.saturating_add(1);
+            return None;
+        };
+        let mut push_body_n_s = Vector3::zeros();
+        let on_times = selection.on_times_s(&event.impulse_body_n_m_s());
+        for (thruster, full_s) in settings.thrusters.iter().zip(on_times) {
+            push_body_n_s += thruster.force_body_n * full_s;
+            if let Some(tank) = settings.tanks.get(thruster.tank) {
+                propellant.take(thruster.tank, tank, thruster.flow_kg_s * full_s);
+            }
+        }
+        Some(push_body_n_s)
+    }
+
+    /// Begins a dump by pulses toward a total momentum, EME2000, in N m s, at the end of the motion; false where no thrusters give
+    /// torque all ways about this centre of mass.
+    pub fn begin_dump(
+        &mut self,
+        motion: &GyrostatMotion,
+        target_inertial_n_m_s: Vector3<f64>,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> bool {
+        if self.for_dumps.about(&self.settings, Purpose::Dump, center_of_mass_body_m).is_none() {
+            self.dump = None;
+            self.unserved_dumps = self.unserved_dumps.saturating_add(1);
+            return false;
+        }
+        let time_s = motion.end_s();
         let before = self.totals_at(motion, time_s);
         self.dump = Some(PulsedDump::new(target_inertial_n_m_s, motion.attitude_at(time_s), before, time_s));
+        true
     }
 
     /// Whether a dump lasts.
@@ -341,74 +336,66 @@ impl ReactionControl {
         })
     }
 
-    /// Decides the next pulses of a dump where that is due, the total momentum being this, EME2000, in N m s.
+    /// Decides the next pulses of a dump where that is due at the end of the motion, the total momentum being this, EME2000, in
+    /// N m s.
     pub fn sample_dump(
         &mut self,
-        settings: &ReactionControlSettings,
-        propellant: &PropellantState,
         motion: &GyrostatMotion,
         momentum_inertial_n_m_s: &Vector3<f64>,
         mass: &MassProperties,
-        time_s: f64,
     ) {
+        let time_s = motion.end_s();
         let Some(mut dump) = self.dump.filter(|dump| dump.after.is_none() && dump.next_s <= due_s(time_s))
         else {
             return;
         };
-        let selection = selected(&mut self.for_dumps, None, &mass.center_of_mass_body_m, || {
-            settings.dump_selection(&mass.center_of_mass_body_m).ok()
-        });
+        let totals = self.totals_at(motion, time_s);
+        let Self { settings, propellant, valves, schedule, for_dumps, .. } = self;
+        let center_of_mass_body_m = &mass.center_of_mass_body_m;
+        let selection = for_dumps.about(settings, Purpose::Dump, center_of_mass_body_m);
         if selection.is_none() {
             self.unserved_dumps = self.unserved_dumps.saturating_add(1);
         }
-        let fires = self
-            .valves
-            .iter()
-            .zip(&settings.thrusters)
-            .any(|(valve, it)| valve.thrust(&it.valve, time_s) != [0.0; 2]);
-        let Some(selection) = selection.filter(|_| !dump.is_last || fires) else {
-            dump.after = Some(self.totals_at(motion, time_s));
-            self.dump = Some(dump);
-            return;
-        };
-        if dump.is_last {
+        let mut pairs = valves.iter().zip(&settings.thrusters);
+        let fires = pairs.any(|(valve, it)| valve.thrust(&it.valve, time_s) != [0.0; 2]);
+        match selection {
             // What is left in the valves still comes out.
-            return;
-        }
-        let attitude = motion.attitude_at(time_s);
-        let left_body_n_m_s =
-            attitude.body_from_inertial(&(dump.target_inertial_n_m_s - momentum_inertial_n_m_s));
-        let opened_s = dump.decide(settings, selection, propellant, &left_body_n_m_s, mass, time_s);
-        for (k, on_s) in opened_s.iter().enumerate().filter(|(_, on_s)| **on_s > 0.0) {
-            self.schedule[k].plan(&settings.thrusters[k].valve, time_s, time_s + on_s);
+            Some(_) if dump.is_last && fires => return,
+            Some(selection) if !dump.is_last => {
+                let attitude = motion.attitude_at(time_s);
+                let left_body_n_m_s =
+                    attitude.body_from_inertial(&(dump.target_inertial_n_m_s - momentum_inertial_n_m_s));
+                let feed = Feed { settings, propellant, time_s };
+                let opened_s = dump.decide(&feed, selection, &left_body_n_m_s, center_of_mass_body_m);
+                for (k, on_s) in opened_s.iter().enumerate().filter(|(_, on_s)| **on_s > 0.0) {
+                    schedule[k].plan(&settings.thrusters[k].valve, time_s, time_s + on_s);
+                }
+            }
+            _ => dump.after = Some(totals),
         }
         self.dump = Some(dump);
     }
 
-    /// Pulses over `period_s` whose mean is this torque, body frame, in N m; the part of it that they give, none where no
-    /// thrusters give torque all ways.
+    /// Pulses over `period_s` from `time_s` on whose mean is this torque, body frame, in N m; the part of it that they give, none
+    /// where no thrusters give torque all ways.
     pub fn give(
         &mut self,
-        settings: &ReactionControlSettings,
-        propellant: &PropellantState,
         torque_body_n_m: &Vector3<f64>,
         mass: &MassProperties,
         period_s: f64,
         time_s: f64,
     ) -> Option<f64> {
-        let burning = self.burning();
-        let center = &mass.center_of_mass_body_m;
-        let selection = selected(&mut self.for_attitude, burning, center, || {
-            settings.attitude_selection(burning, center).ok()
-        })?;
+        let purpose = Purpose::Attitude { burning: self.burning() };
+        let Self { settings, propellant, schedule, for_attitude, .. } = self;
+        let selection = for_attitude.about(settings, purpose, &mass.center_of_mass_body_m)?;
         let impulse_body_n_m_s = torque_body_n_m * period_s;
-        let on_s = |k: usize, full_s: f64| settings.opens_for_s(propellant, k, full_s, time_s);
+        let feed = Feed { settings, propellant, time_s };
         let times = selection.on_times_s(&impulse_body_n_m_s).enumerate();
-        let longest_s = times.clone().map(|(k, full_s)| on_s(k, full_s)).fold(0.0, f64::max);
+        let longest_s = times.clone().map(|(k, full_s)| feed.opens_for_s(k, full_s)).fold(0.0, f64::max);
         let given = if longest_s > period_s { period_s / longest_s } else { 1.0 };
         for (k, full_s) in times {
             let shortest_s = settings.thrusters[k].valve.min_on_s;
-            let wanted_s = on_s(k, full_s * given).min(period_s);
+            let wanted_s = feed.opens_for_s(k, full_s * given).min(period_s);
             let opens_s = if wanted_s >= shortest_s {
                 wanted_s
             } else if wanted_s >= 0.5 * shortest_s {
@@ -417,37 +404,29 @@ impl ReactionControl {
                 0.0
             };
             if opens_s > 0.0 {
-                self.schedule[k].plan(&settings.thrusters[k].valve, time_s, time_s + opens_s);
+                schedule[k].plan(&settings.thrusters[k].valve, time_s, time_s + opens_s);
             }
         }
         Some(given)
     }
 
     /// Whether thrusters other than a delta-v's give torque all ways.
-    pub fn spans(&mut self, settings: &ReactionControlSettings, mass: &MassProperties) -> bool {
-        let (burning, center) = (self.burning(), &mass.center_of_mass_body_m);
-        !settings.thrusters.is_empty()
-            && selected(&mut self.for_attitude, burning, center, || {
-                settings.attitude_selection(burning, center).ok()
-            })
-            .is_some()
+    pub fn spans(&mut self, mass: &MassProperties) -> bool {
+        let purpose = Purpose::Attitude { burning: self.burning() };
+        !self.settings.thrusters.is_empty()
+            && self.for_attitude.about(&self.settings, purpose, &mass.center_of_mass_body_m).is_some()
     }
 
     /// Thrust of thruster `k` at `time_s`, in N.
-    pub fn thrust_n(
-        &self,
-        settings: &ReactionControlSettings,
-        propellant: &PropellantState,
-        k: usize,
-        time_s: f64,
-    ) -> f64 {
+    pub fn thrust_n(&self, k: usize, time_s: f64) -> f64 {
+        let Self { settings, propellant, .. } = self;
         let thruster = &settings.thrusters[k];
         let [fraction, slope] = self.valves[k].thrust(&thruster.valve, self.load.law.since_s);
         let share = fraction + slope * (time_s - self.load.law.since_s).max(0.0);
         if share == 0.0 {
             return 0.0;
         }
-        thruster.force_body_n.norm() * share * settings.pressure_ratio(propellant, k, time_s)
+        thruster.force_body_n.norm() * share * Feed { settings, propellant, time_s }.pressure_ratio(k)
     }
 
     /// Pulses that thruster `k` has begun.
@@ -459,27 +438,10 @@ impl ReactionControl {
     pub fn was_too_short(&self, k: usize) -> bool {
         self.schedule[k].was_too_short()
     }
-}
 
-/// The selection about this centre of mass, worked out where it is another.
-fn selected<'c>(
-    cache: &'c mut Option<Selected>,
-    burning: Option<ThrusterSet>,
-    center_of_mass_body_m: &Vector3<f64>,
-    select: impl FnOnce() -> Option<ThrusterSelection>,
-) -> Option<&'c ThrusterSelection> {
-    let is_known = cache
-        .as_ref()
-        .is_some_and(|it| it.center_of_mass_body_m == *center_of_mass_body_m && it.burning == burning);
-    if !is_known {
-        *cache = None;
+    /// Mass properties at `time_s` with every panel at angle 0; none while no propellant is used.
+    pub fn left(&self, loaded: &MassProperties, time_s: f64) -> Option<MassProperties> {
+        let is_used = self.propellant.total_used_kg(time_s) > 0.0;
+        is_used.then(|| self.propellant.mass_properties(loaded, &self.settings.tanks, time_s))
     }
-    cache
-        .get_or_insert_with(|| Selected {
-            center_of_mass_body_m: *center_of_mass_body_m,
-            burning,
-            selection: select(),
-        })
-        .selection
-        .as_ref()
 }

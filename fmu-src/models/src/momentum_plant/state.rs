@@ -3,110 +3,60 @@
 use fmi_export::{Enumeration, Failure, InputsOverTime, Values};
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
-use physics::attitude::control::SunSensor;
 use physics::bodies::Body;
-use physics::environment::ephemeris::Ephemeris;
 use physics::guidance::modes::system::CommandKind as Kind;
-use physics::momentum::{DumpSpacing, MomentumIntegrator, Totals, WheelArray};
-use physics::plant::{
-    AttitudeDynamics, Command, Configuration, DumpSideEffect, DynamicsSettings, PropagatorState,
-    RadiationSolver, ReactionControlSettings,
-};
-use physics::propulsion::PropellantState;
+use physics::plant::{Changes, Command, DynamicsInputs, Flight, Thrusters};
 use physics::spacecraft::Spacecraft;
 use serde::{Deserialize, Serialize};
 
-use super::dynamics::guides_itself;
-use super::given::{is_given, panels_move};
-use super::propulsion::{SaidOfThrusters, reaction_control};
+use super::inputs::dynamics::guides_itself;
+use super::inputs::propulsion::{SaidOfThrusters, reaction_control};
+use super::inputs::{is_given, panels_move};
+use super::setup::Plan;
+use super::variables::choices::{AttitudeSource, EphemerisSource, OrbitSource};
 use crate::common::choices::{CommandKind, OrbitCenter};
-use crate::momentum_plant::setup::Plan;
-use crate::momentum_plant::variables::choices::{AttitudeSource, EphemerisSource, OrbitSource};
 
 /// State of one plant.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct PlantState {
     /// Start time of the flight, in s.
     pub start_s: f64,
-    /// The orbit and the stretch of flight at hand.
-    pub propagator: PropagatorState,
-    /// Momentum, delta-v and dumps of guided and commanded flight.
-    pub integrator: MomentumIntegrator,
-    /// Body, wheels, sensors and control of controlled and free flight.
-    pub dynamics: Option<Box<AttitudeDynamics>>,
-    /// Propellant used so far.
-    pub propellant: PropellantState,
-    /// What the last dump of guided and commanded flight left beside its impulse.
-    pub dump_side_effect: DumpSideEffect,
-    /// Which warnings about thrusters were given.
-    pub said_of_thrusters: SaidOfThrusters,
-    /// Whether the flight waits for inputs that are not set yet: nothing acts, and the attitude is held.
+    /// The spacecraft in flight.
+    pub flight: Flight,
+    /// Whether it waits for inputs that are not set yet: nothing acts, and the attitude is held.
     pub waiting: bool,
-    /// Whether the warning was given which inputs are not set yet.
-    said_unset: bool,
-    /// The command in effect and the inputs it came from.
+    /// The command in effect.
     pub command: Command,
-    command_inputs: CommandInputs,
     /// Whether the present command.error was turned out.
     turned_out: bool,
+    /// Inputs and tunables at the last change.
+    last: LastInputs,
     /// When the orbit's position and velocity inputs last changed, in s.
     pub orbit_since_s: f64,
-    orbit_inputs: [[f64; 3]; 2],
-    /// Inputs and tunables that light and heat depend on, beside command and orbit, at the last change.
-    light_inputs: Vec<f64>,
-    /// Whether a panel's angle moved as an input in the last step.
-    panels_moved: bool,
-    /// Other tunables at the last change.
-    tunables: [f64; 8],
-    /// Force from outside at the last change.
-    force: [f64; 3],
     /// `dump.request` at the last step.
     pub request: Request,
-    /// Time between dumps.
-    pub spacing: DumpSpacing,
-    /// Cache, not state: the same epoch gives the same bits.
+    /// Which warnings about thrusters were given.
+    pub said_of_thrusters: SaidOfThrusters,
+    /// Whether the warning was given which inputs are not set yet.
+    said_unset: bool,
+    /// Memory for what the inputs of a step say.
     #[serde(skip)]
-    pub ephemeris: Ephemeris,
-    /// Cache of what parameters and inputs say.
-    #[serde(skip)]
-    pub configuration: Option<Configuration>,
-    /// Cache of what light and heat need; absent where direct sunlight is all there is.
-    #[serde(skip)]
-    pub light: Option<RadiationSolver>,
-    /// Cache of what parameters say about dynamics and control.
-    #[serde(skip)]
-    pub dynamics_settings: Option<DynamicsSettings>,
-    /// Cache of thrusters and tanks in guided and commanded flight.
-    #[serde(skip)]
-    pub thrusters: Option<ReactionControlSettings>,
-    /// Cache of the Sun sensors.
-    #[serde(skip)]
-    pub sun_sensors: Option<Vec<SunSensor>>,
-    /// Cache of the distribution of momentum over ideal wheels; none unless they span all directions.
-    #[serde(skip)]
-    pub wheels: Option<Option<WheelArray>>,
+    pub inputs: Option<DynamicsInputs>,
 }
 
-/// What a change of inputs and tunables touches.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Changes {
-    /// Position and velocity are given anew.
-    pub orbit: bool,
-    /// Light and heat are no longer what they were going to be.
-    pub light: bool,
-    /// The mass is another.
-    pub mass: bool,
-    /// The force from outside is another.
-    pub force: bool,
-    /// Mass, thresholds or target of dumps are others.
-    pub tunables: bool,
-}
-
-impl Changes {
-    /// Whether there is one that the configuration follows.
-    pub fn any(self) -> bool {
-        self.orbit || self.light || self.tunables
-    }
+/// What was set at the last change.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct LastInputs {
+    command: CommandInputs,
+    orbit: [[f64; 3]; 2],
+    /// On which light and heat depend, beside command and orbit.
+    light: Vec<f64>,
+    /// Whether a panel's angle moved as an input.
+    panels_moved: bool,
+    /// Mass and dumps.
+    tunables: [f64; 8],
+    /// Force from outside.
+    force: [f64; 3],
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -132,38 +82,15 @@ impl Request {
 impl PlantState {
     /// Checks numbers that were decoded; bytes from elsewhere may hold anything.
     pub fn check(&self, spacecraft: &Spacecraft) -> Result<(), Failure> {
-        let (wheels, thrusters) = (spacecraft.wheels.len(), spacecraft.thrusters.len());
-        let oscillators = spacecraft.oscillator_count();
-        // Panels without mass have no motion of their own.
-        let has_mass = spacecraft.panels.iter().any(|panel| panel.mass.is_some());
-        let panels = if has_mass { spacecraft.panels.len() } else { 0 };
         let finite = |x: &f64| x.is_finite();
-        let CommandInputs { q, rate, error, .. } = &self.command_inputs;
-        let inputs = q.iter().chain(rate).chain(error).chain(self.orbit_inputs.iter().flatten());
-        let times = [&self.start_s, &self.orbit_since_s];
+        let LastInputs { command, orbit, light, tunables, force, .. } = &self.last;
+        let CommandInputs { q, rate, error, .. } = command;
+        let inputs = q.iter().chain(rate).chain(error).chain(orbit.iter().flatten());
+        let inputs = inputs.chain(light).chain(tunables).chain(force);
         let parts = [
-            (
-                "the times and inputs",
-                inputs
-                    .chain(&self.light_inputs)
-                    .chain(&self.tunables)
-                    .chain(&self.force)
-                    .chain(times)
-                    .all(finite),
-            ),
+            ("the times and inputs", inputs.chain([&self.start_s, &self.orbit_since_s]).all(finite)),
             ("the command", self.command.is_sound()),
-            ("the momentum and dumps", self.integrator.is_sound() && self.spacing.is_sound()),
-            (
-                "body, wheels, thrusters, sensors and control",
-                self.dynamics
-                    .as_ref()
-                    .is_none_or(|dynamics| dynamics.is_sound(wheels, thrusters, oscillators, panels)),
-            ),
-            (
-                "propellant and dumps",
-                self.propellant.is_sound(spacecraft.tanks.len()) && self.dump_side_effect.is_sound(),
-            ),
-            ("the orbit, light and heat", self.propagator.is_sound()),
+            ("the flight", self.flight.is_sound(spacecraft)),
         ];
         match parts.iter().find(|(_, is_sound)| !is_sound) {
             None => Ok(()),
@@ -181,32 +108,23 @@ impl PlantState {
         let rate_body_rad_s = Vector3::from([0.0; 3]);
         let mut state = Self {
             start_s,
-            propagator: PropagatorState::default(),
-            integrator: MomentumIntegrator::new(start_s, Totals::default()),
-            dynamics: None,
-            propellant: PropellantState::new(context.setup.spacecraft.tanks.len(), start_s),
-            dump_side_effect: DumpSideEffect::default(),
-            said_of_thrusters: SaidOfThrusters::default(),
+            flight: Flight::waiting(Thrusters::new(reaction_control(context, values)?, start_s)),
             waiting: !unset_places(context, values).is_empty(),
-            said_unset: false,
             command: Command { attitude, rate_body_rad_s, since_s: start_s },
             turned_out: false,
-            command_inputs: CommandInputs::read(context, values),
+            last: LastInputs {
+                command: CommandInputs::read(context, values),
+                orbit: orbit_inputs(context, values),
+                light: light_inputs(context, values).collect(),
+                panels_moved: false,
+                tunables: tunables(context, values),
+                force: values.vector(context.variables.force.applied),
+            },
             orbit_since_s: start_s,
-            orbit_inputs: orbit_inputs(context, values),
-            light_inputs: light_inputs(context, values).collect(),
-            panels_moved: false,
-            tunables: tunables(context, values),
-            force: values.vector(context.variables.force.applied),
             request: Request::default(),
-            spacing: DumpSpacing::default(),
-            ephemeris: Ephemeris::default(),
-            configuration: None,
-            light: None,
-            dynamics_settings: None,
-            thrusters: Some(reaction_control(context, values)?),
-            sun_sensors: None,
-            wheels: None,
+            said_of_thrusters: SaidOfThrusters::default(),
+            said_unset: false,
+            inputs: None,
         };
         if is_commanded(context, values) {
             state.take_command(context, values, start_s)?;
@@ -222,43 +140,42 @@ impl PlantState {
         over_time: InputsOverTime<'_>,
         time_s: f64,
     ) -> Result<Changes, Failure> {
-        let inputs = CommandInputs::read(context, values);
-        let (now, before) = (inputs.given(self.turned_out), self.command_inputs.given(self.turned_out));
-        let commanded = is_commanded(context, values) && now != before;
-        if inputs.kind != self.command_inputs.kind {
+        let command = CommandInputs::read(context, values);
+        let before = core::mem::replace(&mut self.last.command, command);
+        let commanded =
+            is_commanded(context, values) && command.given(self.turned_out) != before.given(self.turned_out);
+        if command.kind != before.kind {
             self.turned_out = false;
         }
-        self.command_inputs = inputs;
         if commanded {
             self.take_command(context, values, time_s)?;
         }
+        let last = &mut self.last;
         let orbit = orbit_inputs(context, values);
-        let moved = orbit != self.orbit_inputs;
+        let moved = core::mem::replace(&mut last.orbit, orbit) != orbit;
         if moved {
-            self.orbit_inputs = orbit;
             self.orbit_since_s = time_s;
         }
         // Panels that move in this step or did in the last are elsewhere than was computed.
         let panels_move = panels_move(context, over_time);
-        let panels_moved = std::mem::replace(&mut self.panels_moved, panels_move);
-        let lit = panels_move
-            || panels_moved
-            || !light_inputs(context, values).eq(self.light_inputs.iter().copied());
+        let panels_moved = core::mem::replace(&mut last.panels_moved, panels_move);
+        let lit =
+            panels_move || panels_moved || !light_inputs(context, values).eq(last.light.iter().copied());
         if lit {
-            self.light_inputs.clear();
-            self.light_inputs.extend(light_inputs(context, values));
+            last.light.clear();
+            last.light.extend(light_inputs(context, values));
         }
-        let now = tunables(context, values);
-        let before = std::mem::replace(&mut self.tunables, now);
-        // A command moves light through the attitude, which in dynamics does not jump.
-        let turned = commanded && self.dynamics.is_none();
+        let tunables = tunables(context, values);
+        let before = core::mem::replace(&mut last.tunables, tunables);
         let force = values.vector(context.variables.force.applied);
+        // A command moves light through the attitude, which in dynamics does not jump.
+        let turned = commanded && self.flight.estimate_at(time_s).is_none();
         Ok(Changes {
-            orbit: moved,
+            orbit: moved && is_given(context.variables, values),
             light: lit || moved || turned,
-            mass: before[0] != now[0],
-            force: std::mem::replace(&mut self.force, force) != force,
-            tunables: before != now,
+            mass: before[0] != tunables[0],
+            force: core::mem::replace(&mut last.force, force) != force,
+            tunables: before != tunables,
         })
     }
 
@@ -277,11 +194,11 @@ impl PlantState {
     }
 
     fn take_command(&mut self, context: &Plan<'_>, values: &Values, time_s: f64) -> Result<(), Failure> {
-        let CommandInputs { q, rate, error, .. } = self.command_inputs;
+        let CommandInputs { q, rate, error, .. } = self.last.command;
         let quaternion = |name: &str, q| {
             Attitude::along_quaternion(q).map_err(|error| Failure::new(format!("{name}: {error}")))
         };
-        let estimate = self.dynamics.as_ref().map(|dynamics| dynamics.estimate_at(time_s).attitude);
+        let estimate = self.flight.estimate_at(time_s).map(|estimate| estimate.attitude);
         let held = estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
         let (attitude, rate) = match values.choice(context.variables.command.kind).map(|it| it.0) {
             Some(Kind::None) => (held, [0.0; 3]),
@@ -289,7 +206,7 @@ impl PlantState {
             Some(Kind::ErrorQuaternion) if self.turned_out => (held, rate),
             Some(Kind::ErrorQuaternion) if is_zero(&error) => (held, [0.0; 3]),
             Some(Kind::ErrorQuaternion) => {
-                self.turned_out = self.dynamics.is_none();
+                self.turned_out = estimate.is_none();
                 (held.then(&quaternion("command.error", error)?.inverse()), rate)
             }
             Some(Kind::Attitude) | None if is_zero(&q) => (held, [0.0; 3]),
@@ -311,7 +228,7 @@ impl PlantState {
             unset.push("earth.position");
         }
         if is_commanded(context, values) {
-            let CommandInputs { q, error, .. } = &self.command_inputs;
+            let CommandInputs { q, error, .. } = &self.last.command;
             match values.choice(context.variables.command.kind).map(|it| it.0) {
                 Some(Kind::None) => unset.push("command.kind"),
                 Some(Kind::Attitude) if is_zero(q) => unset.push("command.q"),

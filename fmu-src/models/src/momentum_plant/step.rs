@@ -1,0 +1,195 @@
+//! A flight of the model begins, steps, and waits for inputs that are not set yet.
+
+use fmi_export::{Failure, InputsOverTime, Step, Values};
+use nalgebra::Vector3;
+use physics::plant::{Changes, Given, ModeSettings, Report, Start, World};
+use physics::spacecraft::SunshadeModel;
+
+use super::inputs::{self, dynamics, propulsion};
+use super::outputs::{self, failure, log_dump};
+use super::setup::Plan;
+use super::state::{PlantState, unset_places};
+
+/// The flight begins at `time_s`: everything it needs is known.
+pub fn begin(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut PlantState,
+    time_s: f64,
+) -> Result<(), Failure> {
+    tell(context, values, state)?;
+    let is_dynamic = dynamics::is_dynamic(context, values);
+    let mass_kg = values.real(context.variables.spacecraft.mass);
+    propulsion::check(&state.flight.thrusters.settings, mass_kg)?;
+    if is_dynamic && inputs::is_left_to_master(context, values) {
+        let told = "dump.threshold is not set: in free flight dumps come on dump.request alone";
+        context.log.event(time_s, told);
+    }
+    let wheels = &context.variables.wheel;
+    let start = if is_dynamic {
+        let held = |k: usize| wheels.get(k).map_or(0.0, |wheel| values.real(wheel.start_momentum));
+        Start::Dynamic(dynamics::start_motion(context, values)?, held)
+    } else {
+        Start::Ideal(Vector3::from(values.vector(context.variables.start.momentum)))
+    };
+    let held = InputsOverTime::held();
+    let log = &mut |event: &_| log_dump(context, event);
+    with_given(context, values, held, |given| {
+        state.flight.begin(given, start, time_s, log).map_err(failure)
+    })?;
+    if let Some(estimate) = state.flight.estimate_at(time_s) {
+        state.take_first_command(context, values, estimate.attitude, time_s)?;
+    }
+    // Samples at the start are taken anew by the first step, with its inputs.
+    let step_inputs = dynamics::step_inputs(context, values, state);
+    let sampled = with_given(context, values, held, |given| {
+        state.flight.sample_at_start(given, &step_inputs).map_err(failure)
+    });
+    state.inputs = Some(step_inputs);
+    let undo = sampled?;
+    show(context, values, state, held, time_s)?;
+    state.flight.undo(undo);
+    propulsion::warn_unserved(context, values, &state.flight.thrusters, &mut state.said_of_thrusters, 0);
+    Ok(())
+}
+
+/// One step: what changed, the flight on to the step's end, outputs.
+pub fn step(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut PlantState,
+    step: &Step<'_>,
+) -> Result<(), Failure> {
+    let mut changes = match step.changed {
+        true => Some(state.inputs_changed(context, values, step.inputs, step.start_s)?),
+        false => None,
+    };
+    if state.waiting && unset_places(context, values).is_empty() {
+        state.waiting = false;
+        begin(context, values, state, step.start_s)?;
+        changes = None;
+    }
+    state.say_unset(context, values);
+    if state.waiting {
+        return wait(context, values, state, step.end_s);
+    }
+    if !state.flight.is_told() {
+        tell(context, values, state)?;
+    }
+    if let Some(changes) = changes {
+        apply(context, values, state, step, changes)?;
+    }
+    let mut inputs = dynamics::step_inputs(context, values, state);
+    propulsion::warn(context, &inputs, &state.flight.thrusters.settings, &mut state.said_of_thrusters, step);
+    if state.request.rises(values.boolean(context.variables.dump.request)) {
+        inputs.dump_to_body_n_m_s = Some(Vector3::from(values.vector(context.variables.dump.target)));
+    }
+    let unserved = state.flight.thrusters.unserved_dumps();
+    let log = &mut |event: &_| log_dump(context, event);
+    let span_s = [step.start_s, step.end_s];
+    let flown = with_given(context, values, step.inputs, |given| {
+        state.flight.advance(given, &inputs, span_s, log).map_err(failure)
+    });
+    state.inputs = Some(inputs);
+    flown?;
+    show(context, values, state, step.inputs, step.end_s)?;
+    propulsion::warn_unserved(
+        context,
+        values,
+        &state.flight.thrusters,
+        &mut state.said_of_thrusters,
+        unserved,
+    );
+    Ok(())
+}
+
+/// At `time_s` the flight still waits for inputs: the attitude is held as commanded, and nothing acts.
+pub fn wait(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut PlantState,
+    time_s: f64,
+) -> Result<(), Failure> {
+    tell(context, values, state)?;
+    let inputs = dynamics::step_inputs(context, values, state);
+    state.inputs = Some(inputs);
+    show(context, values, state, InputsOverTime::held(), time_s)
+}
+
+/// Tells the flight what parameters and inputs say.
+fn tell(context: &Plan<'_>, values: &mut Values, state: &mut PlantState) -> Result<(), Failure> {
+    let panels = Vec::with_capacity(context.variables.panel.len());
+    let configuration = inputs::configuration(context, values, state, InputsOverTime::held(), panels)?;
+    let settings = match dynamics::is_dynamic(context, values) && !state.waiting {
+        true => ModeSettings::Dynamic(dynamics::settings(context, values, &configuration)?),
+        false => ModeSettings::Ideal(dynamics::ideal_settings(context, values)?),
+    };
+    let mut world = World::new(configuration);
+    if !state.waiting {
+        world.light = inputs::light(context, values, &world.configuration)?;
+    }
+    state.flight.thrusters.settings = propulsion::reaction_control(context, values)?;
+    outputs::write_calculated(context, values, &world.configuration);
+    outputs::write_guaranteed(context, values);
+    state.flight.tell(world, settings);
+    Ok(())
+}
+
+/// The flight takes what changed.
+fn apply(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut PlantState,
+    step: &Step<'_>,
+    changes: Changes,
+) -> Result<(), Failure> {
+    let is_dynamic = dynamics::is_dynamic(context, values);
+    let (mut configuration, mut settings) = (None, None);
+    if !is_dynamic || changes.orbit || changes.light || changes.tunables {
+        let panels = state.flight.take_panels();
+        let told = inputs::configuration(context, values, state, step.inputs, panels)?;
+        outputs::write_calculated(context, values, &told);
+        if is_dynamic {
+            settings = Some(ModeSettings::Dynamic(dynamics::settings(context, values, &told)?));
+        }
+        configuration = Some(told);
+    }
+    state.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)
+}
+
+/// Hands what a step is given to `use_it`.
+fn with_given<T>(
+    context: &Plan<'_>,
+    values: &Values,
+    over_time: InputsOverTime<'_>,
+    use_it: impl FnOnce(Given<'_>) -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    let variables = context.variables;
+    let sunshade = values.choice(variables.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0);
+    use_it(Given {
+        prepared: context.setup.prepared_spacecraft(sunshade)?,
+        external: &|time_s| dynamics::external(context, values, over_time, time_s),
+        planner: &inputs::manager(context, values, sunshade),
+        work_limit: variables.solver.work.units(values),
+    })
+}
+
+/// Writes every output at `time_s`.
+fn show(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &mut PlantState,
+    over_time: InputsOverTime<'_>,
+    time_s: f64,
+) -> Result<(), Failure> {
+    let PlantState { flight, command, waiting, inputs: Some(inputs), .. } = state else { return Ok(()) };
+    let held = (*command, Vector3::from(values.vector(context.variables.start.momentum)));
+    let report: Report<'_> = with_given(context, values, over_time, |given| {
+        flight.report(given, inputs, held, time_s).map_err(failure)
+    })?;
+    if !*waiting {
+        outputs::flyable(&report)?;
+    }
+    outputs::write(context, values, &report);
+    outputs::write_plates(context, values, flight, time_s)
+}

@@ -1,0 +1,182 @@
+//! Control loop of a flight: what guidance commands, the torque that the controller asks for, and what wheels or thrusters give
+//! of it.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::control::{ControlTarget, ControllerState, Estimate};
+use crate::attitude::{Attitude, BodyMotion, Gyrostat, GyrostatMotion};
+use crate::momentum::Totals;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::numerics::intervals::next_multiple_s;
+use crate::numerics::spacing::spacing;
+
+use super::craft::Craft;
+use super::outlook::StartMomentum;
+use super::wheel_control::WheelControl;
+use crate::plant::settings::configuration::Command;
+use crate::plant::settings::dynamics_settings::{Control, Tracked};
+use crate::plant::settings::error::PlantError;
+use crate::plant::thrusters::reaction_control::Thrusters;
+use crate::spacecraft::MassProperties;
+
+/// Guidance is sampled at whole multiples of this, in s.
+const GUIDANCE_INTERVAL_S: f64 = 1.0;
+
+/// Guidance, controller and what it acts through.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct ControlLoop {
+    /// Controller.
+    pub controller: ControllerState,
+    /// Motors.
+    pub wheels: WheelControl,
+    /// What guidance commanded last.
+    guidance: Option<Command>,
+    /// When guidance is sampled next, in s.
+    next_guidance_s: f64,
+    /// Whether thrusters control the attitude, and whether they could not give the torque asked for.
+    pub by_thrusters: bool,
+    thrusters_limited: bool,
+}
+
+/// The body at a sample, and what is known of it.
+pub(crate) struct Sampled<'a> {
+    pub number: i64,
+    pub gyrostat: &'a Gyrostat,
+    pub motion: &'a GyrostatMotion,
+    pub body: &'a BodyMotion,
+    pub estimate: &'a Estimate,
+    pub mass: &'a MassProperties,
+    /// Torque of a dump by a constant torque, in N m.
+    pub dump_body_n_m: Vector3<f64>,
+}
+
+impl ControlLoop {
+    /// At the start of a flight with so many wheels.
+    pub fn new(wheels: usize, time_s: f64, attitude: Attitude, rate_body_rad_s: Vector3<f64>) -> Self {
+        Self {
+            controller: ControllerState::new(attitude, rate_body_rad_s),
+            wheels: WheelControl::new(wheels),
+            guidance: None,
+            next_guidance_s: time_s,
+            by_thrusters: false,
+            thrusters_limited: false,
+        }
+    }
+
+    /// Whether its numbers can come from a flight with so many wheels; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self, wheels: usize) -> bool {
+        self.controller.is_sound()
+            && self.wheels.is_sound(wheels)
+            && self.guidance.as_ref().is_none_or(Command::is_sound)
+            && self.next_guidance_s.abs() <= GREATEST_IN_STATE
+    }
+
+    /// Whether wheels or thrusters could not give the torque asked for at the last sample.
+    pub fn is_limited(&self) -> bool {
+        if self.by_thrusters { self.thrusters_limited } else { self.wheels.is_limited() }
+    }
+
+    /// What the controller is to bring the body to at the end of the motion.
+    pub fn target(
+        &mut self,
+        craft: &mut Craft<'_>,
+        tracked: Tracked,
+        sampled: &Sampled<'_>,
+    ) -> Result<ControlTarget, PlantError> {
+        let time_s = sampled.motion.end_s();
+        let command = match tracked {
+            Tracked::Rate(rate_body_rad_s) => return Ok(ControlTarget::RateOnly { rate_body_rad_s }),
+            Tracked::Attitude(command) => command,
+            Tracked::Guidance => self.guided(craft, sampled)?,
+        };
+        Ok(ControlTarget::Attitude {
+            attitude: command.attitude_at(time_s),
+            rate_body_rad_s: command.rate_body_rad_s,
+        })
+    }
+
+    /// The command of internal guidance, sampled anew where that is due.
+    fn guided(&mut self, craft: &mut Craft<'_>, sampled: &Sampled<'_>) -> Result<Command, PlantError> {
+        let (time_s, body) = (sampled.motion.end_s(), sampled.body);
+        let tolerance_s = 4.0 * spacing(time_s);
+        if let Some(command) = self.guidance
+            && time_s < self.next_guidance_s - tolerance_s
+        {
+            return Ok(command);
+        }
+        self.next_guidance_s = next_multiple_s(time_s + tolerance_s, GUIDANCE_INTERVAL_S);
+        let totals = Totals {
+            momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
+            torque_integral_body_n_m_s: Vector3::zeros(),
+            delta_v_inertial_m_s: body.delta_v_inertial_m_s,
+        };
+        let momentum = StartMomentum::Inertial(body.momentum_inertial_n_m_s);
+        craft.choose_sun_place(time_s, &totals, momentum, self.guidance.is_none())?;
+        let guided = craft.plant_at(time_s, body).guided_attitude(time_s);
+        let (attitude, rate_body_rad_s) =
+            guided.map_or((sampled.estimate.attitude, Vector3::zeros()), |guided| {
+                let frame = guided.frame;
+                (Attitude::from_rotation(&frame.inertial_from_body), frame.rate_body_rad_s)
+            });
+        Ok(*self.guidance.insert(Command { attitude, rate_body_rad_s, since_s: time_s }))
+    }
+
+    /// The torque the controller asks for, and what wheels or thrusters give of it.
+    pub fn control(
+        &mut self,
+        control: &Control,
+        thrusters: &mut Thrusters,
+        target: &ControlTarget,
+        sampled: &Sampled<'_>,
+    ) {
+        let Sampled { number, gyrostat, motion, body, mass, .. } = *sampled;
+        let time_s = motion.end_s();
+        let burning = thrusters.burning();
+        let lacks_wheels = !self.wheels.spans(gyrostat);
+        let by_thrusters = (burning.is_some() || lacks_wheels) && thrusters.spans(mass);
+        let is_new = by_thrusters != self.by_thrusters;
+        if is_new {
+            self.by_thrusters = by_thrusters;
+            self.thrusters_limited = false;
+            self.controller.change_actuators();
+        }
+        let momentum = |k: usize| motion.rotor_n_m_s(gyrostat, k, time_s, body);
+        if by_thrusters {
+            self.wheels.coast(&control.wheels, gyrostat, momentum);
+            if !is_new && number.rem_euclid(control.thrusters.samples) != 0 {
+                return;
+            }
+        }
+        let axial = |k: usize| {
+            let wheel = &gyrostat.wheels()[k];
+            let carried = if wheel.locked { 0.0 } else { wheel.carried_n_m_s(&body.rate_body_rad_s) };
+            momentum(k) + carried
+        };
+        let rotors_body_n_m_s = gyrostat.along_axes(axial);
+        let mut known_body_n_m = sampled.dump_body_n_m + thrusters.dump_torque_body_n_m();
+        if let Some(set) = burning {
+            let [_, torque] = thrusters.settings.nominal_thrust(set, &mass.center_of_mass_body_m);
+            known_body_n_m += torque;
+        }
+        let limits = if by_thrusters { &control.thrusters.controller } else { &control.controller };
+        let torque_body_n_m = self.controller.sample(
+            limits,
+            gyrostat.carrier_body_kg_m2(),
+            target,
+            sampled.estimate,
+            &rotors_body_n_m_s,
+            &known_body_n_m,
+        );
+        let given = if by_thrusters {
+            let given = thrusters.give(&torque_body_n_m, mass, limits.interval_s(), time_s);
+            self.thrusters_limited = given != Some(1.0);
+            given.unwrap_or(0.0)
+        } else {
+            self.wheels.give(&control.wheels, gyrostat, &torque_body_n_m, momentum)
+        };
+        if given < 1.0 {
+            self.controller.limited(&(torque_body_n_m * given));
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! The spacecraft in one step of its flight: where it is, its thrusters, and what acts on it from outside.
+
+use nalgebra::Vector3;
+
+use crate::attitude::{Attitude, BodyMotion, GyrostatMotion, MovingFrame};
+use crate::guidance::Activity;
+use crate::momentum::{DumpEvent, TorqueModel, Totals};
+
+use super::outlook::{Outlook, StartMomentum, SunPlanner};
+use super::propagator_state::PropagatorState;
+use crate::plant::disturbances::evaluation::{External, Plant, PreparedSpacecraft, World};
+use crate::plant::settings::configuration::{AttitudeSource, Command, DynamicAttitude};
+use crate::plant::settings::error::PlantError;
+use crate::plant::thrusters::reaction_control::Thrusters;
+
+/// A window computed in epochs begins this near its number in flight time, in s.
+const EPOCH_ROUNDING_S: f64 = 1e-6;
+
+/// What a step is given from outside.
+#[derive(Clone, Copy)]
+pub struct Given<'a> {
+    /// The spacecraft.
+    pub prepared: PreparedSpacecraft<'a>,
+    /// Force and torque from outside.
+    pub external: &'a External<'a>,
+    /// Who chooses the Sun's place during downlinks; asked where the guidance is managed.
+    pub planner: &'a dyn SunPlanner,
+    /// Units of about a microsecond that a step may take.
+    pub work_limit: u32,
+}
+
+/// A flight in one step: everything that its loads follow from.
+pub(crate) struct Craft<'a> {
+    pub given: Given<'a>,
+    pub world: &'a mut World,
+    pub propagator: &'a mut PropagatorState,
+    pub thrusters: &'a mut Thrusters,
+    /// Is told of dumps.
+    pub log: &'a mut dyn FnMut(&DumpEvent),
+}
+
+impl Craft<'_> {
+    /// Frame and rate that the orbit phase's own guidance commands where the flight begins; `None` without it.
+    pub fn guided_start(&mut self, time_s: f64) -> Result<Option<MovingFrame>, PlantError> {
+        self.world.begin_work(self.given.work_limit);
+        let mut plant = self.plant();
+        plant.prepare(time_s, time_s)?;
+        Ok(plant.guided_attitude(time_s).map(|guided| guided.frame))
+    }
+
+    /// Chooses the Sun's place where a downlink has begun at `time_s`, or began right there and its momentum is another since;
+    /// where it is over, the next one may choose. At the `first` time of a flight nothing is forecast, and a downlink that has
+    /// begun before keeps its default attitude.
+    pub fn choose_sun_place(
+        &mut self,
+        time_s: f64,
+        totals: &Totals,
+        momentum: StartMomentum,
+        first: bool,
+    ) -> Result<(), PlantError> {
+        let Some(law) = self.world.configuration.attitude.guided().copied().filter(|law| law.managed) else {
+            return Ok(());
+        };
+        let Some(guided) = self.plant().guided_attitude(time_s) else { return Ok(()) };
+        let downlink = guided.window.activity == Activity::Downlink;
+        let choice = &mut self.propagator.sun_choice;
+        let is_anew = downlink && choice.in_force && choice.chosen_s == Some(time_s);
+        if !(choice.is_due(downlink) || is_anew) {
+            return Ok(());
+        }
+        choice.in_force = downlink;
+        if !downlink {
+            return Ok(());
+        }
+        // A dump at the very start changes nothing of it.
+        choice.chosen_s = (!first).then_some(time_s);
+        let [since_s, until_s] = [guided.window.since_s, guided.window.until_s]
+            .map(|epoch_s| epoch_s - self.world.configuration.epoch_minus_time_s);
+        let is_under_way = first && since_s < time_s - EPOCH_ROUNDING_S;
+        let chosen = if until_s.is_finite() && until_s > time_s && !is_under_way {
+            let mut plant = self.plant();
+            let instant = plant.instant(time_s);
+            let pressure_pa = plant.pressure_pa(&instant);
+            let separations_rad = plant.separations_rad(time_s, until_s);
+            let [applied, _] = (self.given.external)(time_s);
+            let mut outlook = Outlook {
+                prepared: self.given.prepared,
+                world: self.world,
+                propagator: self.propagator,
+                applied,
+                law,
+                totals: *totals,
+                forecasts: !first,
+                time_s,
+                span_s: until_s - time_s,
+                momentum,
+                to_sun: instant.geometry.to_sun.position_m.normalize(),
+                to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
+                pressure_pa,
+                separations_rad,
+            };
+            self.given.planner.choose(&mut outlook)?
+        } else {
+            None
+        };
+        self.propagator.sun_choice.chosen = chosen;
+        self.world.configuration.attitude.set_sun_place(self.propagator.sun_choice.place());
+        Ok(())
+    }
+
+    /// Thrust over the present segment of the motion moves the spacecraft off the orbit that was computed ahead.
+    pub fn take_thrust(&mut self, motion: &GyrostatMotion) -> Result<(), PlantError> {
+        let load = self.thrusters.load();
+        let thrust_m_s2 = (!load.law.is_none()).then_some(|time_s: f64| {
+            motion.attitude_at(time_s).inertial_from_body(&load.acceleration_body_m_s2(time_s))
+        });
+        let (trajectory, method) = (&mut self.propagator.trajectory, self.given.prepared.orbit_method);
+        let span_s = [motion.start_s(), motion.end_s()];
+        Ok(trajectory.accelerate(&self.world.configuration, method, span_s, thrust_m_s2)?)
+    }
+
+    /// The plant in the attitude of its configuration.
+    pub fn plant(&mut self) -> Plant<'_> {
+        Plant::new(self.given.prepared, self.world, self.propagator, self.given.external)
+    }
+
+    /// The plant with the body as it turns at `time_s`.
+    pub fn plant_at(&mut self, time_s: f64, body: &BodyMotion) -> Plant<'_> {
+        self.turning_plant(time_s, body, [Vector3::zeros(); 2])
+    }
+
+    /// The same, its rate changing by these terms of its series, in rad/s2 and rad/s3.
+    pub fn turning_plant(
+        &mut self,
+        time_s: f64,
+        body: &BodyMotion,
+        rate_terms_body: [Vector3<f64>; 2],
+    ) -> Plant<'_> {
+        let motion = Command {
+            attitude: Attitude::from_unit(body.attitude),
+            rate_body_rad_s: body.rate_body_rad_s,
+            since_s: time_s,
+        };
+        let attitude = &mut self.world.configuration.attitude;
+        let guided = attitude.guided().copied();
+        *attitude = AttitudeSource::Dynamic(DynamicAttitude { motion, rate_terms_body, guided });
+        self.plant()
+    }
+}

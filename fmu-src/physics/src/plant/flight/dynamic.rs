@@ -1,0 +1,406 @@
+//! Attitude dynamics of the plant: a rigid body with wheels under disturbances, sampled sensors, and either a controller that
+//! tracks a command or wheel torques from outside.
+//!
+//! Sensors and controller are sampled at a fixed rate; motor torques hold over a sample. A sample at t belongs to the step
+//! that begins at t and reads that step's inputs. Between two samples, edges of the disturbance grid, ends of dumps and
+//! changes of inputs the motion is one [`GyrostatMotion`] segment or a few; communication points only evaluate it.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::{Attitude, BodyLoad, BodyMotion, GyrostatMotion};
+use crate::momentum::{DumpEvent, SOURCES};
+use crate::numerics::spacing::spacing;
+use crate::radiation::{Effect, ForceTorque};
+use crate::spacecraft::MassProperties;
+
+use super::control_loop::{ControlLoop, Sampled};
+use super::craft::Craft;
+use super::momentum_dumps::MomentumDumps;
+use super::sensing::Sensing;
+use crate::plant::disturbances::disturbance_interval::{DisturbanceInterval, Linear};
+use crate::plant::disturbances::evaluation::{Evaluation, External, Plant};
+use crate::plant::mass::MassState;
+use crate::plant::motion::panel_motion::PanelMotion;
+use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
+use crate::plant::settings::error::PlantError;
+use crate::plant::settings::work::Cost;
+use crate::plant::thrusters::reaction_control::Thrusters;
+
+/// Units of work of a segment of the motion with flexible modes, slosh or imbalance; one of a rigid body's is a unit.
+const FLEXIBLE_UNITS: u32 = 8;
+
+/// How the body stands and turns where a flight begins, where nothing is measured yet.
+#[derive(Clone, Copy, Debug)]
+pub struct StartMotion {
+    /// Attitude.
+    pub attitude: Attitude,
+    /// Body rate, in rad/s.
+    pub rate_body_rad_s: Vector3<f64>,
+    /// Whether internal guidance gives the attitude.
+    pub attitude_is_guided: bool,
+    /// Whether internal guidance gives the rate too.
+    pub rate_is_guided: bool,
+}
+
+/// State of the attitude dynamics: body, panels, disturbances, sensors, control, dumps.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct AttitudeDynamics {
+    pub motion: GyrostatMotion,
+    pub mass: MassState,
+    panels: PanelMotion,
+    disturbance: DisturbanceInterval,
+    pub sensing: Sensing,
+    pub control: ControlLoop,
+    pub dumps: MomentumDumps,
+}
+
+impl AttitudeDynamics {
+    /// At the start of a flight, the wheels holding these momenta, in N m s.
+    pub fn begin(
+        settings: &mut DynamicsSettings,
+        craft: &mut Craft<'_>,
+        start: &StartMotion,
+        wheels_n_m_s: impl Fn(usize) -> f64,
+        time_s: f64,
+    ) -> Result<Self, PlantError> {
+        let StartMotion { mut attitude, mut rate_body_rad_s, attitude_is_guided, rate_is_guided } = *start;
+        if attitude_is_guided && let Some(frame) = craft.guided_start(time_s)? {
+            attitude = Attitude::from_rotation(&frame.inertial_from_body);
+            if rate_is_guided {
+                rate_body_rad_s = frame.rate_body_rad_s;
+            }
+        }
+        let unit = attitude.unit_quaternion();
+        let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = [Vector3::zeros(); 2];
+        let body =
+            BodyMotion { attitude: unit, rate_body_rad_s, momentum_inertial_n_m_s, delta_v_inertial_m_s };
+        let mut mass = craft.world.configuration.loaded();
+        if settings.panels_have_mass {
+            let still = BodyMotion { rate_body_rad_s: Vector3::zeros(), ..body };
+            let mut plant = craft.plant_at(time_s, &still);
+            let instant = plant.instant(time_s);
+            mass = plant.mass_properties(&instant, time_s);
+            settings.set_mass_properties(&mass);
+        }
+        let gyrostat = &settings.gyrostat;
+        let mut begun = Self {
+            motion: GyrostatMotion::new(gyrostat, time_s, unit, &rate_body_rad_s, wheels_n_m_s),
+            mass: MassState::new(mass),
+            panels: PanelMotion::default(),
+            disturbance: DisturbanceInterval::before(),
+            sensing: Sensing::new(settings, time_s, attitude, rate_body_rad_s),
+            control: ControlLoop::new(gyrostat.wheels().len(), time_s, attitude, rate_body_rad_s),
+            dumps: MomentumDumps::default(),
+        };
+        if settings.panels_have_mass {
+            let mut plant = craft.plant_at(time_s, &body);
+            let instant = plant.instant(time_s);
+            begun.panels = PanelMotion::at_start(plant.hinged(), &instant, time_s);
+            let internal = begun.panels.internal(craft.given.prepared.panels, &mass, begun.motion.end_s());
+            begun.motion.add_hinges(internal);
+        }
+        Ok(begun)
+    }
+
+    /// Whether its numbers can come from a flight of a body with so many wheels, modal coordinates and panels; bytes from
+    /// elsewhere may hold anything.
+    pub fn is_sound(&self, wheels: usize, oscillators: usize, panels: usize) -> bool {
+        self.motion.is_sound(wheels, oscillators)
+            && self.mass.is_sound()
+            && self.panels.is_sound(panels)
+            && self.disturbance.is_sound()
+            && self.sensing.is_sound()
+            && self.control.is_sound(wheels)
+            && self.dumps.is_sound()
+    }
+
+    /// Whether it has come to `time_s` and not beyond the segment there.
+    pub fn covers(&self, time_s: f64) -> bool {
+        let tolerance_s = tolerance_s(time_s);
+        self.motion.start_s() <= time_s + tolerance_s && time_s <= self.motion.end_s() + tolerance_s
+    }
+
+    /// Something that acts changes at `time_s`; `loads_change` tells whether light and place do.
+    pub fn cut(&mut self, time_s: f64, loads_change: bool) {
+        if time_s < self.motion.end_s() - tolerance_s(time_s) {
+            self.motion.cut(time_s);
+        }
+        if loads_change {
+            self.disturbance.cut(time_s);
+        }
+    }
+
+    /// Advances until the motion covers `end_s`.
+    pub fn advance(
+        &mut self,
+        settings: &mut DynamicsSettings,
+        craft: &mut Craft<'_>,
+        inputs: &DynamicsInputs,
+        end_s: f64,
+    ) -> Result<(), PlantError> {
+        self.resume(settings, craft);
+        craft.world.begin_work(craft.given.work_limit);
+        let units = if settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
+        while self.motion.end_s() < end_s - tolerance_s(end_s) {
+            let time_s = self.motion.end_s();
+            let evaluations = craft.world.ephemeris.evaluations();
+            craft.world.work.spend(Cost::Segment, units, evaluations, time_s)?;
+            self.take_due(settings, craft, inputs)?;
+            let edge_s = craft.thrusters.next_edge_s();
+            let limit_s = self.sensing.next_s().min(self.disturbance.end_s()).min(edge_s);
+            let limit_s = limit_s.min(self.dumps.until_s());
+            let mut load = self.load(craft.given.external, craft.thrusters, time_s);
+            load.internal = self.panels.internal(craft.given.prepared.panels, &self.mass.now, time_s);
+            self.dumps.torques = self.torques_by_source(craft.given.external, time_s);
+            self.motion.advance(&settings.gyrostat, self.control.wheels.motors(), &load, limit_s);
+            craft.take_thrust(&self.motion)?;
+        }
+        Ok(())
+    }
+
+    /// The body has the mass properties of the present segment, and what flies those of the last edge of the grid.
+    pub fn resume(&self, settings: &mut DynamicsSettings, craft: &mut Craft<'_>) {
+        settings.set_mass_properties(&self.mass.now);
+        let world = &mut *craft.world;
+        world.mass_at_zero = self.mass.left.unwrap_or_else(|| world.configuration.loaded());
+    }
+
+    /// At the present end of the motion: edges of thrusters, disturbances anew, a dump's end, the sample, where they are due.
+    pub fn take_due(
+        &mut self,
+        settings: &mut DynamicsSettings,
+        craft: &mut Craft<'_>,
+        inputs: &DynamicsInputs,
+    ) -> Result<(), PlantError> {
+        let time_s = self.motion.end_s();
+        let due_s = time_s + tolerance_s(time_s);
+        self.dumps.settle(&self.motion, self.dumps.is_dumping(craft.thrusters, time_s));
+        if !craft.thrusters.load().law.is_none() {
+            let Thrusters { propellant, settings: known, .. } = &*craft.thrusters;
+            self.set_mass(settings, propellant.mass_properties_since(&self.mass.now, &known.tanks, time_s));
+        }
+        craft.thrusters.settle(&self.motion, time_s);
+        craft.thrusters.take_edges(time_s);
+        self.dumps.end(due_s);
+        self.control.wheels.fail(&inputs.wheel_failed);
+        if settings.control.is_none() {
+            self.control.wheels.drive(&settings.gyrostat, &inputs.wheel_torques_n_m);
+        }
+        let (sample_due, grid_due) = (self.sensing.next_s() <= due_s, self.disturbance.end_s() <= due_s);
+        if grid_due {
+            self.begin_interval(settings, craft)?;
+        }
+        if sample_due {
+            self.sample(settings, craft, inputs)?;
+            craft.thrusters.take_edges(time_s);
+        }
+        self.turn_mass(settings, craft);
+        let used_kg = craft.thrusters.propellant.total_used_kg(time_s);
+        self.mass.now.mass_kg = craft.world.configuration.mass_kg - used_kg;
+        craft.thrusters.exert(&self.mass.now, time_s);
+        Ok(())
+    }
+
+    /// At an edge of the grid: orbit, mass properties and disturbances anew.
+    fn begin_interval(
+        &mut self,
+        settings: &mut DynamicsSettings,
+        craft: &mut Craft<'_>,
+    ) -> Result<(), PlantError> {
+        let time_s = self.motion.end_s();
+        let body = self.motion.at(&settings.gyrostat, time_s);
+        let world = &mut *craft.world;
+        let loaded = world.configuration.loaded();
+        self.mass.left = craft.thrusters.left(&loaded, time_s);
+        world.mass_at_zero = self.mass.left.unwrap_or(loaded);
+        craft.propagator.cut(&world.configuration, time_s, true);
+        // A controller's torque lasts for a sample, and holds the rate.
+        let rate_terms_body = match &settings.control {
+            Some(_) => [Vector3::zeros(); 2],
+            None => {
+                let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
+                settings.gyrostat.torque_free_rate_terms(&body.rate_body_rad_s, &momentum_body)
+            }
+        };
+        let has_thrusters = !craft.thrusters.settings.thrusters.is_empty();
+        let mut plant = craft.turning_plant(time_s, &body, rate_terms_body);
+        if settings.panels_have_mass
+            && let Some(body) = self.follow_panels(settings, &mut plant)
+        {
+            plant = craft.turning_plant(time_s, &body, rate_terms_body);
+        }
+        self.disturbance = self.disturbance.next(&mut plant, time_s, settings.grid_s)?;
+        if settings.panels_have_mass || self.mass.left.is_some() || has_thrusters {
+            let instant = plant.instant(time_s);
+            self.set_known_mass(settings, plant.mass_properties(&instant, time_s));
+        }
+        if settings.panels_have_mass {
+            let was_turning = self.panels.is_turning();
+            let end_s = self.disturbance.end_s();
+            let [now, end] = [time_s, end_s].map(|at_s| plant.instant(at_s));
+            self.panels.turn_until(plant.hinged(), &now, &end, end_s);
+            if was_turning || self.panels.is_turning() {
+                self.turn_mass(settings, craft);
+                let internal = self.panels.internal(craft.given.prepared.panels, &self.mass.now, time_s);
+                self.motion.displace(&settings.gyrostat, self.motion.attitude_at(time_s), internal);
+            }
+        }
+        Ok(())
+    }
+
+    /// The panels go where their laws have them at the end of the motion; the body after that, where they were elsewhere.
+    fn follow_panels(
+        &mut self,
+        settings: &mut DynamicsSettings,
+        plant: &mut Plant<'_>,
+    ) -> Option<BodyMotion> {
+        let time_s = self.motion.end_s();
+        let to_sun = plant.instant(time_s).geometry.to_sun.position_m.normalize();
+        let hinged = plant.hinged();
+        let attitude = self.panels.follow(hinged, &mut settings.gyrostat, &self.motion, &to_sun)?;
+        let mass = self.panels.mass_properties(&hinged.mass_at_zero, hinged.panels, time_s);
+        self.set_known_mass(settings, mass);
+        let internal = self.panels.internal(hinged.panels, &mass, time_s);
+        self.motion.displace(&settings.gyrostat, attitude, internal);
+        Some(self.motion.at(&settings.gyrostat, time_s))
+    }
+
+    /// Panels that turn have the body with the mass properties of the end of the motion.
+    fn turn_mass(&mut self, settings: &mut DynamicsSettings, craft: &Craft<'_>) {
+        if !self.panels.is_turning() {
+            return;
+        }
+        let time_s = self.motion.end_s();
+        let loaded = craft.world.configuration.loaded();
+        let left = self.mass.left.and_then(|_| craft.thrusters.left(&loaded, time_s)).unwrap_or(loaded);
+        self.set_mass(settings, self.panels.mass_properties(&left, craft.given.prepared.panels, time_s));
+    }
+
+    fn set_mass(&mut self, settings: &mut DynamicsSettings, mass: MassProperties) {
+        self.mass.now = mass;
+        settings.set_mass_properties(&mass);
+    }
+
+    fn set_known_mass(&mut self, settings: &mut DynamicsSettings, mass: MassProperties) {
+        self.mass.known = mass;
+        self.set_mass(settings, mass);
+    }
+
+    /// Sensors, watch of the momentum, controller.
+    fn sample(
+        &mut self,
+        settings: &DynamicsSettings,
+        craft: &mut Craft<'_>,
+        inputs: &DynamicsInputs,
+    ) -> Result<(), PlantError> {
+        let time_s = self.motion.end_s();
+        let body = self.motion.at(&settings.gyrostat, time_s);
+        let number = self.sensing.sample(settings, inputs, time_s, &body, self.disturbance.sun_at(time_s));
+        let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
+        let is_free = self.dumps.are_over(craft.thrusters) && !self.control.by_thrusters;
+        if is_free && craft.thrusters.burning().is_none() && settings.dump.exceeded(&momentum_body) {
+            self.begin_dump(craft, &momentum_body, settings.dump.after(&momentum_body));
+            self.dumps.dumps.check()?;
+        }
+        craft.thrusters.sample_dump(&self.motion, &body.momentum_inertial_n_m_s, &self.mass.known);
+        let Some(control) = &settings.control else { return Ok(()) };
+        let sampled = Sampled {
+            number,
+            gyrostat: &settings.gyrostat,
+            motion: &self.motion,
+            body: &body,
+            estimate: &self.sensing.estimate,
+            mass: &self.mass.known,
+            dump_body_n_m: self.dumps.torque_body_n_m(),
+        };
+        let target = self.control.target(craft, inputs.tracked, &sampled)?;
+        self.control.control(control, craft.thrusters, &target, &sampled);
+        Ok(())
+    }
+
+    /// Thrusters bring the momentum to `target_body_n_m_s` from the present end of the motion on.
+    pub fn dump_to(
+        &mut self,
+        settings: &DynamicsSettings,
+        craft: &mut Craft<'_>,
+        target_body_n_m_s: Vector3<f64>,
+    ) {
+        let body = self.motion.at(&settings.gyrostat, self.motion.end_s());
+        let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
+        self.begin_dump(craft, &momentum_body, target_body_n_m_s);
+    }
+
+    fn begin_dump(&mut self, craft: &mut Craft<'_>, before: &Vector3<f64>, after: Vector3<f64>) {
+        let time_s = self.motion.end_s();
+        let event = DumpEvent { time_s, before_body_n_m_s: *before, after_body_n_m_s: after };
+        self.dumps.begin(event, craft.thrusters, &self.motion, &self.mass.known);
+        (craft.log)(&event);
+    }
+
+    /// What acts from `time_s` on.
+    fn load(&self, external: &External<'_>, thrusters: &Thrusters, time_s: f64) -> BodyLoad {
+        let [[force, force_slope], [torque, torque_slope]] = self.disturbance.total_at(time_s);
+        let [now, slope] = external(time_s);
+        let dump = self.dumps.torque_body_n_m();
+        let thrusters = thrusters.load();
+        let [thrust, thrust_slope] = thrusters.law.force_body_n;
+        let [turn, turn_slope] = thrusters.law.torque_body_n_m;
+        BodyLoad {
+            torque_body_n_m: [
+                torque + now.torque_body_n_m + dump + turn,
+                torque_slope + slope.torque_body_n_m + turn_slope,
+            ],
+            force_body_n: [
+                force + now.force_body_n + thrust,
+                force_slope + slope.force_body_n + thrust_slope,
+            ],
+            mass_kg: thrusters.mass_kg,
+            flow_kg_s: thrusters.law.flow_kg_s,
+            mass_flow: (!thrusters.law.is_none()).then_some(thrusters.mass_flow),
+            internal: None,
+        }
+    }
+
+    /// Torque by effect from `time_s` on.
+    fn torques_by_source(&self, external: &External<'_>, time_s: f64) -> [Linear; SOURCES.len()] {
+        SOURCES.map(|effect| match effect {
+            Effect::Applied => external(time_s).map(|load| load.torque_body_n_m),
+            effect => self.disturbance.torque_at(effect, time_s),
+        })
+    }
+
+    /// Where everything is and what acts at `time_s`, as the motion takes it.
+    pub fn evaluation(
+        &self,
+        settings: &DynamicsSettings,
+        craft: &mut Craft<'_>,
+        body: &BodyMotion,
+        time_s: f64,
+    ) -> Evaluation {
+        let loaded = craft.world.configuration.loaded();
+        craft.world.mass_at_zero = craft.thrusters.left(&loaded, time_s).unwrap_or(loaded);
+        let mass_kg = loaded.mass_kg - craft.thrusters.propellant.total_used_kg(time_s);
+        let mut plant = craft.plant_at(time_s, body);
+        let instant = plant.instant(time_s);
+        let mass = MassProperties { mass_kg, ..plant.mass_properties(&instant, time_s) };
+        let panels_body_n_m_s = plant.panel_momentum_body_n_m_s(&instant, &mass, time_s);
+        let mut loads = self.disturbance.loads_at(time_s);
+        let [torque_body_n_m, force_body_n] = self.motion.swinging_load(&settings.gyrostat, time_s, body);
+        let [external, _] = (craft.given.external)(time_s);
+        loads[Effect::Applied] = ForceTorque {
+            force_body_n: external.force_body_n + force_body_n,
+            torque_body_n_m: external.torque_body_n_m + torque_body_n_m,
+        };
+        let thrusters = craft.thrusters.load();
+        loads[Effect::Thrusters] = ForceTorque {
+            force_body_n: thrusters.law.force_at_n(time_s),
+            torque_body_n_m: thrusters.torque_at_n_m(time_s, &body.rate_body_rad_s),
+        };
+        Evaluation { instant, loads, mass, panels_body_n_m_s }
+    }
+}
+
+fn tolerance_s(time_s: f64) -> f64 {
+    4.0 * spacing(time_s)
+}

@@ -1,0 +1,109 @@
+//! Dumps of a flight by torque: by pulses of thrusters, or by a constant torque of a spacecraft without thrusters that give
+//! torque all ways; and what each effect did to the momentum since the last one.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::GyrostatMotion;
+use crate::momentum::{DumpEvent, DumpSpacing, Dumps, SOURCES, SourceMomenta};
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::plant::disturbances::disturbance_interval::Linear;
+use crate::plant::thrusters::reaction_control::Thrusters;
+use crate::spacecraft::MassProperties;
+
+/// A dump by a constant torque.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct ConstantDump {
+    torque_body_n_m: Vector3<f64>,
+    until_s: f64,
+}
+
+/// Dumps so far, and the one that lasts.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct MomentumDumps {
+    constant: Option<ConstantDump>,
+    /// Dumps so far.
+    pub dumps: Dumps,
+    /// Time between dumps.
+    pub spacing: DumpSpacing,
+    /// What each effect did to the momentum from the last dump up to the present segment of the motion.
+    by_source: SourceMomenta,
+    /// Torque by effect from the start of that segment on.
+    pub torques: [Linear; SOURCES.len()],
+}
+
+impl MomentumDumps {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
+        self.constant.is_none_or(|it| it.torque_body_n_m.iter().all(sound) && sound(&it.until_s))
+            && self.dumps.is_sound()
+            && self.spacing.is_sound()
+            && self.by_source.is_sound()
+            && self.torques.iter().flatten().flatten().all(sound)
+    }
+
+    /// When a constant torque ends, in s; infinite where none acts.
+    pub fn until_s(&self) -> f64 {
+        self.constant.map_or(f64::INFINITY, |dump| dump.until_s)
+    }
+
+    /// Constant torque of a dump that lasts, in N m.
+    pub fn torque_body_n_m(&self) -> Vector3<f64> {
+        self.constant.map_or(Vector3::zeros(), |dump| dump.torque_body_n_m)
+    }
+
+    /// Ends a constant torque whose time has come.
+    pub fn end(&mut self, due_s: f64) {
+        self.constant = self.constant.filter(|dump| dump.until_s > due_s);
+    }
+
+    /// Adds what the effects did in the segment that ends; nothing of a dump's time counts.
+    pub fn settle(&mut self, motion: &GyrostatMotion, is_dumping: bool) {
+        self.by_source =
+            if is_dumping { SourceMomenta::default() } else { self.by_source(motion, motion.end_s()) };
+        self.torques = Default::default();
+    }
+
+    /// What each effect did to the momentum since the end of the last dump, at `time_s`.
+    pub fn by_source(&self, motion: &GyrostatMotion, time_s: f64) -> SourceMomenta {
+        let mut momenta = self.by_source;
+        momenta.add(&motion.impulses_inertial_n_m_s(&self.torques, time_s));
+        momenta
+    }
+
+    /// Begins a dump at the end of the motion: by thrusters that give torque all ways about the centre of mass, or by a constant
+    /// torque.
+    pub fn begin(
+        &mut self,
+        event: DumpEvent,
+        thrusters: &mut Thrusters,
+        motion: &GyrostatMotion,
+        mass: &MassProperties,
+    ) {
+        self.dumps = self.dumps.with(event);
+        self.spacing.dumped(&event);
+        self.by_source = SourceMomenta::default();
+        let target = motion.attitude_at(event.time_s).inertial_from_body(&event.after_body_n_m_s);
+        let has_thrusters = !thrusters.settings.thrusters.is_empty();
+        if has_thrusters && thrusters.begin_dump(motion, target, &mass.center_of_mass_body_m) {
+            return;
+        }
+        let impulse_body_n_m_s = event.impulse_body_n_m_s();
+        let duration_s = impulse_body_n_m_s.amax() / thrusters.settings.dump_torque_n_m;
+        if duration_s > 0.0 {
+            let torque_body_n_m = impulse_body_n_m_s / duration_s;
+            self.constant = Some(ConstantDump { torque_body_n_m, until_s: event.time_s + duration_s });
+        }
+    }
+
+    /// Whether one lasts at `time_s`.
+    pub fn is_dumping(&self, thrusters: &Thrusters, time_s: f64) -> bool {
+        self.constant.is_some_and(|dump| time_s < dump.until_s) || thrusters.is_dumping()
+    }
+
+    /// Whether another may begin.
+    pub fn are_over(&self, thrusters: &Thrusters) -> bool {
+        self.constant.is_none() && !thrusters.is_dumping()
+    }
+}

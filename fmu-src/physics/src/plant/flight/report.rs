@@ -1,0 +1,226 @@
+//! What a flight shows at one time, in whichever way its attitude comes about.
+
+use nalgebra::Vector3;
+
+use crate::attitude::control::Estimate;
+use crate::attitude::{Appendages, Attitude, BodyMotion, motor_power_w, wheel_speed_rad_s};
+use crate::momentum::{DumpSpacing, Dumps, SourceMomenta, Totals};
+use crate::plant::disturbances::evaluation::Evaluation;
+use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
+use crate::plant::settings::ideal_settings::IdealSettings;
+use crate::plant::thrusters::reaction_control::Thrusters;
+
+use super::dynamic::AttitudeDynamics;
+use super::ideal::IdealFlight;
+
+/// Everything about a flight at one time.
+pub struct Report<'a> {
+    /// When, in s.
+    pub time_s: f64,
+    /// What flies, where.
+    pub configuration: &'a Configuration,
+    /// Thrusters and tanks.
+    pub thrusters: &'a Thrusters,
+    /// Time since the last periapsis, in s; 0 where the flight waits.
+    pub since_periapsis_s: f64,
+    /// Whether a downlink lasts whose target of momentum is out of reach.
+    pub target_is_clamped: bool,
+    /// Where everything is and what acts.
+    pub evaluation: Evaluation,
+    /// Momentum, dumps, sensors and control.
+    pub shown: Shown<'a>,
+}
+
+/// What depends on how the attitude comes about.
+pub struct Shown<'a> {
+    time_s: f64,
+    /// Momentum and velocity change so far.
+    pub totals: Totals,
+    /// What each effect did to the momentum since the last dump.
+    pub by_source: SourceMomenta,
+    /// Dumps so far.
+    pub dumps: Dumps,
+    /// Time between dumps.
+    pub spacing: DumpSpacing,
+    /// Whether a dump lasts.
+    pub is_dumping: bool,
+    /// Angular impulse of the last dump, in the body frame at its start, in N m s.
+    pub dump_impulse_body_n_m_s: Vector3<f64>,
+    /// Velocity change of the last dump, EME2000, in m/s.
+    pub dump_delta_v_inertial_m_s: Vector3<f64>,
+    /// Attitude and rate as sensors know them.
+    pub estimate: Estimate,
+    /// The Sun in the body frame as sensed.
+    pub sun_sensed_body: Option<Vector3<f64>>,
+    /// Sum of the accelerometers' increments along the body axes at the last sample, in m/s.
+    pub accelerometer_body_m_s: Vector3<f64>,
+    /// Control of the attitude.
+    pub control: ControlReport,
+    body: Bodies<'a>,
+}
+
+/// Control of the attitude at one time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ControlReport {
+    /// Angle between estimated and commanded attitude at the last sample, in rad.
+    pub error_rad: f64,
+    /// Whether the reference has come to the command.
+    pub is_settled: bool,
+    /// Whether wheels or thrusters could not give the torque asked for at the last sample.
+    pub is_limited: bool,
+}
+
+/// One wheel at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelReport {
+    /// Relative to the body, in N m s.
+    pub momentum_n_m_s: f64,
+    /// Of the motor, in N m.
+    pub torque_n_m: f64,
+    /// In rad/s.
+    pub speed_rad_s: f64,
+    /// Of the motor, in W.
+    pub power_w: f64,
+    /// Whether it holds all that it can.
+    pub is_saturated: bool,
+}
+
+/// What turns.
+enum Bodies<'a> {
+    /// Ideal wheels: their momentum without the body's own, in N m s, its rate in N m, and the body's acceleration in rad/s2.
+    Ideal {
+        settings: &'a IdealSettings,
+        momentum_body_n_m_s: Vector3<f64>,
+        rate_body_n_m: Vector3<f64>,
+        acceleration_body_rad_s2: Vector3<f64>,
+    },
+    /// Body and wheels as their dynamics say.
+    Dynamic { settings: &'a DynamicsSettings, dynamics: &'a AttitudeDynamics, body: BodyMotion },
+}
+
+impl Shown<'_> {
+    /// Wheel `k` (0-based); ideal ones only where they span all directions.
+    pub fn wheel(&self, k: usize) -> Option<WheelReport> {
+        let (momentum_n_m_s, torque_n_m, speed_rad_s, is_saturated) = match &self.body {
+            Bodies::Ideal { settings, momentum_body_n_m_s, rate_body_n_m, acceleration_body_rad_s2 } => {
+                let (array, [inertia_kg_m2, capacity_n_m_s]) =
+                    settings.array.as_ref().zip(settings.wheels.get(k).copied())?;
+                let momentum_n_m_s = array.momentum_n_m_s(k, momentum_body_n_m_s);
+                let speed_rad_s = wheel_speed_rad_s(momentum_n_m_s, inertia_kg_m2);
+                let torque_n_m = array.motor_n_m(k, inertia_kg_m2, rate_body_n_m, acceleration_body_rad_s2);
+                (momentum_n_m_s, torque_n_m, speed_rad_s, momentum_n_m_s.abs() > capacity_n_m_s)
+            }
+            Bodies::Dynamic { settings, dynamics, body } => {
+                let (gyrostat, motion) = (&settings.gyrostat, &dynamics.motion);
+                let wheel = gyrostat.wheels().get(k)?;
+                let momentum_n_m_s = motion.rotor_n_m_s(gyrostat, k, self.time_s, body);
+                let motor = dynamics.control.wheels.motors().get(k)?;
+                let torque_n_m = motion.motor_n_m(gyrostat, motor, k, self.time_s);
+                let speed_rad_s = wheel.speed_rad_s(momentum_n_m_s);
+                (momentum_n_m_s, torque_n_m, speed_rad_s, wheel.is_saturated(momentum_n_m_s))
+            }
+        };
+        let power_w = motor_power_w(torque_n_m, speed_rad_s);
+        Some(WheelReport { momentum_n_m_s, torque_n_m, speed_rad_s, power_w, is_saturated })
+    }
+
+    /// Displacement of flexible mode `k` (0-based), in sqrt(kg) m.
+    pub fn mode_sqrt_kg_m(&self, k: usize) -> f64 {
+        match &self.body {
+            Bodies::Ideal { .. } => 0.0,
+            Bodies::Dynamic { dynamics, body, .. } => dynamics.motion.oscillator(k, self.time_s, body)[0],
+        }
+    }
+
+    /// Angles of slosh pendulum `k` (0-based), in rad.
+    pub fn slosh_rad(&self, k: usize) -> [f64; 2] {
+        let Bodies::Dynamic { settings, dynamics, body } = &self.body else { return [0.0; 2] };
+        let Appendages { modes, sloshes, .. } = settings.gyrostat.appendages();
+        [0, 1].map(|axis| {
+            let [displacement, _] = dynamics.motion.oscillator(modes.len() + 2 * k + axis, self.time_s, body);
+            sloshes[k].angle_rad(displacement)
+        })
+    }
+}
+
+/// Ideal wheels hold the system's momentum less what the body's own rotation and panels that turn take; sensors see the true
+/// attitude.
+pub(super) fn ideal<'a>(
+    flown: &IdealFlight,
+    settings: &'a IdealSettings,
+    evaluation: &Evaluation,
+    inputs: &DynamicsInputs,
+    time_s: f64,
+) -> Shown<'a> {
+    let (totals, dumps) = (flown.integrator.totals(time_s), *flown.integrator.dumps());
+    let acceleration = flown.integrator.acceleration_body_rad_s2(time_s);
+    let Evaluation { instant, loads, mass, panels_body_n_m_s } = evaluation;
+    let (frame, inertia) = (&instant.frame, &mass.inertia_body_kg_m2);
+    let torque_body_n_m = loads.total().torque_body_n_m;
+    Shown {
+        time_s,
+        totals,
+        by_source: flown.integrator.by_source(time_s),
+        dumps,
+        spacing: flown.spacing,
+        is_dumping: false,
+        dump_impulse_body_n_m_s: impulse_body_n_m_s(&dumps),
+        dump_delta_v_inertial_m_s: flown.dump_delta_v_inertial_m_s,
+        estimate: Estimate {
+            attitude: Attitude::from_rotation(&frame.inertial_from_body),
+            is_valid: inputs.health.star_tracker,
+            rate_body_rad_s: Some(frame.rate_body_rad_s),
+        },
+        sun_sensed_body: None,
+        accelerometer_body_m_s: Vector3::zeros(),
+        control: ControlReport::default(),
+        body: Bodies::Ideal {
+            settings,
+            momentum_body_n_m_s: totals.wheels_body_n_m_s(inertia, panels_body_n_m_s, frame),
+            rate_body_n_m: totals.wheels_rate_body_n_m(inertia, frame, &torque_body_n_m, &acceleration),
+            acceleration_body_rad_s2: acceleration,
+        },
+    }
+}
+
+/// The body as its dynamics say.
+pub(super) fn dynamic<'a>(
+    dynamics: &'a AttitudeDynamics,
+    settings: &'a DynamicsSettings,
+    thrusters: &Thrusters,
+    body: BodyMotion,
+    time_s: f64,
+) -> Shown<'a> {
+    let AttitudeDynamics { motion, sensing, control, dumps, .. } = dynamics;
+    let dumped = thrusters.dumped_at(motion, time_s);
+    let is_controlled = settings.control.is_some();
+    Shown {
+        time_s,
+        totals: Totals {
+            momentum_inertial_n_m_s: body.momentum_inertial_n_m_s,
+            delta_v_inertial_m_s: body.delta_v_inertial_m_s,
+            ..Totals::default()
+        },
+        by_source: dumps.by_source(motion, time_s),
+        dumps: dumps.dumps,
+        spacing: dumps.spacing,
+        is_dumping: dumps.is_dumping(thrusters, time_s),
+        dump_impulse_body_n_m_s: dumped
+            .map_or_else(|| impulse_body_n_m_s(&dumps.dumps), |[impulse, _]| impulse),
+        dump_delta_v_inertial_m_s: dumped.map_or(Vector3::zeros(), |[_, delta_v]| delta_v),
+        estimate: sensing.estimate_at(time_s),
+        sun_sensed_body: sensing.sun_sensed_body,
+        accelerometer_body_m_s: *sensing.accelerometer.delta_v_body_m_s(),
+        control: ControlReport {
+            error_rad: if is_controlled { control.controller.attitude_error_rad() } else { 0.0 },
+            is_settled: is_controlled && control.controller.is_settled(),
+            is_limited: control.is_limited(),
+        },
+        body: Bodies::Dynamic { settings, dynamics, body },
+    }
+}
+
+fn impulse_body_n_m_s(dumps: &Dumps) -> Vector3<f64> {
+    dumps.last.map_or(Vector3::zeros(), |event| event.impulse_body_n_m_s())
+}

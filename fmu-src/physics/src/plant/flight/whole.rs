@@ -1,0 +1,397 @@
+//! A flight: world, thrusters, state and mode in one.
+//!
+//! It begins, takes what changes, advances and reports, whichever way its attitude comes about. What parameters and inputs
+//! say is no state: a flight that was restored is told anew before it goes on.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::control::{Estimate, sample_number, sensed_sun};
+use crate::momentum::{DumpEvent, Totals};
+
+use super::craft::{Craft, Given};
+use super::dynamic::{AttitudeDynamics, StartMotion};
+use super::ideal::IdealFlight;
+use super::propagator_state::PropagatorState;
+use super::report::{Report, dynamic, ideal};
+use crate::plant::disturbances::evaluation::{Evaluation, ExternalLoad, Plant, PreparedSpacecraft, World};
+use crate::plant::motion::instant::Instant;
+use crate::plant::settings::configuration::{Command, Configuration, Motion};
+use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
+use crate::plant::settings::error::PlantError;
+use crate::plant::settings::ideal_settings::IdealSettings;
+use crate::plant::settings::panel_setting::PanelSetting;
+use crate::plant::thrusters::reaction_control::Thrusters;
+use crate::spacecraft::Spacecraft;
+
+/// A flight.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Flight {
+    propagator: PropagatorState,
+    /// Thrusters and tanks.
+    pub thrusters: Thrusters,
+    mode: Mode,
+    #[serde(skip)]
+    known: Option<Box<Known>>,
+}
+
+/// How the attitude comes about.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+enum Mode {
+    /// Nothing acts yet, and the attitude is held.
+    Waiting,
+    Ideal(IdealFlight),
+    Dynamic(Box<AttitudeDynamics>),
+}
+
+/// What parameters and inputs say.
+#[derive(Clone, Debug)]
+struct Known {
+    world: World,
+    settings: ModeSettings,
+}
+
+/// What parameters say beside the configuration.
+#[derive(Clone, Debug)]
+pub enum ModeSettings {
+    /// Of a flight whose attitude is followed ideally, and of one that waits.
+    Ideal(IdealSettings),
+    /// Of a flight by torque.
+    Dynamic(DynamicsSettings),
+}
+
+/// How a flight begins.
+pub enum Start<W> {
+    /// With this momentum, body frame, in N m s, in an attitude that is followed ideally.
+    Ideal(Vector3<f64>),
+    /// With this motion, the wheels holding these momenta, in N m s.
+    Dynamic(StartMotion, W),
+}
+
+/// What changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Changes {
+    /// Position and velocity are given anew.
+    pub orbit: bool,
+    /// Light and heat are no longer what they were going to be.
+    pub light: bool,
+    /// The mass is another.
+    pub mass: bool,
+    /// The force from outside is another.
+    pub force: bool,
+    /// Mass, thresholds or target of dumps are others.
+    pub tunables: bool,
+}
+
+impl Flight {
+    /// That waits.
+    pub fn waiting(thrusters: Thrusters) -> Self {
+        Self { propagator: PropagatorState::default(), thrusters, mode: Mode::Waiting, known: None }
+    }
+
+    /// Whether its numbers can come from a flight of this spacecraft; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self, spacecraft: &Spacecraft) -> bool {
+        // Panels without mass have no motion of their own.
+        let has_mass = spacecraft.panels.iter().any(|panel| panel.mass.is_some());
+        let panels = if has_mass { spacecraft.panels.len() } else { 0 };
+        let (wheels, oscillators) = (spacecraft.wheels.len(), spacecraft.oscillator_count());
+        self.propagator.is_sound()
+            && self.thrusters.is_sound(spacecraft.thrusters.len(), spacecraft.tanks.len())
+            && match &self.mode {
+                Mode::Waiting => true,
+                Mode::Ideal(ideal) => ideal.is_sound(),
+                Mode::Dynamic(dynamics) => dynamics.is_sound(wheels, oscillators, panels),
+            }
+    }
+
+    /// What was computed elsewhere than at `time_s`, if anything.
+    pub fn uncovered(&self, time_s: f64) -> Option<&'static str> {
+        let PropagatorState { light, trajectory, .. } = &self.propagator;
+        let (is_covered, what) = match &self.mode {
+            _ if !light.as_ref().is_none_or(|light| light.covers(time_s)) => {
+                (false, "light and heat were computed")
+            }
+            _ if !trajectory.covers(time_s) => (false, "the orbit was integrated"),
+            Mode::Waiting => (true, ""),
+            Mode::Ideal(ideal) => (ideal.integrator.covers(time_s), "the momentum was accumulated"),
+            Mode::Dynamic(dynamics) => (dynamics.covers(time_s), "the attitude was computed"),
+        };
+        (!is_covered).then_some(what)
+    }
+
+    /// Whether it knows what parameters and inputs say.
+    pub fn is_told(&self) -> bool {
+        self.known.is_some()
+    }
+
+    /// The configuration that is flown.
+    pub fn configuration(&self) -> Option<&Configuration> {
+        self.known.as_ref().map(|known| &known.world.configuration)
+    }
+
+    /// Whether it waits.
+    pub fn is_waiting(&self) -> bool {
+        matches!(self.mode, Mode::Waiting)
+    }
+
+    /// The estimate of the attitude at `time_s`, where sensors sample it.
+    pub fn estimate_at(&self, time_s: f64) -> Option<Estimate> {
+        match &self.mode {
+            Mode::Dynamic(dynamics) => Some(dynamics.sensing.estimate_at(time_s)),
+            Mode::Waiting | Mode::Ideal(_) => None,
+        }
+    }
+
+    /// The torque with `others_body_n_m` of everything else, in N m, where a dump is a constant torque.
+    pub fn with_dump_body_n_m(&self, others_body_n_m: &Vector3<f64>) -> Vector3<f64> {
+        match &self.mode {
+            Mode::Dynamic(dynamics) => others_body_n_m + dynamics.dumps.torque_body_n_m(),
+            Mode::Waiting | Mode::Ideal(_) => *others_body_n_m,
+        }
+    }
+
+    /// Where the Sun stands during downlinks.
+    pub fn sun_choice(&self) -> &super::sun_choice::SunChoice {
+        &self.propagator.sun_choice
+    }
+
+    /// Tells what parameters and inputs say.
+    pub fn tell(&mut self, world: World, settings: ModeSettings) {
+        self.known = Some(Box::new(Known { world, settings }));
+        self.set_left();
+    }
+
+    /// Takes the memory of the panels' settings for the next configuration.
+    pub fn take_panels(&mut self) -> Vec<PanelSetting> {
+        self.known.as_mut().map_or_else(Vec::new, |it| core::mem::take(&mut it.world.configuration.panels))
+    }
+
+    /// In flight that is followed ideally nothing flows between dumps.
+    fn set_left(&mut self) {
+        if let Some(Known { world, .. }) = self.known.as_deref_mut() {
+            let loaded = world.configuration.loaded();
+            world.mass_at_zero = self.thrusters.left(&loaded, 0.0).unwrap_or(loaded);
+        }
+    }
+
+    /// Something changes at `time_s`: what was computed beyond it under what was known so far is void, and from there on the
+    /// configuration and settings are these, where they are others.
+    ///
+    /// # Errors
+    /// A place that is given below the surface.
+    pub fn apply(
+        &mut self,
+        changes: Changes,
+        configuration: Option<Configuration>,
+        settings: Option<ModeSettings>,
+        time_s: f64,
+    ) -> Result<(), PlantError> {
+        let Some(known) = self.known.as_deref_mut() else { return Err(PlantError::OtherMode) };
+        let so_far = &known.world.configuration;
+        // On a disturbed orbit the mass tells where the spacecraft goes.
+        let pushed = changes.force && matches!(so_far.motion, Motion::Disturbed { feedback: true, .. });
+        match &mut self.mode {
+            Mode::Waiting => {}
+            Mode::Ideal(ideal) => {
+                ideal.integrator.cut(time_s);
+                self.propagator.cut(so_far, time_s, changes.light);
+            }
+            Mode::Dynamic(dynamics) => {
+                let loads_change = changes.light || changes.mass || pushed;
+                dynamics.cut(time_s, loads_change);
+                if loads_change {
+                    self.propagator.cut(so_far, time_s, true);
+                }
+            }
+        }
+        if let Some(configuration) = configuration {
+            known.world.configuration = configuration;
+        }
+        if let Some(settings) = settings {
+            known.settings = settings;
+        }
+        if changes.orbit {
+            self.propagator.move_to(&known.world.configuration, time_s)?;
+        }
+        self.set_left();
+        Ok(())
+    }
+
+    /// Begins at `time_s`.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub fn begin<W: Fn(usize) -> f64>(
+        &mut self,
+        given: Given<'_>,
+        start: Start<W>,
+        time_s: f64,
+        log: &mut dyn FnMut(&DumpEvent),
+    ) -> Result<(), PlantError> {
+        let Self { propagator, thrusters, known: Some(known), mode } = self else {
+            return Err(PlantError::OtherMode);
+        };
+        let Known { world, settings } = &mut **known;
+        *propagator = PropagatorState::new(&world.configuration, time_s)?;
+        let mut craft = Craft { given, world, propagator, thrusters, log };
+        *mode = match (start, settings) {
+            (Start::Ideal(momentum_body_n_m_s), ModeSettings::Ideal(_)) => {
+                Mode::Ideal(IdealFlight::begin(&mut craft, time_s, momentum_body_n_m_s)?)
+            }
+            (Start::Dynamic(start, wheels_n_m_s), ModeSettings::Dynamic(settings)) => Mode::Dynamic(
+                Box::new(AttitudeDynamics::begin(settings, &mut craft, &start, wheels_n_m_s, time_s)?),
+            ),
+            _ => return Err(PlantError::OtherMode),
+        };
+        Ok(())
+    }
+
+    /// Advances until everything is known at the end of the step.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub fn advance(
+        &mut self,
+        given: Given<'_>,
+        inputs: &DynamicsInputs,
+        [start_s, end_s]: [f64; 2],
+        log: &mut dyn FnMut(&DumpEvent),
+    ) -> Result<(), PlantError> {
+        let Self { propagator, thrusters, known: Some(known), mode } = self else {
+            return Err(PlantError::OtherMode);
+        };
+        let Known { world, settings } = &mut **known;
+        let mut craft = Craft { given, world, propagator, thrusters, log };
+        match (mode, settings) {
+            (Mode::Waiting, _) => Ok(()),
+            (Mode::Ideal(ideal), ModeSettings::Ideal(_)) => {
+                if let Some(target_body_n_m_s) = inputs.dump_to_body_n_m_s {
+                    ideal.dump_to(&mut craft, start_s, target_body_n_m_s);
+                }
+                ideal.advance(&mut craft, end_s)
+            }
+            (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
+                if let Some(target_body_n_m_s) = inputs.dump_to_body_n_m_s {
+                    dynamics.cut(start_s, false);
+                    dynamics.dump_to(settings, &mut craft, target_body_n_m_s);
+                }
+                let pulses = craft.thrusters.command_pulses(&inputs.pulses, [start_s, end_s]);
+                if craft.thrusters.command_thrust(&inputs.thrust, start_s) || pulses {
+                    dynamics.cut(start_s, false);
+                }
+                dynamics.advance(settings, &mut craft, inputs, end_s)
+            }
+            _ => Err(PlantError::OtherMode),
+        }
+    }
+
+    /// What samples at the start with these inputs would do: to be shown there, and to be undone, as the first step takes them with
+    /// its own.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub fn sample_at_start(&mut self, given: Given<'_>, inputs: &DynamicsInputs) -> Result<Undo, PlantError> {
+        let undo = Undo(self.mode.clone(), self.thrusters.clone());
+        let Self { propagator, thrusters, known: Some(known), mode } = self else {
+            return Err(PlantError::OtherMode);
+        };
+        if let (Mode::Dynamic(dynamics), Known { world, settings: ModeSettings::Dynamic(settings) }) =
+            (mode, &mut **known)
+        {
+            world.begin_work(given.work_limit);
+            let mut craft = Craft { given, world, propagator, thrusters, log: &mut |_| {} };
+            dynamics.take_due(settings, &mut craft, inputs)?;
+        }
+        Ok(undo)
+    }
+
+    /// Undoes samples at the start.
+    pub fn undo(&mut self, Undo(mode, thrusters): Undo) {
+        (self.mode, self.thrusters) = (mode, thrusters);
+    }
+
+    /// Everything at `time_s`, where the flight has come; a flight that waits holds the attitude of `command`, its system the
+    /// momentum of `start`, body frame, in N m s.
+    ///
+    /// # Errors
+    /// A state that belongs to another mode than the settings.
+    pub fn report(
+        &mut self,
+        given: Given<'_>,
+        inputs: &DynamicsInputs,
+        held: (Command, Vector3<f64>),
+        time_s: f64,
+    ) -> Result<Report<'_>, PlantError> {
+        let Self { propagator, thrusters, known: Some(known), mode } = self else {
+            return Err(PlantError::OtherMode);
+        };
+        let Known { world, settings } = &mut **known;
+        let frame = held.0.frame_at(time_s);
+        let mut craft = Craft { given, world, propagator, thrusters, log: &mut |_| {} };
+        let (evaluation, body) = match (&*mode, &mut *settings) {
+            (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
+                dynamics.resume(settings, &mut craft);
+                let body = dynamics.motion.at(&settings.gyrostat, time_s);
+                (dynamics.evaluation(settings, &mut craft, &body, time_s), Some(body))
+            }
+            (Mode::Waiting, _) => (Evaluation::nowhere(frame, craft.world.mass_at_zero), None),
+            _ => (craft.plant().evaluate(time_s), None),
+        };
+        let (configuration, thrusters) = (&world.configuration, &*thrusters);
+        let shown = match (&*mode, &*settings, body) {
+            (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings), Some(body)) => {
+                dynamic(dynamics, settings, thrusters, body, time_s)
+            }
+            (Mode::Ideal(flown), ModeSettings::Ideal(settings), _) => {
+                let mut shown = ideal(flown, settings, &evaluation, inputs, time_s);
+                let Instant { sun_body, lit_fraction, .. } = &evaluation.instant;
+                shown.sun_sensed_body = sensed_sun(
+                    &settings.sun_sensors,
+                    |k| inputs.sun_sensor_failed.get(k).is_some_and(|failed| *failed),
+                    sun_body,
+                    *lit_fraction,
+                    settings.seed,
+                    sample_number(time_s, settings.rate_hz),
+                );
+                shown
+            }
+            (Mode::Waiting, ModeSettings::Ideal(settings), _) => {
+                let totals = Totals::at_start(held.1, &frame.inertial_from_body);
+                ideal(&IdealFlight::new(time_s, totals), settings, &evaluation, inputs, time_s)
+            }
+            _ => return Err(PlantError::OtherMode),
+        };
+        let since_periapsis_s = match mode {
+            Mode::Waiting => 0.0,
+            _ => propagator.trajectory.time_since_periapsis_s(configuration, time_s),
+        };
+        let target_is_clamped = propagator.sun_choice.is_clamped();
+        Ok(Report {
+            time_s,
+            configuration,
+            thrusters,
+            since_periapsis_s,
+            target_is_clamped,
+            evaluation,
+            shown,
+        })
+    }
+
+    /// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order.
+    ///
+    /// # Errors
+    /// A geometry without meaning.
+    pub fn faces(
+        &mut self,
+        prepared: PreparedSpacecraft<'_>,
+        time_s: f64,
+        report: impl FnMut(f64, Vector3<f64>),
+    ) -> Result<(), PlantError> {
+        let Self { propagator, known: Some(known), .. } = self else { return Err(PlantError::OtherMode) };
+        let external = |_: f64| [ExternalLoad::default(); 2];
+        Plant::new(prepared, &mut known.world, propagator, &external).faces(time_s, report)
+    }
+}
+
+/// A flight before samples at its start.
+pub struct Undo(Mode, Thrusters);

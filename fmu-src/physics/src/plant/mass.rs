@@ -1,0 +1,32 @@
+//! Mass properties of a spacecraft that uses propellant and turns panels; the only place where they are kept.
+
+use serde::{Deserialize, Serialize};
+
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::spacecraft::MassProperties;
+
+/// Mass properties of a body that turns as its dynamics say.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct MassState {
+    /// At the last edge of the grid, with the panels as they stood then: what the controller knows.
+    pub known: MassProperties,
+    /// At the start of the present segment of the motion: without the propellant that flowed since.
+    pub now: MassProperties,
+    /// At the last edge of the grid with every panel at angle 0; absent while no propellant is used.
+    pub left: Option<MassProperties>,
+}
+
+impl MassState {
+    /// At the start of a flight.
+    pub fn new(mass: MassProperties) -> Self {
+        Self { known: mass, now: mass, left: None }
+    }
+
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        [Some(self.known), Some(self.now), self.left].iter().flatten().all(|mass| {
+            let numbers = mass.center_of_mass_body_m.iter().chain(&mass.inertia_body_kg_m2);
+            mass.mass_kg > 0.0 && numbers.chain([&mass.mass_kg]).all(|x| x.abs() <= GREATEST_IN_STATE)
+        })
+    }
+}

@@ -1,0 +1,19 @@
+//! What parameters say about wheels and sensors where the attitude is followed ideally.
+
+use crate::attitude::control::SunSensor;
+use crate::momentum::WheelArray;
+
+/// Wheels and sensors of a flight in an attitude that is followed ideally.
+#[derive(Clone, Debug)]
+pub struct IdealSettings {
+    /// Distribution of momentum over the wheels; none unless they span all directions.
+    pub array: Option<WheelArray>,
+    /// Inertia of each wheel, in kg m2, and what it can hold, in N m s.
+    pub wheels: Vec<[f64; 2]>,
+    /// Sun sensors.
+    pub sun_sensors: Vec<SunSensor>,
+    /// Samples of the sensors a second.
+    pub rate_hz: f64,
+    /// Of the sensors' noise.
+    pub seed: u64,
+}
