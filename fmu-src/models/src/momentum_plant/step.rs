@@ -121,7 +121,7 @@ fn tell(context: &Plan<'_>, values: &mut Values, state: &mut PlantState) -> Resu
     let panels = Vec::with_capacity(context.variables.panel.len());
     let configuration = inputs::configuration(context, values, state, InputsOverTime::held(), panels)?;
     let settings = match dynamics::is_dynamic(context, values) && !state.waiting {
-        true => ModeSettings::Dynamic(dynamics::settings(context, values, &configuration)?),
+        true => ModeSettings::Dynamic(dynamics::settings(context, values, &configuration)?.into()),
         false => ModeSettings::Ideal(dynamics::ideal_settings(context, values)?),
     };
     let mut world = World::new(configuration);
@@ -150,7 +150,7 @@ fn apply(
         let told = inputs::configuration(context, values, state, step.inputs, panels)?;
         outputs::write_calculated(context, values, &told);
         if is_dynamic {
-            settings = Some(ModeSettings::Dynamic(dynamics::settings(context, values, &told)?));
+            settings = Some(ModeSettings::Dynamic(dynamics::settings(context, values, &told)?.into()));
         }
         configuration = Some(told);
     }

@@ -17,15 +17,16 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use super::body_load::{BodyLoad, BodyMotion, Components};
 use super::gyrostat::Gyrostat;
 use super::imbalance::ImbalanceMotion;
 use super::internal_motion::InternalMotion;
-use super::mass_flow::MassFlow;
 use super::oscillator::OscillatorMotion;
 use super::quaternion::Quaternion;
+use super::rotor_motion::RotorMotion;
 use super::series::{ORDER, TERMS, polynomial};
-use super::wheel::{Motor, ReactionWheel, Rotor};
-use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
+use super::wheel::{Motor, Rotor};
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::quadrature::GAUSS_3;
 
 /// Terms below this share of the whole are rounding.
@@ -34,104 +35,6 @@ const ROUNDING: f64 = 1e-17;
 const PHASE_ROUNDING: f64 = 1e-14;
 /// How often each rotor may be set free or held at one time until all agree.
 const ROUNDS_A_ROTOR: usize = 3;
-/// What acts on the body over a segment, body frame, polynomials of the time since its start.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BodyLoad {
-    /// Torque about the centre of mass in N m, and its slope in N m/s.
-    pub torque_body_n_m: [Vector3<f64>; 2],
-    /// Force other than gravity in N, and its slope in N/s.
-    pub force_body_n: [Vector3<f64>; 2],
-    /// Mass in kg at the start.
-    pub mass_kg: f64,
-    /// What leaves the body in kg/s at the start, and its slope in kg/s2.
-    pub flow_kg_s: [f64; 2],
-    /// What that does to the body beside its force; absent where nothing flows.
-    pub mass_flow: Option<MassFlow>,
-    /// What turns on hinges; absent where nothing does.
-    pub internal: Option<InternalMotion>,
-}
-
-impl BodyLoad {
-    /// Nothing, on a body of this mass.
-    pub fn none(mass_kg: f64) -> Self {
-        let nothing = [Vector3::zeros(); 2];
-        Self {
-            torque_body_n_m: nothing,
-            force_body_n: nothing,
-            mass_kg,
-            flow_kg_s: [0.0; 2],
-            mass_flow: None,
-            internal: None,
-        }
-    }
-
-    /// Whether nothing acts.
-    fn is_zero(&self) -> bool {
-        self.torque_body_n_m.iter().chain(&self.force_body_n).all(|it| *it == Vector3::zeros())
-            && self.mass_flow.is_none()
-    }
-
-    /// Torque without jet damping in N m and acceleration in m/s2.
-    fn after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
-        let [torque, force] =
-            [self.torque_body_n_m, self.force_body_n].map(|[start, slope]| start + slope * elapsed_s);
-        [torque, force / self.mass_after_kg(elapsed_s)]
-    }
-
-    fn mass_after_kg(&self, elapsed_s: f64) -> f64 {
-        let [flow_kg_s, slope_kg_s2] = self.flow_kg_s;
-        self.mass_kg - (flow_kg_s + 0.5 * slope_kg_s2 * elapsed_s) * elapsed_s
-    }
-
-    /// Acceleration at the start and its slope there, in m/s2 and m/s3.
-    fn acceleration_body_m_s2(&self) -> [Vector3<f64>; 2] {
-        let start = self.force_body_n[0] / self.mass_kg;
-        [start, (self.force_body_n[1] + start * self.flow_kg_s[0]) / self.mass_kg]
-    }
-
-    fn is_sound(&self) -> bool {
-        let vectors = self.torque_body_n_m.iter().chain(&self.force_body_n);
-        vectors.flatten_all().chain(&self.flow_kg_s).all(|x| x.abs() <= GREATEST_IN_STATE)
-            && self.mass_flow.as_ref().is_none_or(MassFlow::is_sound)
-            && self.internal.as_ref().is_none_or(InternalMotion::is_sound)
-            && self.mass_kg > 0.0
-            && self.mass_kg <= GREATEST_IN_STATE
-    }
-}
-
-/// The components of vectors one after the other.
-trait Components<'a> {
-    fn flatten_all(self) -> impl Iterator<Item = &'a f64>;
-}
-
-impl<'a, I: Iterator<Item = &'a Vector3<f64>>> Components<'a> for I {
-    fn flatten_all(self) -> impl Iterator<Item = &'a f64> {
-        self.flat_map(|vector| vector.iter())
-    }
-}
-
-/// The body at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BodyMotion {
-    /// EME2000 to body.
-    pub attitude: Quaternion,
-    /// Angular rate, body frame, in rad/s.
-    pub rate_body_rad_s: Vector3<f64>,
-    /// Total angular momentum, EME2000, in N m s.
-    pub momentum_inertial_n_m_s: Vector3<f64>,
-    /// Velocity change by forces other than gravity since the start, EME2000, in m/s.
-    pub delta_v_inertial_m_s: Vector3<f64>,
-}
-
-/// One rotor over a segment.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct RotorMotion {
-    rotor: Rotor,
-    /// How it moves after the end, if that is why the segment ends.
-    next: Option<Rotor>,
-    /// Series of h + I a.w, in N m s; unused while it is held.
-    axial: [f64; TERMS],
-}
 
 /// Motion over one segment: its state and dense output.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -212,11 +115,7 @@ impl GyrostatMotion {
             && vectors.chain(totals).flatten_all().all(sound)
             && self.inverse_inertia.iter().all(sound)
             && self.load.is_sound()
-            && self.rotors.iter().all(|it| {
-                it.rotor.is_sound()
-                    && it.next.is_none_or(|next| next.is_sound())
-                    && it.axial.iter().all(sound)
-            })
+            && self.rotors.iter().all(RotorMotion::is_sound)
     }
 
     /// Before the first segment, what turns on hinges adds to the momentum.
@@ -555,17 +454,6 @@ impl GyrostatMotion {
         shortest_s
     }
 
-    /// What drives a held rotor off its speed at the start, along its axis, as a polynomial in time, in N m.
-    fn drive_n_m(&self, wheel: &ReactionWheel, motor: &Motor, held_n_m_s: f64) -> [f64; TERMS] {
-        let mut drive = [0.0; TERMS];
-        for (j, term) in drive.iter_mut().enumerate().take(self.order) {
-            let acceleration = self.rate[j + 1] * ((j + 1) as f64);
-            *term = -wheel.carried_n_m_s(&acceleration);
-        }
-        drive[0] += motor.torque_n_m - wheel.friction_n_m(held_n_m_s);
-        drive
-    }
-
     #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
     /// Sets the held rotor free that is driven off most, or holds the one that would move through its rest or beyond its
     /// capacity at once; whether there was one.
@@ -573,18 +461,7 @@ impl GyrostatMotion {
         let mut worst: Option<(usize, f64, Rotor)> = None;
         for k in 0..self.rotors.len() {
             let (wheel, motor, it) = (&gyrostat.wheels()[k], &motors[k], &self.rotors[k]);
-            let found = match it.rotor {
-                Rotor::Held { .. } if wheel.locked => None,
-                Rotor::Held { momentum_n_m_s } => {
-                    let drive = self.drive_n_m(wheel, motor, momentum_n_m_s)[0];
-                    driven_off(wheel, motor, momentum_n_m_s, drive)
-                }
-                Rotor::Turning { direction } => {
-                    let relative = it.axial[0] - wheel.carried_n_m_s(&self.rate[0]);
-                    let speeding_up = it.axial[1] - wheel.carried_n_m_s(&self.rate[1]);
-                    held_back(wheel, motor, direction, relative, speeding_up)
-                }
-            };
+            let found = it.change_at_start(wheel, motor, &self.rate[..=self.order]);
             if let Some((excess, rotor)) = found
                 && worst.is_none_or(|(_, most, _)| excess > most)
             {
@@ -602,7 +479,10 @@ impl GyrostatMotion {
         let mut first: Option<(usize, f64, Rotor)> = None;
         for k in 0..self.rotors.len() {
             let until_s = first.map_or(longest_s, |(_, at_s, _)| at_s);
-            if let Some((at_s, rotor)) = self.event(&gyrostat.wheels()[k], &motors[k], k, until_s) {
+            let rate = &self.rate[..=self.order];
+            if let Some((at_s, rotor)) =
+                self.rotors[k].event(&gyrostat.wheels()[k], &motors[k], rate, until_s)
+            {
                 first = Some((k, at_s, rotor));
             }
         }
@@ -610,64 +490,6 @@ impl GyrostatMotion {
         self.rotors[k].next = Some(rotor);
         // Time always goes on.
         at_s.max(longest_s * 1e-9)
-    }
-
-    /// When rotor `k` changes how it moves within `longest_s`, and to what.
-    fn event(&self, wheel: &ReactionWheel, motor: &Motor, k: usize, longest_s: f64) -> Option<(f64, Rotor)> {
-        let it = &self.rotors[k];
-        match it.rotor {
-            Rotor::Held { .. } if wheel.locked => None,
-            Rotor::Held { momentum_n_m_s } => {
-                let drive = self.drive_n_m(wheel, motor, momentum_n_m_s);
-                let at_rest = momentum_n_m_s == 0.0;
-                let friction = wheel.coulomb_friction_n_m;
-                // What is left until it is driven off, and the way it goes then.
-                let ways = if at_rest { [1.0, -1.0] } else { [momentum_n_m_s.signum(); 2] };
-                let exits = ways.into_iter().filter_map(|way| {
-                    let left = if at_rest { plus(&drive, friction, -way) } else { plus(&drive, 0.0, way) };
-                    let at_s = self.falls_below_zero_s(&left, longest_s)?;
-                    Some((at_s, Rotor::Turning { direction: way }))
-                });
-                exits.min_by(|(a_s, _), (b_s, _)| a_s.total_cmp(b_s))
-            }
-            Rotor::Turning { direction } => {
-                let mut relative = it.axial;
-                for (term, rate) in relative.iter_mut().zip(&self.rate).take(self.order + 1) {
-                    *term -= wheel.carried_n_m_s(rate);
-                }
-                let rests_s = (wheel.coulomb_friction_n_m > 0.0)
-                    .then(|| self.falls_below_zero_s(&plus(&relative, 0.0, direction), longest_s))
-                    .flatten();
-                let limit = wheel.capacity_n_m_s;
-                let sign = 1.0_f64.copysign(motor.torque_n_m);
-                let is_driven = !motor.failed && motor.torque_n_m != 0.0;
-                let full_s = is_driven
-                    .then(|| self.falls_below_zero_s(&plus(&relative, limit, -sign), longest_s))
-                    .flatten();
-                match (rests_s, full_s) {
-                    (Some(at_s), full_s) if full_s.is_none_or(|full_s| at_s <= full_s) => {
-                        Some((at_s, Rotor::Held { momentum_n_m_s: 0.0 }))
-                    }
-                    (_, Some(at_s)) => Some((at_s, Rotor::Held { momentum_n_m_s: sign * limit })),
-                    _ => None,
-                }
-            }
-        }
-    }
-
-    /// When a polynomial of the segment first falls through zero within `longest_s`.
-    fn falls_below_zero_s(&self, terms: &[f64; TERMS], longest_s: f64) -> Option<f64> {
-        let terms = &terms[..=self.order];
-        let mut swing = 0.0;
-        for term in terms.iter().skip(1).rev() {
-            swing = (swing + term.abs()) * longest_s;
-        }
-        if terms[0] > swing {
-            return None;
-        }
-        let fit = Segment::<1, { TERMS + 1 }>::fit(0.0, longest_s, |at_s| [polynomial(terms, at_s)].into());
-        let falls = |at_s: &f64| slope(terms, *at_s) < 0.0;
-        fit.sign_changes(0.0, longest_s).iter().find(falls)
     }
 
     /// EME2000 to body at `time_s` within the segment.
@@ -727,54 +549,6 @@ impl GyrostatMotion {
         }
         totals
     }
-}
-
-/// By how much a held rotor is driven off its speed, in N m, and how it then turns.
-fn driven_off(wheel: &ReactionWheel, motor: &Motor, held_n_m_s: f64, drive_n_m: f64) -> Option<(f64, Rotor)> {
-    let excess_n_m = if held_n_m_s == 0.0 {
-        drive_n_m.abs() - wheel.coulomb_friction_n_m
-    } else if motor.failed || motor.torque_n_m * held_n_m_s <= 0.0 {
-        // No motor holds it.
-        f64::INFINITY
-    } else {
-        -drive_n_m * held_n_m_s.signum()
-    };
-    let direction = if held_n_m_s == 0.0 { drive_n_m } else { held_n_m_s };
-    (excess_n_m > 0.0).then(|| (excess_n_m, Rotor::Turning { direction: 1.0_f64.copysign(direction) }))
-}
-
-/// By how much a rotor that turns is driven through its rest or beyond its capacity, in N m, and how it is held there.
-fn held_back(
-    wheel: &ReactionWheel,
-    motor: &Motor,
-    direction: f64,
-    relative_n_m_s: f64,
-    speeding_up_n_m: f64,
-) -> Option<(f64, Rotor)> {
-    let rounding = 4.0 * f64::EPSILON;
-    let at_capacity = relative_n_m_s.abs() >= wheel.capacity_n_m_s * (1.0 - rounding);
-    let outward_n_m = speeding_up_n_m * relative_n_m_s.signum();
-    if at_capacity && !motor.failed && motor.torque_n_m * relative_n_m_s > 0.0 && outward_n_m > 0.0 {
-        return Some((outward_n_m, Rotor::Held { momentum_n_m_s: relative_n_m_s }));
-    }
-    let backward_n_m = -speeding_up_n_m * direction;
-    let at_rest = relative_n_m_s.abs() <= rounding * wheel.capacity_n_m_s;
-    if at_rest && wheel.coulomb_friction_n_m > 0.0 && backward_n_m > 0.0 {
-        return Some((backward_n_m, Rotor::Held { momentum_n_m_s: 0.0 }));
-    }
-    None
-}
-
-fn slope(terms: &[f64], at: f64) -> f64 {
-    let terms = terms.iter().enumerate().skip(1).rev();
-    terms.fold(0.0, |sum, (j, term)| sum * at + term * j as f64)
-}
-
-/// `sign * terms + constant`.
-fn plus(terms: &[f64; TERMS], constant: f64, sign: f64) -> [f64; TERMS] {
-    let mut result = terms.map(|term| sign * term);
-    result[0] += constant;
-    result
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! the body axes, which is how [`Attitude`] holds it.
 
 mod angles;
+mod body_load;
 pub mod control;
 mod frame;
 mod gravity_gradient;
@@ -19,15 +20,17 @@ mod principal_axes;
 mod quaternion;
 mod rigid_body;
 mod rotation;
+mod rotor_motion;
 mod series;
 mod slosh;
 mod wheel;
 
 pub use angles::{SunAngles, angle_between_rad, direction_from_angles};
+pub use body_load::{BodyLoad, BodyMotion};
 pub use frame::{MovingFrame, MovingUnit};
 pub use gravity_gradient::gravity_gradient_n_m;
 pub use gyrostat::{Appendages, Gyrostat, GyrostatError};
-pub use gyrostat_motion::{BodyLoad, BodyMotion, GyrostatMotion};
+pub use gyrostat_motion::GyrostatMotion;
 pub use imbalance::RotorImbalance;
 pub use inertia::{Inertia, InertiaError};
 pub use internal_motion::{HingedMass, InternalMotion};

@@ -4,6 +4,7 @@ use nalgebra::{Complex, Matrix3};
 
 use super::tests::fly;
 use super::*;
+use crate::attitude::wheel::ReactionWheel;
 use crate::attitude::{Appendages, RotorImbalance};
 
 #[test]

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::*;
+use crate::attitude::mass_flow::MassFlow;
 
 fn flowing(inertia_rate: Vector3<f64>, jet_damping: Vector3<f64>) -> BodyLoad {
     let mass_flow = MassFlow {

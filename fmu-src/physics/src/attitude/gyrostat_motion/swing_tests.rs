@@ -7,6 +7,7 @@ use nalgebra::{Matrix3, Matrix6, SVector, Vector6};
 
 use super::tests::{fly, pyramid};
 use super::*;
+use crate::attitude::wheel::ReactionWheel;
 use crate::attitude::{Appendages, FlexibleMode};
 use crate::numerics::collocation::Collocation;
 

@@ -40,7 +40,7 @@ pub struct Flight {
 enum Mode {
     /// Nothing acts yet, and the attitude is held.
     Waiting,
-    Ideal(IdealFlight),
+    Ideal(Box<IdealFlight>),
     Dynamic(Box<AttitudeDynamics>),
 }
 
@@ -57,7 +57,7 @@ pub enum ModeSettings {
     /// Of a flight whose attitude is followed ideally, and of one that waits.
     Ideal(IdealSettings),
     /// Of a flight by torque.
-    Dynamic(DynamicsSettings),
+    Dynamic(Box<DynamicsSettings>),
 }
 
 /// How a flight begins.
@@ -236,7 +236,7 @@ impl Flight {
         let mut craft = Craft { given, world, propagator, thrusters, log };
         *mode = match (start, settings) {
             (Start::Ideal(momentum_body_n_m_s), ModeSettings::Ideal(_)) => {
-                Mode::Ideal(IdealFlight::begin(&mut craft, time_s, momentum_body_n_m_s)?)
+                Mode::Ideal(Box::new(IdealFlight::begin(&mut craft, time_s, momentum_body_n_m_s)?))
             }
             (Start::Dynamic(start, wheels_n_m_s), ModeSettings::Dynamic(settings)) => Mode::Dynamic(
                 Box::new(AttitudeDynamics::begin(settings, &mut craft, &start, wheels_n_m_s, time_s)?),

@@ -1,0 +1,98 @@
+//! What acts on a body over a segment of its motion, and the body at one time.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::internal_motion::InternalMotion;
+use super::mass_flow::MassFlow;
+use super::quaternion::Quaternion;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+
+/// What acts on the body over a segment, body frame, polynomials of the time since its start.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BodyLoad {
+    /// Torque about the centre of mass in N m, and its slope in N m/s.
+    pub torque_body_n_m: [Vector3<f64>; 2],
+    /// Force other than gravity in N, and its slope in N/s.
+    pub force_body_n: [Vector3<f64>; 2],
+    /// Mass in kg at the start.
+    pub mass_kg: f64,
+    /// What leaves the body in kg/s at the start, and its slope in kg/s2.
+    pub flow_kg_s: [f64; 2],
+    /// What that does to the body beside its force; absent where nothing flows.
+    pub mass_flow: Option<MassFlow>,
+    /// What turns on hinges; absent where nothing does.
+    pub internal: Option<InternalMotion>,
+}
+
+impl BodyLoad {
+    /// Nothing, on a body of this mass.
+    pub fn none(mass_kg: f64) -> Self {
+        let nothing = [Vector3::zeros(); 2];
+        Self {
+            torque_body_n_m: nothing,
+            force_body_n: nothing,
+            mass_kg,
+            flow_kg_s: [0.0; 2],
+            mass_flow: None,
+            internal: None,
+        }
+    }
+
+    /// Whether nothing acts.
+    pub(super) fn is_zero(&self) -> bool {
+        self.torque_body_n_m.iter().chain(&self.force_body_n).all(|it| *it == Vector3::zeros())
+            && self.mass_flow.is_none()
+    }
+
+    /// Torque without jet damping in N m and acceleration in m/s2.
+    pub(super) fn after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
+        let [torque, force] =
+            [self.torque_body_n_m, self.force_body_n].map(|[start, slope]| start + slope * elapsed_s);
+        [torque, force / self.mass_after_kg(elapsed_s)]
+    }
+
+    pub(super) fn mass_after_kg(&self, elapsed_s: f64) -> f64 {
+        let [flow_kg_s, slope_kg_s2] = self.flow_kg_s;
+        self.mass_kg - (flow_kg_s + 0.5 * slope_kg_s2 * elapsed_s) * elapsed_s
+    }
+
+    /// Acceleration at the start and its slope there, in m/s2 and m/s3.
+    pub(super) fn acceleration_body_m_s2(&self) -> [Vector3<f64>; 2] {
+        let start = self.force_body_n[0] / self.mass_kg;
+        [start, (self.force_body_n[1] + start * self.flow_kg_s[0]) / self.mass_kg]
+    }
+
+    pub(super) fn is_sound(&self) -> bool {
+        let vectors = self.torque_body_n_m.iter().chain(&self.force_body_n);
+        vectors.flatten_all().chain(&self.flow_kg_s).all(|x| x.abs() <= GREATEST_IN_STATE)
+            && self.mass_flow.as_ref().is_none_or(MassFlow::is_sound)
+            && self.internal.as_ref().is_none_or(InternalMotion::is_sound)
+            && self.mass_kg > 0.0
+            && self.mass_kg <= GREATEST_IN_STATE
+    }
+}
+
+/// The components of vectors one after the other.
+pub(super) trait Components<'a> {
+    fn flatten_all(self) -> impl Iterator<Item = &'a f64>;
+}
+
+impl<'a, I: Iterator<Item = &'a Vector3<f64>>> Components<'a> for I {
+    fn flatten_all(self) -> impl Iterator<Item = &'a f64> {
+        self.flat_map(|vector| vector.iter())
+    }
+}
+
+/// The body at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyMotion {
+    /// EME2000 to body.
+    pub attitude: Quaternion,
+    /// Angular rate, body frame, in rad/s.
+    pub rate_body_rad_s: Vector3<f64>,
+    /// Total angular momentum, EME2000, in N m s.
+    pub momentum_inertial_n_m_s: Vector3<f64>,
+    /// Velocity change by forces other than gravity since the start, EME2000, in m/s.
+    pub delta_v_inertial_m_s: Vector3<f64>,
+}
