@@ -82,13 +82,13 @@ impl DisturbanceInterval {
     pub fn next(&self, plant: &mut Plant<'_>, start_s: f64, grid_s: f64) -> Result<Self, PlantError> {
         plant.spend(Effort::Segment, start_s)?;
         let known_s = plant.prepare(start_s, next_multiple_s(start_s, grid_s))?;
-        let limit_s = plant.smooth_until(start_s, known_s);
+        let limit_s = plant.kinematics.smooth_until(start_s, known_s);
         let begin = plant.instant(start_s);
         let rate_rad_s = begin.frame.rate_body_rad_s.norm();
         let turning_rad_s = rate_rad_s + orbital_rate_rad_s(&begin.geometry.spacecraft);
         let longest_s = self.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s);
         let shortest_s = (SHORTEST_TURN_RAD / turning_rad_s).min(SHORTEST_SHARE * grid_s);
-        let tolerance = plant.disturbance_tolerance();
+        let tolerance = plant.kinematics.configuration.light_and_heat.tolerance;
         let mut interval = AdaptiveInterval::new(start_s, grid_s, longest_s, limit_s, shortest_s);
         let mut next_longest_s = f64::INFINITY;
         let [first, second] = loop {

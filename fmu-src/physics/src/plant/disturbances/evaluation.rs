@@ -11,7 +11,6 @@ use crate::attitude::{MovingFrame, gravity_gradient_n_m};
 use crate::constants::RADIUS_SUN_M;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
-use crate::guidance::GuidedAttitude;
 use crate::momentum::{Effort, EventValues, Sample, TorqueModel, torques_body_n_m};
 use crate::numerics::chebyshev::Segment;
 use crate::radiation::{Beam, Effect, ForceTorque, Loads, SolarModel};
@@ -164,7 +163,7 @@ impl PreparedSpacecraft<'_> {
 /// A configured flight, ready to be evaluated.
 pub struct Plant<'a> {
     prepared: PreparedSpacecraft<'a>,
-    kinematics: Kinematics<'a>,
+    pub(crate) kinematics: Kinematics<'a>,
     segment: &'a mut Option<RadiationSegment>,
     light: Option<&'a mut RadiationSolver>,
     sun_choice: SunChoice,
@@ -238,31 +237,6 @@ impl<'a> Plant<'a> {
     /// Where everything is and how the body stands at `time_s`.
     pub fn instant(&mut self, time_s: f64) -> Instant {
         self.kinematics.instant(time_s)
-    }
-
-    /// The latest time up to `limit_s` until which attitude and light are smooth from `start_s` on.
-    pub(crate) fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> f64 {
-        self.kinematics.smooth_until(start_s, limit_s)
-    }
-
-    /// Least and greatest angle between Sun and Earth from one time to a later one, in rad.
-    pub(crate) fn separations_rad(&mut self, from_s: f64, to_s: f64) -> [f64; 2] {
-        self.kinematics.separations_rad(from_s, to_s)
-    }
-
-    /// Frame and rate that guidance commands at `time_s`, and its window; `None` where there is none.
-    pub(crate) fn guided_attitude(&mut self, time_s: f64) -> Option<GuidedAttitude> {
-        self.kinematics.guided_attitude(time_s)
-    }
-
-    /// Pressure of sunlight without a shadow, in Pa.
-    pub(crate) fn pressure_pa(&self, instant: &Instant) -> f64 {
-        self.kinematics.configuration.light.pressure_pa(instant.sun_distance_m)
-    }
-
-    /// What the fit of light, heat and disturbances may leave out, relative to the largest force and torque.
-    pub(crate) fn disturbance_tolerance(&self) -> f64 {
-        self.kinematics.configuration.light_and_heat.tolerance
     }
 
     /// Time since the last periapsis, in s.

@@ -113,7 +113,7 @@ impl ControlLoop {
         };
         let momentum = StartMomentum::Inertial(body.momentum_inertial_n_m_s);
         craft.choose_sun_place(time_s, &totals, momentum, self.guidance.is_none())?;
-        let guided = craft.plant_at(time_s, body).guided_attitude(time_s);
+        let guided = craft.plant_at(time_s, body).kinematics.guided_attitude(time_s);
         let (attitude, rate_body_rad_s) =
             guided.map_or((sampled.estimate.attitude, Vector3::zeros()), |guided| {
                 let frame = guided.frame;

@@ -45,7 +45,7 @@ impl Craft<'_> {
         self.world.begin_work(self.given.work_limit);
         let mut plant = self.plant();
         plant.prepare(time_s, time_s)?;
-        Ok(plant.guided_attitude(time_s).map(|guided| guided.frame))
+        Ok(plant.kinematics.guided_attitude(time_s).map(|guided| guided.frame))
     }
 
     /// Chooses the Sun's place where a downlink has begun at `time_s`, or began right there and its momentum is another since;
@@ -61,7 +61,7 @@ impl Craft<'_> {
         let Some(law) = self.world.configuration.attitude.guided().copied().filter(|law| law.managed) else {
             return Ok(());
         };
-        let Some(guided) = self.plant().guided_attitude(time_s) else { return Ok(()) };
+        let Some(guided) = self.plant().kinematics.guided_attitude(time_s) else { return Ok(()) };
         let downlink = guided.window.activity == Activity::Downlink;
         let choice = &mut self.propagator.sun_choice;
         let is_anew = downlink && choice.in_force && choice.chosen_s == Some(time_s);
@@ -80,8 +80,8 @@ impl Craft<'_> {
         let chosen = if until_s.is_finite() && until_s > time_s && !is_under_way {
             let mut plant = self.plant();
             let instant = plant.instant(time_s);
-            let pressure_pa = plant.pressure_pa(&instant);
-            let separations_rad = plant.separations_rad(time_s, until_s);
+            let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
+            let separations_rad = plant.kinematics.separations_rad(time_s, until_s);
             let [applied, _] = (self.given.external)(time_s);
             let mut outlook = Outlook {
                 prepared: self.given.prepared,

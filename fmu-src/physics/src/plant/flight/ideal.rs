@@ -115,6 +115,6 @@ impl IdealFlight {
         self.integrator.push(&delta_v_inertial_m_s);
         let loaded = craft.world.configuration.loaded();
         craft.world.mass_at_zero = craft.thrusters.left(&loaded, time_s).unwrap_or(loaded);
-        craft.propagator.cut_with_jump(&craft.world.configuration, time_s, &delta_v_inertial_m_s);
+        craft.propagator.cut_with_jump(&craft.world.configuration, time_s, true, &delta_v_inertial_m_s);
     }
 }

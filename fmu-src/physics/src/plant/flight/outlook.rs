@@ -163,7 +163,7 @@ impl Outlook<'_> {
                 downlink: instant.regime.downlink,
                 to_sun: instant.geometry.to_sun.position_m.normalize(),
                 to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
-                pressure_pa: plant.pressure_pa(&instant),
+                pressure_pa: plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m),
                 momentum_body_n_m_s: totals.momentum_body_n_m_s(settings.convention, &inertial_from_body),
                 momentum_inertial_n_m_s: totals.momentum_inertial_n_m_s,
                 body_from_inertial: inertial_from_body.inverse(),

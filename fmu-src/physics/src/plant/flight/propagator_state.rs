@@ -52,21 +52,17 @@ impl PropagatorState {
     /// Forgets what was computed ahead of `time_s`: the flight changes there. `configuration` is the one flown so far;
     /// `light_changes` tells whether attitude, panels, mass centre or the Sun do, on which light and heat depend.
     pub fn cut(&mut self, configuration: &Configuration, time_s: f64, light_changes: bool) {
-        self.cut_with_jump_where(configuration, time_s, &Vector3::zeros(), light_changes);
+        self.cut_with_jump(configuration, time_s, light_changes, &Vector3::zeros());
     }
 
-    /// The same where light changes, and forces have changed the velocity by `jump_m_s`, EME2000, since the last time: an orbit
-    /// that forces act on takes it.
-    pub fn cut_with_jump(&mut self, configuration: &Configuration, time_s: f64, jump_m_s: &Vector3<f64>) {
-        self.cut_with_jump_where(configuration, time_s, jump_m_s, true);
-    }
-
-    fn cut_with_jump_where(
+    /// The same where forces have changed the velocity by `jump_m_s`, EME2000, since the last time: an orbit that forces act on
+    /// takes it.
+    pub fn cut_with_jump(
         &mut self,
         configuration: &Configuration,
         time_s: f64,
-        jump_m_s: &Vector3<f64>,
         light_changes: bool,
+        jump_m_s: &Vector3<f64>,
     ) {
         // An orbit that light and forces act on goes elsewhere from here.
         let orbit_changes = matches!(configuration.motion, Motion::Disturbed { feedback: true, .. });
