@@ -15,19 +15,27 @@ pub struct Built {
     pub probe: PathBuf,
 }
 
+/// One choice of features for programs and tests, so that no crate is compiled twice.
+pub const EVERYTHING: [&str; 4] = ["--locked", "--release", "--workspace", "--all-features"];
+
 /// Builds the shared library, the probe and the command line.
 pub fn build() -> Result<Built, String> {
     run(&mut library())?;
-    run(&mut cargo(&["build", "--locked", "--release", "-p", "heliotorque", "-p", "probe"]))?;
+    run(cargo(&["build"]).args(EVERYTHING))?;
+    Ok(built())
+}
+
+/// Where a build leaves what it made.
+pub fn built() -> Built {
     let library = |folder: &str, name: &str| {
         let file = format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
         target().join(folder).join(file)
     };
-    Ok(Built {
+    Built {
         heliotorque: target().join("release").join(format!("heliotorque{}", std::env::consts::EXE_SUFFIX)),
         library: library("fmu", "heliotorque"),
         probe: library("release", "probe"),
-    })
+    }
 }
 
 /// Builds the shared library, whole-program optimised.

@@ -1,7 +1,10 @@
 //! Packing the shipped FMUs and systems into `dist/`.
 
+use std::fs;
+use std::path::{Path, PathBuf};
+
 use crate::build::{Built, build, scratch};
-use crate::shell::{Outcome, command, root, run};
+use crate::shell::{Outcome, command, root, run, target};
 use crate::systems::{self, GUIDED_AT_START};
 
 /// An FMU: file name, model, spacecraft, further options of `pack`.
@@ -60,7 +63,25 @@ pub fn dist() -> Result<Built, String> {
     let built = build()?;
     pack(&built)?;
     systems::pack(&built, &scratch("systems")?)?;
+    // Only here is everything packed, and `current` looks at it.
+    let stamp = stamp();
+    fs::write(&stamp, "").map_err(|error| format!("{}: {error}", stamp.display()))?;
     Ok(built)
+}
+
+/// The same, packed only if program or library are newer than what is packed.
+pub fn current() -> Result<Built, String> {
+    let built = build()?;
+    let changed = |path: &Path| fs::metadata(path).and_then(|file| file.modified()).ok();
+    let packed = changed(&stamp());
+    let is_current =
+        [&built.heliotorque, &built.library].iter().all(|path| packed.is_some() && changed(path) <= packed);
+    if is_current { Ok(built) } else { dist() }
+}
+
+/// Written after everything was packed.
+fn stamp() -> PathBuf {
+    target().join("dist.stamp")
 }
 
 fn pack(built: &Built) -> Outcome {
