@@ -29,7 +29,7 @@ struct Component {
 }
 
 /// A system: file, that without enumerations if there is one, stop and step of its default experiment, components, further outputs
-/// that its connectors show, and connectors of the system itself, which libcosim and ecos refuse: a file that they read has none.
+/// that its connectors show, and connectors of the system itself, which libcosim refuses: a file that it reads has none.
 struct System {
     file: &'static str,
     plain_file: Option<&'static str>,
