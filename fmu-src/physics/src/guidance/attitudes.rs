@@ -1,11 +1,13 @@
-//! The two attitudes of paper 000: science (pitched about X toward the planet) and default downlink (eq 18).
+//! The two attitudes of paper 000: science (pitched about X toward the planet) and default downlink (eq 18); of paper 001,
+//! science off-pointed to unload momentum, the camera turned back to nadir.
 
-use nalgebra::Vector3;
+use nalgebra::{ComplexField, Vector3};
 
+use super::boresight::{MdisRange, mdis_direction};
 use super::downlink::{SunPlace, both_solutions};
 use super::law::PointingVectors;
-use super::moving::{Moving, direction, moving};
-use crate::attitude::{MovingFrame, MovingUnit, angle_between_rad};
+use super::moving::{Moving, direction, fixed, moving};
+use crate::attitude::{MovingFrame, MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
 use crate::environment::CartesianState;
 use crate::numerics::scalar::Scalar;
 
@@ -35,6 +37,29 @@ pub enum ScienceRule {
     /// Paper 004's attitude (its eq 4): -Y from the planet's centre to the Sun, -Z to the north of the planet's orbit. It
     /// knows no keep-in zone; from the spacecraft the Sun stands off -Y by its parallax.
     PlanetOrbit,
+    /// Off-pointed to unload momentum ([`unloading`]).
+    Unloading {
+        /// Where the Sun stands in the body frame during the present science, and during the slew out of it.
+        sun: SunAngles,
+        /// Range of the camera that keeps nadir.
+        camera: MdisRange,
+    },
+}
+
+impl ScienceRule {
+    /// Whether the Sun's place is chosen by the momentum.
+    pub fn unloads(&self) -> bool {
+        matches!(self, Self::Unloading { .. })
+    }
+
+    /// The same with the Sun there, where it has a place of its own.
+    #[must_use]
+    pub fn with_sun(self, sun: SunAngles) -> Self {
+        match self {
+            Self::Unloading { camera, .. } => Self::Unloading { sun, camera },
+            Self::Scaled { .. } | Self::Nadir | Self::PlanetOrbit => self,
+        }
+    }
 }
 
 /// A commanded attitude, and where its law changes form.
@@ -57,6 +82,7 @@ pub fn science(lines: &LinesOfSight, rule: ScienceRule, elevation_limit_rad: f64
         ScienceRule::Scaled { gain } => gain,
         ScienceRule::Nadir => 1.0,
         ScienceRule::PlanetOrbit => return planet_orbit(lines),
+        ScienceRule::Unloading { sun, camera } => return unloading(lines, sun, &camera),
     };
     let Some((side, angle_rad, angle_rate_rad_s)) =
         lines.planet.as_ref().and_then(|planet| lines.sun.perpendicular_part(planet))
@@ -75,6 +101,39 @@ pub fn science(lines: &LinesOfSight, rule: ScienceRule, elevation_limit_rad: f64
     };
     // A positive pitch lifts the Sun toward +Z, which is negative elevation.
     AttitudeCommand { frame: base.pitched(-elevation_rad, -rate_rad_s), margins }
+}
+
+/// Science attitude of paper 001's off-pointing: the Sun at `sun`, turned about the Sun line until nadir lies in the scan plane YZ
+/// of the camera, on the side of +Z; where the camera's range does not reach it, until its nearest bound comes nearest to nadir.
+///
+/// With the Sun's direction s in the body, rho = hypot(s_y, s_z) and beta = atan2(-s_z, -s_y), the camera at the angle phi is off
+/// the Sun by theta, cos theta = rho sin(phi - beta): theta between Sun and nadir gives phi.
+pub fn unloading(lines: &LinesOfSight, sun: SunAngles, camera: &MdisRange) -> AttitudeCommand {
+    let Some(planet) = &lines.planet else { return sun_pointing(lines) };
+    let [to_sun, to_planet] = [&lines.sun, planet].map(|to| moving(to.direction, to.rate_1_s));
+    let sun_body = direction_from_angles(sun);
+    let (rho, beta_rad) = (libm::hypot(sun_body.y, sun_body.z), (-sun_body.z).atan2(-sun_body.y));
+    let cosine = to_sun.dot(&to_planet);
+    let quarter = core::f64::consts::FRAC_PI_2;
+    let [least_rad, greatest_rad] =
+        [camera.minimum_rad, camera.maximum_rad].map(|it| (it - beta_rad).clamp(-quarter, quarter));
+    let margins = [rho * greatest_rad.sin() - cosine.re, cosine.re - rho * least_rad.sin()];
+    let off_beta = if margins[0] <= 0.0 {
+        Moving::constant(greatest_rad)
+    } else if margins[1] <= 0.0 {
+        Moving::constant(least_rad)
+    } else {
+        Moving::polar_angle(cosine, ((-cosine + rho) * (cosine + rho)).sqrt())
+    };
+    let vectors = PointingVectors {
+        boresight_body: fixed(sun_body),
+        aimpoint: to_sun,
+        body_roll: mdis_direction(off_beta + beta_rad),
+        external_roll: to_planet,
+    };
+    vectors
+        .pointing()
+        .map_or_else(|| sun_pointing(lines), |pointing| AttitudeCommand { frame: pointing.frame(), margins })
 }
 
 /// Paper 004's attitude; without a planet that moves about the Sun, [`sun_pointing`].

@@ -38,6 +38,7 @@ pub mod scenario;
 #[cfg(test)]
 mod scenario_tests;
 mod schedule;
+mod science_course;
 mod slew;
 pub mod surroundings;
 pub mod system;
@@ -50,11 +51,14 @@ mod test_orbit;
 pub mod timeline;
 pub mod velocity_path;
 
-pub use attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink_toward, science, sun_pointing};
+pub use attitudes::{
+    AttitudeCommand, LinesOfSight, ScienceRule, downlink_toward, science, sun_pointing, unloading,
+};
 pub use downlink::{ChosenPlace, SunPlace};
-pub use downlink_sun::{DownlinkStart, DownlinkSun, SunChooser, SunOnMinusY};
+pub use downlink_sun::{DownlinkSun, SunChooser, SunOnMinusY, WindowStart};
 pub use guided::{Guided, GuidedAttitude};
 pub use law::{Pointing, PointingVectors};
 pub use orbit_ahead::{OrbitAhead, lines_of_sight};
 pub use schedule::{Activity, Schedule, Window};
+pub use science_course::{CoursePoint, ScienceCourse};
 pub use surroundings::{Surroundings, TargetPlanet};

@@ -3,7 +3,8 @@
 //! Reactive: every downlink aims at the same momentum. Predictive: every downlink aims at the middle of the momenta from which the
 //! coming cycles, forecast in their default attitudes ([`super::ahead`]), can be flown below all thresholds, each coming downlink
 //! with what sunlight can do then; of the physical momentum at the one that keeps X and Z smallest through the next science.
-//! Without a cycle to come it is reactive.
+//! Without a cycle to come it is reactive. Science that unloads has the same targets at its end, of the physical momentum the reactive
+//! one.
 
 use nalgebra::Vector3;
 
@@ -13,7 +14,7 @@ use super::profile::{Component, Reach};
 use super::targeting::{Aim, Targeted, Targeting};
 use super::turning::best_turned;
 use crate::attitude::{SunAngles, direction_from_angles};
-use crate::guidance::ChosenPlace;
+use crate::guidance::{ChosenPlace, ScienceCourse};
 use crate::momentum::{Convention, DumpPolicy};
 use crate::plant::{ForecastMomentum, Outlook, PlantError, StartMomentum, SunPlanner};
 use crate::radiation::TorquePolynomial;
@@ -58,10 +59,11 @@ impl SunPlanner for Manager<'_> {
             to_sun: outlook.to_sun,
             to_earth,
             momentum: outlook.momentum,
-            span_s: outlook.span_s,
+            span_s: outlook.science.as_ref().map_or(outlook.span_s, ScienceCourse::light_s),
             torque_body_n_m: &torque,
             pressure_pa: outlook.pressure_pa,
             linear,
+            science: outlook.science.as_ref(),
         };
         let separations_rad = outlook.separations_rad;
         Ok(self.place(aim, ahead.as_ref(), separations_rad))
@@ -85,6 +87,10 @@ impl Forecast for Outlook<'_> {
 
     fn downlink_s(&self) -> f64 {
         Outlook::downlink_s(self)
+    }
+
+    fn begins_in_science(&self) -> bool {
+        self.science.is_some()
     }
 
     fn convention(&self) -> Convention {
@@ -149,8 +155,7 @@ impl Manager<'_> {
     /// The target from which X and Z stay below their thresholds through the coming cycles.
     fn kept(&self, aim: &Aim<'_>, ahead: &Components) -> Option<Vector3<f64>> {
         let now = self.targeting.default_momentum(aim)?;
-        let lasting = ahead.present().separations_rad.and_then(|it| self.targeting.torques(aim, it));
-        let torques = lasting.or_else(|| self.targeting.torques(aim, [aim.separation_rad(); 2]))?;
+        let torques = self.targeting.present_torques(aim, ahead.present().separations_rad)?;
         let default_n_m = (aim.torque_body_n_m)(&direction_from_angles(SunAngles::default())).xz();
         // What the default attitude adds beside sunlight alone comes in others too.
         let beside = |downlink: &DownlinkAhead| {
