@@ -215,8 +215,8 @@ fn opposite(unit: &MovingUnit) -> MovingUnit {
 #[cfg(test)]
 mod tests {
     //! What the paper demands of each attitude: where the Sun, the planet and the Earth stand in the body frame.
+    use super::super::boresight::mdis_boresight;
     use super::*;
-    use crate::attitude::SunAngles;
     use approx::assert_relative_eq;
 
     const LIMIT_RAD: f64 = 13.0 * std::f64::consts::PI / 180.0;
@@ -303,6 +303,42 @@ mod tests {
     }
 
     #[test]
+    fn unloading_has_the_sun_in_its_place_and_the_camera_as_near_to_nadir_as_it_comes() {
+        let camera = MdisRange::default();
+        let (mut kept, mut at_bound) = (0, 0);
+        for (i, lines) in many().enumerate() {
+            let k = i as f64;
+            let sun =
+                SunAngles { azimuth_rad: 0.26 * (0.7 * k).sin(), elevation_rad: 0.22 * (1.3 * k).cos() };
+            let wanted = science(&lines, ScienceRule::Unloading { sun, camera }, 0.0);
+            let found = SunAngles::of(&in_body(&wanted, &lines.sun));
+            assert_relative_eq!(found.azimuth_rad, sun.azimuth_rad, epsilon = 1e-12);
+            assert_relative_eq!(found.elevation_rad, sun.elevation_rad, epsilon = 1e-12);
+            let planet = in_body(&wanted, lines.planet.as_ref().unwrap());
+            let angle = camera.toward(&planet);
+            let off_rad = angle_between_rad(&mdis_boresight(angle.angle_rad), &planet);
+            assert_eq!(angle.in_range, wanted.margins.iter().all(|margin| *margin > 0.0));
+            if angle.in_range {
+                kept += 1;
+                assert_relative_eq!(planet.x, 0.0, epsilon = 1e-12);
+                assert!(off_rad < 1e-12 && planet.z > 0.0, "{off_rad:e}");
+                continue;
+            }
+            at_bound += 1;
+            // No turn about the Sun line and no angle of the camera comes nearer.
+            let axis = nalgebra::Unit::new_normalize(in_body(&wanted, &lines.sun));
+            for turn in -90..90 {
+                let turned = nalgebra::Rotation3::from_axis_angle(&axis, 0.035 * f64::from(turn)) * planet;
+                for degree in -50..=40 {
+                    let look = mdis_boresight(f64::from(degree).to_radians());
+                    assert!(angle_between_rad(&look, &turned) > off_rad - 1e-9, "{i}: {off_rad}");
+                }
+            }
+        }
+        assert!(kept > 50 && at_bound > 20, "{kept} {at_bound}");
+    }
+
+    #[test]
     fn paper_004_shows_the_sun_on_minus_y_and_north_on_minus_z() {
         for lines in many() {
             let sun = lines.sun_from_planet.unwrap();
@@ -344,6 +380,10 @@ mod tests {
             };
             all.push(science(&blind, ScienceRule::Nadir, LIMIT_RAD));
             all.push(science(&blind, ScienceRule::PlanetOrbit, LIMIT_RAD));
+            let sun = SunAngles { azimuth_rad: 0.2, elevation_rad: -0.1 };
+            let unloading = ScienceRule::Unloading { sun, camera: MdisRange::default() };
+            all.push(science(&blind, unloading, LIMIT_RAD));
+            all.push(science(&LinesOfSight { planet: None, ..lines }, unloading, LIMIT_RAD));
             all.push(downlink(&blind));
         }
         let pole = MovingUnit { direction: Vector3::z(), rate_1_s: Vector3::zeros() };

@@ -137,8 +137,9 @@ impl Guided {
 #[cfg(test)]
 mod tests {
     //! A slew begins where the old attitude was, ends at the new one, and its rate is the derivative of its axes.
+    use super::super::boresight::MdisRange;
     use super::*;
-    use crate::attitude::{MovingUnit, SunAngles, rotation_vector};
+    use crate::attitude::{MovingUnit, rotation_vector};
     use approx::assert_relative_eq;
     use nalgebra::Vector3;
 
@@ -196,6 +197,8 @@ mod tests {
         let off_sun = SunPlace { angles, earth_ahead: false };
         for sun_place in [None, Some(off_sun)] {
             rate_is_the_derivative(&Guided { sun_place, ..guided(2e-3) });
+            let science = ScienceRule::Unloading { sun: angles, camera: MdisRange::default() };
+            rate_is_the_derivative(&Guided { sun_place, science, ..guided(2e-3) });
         }
     }
 

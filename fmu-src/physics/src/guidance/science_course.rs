@@ -33,22 +33,24 @@ pub struct CoursePoint {
 pub struct ScienceCourse {
     camera: MdisRange,
     nodes: [(CoursePoint, f64); NODES],
+    begin: CoursePoint,
     end: CoursePoint,
 }
 
 impl ScienceCourse {
     /// Science of `span_s` by points at shares of it from 0 to 1.
     pub fn of(camera: MdisRange, span_s: f64, mut at: impl FnMut(f64) -> CoursePoint) -> Self {
-        let pressure_pa = at(0.0).pressure_pa;
+        let begin = at(0.0);
         let interval = 1.0 / INTERVALS as f64;
         let mut nodes = [(CoursePoint::default(), 0.0); NODES];
         let shares = (0..INTERVALS).flat_map(|k| GAUSS_3.map(|(node, weight)| (k as f64 + node, weight)));
         for (node, (share, weight)) in nodes.iter_mut().zip(shares) {
             let point = at(share * interval);
-            let brightness = if pressure_pa > 0.0 { point.pressure_pa / pressure_pa } else { 1.0 };
+            let brightness =
+                if begin.pressure_pa > 0.0 { point.pressure_pa / begin.pressure_pa } else { 1.0 };
             *node = (point, weight * interval * span_s * brightness);
         }
-        Self { camera, nodes, end: at(1.0) }
+        Self { camera, nodes, begin, end: at(1.0) }
     }
 
     /// How long sunlight as at the begin takes to do what it does in all of it, in s.
@@ -69,6 +71,11 @@ impl ScienceCourse {
             .iter()
             .map(|(point, light_s)| self.attitude(point, sun) * (torque_body_n_m * *light_s));
         self.attitude(&self.end, sun).inverse() * (momentum_inertial_n_m_s + added.sum::<Vector3<f64>>())
+    }
+
+    /// In EME2000, of a momentum along the body axes at the begin.
+    pub fn begin_inertial_n_m_s(&self, sun: SunAngles, momentum_body_n_m_s: &Vector3<f64>) -> Vector3<f64> {
+        self.attitude(&self.begin, sun) * momentum_body_n_m_s
     }
 
     /// The momentum of a body without torque at the end, body frame.

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::ahead::Ahead;
 use super::sampled_forecast::SampledForecast;
 use super::strategy::{Manager, Strategy};
-use super::targeting::Aim;
+use super::targeting::{Aim, ScienceAim};
 use crate::attitude::angle_between_rad;
 use crate::guidance::moving::value;
 use crate::guidance::{
@@ -55,7 +55,7 @@ impl SunChooser for SampledManager<'_> {
             torque_body_n_m: &torque,
             pressure_pa,
             linear: self.manager.linear(&craft.center_of_mass_body_m()),
-            science: science.as_ref(),
+            science: science.as_ref().map(|course| ScienceAim { course, convention: self.convention }),
         };
         let separations_rad = separations_rad(start);
         self.manager.place(aim, self.ahead(start, totals).as_ref(), separations_rad)

@@ -16,6 +16,7 @@ use super::admissible::{Branch, KeepInLimits};
 use super::linear::LinearTorque;
 use crate::attitude::{MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
 use crate::guidance::{LinesOfSight, ScienceCourse, SunPlace, downlink_toward};
+use crate::momentum::Convention;
 use crate::numerics::roots;
 use crate::plant::StartMomentum;
 
@@ -78,7 +79,16 @@ pub struct Aim<'a> {
     /// The shade's linear formula; absent without a shade.
     pub linear: Option<LinearTorque>,
     /// The science that begins; `None`: a downlink does.
-    pub science: Option<&'a ScienceCourse>,
+    pub science: Option<ScienceAim<'a>>,
+}
+
+/// Science that unloads.
+#[derive(Clone, Copy, Debug)]
+pub struct ScienceAim<'a> {
+    /// How it goes.
+    pub course: &'a ScienceCourse,
+    /// Whether the body turns under the momentum.
+    pub convention: Convention,
 }
 
 /// The place found.
@@ -309,12 +319,12 @@ impl Aim<'_> {
 
     /// Momentum at the start in the attitude with the Sun at `place`, body frame, in N m s; of science in its attitude at the end.
     fn momentum_body_n_m_s(&self, place: &SunPlace) -> Vector3<f64> {
-        match (self.momentum, self.science) {
-            (StartMomentum::Body(momentum), _) => momentum,
-            (StartMomentum::Inertial(momentum), Some(science)) => {
-                science.carried_body_n_m_s(place.angles, &momentum)
-            }
-            (StartMomentum::Inertial(momentum), None) => {
+        if let Some((course, momentum)) = self.turning(place) {
+            return course.carried_body_n_m_s(place.angles, &momentum);
+        }
+        match self.momentum {
+            StartMomentum::Body(momentum) => momentum,
+            StartMomentum::Inertial(momentum) => {
                 let still = |direction| MovingUnit { direction, rate_1_s: Vector3::zeros() };
                 let (sun, earth) = (still(self.to_sun), still(self.to_earth));
                 let lines = LinesOfSight { sun, earth, planet: None, sun_from_planet: None };
@@ -323,11 +333,23 @@ impl Aim<'_> {
         }
     }
 
+    /// Science in which the body turns under the momentum, and that in EME2000 at its start; `None` in any other.
+    fn turning(&self, place: &SunPlace) -> Option<(&ScienceCourse, Vector3<f64>)> {
+        let ScienceAim { course, convention } = self.science?;
+        match (self.momentum, convention) {
+            (StartMomentum::Inertial(momentum), _) => Some((course, momentum)),
+            (StartMomentum::Body(momentum), Convention::Inertial) => {
+                Some((course, course.begin_inertial_n_m_s(place.angles, &momentum)))
+            }
+            (StartMomentum::Body(_), Convention::BodyIntegral) => None,
+        }
+    }
+
     /// Momentum at the end less the target, body frame, in N m s.
     fn left(&self, place: &SunPlace, target: &Vector3<f64>) -> Vector3<f64> {
         let torque = (self.torque_body_n_m)(&direction_from_angles(place.angles));
-        if let (StartMomentum::Inertial(momentum), Some(science)) = (self.momentum, self.science) {
-            return science.end_body_n_m_s(place.angles, &momentum, &torque) - target;
+        if let Some((course, momentum)) = self.turning(place) {
+            return course.end_body_n_m_s(place.angles, &momentum, &torque) - target;
         }
         self.momentum_body_n_m_s(place) + torque * self.span_s - target
     }
