@@ -316,6 +316,23 @@ fn the_sun_stays_in_its_zone_through_science_downlinks_and_slews() {
     assert!(least_rad > -1e-9 && clamped > 0, "{least_rad:e} {clamped}");
 }
 
+/// On an orbit that is integrated the next downlink waits for a periapsis that is still to be met.
+#[test]
+fn a_disturbed_orbit_has_places_of_its_science_too() {
+    let named = NamedModel::<MomentumPlant>::shipped();
+    let [closed, disturbed] = [1.0, 2.0].map(|dynamics| {
+        let sets = with(&[CRAFT, UNLOAD, &[("orbit.dynamics", dynamics)]]);
+        let mut flight = named.fly(0.0, &sets).unwrap();
+        [1.0, 14.0, 38.0, 62.0].map(|hour| {
+            flight.step_to(hour * HOUR_S).unwrap();
+            (sun_place(&flight), flight.boolean("momentum.targetClamped"))
+        })
+    });
+    for (a, b) in closed.into_iter().zip(disturbed).skip(1) {
+        assert!(a.0[0].abs() > 0.01 && off(a.0, b.0) < 1e-3 && a.1 == b.1, "{a:?} {b:?}");
+    }
+}
+
 #[test]
 fn the_cut_and_a_restored_state_change_no_bit() {
     let named = NamedModel::<MomentumPlant>::shipped();

@@ -17,8 +17,10 @@ use super::panel_motion::PanelMotion;
 use super::propagator_state::PropagatorState;
 use super::radiation_solver::RadiationSolver;
 use super::thruster_load::ThrusterLoad;
-use super::work::Work;
+use super::work::{Cost, Work};
 
+/// Units of a choice for science that unloads: each of its trials goes through all of it.
+const SCIENCE_UNITS: u32 = 50_000;
 /// A window computed in epochs begins this near its number in flight time, in s.
 const EPOCH_ROUNDING_S: f64 = 1e-6;
 
@@ -114,6 +116,9 @@ impl Flight<'_> {
             let pressure_pa = plant.pressure_pa(&instant);
             let separations_rad = plant.separations_rad(time_s, until_s);
             let science = camera.map(|camera| plant.science_course(camera, time_s, until_s));
+            if science.is_some() {
+                work.spend(Cost::Search, SCIENCE_UNITS, self.ephemeris.evaluations(), time_s)?;
+            }
             let mut outlook = Outlook {
                 prepared: self.prepared,
                 configuration: self.configuration,
