@@ -2,7 +2,7 @@
 //!
 //! Equation: H(end) = C(end)^T (H + sum of w_k C_k T), C_k the attitude of [`unloading`] at a node, T the torque at the begin, w_k the
 //! time that it would take to do what it does about the node, by the pressure there.
-//! Method: Gauss-Legendre quadrature of order 6 on 32 equal intervals, no shadows and no slews.
+//! Method: Gauss-Legendre quadrature of order 6 on 16 equal intervals, no shadows and no slews.
 //! Error measure: none at run time.
 
 use nalgebra::{Rotation3, Vector3};
@@ -13,7 +13,7 @@ use crate::attitude::{MovingUnit, SunAngles};
 use crate::numerics::quadrature::GAUSS_3;
 
 /// Intervals.
-const INTERVALS: usize = 32;
+const INTERVALS: usize = 16;
 /// Nodes.
 const NODES: usize = 3 * INTERVALS;
 
