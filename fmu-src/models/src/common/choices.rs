@@ -3,7 +3,7 @@
 use fmi_export::Enumeration;
 use physics::bodies::{Body, surface};
 use physics::environment::eclipse::ShadowModel;
-use physics::guidance::system;
+use physics::guidance::modes::system;
 use physics::momentum::Convention;
 use physics::spacecraft::{Panel, Spacecraft, SunshadeModel, ThrusterSet};
 

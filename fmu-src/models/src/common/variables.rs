@@ -9,8 +9,8 @@ use physics::bodies::surface::{self, PlanetSurface};
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::orbit::Elements as KeplerElements;
 use physics::environment::sun::SOLAR_FLUX_W_M2;
-use physics::guidance::boresight::MdisRange;
-use physics::guidance::keep_in::KeepIn;
+use physics::guidance::constraints::keep_in::KeepIn;
+use physics::guidance::pointing::boresight::MdisRange;
 use physics::guidance::{self, Guided, Schedule};
 use physics::plant::SunLight;
 

@@ -13,8 +13,10 @@ use fmi_export::{
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
-use physics::guidance::delta_v::{BurnPhase, BurnState};
-use physics::guidance::system::{GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs, TimedEntries};
+use physics::guidance::burn::delta_v::{BurnPhase, BurnState};
+use physics::guidance::modes::system::{
+    GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs, TimedEntries,
+};
 use physics::management::{DumpRequests, SampledManager};
 use physics::numerics::work::Work;
 use serde::{Deserialize, Serialize};

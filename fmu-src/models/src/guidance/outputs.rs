@@ -2,8 +2,8 @@
 
 use fmi_export::{Real, Values};
 
-use physics::guidance::delta_v::{BurnSettings, BurnState};
-use physics::guidance::system::GuidanceState;
+use physics::guidance::burn::delta_v::{BurnSettings, BurnState};
+use physics::guidance::modes::system::GuidanceState;
 use physics::management::DumpRequests;
 
 use super::setup::Plan;

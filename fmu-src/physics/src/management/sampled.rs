@@ -9,7 +9,7 @@ use super::sampled_forecast::SampledForecast;
 use super::strategy::{Manager, Strategy};
 use super::targeting::{Aim, ScienceAim};
 use crate::attitude::angle_between_rad;
-use crate::guidance::moving::value;
+use crate::guidance::geometry::moving::value;
 use crate::guidance::{
     Activity, ChosenPlace, CoursePoint, Guided, OrbitAhead, Schedule, ScienceCourse, ScienceRule, SunChooser,
     WindowStart,

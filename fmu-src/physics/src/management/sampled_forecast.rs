@@ -10,7 +10,7 @@ use core::convert::Infallible;
 use nalgebra::Vector3;
 
 use super::ahead::Forecast;
-use crate::guidance::moving::value;
+use crate::guidance::geometry::moving::value;
 use crate::guidance::{Activity, Guided, GuidedAttitude, OrbitAhead, lines_of_sight};
 use crate::momentum::{Convention, DumpPolicy, Totals};
 use crate::numerics::quadrature::GAUSS_3;

@@ -14,63 +14,38 @@
 //! replaces the command and [`PropagatorState::cut`] drops what was computed beyond it, while heat stored up to then stays.
 //! How far ahead is computed is `RadiationSettings::grid_s`: about the time between two samples wastes nothing.
 
-mod attitude_dynamics;
-mod configuration;
-mod control_defaults;
-mod disturbance_interval;
-mod dynamics_settings;
-mod error;
-mod evaluation;
+mod disturbances;
 mod flight;
-mod geometry;
-mod ideal_flight;
-mod instant;
-mod kinematics;
-mod light_and_heat;
-mod outlook;
-mod panel_motion;
-mod panel_setting;
-mod propagator_state;
-mod pulsed_dump;
-mod radiation_node;
-mod radiation_segment;
-mod radiation_solver;
-mod reaction_control;
-mod reaction_control_settings;
+mod light;
+mod motion;
 mod settings;
-mod stored_heat;
-mod sun_choice;
-mod sunlit;
-mod thruster_load;
-mod trajectory;
-mod wheel_control;
-mod work;
+mod thrusters;
 
-pub use attitude_dynamics::AttitudeDynamics;
-pub use configuration::{
+pub use disturbances::evaluation::{Evaluation, ExternalLoad, Plant, PreparedSpacecraft};
+pub use flight::attitude_dynamics::AttitudeDynamics;
+pub use flight::current::Flight;
+pub use flight::ideal_flight::{DumpSideEffect, IdealFlight};
+pub use flight::outlook::{ForecastMomentum, Outlook, StartMomentum, SunPlanner};
+pub use flight::propagator_state::PropagatorState;
+pub use flight::sun_choice::SunChoice;
+pub use flight::wheel_control::{WheelControl, WheelControlSettings};
+pub use light::radiation_segment::RadiationSegment;
+pub use light::radiation_solver::RadiationSolver;
+pub use light::sunlit::SunlitCraft;
+pub use motion::geometry::Geometry;
+pub use motion::instant::{Instant, Regime};
+pub use motion::panel_motion::PanelMotion;
+pub use motion::trajectory::Trajectory;
+pub use settings::configuration::{
     AttitudeSource, Command, Configuration, DynamicAttitude, EphemerisSource, Motion, SunLight,
     orbit_from_elements,
 };
-pub use control_defaults::ControlDefaults;
-pub use dynamics_settings::{Control, DynamicsInputs, DynamicsSettings, ThrusterControl, Tracked};
-pub use error::PlantError;
-pub use evaluation::{Evaluation, ExternalLoad, Plant, PreparedSpacecraft};
-pub use flight::Flight;
-pub use geometry::Geometry;
-pub use ideal_flight::{DumpSideEffect, IdealFlight};
-pub use instant::{Instant, Regime};
-pub use outlook::{ForecastMomentum, Outlook, StartMomentum, SunPlanner};
-pub use panel_motion::PanelMotion;
-pub use panel_setting::{PanelSetting, Ramp};
-pub use propagator_state::PropagatorState;
-pub use radiation_segment::RadiationSegment;
-pub use radiation_solver::RadiationSolver;
-pub use reaction_control::ReactionControl;
-pub use reaction_control_settings::{ReactionControlSettings, ThrustCommand};
-pub use settings::RadiationSettings;
-pub use sun_choice::SunChoice;
-pub use sunlit::SunlitCraft;
-pub use thruster_load::{ThrusterLoad, ThrusterTotals};
-pub use trajectory::Trajectory;
-pub use wheel_control::{WheelControl, WheelControlSettings};
-pub use work::{Cost, Work, WorkExceeded};
+pub use settings::control_defaults::ControlDefaults;
+pub use settings::dynamics_settings::{Control, DynamicsInputs, DynamicsSettings, ThrusterControl, Tracked};
+pub use settings::error::PlantError;
+pub use settings::panel_setting::{PanelSetting, Ramp};
+pub use settings::radiation_settings::RadiationSettings;
+pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
+pub use settings::work::{Cost, Work, WorkExceeded};
+pub use thrusters::reaction_control::ReactionControl;
+pub use thrusters::thruster_load::{ThrusterLoad, ThrusterTotals};

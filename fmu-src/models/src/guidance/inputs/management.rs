@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, Values};
 use nalgebra::Vector3;
-use physics::guidance::keep_in::KeepIn;
+use physics::guidance::constraints::keep_in::KeepIn;
 use physics::management::{Manager, SampledManager, Strategy};
 use physics::momentum::{Convention, DumpPolicy, Reinitialise};
 use physics::plant::{PanelSetting, Ramp, SunlitCraft};

@@ -11,25 +11,25 @@ use physics::environment::bodies_from_center::BodiesFromCenter;
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::flown::FlownTarget;
-use physics::guidance::boresight::MdisRange;
-use physics::guidance::command::{
+use physics::guidance::burn::delta_v::BurnSettings;
+use physics::guidance::burn::nominal_thrust::NominalThrust;
+use physics::guidance::burn::velocity_path::VelocityPath;
+use physics::guidance::constraints::constrained::Constraints;
+use physics::guidance::constraints::hot_pole::HotPole;
+use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
+use physics::guidance::downlink::sun_place::LinkLimits;
+use physics::guidance::geometry::lighting::SubsolarMethod;
+use physics::guidance::modes::monitor::Monitor;
+use physics::guidance::modes::places::Places;
+use physics::guidance::modes::system::GuidanceSettings;
+use physics::guidance::modes::transitions::{ModeSettings, Sensed};
+use physics::guidance::pointing::boresight::MdisRange;
+use physics::guidance::pointing::command::{
     AimpointCommand, AimpointOption, BodyRollCommand, BoresightCommand, ExternalRollCommand, LimbCommand,
     PointingCommand, ScanCommand,
 };
-use physics::guidance::constraints::Constraints;
-use physics::guidance::delta_v::BurnSettings;
-use physics::guidance::downlink::LinkLimits;
-use physics::guidance::hot_pole::HotPole;
-use physics::guidance::keep_in::{KeepIn, KeepInMethod};
-use physics::guidance::lighting::SubsolarMethod;
-use physics::guidance::modes::{ModeSettings, Sensed};
-use physics::guidance::monitor::Monitor;
-use physics::guidance::nominal_thrust::NominalThrust;
-use physics::guidance::places::Places;
-use physics::guidance::scan::ScanCompatibility;
-use physics::guidance::scenario::GuidanceHardware;
-use physics::guidance::system::GuidanceSettings;
-use physics::guidance::velocity_path::VelocityPath;
+use physics::guidance::pointing::scan::ScanCompatibility;
+use physics::guidance::pointing::scenario::GuidanceHardware;
 use physics::guidance::{Surroundings, TargetPlanet};
 use physics::plant::PanelSetting;
 

@@ -1,7 +1,7 @@
 //! The burn of the scenario burn: the velocity to add, its steering, and what it tells the thrusters.
 
 use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Variables};
-use physics::guidance::delta_v;
+use physics::guidance::burn::delta_v;
 use physics::spacecraft::ThrusterSet;
 
 use crate::common::choices::ThrustRequest;

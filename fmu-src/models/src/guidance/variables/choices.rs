@@ -2,11 +2,11 @@
 
 use fmi_export::Enumeration;
 use physics::bodies::Body;
-use physics::guidance::antenna::Antenna;
-use physics::guidance::command;
-use physics::guidance::keep_in;
-use physics::guidance::lighting;
-use physics::guidance::mode;
+use physics::guidance::constraints::keep_in;
+use physics::guidance::geometry::lighting;
+use physics::guidance::modes::mode;
+use physics::guidance::pointing::antenna::Antenna;
+use physics::guidance::pointing::command;
 
 use crate::common::choices::{enumeration_of, optional_enumeration_of};
 

@@ -1,9 +1,9 @@
 //! What is commanded: scenario, the options of the four vectors, limb, scan, mode.
 
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
-use physics::guidance::aimpoint::AimKind;
-use physics::guidance::command;
-use physics::guidance::scan::DEFAULT_COMPATIBILITY;
+use physics::guidance::pointing::aimpoint::AimKind;
+use physics::guidance::pointing::command;
+use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;
 
 use super::super::setup::GuidanceSetup;
 use super::choices::{

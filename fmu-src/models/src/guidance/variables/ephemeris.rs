@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use fmi_export::{Boolean, Choice, Real, Variables};
-use physics::guidance::places;
+use physics::guidance::modes::places;
 
 use super::super::setup::GuidanceSetup;
 use super::choices::{EphemerisModel, EphemerisSource};

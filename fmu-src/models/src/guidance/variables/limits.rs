@@ -4,7 +4,12 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 use physics::constants::HALF_TURNS_RAD;
-use physics::guidance::{boresight, command, downlink, hot_pole, keep_in, modes};
+use physics::guidance::constraints::hot_pole;
+use physics::guidance::constraints::keep_in;
+use physics::guidance::downlink::sun_place;
+use physics::guidance::modes::transitions;
+use physics::guidance::pointing::boresight;
+use physics::guidance::pointing::command;
 
 use super::super::setup::GuidanceSetup;
 use super::choices::{AntennaSelect, KeepInMethod};
@@ -121,10 +126,10 @@ pub struct AntennaVariables {
 #[derive(Variables)]
 pub struct LinkVariables {
     /// The Sun's neighbourhood in the sky, where there is no link (assumed; paper 001 names no angle).
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = downlink::SOLAR_EXCLUSION_RAD)]
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = sun_place::SOLAR_EXCLUSION_RAD)]
     pub sun_exclusion: Real,
     /// Half width of an antenna's beam across its plane (paper 001: 15 by 4 deg).
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = FRAC_PI_2, start = downlink::BEAM_HALF_WIDTH_RAD)]
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = FRAC_PI_2, start = sun_place::BEAM_HALF_WIDTH_RAD)]
     pub beam: Real,
     /// Whether an antenna covers the Earth, neither behind the planet nor near the Sun.
     #[output]
@@ -135,7 +140,7 @@ pub struct LinkVariables {
 #[derive(Variables)]
 pub struct EarthAcquisitionVariables {
     /// Rate about the boresight keepIn.axis (assumed; paper 001: slow).
-    #[parameter(tunable, unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = modes::EARTH_ACQUISITION_RATE_RAD_S)]
+    #[parameter(tunable, unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = transitions::EARTH_ACQUISITION_RATE_RAD_S)]
     pub rate: Real,
 }
 
@@ -143,9 +148,9 @@ pub struct EarthAcquisitionVariables {
 #[derive(Variables)]
 pub struct SunSearchVariables {
     /// Rate about X, Y and Z in turn (assumed; paper 001: slow).
-    #[parameter(tunable, unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = modes::SUN_SEARCH_RATE_RAD_S)]
+    #[parameter(tunable, unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = transitions::SUN_SEARCH_RATE_RAD_S)]
     pub rate: Real,
     /// How long about each (assumed): the default is a whole turn.
-    #[parameter(tunable, unit = "s", min = 1.0, max = 1e9, start = modes::SUN_SEARCH_DURATION_S)]
+    #[parameter(tunable, unit = "s", min = 1.0, max = 1e9, start = transitions::SUN_SEARCH_DURATION_S)]
     pub duration: Real,
 }

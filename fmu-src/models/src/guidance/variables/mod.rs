@@ -10,7 +10,7 @@ pub mod outputs;
 pub mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
-use physics::guidance::scan::SCANS;
+use physics::guidance::pointing::scan::SCANS;
 
 use super::setup::GuidanceSetup;
 use crate::common::variables::{GuidedVariables, SolarVariables, WorkLimit};

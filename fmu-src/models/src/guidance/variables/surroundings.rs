@@ -5,7 +5,8 @@ use core::f64::consts::PI;
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD};
 use physics::environment::{ephemeris, time};
-use physics::guidance::{command, lighting};
+use physics::guidance::geometry::lighting;
+use physics::guidance::pointing::command;
 
 use super::super::setup::GuidanceSetup;
 use super::choices::SubsolarMethod;

@@ -15,8 +15,8 @@ use physics::environment::CartesianState;
 use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::time;
 use physics::guidance::Guided;
-use physics::guidance::boresight::MdisRange;
-use physics::guidance::keep_in::{KeepIn, KeepInMethod};
+use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
+use physics::guidance::pointing::boresight::MdisRange;
 use physics::management::Manager;
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
 use physics::plant::{

@@ -6,7 +6,7 @@ use physics::attitude::Attitude;
 use physics::attitude::control::SunSensor;
 use physics::bodies::Body;
 use physics::environment::ephemeris::Ephemeris;
-use physics::guidance::system::CommandKind as Kind;
+use physics::guidance::modes::system::CommandKind as Kind;
 use physics::momentum::{DumpSpacing, MomentumIntegrator, Totals, WheelArray};
 use physics::plant::{
     AttitudeDynamics, Command, Configuration, DumpSideEffect, DynamicsSettings, PropagatorState,

@@ -3,7 +3,7 @@
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
-use physics::guidance::system::CommandKind as Kind;
+use physics::guidance::modes::system::CommandKind as Kind;
 use physics::momentum::{Convention, DumpEvent, Totals};
 use physics::plant::{
     AttitudeDynamics, Configuration, DynamicsInputs, DynamicsSettings, ExternalLoad, Flight, Motion,

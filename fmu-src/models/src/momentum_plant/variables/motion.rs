@@ -3,7 +3,7 @@
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
-use physics::guidance::system;
+use physics::guidance::modes::system;
 
 use super::choices::{AttitudeSource, CommandSource, OrbitDynamics, OrbitFrame, OrbitSource};
 use super::defaults;

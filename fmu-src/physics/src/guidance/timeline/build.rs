@@ -6,7 +6,7 @@ use super::entry::{TimelineClock, TimelineEntry};
 use super::quantity::{Quantity, TIME};
 use super::scans::scan;
 use crate::environment::dates::{self, ALLOWED_DATE};
-use crate::guidance::command::PointingCommand;
+use crate::guidance::pointing::command::PointingCommand;
 use crate::spacecraft::{Checker, Document, Instrument, Place, SpacecraftError};
 
 /// Commands one after the other.

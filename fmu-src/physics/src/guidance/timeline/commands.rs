@@ -13,11 +13,11 @@ use super::reads::{
     AimpointUse, BoresightUse, Keys, Reads, aimpoint_keys, body_roll_keys, boresight_keys,
     external_roll_keys, reads,
 };
-use crate::guidance::command::{
+use crate::guidance::modes::mode::Mode;
+use crate::guidance::pointing::command::{
     AimpointCommand, BodyRollCommand, BoresightCommand, BoresightOption, ExternalRollCommand, FULL_TURN_RAD,
     LimbCommand, PointingCommand, RIGHT_ANGLE_RAD, Scenario,
 };
-use crate::guidance::mode::Mode;
 use crate::spacecraft::{Checker, Instrument, Place, nearest};
 
 /// Whether each key of a table is given.

@@ -4,11 +4,11 @@ use serde::Deserialize;
 
 use super::quantity::Quantity;
 use crate::bodies::Body;
-use crate::guidance::command::{
+use crate::guidance::modes::mode::Mode;
+use crate::guidance::pointing::command::{
     AimpointOption, AzimuthReference, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame,
     Scenario,
 };
-use crate::guidance::mode::Mode;
 
 /// Commands of Guidance over time.
 #[derive(Debug, Deserialize)]

@@ -1,8 +1,8 @@
 //! A command of a timeline: when, where to point, what else it changes.
 
-use crate::guidance::command::PointingCommand;
-use crate::guidance::keep_in::KeepIn;
-use crate::guidance::mode::Mode;
+use crate::guidance::constraints::keep_in::KeepIn;
+use crate::guidance::modes::mode::Mode;
+use crate::guidance::pointing::command::PointingCommand;
 
 /// By which clock a timeline counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! What scenarios and options read: tables of a command and keys of its tables.
 
-use crate::guidance::command::{
+use crate::guidance::pointing::command::{
     AimpointOption, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame, Scenario,
 };
 

@@ -4,9 +4,9 @@ use super::commands::{Commands, named};
 use super::description::{CommandDescription, ScanDescription};
 use super::quantity::{RATE, SPEED, TIME};
 use super::reads::{Keys, reads, scan_keys};
-use crate::guidance::aimpoint::{AIMPOINTS, AimKind};
-use crate::guidance::command::{AimpointOption, PointingCommand, ScanCommand, Scenario};
-use crate::guidance::scan::ScanCompatibility;
+use crate::guidance::pointing::aimpoint::{AIMPOINTS, AimKind};
+use crate::guidance::pointing::command::{AimpointOption, PointingCommand, ScanCommand, Scenario};
+use crate::guidance::pointing::scan::ScanCompatibility;
 use crate::spacecraft::Place;
 
 /// Greatest number of segments.

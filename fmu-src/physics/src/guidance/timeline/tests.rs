@@ -8,8 +8,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::bodies::Body;
 use crate::constants::DEG_RAD;
-use crate::guidance::command::*;
-use crate::guidance::mode::Mode;
+use crate::guidance::modes::mode::Mode;
+use crate::guidance::pointing::command::*;
 use crate::spacecraft::{Instrument, MESSENGER_TOML, Spacecraft};
 
 const EXAMPLE: &str = include_str!("../../../../resources/examples/timeline.toml");

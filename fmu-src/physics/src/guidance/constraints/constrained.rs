@@ -1,0 +1,73 @@
+//! Constraints on any pointing: the Sun first, the hot pole within what remains (paper 001, "Constrained pointing").
+
+use nalgebra::Vector3;
+
+use super::hot_pole::{HotPole, TurnSide};
+use super::keep_in::KeepIn;
+use crate::guidance::geometry::surroundings::Surroundings;
+use crate::guidance::pointing::law::{Pointing, PointingVectors};
+
+/// What holds in a mode.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Constraints {
+    /// Where the Sun must stand; `None` is off.
+    pub keep_in: Option<KeepIn>,
+    /// Where the planet must not stand; `None` is off.
+    pub hot_pole: Option<HotPole>,
+}
+
+/// A pointing that keeps the constraints, and what they did to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConstrainedPointing {
+    /// The attitude.
+    pub pointing: Pointing,
+    /// Whether the vectors were exchanged to keep the Sun in (Table 6).
+    pub sun_keep_in: bool,
+    /// Where a turn about the Sun line ends; `None`: the attitude was not turned.
+    pub hot_pole: Option<TurnSide>,
+    /// Whether the hot-pole cone is kept; where no turn about the Sun line reaches its boundary the attitude is the best.
+    pub hot_pole_reached: bool,
+}
+
+impl Constraints {
+    /// The attitude of `vectors`, constrained; `None` where boresight, aimpoint, zone axis or Sun has no direction.
+    /// `last_turn` is the side of a turn away from the hot pole that lasts.
+    pub fn applied(
+        &self,
+        vectors: &PointingVectors,
+        surroundings: &Surroundings,
+        last_turn: Option<TurnSide>,
+    ) -> Option<ConstrainedPointing> {
+        let (pointing, sun_keep_in) = match &self.keep_in {
+            Some(zone) => {
+                let kept = zone.constrained(vectors, &surroundings.to_sun())?;
+                (kept.pointing, kept.in_force)
+            }
+            None => (vectors.pointing()?, false),
+        };
+        let Some(cone) = &self.hot_pole else {
+            return Some(ConstrainedPointing {
+                pointing,
+                sun_keep_in,
+                hot_pole: None,
+                hot_pole_reached: true,
+            });
+        };
+        let kept = cone.constrained(&pointing, surroundings, last_turn);
+        Some(ConstrainedPointing {
+            pointing: kept.pointing,
+            sun_keep_in,
+            hot_pole: kept.side,
+            hot_pole_reached: kept.reached,
+        })
+    }
+
+    /// By how much the directions of Sun and planet in the body frame exceed the constraints, the greatest in rad;
+    /// negative where all are kept, minus infinity where nothing is watched. `in_region`: whether the hot pole counts.
+    pub fn excess_rad(&self, sun_body: &Vector3<f64>, planet_body: &Vector3<f64>, in_region: bool) -> f64 {
+        let sun_rad = self.keep_in.as_ref().and_then(|zone| zone.excess_rad(sun_body));
+        let planet_rad =
+            self.hot_pole.as_ref().filter(|_| in_region).map(|cone| cone.excess_rad(planet_body));
+        sun_rad.into_iter().chain(planet_rad).fold(f64::NEG_INFINITY, f64::max)
+    }
+}

@@ -1,0 +1,8 @@
+//! What a pointing must keep: the zone of the Sun, the hot pole, and turns within the zone.
+
+pub mod constrained;
+#[cfg(test)]
+pub(crate) mod constraint_tests;
+pub mod hot_pole;
+pub mod keep_in;
+pub mod slew;

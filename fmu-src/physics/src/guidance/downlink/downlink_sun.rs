@@ -1,0 +1,159 @@
+//! Where the Sun stands during a downlink: chosen at the sample where the downlink begins, held while it lasts.
+//!
+//! A downlink begins where the scenario becomes downlink without an azimuth of its own, with each entry of the timeline that
+//! names it, and where a window of the orbit phase begins. Science of the orbit phase that unloads momentum is alike: chosen where it
+//! or the scenario begins, held until the next downlink. In Operational alone: other modes have the Sun on -Y.
+
+use serde::{Deserialize, Serialize};
+
+use super::sun_place::{ChosenPlace, SunPlace};
+use crate::attitude::{Attitude, SunAngles};
+use crate::guidance::geometry::surroundings::Surroundings;
+use crate::guidance::orbit_phase::guided::Guided;
+use crate::guidance::orbit_phase::schedule::Activity;
+use crate::guidance::pointing::command::Scenario;
+
+/// Where a downlink begins, or science that unloads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WindowStart<'a> {
+    /// Which of both.
+    pub activity: Activity,
+    /// Where everything is.
+    pub surroundings: &'a Surroundings,
+    /// The attitude as it is estimated.
+    pub attitude: Attitude,
+    /// How long it lasts, in s.
+    pub span_s: f64,
+    /// Science and downlink from here on, in s past J2000 TDB; the scenario downlink counts on the windows of the orbit phase, of
+    /// which one begins here. Places of the Sun are those of default attitudes.
+    pub law: Guided,
+}
+
+/// Who chooses the Sun's place.
+pub trait SunChooser {
+    /// The place; `None` where the Sun is to stand on -Y.
+    fn choose(&self, start: &WindowStart<'_>) -> Option<ChosenPlace>;
+}
+
+/// Leaves the Sun on -Y.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SunOnMinusY;
+
+impl SunChooser for SunOnMinusY {
+    fn choose(&self, _start: &WindowStart<'_>) -> Option<ChosenPlace> {
+        None
+    }
+}
+
+/// The last choice.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DownlinkSun {
+    chosen: Option<ChosenPlace>,
+    /// The scenario whose downlink lasts.
+    lasts: Option<Scenario>,
+    /// The timeline's entry that named the downlink.
+    entry: Option<usize>,
+    /// The last choice for science.
+    science: Option<ChosenPlace>,
+    /// Whether that science lasts.
+    science_lasts: bool,
+}
+
+impl DownlinkSun {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        [self.chosen, self.science].into_iter().flatten().all(|chosen| chosen.place.is_sound())
+    }
+
+    /// The Sun's place; the slew after a window starts from it.
+    pub fn place(&self) -> Option<SunPlace> {
+        self.chosen.map(|chosen| chosen.place)
+    }
+
+    /// The Sun's place in science that unloads; the slew after it starts from it.
+    pub fn in_science(&self) -> Option<SunAngles> {
+        self.science.map(|chosen| chosen.place.angles)
+    }
+
+    /// Whether a downlink lasts, or science that unloads, whose target is out of reach.
+    pub fn is_clamped(&self) -> bool {
+        let present =
+            if self.lasts.is_some() { self.chosen } else { self.science.filter(|_| self.science_lasts) };
+        present.is_some_and(|chosen| chosen.clamped)
+    }
+
+    /// Neither a downlink lasts nor science.
+    pub fn end(&mut self) {
+        (self.lasts, self.science_lasts) = (None, false);
+    }
+
+    /// Science lasts that unloads; where it begins `choose` gives its place. Whether it begins.
+    pub fn last_in_science(&mut self, choose: impl FnOnce() -> Option<ChosenPlace>) -> bool {
+        self.lasts = None;
+        let begins = !self.science_lasts;
+        if begins {
+            (self.science, self.science_lasts) = (choose(), true);
+        }
+        begins
+    }
+
+    /// A downlink of `scenario` lasts, by `entry` of the timeline where one names it; where it begins `choose` gives its place.
+    /// Whether it begins.
+    pub fn last(
+        &mut self,
+        scenario: Scenario,
+        entry: Option<usize>,
+        choose: impl FnOnce() -> Option<ChosenPlace>,
+    ) -> bool {
+        self.science_lasts = false;
+        let is_new_entry = scenario == Scenario::Downlink && entry.is_some() && entry != self.entry;
+        let begins = self.lasts != Some(scenario) || is_new_entry;
+        if begins {
+            (self.chosen, self.lasts) = (choose(), Some(scenario));
+        }
+        self.entry = entry.or(self.entry);
+        begins
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! One choice a downlink, whatever goes on meanwhile.
+    use super::*;
+    use crate::attitude::SunAngles;
+    use core::cell::Cell;
+
+    #[test]
+    fn a_downlink_is_chosen_once_and_a_new_one_anew() {
+        let count = Cell::new(0);
+        let mut sun = DownlinkSun::default();
+        let mut last = |scenario, entry| {
+            sun.last(scenario, entry, || {
+                count.set(count.get() + 1);
+                let place = SunPlace { angles: SunAngles::default(), earth_ahead: false };
+                Some(ChosenPlace { place, clamped: true })
+            });
+            assert!(sun.is_clamped());
+            count.get()
+        };
+        assert_eq!(last(Scenario::Downlink, None), 1);
+        assert_eq!(last(Scenario::Downlink, None), 1);
+        assert_eq!(last(Scenario::Downlink, Some(4)), 2);
+        assert_eq!(last(Scenario::Downlink, None), 2);
+        assert_eq!(last(Scenario::Downlink, Some(4)), 2);
+        assert_eq!(last(Scenario::OrbitPhase, Some(5)), 3);
+        assert_eq!(last(Scenario::OrbitPhase, Some(6)), 3);
+        sun.end();
+        assert!(!sun.is_clamped() && sun.place().is_some());
+        sun.last(Scenario::OrbitPhase, Some(6), || None);
+        assert!(!sun.is_clamped() && sun.place().is_none());
+        // Science is chosen once too, and a downlink keeps its place for the slew out of it.
+        let angles = SunAngles { azimuth_rad: 0.1, elevation_rad: -0.2 };
+        let place = SunPlace { angles, earth_ahead: false };
+        assert!(sun.last_in_science(|| Some(ChosenPlace { place, clamped: true })) && sun.is_clamped());
+        assert!(!sun.last_in_science(|| None) && sun.is_clamped());
+        sun.last(Scenario::OrbitPhase, Some(6), || None);
+        assert!(!sun.is_clamped() && sun.in_science() == Some(angles));
+        assert!(sun.last_in_science(|| None) && !sun.is_clamped() && sun.in_science().is_none());
+    }
+}

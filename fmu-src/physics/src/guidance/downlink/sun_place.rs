@@ -1,0 +1,232 @@
+//! Downlink: a phased-array antenna at the Earth, the Sun where the momentum wants it (paper 000, eqs 14 to 22).
+//!
+//! The antennas lie in the XY plane; one on the sunshade covers the azimuths -90 to 0 deg, one on the back 90 to 180 deg.
+//! With the Sun at azimuth A and elevation E and the Earth in the XY plane, theta from the Sun, the Earth's azimuth is
+//! A + delta or A - delta, cos theta = cos E cos delta, which needs |E| <= min(theta, 180 deg - theta): E is cut there
+//! (the paper names the first bound alone). Of both azimuths:
+//!
+//! - the one inside a quadrant is taken; of two, A - delta for theta below 90 deg and A + delta beyond, which at A = E = 0
+//!   is the default attitude (eq 18);
+//! - where none is inside, the one nearest to a quadrant gives the antenna. The antenna looks along the quadrant's bound,
+//!   and the Sun comes as near to the asked place as the Earth there allows.
+
+use core::f64::consts::TAU;
+
+use nalgebra::{ComplexField, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::{SunAngles, angle_between_rad, direction_from_angles};
+use crate::constants::DEG_RAD;
+use crate::guidance::geometry::moving::{Moving, MovingVector, PARALLEL_RAD, direction, fixed, unit, value};
+use crate::guidance::geometry::surroundings::Surroundings;
+use crate::guidance::pointing::antenna::{Antenna, AntennaAzimuth, BOUND_RAD};
+use crate::guidance::pointing::law::PointingVectors;
+use crate::numerics::scalar::Scalar;
+
+/// What a downlink attitude is asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DownlinkRequest {
+    /// Azimuth of the antenna's boresight, with -Y rolled toward the Sun; `None`: as the Sun's place needs it.
+    pub antenna_azimuth_rad: Option<f64>,
+    /// Where the Sun is to stand in the body frame; zero is on -Y. Read where no azimuth is given.
+    pub sun_body: SunAngles,
+    /// Which of both azimuths the Earth has; `None`: as above. Read where no azimuth is given.
+    pub earth_ahead: Option<bool>,
+}
+
+/// Where the Sun stands in the body frame during a downlink, and on which side of it the Earth: one of eq 20's two solutions.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SunPlace {
+    /// Of the Sun.
+    pub angles: SunAngles,
+    /// Whether the Earth's azimuth is A + delta; else A - delta.
+    pub earth_ahead: bool,
+}
+
+impl SunPlace {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        [self.angles.azimuth_rad, self.angles.elevation_rad].iter().all(|angle_rad| angle_rad.abs() <= TAU)
+    }
+}
+
+/// A place of the Sun that was chosen for a downlink.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChosenPlace {
+    /// Of the Sun.
+    pub place: SunPlace,
+    /// Whether limits keep the momentum from its target.
+    pub clamped: bool,
+}
+
+/// A downlink attitude.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Downlink {
+    /// The antenna at the Earth, the Sun toward its place.
+    pub vectors: PointingVectors,
+    /// The antenna that looks at the Earth.
+    pub antenna: Antenna,
+    /// Where it looks, in its quadrant.
+    pub antenna_azimuth_rad: f64,
+    /// Whether elevation or antenna stands at a bound, off what was asked.
+    pub clamped: bool,
+}
+
+/// Where the Earth can stand in the XY plane for one place of the Sun.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EarthAzimuths {
+    /// A - delta and A + delta, in rad, in no particular turn.
+    pub azimuths: [Moving; 2],
+    /// Direction of the Sun in the body frame, its elevation cut where it had to be.
+    pub sun_body: MovingVector,
+    /// Whether it was cut.
+    pub clamped: bool,
+    /// Cosine of the angle between Sun and Earth.
+    pub cosine: f64,
+}
+
+/// The attitude that points an antenna at the Earth; `None` where Sun or Earth has no direction.
+pub fn downlink(
+    to_sun: &MovingVector,
+    to_earth: &MovingVector,
+    request: &DownlinkRequest,
+) -> Option<Downlink> {
+    let solutions = both_solutions(to_sun, to_earth, request.sun_body)?;
+    let (azimuth, sun_body, cut) = match request.antenna_azimuth_rad {
+        Some(azimuth_rad) => {
+            let minus_y = fixed(direction_from_angles(SunAngles::default()));
+            (Moving::constant(azimuth_rad), minus_y, false)
+        }
+        None => {
+            let [minus, plus] = solutions.azimuths;
+            let asked = request.earth_ahead.map(|ahead| if ahead { plus } else { minus });
+            (asked.unwrap_or_else(|| solutions.preferred()), solutions.sun_body, solutions.clamped)
+        }
+    };
+    let AntennaAzimuth { antenna, azimuth_rad: antenna_azimuth_rad, outside_rad } =
+        AntennaAzimuth::of(azimuth.re);
+    let at_bound = outside_rad > BOUND_RAD;
+    let boresight_azimuth = if at_bound { Moving::constant(antenna_azimuth_rad) } else { azimuth };
+    Some(Downlink {
+        vectors: PointingVectors {
+            boresight_body: direction(boresight_azimuth, Moving::constant(0.0)),
+            aimpoint: *to_earth,
+            body_roll: sun_body,
+            external_roll: *to_sun,
+        },
+        antenna,
+        antenna_azimuth_rad,
+        clamped: cut || at_bound,
+    })
+}
+
+/// Both azimuths of the Earth in the XY plane with the Sun at `sun_body` (eq 20); `None` where one has no direction.
+pub fn both_solutions(
+    to_sun: &MovingVector,
+    to_earth: &MovingVector,
+    sun_body: SunAngles,
+) -> Option<EarthAzimuths> {
+    let (sun, earth) = (unit(to_sun)?, unit(to_earth)?);
+    let cosine = sun.dot(&earth);
+    let normal = sun.cross(&earth);
+    let squared = normal.dot(&normal);
+    // Sun and Earth in line: the plane of both is the law's fallback, theta stays.
+    let sine = if squared.re > PARALLEL_RAD * PARALLEL_RAD { squared.sqrt() } else { Moving::constant(0.0) };
+    let azimuth = Moving::constant(sun_body.azimuth_rad);
+    let sine_elevation = sun_body.elevation_rad.sin();
+    let above = sine_elevation.abs() >= sine.re;
+    let (elevation, delta) = if above {
+        // At the bound the great circle from the Sun meets the XY plane at a right angle, or on the far side.
+        let bound = Moving::polar_angle(sine, cosine.abs()) * sine_elevation.signum();
+        (bound, Moving::constant(if cosine.re < 0.0 { core::f64::consts::PI } else { 0.0 }))
+    } else {
+        let root = ((sine - sine_elevation) * (sine + sine_elevation)).sqrt();
+        (Moving::constant(sun_body.elevation_rad), Moving::polar_angle(root, cosine))
+    };
+    Some(EarthAzimuths {
+        azimuths: [azimuth - delta, azimuth + delta],
+        sun_body: direction(azimuth, elevation),
+        clamped: sine_elevation.abs() > sine.re,
+        cosine: cosine.re,
+    })
+}
+
+impl EarthAzimuths {
+    /// The one inside a quadrant, or nearest to one; where both are inside, that on the default attitude's side.
+    fn preferred(&self) -> Moving {
+        let [minus, plus] = self.azimuths;
+        let outside_rad = |azimuth: Moving| {
+            let nearest = AntennaAzimuth::of(azimuth.re);
+            if nearest.is_in_range() { 0.0 } else { nearest.outside_rad }
+        };
+        let (default, other) = if self.cosine > 0.0 { (minus, plus) } else { (plus, minus) };
+        if outside_rad(other) < outside_rad(default) { other } else { default }
+    }
+}
+
+/// Least angle between Sun and Earth for a link, assumed: no paper names it.
+pub const SOLAR_EXCLUSION_RAD: f64 = 3.0 * DEG_RAD;
+
+/// Half the length of an antenna's fan in its plane (paper 001: 15 by 4 deg).
+pub const FAN_HALF_LENGTH_RAD: f64 = 7.5 * DEG_RAD;
+
+/// Half the width of an antenna's fan across its plane (paper 001: 15 by 4 deg).
+pub const BEAM_HALF_WIDTH_RAD: f64 = 2.0 * DEG_RAD;
+
+/// What a link needs; the widths are assumptions where the papers differ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkLimits {
+    /// Least angle between Sun and Earth seen from the spacecraft, in rad.
+    pub sun_separation_rad: f64,
+    /// How far the antennas' coverage extends above and below the XY plane and past the ends of their quadrants, in rad
+    /// (paper 001: 2 deg, half of a fan of 15 by 4 deg).
+    pub coverage_rad: f64,
+}
+
+/// Geometry of the link to the Earth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// Angle between Sun and Earth seen from the spacecraft, in rad.
+    pub sun_separation_rad: f64,
+    /// Whether the Earth is in the beam's fan and the antenna's coverage.
+    pub covered: bool,
+    /// Whether it is, far enough from the Sun and not behind the planet.
+    pub available: bool,
+}
+
+/// The link of a beam, the Earth being at `earth_body` in the body frame; `None` where Sun or Earth has no direction.
+pub fn link(
+    surroundings: &Surroundings,
+    earth_body: &Vector3<f64>,
+    beam: Option<&AntennaAzimuth>,
+    limits: &LinkLimits,
+) -> Option<Link> {
+    let earth = unit(&surroundings.to_earth())?;
+    let sun = unit(&surroundings.to_sun())?;
+    let sun_separation_rad = angle_between_rad(&value(&sun), &value(&earth));
+    let SunAngles { azimuth_rad, elevation_rad } = SunAngles::of(earth_body);
+    let coverage_rad = limits.coverage_rad + BOUND_RAD;
+    let is_covered = |beam: &AntennaAzimuth| {
+        let nearest = beam.antenna.nearest(azimuth_rad);
+        elevation_rad.abs() <= coverage_rad
+            && beam.off_rad(azimuth_rad) <= FAN_HALF_LENGTH_RAD
+            && nearest.is_some_and(|nearest| nearest.outside_rad <= coverage_rad)
+    };
+    let covered = beam.is_some_and(is_covered);
+    let available =
+        covered && sun_separation_rad > limits.sun_separation_rad && !behind_planet(surroundings, &earth);
+    Some(Link { sun_separation_rad, covered, available })
+}
+
+/// Whether the line to the Earth meets the sphere of the planet's greatest radius on its way.
+fn behind_planet(surroundings: &Surroundings, earth: &MovingVector) -> bool {
+    let to_planet_m = value(&surroundings.to_planet());
+    let earth = value(earth);
+    let nearest_m = to_planet_m.dot(&earth);
+    nearest_m > 0.0
+        && nearest_m < value(&surroundings.to_earth()).norm()
+        && to_planet_m.cross(&earth).norm() < surroundings.planet.radii_m.max()
+}
+
+#[cfg(test)]
+mod tests;

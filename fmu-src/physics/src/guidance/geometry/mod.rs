@@ -1,0 +1,12 @@
+//! Directions and points that a pointing aims at: moving vectors, limb, lighting, orbit frame.
+
+pub mod lighting;
+pub mod limb;
+pub mod lvlh;
+pub mod moving;
+pub mod planet_point;
+pub mod surroundings;
+#[cfg(test)]
+pub(crate) mod test_geometry;
+#[cfg(test)]
+pub(crate) mod test_orbit;

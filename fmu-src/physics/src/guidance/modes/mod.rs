@@ -1,0 +1,13 @@
+//! Modes, monitors, trust in ephemerides, and the guidance system that samples it all.
+
+#[cfg(test)]
+pub(crate) mod burn_tests;
+#[cfg(test)]
+pub(crate) mod flight_tests;
+pub mod mode;
+pub mod monitor;
+pub mod places;
+pub mod system;
+#[cfg(test)]
+pub(crate) mod test_burn;
+pub mod transitions;

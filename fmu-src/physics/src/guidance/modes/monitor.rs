@@ -1,0 +1,179 @@
+//! Constraint monitor: watches the estimated attitude and asks for the safing turn (paper 001, "Constrained pointing").
+//!
+//! A violation is an excess over the constraints widened by the margin. When one has lasted for the persistence, the
+//! monitor trips and the mode is demoted by one. The safing turn then needs time: until the same violation has ended, its
+//! time counts from the last sample that brought the excess to a new minimum, so that only a turn that makes no progress
+//! is followed by a second demotion.
+
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::Attitude;
+use crate::guidance::constraints::constrained::Constraints;
+use crate::guidance::geometry::moving::value;
+use crate::guidance::geometry::surroundings::Surroundings;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+
+/// How far beyond a boundary counts as a violation, assumed: a degree.
+pub const MARGIN_RAD: f64 = crate::constants::DEG_RAD;
+
+/// What the monitor allows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Monitor {
+    /// By how much a constraint may be exceeded, in rad.
+    pub margin_rad: f64,
+    /// For how long, in s.
+    pub persistence_s: f64,
+}
+
+/// A violation that lasts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Violation {
+    /// From when it counts, in s.
+    pub since_s: f64,
+    /// Least excess since it was answered by a demotion, in rad; `None`: not answered.
+    pub least_excess_rad: Option<f64>,
+}
+
+/// Memory of the monitor.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MonitorState {
+    /// The present violation.
+    pub violation: Option<Violation>,
+}
+
+impl MonitorState {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let sound = |x: f64| x.abs() <= GREATEST_IN_STATE;
+        self.violation
+            .is_none_or(|violation| sound(violation.since_s) && violation.least_excess_rad.is_none_or(sound))
+    }
+}
+
+impl Monitor {
+    /// Takes the sample at `time_s` with this excess over `constraints` (unwidened); whether the mode is to be demoted.
+    pub fn trips(&self, state: &mut MonitorState, time_s: f64, excess_rad: f64) -> bool {
+        // What is not a number is no violation.
+        if excess_rad.is_nan() || excess_rad <= self.margin_rad {
+            state.violation = None;
+            return false;
+        }
+        let violation = state.violation.get_or_insert(Violation { since_s: time_s, least_excess_rad: None });
+        if let Some(least_rad) = &mut violation.least_excess_rad
+            && excess_rad < *least_rad
+        {
+            *least_rad = excess_rad;
+            violation.since_s = time_s;
+        }
+        let trips = time_s - violation.since_s >= self.persistence_s;
+        if trips {
+            *violation = Violation { since_s: time_s, least_excess_rad: Some(excess_rad) };
+        }
+        trips
+    }
+}
+
+/// By how much an estimated attitude exceeds the constraints, in rad; negative where it keeps them.
+pub fn excess_rad(constraints: &Constraints, estimate: &Attitude, surroundings: &Surroundings) -> f64 {
+    let body_from_inertial = estimate.inertial_from_body().inverse();
+    let in_region = constraints.hot_pole.is_some_and(|cone| cone.in_region(surroundings));
+    let body = |vector| body_from_inertial * value(&vector);
+    constraints.excess_rad(&body(surroundings.to_sun()), &body(surroundings.to_planet()), in_region)
+}
+
+#[cfg(test)]
+mod tests {
+    //! Excesses sample by sample, and what the monitor makes of them.
+    use nalgebra::{Rotation3, Vector3};
+
+    use super::*;
+    use crate::bodies::Body;
+    use crate::guidance::constraints::hot_pole::HotPole;
+    use crate::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
+    use crate::guidance::geometry::moving::fixed;
+    use crate::guidance::geometry::surroundings::TargetPlanet;
+
+    const MONITOR: Monitor = Monitor { margin_rad: 0.1, persistence_s: 3.0 };
+
+    /// At which samples, a second apart, the monitor trips.
+    fn trips(excesses_rad: &[f64]) -> Vec<usize> {
+        let mut state = MonitorState::default();
+        let mut tripped = Vec::new();
+        for (second, excess_rad) in excesses_rad.iter().enumerate() {
+            if MONITOR.trips(&mut state, second as f64, *excess_rad) {
+                tripped.push(second);
+            }
+            assert!(state.is_sound());
+        }
+        tripped
+    }
+
+    #[test]
+    fn it_trips_when_a_violation_has_lasted() {
+        assert_eq!(trips(&[-1.0, 0.05, 0.1, 0.1, 0.1, 0.1]), [0_usize; 0]);
+        assert_eq!(trips(&[0.0, 0.2, 0.2, 0.2, 0.0, 0.2, 0.2, 0.2]), [0_usize; 0]);
+        assert_eq!(trips(&[0.0, 0.2, 0.3, 0.2, 0.2, 0.0]), [4]);
+        assert_eq!(trips(&[f64::NAN, f64::NEG_INFINITY, f64::NAN, 0.0]), [0_usize; 0]);
+    }
+
+    #[test]
+    fn a_safing_turn_that_makes_progress_is_left_alone() {
+        assert_eq!(trips(&[2.0, 2.0, 2.0, 2.0, 1.9, 1.7, 1.4, 1.0, 0.5, 0.2, 0.0, 0.0]), [3]);
+        assert_eq!(trips(&[2.0, 2.0, 2.0, 2.0, 1.9, 1.9, 2.1, 1.9, 1.9]), [3, 7]);
+        assert_eq!(trips(&[2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0]), [3, 6]);
+        // A new violation counts from its own begin.
+        assert_eq!(trips(&[2.0, 2.0, 2.0, 2.0, 0.0, 2.0, 1.0, 0.5, 0.4]), [3, 8]);
+    }
+
+    #[test]
+    fn a_state_with_impossible_numbers_is_not_sound() {
+        for (since_s, least_excess_rad) in [(f64::NAN, None), (1e300, None), (0.0, Some(f64::INFINITY))] {
+            assert!(!MonitorState { violation: Some(Violation { since_s, least_excess_rad }) }.is_sound());
+        }
+    }
+
+    #[test]
+    fn sun_and_hot_pole_are_watched_in_the_body_frame() {
+        let zone = KeepIn {
+            axis_body: -Vector3::y(),
+            azimuth_rad: 0.3,
+            elevation_rad: 0.2,
+            method: KeepInMethod::Nearest,
+        };
+        let cone = HotPole { altitude_m: 1e6, angle_rad: 0.5, cone_rad: 1.0 };
+        let planet = TargetPlanet::of(Body::Mercury.data());
+        let around = |height_m: f64| Surroundings {
+            epoch_s: 0.0,
+            planet,
+            position: fixed(Vector3::x() * (planet.radii_m.x + height_m)),
+            velocity: fixed(Vector3::y()),
+            sun: fixed(Vector3::x() * 5e10),
+            earth: fixed(Vector3::y() * 1e11),
+            bodies: [None; Body::ALL.len()],
+        };
+        // -Y at the Sun (+x), then turned by an angle about the body's own axis.
+        let facing = Rotation3::from_axis_angle(&Vector3::z_axis(), std::f64::consts::FRAC_PI_2);
+        let turned = |axis: Vector3<f64>, angle_rad: f64| {
+            Attitude::from_rotation(&(facing * Rotation3::from_scaled_axis(axis * angle_rad)))
+        };
+        let excess = |constraints: Constraints, axis, angle_rad, height_m| {
+            excess_rad(&constraints, &turned(axis, angle_rad), &around(height_m))
+        };
+        let sun_only = Constraints { keep_in: Some(zone), hot_pole: None };
+        let both = Constraints { keep_in: Some(zone), hot_pole: Some(cone) };
+        let close =
+            |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        close(excess(sun_only, Vector3::z(), 0.0, 1e5), -0.2);
+        close(excess(sun_only, Vector3::z(), 0.5, 1e5), 0.2);
+        close(excess(sun_only, Vector3::x(), -0.5, 1e5), 0.3);
+        // -Z is a right angle from the planet (at -x), less by the turn that raises the Sun's elevation away.
+        close(excess(both, Vector3::x(), 0.0, 1e5), -0.2);
+        let toward = std::f64::consts::FRAC_PI_2 - 1.3;
+        close(
+            excess(Constraints { keep_in: None, ..both }, Vector3::x(), 1.3, 1e5).max(1.0 - toward),
+            1.0 - toward,
+        );
+        assert!(excess(Constraints { keep_in: None, ..both }, Vector3::x(), 1.3, 2e6) == f64::NEG_INFINITY);
+        assert!(excess(Constraints::default(), Vector3::x(), 1.3, 1e5) == f64::NEG_INFINITY);
+    }
+}

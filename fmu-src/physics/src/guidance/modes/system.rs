@@ -1,0 +1,640 @@
+//! Guidance as a sampled system (paper 001, "Guidance system architecture"): once a second a command is computed from what
+//! is known then; between samples it is propagated by its rate.
+//!
+//! A sample decides the mode, admits the command that the mode allows, aims, applies the constraints and judges the result.
+//! Samples lie at whole seconds of time, and at the start. Where no scenario is commanded, or boresight or aimpoint has no
+//! direction, the last law stays that gave an attitude, within its constraints. Where the spacecraft, Sun or Earth is not
+//! known, the last command stays and nothing is judged.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::mode::Mode;
+use super::places::Places;
+use super::transitions::{ModeSettings, ModeState, Sensed, Steering};
+use crate::attitude::{Attitude, SunAngles};
+use crate::guidance::burn::delta_v::{BurnSettings, BurnState, MeasuredMotion};
+use crate::guidance::constraints::constrained::{ConstrainedPointing, Constraints};
+use crate::guidance::constraints::hot_pole::TurnSide;
+use crate::guidance::constraints::keep_in::KeepIn;
+use crate::guidance::downlink::downlink_sun::{DownlinkSun, SunChooser, WindowStart};
+use crate::guidance::downlink::sun_place::{LinkLimits, SunPlace, link};
+use crate::guidance::geometry::moving::{MovingVector, rate, value};
+use crate::guidance::geometry::surroundings::Surroundings;
+use crate::guidance::orbit_phase::guided::Guided;
+use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
+use crate::guidance::orbit_phase::schedule::Activity;
+use crate::guidance::pointing::antenna::{Antenna, AntennaAzimuth, Beam};
+use crate::guidance::pointing::boresight::DeviceAngle;
+use crate::guidance::pointing::command::{
+    BoresightOption, LimbCommand, PointingCommand, ScanCommand, Scenario,
+};
+use crate::guidance::pointing::law::{Pointing, PointingVectors};
+use crate::guidance::pointing::scan::ScanTime;
+use crate::guidance::pointing::scenario::{Aimed, GuidanceHardware, PointingProgress, aim};
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::numerics::scalar::{Dual64, Scalar};
+use crate::numerics::spacing::spacing;
+
+/// Time between two samples, in s.
+pub const SAMPLE_INTERVAL_S: f64 = 1.0;
+
+/// Units of about a microsecond that a sample takes at most, a choice of the Sun's place aside.
+pub const SAMPLE_WORK: u32 = 4;
+
+/// Everything that parameters say.
+#[derive(Clone, Copy, Debug)]
+pub struct GuidanceSettings<'a> {
+    /// Instruments, camera, scans.
+    pub hardware: GuidanceHardware<'a>,
+    /// Modes and their constraints.
+    pub modes: ModeSettings,
+    /// The keep-in zone of Operational, in force or not.
+    pub keep_in: KeepIn,
+    /// Greatest distance from the Sun at which the keep-in zone of Operational counts, in m.
+    pub keep_in_distance_m: f64,
+    /// The radio link.
+    pub link: LinkLimits,
+    /// The law of [`Scenario::OrbitPhase`]; its periapsis and period are computed.
+    pub orbit_phase: Guided,
+    /// The burn of [`Scenario::Burn`].
+    pub burn: BurnSettings,
+}
+
+/// Everything that a sample reads.
+#[derive(Clone, Copy, Debug)]
+pub struct SampleInputs {
+    /// What is commanded.
+    pub command: PointingCommand,
+    /// The timeline's entries that say scan, limb and mode, where they and no input do: each begins with its entry.
+    pub entries: TimedEntries,
+    /// Where everything is.
+    pub places: Places,
+    /// Mode request, estimate and Sun sensors at the sample's time.
+    pub sensed: Sensed,
+    /// Sum of the accelerometers' increments along the body axes, in m/s.
+    pub delta_v_body_m_s: Vector3<f64>,
+}
+
+/// Which entry of a timeline something comes from; `None` where it comes from no timeline.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TimedEntries {
+    /// The scan.
+    pub scan: Option<usize>,
+    /// The scenario: the entry that names one.
+    pub scenario: Option<usize>,
+    /// The mode that is asked for.
+    pub mode: Option<usize>,
+}
+
+/// What a command gives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum CommandKind {
+    /// Nothing was commanded yet: the start attitude is held.
+    #[default]
+    None,
+    /// Attitude and rate.
+    Attitude,
+    /// Error quaternion and rate.
+    ErrorQuaternion,
+    /// Rate alone.
+    RateOnly,
+}
+
+/// A command, propagated by its rate from its sample on.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GuidanceCommand {
+    /// What it gives.
+    pub kind: CommandKind,
+    /// When it was computed, in s.
+    pub since_s: f64,
+    /// Attitude then; without [`CommandKind::Attitude`] the one held before.
+    attitude: Attitude,
+    /// Its quaternion with continuous sign.
+    quaternion: [f64; 4],
+    /// Body rate, in rad/s.
+    pub rate_body_rad_s: Vector3<f64>,
+    /// From the commanded to the actual body frame, scalar last (paper 001 eq 25).
+    pub error: [f64; 4],
+}
+
+/// What is said of a command.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Judgement {
+    /// The camera's angle, and whether it is the one asked for.
+    pub mdis: DeviceAngle,
+    /// The antenna in use.
+    pub antenna: Antenna,
+    /// Where it looks, in rad.
+    pub antenna_azimuth_rad: f64,
+    /// Angle between Sun and Earth, in rad.
+    pub sun_separation_rad: f64,
+    /// Whether there is a link with the Earth.
+    pub link_available: bool,
+    /// Whether the boresight is on the aimpoint.
+    pub reachable: bool,
+    /// Whether a fallback stands in for a roll vector, or there is no direction at all.
+    pub degenerate: bool,
+    /// Whether a scan moves boresight or aim.
+    pub scan_active: bool,
+    /// Whether the keep-in zone changed the attitude.
+    pub sun_keep_in: bool,
+    /// Whether the hot-pole keep-out did.
+    pub hot_pole: bool,
+    /// Whether its cone is kept, in force or not.
+    pub hot_pole_reached: bool,
+    /// Whether something that was asked for was clamped.
+    pub clamped: bool,
+}
+
+/// State of the sampled system.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GuidanceState {
+    command: GuidanceCommand,
+    judgement: Judgement,
+    /// From the spacecraft to the Sun and its rate, EME2000, and when; zero while it is not known.
+    to_sun: [Vector3<f64>; 2],
+    to_sun_since_s: f64,
+    modes: ModeState,
+    periapses: PeriapsisCount,
+    /// The scan and since when it is commanded, in s.
+    scan: Option<(ScanCommand, f64)>,
+    /// Where the turn away from the hot pole ends, while it lasts.
+    hot_pole_turn: Option<TurnSide>,
+    /// The timeline's entries at the last sample.
+    entries: TimedEntries,
+    /// The last command that gave an attitude; it stays where none is given, and where a new one has no direction.
+    law: Option<PointingCommand>,
+    /// The limb scenario and since when it is commanded, in s.
+    limb: Option<(Scenario, f64)>,
+    burn: BurnState,
+    downlink_sun: DownlinkSun,
+    next_sample_s: f64,
+}
+
+/// What a sample works with.
+struct Now<'a> {
+    settings: &'a GuidanceSettings<'a>,
+    constraints: Constraints,
+    surroundings: &'a Surroundings,
+    time_s: f64,
+}
+
+impl GuidanceState {
+    /// Before the first sample, which is due at `start_s`.
+    pub fn new(attitude: Attitude, start_s: f64) -> Self {
+        Self {
+            command: GuidanceCommand {
+                kind: CommandKind::None,
+                since_s: start_s,
+                attitude,
+                quaternion: attitude.quaternion(None),
+                rate_body_rad_s: Vector3::zeros(),
+                error: [0.0, 0.0, 0.0, 1.0],
+            },
+            judgement: Judgement::NOTHING,
+            to_sun: [Vector3::zeros(); 2],
+            to_sun_since_s: start_s,
+            modes: ModeState::default(),
+            periapses: PeriapsisCount::default(),
+            scan: None,
+            hot_pole_turn: None,
+            entries: TimedEntries::default(),
+            law: None,
+            limb: None,
+            burn: BurnState::default(),
+            downlink_sun: DownlinkSun::default(),
+            next_sample_s: start_s,
+        }
+    }
+
+    /// The command in force.
+    pub fn command(&self) -> &GuidanceCommand {
+        &self.command
+    }
+
+    /// What is said of it.
+    pub fn judgement(&self) -> &Judgement {
+        &self.judgement
+    }
+
+    /// The mode in force.
+    pub fn mode(&self) -> Mode {
+        self.modes.mode
+    }
+
+    /// Whether the precise ephemerides are trusted.
+    pub fn ephemeris_is_valid(&self) -> bool {
+        self.modes.ephemeris.is_valid()
+    }
+
+    /// Whether the mode goes by the coarse ephemerides, where modes choose.
+    pub fn uses_coarse_ephemeris(&self) -> bool {
+        self.modes.ephemeris.uses_coarse(self.modes.mode)
+    }
+
+    /// How far a burn is.
+    pub fn burn(&self) -> &BurnState {
+        &self.burn
+    }
+
+    /// Where the Sun stands in downlink.
+    pub fn downlink_sun(&self) -> &DownlinkSun {
+        &self.downlink_sun
+    }
+
+    /// When the next sample is due, in s.
+    pub fn next_sample_s(&self) -> f64 {
+        self.next_sample_s
+    }
+
+    /// The next sample that belongs to a step to `end_s`; one at its end belongs to the step after it.
+    pub fn due_before(&self, end_s: f64) -> Option<f64> {
+        let tolerance_s = 4.0 * spacing(end_s);
+        (self.next_sample_s < end_s - tolerance_s).then_some(self.next_sample_s)
+    }
+
+    /// Takes the sample that is due; `chooser` puts the Sun where a downlink begins, or science that unloads. Whether it was asked.
+    pub fn sample(
+        &mut self,
+        settings: &GuidanceSettings<'_>,
+        inputs: &SampleInputs,
+        chooser: &impl SunChooser,
+    ) -> bool {
+        let mut is_asked = false;
+        let time_s = self.next_sample_s;
+        self.next_sample_s = next_whole_s(time_s);
+        let sensed = Sensed { time_s, ..inputs.sensed };
+        let mut modes = settings.modes;
+        let before = self.modes.surroundings(&inputs.places).map(Surroundings::to_sun);
+        if before.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in_distance_m) {
+            modes.operational.keep_in = None;
+        }
+        modes.watches_hot_pole &= self.judgement.hot_pole_reached;
+        self.keep_clocks(&inputs.command, inputs.entries, time_s);
+        self.burn.measure(
+            &settings.burn,
+            sensed.estimate.map(|attitude| MeasuredMotion {
+                time_s,
+                attitude,
+                delta_v_body_m_s: inputs.delta_v_body_m_s,
+            }),
+        );
+        let steering = self.modes.sample(&modes, &sensed, &inputs.places);
+        let surroundings = self.modes.surroundings(&inputs.places);
+        if let Some(to_sun) = surroundings.map(Surroundings::to_sun) {
+            (self.to_sun, self.to_sun_since_s) = ([value(&to_sun), rate(&to_sun)], time_s);
+        }
+        match steering {
+            Some(Steering::Pointing(constraints)) => {
+                let command = self.modes.mode.admitted(&inputs.command);
+                let orbit_phase = Guided { keep_in: constraints.keep_in, ..settings.orbit_phase };
+                let settings = &GuidanceSettings { orbit_phase, ..*settings };
+                if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
+                    let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
+                    is_asked = self.place_sun(settings, &command, surroundings, attitude, chooser);
+                    self.point(&Now { settings, constraints, surroundings, time_s }, &command);
+                    let is_law = self.law.is_some_and(|law| law.scenario == Some(Scenario::Burn));
+                    if self.modes.mode == Mode::Operational {
+                        self.burn.begin(&settings.burn, time_s, is_law && self.judgement.reachable);
+                    }
+                }
+            }
+            Some(Steering::ErrorQuaternion { error, rate_body_rad_s }) => {
+                self.steer(CommandKind::ErrorQuaternion, error.0, rate_body_rad_s, time_s);
+            }
+            Some(Steering::RateOnly(rate_body_rad_s)) => {
+                self.steer(CommandKind::RateOnly, [0.0, 0.0, 0.0, 1.0], rate_body_rad_s, time_s);
+            }
+            None => self.judgement = Judgement { degenerate: true, ..Judgement::NOTHING },
+        }
+        if !self.judgement.hot_pole {
+            self.hot_pole_turn = None;
+        }
+        if self.modes.mode != Mode::Operational {
+            self.burn.end();
+            self.downlink_sun.end();
+        }
+        is_asked
+    }
+
+    /// Puts the Sun where a downlink begins, or science that unloads; whether one does.
+    fn place_sun(
+        &mut self,
+        settings: &GuidanceSettings<'_>,
+        command: &PointingCommand,
+        surroundings: &Surroundings,
+        attitude: Attitude,
+        chooser: &impl SunChooser,
+    ) -> bool {
+        let (windows, epoch_s) = (&settings.orbit_phase.schedule, surroundings.epoch_s);
+        let found = match command.scenario {
+            _ if self.modes.mode != Mode::Operational => None,
+            Some(scenario @ Scenario::Downlink) => {
+                let is_free = command.boresight.option != Some(BoresightOption::PhasedArray);
+                let span_s = windows.downlink_end_s - windows.downlink_start_s;
+                is_free.then(|| (scenario, Activity::Downlink, windows.begun_at(epoch_s), span_s))
+            }
+            Some(scenario @ Scenario::OrbitPhase) => {
+                let windows = self.periapses.windows(windows, surroundings);
+                let window = windows.window(epoch_s);
+                let has_place =
+                    window.activity == Activity::Downlink || settings.orbit_phase.science.unloads();
+                has_place.then_some((scenario, window.activity, windows, window.until_s - epoch_s))
+            }
+            _ => None,
+        };
+        let Some((scenario, activity, schedule, span_s)) = found else {
+            self.downlink_sun.end();
+            return false;
+        };
+        let choose = || {
+            let law = Guided { schedule, ..settings.orbit_phase };
+            let is_span = span_s.is_finite() && span_s > 0.0;
+            let start = WindowStart { activity, surroundings, attitude, span_s, law };
+            is_span.then(|| chooser.choose(&start)).flatten()
+        };
+        match activity {
+            Activity::Downlink => self.downlink_sun.last(scenario, self.entries.scenario, choose),
+            Activity::Science => self.downlink_sun.last_in_science(choose),
+        }
+    }
+
+    /// The Sun's place in the downlinks of the mode; `None`: on -Y.
+    fn sun_place(&self) -> Option<SunPlace> {
+        self.downlink_sun.place().filter(|_| self.modes.mode == Mode::Operational)
+    }
+
+    /// Azimuth and elevation of the Sun in the frame of `attitude` at `time_s`; both 0 while it is not known.
+    pub fn sun_angles_at(&self, attitude: &Attitude, time_s: f64) -> SunAngles {
+        let [to_sun, _] = self.sun_line_at(time_s);
+        if to_sun == Vector3::zeros() {
+            return SunAngles::default();
+        }
+        SunAngles::of(&(attitude.inertial_from_body().inverse() * to_sun))
+    }
+
+    /// Their rates, in rad/s.
+    pub fn sun_angle_rates_at(&self, time_s: f64) -> [f64; 2] {
+        let [to_sun, sun_rate] = self.sun_line_at(time_s);
+        if to_sun == Vector3::zeros() {
+            return [0.0; 2];
+        }
+        let to_body = self.command.attitude_at(time_s).inertial_from_body().inverse();
+        let sun_body = to_body * to_sun;
+        let rate_body = to_body * sun_rate - self.command.rate_body_rad_s.cross(&sun_body);
+        let [x, y, z] = [0, 1, 2].map(|i| Dual64::new(sun_body[i], rate_body[i]));
+        let across = Dual64::constant(libm::hypot(sun_body.x, sun_body.y));
+        let across = if across.re > 0.0 {
+            Dual64::new(across.re, (x * x.eps + y * y.eps).re / across.re)
+        } else {
+            across
+        };
+        [Dual64::polar_angle(x, -y).eps, Dual64::polar_angle(-z, across).eps]
+    }
+
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
+        let GuidanceCommand { since_s, attitude, quaternion, rate_body_rad_s, error, .. } = &self.command;
+        let judged = &self.judgement;
+        let angles = [judged.mdis.angle_rad, judged.antenna_azimuth_rad, judged.sun_separation_rad];
+        let times = [*since_s, self.next_sample_s, self.to_sun_since_s];
+        let scan_since_s = self.scan.map(|(_, since_s)| since_s);
+        let clocks = scan_since_s.into_iter().chain(self.limb.map(|(_, since_s)| since_s));
+        let mut numbers = quaternion.iter().chain(error).chain(rate_body_rad_s.iter()).chain(&angles);
+        attitude.is_rotation()
+            && numbers.all(sound)
+            && times.iter().all(sound)
+            && clocks.into_iter().all(|at_s| sound(&at_s))
+            && self.to_sun.iter().flatten().all(sound)
+            && self.modes.is_sound()
+            && self.periapses.is_sound()
+            && self.burn.is_sound()
+            && self.downlink_sun.is_sound()
+    }
+
+    /// Whether a step could begin at `time_s`.
+    pub fn covers(&self, time_s: f64) -> bool {
+        let tolerance_s = 4.0 * spacing(time_s);
+        (time_s - tolerance_s..=time_s + SAMPLE_INTERVAL_S + tolerance_s).contains(&self.next_sample_s)
+    }
+
+    fn sun_line_at(&self, time_s: f64) -> [Vector3<f64>; 2] {
+        let [to_sun, rate] = self.to_sun;
+        [to_sun + rate * (time_s - self.to_sun_since_s), rate]
+    }
+
+    /// What is commanded now: where no scenario is, the last command that gave an attitude, without its scans.
+    pub fn continued(&self, command: &PointingCommand) -> PointingCommand {
+        match self.law {
+            Some(law) if command.scenario.is_none() => without_scans(&law),
+            _ => *command,
+        }
+    }
+
+    /// A scan begins where it is first commanded or changes, a limb scenario and a burn where they are, in whatever mode; one of
+    /// a timeline with its entry.
+    fn keep_clocks(&mut self, command: &PointingCommand, entries: TimedEntries, time_s: f64) {
+        if entries.scan != self.entries.scan {
+            self.scan = None;
+        }
+        if entries.scenario != self.entries.scenario {
+            self.limb = None;
+        }
+        let is_new = entries.scenario.is_some() && entries.scenario != self.entries.scenario;
+        self.burn.command(command.scenario == Some(Scenario::Burn), is_new, time_s);
+        if entries.mode != self.entries.mode {
+            self.modes.renew_request();
+        }
+        self.entries = entries;
+        self.scan = command.scan.frame.map(|_| match self.scan {
+            Some((before, since_s)) if before == command.scan => (before, since_s),
+            _ => (command.scan, time_s),
+        });
+        let limb =
+            command.scenario.filter(|it| matches!(it, Scenario::LimbTerminator | Scenario::LimbGeneric));
+        self.limb = limb.map(|scenario| match self.limb {
+            Some((before, since_s)) if before == scenario => (scenario, since_s),
+            _ => (scenario, time_s),
+        });
+    }
+
+    /// Computes an attitude; without a direction the last law stays that gave one.
+    fn point(&mut self, now: &Now<'_>, command: &PointingCommand) {
+        let mut found = self.constrained(now, command);
+        let is_given = found.is_some();
+        if !is_given && let Some(law) = self.law.map(|law| self.modes.mode.admitted(&without_scans(&law))) {
+            found = self.constrained(now, &law);
+        } else if is_given && self.modes.mode == Mode::Operational {
+            self.law = Some(*command);
+        }
+        let Some((aimed, constrained)) = found else {
+            self.judgement = Judgement { degenerate: true, ..Judgement::NOTHING };
+            return;
+        };
+        let ConstrainedPointing { pointing, sun_keep_in, hot_pole: turn, hot_pole_reached } = constrained;
+        let hot_pole = turn.is_some();
+        self.hot_pole_turn = turn;
+        let frame = pointing.frame();
+        let attitude = Attitude::from_rotation(&frame.inertial_from_body);
+        let quaternion = attitude.quaternion(Some(self.command.quaternion_at(now.time_s)));
+        self.command = GuidanceCommand {
+            kind: CommandKind::Attitude,
+            since_s: now.time_s,
+            attitude,
+            quaternion,
+            rate_body_rad_s: frame.rate_body_rad_s,
+            error: [0.0, 0.0, 0.0, 1.0],
+        };
+        let earth_body = value(&pointing.to_body(&now.surroundings.to_earth()));
+        let is_moved = sun_keep_in || hot_pole;
+        let beam = aimed.antenna.map(|asked| match asked {
+            // The beam follows the Earth where a constraint moved the antenna off it.
+            Beam::AtTheEarth(_) if is_moved => AntennaAzimuth::toward(&earth_body),
+            Beam::AtTheEarth(azimuth) | Beam::Commanded(azimuth) => azimuth,
+        });
+        let link = link(now.surroundings, &earth_body, beam.as_ref(), &now.settings.link);
+        let mdis = aimed.camera(&pointing, &now.settings.hardware.mdis).unwrap_or(Judgement::NOTHING.mdis);
+        self.judgement = Judgement {
+            mdis,
+            antenna: beam.map_or(Antenna::None, |beam| beam.antenna),
+            antenna_azimuth_rad: beam.map_or(0.0, |beam| beam.azimuth_rad),
+            sun_separation_rad: link.map_or(0.0, |link| link.sun_separation_rad),
+            link_available: link.is_some_and(|link| link.available),
+            reachable: match aimed.antenna {
+                Some(Beam::AtTheEarth(_)) => link.is_some_and(|link| link.covered),
+                _ => aimed.reachable && is_on(&pointing, &aimed.vectors),
+            },
+            degenerate: pointing.degenerate || !is_given,
+            scan_active: aimed.scan_active,
+            sun_keep_in,
+            hot_pole,
+            hot_pole_reached,
+            clamped: !hot_pole_reached || aimed.clamped || !mdis.in_range,
+        };
+    }
+
+    /// The vectors of a command and the attitude within the constraints; `None` where something has no direction.
+    fn constrained(
+        &mut self,
+        now: &Now<'_>,
+        command: &PointingCommand,
+    ) -> Option<(Aimed, ConstrainedPointing)> {
+        let aimed = self.aimed(now, command)?;
+        let constrained = now.constraints.applied(&aimed.vectors, now.surroundings, self.hot_pole_turn)?;
+        Some((aimed, constrained))
+    }
+
+    /// The vectors that the command asks for.
+    fn aimed(&mut self, now: &Now<'_>, command: &PointingCommand) -> Option<Aimed> {
+        if command.scenario == Some(Scenario::OrbitPhase) {
+            let science = self.downlink_sun.in_science().filter(|_| self.modes.mode == Mode::Operational);
+            let law = now.settings.orbit_phase.with_sun_places(self.sun_place(), science);
+            return Some(self.orbit_phase(&law, now.surroundings));
+        }
+        let progress = PointingProgress {
+            scan: self.scan.map(|(_, since_s)| ScanTime {
+                elapsed_s: now.time_s - since_s,
+                tolerance_s: 4.0 * spacing(now.time_s),
+            }),
+            limb_elapsed_s: self.limb.map_or(0.0, |(_, since_s)| now.time_s - since_s),
+            downlink_sun: self.sun_place(),
+            burn: self.burn.aim(&now.settings.burn),
+        };
+        aim(command, &now.settings.hardware, now.surroundings, &progress)
+    }
+
+    /// The orbit phase's attitude as vectors: +Z at where it looks, -Y rolled to where it is.
+    fn orbit_phase(&mut self, law: &Guided, surroundings: &Surroundings) -> Aimed {
+        let attitude = self.periapses.attitude(law, surroundings);
+        let pointing = Pointing::of(&attitude.frame);
+        let is_downlink = attitude.window.activity == Activity::Downlink && !attitude.slewing;
+        let keeps_nadir = attitude.window.activity == Activity::Science && law.science.unloads();
+        let earth_body = || value(&pointing.to_body(&surroundings.to_earth()));
+        Aimed {
+            vectors: pointing.vectors(),
+            mdis: None,
+            second: keeps_nadir.then(|| surroundings.to_planet()),
+            antenna: is_downlink.then(|| Beam::AtTheEarth(AntennaAzimuth::toward(&earth_body()))),
+            reachable: !attitude.slewing && attitude.margins.iter().all(|margin| *margin >= 0.0),
+            clamped: false,
+            scan_active: false,
+        }
+    }
+
+    /// A command without an attitude of its own: the attitude reached is held by the rate.
+    fn steer(&mut self, kind: CommandKind, error: [f64; 4], rate_body_rad_s: Vector3<f64>, time_s: f64) {
+        let attitude = self.command.attitude_at(time_s);
+        let quaternion = self.command.quaternion_of(&attitude);
+        self.command =
+            GuidanceCommand { kind, since_s: time_s, attitude, quaternion, rate_body_rad_s, error };
+        self.judgement = Judgement::NOTHING;
+    }
+}
+
+impl GuidanceCommand {
+    /// Attitude at `time_s`.
+    pub fn attitude_at(&self, time_s: f64) -> Attitude {
+        self.attitude.propagated(self.rate_body_rad_s, time_s - self.since_s)
+    }
+
+    /// Its quaternion, scalar last, EME2000 to body; the sign goes on from sample to sample.
+    pub fn quaternion_at(&self, time_s: f64) -> [f64; 4] {
+        self.quaternion_of(&self.attitude_at(time_s))
+    }
+
+    /// The same of the attitude then.
+    pub fn quaternion_of(&self, attitude: &Attitude) -> [f64; 4] {
+        attitude.quaternion(Some(self.quaternion))
+    }
+
+    /// Its rate, in 1/s: half the product with the body rate.
+    pub fn quaternion_rate_at(&self, time_s: f64) -> [f64; 4] {
+        let [x, y, z, w] = self.quaternion_at(time_s);
+        let rate = self.rate_body_rad_s * 0.5;
+        let vector = rate * w + Vector3::new(x, y, z).cross(&rate);
+        [vector.x, vector.y, vector.z, -Vector3::new(x, y, z).dot(&rate)]
+    }
+}
+
+impl Judgement {
+    /// Of no attitude.
+    const NOTHING: Self = Self {
+        mdis: DeviceAngle { angle_rad: 0.0, in_range: true },
+        antenna: Antenna::None,
+        antenna_azimuth_rad: 0.0,
+        sun_separation_rad: 0.0,
+        link_available: false,
+        reachable: false,
+        degenerate: false,
+        scan_active: false,
+        sun_keep_in: false,
+        hot_pole: false,
+        hot_pole_reached: true,
+        clamped: false,
+    };
+}
+
+/// A command that goes on after its end: its scans do not.
+fn without_scans(command: &PointingCommand) -> PointingCommand {
+    let limb = LimbCommand { height_rate_m_s: 0.0, ..command.limb };
+    PointingCommand { scan: ScanCommand::default(), limb, ..*command }
+}
+
+/// Whether the boresight is on the aimpoint, within what rounding leaves.
+fn is_on(pointing: &Pointing, vectors: &PointingVectors) -> bool {
+    const ROUNDING_RAD: f64 = 1e-9;
+    let toward = |vector: &MovingVector| value(vector).try_normalize(0.0);
+    let aim_body = toward(&pointing.to_body(&vectors.aimpoint));
+    let both = aim_body.zip(toward(&vectors.boresight_body));
+    both.is_some_and(|(aim, boresight)| {
+        aim.cross(&boresight).norm() < ROUNDING_RAD && aim.dot(&boresight) > 0.0
+    })
+}
+
+/// The next whole second after a sample at `time_s`; a time within rounding of a whole second counts as it.
+fn next_whole_s(time_s: f64) -> f64 {
+    let tolerance_s = 4.0 * spacing(time_s);
+    (time_s + tolerance_s).floor() + SAMPLE_INTERVAL_S
+}

@@ -1,0 +1,213 @@
+//! The guided attitude over a whole orbit phase: science, downlink, and the slews between them.
+
+use crate::attitude::{MovingFrame, SunAngles};
+
+use super::attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink, downlink_toward, science};
+use super::schedule::{Activity, Schedule, Window};
+use crate::guidance::constraints::keep_in::KeepIn;
+use crate::guidance::constraints::slew::{Slew, SlewStart};
+use crate::guidance::downlink::sun_place::SunPlace;
+
+/// The guidance law of the orbital phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guided {
+    /// Science and downlink windows.
+    pub schedule: Schedule,
+    /// Pitch during science.
+    pub science: ScienceRule,
+    /// Keep-in limit of the Sun's elevation, in rad.
+    pub elevation_limit_rad: f64,
+    /// Turn rate between the two attitudes, in rad/s; 0 = at once, as in paper 000.
+    pub slew_rate_rad_s: f64,
+    /// Zone that turns do not leave where it holds both ends; `None`: they go about one axis.
+    pub keep_in: Option<KeepIn>,
+    /// Where the Sun stands during the present downlink, and during the slew out of it; `None`: on -Y.
+    pub sun_place: Option<SunPlace>,
+    /// Whether that place is chosen anew where a downlink begins, and that of science where it unloads.
+    pub managed: bool,
+}
+
+/// The guided attitude at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GuidedAttitude {
+    /// Body frame and rate.
+    pub frame: MovingFrame,
+    /// What the spacecraft is doing, and since when.
+    pub window: Window,
+    /// Whether it is turning from one attitude to the other.
+    pub slewing: bool,
+    /// See [`AttitudeCommand::margins`].
+    pub margins: [f64; 2],
+    /// When window or slew ends, in the schedule's time scale; infinite where nothing ends. Until then the attitude is
+    /// smooth between two roots of the margins.
+    pub until_s: f64,
+}
+
+impl Guided {
+    /// The same with the Sun at these places in downlink and in science that unloads; `None`: on -Y.
+    #[must_use]
+    pub fn with_sun_places(self, sun_place: Option<SunPlace>, science: Option<SunAngles>) -> Self {
+        Self { sun_place, science: self.science.with_sun(science.unwrap_or_default()), ..self }
+    }
+
+    /// Attitude at `time_s` (time scale of the schedule). `lines_at` gives the lines of sight at any time.
+    pub fn at(&self, time_s: f64, lines_at: impl FnMut(f64) -> LinesOfSight) -> GuidedAttitude {
+        self.within(self.schedule.window(time_s), time_s, lines_at)
+    }
+
+    /// The same in a window found by other means than the schedule's own counting.
+    pub fn within(
+        &self,
+        window: Window,
+        time_s: f64,
+        mut lines_at: impl FnMut(f64) -> LinesOfSight,
+    ) -> GuidedAttitude {
+        let lines = lines_at(time_s);
+        let target = self.command(window.activity, &lines);
+        let held = GuidedAttitude {
+            frame: target.frame,
+            window,
+            slewing: false,
+            margins: target.margins,
+            until_s: window.until_s,
+        };
+        if self.slew_rate_rad_s.is_nan() || self.slew_rate_rad_s <= 0.0 || !window.since_s.is_finite() {
+            return held;
+        }
+        let elapsed_s = time_s - window.since_s;
+        if elapsed_s >= self.longest_turn_rad() / self.slew_rate_rad_s {
+            return held;
+        }
+        let before = match window.activity {
+            Activity::Science => Activity::Downlink,
+            Activity::Downlink => Activity::Science,
+        };
+        let lines_then = lines_at(window.since_s);
+        let from = self.command(before, &lines_then).frame;
+        let to = self.command(window.activity, &lines_then).frame;
+        let start = SlewStart {
+            from: &from,
+            to: &to,
+            to_sun: lines_then.sun.direction,
+            sun_drift_rad_s: self.sun_drift_rad_s(window.activity, &lines_then),
+        };
+        let slew = Slew::between(&start, self.keep_in.as_ref(), self.slew_rate_rad_s);
+        let duration_s = slew.length_rad() / self.slew_rate_rad_s;
+        if elapsed_s >= duration_s {
+            return held;
+        }
+        let left = 1.0 - elapsed_s / duration_s;
+        GuidedAttitude {
+            frame: slew.frame(&target.frame, &lines.sun, left, -1.0 / duration_s),
+            slewing: true,
+            until_s: held.until_s.min(window.since_s + duration_s),
+            ..held
+        }
+    }
+
+    /// No turn is longer: half a revolution about one axis or about the Sun line, and across the zone.
+    fn longest_turn_rad(&self) -> f64 {
+        let across_rad = self.keep_in.map_or(0.0, |zone| 2.0 * (zone.azimuth_rad + zone.elevation_rad));
+        core::f64::consts::PI + across_rad
+    }
+
+    /// Bound of the rate at which the Sun moves in the body frame during a turn to an attitude, in rad/s: twice what the lines
+    /// of sight allow where the turn begins.
+    fn sun_drift_rad_s(&self, activity: Activity, lines: &LinesOfSight) -> f64 {
+        let gain = match (activity, self.science) {
+            (Activity::Downlink, _) | (Activity::Science, ScienceRule::Unloading { .. }) => return 0.0,
+            (Activity::Science, ScienceRule::Scaled { gain }) => gain.abs(),
+            (Activity::Science, ScienceRule::Nadir | ScienceRule::PlanetOrbit) => 1.0,
+        };
+        let planet_rad_s = lines.planet.map_or(0.0, |planet| planet.rate_1_s.norm());
+        2.0 * gain * (planet_rad_s + lines.sun.rate_1_s.norm())
+    }
+
+    fn command(&self, activity: Activity, lines: &LinesOfSight) -> AttitudeCommand {
+        match activity {
+            Activity::Science => science(lines, self.science, self.elevation_limit_rad),
+            Activity::Downlink => match &self.sun_place {
+                Some(place) => downlink_toward(lines, place),
+                None => downlink(lines),
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A slew begins where the old attitude was, ends at the new one, and its rate is the derivative of its axes.
+    use super::*;
+    use crate::attitude::{MovingUnit, rotation_vector};
+    use crate::guidance::pointing::boresight::MdisRange;
+    use approx::assert_relative_eq;
+    use nalgebra::Vector3;
+
+    fn lines(t: f64) -> LinesOfSight {
+        let moving = |p: Vector3<f64>, v: Vector3<f64>| MovingUnit::of(p, v).unwrap();
+        let w = 2e-4;
+        LinesOfSight {
+            sun: moving(Vector3::new(1.0, 1e-7 * t, 0.1), Vector3::new(0.0, 1e-7, 0.0)),
+            planet: Some(moving(
+                Vector3::new((w * t).cos(), 0.5, (w * t).sin()),
+                Vector3::new(-w * (w * t).sin(), 0.0, w * (w * t).cos()),
+            )),
+            earth: moving(Vector3::new(-0.3, 1.0, 0.2), Vector3::zeros()),
+            sun_from_planet: None,
+        }
+    }
+
+    fn guided(slew_rate_rad_s: f64) -> Guided {
+        Guided {
+            schedule: Schedule {
+                periapsis_s: 0.0,
+                period_s: 43_200.0,
+                downlink_start_s: 7200.0,
+                downlink_end_s: 36_000.0,
+                every: 2,
+                once: false,
+            },
+            science: ScienceRule::Nadir,
+            elevation_limit_rad: 0.2,
+            slew_rate_rad_s,
+            keep_in: None,
+            sun_place: None,
+            managed: false,
+        }
+    }
+
+    #[test]
+    fn a_slew_is_continuous_and_arrives() {
+        let law = guided(3e-3);
+        let just_before = guided(0.0).at(7200.0 - 1e-6, lines).frame.inertial_from_body;
+        let at_edge = law.at(7200.0, lines);
+        assert!(at_edge.slewing);
+        assert_relative_eq!(just_before.matrix(), at_edge.frame.inertial_from_body.matrix(), epsilon = 1e-8);
+        let angle_rad =
+            rotation_vector(&just_before, &guided(0.0).at(7200.0, lines).frame.inertial_from_body).norm();
+        let end_s = 7200.0 + angle_rad / 3e-3;
+        assert!(law.at(end_s - 0.1, lines).slewing);
+        assert!(!law.at(end_s + 0.1, lines).slewing);
+        assert_eq!(law.at(end_s + 0.1, lines).frame, guided(0.0).at(end_s + 0.1, lines).frame);
+    }
+
+    #[test]
+    fn rate_is_the_derivative_of_the_axes_everywhere() {
+        let angles = SunAngles { azimuth_rad: -0.1, elevation_rad: 0.15 };
+        let off_sun = SunPlace { angles, earth_ahead: false };
+        for sun_place in [None, Some(off_sun)] {
+            rate_is_the_derivative(&Guided { sun_place, ..guided(2e-3) });
+            let science = ScienceRule::Unloading { sun: angles, camera: MdisRange::default() };
+            rate_is_the_derivative(&Guided { sun_place, science, ..guided(2e-3) });
+        }
+    }
+
+    fn rate_is_the_derivative(law: &Guided) {
+        for t in [100.0, 7300.0, 7500.0, 20_000.0, 36_100.0, 50_000.0] {
+            let dt = 0.01;
+            let at = |t| law.at(t, lines).frame.inertial_from_body;
+            let turned = rotation_vector(&at(t - dt), &at(t + dt)) / (2.0 * dt);
+            assert_relative_eq!(turned, law.at(t, lines).frame.rate_body_rad_s, epsilon = 1e-8);
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! The orbit phase of paper 000: science, downlink and the turns between them, by a schedule after periapsis.
+
+pub mod attitudes;
+pub mod guided;
+pub mod orbit_ahead;
+pub mod periapsis_count;
+pub mod schedule;
+pub mod science_course;

@@ -1,0 +1,61 @@
+//! The orbit phase from where the spacecraft is: windows of science and downlink after the periapses of its present orbit.
+
+use serde::{Deserialize, Serialize};
+
+use super::guided::{Guided, GuidedAttitude};
+use super::orbit_ahead::{ellipse_of, lines_of_sight};
+use super::schedule::Schedule;
+use crate::environment::orbit::TwoBodyOrbit;
+use crate::guidance::geometry::surroundings::Surroundings;
+
+/// The periapsis from which downlinks are counted; that of the orbit on which counting began.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PeriapsisCount {
+    first_epoch_s: Option<f64>,
+}
+
+impl PeriapsisCount {
+    /// Whether its number can come from a flight.
+    pub fn is_sound(&self) -> bool {
+        self.first_epoch_s.is_none_or(f64::is_finite)
+    }
+
+    /// The attitude of the orbit phase. Periapsis and period of `law` are replaced by those of the orbit that position and
+    /// velocity give; between disturbed orbits the count goes on. Where a slew begins the spacecraft stood on that orbit, and
+    /// Sun and Earth moved evenly since.
+    pub fn attitude(&mut self, law: &Guided, surroundings: &Surroundings) -> GuidedAttitude {
+        let (orbit, schedule) = self.counted(&law.schedule, surroundings);
+        let (epoch_s, now) = (surroundings.epoch_s, lines_of_sight(surroundings));
+        Guided { schedule, ..*law }.at(epoch_s, |at_s| match orbit {
+            Some(orbit) if at_s != epoch_s => {
+                lines_of_sight(&surroundings.moved_to(at_s, &orbit.state_at(at_s)))
+            }
+            _ => now,
+        })
+    }
+
+    /// The windows after the periapses that were counted, in s past J2000 TDB.
+    pub fn windows(&mut self, windows: &Schedule, surroundings: &Surroundings) -> Schedule {
+        self.counted(windows, surroundings).1
+    }
+
+    /// The present orbit, if it is one whose periapses count, and its windows.
+    fn counted(
+        &mut self,
+        windows: &Schedule,
+        surroundings: &Surroundings,
+    ) -> (Option<TwoBodyOrbit>, Schedule) {
+        let orbit = ellipse_of(surroundings).filter(|_| !windows.once);
+        let schedule = orbit
+            .map_or(Schedule { period_s: f64::INFINITY, ..*windows }, |orbit| self.schedule(windows, &orbit));
+        (orbit, schedule)
+    }
+
+    fn schedule(&mut self, windows: &Schedule, orbit: &TwoBodyOrbit) -> Schedule {
+        let (nearest_s, period_s) = (orbit.periapsis_epoch_s(0), orbit.period_s());
+        let first_s = *self.first_epoch_s.get_or_insert(nearest_s);
+        let every = f64::from(windows.every.max(1));
+        let since = ((nearest_s - first_s) / period_s).round().rem_euclid(every);
+        Schedule { periapsis_s: nearest_s - since * period_s, period_s, ..*windows }
+    }
+}

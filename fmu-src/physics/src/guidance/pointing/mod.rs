@@ -1,0 +1,12 @@
+//! Paper 001's attitude law with its options, scenarios and scans.
+
+pub mod aimpoint;
+pub mod antenna;
+pub mod boresight;
+pub mod command;
+pub mod law;
+pub mod roll;
+pub mod scan;
+pub mod scenario;
+#[cfg(test)]
+pub(crate) mod scenario_tests;

@@ -1,0 +1,219 @@
+//! The scenarios of paper 001's Table 5 as one table: which vectors each sets, with limb and scan.
+//!
+//! All but the generic one roll -Y toward the Sun. A scan goes on top of any but downlink and burn.
+
+use nalgebra::Vector3;
+
+use super::aimpoint::{Aim, AimKind, aimpoint};
+use super::antenna::{AntennaAzimuth, Beam};
+use super::boresight::{Boresight, DeviceAngle, MdisRange, boresight, instrument_boresight};
+use super::command::{BoresightOption, PointingCommand, Scenario};
+use super::law::{Pointing, PointingVectors};
+use super::roll::{body_roll, external_roll};
+use super::scan::{ScanCompatibility, ScanTime, scanned};
+use crate::attitude::SunAngles;
+use crate::guidance::burn::delta_v::BurnAim;
+use crate::guidance::downlink::sun_place::{Downlink, DownlinkRequest, SunPlace, downlink};
+use crate::guidance::geometry::lighting::SubsolarMethod;
+use crate::guidance::geometry::limb::{LimbPoint, generic_limb, terminator_limb};
+use crate::guidance::geometry::moving::{MovingVector, fixed, value};
+use crate::guidance::geometry::surroundings::Surroundings;
+use crate::spacecraft::Instrument;
+
+/// What the spacecraft has, and how the options are read.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GuidanceHardware<'a> {
+    /// Fixed instruments.
+    pub instruments: &'a [Instrument],
+    /// Range of the camera.
+    pub mdis: MdisRange,
+    /// What the subsolar point is.
+    pub subsolar: SubsolarMethod,
+    /// Which scans go with which aims.
+    pub scans: ScanCompatibility,
+}
+
+/// What runs beside a command: clocks of its motions, and where downlink wants the Sun.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PointingProgress {
+    /// How far the scan is; `None` while there is none.
+    pub scan: Option<ScanTime>,
+    /// Since the limb scenario began, in s.
+    pub limb_elapsed_s: f64,
+    /// Where the Sun stands in the body frame in downlink; `None`: on -Y.
+    pub downlink_sun: Option<SunPlace>,
+    /// Where a burn wants its thrust.
+    pub burn: Option<BurnAim>,
+}
+
+/// The vectors of a command, and what is said about them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aimed {
+    /// For the attitude law.
+    pub vectors: PointingVectors,
+    /// The camera's angle, where the command sets it; out of range it is the nearest bound.
+    pub mdis: Option<DeviceAngle>,
+    /// From the spacecraft to what the camera follows beside the boresight, EME2000.
+    pub second: Option<MovingVector>,
+    /// The antenna's azimuth, where the command sets it; out of range it is the nearest bound.
+    pub antenna: Option<Beam>,
+    /// Whether the boresight is on the aimpoint that was asked for.
+    pub reachable: bool,
+    /// Whether an angle that was asked for is out of its range.
+    pub clamped: bool,
+    /// Whether a scan moves boresight or aim.
+    pub scan_active: bool,
+}
+
+/// What a scenario reads.
+struct Reading<'a> {
+    command: &'a PointingCommand,
+    hardware: &'a GuidanceHardware<'a>,
+    surroundings: &'a Surroundings,
+    progress: &'a PointingProgress,
+}
+
+/// The vectors of a scenario; `None` where boresight or aim has no direction.
+type ScenarioLaw = fn(&Reading<'_>) -> Option<Aimed>;
+
+/// Every scenario and its law, in the order of [`Scenario`].
+const SCENARIOS: [(Scenario, ScenarioLaw); 9] = [
+    (Scenario::Generic, |r| {
+        let boresight = boresight(&r.command.boresight, &r.hardware.mdis)?;
+        let mut aimed = r.sunward(boresight, r.aimpoint()?);
+        aimed.vectors.body_roll = body_roll(&r.command.body_roll);
+        aimed.vectors.external_roll = external_roll(&r.command.external_roll, r.surroundings);
+        Some(aimed)
+    }),
+    (Scenario::PlusZ, |r| Some(r.sunward(r.instrument()?, r.aimpoint()?))),
+    (Scenario::Nadir, |r| {
+        let nadir = Aim::new(r.surroundings.to_planet(), AimKind::PlanetPoint)?;
+        Some(r.sunward(r.instrument()?, nadir))
+    }),
+    (Scenario::Mdis, |r| {
+        let camera = Boresight::mdis(r.command.boresight.angle_rad, &r.hardware.mdis);
+        Some(r.sunward(camera, r.aimpoint()?))
+    }),
+    (Scenario::DoubleTarget, |r| {
+        let aimed = r.sunward(r.instrument()?, r.aimpoint()?);
+        let second = aimpoint(&r.command.second_aimpoint, r.surroundings, r.hardware.subsolar);
+        Some(Aimed { second: second.map(|second| second.toward), ..aimed })
+    }),
+    (Scenario::Downlink, antenna_at_the_earth),
+    (Scenario::LimbTerminator, |r| {
+        let limb = terminator_limb(r.surroundings, &r.command.limb, r.progress.limb_elapsed_s)?;
+        Some(r.sunward(r.instrument()?, r.limb_aim(&limb)?))
+    }),
+    (Scenario::LimbGeneric, |r| {
+        let limb = generic_limb(r.surroundings, &r.command.limb, r.progress.limb_elapsed_s)?;
+        Some(r.sunward(r.instrument()?, r.limb_aim(&limb)?))
+    }),
+    (Scenario::Burn, |r| {
+        let burn = r.progress.burn.as_ref()?;
+        Some(Aimed {
+            vectors: r.rolled_sunward(fixed(burn.boresight_body), burn.direction),
+            mdis: None,
+            second: None,
+            antenna: None,
+            reachable: true,
+            clamped: false,
+            scan_active: false,
+        })
+    }),
+];
+
+/// The vectors of a command, its scan included; `None` where it has no scenario, or boresight or aim no direction: then the
+/// last command stays.
+pub fn aim(
+    command: &PointingCommand,
+    hardware: &GuidanceHardware<'_>,
+    surroundings: &Surroundings,
+    progress: &PointingProgress,
+) -> Option<Aimed> {
+    let (_, law) = SCENARIOS.iter().find(|(scenario, _)| Some(*scenario) == command.scenario)?;
+    let aimed = law(&Reading { command, hardware, surroundings, progress })?;
+    let directed =
+        |vector: &MovingVector| value(vector).amax() > 0.0 && vector.iter().all(|x| x.re.is_finite());
+    directed(&aimed.vectors.boresight_body).then_some(aimed)
+}
+
+impl Aimed {
+    /// The camera's angle in the attitude that is commanded in the end.
+    pub fn camera(&self, pointing: &Pointing, range: &MdisRange) -> Option<DeviceAngle> {
+        let followed = self.second.map(|second| range.toward(&value(&pointing.to_body(&second))));
+        followed.or(self.mdis)
+    }
+}
+
+impl Reading<'_> {
+    fn instrument(&self) -> Option<Boresight> {
+        instrument_boresight(self.hardware.instruments, self.command.boresight.instrument).map(Boresight::of)
+    }
+
+    fn aimpoint(&self) -> Option<Aim> {
+        aimpoint(&self.command.aimpoint, self.surroundings, self.hardware.subsolar)
+    }
+
+    fn limb_aim(&self, limb: &LimbPoint) -> Option<Aim> {
+        let aim = Aim::new(self.surroundings.to_planet() + limb.position, AimKind::PlanetPoint)?;
+        Some(Aim { reachable: limb.exists, ..aim })
+    }
+
+    /// -Y rolled toward the Sun.
+    fn rolled_sunward(&self, boresight_body: MovingVector, aimpoint: MovingVector) -> PointingVectors {
+        PointingVectors {
+            boresight_body,
+            aimpoint,
+            body_roll: fixed(-Vector3::y()),
+            external_roll: self.surroundings.to_sun(),
+        }
+    }
+
+    /// The boresight at the aim with -Y rolled toward the Sun, and the scan on top.
+    fn sunward(&self, boresight: Boresight, aim: Aim) -> Aimed {
+        let scan = self.progress.scan.and_then(|time| {
+            let (scan, scans) = (&self.command.scan, &self.hardware.scans);
+            scanned(&boresight.body, &aim, scan, self.surroundings, scans, time)
+        });
+        Aimed {
+            vectors: self.rolled_sunward(
+                scan.map_or(boresight.body, |scan| scan.boresight_body),
+                scan.map_or(aim.toward, |scan| scan.toward),
+            ),
+            mdis: boresight.mdis,
+            second: None,
+            antenna: boresight.antenna.map(Beam::Commanded),
+            reachable: aim.reachable,
+            clamped: boresight.mdis.is_some_and(|camera| !camera.in_range)
+                || boresight.antenna.is_some_and(|antenna| !antenna.is_in_range()),
+            scan_active: scan.is_some(),
+        }
+    }
+}
+
+/// A phased-array antenna at the Earth: at the commanded azimuth where the boresight is an antenna, otherwise where it puts
+/// the Sun in its place. No scan moves it.
+fn antenna_at_the_earth(r: &Reading<'_>) -> Option<Aimed> {
+    let boresight = &r.command.boresight;
+    let commanded = boresight.option == Some(BoresightOption::PhasedArray);
+    let request = DownlinkRequest {
+        antenna_azimuth_rad: commanded.then_some(boresight.azimuth_rad),
+        sun_body: r.progress.downlink_sun.map_or(SunAngles::default(), |place| place.angles),
+        earth_ahead: r.progress.downlink_sun.map(|place| place.earth_ahead),
+    };
+    let Downlink { vectors, antenna, antenna_azimuth_rad, clamped } =
+        downlink(&r.surroundings.to_sun(), &r.surroundings.to_earth(), &request)?;
+    Some(Aimed {
+        vectors,
+        mdis: None,
+        second: None,
+        antenna: Some(Beam::AtTheEarth(AntennaAzimuth {
+            antenna,
+            azimuth_rad: antenna_azimuth_rad,
+            outside_rad: 0.0,
+        })),
+        reachable: true,
+        clamped,
+        scan_active: false,
+    })
+}

@@ -1,0 +1,226 @@
+//! Disturbances of an attitude that is not known ahead: force and torque over one interval of their grid, linear in time.
+//!
+//! Equation: T(t) = a + b (t - start) through the loads at the two nodes of Gauss-Legendre quadrature, the body taken to turn
+//! on at its present rate.
+//! Method: an interval ends at the grid's next edge or sooner: where light changes abruptly, where the body has turned by
+//! [`LONGEST_TURN_RAD`], or where the fit is not what the tolerance asks for ([`crate::numerics::adaptive`]). Where it ends
+//! follows from the state at its start alone.
+//! Order: the impulse over an interval has an error of h^5 as long as the body does turn on like that. A change of rate
+//! within the interval of at most `a` leaves an attitude that is off by a h^2 / 2 at its end.
+//! Error measure: the first term that a line leaves out is Legendre's second, c P2; at both ends it shows whole, and so does a
+//! kink next to them, where the load falls on another side of a surface. It does not change the integral; what the momentum in
+//! inertial axes has of it is its product with the second term of the turning body's axes, (w h)^2 / 12, and what the two nodes
+//! alias is of the size of c^2. So c max(c, (w h)^2 / 12) is below the tolerance, c relative to the largest force and torque of
+//! all effects in the interval. An interval in which body and orbit turn by less than [`SHORTEST_TURN_RAD`] is not judged.
+//! Reference: Davis and Rabinowitz, Methods of Numerical Integration, 2.7; see [`crate::numerics::adaptive`].
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::environment::CartesianState;
+use crate::momentum::Effort;
+use crate::momentum::TorqueModel;
+use crate::numerics::adaptive::AdaptiveInterval;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::numerics::intervals::next_multiple_s;
+use crate::radiation::{Effect, ForceTorque, Loads};
+
+use super::evaluation::{Evaluation, ExternalLoad, Plant};
+use crate::plant::light::light_and_heat::LEAST_ARM_M;
+use crate::plant::settings::error::PlantError;
+
+/// Nodes of Gauss-Legendre quadrature of order 4 on [0, 1].
+const NODES: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
+/// By how much the body turns within an interval at most, in rad: so far apart the nodes see every side of it.
+const LONGEST_TURN_RAD: f64 = 0.5;
+/// An interval in which body and orbit turn by less, in rad, is not shortened for the fit: where light falls on another side of
+/// a surface the load has a kink, which no interval resolves and so short a one hardly feels.
+const SHORTEST_TURN_RAD: f64 = 0.01;
+/// Nor is an interval shorter than this share of the grid's.
+const SHORTEST_SHARE: f64 = 0.1;
+/// Order of the impulse's error relative to the impulse.
+const ORDER: usize = 4;
+/// Force and torque of every effect of the surroundings; what is applied is known at any time and kept apart.
+const ROWS: usize = 2 * Effect::DISTURBANCES.len();
+
+/// A vector that changes linearly: at the start, and per second.
+pub type Linear = [Vector3<f64>; 2];
+
+/// What acts on the body and where the Sun stands, over one interval.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DisturbanceInterval {
+    start_s: f64,
+    end_s: f64,
+    /// Length the tolerance will probably allow the next interval, in s.
+    next_longest_s: f64,
+    /// Force and torque of effect after effect, body frame.
+    loads: [Linear; ROWS],
+    /// Unit vector to the Sun, EME2000.
+    to_sun: Linear,
+    /// Visible part of the Sun's disc, at the start and per second.
+    lit_fraction: [f64; 2],
+}
+
+impl DisturbanceInterval {
+    /// Before the first interval.
+    pub fn before() -> Self {
+        let nothing = [Vector3::zeros(); 2];
+        Self {
+            start_s: f64::NEG_INFINITY,
+            end_s: f64::NEG_INFINITY,
+            next_longest_s: f64::INFINITY,
+            loads: [nothing; ROWS],
+            to_sun: nothing,
+            lit_fraction: [0.0; 2],
+        }
+    }
+
+    /// The interval of `plant` that begins at `start_s`, after `self`, and lasts to the next multiple of `grid_s` at most.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub fn next<L: Fn(f64) -> ExternalLoad>(
+        &self,
+        plant: &mut Plant<'_, L>,
+        start_s: f64,
+        grid_s: f64,
+    ) -> Result<Self, PlantError> {
+        plant.spend(Effort::Segment, start_s)?;
+        let known_s = plant.prepare(start_s, next_multiple_s(start_s, grid_s))?;
+        let limit_s = plant.smooth_until(start_s, known_s);
+        let begin = plant.instant(start_s);
+        let rate_rad_s = begin.frame.rate_body_rad_s.norm();
+        let turning_rad_s = rate_rad_s + orbital_rate_rad_s(&begin.geometry.spacecraft);
+        let longest_s = self.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s);
+        let shortest_s = (SHORTEST_TURN_RAD / turning_rad_s).min(SHORTEST_SHARE * grid_s);
+        let tolerance = plant.disturbance_tolerance();
+        let mut interval = AdaptiveInterval::new(start_s, grid_s, longest_s, limit_s, shortest_s);
+        let mut next_longest_s = f64::INFINITY;
+        let [first, second] = loop {
+            let span_s = interval.end_s() - start_s;
+            let nodes = NODES.map(|node| plant.evaluate(start_s + node * span_s));
+            nodes[0].check(start_s)?;
+            if turning_rad_s * span_s < SHORTEST_TURN_RAD {
+                break nodes;
+            }
+            let ends = [start_s, interval.end_s()].map(|at_s| plant.evaluate(at_s));
+            let left_out = left_out(&nodes, &ends);
+            let unresolved = left_out * left_out.max((rate_rad_s * span_s).powi(2) / 12.0);
+            if let Some(longest_s) = interval.accept(unresolved, tolerance, ORDER) {
+                next_longest_s = longest_s;
+                break nodes;
+            }
+            plant.spend(Effort::Refinement, start_s)?;
+        };
+        let end_s = interval.end_s();
+        let span_s = end_s - start_s;
+        let line = |of: &dyn Fn(&Evaluation) -> Vector3<f64>| -> Linear {
+            let (a, b) = (of(&first), of(&second));
+            let slope = (b - a) / (NODES[1] - NODES[0]);
+            [a - slope * NODES[0], slope / span_s]
+        };
+        let mut loads = [[Vector3::zeros(); 2]; ROWS];
+        for effect in Effect::DISTURBANCES {
+            let at = 2 * effect as usize;
+            loads[at] = line(&|it| it.loads[effect].force_body_n);
+            loads[at + 1] = line(&|it| it.loads[effect].torque_body_n_m);
+        }
+        // The Sun is seen from the start on, however long the interval is.
+        let (now, then) = (&begin, &second.instant);
+        let elapsed_s = NODES[1] * span_s;
+        let [to_sun, to_sun_then] = [now, then].map(|it| it.geometry.to_sun.position_m.normalize());
+        let to_sun = [to_sun, (to_sun_then - to_sun) / elapsed_s];
+        let lit_fraction = [now.lit_fraction, (then.lit_fraction - now.lit_fraction) / elapsed_s];
+        Ok(Self { start_s, end_s, next_longest_s, loads, to_sun, lit_fraction })
+    }
+
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
+        let lines = self.loads.iter().chain([&self.to_sun]).flatten();
+        let is_before = self.start_s == f64::NEG_INFINITY && self.end_s == f64::NEG_INFINITY;
+        (is_before || [self.start_s, self.end_s].iter().all(sound))
+            && self.start_s <= self.end_s
+            && self.next_longest_s > 0.0
+            && lines.flat_map(|vector| vector.iter()).chain(&self.lit_fraction).all(sound)
+    }
+
+    /// Up to when it holds, in s.
+    pub fn end_s(&self) -> f64 {
+        self.end_s
+    }
+
+    /// Forgets what is beyond `time_s`.
+    pub fn cut(&mut self, time_s: f64) {
+        self.end_s = self.end_s.min(time_s);
+    }
+
+    /// Force and torque by effect at `time_s`.
+    pub fn loads_at(&self, time_s: f64) -> Loads {
+        let elapsed_s = time_s - self.start_s;
+        let mut loads = Loads::zero();
+        for effect in Effect::DISTURBANCES {
+            let at = 2 * effect as usize;
+            let [force_body_n, torque_body_n_m] =
+                [self.loads[at], self.loads[at + 1]].map(|[start, slope]| start + slope * elapsed_s);
+            loads[effect] = ForceTorque { force_body_n, torque_body_n_m };
+        }
+        loads
+    }
+
+    /// Torque of an effect of the surroundings at `time_s` and its slope, in N m and N m/s.
+    pub fn torque_at(&self, effect: Effect, time_s: f64) -> Linear {
+        match self.loads.get(2 * effect as usize + 1) {
+            Some([start, slope]) => [start + slope * (time_s - self.start_s), *slope],
+            None => [Vector3::zeros(); 2],
+        }
+    }
+
+    /// Sum over the effects at `time_s`: force in N and its slope in N/s, torque in N m and its slope in N m/s.
+    pub fn total_at(&self, time_s: f64) -> [Linear; 2] {
+        let elapsed_s = time_s - self.start_s;
+        let mut total = [[Vector3::zeros(); 2]; 2];
+        for (row, [start, slope]) in self.loads.iter().enumerate() {
+            let [sum, sum_slope] = &mut total[row % 2];
+            *sum += start + slope * elapsed_s;
+            *sum_slope += slope;
+        }
+        total
+    }
+
+    /// Unit vector to the Sun, EME2000, and the visible part of its disc at `time_s`.
+    pub fn sun_at(&self, time_s: f64) -> (Vector3<f64>, f64) {
+        let elapsed_s = time_s - self.start_s;
+        let to_sun = (self.to_sun[0] + self.to_sun[1] * elapsed_s).normalize();
+        (to_sun, (self.lit_fraction[0] + self.lit_fraction[1] * elapsed_s).clamp(0.0, 1.0))
+    }
+}
+
+/// By how much the direction from the centre turns, in rad/s; 0 at the centre.
+fn orbital_rate_rad_s(spacecraft: &CartesianState) -> f64 {
+    let (distance_m, speed_m_s) = (spacecraft.position_m.norm(), spacecraft.velocity_m_s.norm());
+    if distance_m > 0.0 { speed_m_s / distance_m } else { 0.0 }
+}
+
+/// Largest distance at the two ends of force and torque from the line through the loads at the two nodes, relative to the
+/// largest force and torque of all effects there; a torque counts against the largest force at an arm of 1 cm at least.
+fn left_out(nodes: &[Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
+    let (mut scale, mut most) = ([0.0_f64; 2], [0.0_f64; 2]);
+    let beyond = NODES[0] / (NODES[1] - NODES[0]);
+    for effect in Effect::DISTURBANCES {
+        let [a, b, start, end] = [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.loads[effect]);
+        let kinds = [
+            [a.force_body_n, b.force_body_n, start.force_body_n, end.force_body_n],
+            [a.torque_body_n_m, b.torque_body_n_m, start.torque_body_n_m, end.torque_body_n_m],
+        ];
+        for (kind, [a, b, start, end]) in kinds.into_iter().enumerate() {
+            let slope = (b - a) * beyond;
+            most[kind] = most[kind].max((start - (a - slope)).amax()).max((end - (b + slope)).amax());
+            scale[kind] = [a, b, start, end].iter().fold(scale[kind], |most, it| most.max(it.amax()));
+        }
+    }
+    let [force_n, torque_n_m] = scale;
+    let torque_n_m = torque_n_m.max(force_n * LEAST_ARM_M);
+    let share = |most: f64, scale: f64| if scale > 0.0 { most / scale } else { 0.0 };
+    share(most[0], force_n).max(share(most[1], torque_n_m))
+}

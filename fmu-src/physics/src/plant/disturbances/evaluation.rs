@@ -1,0 +1,391 @@
+//! The plant: attitude, torque and force at any time of a configured flight, and the propagator that makes them known.
+//!
+//! A span of the propagator is one on which the orbit is known and attitude law and shadow keep their branch.
+//! An orbit that light and heat act on has to be known before they can be computed, and they before it. A segment begins
+//! with the orbit under gravity alone. Within a segment it is off by centimetres, which changes light and heat by less than
+//! 1e-7 of themselves; with their acceleration the orbit is then integrated anew, up to the segment's end.
+
+use nalgebra::{Rotation3, Vector3};
+
+use crate::attitude::{MovingFrame, gravity_gradient_n_m};
+use crate::constants::RADIUS_SUN_M;
+use crate::environment::ephemeris::Ephemeris;
+use crate::environment::orbit::OrbitMethod;
+use crate::guidance::pointing::boresight::MdisRange;
+use crate::guidance::{GuidedAttitude, ScienceCourse};
+use crate::momentum::{Effort, EventValues, Sample, TorqueModel, torques_body_n_m};
+use crate::numerics::chebyshev::Segment;
+use crate::radiation::{Beam, Effect, ForceTorque, Loads, SolarModel};
+use crate::spacecraft::{MassProperties, Panel};
+
+use crate::plant::flight::propagator_state::PropagatorState;
+use crate::plant::flight::sun_choice::SunChoice;
+use crate::plant::light::light_and_heat::RadiationBuilder;
+use crate::plant::light::radiation_segment::RadiationSegment;
+use crate::plant::light::radiation_solver::RadiationSolver;
+use crate::plant::light::sunlit::SunlitCraft;
+use crate::plant::motion::instant::Instant;
+use crate::plant::motion::kinematics::Kinematics;
+use crate::plant::motion::panel_motion::Hinged;
+use crate::plant::settings::configuration::{AttitudeSource, Configuration, Motion};
+use crate::plant::settings::error::PlantError;
+use crate::plant::settings::work::{Cost, Work};
+
+/// Nodes at which the acceleration of a segment is taken.
+const NODES: usize = 8;
+
+/// Force and torque from outside, body frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ExternalLoad {
+    /// Through the centre of mass, in N.
+    pub force_body_n: Vector3<f64>,
+    /// About the centre of mass, in N m.
+    pub torque_body_n_m: Vector3<f64>,
+}
+
+/// Everything about one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evaluation {
+    /// Where everything is and how the body stands.
+    pub instant: Instant,
+    /// What acts on it.
+    pub loads: Loads,
+    /// Mass, centre of mass and inertia as the panels stand.
+    pub mass: MassProperties,
+    /// Momentum of panels that turn, relative to the body, body frame, in N m s.
+    pub panels_body_n_m_s: Vector3<f64>,
+}
+
+impl Evaluation {
+    /// Of a spacecraft of which nothing is known but how it stands: no Sun, no planet, no force.
+    pub fn nowhere(frame: MovingFrame, mass: MassProperties) -> Self {
+        Self {
+            instant: Instant::nowhere(frame),
+            loads: Loads::zero(),
+            mass,
+            panels_body_n_m_s: Vector3::zeros(),
+        }
+    }
+
+    /// Checks that a spacecraft can be there at `time_s`: outside the planet and the Sun, the planet outside
+    /// the Sun, every number finite.
+    ///
+    /// # Errors
+    /// A place inside one of them.
+    pub fn check(&self, time_s: f64) -> Result<(), PlantError> {
+        let total = self.loads.total();
+        let geometry = &self.instant.geometry;
+        let planet_is_outside =
+            geometry.to_planet.is_none() || geometry.sun_from_center().position_m.norm() > RADIUS_SUN_M;
+        let is_somewhere = self.instant.sun_distance_m > RADIUS_SUN_M
+            && planet_is_outside
+            && self.instant.lit_fraction.is_finite()
+            && total.torque_body_n_m.iter().chain(&total.force_body_n).all(|x| x.is_finite());
+        let position_m = geometry.spacecraft.position_m;
+        if is_somewhere { Ok(()) } else { Err(PlantError::Nowhere { time_s, position_m: position_m.into() }) }
+    }
+
+    /// Force of all effects, EME2000, in N.
+    pub fn force_inertial_n(&self) -> Vector3<f64> {
+        self.instant.frame.inertial_from_body * self.loads.total().force_body_n
+    }
+
+    /// Acceleration of a spacecraft of this mass by all effects, EME2000, in m/s2.
+    pub fn acceleration_inertial_m_s2(&self, mass_kg: f64) -> Vector3<f64> {
+        self.force_inertial_n() / mass_kg
+    }
+}
+
+/// What flies, prepared once.
+#[derive(Clone, Copy, Debug)]
+pub struct PreparedSpacecraft<'a> {
+    /// Its panels.
+    pub panels: &'a [Panel],
+    /// The whole of it in sunlight.
+    pub solar: &'a SolarModel,
+    /// How its orbit is integrated, if it is.
+    pub orbit_method: &'a OrbitMethod,
+}
+
+impl PreparedSpacecraft<'_> {
+    /// Direct sunlight without self-shadows, about the centre of mass.
+    pub(crate) fn sunlight(
+        &self,
+        configuration: &Configuration,
+        beam: &Beam<f64>,
+        center_of_mass_body_m: &Vector3<f64>,
+        time_s: f64,
+    ) -> ForceTorque<f64> {
+        self.sunlit(configuration, time_s).load(beam, center_of_mass_body_m)
+    }
+
+    /// The spacecraft as sunlight meets it at `time_s`.
+    pub(crate) fn sunlit<'c>(&'c self, configuration: &'c Configuration, time_s: f64) -> SunlitCraft<'c> {
+        SunlitCraft {
+            solar: self.solar,
+            panels: self.panels,
+            settings: &configuration.panels,
+            mass_at_zero: configuration.mass_at_zero(),
+            time_s,
+        }
+    }
+}
+
+/// A configured flight, ready to be evaluated.
+pub struct Plant<'a, L> {
+    prepared: PreparedSpacecraft<'a>,
+    kinematics: Kinematics<'a>,
+    segment: &'a mut Option<RadiationSegment>,
+    light: Option<&'a mut RadiationSolver>,
+    sun_choice: SunChoice,
+    external: L,
+}
+
+impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
+    /// Units of a sample, sunlight on many faces aside: everything that is not read from a polynomial.
+    const SAMPLE_UNITS: u32 = 3;
+
+    /// `propagator` belongs to this configuration, and so does `light`, without which direct sunlight is all there is;
+    /// `external` gives the load from outside at any time; `work` is what the step has cost so far.
+    pub fn new(
+        prepared: PreparedSpacecraft<'a>,
+        configuration: &'a Configuration,
+        propagator: &'a mut PropagatorState,
+        ephemeris: &'a mut Ephemeris,
+        light: Option<&'a mut RadiationSolver>,
+        external: L,
+        work: Work,
+    ) -> Self {
+        let PropagatorState { trajectory, light: segment, sun_choice } = propagator;
+        let kinematics = Kinematics::new(configuration, trajectory, ephemeris, work);
+        Self { prepared, kinematics, segment, light, sun_choice: *sun_choice, external }
+    }
+
+    /// What the step has cost, the flight having come to `time_s`.
+    ///
+    /// # Errors
+    /// More than it may.
+    pub(crate) fn work(&mut self, time_s: f64) -> Result<Work, PlantError> {
+        self.kinematics.work(time_s)
+    }
+
+    /// Everything at `time_s`, which the propagator must have reached ([`TorqueModel::prepare`]).
+    pub fn evaluate(&mut self, time_s: f64) -> Evaluation {
+        let instant = self.kinematics.instant(time_s);
+        let configuration = self.kinematics.configuration;
+        let mass = self.mass_properties(&instant, time_s);
+        let mut loads = self.radiation(time_s, &instant, &mass.center_of_mass_body_m);
+        if let Some(planet_body_m) = &instant.planet_body_m {
+            loads[Effect::GravityGradient].torque_body_n_m = gravity_gradient_n_m(
+                configuration.gravity_gradient_m3_s2,
+                &mass.inertia_body_kg_m2,
+                planet_body_m,
+            );
+        }
+        let ExternalLoad { force_body_n, torque_body_n_m } = (self.external)(time_s);
+        loads[Effect::Applied] = ForceTorque { force_body_n, torque_body_n_m };
+        let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass, time_s);
+        Evaluation { instant, loads, mass, panels_body_n_m_s }
+    }
+
+    /// Mass, centre of mass and inertia as the panels stand at `time_s`.
+    pub fn mass_properties(&self, instant: &Instant, time_s: f64) -> MassProperties {
+        self.kinematics.configuration.mass_properties(self.prepared.panels, &instant.sun_body, time_s)
+    }
+
+    /// Momentum in N m s of the panels relative to the body, body frame, as their laws turn them at `time_s`.
+    pub(crate) fn panel_momentum_body_n_m_s(
+        &self,
+        instant: &Instant,
+        mass: &MassProperties,
+        time_s: f64,
+    ) -> Vector3<f64> {
+        let panels = self.prepared.panels;
+        if panels.iter().all(|panel| panel.mass.is_none()) {
+            return Vector3::zeros();
+        }
+        let configuration = self.kinematics.configuration;
+        let sun = [&instant.sun_body, &instant.sun_rate_body_1_s()];
+        configuration.panel_momentum_body_n_m_s(panels, mass, sun, time_s)
+    }
+
+    /// The panels with what they belong to.
+    pub(crate) fn hinged(&self) -> Hinged<'a> {
+        Hinged { panels: self.prepared.panels, configuration: self.kinematics.configuration }
+    }
+
+    /// Where everything is and how the body stands at `time_s`.
+    pub fn instant(&mut self, time_s: f64) -> Instant {
+        self.kinematics.instant(time_s)
+    }
+
+    /// The latest time up to `limit_s` until which attitude and light are smooth from `start_s` on.
+    pub(crate) fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> f64 {
+        self.kinematics.smooth_until(start_s, limit_s)
+    }
+
+    /// Least and greatest angle between Sun and Earth from one time to a later one, in rad.
+    pub(crate) fn separations_rad(&mut self, from_s: f64, to_s: f64) -> [f64; 2] {
+        self.kinematics.separations_rad(from_s, to_s)
+    }
+
+    /// Science from one time to a later one.
+    pub(crate) fn science_course(&mut self, camera: MdisRange, from_s: f64, to_s: f64) -> ScienceCourse {
+        self.kinematics.science_course(camera, from_s, to_s)
+    }
+
+    /// Frame and rate that guidance commands at `time_s`, and its window; `None` where there is none.
+    pub(crate) fn guided_attitude(&mut self, time_s: f64) -> Option<GuidedAttitude> {
+        self.kinematics.guided_attitude(time_s)
+    }
+
+    /// Pressure of sunlight without a shadow, in Pa.
+    pub(crate) fn pressure_pa(&self, instant: &Instant) -> f64 {
+        self.kinematics.configuration.light.pressure_pa(instant.sun_distance_m)
+    }
+
+    /// What the fit of light, heat and disturbances may leave out, relative to the largest force and torque.
+    pub(crate) fn disturbance_tolerance(&self) -> f64 {
+        self.kinematics.configuration.light_and_heat.tolerance
+    }
+
+    /// Time since the last periapsis, in s.
+    pub fn time_since_periapsis_s(&self, time_s: f64) -> f64 {
+        self.kinematics.trajectory.time_since_periapsis_s(self.kinematics.configuration, time_s)
+    }
+
+    /// Light and heat: slow effects from their segment, plain sunlight in closed form.
+    fn radiation(&self, time_s: f64, instant: &Instant, center_of_mass_body_m: &Vector3<f64>) -> Loads {
+        let configuration = self.kinematics.configuration;
+        let effects = &configuration.light_and_heat;
+        let mut loads = Loads::zero();
+        let mut shadowed = false;
+        if let (Some(segment), Some(light)) = (&*self.segment, &self.light)
+            && effects.any()
+        {
+            shadowed = effects.shadowing && light.model.can_shadow();
+            segment.loads(time_s, &mut loads);
+        }
+        if !shadowed {
+            let pressure_pa = configuration.light.pressure_pa(instant.sun_distance_m);
+            let beam =
+                Beam { source_body: instant.sun_body, pressure_pa: pressure_pa * instant.lit_fraction };
+            loads[Effect::Solar] =
+                self.prepared.sunlight(configuration, &beam, center_of_mass_body_m, time_s);
+        }
+        loads
+    }
+
+    /// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the
+    /// force of the effects that act.
+    ///
+    /// # Errors
+    /// A geometry without meaning.
+    pub fn faces(&mut self, time_s: f64, report: impl FnMut(f64, Vector3<f64>)) -> Result<(), PlantError> {
+        let Some(light) = self.light.as_deref_mut() else { return Ok(()) };
+        let mut builder = RadiationBuilder { panels: self.prepared.panels, kinematics: &mut self.kinematics };
+        builder.faces(light, self.segment.as_ref(), time_s, report)
+    }
+
+    /// Makes sure that light and heat are known from `start_s` on, and tells up to where, at most `limit_s`.
+    fn extend_radiation(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
+        match &mut self.light {
+            Some(light) if self.kinematics.configuration.light_and_heat.any() => {
+                let mut builder =
+                    RadiationBuilder { panels: self.prepared.panels, kinematics: &mut self.kinematics };
+                builder.extend(light, self.segment, start_s, limit_s)
+            }
+            _ => Ok(limit_s),
+        }
+    }
+
+    fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
+        if self.kinematics.trajectory.end_s() > start_s {
+            return self.extend_radiation(start_s, self.kinematics.trajectory.end_s());
+        }
+        // Two integrations of some 40 evaluations, and the search for changes in between.
+        self.kinematics.spend_units(Cost::Orbit, 60, start_s)?;
+        self.kinematics.trajectory.leave(self.kinematics.configuration, start_s);
+        let before = *self.kinematics.trajectory;
+        self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
+        if let Motion::Disturbed { feedback: true, .. } = self.kinematics.configuration.motion {
+            let lit_s = self.extend_radiation(start_s, self.kinematics.trajectory.end_s())?;
+            let end_s = self.kinematics.smooth_until(start_s, lit_s);
+            let acceleration_m_s2 =
+                Segment::<3, NODES>::fit(start_s, end_s, |at_s| self.sample(at_s).acceleration_inertial_m_s2);
+            let predicted = core::mem::replace(self.kinematics.trajectory, before);
+            self.kinematics.trajectory.take_passages(&predicted, end_s);
+            self.integrate(end_s, |at_s| acceleration_m_s2.value(at_s))?;
+        }
+        let end_s = self.kinematics.trajectory.end_s();
+        // Written so that a NaN is stuck too.
+        if end_s > start_s {
+            self.extend_radiation(start_s, end_s)
+        } else {
+            Err(PlantError::Stuck { start_s, end_s })
+        }
+    }
+
+    fn integrate(
+        &mut self,
+        limit_s: f64,
+        extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
+    ) -> Result<(), PlantError> {
+        let Kinematics { configuration, trajectory, ephemeris, .. } = &mut self.kinematics;
+        Ok(trajectory.advance(configuration, ephemeris, self.prepared.orbit_method, limit_s, extra_m_s2)?)
+    }
+}
+
+impl<L: Fn(f64) -> ExternalLoad> TorqueModel for Plant<'_, L> {
+    type Failure = PlantError;
+
+    fn prepare(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
+        let known_s = self.orbit_and_light(start_s)?.min(limit_s);
+        let instant = self.kinematics.instant(start_s);
+        Ok(self.kinematics.attitude_until_s(start_s, &instant, known_s))
+    }
+
+    fn must_choose(&mut self, start_s: f64) -> bool {
+        match &self.kinematics.configuration.attitude {
+            AttitudeSource::Guided(guided) if guided.managed => {
+                self.sun_choice.is_due(self.kinematics.instant(start_s).regime.downlink)
+            }
+            _ => false,
+        }
+    }
+
+    fn sample(&mut self, time_s: f64) -> Sample {
+        let evaluation = self.evaluate(time_s);
+        Sample {
+            inertial_from_body: evaluation.instant.frame.inertial_from_body,
+            rate_body_rad_s: evaluation.instant.frame.rate_body_rad_s,
+            torque_body_n_m: evaluation.loads.total().torque_body_n_m,
+            by_source_body_n_m: torques_body_n_m(&evaluation.loads),
+            acceleration_inertial_m_s2: evaluation.acceleration_inertial_m_s2(evaluation.mass.mass_kg),
+            events: evaluation.instant.events,
+        }
+    }
+
+    fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64> {
+        self.kinematics.inertial_from_body(time_s)
+    }
+
+    fn events(&mut self, time_s: f64) -> EventValues {
+        self.kinematics.events(time_s)
+    }
+
+    fn time_rounding_s(&self, time_s: f64) -> f64 {
+        self.kinematics.time_rounding_s(time_s)
+    }
+
+    fn spend(&mut self, effort: Effort, time_s: f64) -> Result<(), PlantError> {
+        let samples = match effort {
+            Effort::Segment | Effort::Refinement => 10,
+            Effort::Search => 60,
+            // With the segment that it begins.
+            Effort::Dump => 16,
+        };
+        let faces = self.prepared.solar.face_count() as u32;
+        self.kinematics.spend_units(effort.into(), samples * (Self::SAMPLE_UNITS + faces / 50), time_s)
+    }
+}

@@ -1,0 +1,4 @@
+//! What acts on the body at an instant and over an interval.
+
+pub mod disturbance_interval;
+pub mod evaluation;

@@ -1,0 +1,79 @@
+//! State of the propagator: trajectory and the present segment of light and heat.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::sun_choice::SunChoice;
+use crate::plant::light::radiation_segment::RadiationSegment;
+use crate::plant::motion::trajectory::Trajectory;
+use crate::plant::settings::configuration::{Configuration, Motion};
+use crate::plant::settings::error::PlantError;
+
+/// State of the propagator, beside the totals of the momentum integrator. Serialisable and complete: together with the
+/// configuration it fixes everything that follows.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PropagatorState {
+    /// Where the spacecraft is.
+    pub trajectory: Trajectory,
+    /// Light and heat of the present segment; absent before the first one.
+    pub light: Option<RadiationSegment>,
+    /// Where the Sun stands during downlinks.
+    pub sun_choice: SunChoice,
+}
+
+impl PropagatorState {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        self.trajectory.is_sound()
+            && self.sun_choice.is_sound()
+            && self.light.as_ref().is_none_or(RadiationSegment::is_sound)
+    }
+
+    /// At the start of a flight.
+    ///
+    /// # Errors
+    /// A start below the surface.
+    pub fn new(configuration: &Configuration, time_s: f64) -> Result<Self, PlantError> {
+        Ok(Self { trajectory: Trajectory::new(configuration, time_s)?, ..Self::default() })
+    }
+
+    /// Goes on from another place; the heat stored in the surfaces comes along.
+    ///
+    /// # Errors
+    /// A place below the surface.
+    pub fn move_to(&mut self, configuration: &Configuration, time_s: f64) -> Result<(), PlantError> {
+        self.trajectory = Trajectory::new(configuration, time_s)?;
+        if let Some(light) = &mut self.light {
+            light.cut(time_s);
+        }
+        Ok(())
+    }
+
+    /// Forgets what was computed ahead of `time_s`: the flight changes there. `configuration` is the one flown so far;
+    /// `light_changes` tells whether attitude, panels, mass centre or the Sun do, on which light and heat depend.
+    pub fn cut(&mut self, configuration: &Configuration, time_s: f64, light_changes: bool) {
+        self.cut_with_jump_where(configuration, time_s, &Vector3::zeros(), light_changes);
+    }
+
+    /// The same where light changes, and forces have changed the velocity by `jump_m_s`, EME2000, since the last time: an orbit
+    /// that forces act on takes it.
+    pub fn cut_with_jump(&mut self, configuration: &Configuration, time_s: f64, jump_m_s: &Vector3<f64>) {
+        self.cut_with_jump_where(configuration, time_s, jump_m_s, true);
+    }
+
+    fn cut_with_jump_where(
+        &mut self,
+        configuration: &Configuration,
+        time_s: f64,
+        jump_m_s: &Vector3<f64>,
+        light_changes: bool,
+    ) {
+        // An orbit that light and forces act on goes elsewhere from here.
+        let orbit_changes = matches!(configuration.motion, Motion::Disturbed { feedback: true, .. });
+        let taken_m_s = if orbit_changes { *jump_m_s } else { Vector3::zeros() };
+        self.trajectory.cut(configuration, time_s, &taken_m_s);
+        if let Some(light) = self.light.as_mut().filter(|_| light_changes || orbit_changes) {
+            light.cut(time_s);
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! Light and heat of the plant: its radiation segments, built as the flight reaches them, and reports by face.
+
+use nalgebra::{SVector, Vector3};
+
+use crate::constants::SPEED_OF_LIGHT_M_S;
+use crate::numerics::adaptive::AdaptiveInterval;
+use crate::numerics::chebyshev::Segment;
+use crate::radiation::disturbance::{Disturbance, FaceResult, GeometryError, PlanetGeometry};
+use crate::spacecraft::Panel;
+
+use super::radiation_node::RadiationNode;
+use super::radiation_segment::{HOTTEST_K, NODES, ROWS, RadiationSegment};
+use super::radiation_solver::RadiationSolver;
+use crate::plant::motion::kinematics::Kinematics;
+use crate::plant::settings::error::PlantError;
+use crate::plant::settings::radiation_settings::RadiationSettings;
+use crate::plant::settings::work::Cost;
+
+/// No segment is shortened below this, in s: kinks where a face turns dark end here.
+const SHORTEST_S: f64 = 1.0;
+/// Torque is resolved as if the largest force had at least this arm, in m: on a symmetric body there is none.
+pub(crate) const LEAST_ARM_M: f64 = 0.01;
+/// By how much the body turns within a segment at most, in rad: its nodes see every side of it.
+const LONGEST_TURN_RAD: f64 = 3.0;
+/// A segment in which the body turns by more, in rad, may be shorter than [`SHORTEST_S`].
+const SHORTEST_TURN_RAD: f64 = 0.1;
+
+/// Builds the radiation segments of a flight whose spacecraft has these panels.
+pub(crate) struct RadiationBuilder<'r, 'a> {
+    pub panels: &'a [Panel],
+    pub kinematics: &'r mut Kinematics<'a>,
+}
+
+impl RadiationBuilder<'_, '_> {
+    /// Turns everything at `time_s` into the body frame for `node`.
+    fn view(&mut self, time_s: f64, light_panels: &[usize], node: &mut RadiationNode) {
+        let configuration = self.kinematics.configuration;
+        let instant = self.kinematics.instant(time_s);
+        let viewing = &mut node.viewing;
+        viewing.sun_direction_body = instant.sun_body;
+        let flux_w_m2 = |distance_m: f64| configuration.light.pressure_pa(distance_m) * SPEED_OF_LIGHT_M_S;
+        viewing.sun_sine = configuration.shadow.sun_radius_m() / instant.sun_distance_m;
+        viewing.sun_flux_w_m2 = flux_w_m2(instant.sun_distance_m);
+        // Inside the planet there is no fraction; what is wrong there is the place.
+        viewing.lit_fraction = if instant.lit_fraction.is_nan() { 0.0 } else { instant.lit_fraction };
+        viewing.center_of_mass_body_m =
+            configuration.mass_properties(self.panels, &instant.sun_body, time_s).center_of_mass_body_m;
+        viewing.planet = instant.planet_body_m.map(|position_body_m| {
+            let sun_from_planet_body_m = instant.sun_position_body_m() - position_body_m;
+            let sun_flux_w_m2 = flux_w_m2(sun_from_planet_body_m.norm());
+            PlanetGeometry {
+                position_body_m,
+                sun_from_planet_body_m,
+                sun_flux_w_m2,
+                pole_body: -Vector3::z(),
+            }
+        });
+        for (angle_rad, &index) in viewing.panel_angles_rad.iter_mut().zip(light_panels) {
+            let setting = configuration.panels.get(index).zip(self.panels.get(index));
+            *angle_rad = setting
+                .and_then(|(setting, panel)| setting.angle_rad(panel, &viewing.sun_direction_body, time_s))
+                .unwrap_or(0.0);
+        }
+    }
+
+    /// Makes sure that light and heat are known from `start_s` on, and tells up to where, at most `limit_s`.
+    pub fn extend(
+        &mut self,
+        light: &mut RadiationSolver,
+        segment: &mut Option<RadiationSegment>,
+        start_s: f64,
+        limit_s: f64,
+    ) -> Result<f64, PlantError> {
+        let segment = segment.get_or_insert_with(RadiationSegment::before);
+        if segment.start_s <= start_s && start_s < segment.end_s {
+            return Ok(segment.end_s.min(limit_s));
+        }
+        self.build(light, segment, start_s, limit_s)?;
+        Ok(segment.end_s)
+    }
+
+    /// Builds the segment that begins at `start_s`. It ends at the next multiple of the grid or sooner: at `limit_s`, where
+    /// the branch changes, or where the last Chebyshev terms would exceed the tolerance.
+    fn build(
+        &mut self,
+        light: &mut RadiationSolver,
+        segment: &mut RadiationSegment,
+        start_s: f64,
+        limit_s: f64,
+    ) -> Result<(), PlantError> {
+        let effects = self.kinematics.configuration.light_and_heat;
+        let stores = effects.storage && effects.recoil && light.model.stores_heat();
+        if stores {
+            self.take_heat(light, segment, start_s)?;
+        } else {
+            segment.end_k.clear();
+        }
+        // Written so that a NaN from restored bytes is the shortest.
+        let rate_rad_s = self.kinematics.instant(start_s).frame.rate_body_rad_s.norm();
+        let shortest_s = SHORTEST_S.min(SHORTEST_TURN_RAD / rate_rad_s);
+        let longest_s = segment.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s).max(shortest_s);
+        let mut interval = AdaptiveInterval::new(start_s, effects.grid_s, longest_s, limit_s, shortest_s);
+        interval.end_at(self.kinematics.smooth_until(start_s, interval.end_s()));
+        let series = loop {
+            self.kinematics.spend_units(Cost::Light, light.segment_units(stores), start_s)?;
+            let lit = self.light_between(light, stores, &segment.end_k, start_s, interval.end_s());
+            let shadows: usize = light.nodes.iter().map(|node| node.workspace.shadows_cut()).sum();
+            self.kinematics.spend_units(Cost::Light, u32::try_from(shadows).unwrap_or(u32::MAX), start_s)?;
+            match lit {
+                Ok(series) => {
+                    let unresolved = unresolved(&series, &effects);
+                    if let Some(next_s) = interval.accept(unresolved, effects.tolerance, NODES) {
+                        segment.next_longest_s = next_s;
+                        break series;
+                    }
+                }
+                // The flight may be over before it comes to where light has no meaning.
+                Err(error) if !interval.halve() => return Err(self.no_light(start_s, error)),
+                Err(_) => {}
+            }
+        };
+        let end_s = interval.end_s();
+        (segment.start_s, segment.end_s, segment.loads) = (start_s, end_s, Some(series));
+        segment.temperatures_k.clear();
+        if stores {
+            segment.temperatures_k.extend((0..light.face_count()).map(|face| {
+                let samples = core::array::from_fn(|j| SVector::from([light.nodes[j].temperatures_k[face]]));
+                Segment::from_samples(start_s, end_s, &samples)
+            }));
+            segment.end_k.copy_from_slice(light.heat_rule.end_k());
+        }
+        Ok(())
+    }
+
+    /// The heat stored at `start_s`: that at the end of the segment before, at the start of a flight that of balance.
+    fn take_heat(
+        &mut self,
+        light: &mut RadiationSolver,
+        segment: &mut RadiationSegment,
+        start_s: f64,
+    ) -> Result<(), PlantError> {
+        if segment.loads.is_none() && segment.end_k.is_empty() {
+            let RadiationSolver { model, panels, nodes, .. } = light;
+            if let Some(node) = nodes.first_mut() {
+                self.view(start_s, panels, node);
+                node.balance(model).map_err(|error| self.no_light(start_s, error))?;
+                segment.end_k.extend(node.workspace.faces().iter().map(|face| face.temperature_k));
+            }
+        }
+        let (found, allowed) = (segment.end_k.len(), light.face_count());
+        if found != allowed {
+            return Err(PlantError::Temperatures { found, allowed });
+        }
+        match segment.end_k.iter().find(|kelvin| !(0.0..=HOTTEST_K).contains(*kelvin)) {
+            Some(&found_k) => Err(PlantError::Temperature { found_k }),
+            None => Ok(()),
+        }
+    }
+
+    /// Light and heat from `start_s` to `end_s`.
+    fn light_between(
+        &mut self,
+        light: &mut RadiationSolver,
+        stores: bool,
+        start_k: &[f64],
+        start_s: f64,
+        end_s: f64,
+    ) -> Result<Segment<ROWS, NODES>, GeometryError> {
+        let RadiationSolver { model, panels, nodes, heat_rule } = light;
+        let times_s = Segment::<ROWS, NODES>::nodes(start_s, end_s);
+        for (node, time_s) in nodes.iter_mut().zip(times_s) {
+            self.view(time_s, panels, node);
+            node.balance(model)?;
+        }
+        if stores {
+            heat_rule.integrate(model, nodes, start_k, end_s - start_s);
+            for node in nodes.iter_mut() {
+                node.radiate_stored(model)?;
+            }
+        }
+        let effects = &self.kinematics.configuration.light_and_heat;
+        let samples = core::array::from_fn(|j| rows(&nodes[j].found, effects));
+        Ok(Segment::from_samples(start_s, end_s, &samples))
+    }
+
+    /// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the
+    /// force of the effects that act.
+    ///
+    /// # Errors
+    /// A geometry without meaning.
+    pub fn faces(
+        &mut self,
+        light: &mut RadiationSolver,
+        segment: Option<&RadiationSegment>,
+        time_s: f64,
+        mut report: impl FnMut(f64, Vector3<f64>),
+    ) -> Result<(), PlantError> {
+        self.light_at(light, segment, time_s)?;
+        if let Some(node) = light.nodes.first() {
+            let effects = &self.kinematics.configuration.light_and_heat;
+            for face in node.workspace.faces() {
+                report(face.temperature_k, force_of(face, effects));
+            }
+        }
+        Ok(())
+    }
+
+    /// Light and heat at one time, in the first of the nodes.
+    fn light_at(
+        &mut self,
+        light: &mut RadiationSolver,
+        segment: Option<&RadiationSegment>,
+        time_s: f64,
+    ) -> Result<(), PlantError> {
+        let RadiationSolver { model, panels, nodes, .. } = light;
+        let Some(node) = nodes.first_mut() else { return Ok(()) };
+        self.view(time_s, panels, node);
+        node.balance(model).map_err(|error| self.no_light(time_s, error))?;
+        let effects = &self.kinematics.configuration.light_and_heat;
+        if let Some(segment) = segment
+            && effects.recoil
+            && effects.storage
+            && model.stores_heat()
+        {
+            segment.temperatures_at(time_s, &mut node.temperatures_k);
+            node.radiate_stored(model).map_err(|error| self.no_light(time_s, error))?;
+        }
+        Ok(())
+    }
+
+    fn no_light(&self, time_s: f64, source: GeometryError) -> PlantError {
+        let Kinematics { configuration, trajectory, .. } = &*self.kinematics;
+        let position_m = trajectory.state_at(configuration, time_s).position_m.into();
+        PlantError::Light { time_s, position_m, source }
+    }
+}
+
+/// The effects that act, row by row; sunlight always, as a measure for the others.
+fn rows(found: &Disturbance<f64>, effects: &RadiationSettings) -> SVector<f64, ROWS> {
+    let mut rows = SVector::<f64, ROWS>::zeros();
+    let planet_light = effects.planet_light;
+    for (index, (load, acts)) in [
+        (&found.solar, true),
+        (&found.albedo, planet_light),
+        (&found.infrared, planet_light),
+        (&found.thermal, effects.recoil),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        if acts {
+            rows.fixed_rows_mut::<3>(6 * index).copy_from(&load.force_body_n);
+            rows.fixed_rows_mut::<3>(6 * index + 3).copy_from(&load.torque_body_n_m);
+        }
+    }
+    rows
+}
+
+fn force_of(face: &FaceResult<f64>, effects: &RadiationSettings) -> Vector3<f64> {
+    let [solar, albedo, infrared, thermal] = face.forces_body_n;
+    let planet = if effects.planet_light { albedo + infrared } else { Vector3::zeros() };
+    solar + planet + if effects.recoil { thermal } else { Vector3::zeros() }
+}
+
+/// Largest of the last two terms of force and torque, relative to the largest force and torque of all.
+fn unresolved(series: &Segment<ROWS, NODES>, effects: &RadiationSettings) -> f64 {
+    let terms = series.coefficients();
+    // Sunlight comes from the closed form unless it is shadowed.
+    let first = if effects.shadowing { 0 } else { 6 };
+    let (mut scale, mut last) = ([0.0_f64; 2], [0.0_f64; 2]);
+    for row in 0..ROWS {
+        let kind = row / 3 % 2;
+        scale[kind] = scale[kind].max(terms.row(row).amax());
+        if row >= first {
+            last[kind] = last[kind].max(terms[(row, NODES - 1)].abs()).max(terms[(row, NODES - 2)].abs());
+        }
+    }
+    let [force, torque] = scale;
+    let torque = torque.max(force * LEAST_ARM_M);
+    if force > 0.0 { (last[0] / force).max(last[1] / torque) } else { last[0] }
+}

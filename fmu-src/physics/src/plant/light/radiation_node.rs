@@ -1,0 +1,77 @@
+//! Node of a radiation segment: geometry, light and heat at one time.
+
+use nalgebra::Vector3;
+
+use crate::radiation::disturbance::{
+    self, Disturbance, DisturbanceModel, GeometryError, PlanetGeometry, Recoil, Workspace,
+};
+
+/// One time at which light and heat are computed.
+#[derive(Clone, Debug)]
+pub(crate) struct RadiationNode {
+    pub viewing: ViewingGeometry,
+    pub found: Disturbance<f64>,
+    pub workspace: Workspace<f64>,
+    pub heat_w: Vec<f64>,
+    pub temperatures_k: Vec<f64>,
+}
+
+/// Sun and planet from the spacecraft, and how it stands.
+#[derive(Clone, Debug)]
+pub(crate) struct ViewingGeometry {
+    pub sun_direction_body: Vector3<f64>,
+    pub sun_sine: f64,
+    pub sun_flux_w_m2: f64,
+    pub lit_fraction: f64,
+    pub planet: Option<PlanetGeometry<f64>>,
+    pub panel_angles_rad: Vec<f64>,
+    pub center_of_mass_body_m: Vector3<f64>,
+}
+
+impl RadiationNode {
+    pub fn new(panels: usize, faces: usize) -> Self {
+        Self {
+            viewing: ViewingGeometry {
+                sun_direction_body: Vector3::zeros(),
+                sun_sine: 0.0,
+                sun_flux_w_m2: 0.0,
+                lit_fraction: 1.0,
+                planet: None,
+                panel_angles_rad: vec![0.0; panels],
+                center_of_mass_body_m: Vector3::zeros(),
+            },
+            found: Disturbance::zero(),
+            workspace: Workspace::default(),
+            heat_w: vec![0.0; faces],
+            temperatures_k: vec![0.0; faces],
+        }
+    }
+
+    /// Computes light and heat, every surface in balance with its light.
+    pub fn balance(&mut self, model: &DisturbanceModel) -> Result<(), GeometryError> {
+        self.found = model.evaluate(&self.viewing.geometry(), Recoil::Balance, &mut self.workspace)?;
+        model.heat_w(&self.workspace, &mut self.heat_w);
+        Ok(())
+    }
+
+    /// After [`RadiationNode::balance`]: the recoil anew, at this node's stored temperatures.
+    pub fn radiate_stored(&mut self, model: &DisturbanceModel) -> Result<(), GeometryError> {
+        let stored = Recoil::Stored(&self.temperatures_k);
+        self.found.thermal = model.recoil(&self.viewing.geometry(), stored, &mut self.workspace)?;
+        Ok(())
+    }
+}
+
+impl ViewingGeometry {
+    fn geometry(&self) -> disturbance::Geometry<'_, f64> {
+        disturbance::Geometry {
+            sun_direction_body: self.sun_direction_body,
+            sun_sine: self.sun_sine,
+            sun_flux_w_m2: self.sun_flux_w_m2,
+            lit_fraction: self.lit_fraction,
+            planet: self.planet,
+            panel_angles_rad: &self.panel_angles_rad,
+            center_of_mass_body_m: self.center_of_mass_body_m,
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Segments of light and heat: they change slowly and cost more than everything else, so they are computed at a few nodes of
+//! a segment of their own and read from a polynomial in between. How the flight is stepped does not matter to them.
+//!
+//! Equation: force and torque of each effect as functions of time; temperatures of surfaces that store heat.
+//! Method: interpolation at 6 Chebyshev nodes, the segment shortened until its last terms are below the tolerance
+//! ([`crate::numerics::adaptive`]); it ends at an event. Stored heat is integrated along the segment between the nodes
+//! (`stored_heat`).
+//! Order: 6 in the length.
+//! Error measure: the last two terms of force and torque, relative to the largest force and torque of all effects in the
+//! segment; a torque counts against the largest force at an arm of 1 cm at least.
+//! Reference: see [`crate::numerics::adaptive`].
+
+use serde::{Deserialize, Serialize};
+
+use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
+use crate::radiation::{Effect, ForceTorque, Loads};
+
+/// Chebyshev nodes a segment.
+pub(crate) const NODES: usize = 6;
+/// Force and torque of every effect of light and heat.
+pub(crate) const ROWS: usize = 6 * Effect::RADIATION.len();
+/// No surface is hotter, in K.
+pub(crate) const HOTTEST_K: f64 = 1e5;
+
+/// Light and heat over one interval, and the heat stored at its end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RadiationSegment {
+    pub(crate) start_s: f64,
+    pub(crate) end_s: f64,
+    /// Length the tolerance will probably allow the next segment, in s.
+    pub(crate) next_longest_s: f64,
+    /// Absent before the first segment.
+    pub(crate) loads: Option<Segment<ROWS, NODES>>,
+    /// Temperature of every face in K; empty where no heat is stored.
+    pub(crate) temperatures_k: Vec<Segment<1, NODES>>,
+    /// The same at the end.
+    pub(crate) end_k: Vec<f64>,
+}
+
+impl RadiationSegment {
+    /// Before the first segment.
+    pub(crate) fn before() -> Self {
+        Self {
+            start_s: f64::INFINITY,
+            end_s: f64::NEG_INFINITY,
+            next_longest_s: f64::INFINITY,
+            loads: None,
+            temperatures_k: Vec::new(),
+            end_k: Vec::new(),
+        }
+    }
+
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let hot = |kelvin: &f64| (0.0..=HOTTEST_K).contains(kelvin);
+        let ordered = self.loads.is_none() || (self.start_s.abs().max(self.end_s.abs()) <= GREATEST_IN_STATE);
+        ordered
+            && !self.start_s.is_nan()
+            && !self.end_s.is_nan()
+            && self.next_longest_s > 0.0
+            && self
+                .loads
+                .as_ref()
+                .is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s.max(self.start_s)))
+            && self.temperatures_k.iter().all(|it| {
+                let most_k: f64 = it.coefficients().iter().map(|c| c.abs()).sum();
+                it.is_sound()
+                    && it.spans(self.start_s, self.end_s.max(self.start_s))
+                    && most_k <= 10.0 * HOTTEST_K
+            })
+            && self.end_k.iter().all(hot)
+    }
+
+    /// Whether it has come to `time_s` and no segment further; so in every flight, not in every sequence of bytes.
+    pub fn covers(&self, time_s: f64) -> bool {
+        self.start_s <= time_s + 8.0 * f64::EPSILON * time_s.abs() && time_s <= self.end_s
+    }
+
+    /// Force and torque at `time_s`.
+    pub(crate) fn loads(&self, time_s: f64, loads: &mut Loads) {
+        let Some(series) = &self.loads else { return };
+        let values = series.value(time_s);
+        for (index, effect) in Effect::RADIATION.into_iter().enumerate() {
+            loads[effect] = ForceTorque {
+                force_body_n: values.fixed_rows::<3>(6 * index).into_owned(),
+                torque_body_n_m: values.fixed_rows::<3>(6 * index + 3).into_owned(),
+            };
+        }
+    }
+
+    /// Temperatures in K of the faces at `time_s`; leaves `temperatures_k` alone where no heat is stored.
+    pub(crate) fn temperatures_at(&self, time_s: f64, temperatures_k: &mut [f64]) {
+        for (face, kelvin) in temperatures_k.iter_mut().enumerate() {
+            let inside = self.temperatures_k.get(face).filter(|_| time_s < self.end_s);
+            if let Some(known_k) =
+                inside.map(|series| series.value(time_s)[0]).or(self.end_k.get(face).copied())
+            {
+                *kelvin = known_k;
+            }
+        }
+    }
+
+    /// Ends at `time_s`: the flight changes there.
+    pub(crate) fn cut(&mut self, time_s: f64) {
+        if time_s > self.start_s && time_s < self.end_s {
+            for (kelvin, series) in self.end_k.iter_mut().zip(&self.temperatures_k) {
+                *kelvin = series.value(time_s)[0];
+            }
+        }
+        self.end_s = self.end_s.min(time_s);
+    }
+}

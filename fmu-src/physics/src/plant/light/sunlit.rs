@@ -1,0 +1,55 @@
+//! The spacecraft in direct sunlight: its panels as they stand to the Sun, its centre of mass, and the load.
+
+use nalgebra::Vector3;
+
+use crate::plant::settings::panel_setting::PanelSetting;
+use crate::radiation::{Beam, ForceTorque, SolarModel};
+use crate::spacecraft::{MassProperties, Panel, with_panels};
+
+/// A spacecraft as sunlight meets it.
+#[derive(Clone, Copy, Debug)]
+pub struct SunlitCraft<'a> {
+    /// Prepared for sunlight.
+    pub solar: &'a SolarModel,
+    /// Its panels.
+    pub panels: &'a [Panel],
+    /// One setting a panel.
+    pub settings: &'a [PanelSetting],
+    /// Mass, centre of mass and inertia with every panel at angle 0.
+    pub mass_at_zero: MassProperties,
+    /// When, in s: angles that are set may change evenly.
+    pub time_s: f64,
+}
+
+impl SunlitCraft<'_> {
+    /// Mass, centre of mass and inertia as the panels stand, the Sun being there (unit vector, body frame).
+    pub fn mass_properties(&self, sun_body: &Vector3<f64>) -> MassProperties {
+        with_panels(&self.mass_at_zero, self.panels, |index| {
+            let set = self.settings.get(index).zip(self.panels.get(index));
+            set.and_then(|(setting, panel)| setting.angle_rad(panel, sun_body, self.time_s)).unwrap_or(0.0)
+        })
+    }
+
+    /// Direct sunlight without self-shadows, about the centre of mass.
+    pub fn load(&self, beam: &Beam<f64>, center_of_mass_body_m: &Vector3<f64>) -> ForceTorque<f64> {
+        let (solar, center_of_mass) = (self.solar, center_of_mass_body_m);
+        let mut sum = solar.sunshade(beam, center_of_mass) + solar.body(beam, center_of_mass);
+        for (index, (panel, setting)) in self.panels.iter().zip(self.settings).enumerate() {
+            if let Some(angle_rad) = setting.angle_rad(panel, &beam.source_body, self.time_s) {
+                sum += solar.panel(index, beam, angle_rad, center_of_mass);
+            }
+        }
+        sum
+    }
+
+    /// Its torque in N m, body frame, at this pressure in Pa, the Sun being there.
+    pub fn torque_body_n_m(&self, sun_body: &Vector3<f64>, pressure_pa: f64) -> Vector3<f64> {
+        let center_of_mass = self.mass_properties(sun_body).center_of_mass_body_m;
+        self.load(&Beam { source_body: *sun_body, pressure_pa }, &center_of_mass).torque_body_n_m
+    }
+
+    /// Centre of mass with the panels as they stand to a Sun on -Y, body frame, in m.
+    pub fn center_of_mass_body_m(&self) -> Vector3<f64> {
+        self.mass_properties(&-Vector3::y()).center_of_mass_body_m
+    }
+}

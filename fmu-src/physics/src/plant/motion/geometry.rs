@@ -1,0 +1,103 @@
+//! Where everything is at one time, as seen from the spacecraft.
+
+use nalgebra::Vector3;
+
+use crate::attitude::MovingUnit;
+use crate::bodies::Body;
+use crate::environment::CartesianState;
+use crate::environment::bodies_from_center::{BodiesFromCenter, fixed};
+use crate::environment::ephemeris::Ephemeris;
+use crate::guidance::LinesOfSight;
+
+use crate::plant::settings::configuration::{Configuration, EphemerisSource};
+
+/// Positions and velocities in EME2000.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Geometry {
+    /// Spacecraft about the orbit's centre.
+    pub spacecraft: CartesianState,
+    /// From the spacecraft to the Sun.
+    pub to_sun: CartesianState,
+    /// From the spacecraft to the planet, if it orbits one.
+    pub to_planet: Option<CartesianState>,
+    /// From the spacecraft to the Earth.
+    pub to_earth: CartesianState,
+}
+
+impl Geometry {
+    /// At `time_s` of the flight, the spacecraft being there about the orbit's centre.
+    pub fn at(
+        configuration: &Configuration,
+        ephemeris: &mut Ephemeris,
+        time_s: f64,
+        spacecraft: CartesianState,
+    ) -> Self {
+        let epoch_s = time_s + configuration.epoch_minus_time_s;
+        let (sun, earth) = sun_and_earth(configuration, ephemeris, epoch_s);
+        let planet = configuration.center.is_planet();
+        Self {
+            spacecraft,
+            to_sun: difference(&sun, &spacecraft),
+            to_planet: planet.then(|| difference(&fixed(Vector3::zeros()), &spacecraft)),
+            to_earth: difference(&earth, &spacecraft),
+        }
+    }
+
+    /// Position about the Sun, EME2000, in m.
+    pub fn heliocentric_position_m(&self) -> Vector3<f64> {
+        -self.to_sun.position_m
+    }
+
+    /// The Sun from the orbit's centre.
+    pub fn sun_from_center(&self) -> CartesianState {
+        sum(&self.to_sun, &self.spacecraft)
+    }
+
+    /// The Earth from the orbit's centre.
+    pub fn earth_from_center(&self) -> CartesianState {
+        sum(&self.to_earth, &self.spacecraft)
+    }
+
+    /// Directions with their rates; a body at zero distance counts as lying toward +X.
+    pub fn lines_of_sight(&self) -> LinesOfSight {
+        let unit = |to: &CartesianState| {
+            MovingUnit::of(to.position_m, to.velocity_m_s)
+                .unwrap_or(MovingUnit { direction: Vector3::x(), rate_1_s: Vector3::zeros() })
+        };
+        LinesOfSight {
+            sun: unit(&self.to_sun),
+            planet: self.to_planet.as_ref().map(unit),
+            earth: unit(&self.to_earth),
+            sun_from_planet: self.to_planet.as_ref().map(|to_planet| difference(&self.to_sun, to_planet)),
+        }
+    }
+}
+
+/// Sun and Earth from the orbit's centre.
+pub(crate) fn sun_and_earth(
+    configuration: &Configuration,
+    ephemeris: &mut Ephemeris,
+    epoch_s: f64,
+) -> (CartesianState, CartesianState) {
+    let ellipse = match &configuration.ephemeris {
+        EphemerisSource::Given { sun, earth } => return (*sun, *earth),
+        EphemerisSource::Flown(carried) => {
+            let state = |body: Body| {
+                let found = carried.state_carried_on(body.into(), configuration.center, epoch_s);
+                found.unwrap_or_else(|| fixed(Vector3::repeat(f64::NAN)))
+            };
+            return (state(Body::Sun), state(Body::Earth));
+        }
+        EphemerisSource::Vsop87 => None,
+        EphemerisSource::Kepler(planet) => Some(*planet),
+    };
+    BodiesFromCenter { center: configuration.center, ellipse }.sun_and_earth(ephemeris, epoch_s)
+}
+
+fn difference(a: &CartesianState, b: &CartesianState) -> CartesianState {
+    CartesianState { position_m: a.position_m - b.position_m, velocity_m_s: a.velocity_m_s - b.velocity_m_s }
+}
+
+fn sum(a: &CartesianState, b: &CartesianState) -> CartesianState {
+    CartesianState { position_m: a.position_m + b.position_m, velocity_m_s: a.velocity_m_s + b.velocity_m_s }
+}

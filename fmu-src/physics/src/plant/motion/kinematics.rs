@@ -1,0 +1,272 @@
+//! Kinematics of the plant: one pass from trajectory and ephemeris to an instant, and up to when its law holds.
+//!
+//! The one pass of a Sun direction: trajectory and ephemeris give positions in EME2000 ([`Geometry`]), the attitude law turns
+//! their directions into a body frame, the frame turns them into the body, and the planet's disc takes its part of the
+//! Sun's. Momentum, light and outputs all read this.
+
+use crate::attitude::{MovingFrame, angle_between_rad};
+use crate::environment::ephemeris::Ephemeris;
+use crate::environment::orbit::TwoBodyOrbit;
+use crate::guidance::pointing::boresight::MdisRange;
+use crate::guidance::{Activity, CoursePoint, Guided, GuidedAttitude, ScienceCourse};
+use crate::momentum::{EventValues, after_event_s};
+use crate::numerics::chebyshev::Segment;
+use crate::numerics::events::first_event;
+use crate::numerics::intervals::{first_change_s, sampled_range};
+use crate::numerics::spacing::spacing;
+
+use nalgebra::{Rotation3, Vector3};
+
+use super::geometry::Geometry;
+use super::instant::{Instant, Regime};
+use super::trajectory::Trajectory;
+use crate::plant::settings::configuration::{AttitudeSource, Configuration, Motion};
+use crate::plant::settings::error::PlantError;
+use crate::plant::settings::work::{Cost, Work};
+
+/// Nodes at which a span is looked through for events.
+const NODES: usize = 8;
+/// The end of a window or slew, computed in epochs, is this near its number in flight time, in s.
+const EPOCH_ROUNDING_S: f64 = 1e-6;
+
+/// Body frame, window and margins of the attitude law.
+struct LawAt {
+    frame: MovingFrame,
+    window_since_s: f64,
+    downlink: bool,
+    slewing: bool,
+    margins: [f64; 2],
+    until_s: f64,
+}
+
+/// Motion and light of a configured flight, and the work that is done for it.
+pub(crate) struct Kinematics<'a> {
+    pub configuration: &'a Configuration,
+    pub trajectory: &'a mut Trajectory,
+    pub ephemeris: &'a mut Ephemeris,
+    work: Work,
+    /// Spent on event functions and not counted yet.
+    searched_units: u32,
+    /// Spent on the attitude alone, where a dump is sought, and not counted yet.
+    dump_search_units: u32,
+}
+
+impl<'a> Kinematics<'a> {
+    /// `trajectory` belongs to this configuration; `work` is what the step has cost so far.
+    pub fn new(
+        configuration: &'a Configuration,
+        trajectory: &'a mut Trajectory,
+        ephemeris: &'a mut Ephemeris,
+        work: Work,
+    ) -> Self {
+        Self { configuration, trajectory, ephemeris, work, searched_units: 0, dump_search_units: 0 }
+    }
+
+    /// Counts work, the flight having come to `time_s`.
+    pub fn spend_units(&mut self, cost: Cost, units: u32, time_s: f64) -> Result<(), PlantError> {
+        let searched = core::mem::take(&mut self.searched_units);
+        self.work.spend(Cost::Search, searched, self.ephemeris.evaluations(), time_s)?;
+        let for_dumps = core::mem::take(&mut self.dump_search_units);
+        self.work.spend(Cost::Dump, for_dumps, self.ephemeris.evaluations(), time_s)?;
+        Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
+    }
+
+    /// What the step has cost, the flight having come to `time_s`.
+    ///
+    /// # Errors
+    /// More than it may.
+    pub fn work(&mut self, time_s: f64) -> Result<Work, PlantError> {
+        self.spend_units(Cost::Search, 0, time_s)?;
+        Ok(self.work)
+    }
+
+    /// The event functions alone, counted as a search.
+    pub fn events(&mut self, time_s: f64) -> EventValues {
+        self.searched_units = self.searched_units.saturating_add(1);
+        self.instant(time_s).events
+    }
+
+    /// Matrix that takes body components to EME2000 alone, by which a dump is sought and for which it counts.
+    pub fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64> {
+        self.dump_search_units = self.dump_search_units.saturating_add(1);
+        let geometry = self.geometry(time_s);
+        self.attitude(time_s, &geometry).frame.inertial_from_body
+    }
+
+    /// What `time_s` is rounded to, in s: everything is constant over less.
+    pub fn time_rounding_s(&self, time_s: f64) -> f64 {
+        spacing(time_s).max(spacing(time_s + self.configuration.epoch_minus_time_s))
+    }
+
+    /// Everything but the loads at `time_s`.
+    pub fn instant(&mut self, time_s: f64) -> Instant {
+        let geometry = self.geometry(time_s);
+        let law = self.attitude(time_s, &geometry);
+        let (lit_fraction, gaps_rad) = self.light_fraction(&geometry);
+        let to_body = law.frame.inertial_from_body.inverse();
+        let sun_distance_m = geometry.to_sun.position_m.norm();
+        Instant {
+            to_body,
+            sun_body: to_body * (geometry.to_sun.position_m / sun_distance_m),
+            sun_distance_m,
+            planet_body_m: geometry.to_planet.map(|planet| to_body * planet.position_m),
+            geometry,
+            frame: law.frame,
+            lit_fraction,
+            regime: Regime {
+                window_since_s: law.window_since_s,
+                downlink: law.downlink,
+                slewing: law.slewing,
+                in_shadow: gaps_rad[0] <= 0.0,
+            },
+            events: EventValues::new(gaps_rad[0], gaps_rad[1], law.margins[0], law.margins[1]),
+            attitude_until_s: law.until_s,
+        }
+    }
+
+    /// Visible part of the Sun's disc and the gaps of the shadow.
+    fn light_fraction(&self, geometry: &Geometry) -> (f64, [f64; 2]) {
+        if geometry.to_planet.is_none() {
+            return (1.0, [f64::INFINITY; 2]);
+        }
+        let spacecraft_m = geometry.spacecraft.position_m;
+        let sun_m = spacecraft_m + geometry.to_sun.position_m;
+        self.configuration.shadow.fraction_and_gaps(&spacecraft_m, &sun_m)
+    }
+
+    /// Where everything is at `time_s`.
+    fn geometry(&mut self, time_s: f64) -> Geometry {
+        let spacecraft = self.trajectory.state_at(self.configuration, time_s);
+        Geometry::at(self.configuration, self.ephemeris, time_s, spacecraft)
+    }
+
+    /// Body frame and rate, and the form of the law they come from.
+    fn attitude(&mut self, time_s: f64, geometry: &Geometry) -> LawAt {
+        let held = |frame: MovingFrame| LawAt {
+            frame,
+            window_since_s: f64::NEG_INFINITY,
+            downlink: false,
+            slewing: false,
+            margins: [f64::INFINITY; 2],
+            until_s: f64::INFINITY,
+        };
+        match &self.configuration.attitude {
+            AttitudeSource::Guided(guided) => {
+                let guided = self.guided(guided, time_s, geometry);
+                LawAt {
+                    frame: guided.frame,
+                    window_since_s: guided.window.since_s,
+                    downlink: guided.window.activity == Activity::Downlink,
+                    slewing: guided.slewing,
+                    margins: guided.margins,
+                    until_s: guided.until_s - self.configuration.epoch_minus_time_s,
+                }
+            }
+            AttitudeSource::Commanded(command) => held(command.frame_at(time_s)),
+            AttitudeSource::Dynamic(dynamic) => held(dynamic.frame_at(time_s)),
+        }
+    }
+
+    /// What the orbit phase's own guidance commands at `time_s`.
+    fn guided(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
+        let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
+        let trajectory = &*self.trajectory;
+        let epoch_s = time_s + configuration.epoch_minus_time_s;
+        let window =
+            trajectory.window(configuration, time_s).unwrap_or_else(|| guided.schedule.window(epoch_s));
+        guided.within(window, epoch_s, |at_epoch_s| {
+            if at_epoch_s == epoch_s {
+                return geometry.lines_of_sight();
+            }
+            let at_s = at_epoch_s - configuration.epoch_minus_time_s;
+            let spacecraft = trajectory.state_at_window_start(configuration, at_s);
+            Geometry::at(configuration, ephemeris, at_s, spacecraft).lines_of_sight()
+        })
+    }
+
+    /// What guidance commands at `time_s`; `None` where there is none.
+    pub fn guided_attitude(&mut self, time_s: f64) -> Option<GuidedAttitude> {
+        let configuration = self.configuration;
+        let guided = configuration.attitude.guided()?;
+        let geometry = self.geometry(time_s);
+        Some(self.guided(guided, time_s, &geometry))
+    }
+
+    /// Least and greatest angle between Sun and Earth from one time to a later one, in rad, the spacecraft going on along the
+    /// ellipse that it is on.
+    pub fn separations_rad(&mut self, from_s: f64, to_s: f64) -> [f64; 2] {
+        let mut ahead = self.geometry_ahead(from_s);
+        sampled_range(|share| {
+            let geometry = ahead(from_s + (to_s - from_s) * share);
+            angle_between_rad(&geometry.to_sun.position_m, &geometry.to_earth.position_m)
+        })
+    }
+
+    /// Sun and planet from one time to a later one, likewise.
+    pub fn science_course(&mut self, camera: MdisRange, from_s: f64, to_s: f64) -> ScienceCourse {
+        let light = self.configuration.light;
+        let mut ahead = self.geometry_ahead(from_s);
+        ScienceCourse::of(camera, to_s - from_s, |share| {
+            let geometry = ahead(from_s + (to_s - from_s) * share);
+            let to_sun_m = geometry.to_sun.position_m;
+            CoursePoint {
+                to_sun_m,
+                to_planet_m: geometry.to_planet.map_or(Vector3::zeros(), |planet| planet.position_m),
+                pressure_pa: light.pressure_pa(to_sun_m.norm()),
+            }
+        })
+    }
+
+    /// Where everything is later than `from_s`, the spacecraft going on along the ellipse that it is on.
+    fn geometry_ahead(&mut self, from_s: f64) -> impl FnMut(f64) -> Geometry {
+        let configuration = self.configuration;
+        let now = self.trajectory.state_at(configuration, from_s);
+        let from_epoch_s = from_s + configuration.epoch_minus_time_s;
+        let ellipse = match configuration.motion {
+            Motion::TwoBody => Some(configuration.orbit),
+            Motion::Disturbed { gravity, .. } => {
+                TwoBodyOrbit::from_state(&now, gravity.mu_m3_s2, from_epoch_s).ok()
+            }
+            Motion::Held { .. } => None,
+        };
+        let ephemeris = &mut *self.ephemeris;
+        move |at_s| {
+            let at_epoch_s = at_s + configuration.epoch_minus_time_s;
+            let spacecraft = ellipse.map_or(now, |ellipse| ellipse.state_at(at_epoch_s));
+            Geometry::at(configuration, ephemeris, at_s, spacecraft)
+        }
+    }
+
+    /// The number at which the window or slew of `instant`, at `time_s`, ends, if it does before `limit_s`.
+    pub fn attitude_until_s(&mut self, time_s: f64, instant: &Instant, limit_s: f64) -> f64 {
+        let epoch_s = instant.attitude_until_s + self.configuration.epoch_minus_time_s;
+        let rounding_s = EPOCH_ROUNDING_S + 4.0 * (spacing(epoch_s) + spacing(instant.attitude_until_s));
+        let (before_s, behind_s) =
+            ((instant.attitude_until_s - rounding_s).max(time_s), instant.attitude_until_s + rounding_s);
+        if before_s >= limit_s || behind_s.is_nan() {
+            return limit_s;
+        }
+        let same = |it: &mut Self, at_s: f64| {
+            let geometry = it.geometry(at_s);
+            let law = it.attitude(at_s, &geometry);
+            let now = (law.window_since_s, law.downlink, law.slewing);
+            now == (instant.regime.window_since_s, instant.regime.downlink, instant.regime.slewing)
+        };
+        if same(self, behind_s) {
+            return limit_s;
+        }
+        first_change_s(before_s, behind_s, |at_s| same(self, at_s)).min(limit_s)
+    }
+
+    /// The latest time up to `limit_s` until which attitude and light are smooth from `start_s` on.
+    pub fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> f64 {
+        // The edge this span starts at was found on an orbit that has been computed anew since.
+        let after_s = after_event_s(start_s).min(limit_s);
+        let first = self.instant(after_s);
+        let limit_s = self.attitude_until_s(after_s, &first, limit_s);
+        let samples = Segment::<4, NODES>::nodes(start_s, limit_s).map(|at_s| self.instant(at_s).events);
+        let rounding_s = self.time_rounding_s(limit_s);
+        first_event(after_s, start_s, limit_s, rounding_s, &samples, |at_s| self.events(at_s))
+            .unwrap_or(limit_s)
+    }
+}

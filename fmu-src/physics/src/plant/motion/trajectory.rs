@@ -1,0 +1,302 @@
+//! Where the spacecraft is: in closed form, or on an integrated orbit with what has to be remembered of it.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::environment::CartesianState;
+use crate::environment::ephemeris::Ephemeris;
+use crate::environment::orbit::{DisturbedOrbit, OrbitIntegrationError, OrbitMethod};
+use crate::guidance::Window;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::numerics::roots;
+use crate::numerics::spacing::spacing;
+
+use super::geometry;
+use crate::plant::settings::configuration::{Configuration, Motion};
+
+/// Two passages closer together than this part of a revolution are one, found twice.
+const SAME_PASSAGE: f64 = 1e-3;
+/// Two beginnings of a window closer together than this part of a revolution are one, computed twice.
+const SAME_WINDOW: f64 = 1e-7;
+/// Passages kept for the schedule: one may lie ahead of the time at hand, one may be too recent for its window.
+const KEPT: usize = 3;
+
+/// The state of motion. Empty for two-body motion, which needs none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Trajectory {
+    orbit: Option<DisturbedOrbit>,
+    periapses: Periapses,
+    /// Where the spacecraft was when the present science or downlink window began, once that time is behind the
+    /// segment at hand: a slew starts from the attitude there.
+    window_start: Option<(f64, CartesianState)>,
+}
+
+/// Periapses an integrated orbit has passed, counted as the two-body orbit at the start counts them (number 0 is the
+/// one nearest to the start).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Periapses {
+    /// The last one found and the one before it.
+    last_s: [f64; 2],
+    /// Number of the last one.
+    number: i64,
+    /// Those whose number is a multiple of the schedule's, the latest first.
+    scheduled_s: [f64; KEPT],
+}
+
+/// Position and velocity where no orbit is integrated.
+fn closed_form(configuration: &Configuration, time_s: f64) -> CartesianState {
+    match configuration.motion {
+        Motion::Held { state, .. } => state,
+        _ => configuration.orbit.state_at(time_s + configuration.epoch_minus_time_s),
+    }
+}
+
+/// Whether two times at which a window begins are one.
+fn is_same_window(configuration: &Configuration, since_s: f64, time_s: f64) -> bool {
+    let rounding_s = 8.0 * spacing(time_s.abs().max((time_s + configuration.epoch_minus_time_s).abs()));
+    (since_s - time_s).abs() <= SAME_WINDOW * configuration.orbit.period_s() + rounding_s
+}
+
+impl Trajectory {
+    /// At the start of a flight or where position and velocity are given anew.
+    ///
+    /// # Errors
+    /// A start below the surface.
+    pub fn new(configuration: &Configuration, time_s: f64) -> Result<Self, OrbitIntegrationError> {
+        let Motion::Disturbed { segment_length_s, radius_m, .. } = configuration.motion else {
+            return Ok(Self::default());
+        };
+        let epoch_s = time_s + configuration.epoch_minus_time_s;
+        let start = configuration.orbit.state_at(epoch_s);
+        Ok(Self {
+            orbit: Some(DisturbedOrbit::new(&start, time_s, segment_length_s, radius_m)?),
+            periapses: Periapses::before(configuration, epoch_s),
+            window_start: None,
+        })
+    }
+
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
+        let state = |state: &CartesianState| state.position_m.iter().chain(&state.velocity_m_s).all(sound);
+        let Periapses { last_s, number, scheduled_s } = &self.periapses;
+        self.orbit.as_ref().is_none_or(DisturbedOrbit::is_sound)
+            && last_s.iter().all(sound)
+            && number.unsigned_abs() < 1 << 60
+            // Passages that never were lie before all time.
+            && scheduled_s.iter().all(|at_s| sound(at_s) || *at_s == f64::NEG_INFINITY)
+            && self.window_start.as_ref().is_none_or(|(since_s, at)| sound(since_s) && state(at))
+    }
+
+    /// Whether it has come to `time_s` and no segment further; so in every flight, not in every sequence of bytes.
+    pub fn covers(&self, time_s: f64) -> bool {
+        self.orbit.as_ref().is_none_or(|orbit| {
+            let (start_s, end_s) = (orbit.start_s(), orbit.end_s());
+            orbit.segment_length_s() >= 1e-3
+                && start_s <= time_s + 8.0 * f64::EPSILON * time_s.abs()
+                && time_s <= end_s
+        })
+    }
+
+    /// Position and velocity about the centre at `time_s`, in EME2000.
+    pub fn state_at(&self, configuration: &Configuration, time_s: f64) -> CartesianState {
+        match &self.orbit {
+            Some(orbit) => orbit.state_at(time_s),
+            None => closed_form(configuration, time_s),
+        }
+    }
+
+    /// Time since the last periapsis, in s.
+    pub fn time_since_periapsis_s(&self, configuration: &Configuration, time_s: f64) -> f64 {
+        if self.orbit.is_none() || !configuration.orbit.period_s().is_finite() {
+            let epoch_s = match configuration.motion {
+                Motion::Held { since_epoch_s, .. } => since_epoch_s,
+                _ => time_s + configuration.epoch_minus_time_s,
+            };
+            return configuration.orbit.time_since_periapsis_s(epoch_s);
+        }
+        let [last_s, before_s] = self.periapses.last_s;
+        time_s - if last_s <= time_s { last_s } else { before_s }
+    }
+
+    /// Up to where the orbit is known; infinite in closed form.
+    pub(crate) fn end_s(&self) -> f64 {
+        self.orbit.as_ref().map_or(f64::INFINITY, DisturbedOrbit::end_s)
+    }
+
+    /// The schedule's window at `time_s` where it follows an integrated orbit, in the schedule's time scale.
+    pub(crate) fn window(&self, configuration: &Configuration, time_s: f64) -> Option<Window> {
+        let guided = configuration.attitude.guided()?;
+        if self.orbit.is_none() || !guided.schedule.period_s.is_finite() {
+            return None;
+        }
+        let epoch_s = time_s + configuration.epoch_minus_time_s;
+        let met_s = self.periapses.scheduled_s.map(|at_s| at_s + configuration.epoch_minus_time_s);
+        Some(guided.schedule.window_after(&met_s, epoch_s))
+    }
+
+    /// Position and velocity at the beginning of a window, which may be past.
+    pub(crate) fn state_at_window_start(&self, configuration: &Configuration, time_s: f64) -> CartesianState {
+        match (&self.orbit, &self.window_start) {
+            // Where thrust acts the present segment knows the way of its last interval alone.
+            (Some(orbit), Some((since_s, state)))
+                if orbit.is_deviated() && is_same_window(configuration, *since_s, time_s) =>
+            {
+                *state
+            }
+            (Some(orbit), _) if time_s >= orbit.start_s() => orbit.state_at(time_s),
+            (Some(_), Some((since_s, state))) if is_same_window(configuration, *since_s, time_s) => *state,
+            // Before the flight began the spacecraft was on its two-body orbit.
+            _ => closed_form(configuration, time_s),
+        }
+    }
+
+    /// Keeps the periapses another computation of the same orbit met until `end_s`.
+    pub(crate) fn take_passages(&mut self, other: &Self, end_s: f64) {
+        if other.periapses.last_s[0] <= end_s {
+            self.periapses = other.periapses;
+        }
+    }
+
+    /// Leaves the present segment, which ends at `time_s`: remembers what the next one cannot know.
+    pub(crate) fn leave(&mut self, configuration: &Configuration, time_s: f64) {
+        // What thrust has moved is remembered while it does.
+        if let Some(orbit) = self.orbit.filter(|orbit| !orbit.is_deviated()) {
+            self.remember_window(configuration, [orbit.start_s(), time_s]);
+        }
+    }
+
+    /// Keeps where the present window began, if it did within this span.
+    fn remember_window(&mut self, configuration: &Configuration, [start_s, end_s]: [f64; 2]) {
+        if let (Some(orbit), Some(window)) = (&self.orbit, self.window(configuration, end_s)) {
+            let since_s = window.since_s - configuration.epoch_minus_time_s;
+            if since_s >= start_s && since_s <= end_s {
+                self.window_start = Some((since_s, orbit.state_at(since_s)));
+            }
+        }
+    }
+
+    /// Thrust accelerates the spacecraft by `thrust_m_s2(t)`, EME2000, over `span_s` of the present segment; none = it coasts
+    /// on. An orbit that forces do not act on stays.
+    ///
+    /// # Errors
+    /// See [`OrbitIntegrationError`].
+    pub(crate) fn accelerate(
+        &mut self,
+        configuration: &Configuration,
+        method: &OrbitMethod,
+        span_s: [f64; 2],
+        thrust_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
+    ) -> Result<(), OrbitIntegrationError> {
+        let (Some(mut orbit), Motion::Disturbed { gravity, feedback: true, .. }) =
+            (self.orbit, &configuration.motion)
+        else {
+            return Ok(());
+        };
+        if thrust_m_s2.is_none() && !orbit.is_deviated() {
+            return Ok(());
+        }
+        if !orbit.is_deviated() {
+            self.remember_window(configuration, [orbit.start_s(), span_s[0]]);
+        }
+        orbit.accelerate(method, gravity, span_s, thrust_m_s2)?;
+        self.orbit = Some(orbit);
+        self.remember_window(configuration, span_s);
+        Ok(())
+    }
+
+    /// Forgets the orbit beyond `time_s`: what acts on the spacecraft changes there, or its velocity by `jump_m_s`, EME2000.
+    pub fn cut(&mut self, configuration: &Configuration, time_s: f64, jump_m_s: &Vector3<f64>) {
+        self.leave(configuration, time_s);
+        let Some(orbit) = &mut self.orbit else { return };
+        orbit.cut(time_s, jump_m_s);
+        self.periapses.forget_after(time_s, radial(&orbit.state_at(time_s)));
+    }
+
+    /// Integrates one more segment, at most to `limit_s`, under gravity and `extra_m_s2(t)`, an acceleration in EME2000.
+    ///
+    /// # Errors
+    /// See [`OrbitIntegrationError`].
+    pub(crate) fn advance(
+        &mut self,
+        configuration: &Configuration,
+        ephemeris: &mut Ephemeris,
+        method: &OrbitMethod,
+        limit_s: f64,
+        mut extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
+    ) -> Result<(), OrbitIntegrationError> {
+        let (Some(mut orbit), Motion::Disturbed { gravity, .. }) = (self.orbit, &configuration.motion) else {
+            return Ok(());
+        };
+        let sun_m = |at_s: f64| {
+            let epoch_s = at_s + configuration.epoch_minus_time_s;
+            geometry::sun_and_earth(configuration, ephemeris, epoch_s).0.position_m
+        };
+        orbit.advance_to(limit_s, method, gravity, sun_m, |at_s, _| extra_m_s2(at_s))?;
+        self.periapses.look_in(&orbit, configuration);
+        self.orbit = Some(orbit);
+        Ok(())
+    }
+}
+
+impl Periapses {
+    fn before(configuration: &Configuration, epoch_s: f64) -> Self {
+        let orbit = &configuration.orbit;
+        let period_s = orbit.period_s();
+        if !period_s.is_finite() {
+            return Self::default();
+        }
+        // A start at periapsis counts as past it, whatever rounding says.
+        let number = orbit.orbit_number(epoch_s + SAME_PASSAGE * period_s);
+        let at_s = |number: i64| orbit.periapsis_epoch_s(number) - configuration.epoch_minus_time_s;
+        let every = every(configuration);
+        let first = number - number.rem_euclid(every);
+        Self {
+            last_s: [at_s(number), at_s(number - 1)],
+            number,
+            scheduled_s: core::array::from_fn(|back| at_s(first - every * back as i64)),
+        }
+    }
+
+    /// Takes note of a periapsis in the present segment.
+    fn look_in(&mut self, orbit: &DisturbedOrbit, configuration: &Configuration) {
+        let period_s = configuration.orbit.period_s();
+        let (from_s, to_s) = (orbit.start_s(), orbit.end_s());
+        let radial_at = |at_s: f64| radial(&orbit.state_at(at_s));
+        if !period_s.is_finite() || radial_at(from_s) >= 0.0 || radial_at(to_s) < 0.0 {
+            return;
+        }
+        let Ok(at_s) = roots::bracketed(from_s, to_s, 0.0, radial_at) else { return };
+        if at_s - self.last_s[0] < SAME_PASSAGE * period_s {
+            return;
+        }
+        self.last_s = [at_s, self.last_s[0]];
+        self.number += 1;
+        if self.number.rem_euclid(every(configuration)) == 0 {
+            self.scheduled_s.rotate_right(1);
+            self.scheduled_s[0] = at_s;
+        }
+    }
+
+    /// Forgets a passage found beyond `time_s`, where `radial` is position times velocity: it will be met again.
+    fn forget_after(&mut self, time_s: f64, radial: f64) {
+        if self.last_s[0] <= time_s || radial >= 0.0 {
+            return;
+        }
+        if self.scheduled_s[0] == self.last_s[0] {
+            self.scheduled_s.rotate_left(1);
+            self.scheduled_s[KEPT - 1] = f64::NEG_INFINITY;
+        }
+        self.last_s[0] = self.last_s[1];
+        self.number -= 1;
+    }
+}
+
+fn every(configuration: &Configuration) -> i64 {
+    configuration.attitude.guided().map_or(1, |guided| i64::from(guided.schedule.every.max(1)))
+}
+
+/// Position times velocity: it rises through zero at periapsis.
+fn radial(state: &CartesianState) -> f64 {
+    state.position_m.dot(&state.velocity_m_s)
+}

@@ -1,0 +1,297 @@
+//! What flies, where, and under which light: constant between two changes of a parameter or input.
+
+use std::sync::Arc;
+
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::{Attitude, MovingFrame, SunAngles};
+use crate::bodies::{Body, BodyData};
+use crate::environment::CartesianState;
+use crate::environment::eclipse::Shadow;
+use crate::environment::flown::FlownEphemeris;
+use crate::environment::frames::Frame;
+use crate::environment::orbit::{Elements, Gravity, OrbitError, TwoBodyOrbit};
+use crate::environment::paper004::KeplerPlanet;
+use crate::environment::sun::pressure_n_m2;
+use crate::guidance::{Guided, SunPlace};
+use crate::momentum::Settings;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::spacecraft::{MassProperties, Panel, SunshadeModel, hinged_masses, with_panels};
+
+use super::panel_setting::PanelSetting;
+use super::radiation_settings::RadiationSettings;
+
+/// Where the attitude comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AttitudeSource {
+    /// The orbit phase's own guidance; its schedule runs in epochs (s past J2000 TDB).
+    Guided(Guided),
+    /// A command, followed ideally.
+    Commanded(Command),
+    /// A body that turns as its dynamics say.
+    Dynamic(DynamicAttitude),
+}
+
+impl AttitudeSource {
+    /// The orbit phase's own guidance, followed ideally or as a command to the controller.
+    pub fn guided(&self) -> Option<&Guided> {
+        match self {
+            Self::Guided(guided) => Some(guided),
+            Self::Commanded(_) => None,
+            Self::Dynamic(dynamic) => dynamic.guided.as_ref(),
+        }
+    }
+}
+
+impl AttitudeSource {
+    /// Puts the Sun there during downlinks and in science that unloads.
+    pub(crate) fn set_sun_places(&mut self, place: Option<SunPlace>, science: Option<SunAngles>) {
+        let guided = match self {
+            Self::Guided(guided) => Some(guided),
+            Self::Commanded(_) => None,
+            Self::Dynamic(dynamic) => dynamic.guided.as_mut(),
+        };
+        if let Some(guided) = guided {
+            *guided = guided.with_sun_places(place, science);
+        }
+    }
+}
+
+/// An attitude that is known up to now, and what it is to follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DynamicAttitude {
+    /// The attitude now, going on at the present rate.
+    pub motion: Command,
+    /// How that rate changes: the first and second term of its series, in rad/s2 and rad/s3.
+    pub rate_terms_body: [Vector3<f64>; 2],
+    /// The orbit phase's own guidance; absent where commands come from elsewhere.
+    pub guided: Option<Guided>,
+}
+
+impl DynamicAttitude {
+    /// Body frame and rate at `time_s`: the turn by the rate w + b t + c t^2 is w t + b t^2 / 2 + c t^3 / 3 + (w x b) t^3 / 12 +
+    /// (w x c) t^4 / 12 to the fourth order (Magnus).
+    pub fn frame_at(&self, time_s: f64) -> MovingFrame {
+        let [slope, curve] = self.rate_terms_body;
+        if slope == Vector3::zeros() && curve == Vector3::zeros() {
+            return self.motion.frame_at(time_s);
+        }
+        let (rate, elapsed_s) = (self.motion.rate_body_rad_s, time_s - self.motion.since_s);
+        let square = elapsed_s * elapsed_s;
+        let straight = rate * elapsed_s + (slope / 2.0 + curve * (elapsed_s / 3.0)) * square;
+        let bent = rate.cross(&(slope + curve * elapsed_s)) * (square * elapsed_s / 12.0);
+        MovingFrame {
+            inertial_from_body: self.motion.attitude.turned(straight + bent).inertial_from_body(),
+            rate_body_rad_s: rate + (slope + curve * elapsed_s) * elapsed_s,
+        }
+    }
+}
+
+/// A commanded attitude, turning on at a constant rate.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Command {
+    /// Attitude at `since_s`.
+    pub attitude: Attitude,
+    /// Body rate, in rad/s.
+    pub rate_body_rad_s: Vector3<f64>,
+    /// When the command took effect, in s.
+    pub since_s: f64,
+}
+
+impl Command {
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self) -> bool {
+        let numbers = self.rate_body_rad_s.iter().chain([&self.since_s]);
+        self.attitude.is_rotation() && numbers.into_iter().all(|x| x.abs() <= GREATEST_IN_STATE)
+    }
+
+    /// Body frame and rate at `time_s`.
+    pub fn frame_at(&self, time_s: f64) -> MovingFrame {
+        MovingFrame {
+            inertial_from_body: self.attitude_at(time_s).inertial_from_body(),
+            rate_body_rad_s: self.rate_body_rad_s,
+        }
+    }
+
+    /// The attitude at `time_s`.
+    pub fn attitude_at(&self, time_s: f64) -> Attitude {
+        self.attitude.propagated(self.rate_body_rad_s, time_s - self.since_s)
+    }
+}
+
+/// Where Sun and Earth stand.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EphemerisSource {
+    /// VSOP87.
+    Vsop87,
+    /// The planet on an ellipse about the Sun; the Earth by VSOP87.
+    Kepler(KeplerPlanet),
+    /// As the spacecraft carries them; beyond their span they move on evenly.
+    Flown(Arc<FlownEphemeris>),
+    /// Where they stand until they are given anew, and their velocities, from the orbit's centre.
+    Given {
+        /// Sun, EME2000.
+        sun: CartesianState,
+        /// Earth, EME2000.
+        earth: CartesianState,
+    },
+}
+
+/// What moves the spacecraft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// The centre's gravity alone: the orbit in closed form.
+    TwoBody,
+    /// The same orbit at the start, then integrated.
+    Disturbed {
+        /// The centre's gravity with its flattening and the Sun's tide.
+        gravity: Gravity,
+        /// Length of the integrator's segments, in s.
+        segment_length_s: f64,
+        /// Radius of the centre, in m: a flight below it ends.
+        radius_m: f64,
+        /// Whether light, heat and external forces accelerate the spacecraft.
+        feedback: bool,
+    },
+    /// None: position and velocity about the centre are these, EME2000.
+    Held {
+        /// Position and velocity.
+        state: CartesianState,
+        /// When they were given, in s past J2000 TDB.
+        since_epoch_s: f64,
+    },
+}
+
+/// Radiation pressure of sunlight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SunLight {
+    /// The same everywhere, in Pa.
+    Fixed {
+        /// Pressure, in Pa.
+        pressure_pa: f64,
+    },
+    /// Falling with the square of the distance.
+    Distance {
+        /// Flux at 1 AU, in W/m2.
+        flux_w_m2: f64,
+    },
+}
+
+impl SunLight {
+    /// Pressure at a distance from the Sun's centre, in Pa; NaN where there is no such distance.
+    pub fn pressure_pa(&self, distance_m: f64) -> f64 {
+        match *self {
+            Self::Fixed { pressure_pa } => pressure_pa,
+            Self::Distance { flux_w_m2 } => pressure_n_m2(flux_w_m2, distance_m).unwrap_or(f64::NAN),
+        }
+    }
+}
+
+/// Two-body orbit about `center`, in EME2000, of `elements` given in `frame`.
+///
+/// # Errors
+/// Elements that are no orbit.
+pub fn orbit_from_elements(
+    elements: Elements,
+    frame: Frame,
+    center: &BodyData,
+    gm_m3_s2: f64,
+    epoch_s: f64,
+) -> Result<TwoBodyOrbit, OrbitError> {
+    let to_eme2000 = frame.dcm_eme2000_from_frame(center);
+    let state = elements.state(gm_m3_s2)?;
+    let state = CartesianState {
+        position_m: to_eme2000 * state.position_m,
+        velocity_m_s: to_eme2000 * state.velocity_m_s,
+    };
+    TwoBodyOrbit::from_state(&state, gm_m3_s2, epoch_s)
+}
+
+impl Configuration {
+    /// Mass, centre of mass and inertia with every panel at angle 0, of what is left.
+    pub fn mass_at_zero(&self) -> MassProperties {
+        self.left.unwrap_or_else(|| self.loaded())
+    }
+
+    /// The same with full tanks.
+    pub fn loaded(&self) -> MassProperties {
+        MassProperties {
+            mass_kg: self.mass_kg,
+            center_of_mass_body_m: self.center_of_mass_body_m,
+            inertia_body_kg_m2: self.inertia_body_kg_m2,
+        }
+    }
+
+    /// Mass, centre of mass and inertia as the panels stand at `time_s`, the Sun being there (unit vector, body frame).
+    pub fn mass_properties(&self, panels: &[Panel], sun_body: &Vector3<f64>, time_s: f64) -> MassProperties {
+        with_panels(&self.mass_at_zero(), panels, |index| {
+            self.panel_angle_rad(panels, index, sun_body, time_s)
+        })
+    }
+
+    /// Momentum of the panels relative to the body in N m s, body frame, as they turn at `time_s` about the centre of `mass`, the
+    /// Sun moving in the body frame by `sun_rate_body_1_s`.
+    pub fn panel_momentum_body_n_m_s(
+        &self,
+        panels: &[Panel],
+        mass: &MassProperties,
+        [sun_body, sun_rate_body_1_s]: [&Vector3<f64>; 2],
+        time_s: f64,
+    ) -> Vector3<f64> {
+        let turn = |index: usize| {
+            let set = self.panels.get(index).zip(panels.get(index));
+            let rate_rad_s = set.map_or(0.0, |(setting, panel)| {
+                setting.rate_rad_s(panel, sun_body, sun_rate_body_1_s, time_s)
+            });
+            [self.panel_angle_rad(panels, index, sun_body, time_s), rate_rad_s, 0.0]
+        };
+        let center = &mass.center_of_mass_body_m;
+        hinged_masses(panels, turn).map(|it| it.momentum_body_n_m_s(center)).sum()
+    }
+
+    /// Angle of panel `index`, in rad; of one that is left out 0.
+    fn panel_angle_rad(&self, panels: &[Panel], index: usize, sun_body: &Vector3<f64>, time_s: f64) -> f64 {
+        let set = self.panels.get(index).zip(panels.get(index));
+        set.and_then(|(setting, panel)| setting.angle_rad(panel, sun_body, time_s)).unwrap_or(0.0)
+    }
+}
+
+/// Everything a flight needs besides the spacecraft itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Configuration {
+    /// Epoch (s past J2000 TDB) minus time, in s.
+    pub epoch_minus_time_s: f64,
+    /// Central body.
+    pub center: Body,
+    /// Orbit about it, in EME2000, by epoch; of an integrated orbit the one it starts on.
+    pub orbit: TwoBodyOrbit,
+    /// What moves the spacecraft along or off that orbit.
+    pub motion: Motion,
+    /// Sun and Earth.
+    pub ephemeris: EphemerisSource,
+    /// Sunlight.
+    pub light: SunLight,
+    /// Shadow of the planet.
+    pub shadow: Shadow,
+    /// Light and heat beyond direct sunlight.
+    pub light_and_heat: RadiationSettings,
+    /// Attitude.
+    pub attitude: AttitudeSource,
+    /// Model of the shade.
+    pub sunshade: SunshadeModel,
+    /// One setting a panel.
+    pub panels: Vec<PanelSetting>,
+    /// Mass properties without the propellant used, with every panel at angle 0; absent while none is.
+    pub left: Option<MassProperties>,
+    /// Centre of mass, body frame, in m, with every panel at angle 0 and full tanks.
+    pub center_of_mass_body_m: Vector3<f64>,
+    /// Mass, in kg, with full tanks.
+    pub mass_kg: f64,
+    /// Inertia about the centre of mass, body frame, in kg m2, with every panel at angle 0 and full tanks.
+    pub inertia_body_kg_m2: Matrix3<f64>,
+    /// Gravitational parameter whose gradient turns the body, in m3/s2; 0 = left out.
+    pub gravity_gradient_m3_s2: f64,
+    /// Integration of momentum.
+    pub momentum: Settings,
+}

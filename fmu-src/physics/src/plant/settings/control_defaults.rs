@@ -1,0 +1,72 @@
+//! Limits of control where the user gives none: what the wheels of a spacecraft allow.
+
+use crate::constants::DEG_RAD;
+use crate::momentum::WheelArray;
+use crate::spacecraft::{Spacecraft, Wheel};
+
+use super::reaction_control_settings::ReactionControlSettings;
+use crate::guidance::modes::monitor::MARGIN_RAD;
+
+/// Greatest rate of a turn, assumed.
+const GREATEST_SLEW_RATE_RAD_S: f64 = 0.5 * DEG_RAD;
+/// Rate of an ordinary scan, assumed; where it reverses the command's rate jumps by twice as much.
+const SCAN_RATE_RAD_S: f64 = 0.05 * DEG_RAD;
+/// How much farther than by the acceleration alone the body swings beyond such a reversal, assumed: the controller's own lag.
+const REVERSAL_LAG: f64 = 1.25;
+/// Torque of a dump of a spacecraft without wheels, in N m, assumed.
+const TORQUE_WITHOUT_WHEELS_N_M: f64 = 0.05;
+
+/// Limits of turns and dumps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ControlDefaults {
+    /// Rate of a turn in rad/s: half a degree a second, less where it would take more than a quarter of what the wheels hold.
+    pub slew_rate_rad_s: f64,
+    /// Acceleration of a turn in rad/s2: half of what the wheels' torque gives the axis of largest inertia; 0 without wheels
+    /// in all directions.
+    pub slew_acceleration_rad_s2: f64,
+    /// By how much a scan that reverses at a constraint's boundary may exceed it, in rad: v^2 / 2a and a quarter more, v twice
+    /// the scan's rate and a the acceleration of a turn; at least [`MARGIN_RAD`].
+    pub monitor_margin_rad: f64,
+    /// Acceleration of a turn by thrusters in rad/s2: half of what they give the axis of largest inertia; 0 without.
+    pub thruster_acceleration_rad_s2: f64,
+    /// Torque of a dump in N m: half of what the wheels can hold against.
+    pub dump_torque_n_m: f64,
+}
+
+impl ControlDefaults {
+    /// Of a spacecraft with these wheels.
+    pub fn of(spacecraft: &Spacecraft, wheels: Option<&WheelArray>) -> Self {
+        let guaranteed = |of_wheel: fn(&Wheel) -> f64| {
+            let each = spacecraft.wheels.iter().map(of_wheel);
+            wheels.map_or(0.0, |array| array.guaranteed_threshold_n_m_s(each))
+        };
+        let largest_kg_m2 = spacecraft.mass_properties.inertia_body_kg_m2.diagonal().max();
+        let momentum_n_m_s = guaranteed(|wheel| wheel.capacity_n_m_s);
+        let torque_n_m = guaranteed(|wheel| wheel.max_torque_n_m);
+        let thrusters = ReactionControlSettings {
+            thrusters: spacecraft.thrusters.clone(),
+            ..ReactionControlSettings::default()
+        };
+        let center = &spacecraft.mass_properties.center_of_mass_body_m;
+        let by_thrusters = thrusters.attitude_selection(None, center).map_or(0.0, |it| it.least_torque_n_m());
+        let acceleration_rad_s2 = 0.5 * torque_n_m / largest_kg_m2;
+        let jump_rad_s = 2.0 * SCAN_RATE_RAD_S;
+        let reversal_rad = if acceleration_rad_s2 > 0.0 {
+            REVERSAL_LAG * 0.5 * jump_rad_s * jump_rad_s / acceleration_rad_s2
+        } else {
+            0.0
+        };
+        let fastest_rad_s = 0.25 * momentum_n_m_s / largest_kg_m2;
+        Self {
+            slew_rate_rad_s: if momentum_n_m_s > 0.0 {
+                fastest_rad_s.min(GREATEST_SLEW_RATE_RAD_S)
+            } else {
+                GREATEST_SLEW_RATE_RAD_S
+            },
+            slew_acceleration_rad_s2: acceleration_rad_s2,
+            monitor_margin_rad: reversal_rad.clamp(MARGIN_RAD, core::f64::consts::FRAC_PI_2),
+            thruster_acceleration_rad_s2: 0.5 * by_thrusters / largest_kg_m2,
+            dump_torque_n_m: if torque_n_m > 0.0 { 0.5 * torque_n_m } else { TORQUE_WITHOUT_WHEELS_N_M },
+        }
+    }
+}

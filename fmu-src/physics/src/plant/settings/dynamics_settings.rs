@@ -1,0 +1,113 @@
+//! What parameters and inputs say about attitude dynamics and control.
+
+use nalgebra::Vector3;
+
+use crate::attitude::Gyrostat;
+use crate::attitude::control::{
+    AccelerometerSettings, ControllerSettings, SensorHealth, SensorSettings, SunSensor,
+};
+use crate::momentum::DumpPolicy;
+use crate::propulsion::PulseCommand;
+use crate::spacecraft::MassProperties;
+
+use super::configuration::Command;
+use super::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
+use crate::plant::disturbances::evaluation::ExternalLoad;
+use crate::plant::flight::wheel_control::WheelControlSettings;
+
+/// What parameters say about dynamics and control.
+#[derive(Clone, Debug)]
+pub struct DynamicsSettings {
+    /// Body and wheels.
+    pub gyrostat: Gyrostat,
+    /// Samples of sensors and controller a second.
+    pub rate_hz: f64,
+    /// Star tracker and gyros.
+    pub sensors: SensorSettings,
+    /// Accelerometers.
+    pub accelerometer: AccelerometerSettings,
+    /// Sun sensors.
+    pub sun_sensors: Vec<SunSensor>,
+    /// The controller; absent where wheel torques come from outside.
+    pub control: Option<Control>,
+    /// Thresholds and what a dump leaves.
+    pub dump: DumpPolicy,
+    /// Thrusters and tanks; without thrusters a dump is a constant torque.
+    pub thrusters: ReactionControlSettings,
+    /// Edges of the disturbance grid are multiples of this, in s.
+    pub grid_s: f64,
+    /// Whether panels that turn have a mass: the inertia then follows them from one edge of the grid to the next.
+    pub panels_have_mass: bool,
+    /// Units of about a microsecond that a step may take.
+    pub work_limit: u32,
+}
+
+impl DynamicsSettings {
+    /// The body takes the inertia and centre of mass of these.
+    pub(crate) fn set_mass_properties(&mut self, mass: &MassProperties) {
+        self.gyrostat.set_mass_properties(mass.inertia_body_kg_m2, mass.center_of_mass_body_m);
+    }
+}
+
+/// The controller and how its torque reaches wheels and thrusters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Control {
+    /// Gains and limits with the wheels.
+    pub controller: ControllerSettings,
+    /// How torque is spread over the wheels.
+    pub wheels: WheelControlSettings,
+    /// With the thrusters.
+    pub thrusters: ThrusterControl,
+}
+
+/// Attitude control by pulses of thrusters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThrusterControl {
+    /// Gains and limits; its interval is that between two decisions.
+    pub controller: ControllerSettings,
+    /// Samples between two decisions.
+    pub samples: i64,
+}
+
+impl ThrusterControl {
+    /// Decisions every `period_s` or the nearest whole number of samples, with `controller` otherwise.
+    pub fn new(controller: ControllerSettings, period_s: f64) -> Self {
+        let samples = (period_s * controller.rate_hz).round().max(1.0);
+        let rate_hz = controller.rate_hz / samples;
+        Self {
+            controller: ControllerSettings { rate_hz, keeps_reference: true, ..controller },
+            samples: samples as i64,
+        }
+    }
+}
+
+/// What is commanded to the controller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tracked {
+    /// The orbit phase's own guidance.
+    Guidance,
+    /// An attitude, turning on at a constant rate.
+    Attitude(Command),
+    /// A body rate alone, in rad/s.
+    Rate(Vector3<f64>),
+}
+
+/// What the inputs of a step say.
+pub struct DynamicsInputs<'i> {
+    /// What the controller tracks.
+    pub tracked: Tracked,
+    /// Torque that wheel k (0-based) is commanded in free flight, in N m.
+    pub wheel_torque_n_m: &'i dyn Fn(usize) -> f64,
+    /// Whether wheel k (0-based) failed.
+    pub wheel_failed: &'i dyn Fn(usize) -> bool,
+    /// Whether Sun sensor k (0-based) failed.
+    pub sun_sensor_failed: &'i dyn Fn(usize) -> bool,
+    /// Pulse that thruster k (0-based) is commanded within the step.
+    pub pulse: &'i dyn Fn(usize) -> PulseCommand,
+    /// The delta-v commanded.
+    pub thrust: ThrustCommand,
+    /// Which of star tracker and gyros work.
+    pub health: SensorHealth,
+    /// Force and torque from outside at a time, body frame, and how they change per second.
+    pub external: &'i dyn Fn(f64) -> [ExternalLoad; 2],
+}

@@ -1,0 +1,140 @@
+//! Dump by pulses: which thrusters open for how long, from one decision to the next.
+//!
+//! Method: what is left of the impulse is shared out by the selection, as much at a time as the mean torque allows. A thruster
+//! whose share is less than its valve's shortest pulse owes it until it is not. At the end, where all is shared out, the pulses are
+//! taken one after another that come nearest to what is owed, a few times, as pulses scatter and the body turns under them.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::Quaternion;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::propulsion::{PropellantState, ThrusterSelection};
+use crate::spacecraft::{MOST_THRUSTERS, MassProperties};
+
+use super::thruster_load::ThrusterTotals;
+use crate::plant::settings::reaction_control_settings::ReactionControlSettings;
+
+/// A pulse at the end of a dump leaves less than this share of what was left.
+const NEARER: f64 = 0.7;
+/// How often the end of a dump is corrected: pulses scatter, and the body turns under them.
+const MOST_CORRECTIONS: u8 = 4;
+
+/// A dump by pulses: at hand, or the last one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct PulsedDump {
+    /// Where the momentum is to go, EME2000, in N m s.
+    pub(crate) target_inertial_n_m_s: Vector3<f64>,
+    pub(crate) attitude_at_start: Quaternion,
+    pub(crate) before: ThrusterTotals,
+    /// Totals when it ended; absent while it lasts.
+    pub(crate) after: Option<ThrusterTotals>,
+    /// When pulses are next decided, in s.
+    pub(crate) next_s: f64,
+    /// What each thruster still has to give of what was decided, in s of full thrust: less than its shortest pulse.
+    pub(crate) owed_s: [f64; MOST_THRUSTERS],
+    /// How often the end was corrected.
+    pub(crate) corrections: u8,
+    /// Whether the pulses at hand are the last.
+    pub(crate) is_last: bool,
+    /// Mean torque of the pulses at hand, body frame, in N m.
+    pub(crate) mean_torque_body_n_m: Vector3<f64>,
+}
+
+impl PulsedDump {
+    /// Toward a total momentum, EME2000, in N m s, from `time_s` on, the thrusters having done so much before.
+    pub(crate) fn new(
+        target_inertial_n_m_s: Vector3<f64>,
+        attitude_at_start: Quaternion,
+        before: ThrusterTotals,
+        time_s: f64,
+    ) -> Self {
+        Self {
+            target_inertial_n_m_s,
+            attitude_at_start,
+            before,
+            after: None,
+            next_s: time_s,
+            owed_s: [0.0; MOST_THRUSTERS],
+            corrections: 0,
+            is_last: false,
+            mean_torque_body_n_m: Vector3::zeros(),
+        }
+    }
+
+    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    pub(crate) fn is_sound(&self) -> bool {
+        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
+        let vector = |it: &Vector3<f64>| it.iter().all(sound);
+        let norm: f64 = self.attitude_at_start.0.iter().map(|x| x * x).sum();
+        vector(&self.target_inertial_n_m_s)
+            && vector(&self.mean_torque_body_n_m)
+            && (norm - 1.0).abs() < 1e-9
+            && self.before.is_sound()
+            && self.after.as_ref().is_none_or(ThrusterTotals::is_sound)
+            && sound(&self.next_s)
+            && self.owed_s.iter().all(|owed_s| *owed_s >= 0.0 && sound(owed_s))
+    }
+
+    /// Decides the pulses at `time_s`: for how long each thruster opens, where this is left to give, body frame, in N m s.
+    pub(crate) fn decide(
+        &mut self,
+        settings: &ReactionControlSettings,
+        selection: &ThrusterSelection,
+        propellant: &PropellantState,
+        left_body_n_m_s: &Vector3<f64>,
+        mass: &MassProperties,
+        time_s: f64,
+    ) -> [f64; MOST_THRUSTERS] {
+        let torque = |k: usize| settings.thrusters[k].torque_about_n_m(&mass.center_of_mass_body_m);
+        let shortest_s = |k: usize| settings.thrusters[k].valve.min_on_s;
+        let most_n_m_s = settings.dump_torque_n_m * settings.dump_period_s;
+        let owed = |owed_s: &[f64; MOST_THRUSTERS]| -> Vector3<f64> {
+            (0..settings.thrusters.len()).map(|k| torque(k) * owed_s[k]).sum()
+        };
+        let new_body_n_m_s = left_body_n_m_s - owed(&self.owed_s);
+        let part = (most_n_m_s / new_body_n_m_s.amax()).min(1.0);
+        let mut opened_s = [0.0; MOST_THRUSTERS];
+        let mut given_body_n_m_s = Vector3::zeros();
+        for (k, full_s) in selection.on_times_s(&new_body_n_m_s).enumerate() {
+            self.owed_s[k] += full_s * part;
+            let on_s = settings.opens_for_s(propellant, k, self.owed_s[k], time_s);
+            if on_s > 0.0 && on_s >= shortest_s(k) {
+                given_body_n_m_s += torque(k) * self.owed_s[k];
+                (opened_s[k], self.owed_s[k]) = (on_s, 0.0);
+            }
+        }
+        if part == 1.0 {
+            // All that is left is owed, each thruster less than its shortest pulse: those that come nearest.
+            let shortest = |k: usize| {
+                let full_s = settings.thrusters[k].valve.full_thrust_s(shortest_s(k));
+                torque(k) * (full_s * settings.pressure_ratio(propellant, k, time_s))
+            };
+            let mut left = owed(&self.owed_s);
+            let pulses = (0..settings.thrusters.len()).filter(|k| selection.uses(*k) && shortest_s(*k) > 0.0);
+            loop {
+                let free = pulses.clone().filter(|k| opened_s[*k] == 0.0);
+                let nearest = free
+                    .map(|k| (k, (left - shortest(k)).norm()))
+                    .min_by(|(_, one), (_, other)| one.total_cmp(other));
+                let Some((k, _)) = nearest.filter(|(_, distance)| *distance < NEARER * left.norm()) else {
+                    break;
+                };
+                opened_s[k] = shortest_s(k);
+                left -= shortest(k);
+                given_body_n_m_s += shortest(k);
+            }
+            self.owed_s = [0.0; MOST_THRUSTERS];
+            self.corrections += 1;
+            // Valves without a shortest pulse leave nothing over, others what no pulse brings nearer.
+            let is_exact = pulses.count() == 0;
+            let is_done = given_body_n_m_s == Vector3::zeros() || self.corrections >= MOST_CORRECTIONS;
+            self.is_last = is_exact || is_done;
+        }
+        // A pulse that gives more than the mean torque allows is followed by a longer pause.
+        let pause_s = settings.dump_period_s.max(given_body_n_m_s.amax() / settings.dump_torque_n_m);
+        self.mean_torque_body_n_m = given_body_n_m_s / pause_s;
+        self.next_s = time_s + pause_s;
+        opened_s
+    }
+}

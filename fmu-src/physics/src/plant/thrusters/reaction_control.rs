@@ -1,0 +1,485 @@
+//! Reaction control of the plant: pulses of the thrusters, on command from outside, for a delta-v, a dump or the attitude, and
+//! what they exert.
+//!
+//! Every thruster has a valve and at most one pulse ahead of it. Edges of pulses, ends of ramps and an empty tank are times at
+//! which the motion's segments end; between them force, torque and flow are linear in time:
+//! F = F0 f p(u) / p0 with the valve's fraction f and the tank's pressure p, T = (r - c) x F about the centre of mass c, which
+//! moves as the tanks drain ([`super::thruster_load`]).
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::GyrostatMotion;
+use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::numerics::quadrature::GAUSS_3;
+use crate::propulsion::{PropellantState, PulseCommand, PulseSchedule, ThrusterSelection, Valve, due_s};
+use crate::spacecraft::{MassProperties, Thrust, Thruster, ThrusterSet};
+
+use super::pulsed_dump::PulsedDump;
+use super::thruster_load::{ThrusterLoad, ThrusterTotals};
+use crate::plant::settings::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
+
+/// A delta-v at hand.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Burn {
+    set: ThrusterSet,
+    since_s: f64,
+    stop_s: f64,
+}
+
+/// Thrusters of the plant.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ReactionControl {
+    valves: Vec<Valve>,
+    schedule: Vec<PulseSchedule>,
+    burn: Option<Burn>,
+    dump: Option<PulsedDump>,
+    load: ThrusterLoad,
+    totals: ThrusterTotals,
+    /// How many dumps found no thrusters that give torque all ways about the centre of mass.
+    unserved_dumps: u32,
+    #[serde(skip)]
+    for_dumps: Option<Selected>,
+    #[serde(skip)]
+    for_attitude: Option<Selected>,
+}
+
+/// Which thrusters give which torque about a centre of mass while a set fires; a cache.
+#[derive(Clone, Debug)]
+struct Selected {
+    center_of_mass_body_m: Vector3<f64>,
+    burning: Option<ThrusterSet>,
+    selection: Option<ThrusterSelection>,
+}
+
+impl ReactionControl {
+    /// With every valve closed.
+    pub fn new(settings: &ReactionControlSettings, time_s: f64) -> Self {
+        let count = settings.thrusters.len();
+        Self {
+            valves: vec![Valve::default(); count],
+            schedule: vec![PulseSchedule::default(); count],
+            burn: None,
+            dump: None,
+            load: ThrusterLoad::none(time_s, 1.0),
+            totals: ThrusterTotals::default(),
+            unserved_dumps: 0,
+            for_dumps: None,
+            for_attitude: None,
+        }
+    }
+
+    /// Whether its numbers can come from a flight with so many thrusters; bytes from elsewhere may hold anything.
+    pub fn is_sound(&self, thrusters: usize) -> bool {
+        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
+        let later = |x: &f64| sound(x) || *x == f64::INFINITY;
+        self.valves.len() == thrusters
+            && self.schedule.len() == thrusters
+            && self.valves.iter().all(Valve::is_sound)
+            && self.schedule.iter().all(PulseSchedule::is_sound)
+            && self.burn.is_none_or(|it| sound(&it.since_s) && later(&it.stop_s))
+            && self.dump.as_ref().is_none_or(PulsedDump::is_sound)
+            && self.load.is_sound()
+            && self.totals.is_sound()
+    }
+
+    /// Takes the pulses commanded for the step from `start_s` to `end_s`, by the law of [`PulseSchedule`]. Whether there are any.
+    pub fn command_pulses(
+        &mut self,
+        settings: &ReactionControlSettings,
+        pulse: &dyn Fn(usize) -> PulseCommand,
+        start_s: f64,
+        end_s: f64,
+    ) -> bool {
+        let mut any = false;
+        for (k, thruster) in settings.thrusters.iter().enumerate() {
+            // What thrusters do on their own goes on.
+            let is_own = self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) || self.is_dumping();
+            any |= self.schedule[k].command(&thruster.valve, &pulse(k), [start_s, end_s], !is_own);
+        }
+        any
+    }
+
+    /// Takes the command of a delta-v that holds from `time_s` on; whether it changes what was going to happen.
+    pub fn command_thrust(
+        &mut self,
+        settings: &ReactionControlSettings,
+        command: &ThrustCommand,
+        time_s: f64,
+    ) -> bool {
+        // A set without thrusters gives no delta-v.
+        let has_thrusters = |set| settings.thrusters.iter().any(|it| it.set == Some(set));
+        let wanted = command.set.filter(|set| command.stop_s > due_s(time_s) && has_thrusters(*set));
+        let before = self.burn.map(|burn| (burn.set, burn.stop_s));
+        if wanted.map(|set| (set, command.stop_s)) == before {
+            return false;
+        }
+        for (k, thruster) in settings.thrusters.iter().enumerate() {
+            if self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) {
+                self.schedule[k].end(time_s);
+            }
+            if wanted.is_some() && thruster.set == wanted {
+                self.schedule[k].plan(&thruster.valve, time_s, command.stop_s);
+            }
+        }
+        let goes_on = self.burn.filter(|burn| Some(burn.set) == wanted);
+        self.burn = wanted.map(|set| Burn {
+            set,
+            since_s: goes_on.map_or(time_s, |burn| burn.since_s),
+            stop_s: command.stop_s,
+        });
+        true
+    }
+
+    /// When something about the thrusters next changes by itself, in s.
+    pub fn next_edge_s(&self, settings: &ReactionControlSettings, propellant: &PropellantState) -> f64 {
+        let mut next_s = f64::INFINITY;
+        for (k, thruster) in settings.thrusters.iter().enumerate() {
+            let (valve, pulse) = (&self.valves[k], &self.schedule[k]);
+            let edge_s = pulse.opens_s().min(pulse.closes_s());
+            next_s = next_s.min(edge_s).min(valve.ramp_end_s(&thruster.valve));
+        }
+        if !self.load.law.is_none() {
+            for (k, tank) in settings.tanks.iter().enumerate() {
+                next_s = next_s.min(propellant.dry_s(k, tank));
+            }
+        }
+        next_s
+    }
+
+    /// Opens and closes the valves whose time has come.
+    pub fn take_edges(
+        &mut self,
+        settings: &ReactionControlSettings,
+        propellant: &mut PropellantState,
+        time_s: f64,
+    ) {
+        let due_s = due_s(time_s);
+        for (index, tank) in settings.tanks.iter().enumerate() {
+            if propellant.dry_s(index, tank) <= due_s {
+                propellant.empty(index, tank);
+            }
+        }
+        for (k, thruster) in settings.thrusters.iter().enumerate() {
+            let (valve, pulse) = (&mut self.valves[k], &mut self.schedule[k]);
+            let feeds = || {
+                let tank = settings.tanks.get(thruster.tank);
+                tank.is_some_and(|tank| tank.feeds(propellant.used_kg(thruster.tank, time_s)))
+            };
+            if valve.is_open() && !feeds() {
+                valve.shut(time_s);
+                pulse.clear();
+            }
+            if valve.ramp_end_s(&thruster.valve) <= due_s {
+                valve.end_ramp(time_s);
+            }
+            if pulse.take_closing(due_s) {
+                valve.close(&thruster.valve, time_s);
+            }
+            if pulse.take_opening(&thruster.valve, due_s) {
+                if feeds() {
+                    valve.open(&thruster.valve, time_s, thruster.scatter, settings.errors.seed, k as u16);
+                } else {
+                    pulse.clear();
+                }
+            }
+        }
+        if self.burn.is_some_and(|burn| burn.stop_s <= due_s) {
+            self.burn = None;
+        }
+    }
+
+    /// Counts what thrusters did up to `time_s`, the end of the motion's present segment.
+    pub fn settle(&mut self, motion: &GyrostatMotion, propellant: &mut PropellantState, time_s: f64) {
+        if !self.load.law.is_none() {
+            self.totals = self.totals_at(motion, time_s);
+            propellant.settle(time_s);
+        }
+    }
+
+    /// Works out what the thrusters exert from `time_s` on, on a spacecraft with these mass properties then.
+    pub fn exert(
+        &mut self,
+        settings: &ReactionControlSettings,
+        propellant: &mut PropellantState,
+        mass: &MassProperties,
+        time_s: f64,
+    ) {
+        let center_of_mass_body_m = &mass.center_of_mass_body_m;
+        self.load = ThrusterLoad::none(time_s, mass.mass_kg);
+        let thrusters = || settings.thrusters.iter().enumerate();
+        let thrust = |k: usize, thruster: &Thruster| self.valves[k].thrust(&thruster.valve, time_s);
+        if thrusters().all(|(k, thruster)| thrust(k, thruster) == [0.0; 2]) {
+            return;
+        }
+        propellant.settle(time_s);
+        let mut load = self.load;
+        let mut nozzles_kg_m_s = Vector3::zeros();
+        for (index, tank) in settings.tanks.iter().enumerate() {
+            let fed = || thrusters().filter(|(_, thruster)| thruster.tank == index);
+            let used_kg = propellant.used_kg(index, time_s);
+            // Pressure over that of the nominal thrust, and its slope.
+            let over = |thruster: &Thruster| {
+                let nominal_pa = thruster.at_pressure_pa.unwrap_or(tank.pressure_pa);
+                [tank.pressure_pa(used_kg), tank.pressure_slope_pa_kg(used_kg)].map(|it| it / nominal_pa)
+            };
+            let flow_kg_s: f64 = fed()
+                .map(|(k, thruster)| thruster.flow_kg_s * thrust(k, thruster)[0] * over(thruster)[0])
+                .sum();
+            for (k, thruster) in fed() {
+                let ([fraction, slope], [pressure, per_kg]) = (thrust(k, thruster), over(thruster));
+                let share = [fraction * pressure, slope * pressure + fraction * per_kg * flow_kg_s];
+                if share == [0.0; 2] {
+                    continue;
+                }
+                let force_body_n = self.force_body_n(settings, k, time_s);
+                let arm_m = thruster.position_body_m - center_of_mass_body_m;
+                let torque_body_n_m = arm_m.cross(&force_body_n);
+                propellant.add_flow(index, share.map(|part| thruster.flow_kg_s * part));
+                let flow_kg_s = thruster.flow_kg_s;
+                nozzles_kg_m_s += arm_m * (flow_kg_s * share[0]);
+                load.add(&Thrust { force_body_n, torque_body_n_m, flow_kg_s }, &arm_m, share);
+            }
+        }
+        let drained = settings
+            .tanks
+            .iter()
+            .enumerate()
+            .map(|(k, tank)| (propellant.flow_kg_s(k), tank.position_body_m - center_of_mass_body_m));
+        load.drain(drained, &nozzles_kg_m_s);
+        self.load = load;
+    }
+
+    /// Full thrust of thruster `k` as it points now.
+    fn force_body_n(&self, settings: &ReactionControlSettings, k: usize, time_s: f64) -> Vector3<f64> {
+        let thruster = &settings.thrusters[k];
+        match self.burn {
+            Some(burn) if thruster.set == Some(burn.set) => {
+                let [along, _] = settings.nominal_thrust(burn.set, &Vector3::zeros());
+                settings.errors.turned(&thruster.force_body_n, &along, time_s - burn.since_s)
+            }
+            _ => thruster.force_body_n,
+        }
+    }
+
+    /// What the thrusters exert in the motion's present segment.
+    pub fn load(&self) -> &ThrusterLoad {
+        &self.load
+    }
+
+    /// What they did up to `time_s` in the motion's present segment.
+    pub fn totals_at(&self, motion: &GyrostatMotion, time_s: f64) -> ThrusterTotals {
+        let mut totals = self.totals;
+        if self.load.law.is_none() {
+            return totals;
+        }
+        let span_s = time_s - self.load.law.since_s;
+        for (node, weight) in GAUSS_3 {
+            let at_s = self.load.law.since_s + node * span_s;
+            let attitude = motion.attitude_at(at_s);
+            let torque = self.load.torque_at_n_m(at_s, &motion.rate_at(at_s));
+            let acceleration = self.load.acceleration_body_m_s2(at_s);
+            totals.impulse_inertial_n_m_s += attitude.inertial_from_body(&torque) * (weight * span_s);
+            totals.delta_v_inertial_m_s += attitude.inertial_from_body(&acceleration) * (weight * span_s);
+        }
+        totals
+    }
+
+    /// The set that gives a delta-v at hand.
+    pub fn burning(&self) -> Option<ThrusterSet> {
+        self.burn.map(|burn| burn.set)
+    }
+
+    /// Whether there are thrusters that dump about this centre of mass; a dump that is about to begin and finds none is counted.
+    pub fn serves_dump(
+        &mut self,
+        settings: &ReactionControlSettings,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> bool {
+        let selection = selected(&mut self.for_dumps, None, center_of_mass_body_m, || {
+            settings.dump_selection(center_of_mass_body_m).ok()
+        });
+        let serves = selection.is_some();
+        if !serves {
+            self.dump = None;
+            self.unserved_dumps = self.unserved_dumps.saturating_add(1);
+        }
+        serves
+    }
+
+    /// How many dumps so far began or ended without thrusters that give torque all ways about the centre of mass.
+    pub fn unserved_dumps(&self) -> u32 {
+        self.unserved_dumps
+    }
+
+    /// Begins a dump at `time_s` toward a total momentum, EME2000, in N m s.
+    pub fn begin_dump(&mut self, motion: &GyrostatMotion, target_inertial_n_m_s: Vector3<f64>, time_s: f64) {
+        let before = self.totals_at(motion, time_s);
+        self.dump = Some(PulsedDump::new(target_inertial_n_m_s, motion.attitude_at(time_s), before, time_s));
+    }
+
+    /// Whether a dump lasts.
+    pub fn is_dumping(&self) -> bool {
+        self.dump.is_some_and(|dump| dump.after.is_none())
+    }
+
+    /// Mean torque of the dump's pulses at hand, body frame, in N m.
+    pub fn dump_torque_body_n_m(&self) -> Vector3<f64> {
+        self.dump
+            .filter(|dump| dump.after.is_none())
+            .map_or(Vector3::zeros(), |dump| dump.mean_torque_body_n_m)
+    }
+
+    /// Angular impulse of the dump at hand or the last one, in the body frame at its start, in N m s, and its velocity change,
+    /// EME2000, in m/s.
+    pub fn dumped_at(&self, motion: &GyrostatMotion, time_s: f64) -> Option<[Vector3<f64>; 2]> {
+        self.dump.map(|dump| {
+            let now = dump.after.unwrap_or_else(|| self.totals_at(motion, time_s));
+            let impulse = now.impulse_inertial_n_m_s - dump.before.impulse_inertial_n_m_s;
+            let delta_v = now.delta_v_inertial_m_s - dump.before.delta_v_inertial_m_s;
+            [dump.attitude_at_start.body_from_inertial(&impulse), delta_v]
+        })
+    }
+
+    /// Decides the next pulses of a dump where that is due, the total momentum being this, EME2000, in N m s.
+    pub fn sample_dump(
+        &mut self,
+        settings: &ReactionControlSettings,
+        propellant: &PropellantState,
+        motion: &GyrostatMotion,
+        momentum_inertial_n_m_s: &Vector3<f64>,
+        mass: &MassProperties,
+        time_s: f64,
+    ) {
+        let Some(mut dump) = self.dump.filter(|dump| dump.after.is_none() && dump.next_s <= due_s(time_s))
+        else {
+            return;
+        };
+        let selection = selected(&mut self.for_dumps, None, &mass.center_of_mass_body_m, || {
+            settings.dump_selection(&mass.center_of_mass_body_m).ok()
+        });
+        if selection.is_none() {
+            self.unserved_dumps = self.unserved_dumps.saturating_add(1);
+        }
+        let fires = self
+            .valves
+            .iter()
+            .zip(&settings.thrusters)
+            .any(|(valve, it)| valve.thrust(&it.valve, time_s) != [0.0; 2]);
+        let Some(selection) = selection.filter(|_| !dump.is_last || fires) else {
+            dump.after = Some(self.totals_at(motion, time_s));
+            self.dump = Some(dump);
+            return;
+        };
+        if dump.is_last {
+            // What is left in the valves still comes out.
+            return;
+        }
+        let attitude = motion.attitude_at(time_s);
+        let left_body_n_m_s =
+            attitude.body_from_inertial(&(dump.target_inertial_n_m_s - momentum_inertial_n_m_s));
+        let opened_s = dump.decide(settings, selection, propellant, &left_body_n_m_s, mass, time_s);
+        for (k, on_s) in opened_s.iter().enumerate().filter(|(_, on_s)| **on_s > 0.0) {
+            self.schedule[k].plan(&settings.thrusters[k].valve, time_s, time_s + on_s);
+        }
+        self.dump = Some(dump);
+    }
+
+    /// Pulses over `period_s` whose mean is this torque, body frame, in N m; the part of it that they give, none where no
+    /// thrusters give torque all ways.
+    pub fn give(
+        &mut self,
+        settings: &ReactionControlSettings,
+        propellant: &PropellantState,
+        torque_body_n_m: &Vector3<f64>,
+        mass: &MassProperties,
+        period_s: f64,
+        time_s: f64,
+    ) -> Option<f64> {
+        let burning = self.burning();
+        let center = &mass.center_of_mass_body_m;
+        let selection = selected(&mut self.for_attitude, burning, center, || {
+            settings.attitude_selection(burning, center).ok()
+        })?;
+        let impulse_body_n_m_s = torque_body_n_m * period_s;
+        let on_s = |k: usize, full_s: f64| settings.opens_for_s(propellant, k, full_s, time_s);
+        let times = selection.on_times_s(&impulse_body_n_m_s).enumerate();
+        let longest_s = times.clone().map(|(k, full_s)| on_s(k, full_s)).fold(0.0, f64::max);
+        let given = if longest_s > period_s { period_s / longest_s } else { 1.0 };
+        for (k, full_s) in times {
+            let shortest_s = settings.thrusters[k].valve.min_on_s;
+            let wanted_s = on_s(k, full_s * given).min(period_s);
+            let opens_s = if wanted_s >= shortest_s {
+                wanted_s
+            } else if wanted_s >= 0.5 * shortest_s {
+                shortest_s
+            } else {
+                0.0
+            };
+            if opens_s > 0.0 {
+                self.schedule[k].plan(&settings.thrusters[k].valve, time_s, time_s + opens_s);
+            }
+        }
+        Some(given)
+    }
+
+    /// Whether thrusters other than a delta-v's give torque all ways.
+    pub fn spans(&mut self, settings: &ReactionControlSettings, mass: &MassProperties) -> bool {
+        let (burning, center) = (self.burning(), &mass.center_of_mass_body_m);
+        !settings.thrusters.is_empty()
+            && selected(&mut self.for_attitude, burning, center, || {
+                settings.attitude_selection(burning, center).ok()
+            })
+            .is_some()
+    }
+
+    /// Thrust of thruster `k` at `time_s`, in N.
+    pub fn thrust_n(
+        &self,
+        settings: &ReactionControlSettings,
+        propellant: &PropellantState,
+        k: usize,
+        time_s: f64,
+    ) -> f64 {
+        let thruster = &settings.thrusters[k];
+        let [fraction, slope] = self.valves[k].thrust(&thruster.valve, self.load.law.since_s);
+        let share = fraction + slope * (time_s - self.load.law.since_s).max(0.0);
+        if share == 0.0 {
+            return 0.0;
+        }
+        thruster.force_body_n.norm() * share * settings.pressure_ratio(propellant, k, time_s)
+    }
+
+    /// Pulses that thruster `k` has begun.
+    pub fn pulses(&self, k: usize) -> u32 {
+        self.valves[k].pulses()
+    }
+
+    /// Whether the last step commanded a pulse of thruster `k` that does not open its valve.
+    pub fn was_too_short(&self, k: usize) -> bool {
+        self.schedule[k].was_too_short()
+    }
+}
+
+/// The selection about this centre of mass, worked out where it is another.
+fn selected<'c>(
+    cache: &'c mut Option<Selected>,
+    burning: Option<ThrusterSet>,
+    center_of_mass_body_m: &Vector3<f64>,
+    select: impl FnOnce() -> Option<ThrusterSelection>,
+) -> Option<&'c ThrusterSelection> {
+    let is_known = cache
+        .as_ref()
+        .is_some_and(|it| it.center_of_mass_body_m == *center_of_mass_body_m && it.burning == burning);
+    if !is_known {
+        *cache = None;
+    }
+    cache
+        .get_or_insert_with(|| Selected {
+            center_of_mass_body_m: *center_of_mass_body_m,
+            burning,
+            selection: select(),
+        })
+        .selection
+        .as_ref()
+}
