@@ -51,7 +51,7 @@ pub struct State {
 
 impl Model for Guidance {
     const NAME: &'static str = "Guidance";
-    const STATE_VERSION: u32 = 4;
+    const STATE_VERSION: u32 = 5;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &["timeline.toml", EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
@@ -261,6 +261,6 @@ impl State {
         let manager = SampledManager { momentum_body_n_m_s, ..manager };
         let inputs = SampleInputs { command, entries, places, sensed, delta_v_body_m_s };
         let is_asked = self.system.sample(&settings, &inputs, &manager);
-        Ok(if is_asked { manager.work() } else { 0 })
+        Ok(if is_asked { manager.work(settings.orbit_phase.science.unloads()) } else { 0 })
     }
 }

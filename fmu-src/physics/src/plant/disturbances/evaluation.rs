@@ -11,7 +11,8 @@ use crate::attitude::{MovingFrame, gravity_gradient_n_m};
 use crate::constants::RADIUS_SUN_M;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
-use crate::guidance::GuidedAttitude;
+use crate::guidance::pointing::boresight::MdisRange;
+use crate::guidance::{GuidedAttitude, ScienceCourse};
 use crate::momentum::{Effort, EventValues, Sample, TorqueModel, torques_body_n_m};
 use crate::numerics::chebyshev::Segment;
 use crate::radiation::{Beam, Effect, ForceTorque, Loads, SolarModel};
@@ -226,6 +227,11 @@ impl<'a, L: Fn(f64) -> ExternalLoad> Plant<'a, L> {
     /// Least and greatest angle between Sun and Earth from one time to a later one, in rad.
     pub(crate) fn separations_rad(&mut self, from_s: f64, to_s: f64) -> [f64; 2] {
         self.kinematics.separations_rad(from_s, to_s)
+    }
+
+    /// Science from one time to a later one.
+    pub(crate) fn science_course(&mut self, camera: MdisRange, from_s: f64, to_s: f64) -> ScienceCourse {
+        self.kinematics.science_course(camera, from_s, to_s)
     }
 
     /// Frame and rate that guidance commands at `time_s`, and its window; `None` where there is none.

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::attitude::{Attitude, BodyMotion, GyrostatMotion, MovingFrame};
 use crate::environment::ephemeris::Ephemeris;
-use crate::guidance::Activity;
+use crate::guidance::{Activity, Schedule, ScienceRule, Window};
 use crate::momentum::{TorqueModel, Totals};
 use crate::propulsion::PropellantState;
 use crate::spacecraft::MassProperties;
@@ -16,11 +16,26 @@ use crate::plant::light::radiation_solver::RadiationSolver;
 use crate::plant::motion::panel_motion::PanelMotion;
 use crate::plant::settings::configuration::{AttitudeSource, Command, Configuration, DynamicAttitude};
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::work::Work;
+use crate::plant::settings::work::{Cost, Work};
 use crate::plant::thrusters::thruster_load::ThrusterLoad;
 
+/// Units of a choice for science that unloads: each of its trials goes through all of it.
+const SCIENCE_UNITS: u32 = 50_000;
 /// A window computed in epochs begins this near its number in flight time, in s.
 const EPOCH_ROUNDING_S: f64 = 1e-6;
+
+/// When a window ends, in s past J2000 TDB: of science whose next downlink waits for a periapsis to come, by the schedule's own
+/// counting; infinite where nothing ends it.
+fn end_epoch_s(schedule: &Schedule, window: &Window, now_epoch_s: f64) -> f64 {
+    if window.until_s.is_finite() || window.activity == Activity::Downlink {
+        return window.until_s;
+    }
+    if window.since_s.is_finite() {
+        return window.since_s + (schedule.cycle_s() - schedule.downlink_s());
+    }
+    let counted = schedule.window(now_epoch_s);
+    if counted.activity == Activity::Science { counted.until_s } else { f64::INFINITY }
+}
 
 /// Where the body flies: everything that its loads follow from.
 pub struct Flight<'f> {
@@ -38,7 +53,7 @@ pub struct Flight<'f> {
     pub propellant: &'f mut PropellantState,
     /// Force and torque from outside at a time, body frame, by which an orbit goes that forces act on.
     pub external: &'f dyn Fn(f64) -> ExternalLoad,
-    /// Who chooses the Sun's place during downlinks; asked where the guidance is managed.
+    /// Who chooses the Sun's place in downlinks and in science that unloads; asked where the guidance is managed.
     pub planner: &'f dyn SunPlanner,
 }
 
@@ -54,8 +69,8 @@ impl Flight<'_> {
     }
 
     /// Chooses the Sun's place where a downlink has begun at `time_s`, or began right there and its momentum is another since;
-    /// where it is over, the next one may choose. At the `first` time of a flight nothing is forecast, and a downlink that has
-    /// begun before keeps its default attitude.
+    /// where it is over, the next one may choose. Science that unloads is alike. At the `first` time of a flight nothing is forecast,
+    /// and a downlink that has begun before keeps its default attitude; science that has is chosen for what is left of it.
     ///
     /// # Errors
     /// What ends a flight.
@@ -73,26 +88,37 @@ impl Flight<'_> {
         let mut plant = self.after(*work);
         let Some(guided) = plant.guided_attitude(time_s) else { return Ok(()) };
         let downlink = guided.window.activity == Activity::Downlink;
+        let camera = match law.science {
+            ScienceRule::Unloading { camera, .. } if !downlink => Some(camera),
+            _ => None,
+        };
+        let has_place = downlink || camera.is_some();
         let choice = &mut self.propagator.sun_choice;
-        let is_anew = downlink && choice.in_force && choice.chosen_s == Some(time_s);
-        if !(choice.is_due(downlink) || is_anew) {
+        let is_anew = has_place && choice.in_force == downlink && choice.chosen_s == Some(time_s);
+        if !(choice.is_due(downlink) || is_anew || (first && camera.is_some())) {
             return Ok(());
         }
         choice.in_force = downlink;
-        if !downlink {
+        if !has_place {
             return Ok(());
         }
         // A dump at the very start changes nothing of it.
         choice.chosen_s = (!first).then_some(time_s);
-        let until_s = guided.window.until_s - self.configuration.epoch_minus_time_s;
-        let since_s = guided.window.since_s - self.configuration.epoch_minus_time_s;
-        let is_under_way = first && since_s < time_s - EPOCH_ROUNDING_S;
+        let epoch_minus_time_s = self.configuration.epoch_minus_time_s;
+        let until_s =
+            end_epoch_s(&law.schedule, &guided.window, time_s + epoch_minus_time_s) - epoch_minus_time_s;
+        let since_s = guided.window.since_s - epoch_minus_time_s;
+        let is_under_way = first && downlink && since_s < time_s - EPOCH_ROUNDING_S;
         let chosen = if until_s.is_finite() && until_s > time_s && !is_under_way {
             let planner = self.planner;
             let mut plant = self.after(*work);
             let instant = plant.instant(time_s);
             let pressure_pa = plant.pressure_pa(&instant);
             let separations_rad = plant.separations_rad(time_s, until_s);
+            let science = camera.map(|camera| plant.science_course(camera, time_s, until_s));
+            if science.is_some() {
+                work.spend(Cost::Search, SCIENCE_UNITS, self.ephemeris.evaluations(), time_s)?;
+            }
             let mut outlook = Outlook {
                 prepared: self.prepared,
                 configuration: self.configuration,
@@ -111,13 +137,19 @@ impl Flight<'_> {
                 to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
                 pressure_pa,
                 separations_rad,
+                science,
             };
             planner.choose(&mut outlook)?
         } else {
             None
         };
-        self.propagator.sun_choice.chosen = chosen;
-        self.configuration.attitude.set_sun_place(self.propagator.sun_choice.place());
+        let choice = &mut self.propagator.sun_choice;
+        if downlink {
+            choice.chosen = chosen;
+        } else {
+            choice.science = chosen;
+        }
+        self.configuration.attitude.set_sun_places(choice.place(), choice.in_science());
         Ok(())
     }
 
