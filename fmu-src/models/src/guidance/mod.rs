@@ -117,12 +117,12 @@ impl Model for Guidance {
             coarse: CoarseEphemeris::default(),
             fixed: None,
         };
-        let mut shown = state.clone();
+        // Masters that connect inputs one by one look before all of them are set: the first step says what is missing.
+        let mut shown = State { said_unconnected: true, ..state.clone() };
         let mut fixed = Fixed::read(context, values)?;
         management::set_panels(context, values, &mut fixed.panels);
         let settings = inputs::settings(context, values, &fixed)?;
         shown.sample(context, values, &fixed, &settings, InputsOverTime::held())?;
-        state.said_unconnected = shown.said_unconnected;
         state.ephemeris = shown.ephemeris.clone();
         state.coarse = shown.coarse.clone();
         outputs::write(context, values, &shown.system, &shown.dumps, &fixed.burn, start_s, epoch_s);
