@@ -15,13 +15,13 @@ pub struct Built {
     pub probe: PathBuf,
 }
 
-/// One choice of features for programs and tests, so that no crate is compiled twice.
-pub const EVERYTHING: [&str; 4] = ["--locked", "--release", "--workspace", "--all-features"];
+/// Programs and tests have the same features, so that hardly a crate is compiled twice.
+pub const TESTS: [&str; 4] = ["--locked", "--release", "--workspace", "--all-features"];
 
-/// Builds the shared library, the probe and the command line.
+/// Builds the shared libraries and the command line.
 pub fn build() -> Result<Built, String> {
-    run(&mut library())?;
-    run(cargo(&["build"]).args(EVERYTHING))?;
+    run(&mut libraries())?;
+    run(&mut cargo(&["build", "--locked", "--release", "-p", "heliotorque", "--all-features"]))?;
     Ok(built())
 }
 
@@ -34,13 +34,13 @@ pub fn built() -> Built {
     Built {
         heliotorque: target().join("release").join(format!("heliotorque{}", std::env::consts::EXE_SUFFIX)),
         library: library("fmu", "heliotorque"),
-        probe: library("release", "probe"),
+        probe: library("fmu", "probe"),
     }
 }
 
-/// Builds the shared library, whole-program optimised.
-pub fn library() -> Command {
-    cargo(&["build", "--locked", "--profile", "fmu", "-p", "component"])
+/// Builds the shared library and the probe's, whole-program optimised.
+pub fn libraries() -> Command {
+    cargo(&["build", "--locked", "--profile", "fmu", "-p", "component", "-p", "probe"])
 }
 
 /// The environment in which tests find what was built.

@@ -61,22 +61,26 @@ const SHIPPED: &[Shipped] = &[
 /// Builds, then packs everything that is shipped.
 pub fn dist() -> Result<Built, String> {
     let built = build()?;
-    pack(&built)?;
-    systems::pack(&built, &scratch("systems")?)?;
-    // Only here is everything packed, and `current` looks at it.
-    let stamp = stamp();
-    fs::write(&stamp, "").map_err(|error| format!("{}: {error}", stamp.display()))?;
+    pack_all(&built)?;
     Ok(built)
 }
 
-/// The same, packed only if program or library are newer than what is packed.
-pub fn current() -> Result<Built, String> {
-    let built = build()?;
+/// Packs what was built.
+pub fn pack_all(built: &Built) -> Outcome {
+    pack(built)?;
+    systems::pack(built, &scratch("systems")?)?;
+    // Only here is everything packed, and `current` looks at it.
+    let stamp = stamp();
+    fs::write(&stamp, "").map_err(|error| format!("{}: {error}", stamp.display()))
+}
+
+/// Packs what was built, where program or library are newer than what is packed.
+pub fn pack_stale(built: &Built) -> Outcome {
     let changed = |path: &Path| fs::metadata(path).and_then(|file| file.modified()).ok();
     let packed = changed(&stamp());
     let is_current =
         [&built.heliotorque, &built.library].iter().all(|path| packed.is_some() && changed(path) <= packed);
-    if is_current { Ok(built) } else { dist() }
+    if is_current { Ok(()) } else { pack_all(built) }
 }
 
 /// Written after everything was packed.

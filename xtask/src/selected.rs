@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 
-use crate::build::EVERYTHING;
+use crate::build::TESTS;
 use crate::shell::{Outcome, cargo, command, output, run};
-use crate::{dist, python, test};
+use crate::{python, test};
 
 /// Crates whose tests need nothing that is built or packed.
 const FREE_STANDING: &[&str] = &["fmu-src", "modelDescription"];
@@ -61,7 +61,7 @@ fn run_selected(
     let environment = if in_python.is_none() && programs.iter().all(is_free_standing) {
         Vec::new()
     } else {
-        test::environment(&dist::current()?)?
+        test::current_environment()?
     };
     for program in programs {
         run(command(&program.path)
@@ -82,7 +82,7 @@ fn run_selected(
 fn with_tests(name: &str) -> Result<Vec<TestProgram>, String> {
     let build = output(
         cargo(&["test", "--no-run", "--message-format=json-render-diagnostics"])
-            .args(EVERYTHING)
+            .args(TESTS)
             .stderr(Stdio::inherit()),
     )?;
     let mut found = Vec::new();
