@@ -26,14 +26,20 @@ def flown_by_fmpy(ssp, stop_s, step_s):
 
 
 def connectors(ssp):
-    """Names of output and input connectors, and the output of every connected input; FMPy validates the file."""
+    """Names of output and input connectors, what the system's own outputs show counting as inputs, and what every connected input
+    takes; FMPy validates the file."""
     system = read_ssd(str(ssp)).system
     kinds = {f"{part.name}.{it.name}": it.kind for part in system.elements for it in part.connectors}
+
+    def name(element, connector):
+        return f"{element}.{connector}" if element else connector
+
     joined = {
-        f"{it.endElement}.{it.endConnector}": f"{it.startElement}.{it.startConnector}" for it in system.connections
+        name(it.endElement, it.endConnector): name(it.startElement, it.startConnector) for it in system.connections
     }
     outputs = [name for name, kind in kinds.items() if kind == "output"]
     inputs = [name for name, kind in kinds.items() if kind == "input"]
+    inputs += [it.name for it in system.connectors if it.kind == "output"]
     return outputs, inputs, joined
 
 

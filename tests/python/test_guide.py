@@ -1,7 +1,7 @@
 """The guide's commands run in an empty folder and print what the guide shows.
 
 A block `console` holds commands after `$ ` and what they print; a line `...` stands for any lines. The blocks of a page run one
-after the other in one folder that has the tutorial's files. HELIOTORQUE_BLESS=1 writes anew what they print, but for blocks with
+after the other in one folder that has the tutorial's files. `cargo xtask bless guide` writes anew what they print, but for blocks with
 `...`.
 """
 

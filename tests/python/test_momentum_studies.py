@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from simulation import COUNTS, DAY_S, PAPER, PAPER_COUNTS, dump_times, simulate
+from simulation import COUNTS, DAY_S, PAPER, PAPER_COUNTS, dump_times, simulate, vector
 from studies import table
 
 # As the study writes its rows.
@@ -264,6 +264,44 @@ def test_choices_are_those_that_fmpy_simulates(momentum_plant, key, offset_cm, s
     start |= {f"dump.threshold[{axis}]": threshold for axis in (1, 2, 3)}
     count = simulate(momentum_plant, start=start)["dump.count"][-1]
     assert count == ASSUMPTIONS[key][[0.0, -2.54, -5.08].index(offset_cm)]
+
+
+@pytest.mark.parametrize("name", ["table2", "table4", "assumptions"])
+def test_every_counted_dump_is_listed(simulated, name):
+    _, files = simulated[name]
+    counted = [int(count) for row in table(files, f"{name}.csv") for count in row["ours"].split(" / ")]
+    cases = itertools.groupby(table(files, "dumps.csv"), key=lambda row: row["case"])
+    assert [len(list(group)) for _, group in cases] == [count for count in counted if count]
+
+
+def test_two_dumps_within_a_sample_stand_apart(simulated, momentum_plant):
+    """Each with its own time and impulse, as FMPy finds them in steps that are shorter than their gap."""
+    rows = table(simulated["assumptions"][1], "dumps.csv")
+    pairs = [(a, b) for a, b in itertools.pairwise(rows) if a["case"] == b["case"] and sample(a) == sample(b)]
+    assert len(pairs) == 2, "panels tilted alike turn about X, tilted apart about Y too"
+    for pair in pairs:
+        case = pair[0]["case"]
+        tilts = re.search("panel tilts ([+-]) ([+-])", case).groups()
+        offset_cm = float(re.search("Z ([-+.0-9]+) cm", case)[1])
+        start = PAPER | {"sunshade.shape": 1, "spacecraft.centerOfMass[3]": offset_cm / 100.0}
+        start |= {f"panel[{k}].tilt": 1 if sign == "+" else 2 for k, sign in enumerate(tilts, 1)}
+        start |= {f"panel[{k}].enabled": True for k in (1, 2)} | {f"dump.threshold[{axis}]": 5.5 for axis in (1, 2, 3)}
+        start["dump.reinitFraction"] = 0.9 if "to 0.9" in case else 1.0
+        days = float(pair[1]["dump_time_d"]) + 0.01
+        output = ["dump.count", "dump.lastTime", *vector("dump.impulse")]
+        fine = simulate(momentum_plant, 60.0, days=days, start=start, output=output)
+        first = np.flatnonzero(np.diff(fine["dump.count"]))[-2:] + 1
+        for row, at in zip(pair, first):
+            assert row["dump_time_d"] == f"{fine['dump.lastTime'][at] / DAY_S:.6f}"
+            assert [float(row[f"impulse_{axis}_n_m_s"]) for axis in "xyz"] == [
+                pytest.approx(fine[name][at], abs=1e-6) for name in vector("dump.impulse")
+            ]
+        assert pair[0]["impulse_x_n_m_s"] != pair[1]["impulse_x_n_m_s"]
+
+
+def sample(dump):
+    """Communication step of 600 s that a dump is in."""
+    return int(float(dump["dump_time_d"]) * DAY_S // 600.0)
 
 
 def test_the_whole_messenger_off_the_sun(studied):

@@ -267,6 +267,44 @@ def test_info_and_check_tell_of_a_system(heliotorque, dist, tmp_path):
     assert done.returncode == 1 and "not a usable SSP archive" in done.stdout
 
 
+def test_the_systems_own_connectors_are_set_and_recorded_by_their_names(heliotorque, dist, tmp_path):
+    zipfile.ZipFile(dist / "DisturbanceLoop.ssp").extractall(tmp_path)
+    parts = [f"{name}={tmp_path / 'resources' / name}.fmu" for name in ("disturbance", "body")]
+    ssp, inner = tmp_path / "own.ssp", "disturbance.panel[1].angle"
+    done = call(heliotorque, "wire", *parts, "--export", f"body.attitude.q,body.attitude.rate,{inner}", "--output", ssp, "-q")
+    assert done.returncode == 0, done.stderr
+    options = ("--stop", "600", "--step", "10")
+    bare = [name.removeprefix("body.") for name in RATE]
+    plain = flown(heliotorque, dist / "DisturbanceLoop.ssp", RATE, *options, "--set", f"{inner}=30deg")
+    ours = flown(heliotorque, ssp, ["panel[1].angle", inner, *bare, *RATE], *options, "--set", "panel[1].angle=30deg")
+    for name, of_system in zip(RATE, bare):
+        assert (ours[of_system] == plain[name]).all() and (ours[name] == plain[name]).all()
+    assert (ours[inner] == np.pi / 6.0).all() and (ours["panel[1].angle"] == np.pi / 6.0).all()
+    # In a unit of the connector's own, from a table.
+    with zipfile.ZipFile(ssp) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    text = files["SystemStructure.ssd"].decode()
+    text = text.replace('<ssc:Real unit="rad"/>', '<ssc:Real unit="half turns"/>', 1)
+    unit = '<ssd:Units><ssc:Unit name="half turns"><ssc:BaseUnit rad="1" factor="3.141592653589793"/></ssc:Unit>'
+    files["SystemStructure.ssd"] = text.replace("<ssd:Units>", unit).encode()
+    other = tmp_path / "other.ssp"
+    with zipfile.ZipFile(other, "w") as archive:
+        for name, content in files.items():
+            archive.writestr(name, content)
+    angles = tmp_path / "angles.csv"
+    angles.write_text("time,panel[1].angle\n0,0\n300,0\n300,0.5\n", encoding="utf-8")
+    turned = flown(heliotorque, other, ["panel[1].angle", inner], *options, "--input", angles)
+    assert turned["panel[1].angle"].tolist() == [0.0] * 31 + [0.5] * 30
+    assert turned[inner].tolist() == [0.0] * 31 + [np.pi / 2.0] * 30
+    # FMPy shows them, too, and libcosim takes no such system.
+    theirs = flown_by_fmpy(ssp, 600.0, 10.0)
+    for name, of_system in zip(RATE, bare):
+        assert (theirs[of_system] == theirs[name]).all() and np.ptp(theirs[of_system]) > 0.0
+    (tmp_path / "libcosim").mkdir()
+    with pytest.raises(AssertionError, match="Unable to create execution"):
+        flown_by_libcosim(ssp, tmp_path / "libcosim", 10.0, 60, RATE)
+
+
 @pytest.mark.skipif(importlib.util.find_spec("OMSimulator") is None, reason="OMSimulator is not installed")
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_omsimulator_flies_the_system(heliotorque, dist, system):

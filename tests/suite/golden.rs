@@ -1,6 +1,6 @@
 //! `modelDescription/golden` holds what the library describes today, to the byte.
 //!
-//! After a deliberate change: `HELIOTORQUE_BLESS=1 cargo test -p heliotorque-tests golden` rewrites it.
+//! After a deliberate change: `cargo xtask bless golden` rewrites it.
 
 use std::path::{Path, PathBuf};
 
@@ -26,7 +26,7 @@ fn every_shipped_model_is_described_as_in_its_golden_file() {
         let differs = golden.lines().zip(found.lines()).position(|(golden, found)| golden != found);
         assert!(
             golden == found,
-            "{} differs from line {}: found\n{}\nIf that is meant: HELIOTORQUE_BLESS=1 cargo test -p heliotorque-tests golden",
+            "{} differs from line {}: found\n{}\nIf that is meant: cargo xtask bless golden",
             path.display(),
             differs.map_or(golden.lines().count(), |line| line) + 1,
             differs.and_then(|line| found.lines().nth(line)).unwrap_or("(one file is longer)"),

@@ -2,7 +2,7 @@
 //!
 //! Every simulation is a `heliotorque run` of a packed FMU. A value may differ from the recorded one by 1e-12 of its column's
 //! largest magnitude (sines come from the host's libm), a time of an event by 1e-9 s and four units in the last place.
-//! After a deliberate change `HELIOTORQUE_BLESS=1 cargo xtask test` writes the files and their pictures anew.
+//! After a deliberate change `cargo xtask bless reference` writes the files and their pictures anew.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -41,7 +41,7 @@ fn compare(heliotorque: &Path, fmu: &Path, name: &str, arguments: &[&str]) {
     }
     let recorded = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     if let Some(difference) = difference(&recorded, &found) {
-        panic!("{name}: {difference}\nIf that is meant: HELIOTORQUE_BLESS=1 cargo xtask test");
+        panic!("{name}: {difference}\nIf that is meant: cargo xtask bless reference");
     }
 }
 

@@ -15,24 +15,32 @@ pub struct Built {
     pub probe: PathBuf,
 }
 
-/// Builds the shared library, the probe and the command line.
+/// Programs and tests have the same features, so that hardly a crate is compiled twice.
+pub const TESTS: [&str; 4] = ["--locked", "--release", "--workspace", "--all-features"];
+
+/// Builds the shared libraries and the command line.
 pub fn build() -> Result<Built, String> {
-    run(&mut library())?;
-    run(&mut cargo(&["build", "--locked", "--release", "-p", "heliotorque", "-p", "probe"]))?;
+    run(&mut libraries())?;
+    run(&mut cargo(&["build", "--locked", "--release", "-p", "heliotorque", "--all-features"]))?;
+    Ok(built())
+}
+
+/// Where a build leaves what it made.
+pub fn built() -> Built {
     let library = |folder: &str, name: &str| {
         let file = format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
         target().join(folder).join(file)
     };
-    Ok(Built {
+    Built {
         heliotorque: target().join("release").join(format!("heliotorque{}", std::env::consts::EXE_SUFFIX)),
         library: library("fmu", "heliotorque"),
-        probe: library("release", "probe"),
-    })
+        probe: library("fmu", "probe"),
+    }
 }
 
-/// Builds the shared library, whole-program optimised.
-pub fn library() -> Command {
-    cargo(&["build", "--locked", "--profile", "fmu", "-p", "component"])
+/// Builds the shared library and the probe's, whole-program optimised.
+pub fn libraries() -> Command {
+    cargo(&["build", "--locked", "--profile", "fmu", "-p", "component", "-p", "probe"])
 }
 
 /// The environment in which tests find what was built.

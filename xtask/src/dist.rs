@@ -1,7 +1,10 @@
 //! Packing the shipped FMUs and systems into `dist/`.
 
+use std::fs;
+use std::path::{Path, PathBuf};
+
 use crate::build::{Built, build, scratch};
-use crate::shell::{Outcome, command, root, run};
+use crate::shell::{Outcome, command, root, run, target};
 use crate::systems::{self, GUIDED_AT_START};
 
 /// An FMU: file name, model, spacecraft, further options of `pack`.
@@ -58,9 +61,31 @@ const SHIPPED: &[Shipped] = &[
 /// Builds, then packs everything that is shipped.
 pub fn dist() -> Result<Built, String> {
     let built = build()?;
-    pack(&built)?;
-    systems::pack(&built, &scratch("systems")?)?;
+    pack_all(&built)?;
     Ok(built)
+}
+
+/// Packs what was built.
+pub fn pack_all(built: &Built) -> Outcome {
+    pack(built)?;
+    systems::pack(built, &scratch("systems")?)?;
+    // Only here is everything packed, and `current` looks at it.
+    let stamp = stamp();
+    fs::write(&stamp, "").map_err(|error| format!("{}: {error}", stamp.display()))
+}
+
+/// Packs what was built, where program or library are newer than what is packed.
+pub fn pack_stale(built: &Built) -> Outcome {
+    let changed = |path: &Path| fs::metadata(path).and_then(|file| file.modified()).ok();
+    let packed = changed(&stamp());
+    let is_current =
+        [&built.heliotorque, &built.library].iter().all(|path| packed.is_some() && changed(path) <= packed);
+    if is_current { Ok(()) } else { pack_all(built) }
+}
+
+/// Written after everything was packed.
+fn stamp() -> PathBuf {
+    target().join("dist.stamp")
 }
 
 fn pack(built: &Built) -> Outcome {

@@ -1,4 +1,4 @@
-//! `cargo xtask demo | test [--long] | dist | install | bench | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
+//! `cargo xtask demo | test [--long | NAME] | bless | env | dist | install | bench | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
 
 mod bench;
 mod build;
@@ -9,6 +9,7 @@ mod locale;
 mod long;
 mod notices;
 mod python;
+mod selected;
 mod shell;
 mod systems;
 mod test;
@@ -28,6 +29,11 @@ cargo xtask <task>
           allocation, a full disk from the n-th write on; what this machine lacks is named and skipped.
           HELIOTORQUE_LONG picks parts alone (fuzz,sanitizers,miri,allocations,writes);
           HELIOTORQUE_FUZZ_SECONDS is another time per target
+  test NAME
+          the tests in Rust and Python that have NAME in their name, with what they need built first
+  bless golden|reference|schema|mistakes|guide
+          write anew what tests compare with, after a change that is meant
+  env     build everything, then print the variables that the tests read, as `export NAME='value'`
   dist    build and pack every shipped FMU and system into dist/
   install build and pack everything, then put the program, its library and the FMUs below a prefix: ~/.local or
           --prefix FOLDER; the program then works in any folder
@@ -43,10 +49,15 @@ fn main() -> ExitCode {
     let outcome = match task.as_str() {
         "demo" => demo(),
         "test" if option == Some("--long") => long::all(),
-        "test" if option.is_some() => {
-            Err(format!("unknown option `{}` of test; there is --long", option.unwrap_or_default()))
-        }
-        "test" => test::all(),
+        "test" => match option {
+            None => test::all(),
+            Some(option) if option.starts_with('-') => {
+                Err(format!("unknown option `{option}` of test; there is --long"))
+            }
+            Some(name) => selected::named(name),
+        },
+        "bless" => selected::bless(option.unwrap_or_default()),
+        "env" => test::print_environment(),
         "dist" => dist::dist().map(|_| ()),
         "install" => install::install(arguments.get(1..).unwrap_or_default()),
         "bench" => bench::all(),
@@ -57,7 +68,7 @@ fn main() -> ExitCode {
             Ok(())
         }
         other => Err(format!(
-            "unknown task `{other}`; there are demo, test, dist, install, bench, guide and notices"
+            "unknown task `{other}`; there are demo, test, bless, env, dist, install, bench, guide and notices"
         )),
     };
     match outcome {

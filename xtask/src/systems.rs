@@ -29,7 +29,7 @@ struct Component {
 }
 
 /// A system: file, that without enumerations if there is one, stop and step of its default experiment, components, further outputs
-/// that its connectors show.
+/// that its connectors show, and connectors of the system itself, which libcosim refuses: a file that it reads has none.
 struct System {
     file: &'static str,
     plain_file: Option<&'static str>,
@@ -37,6 +37,7 @@ struct System {
     step: &'static str,
     components: &'static [Component],
     outputs: &'static str,
+    exports: Option<&'static str>,
 }
 
 const SYSTEMS: &[System] = &[
@@ -75,6 +76,11 @@ const SYSTEMS: &[System] = &[
         ],
         outputs: "plant.attitude.q,plant.attitude.rate,plant.momentum.body,plant.momentum.inertial,plant.dump.count,\
                   guidance.mode.active",
+        // What a user asks and sees. FMPy sets the input to 0, where it starts.
+        exports: Some(
+            "guidance.mode.request,guidance.mode.active,plant.attitude.q,plant.attitude.rate,plant.momentum.body,\
+             plant.momentum.inertial,plant.dump.count",
+        ),
     },
     // Half a day of a small body that light and the gravity gradient turn.
     System {
@@ -103,6 +109,7 @@ const SYSTEMS: &[System] = &[
             },
         ],
         outputs: "body.attitude.q,body.attitude.rate",
+        exports: None,
     },
 ];
 
@@ -114,14 +121,15 @@ pub fn pack(built: &Built, scratch: &Path) -> Outcome {
             let fmu = pack_component(built, component, scratch)?;
             fmus.push(format!("{}={}", component.name, fmu.display()));
         }
-        let whole = [(system.file, None)].into_iter();
-        let plain = system.plain_file.map(|file| (file, Some("--without-enumerations")));
-        for (file, option) in whole.chain(plain) {
+        let exports = system.exports.map_or_else(Vec::new, |exports| vec!["--export", exports]);
+        let whole = [(system.file, exports)].into_iter();
+        let plain = system.plain_file.map(|file| (file, vec!["--without-enumerations"]));
+        for (file, options) in whole.chain(plain) {
             run(command(&built.heliotorque)
                 .arg("wire")
                 .args(&fmus)
                 .args(["--stop", system.stop, "--step", system.step, "--outputs", system.outputs, "--quiet"])
-                .args(option)
+                .args(options)
                 .arg("--output")
                 .arg(root().join("dist").join(file)))?;
             record(built, file)?;

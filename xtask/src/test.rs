@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::build::{self, Built};
+use crate::build::{self, Built, TESTS};
 use crate::shell::{Beside, Outcome, cargo, command, need, root, run};
 use crate::{dist, guide, locale, python, shell};
 
@@ -16,7 +16,7 @@ pub fn all() -> Outcome {
         guide::check_format()?;
     }
     // Most of it is optimised on one core: lints and the tests' own build go on beside it.
-    let library = Beside::start(&mut build::library())?;
+    let library = Beside::start(&mut build::libraries())?;
     if shell::output(&mut cargo(&["clippy", "--version"])).is_ok() {
         run(&mut cargo(&[
             "clippy",
@@ -36,24 +36,47 @@ pub fn all() -> Outcome {
     } else {
         eprintln!("skipped: lints (no `cargo clippy` on this machine)");
     }
-    let tests = ["test", "--locked", "--release", "--workspace", "--all-features"];
-    run(cargo(&tests).arg("--no-run"))?;
+    run(cargo(&["test", "--no-run"]).args(TESTS))?;
     library.finish()?;
-    let built = dist::dist()?;
-    let mut environment = build::test_environment(&built).to_vec();
-    environment.push(("HELIOTORQUE_FOREIGN_FMU", foreign_fmu()?));
-    if std::env::var_os(DRAWS).is_none() {
-        environment.push((DRAWS, "20040803".into()));
-    }
+    let built = build::built();
+    dist::pack_all(&built)?;
+    let environment = environment(&built)?;
     let locale = locale::environment()?;
     std::thread::scope(|scope| {
         // It waits for one core, as some of the tests do.
         let client = scope.spawn(|| c_client(&built));
-        run(cargo(&tests).envs(environment.clone()).envs(locale))?;
+        run(cargo(&["test"]).args(TESTS).envs(environment.clone()).envs(locale))?;
         client.join().map_err(|_| "the C client's thread panicked".to_owned())?
     })?;
     guide::test(environment.clone())?;
     python(environment)
+}
+
+/// Where the tests find what was built, and the seed of their draws.
+pub fn environment(built: &Built) -> Result<Vec<(&'static str, PathBuf)>, String> {
+    let mut environment = build::test_environment(built).to_vec();
+    environment.push(("HELIOTORQUE_FOREIGN_FMU", foreign_fmu()?));
+    if std::env::var_os(DRAWS).is_none() {
+        environment.push((DRAWS, "20040803".into()));
+    }
+    Ok(environment)
+}
+
+/// The same, after building and packing what is stale.
+pub fn current_environment() -> Result<Vec<(&'static str, PathBuf)>, String> {
+    run(&mut build::libraries())?;
+    run(cargo(&["test", "--no-run", "--quiet"]).args(TESTS))?;
+    let built = build::built();
+    dist::pack_stale(&built)?;
+    environment(&built)
+}
+
+/// Prints the environment of the tests as a shell takes it, with everything built.
+pub fn print_environment() -> Outcome {
+    for (name, value) in current_environment()? {
+        println!("export {name}='{}'", value.display());
+    }
+    Ok(())
 }
 
 /// Runs the tests in Python on up to four processes; the one that builds and packs anew after all that read what is there.

@@ -39,6 +39,7 @@ pub fn run(arguments: &Wire) -> Outcome {
     let name = name.unwrap_or_else(|| DEFAULT_NAME.to_owned());
     let wiring = Wiring {
         outputs: arguments.outputs.clone(),
+        exports: arguments.export.clone(),
         without_enumerations: arguments.without_enumerations,
         sets: arguments.set.clone(),
     };
@@ -76,7 +77,7 @@ fn named(text: &str) -> (String, PathBuf) {
 fn report(wired: &Wired) -> String {
     let mut lines = vec![format!("{} connections", wired.structure.connections.len())];
     for ((from, to), names) in grouped(wired.structure.connections.iter().map(|connection| {
-        let component = |end: &systems::End| end.component.clone().unwrap_or_default();
+        let component = |end: &systems::End| end.component.clone().unwrap_or_else(|| "the system".to_owned());
         let (start, end) = (&connection.start, &connection.end);
         let name = if start.connector == end.connector {
             vector(&end.connector)

@@ -7,6 +7,7 @@
 
 mod abi;
 mod access;
+mod apart;
 mod archive;
 mod call_record;
 mod checker;

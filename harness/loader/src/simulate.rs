@@ -7,6 +7,7 @@ use model_description::{Causality, Description, Initial, ScalarVariable, Variabi
 
 use crate::{
     Error, Fmu, InputTable, Instance, InstanceOptions, LogMessage, Recording, Status, Value,
+    apart::{MOST_HALVINGS, step_apart},
     recorder::{Collector, Reader, Rows},
 };
 
@@ -29,6 +30,9 @@ pub struct Options<'a> {
     pub input_derivatives: bool,
     /// Positions in `ModelVariables` to record; `None` means every output.
     pub record: Option<Vec<usize>>,
+    /// Position of an Integer that counts events: a step in which it rises by more than one is taken again in halves, and
+    /// recorded at them, until the events stand apart. For FMUs with states, without input derivatives.
+    pub apart: Option<usize>,
     /// How to instantiate.
     pub instance: InstanceOptions,
     /// Told the time in s after every step.
@@ -252,6 +256,7 @@ fn run_steps(
     instance.exit_initialization_mode()?;
     record(instance, times.start_s)?;
 
+    let counter = options.apart.map(|position| fmu.description().variables[position].value_reference);
     let steps = times.steps();
     for k in 0..steps {
         let time_s = times.point_s(k);
@@ -262,7 +267,11 @@ fn run_steps(
         }
         // Every step but the last has the step size itself: not each difference of two points is it to the bit.
         let step_s = if k + 1 == steps { end_s - time_s } else { times.step_s };
-        if let Err(error) = instance.do_step(time_s, step_s, true) {
+        let stepped = match counter {
+            None => instance.do_step(time_s, step_s, true),
+            Some(counter) => step_apart(instance, counter, (time_s, step_s), MOST_HALVINGS, record),
+        };
+        if let Err(error) = stepped {
             if error.status() == Some(Status::Discard) && instance.terminated().unwrap_or(false) {
                 let last_s = instance.last_successful_time().unwrap_or(time_s);
                 if last_s > time_s {

@@ -13,6 +13,7 @@ pub(crate) struct Case {
     sets: Vec<(String, Value)>,
     stop_s: f64,
     step_s: f64,
+    apart: Option<String>,
 }
 
 /// Recorded columns, in the order of the names, and the communication points.
@@ -39,12 +40,18 @@ impl Recorded {
 impl Case {
     /// The FMU as it is packed, for `stop_s` in steps of `step_s`.
     pub fn new(label: impl Into<String>, stop_s: f64, step_s: f64) -> Self {
-        Self { label: label.into(), sets: Vec::new(), stop_s, step_s }
+        Self { label: label.into(), sets: Vec::new(), stop_s, step_s, apart: None }
     }
 
     /// For `stop_s` in steps of `step_s` instead.
     pub fn grid(mut self, stop_s: f64, step_s: f64) -> Self {
         (self.stop_s, self.step_s) = (stop_s, step_s);
+        self
+    }
+
+    /// With more points between those of the grid, so that the Integer `counter` rises by one from point to point.
+    pub fn apart(mut self, counter: &str) -> Self {
+        self.apart = Some(counter.to_owned());
         self
     }
 
@@ -77,12 +84,13 @@ impl Case {
     /// Simulates it and returns the columns of `names`.
     pub fn simulate<S: AsRef<str>>(&self, fmu: &Fmu, names: &[S]) -> Result<Recorded, StudyError> {
         let missing = |name: &str| self.failed(format!("{} has no variable {name}", fmu.name()));
-        let position = |name: &S| fmu.position(name.as_ref()).ok_or_else(|| missing(name.as_ref()));
+        let position = |name: &str| fmu.position(name).ok_or_else(|| missing(name));
         let options = loader::Options {
             stop_s: Some(self.stop_s),
             step_s: Some(self.step_s),
             sets: self.sets.clone(),
-            record: Some(names.iter().map(position).collect::<Result<_, _>>()?),
+            record: Some(names.iter().map(|name| position(name.as_ref())).collect::<Result<_, _>>()?),
+            apart: self.apart.as_deref().map(position).transpose()?,
             ..loader::Options::default()
         };
         let recording = loader::simulate(fmu, options).map_err(|stopped| self.failed(*stopped))?.recording;

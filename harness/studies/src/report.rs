@@ -47,7 +47,7 @@ impl Report {
             let mut writer = csv::Writer::from_writer(Vec::new());
             writer.write_record(header)?;
             for row in rows {
-                writer.write_record(row)?;
+                writer.write_record(row.iter().map(|cell| terminal::unsigned_zeros(cell).into_owned()))?;
             }
             Ok(writer.into_inner()?)
         };

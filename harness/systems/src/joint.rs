@@ -19,6 +19,24 @@ pub struct Joint {
     pub linear: Option<Linear>,
 }
 
+/// What a connection is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Link {
+    /// From variable to variable.
+    Joint(Joint),
+    /// Between one of the system's own connectors, by its name, and a variable.
+    Own(String, Place),
+}
+
+/// A variable that one of the system's own connectors stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Component and position in its `ModelVariables`.
+    pub at: (usize, usize),
+    /// From the connector's number to the variable's, of an output from the variable's to the connector's.
+    pub linear: Linear,
+}
+
 /// The name of a variable's base type.
 pub fn type_name(variable: &ScalarVariable) -> &'static str {
     match variable.kind {
@@ -89,6 +107,7 @@ pub fn check_connector(structure: &Structure, fmu: &Fmu, connector: &Connector) 
 }
 
 /// One end of a connection: component, position, variable, connector.
+#[derive(Clone, Copy)]
 struct Joined<'a> {
     at: (usize, usize),
     fmu: &'a Fmu,
@@ -96,14 +115,28 @@ struct Joined<'a> {
     connector: &'a Connector,
 }
 
-fn find<'a>(structure: &'a Structure, fmus: &'a [Fmu], end: &End, kind: Kind) -> Result<Joined<'a>, String> {
-    let Some(name) = &end.component else {
-        let connector = &end.connector;
-        return Err(format!(
-            "found the system's own connector {connector:?}, allowed: connectors of components"
-        ));
+/// One of the system's own connectors: one that gives is an input or a parameter of the system, one that takes an output.
+fn find_own<'a>(structure: &'a Structure, end: &End, gives: bool) -> Result<&'a Connector, String> {
+    let name = &end.connector;
+    let Some(own) = structure.connectors.iter().find(|it| it.name == *name) else {
+        let near = near(name, structure.connectors.iter().map(|it| it.name.as_str()));
+        return Err(format!("the system has no connector {name:?} of its own, near it: {near}"));
     };
-    let Some(number) = structure.components.iter().position(|component| component.name == *name) else {
+    let allowed: &[Kind] = if gives { &[Kind::Input, Kind::Parameter] } else { &[Kind::Output] };
+    if !allowed.contains(&own.kind) {
+        let (place, found) = (if gives { "start" } else { "end" }, own.kind.word());
+        let allowed: Vec<&str> = allowed.iter().map(|kind| kind.word()).collect();
+        let allowed = allowed.join(", ");
+        return Err(format!(
+            "at its {place} found the system's own {name} of kind {found}, allowed: {allowed}"
+        ));
+    }
+    Ok(own)
+}
+
+fn find<'a>(structure: &'a Structure, fmus: &'a [Fmu], end: &End, kind: Kind) -> Result<Joined<'a>, String> {
+    let name = end.component.as_deref().unwrap_or_default();
+    let Some(number) = structure.components.iter().position(|component| component.name == name) else {
         let all = structure.components.iter().map(|component| component.name.as_str());
         return Err(format!("there is no component {name:?}, allowed: {}", near(name, all)));
     };
@@ -124,7 +157,50 @@ fn find<'a>(structure: &'a Structure, fmus: &'a [Fmu], end: &End, kind: Kind) ->
 }
 
 /// Holds a connection against the FMUs.
-pub fn joint(structure: &Structure, fmus: &[Fmu], connection: &Connection) -> Result<Joint, String> {
+pub fn link(structure: &Structure, fmus: &[Fmu], connection: &Connection) -> Result<Link, String> {
+    let Connection { start, end, .. } = connection;
+    match (&start.component, &end.component) {
+        (Some(_), Some(_)) => joint(structure, fmus, connection).map(Link::Joint),
+        (None, Some(_)) => {
+            let own = find_own(structure, start, true)?;
+            let inner = find(structure, fmus, end, own.kind)?;
+            let linear = own_linear(structure, connection, (own, &inner), true)?;
+            Ok(Link::Own(own.name.clone(), Place { at: inner.at, linear }))
+        }
+        (Some(_), None) => {
+            let own = find_own(structure, end, false)?;
+            let inner = find(structure, fmus, start, Kind::Output)?;
+            let linear = own_linear(structure, connection, (own, &inner), false)?;
+            Ok(Link::Own(own.name.clone(), Place { at: inner.at, linear }))
+        }
+        (None, None) => {
+            Err("found the system's own connectors at both ends, allowed: a component's at one".to_owned())
+        }
+    }
+}
+
+/// What a Real goes through between one of the system's own connectors, which holds it in its own unit, and a variable.
+fn own_linear(
+    structure: &Structure,
+    connection: &Connection,
+    (own, inner): (&Connector, &Joined<'_>),
+    inwards: bool,
+) -> Result<Linear, String> {
+    let kind = type_name(inner.variable);
+    if let Some(found) = own.signal.as_ref().map(Signal::word).filter(|found| *found != kind) {
+        return Err(format!("found the system's own {} of type {found}, allowed: {kind}", own.name));
+    }
+    if kind != "Real" {
+        let transformed = format!("found a LinearTransformation of type {kind}, allowed: Real");
+        return if connection.transformation.is_some() { Err(transformed) } else { Ok(Linear::IDENTITY) };
+    }
+    let outer = Joined { connector: own, ..*inner };
+    let (start, end) = if inwards { (&outer, inner) } else { (inner, &outer) };
+    linear(structure, connection, (start, !inwards), (end, inwards))
+}
+
+/// Holds a connection of two components against their FMUs.
+fn joint(structure: &Structure, fmus: &[Fmu], connection: &Connection) -> Result<Joint, String> {
     let start = find(structure, fmus, &connection.start, Kind::Output)?;
     let end = find(structure, fmus, &connection.end, Kind::Input)?;
     let (one, other) = (type_name(start.variable), type_name(end.variable));
@@ -140,7 +216,10 @@ pub fn joint(structure: &Structure, fmus: &[Fmu], connection: &Connection) -> Re
     if one != "Real" && connection.transformation.is_some() {
         return Err(format!("found a LinearTransformation of type {one}, allowed: Real"));
     }
-    let linear = if one == "Real" { linear(structure, connection, &start, &end)? } else { Linear::IDENTITY };
+    let linear = match one {
+        "Real" => linear(structure, connection, (&start, true), (&end, true))?,
+        _ => Linear::IDENTITY,
+    };
     Ok(Joint { from: start.at, to: end.at, linear: (linear != Linear::IDENTITY).then_some(linear) })
 }
 
@@ -160,12 +239,12 @@ fn foreign_item(start: &Joined<'_>, end: &Joined<'_>) -> Option<String> {
 }
 
 /// What a Real goes through from variable to variable: to the connector's unit, to the other connector's unit, through the
-/// connection's own transformation, to the other variable's unit.
+/// connection's own transformation, to the other variable's unit. An end that is no variable begins or ends in its connector's.
 fn linear(
     structure: &Structure,
     connection: &Connection,
-    start: &Joined<'_>,
-    end: &Joined<'_>,
+    (start, start_is_variable): (&Joined<'_>, bool),
+    (end, end_is_variable): (&Joined<'_>, bool),
 ) -> Result<Linear, String> {
     let own = |it: &Joined<'_>| value::unit(it.fmu.description(), it.variable).map(str::to_owned);
     let shown = |it: &Joined<'_>| match &it.connector.signal {
@@ -200,7 +279,11 @@ fn linear(
                     put in order, allowed: suppressUnitConversion=\"true\" or equal units"
             .to_owned());
     }
-    let first = between((own(start), start), (shown(start), start))?;
-    let last = between((shown(end), end), (own(end), end))?;
+    let within =
+        |is_variable: bool, from: (Option<String>, &Joined<'_>), to: (Option<String>, &Joined<'_>)| {
+            if is_variable { between(from, to) } else { Ok(Linear::IDENTITY) }
+        };
+    let first = within(start_is_variable, (own(start), start), (shown(start), start))?;
+    let last = within(end_is_variable, (shown(end), end), (own(end), end))?;
     Ok(first.then(converted).then(transformation).then(last))
 }

@@ -10,6 +10,7 @@ mod experiment;
 mod joint;
 mod master;
 mod merged;
+mod own;
 mod package;
 mod parameter_set;
 mod parameters;
@@ -23,8 +24,9 @@ mod wire;
 mod writer;
 
 pub use error::Error;
-pub use joint::Joint;
+pub use joint::{Joint, Place};
 pub use master::{FirstExchange, Master};
+pub use own::Own;
 pub use package::{MOST_BYTES, is_system};
 pub use reader::MOST_COMPONENTS;
 pub use simulate::{Options, simulate_into};

@@ -63,7 +63,7 @@ pub fn merge<'a>(
 }
 
 /// Adds a unit. One that means something else in two FMUs loses its definition: its numbers are shown as they are.
-fn add_unit(units: &mut Vec<Unit>, unit: &Unit) {
+pub fn add_unit(units: &mut Vec<Unit>, unit: &Unit) {
     let Some(known) = units.iter_mut().find(|known| known.name == unit.name) else {
         units.push(unit.clone());
         return;

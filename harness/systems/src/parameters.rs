@@ -4,7 +4,8 @@ use loader::{Fmu, Value};
 use model_description::{ScalarVariable, Unit, value};
 
 use crate::{
-    joint::{near, type_name},
+    joint::{Place, near, type_name},
+    own::Own,
     structure::{Parameter, ParameterSet, Structure, Written},
     units::{base, conversion, is_same_dimension, shown},
 };
@@ -15,7 +16,7 @@ pub type Assigned = (usize, String, Value);
 /// The values of a parameter set. `component` is where the binding stands; a system's parameters name theirs.
 pub fn values(
     structure: &Structure,
-    fmus: &[Fmu],
+    (fmus, own): (&[Fmu], &[Own]),
     component: Option<usize>,
     prefix: &str,
     set: &ParameterSet,
@@ -24,6 +25,18 @@ pub fn values(
     for parameter in &set.parameters {
         let name = format!("{prefix}{}", parameter.name);
         let refuse = |what: String| (parameter.line, format!("parameter {name:?}: {what}"));
+        let own = own.iter().find(|it| component.is_none() && it.gives() && it.connector.name == name);
+        if let Some(own) = own {
+            for place in &own.places {
+                let (number, position) = place.at;
+                let variable = &fmus[number].description().variables[position];
+                let parameter = in_variables_unit(parameter, *place);
+                let value = read(&fmus[number], variable, &parameter, &[&set.units, &structure.units])
+                    .map_err(refuse)?;
+                found.push((number, variable.name.clone(), value));
+            }
+            continue;
+        }
         let (number, name) = match component {
             Some(number) => (number, name.as_str()),
             None => owner(structure, &name).ok_or_else(|| {
@@ -40,6 +53,15 @@ pub fn values(
         found.push((number, variable.name.clone(), value));
     }
     Ok(found)
+}
+
+/// A parameter of one of the system's own connectors at a variable: a number without a unit is in the connector's.
+fn in_variables_unit(parameter: &Parameter, place: Place) -> Parameter {
+    let value = match parameter.value {
+        Written::Real { value, unit: None } => Written::Real { value: place.linear.of(value), unit: None },
+        ref other => other.clone(),
+    };
+    Parameter { value, ..parameter.clone() }
 }
 
 /// The component whose name begins a parameter's, and the rest of the name.

@@ -69,8 +69,7 @@ fn system(xml: &mut Xml<'_>, start: &Start, structure: &mut Structure) -> Result
                 }
             }
             "ParameterBindings" => structure.bindings = bindings(xml, &child)?,
-            // A connection that uses one is refused; alone they mean nothing.
-            "Connectors" => xml.skip(&child)?,
+            "Connectors" => structure.connectors = connectors(xml, &child)?,
             "SignalDictionaries" => {
                 return Err(refuse(&child, "signal dictionaries are not simulated here".to_owned()));
             }
@@ -116,14 +115,7 @@ fn component(xml: &mut Xml<'_>, start: &Start) -> Result<Component, ReadError> {
     let mut component = Component { name, source, line: start.line, ..Component::default() };
     while let Some(child) = xml.child(start)? {
         match local(&child) {
-            "Connectors" => {
-                while let Some(element) = xml.child(&child)? {
-                    if local(&element) != "Connector" {
-                        return Err(unknown(&element, &child, "Connector"));
-                    }
-                    component.connectors.push(connector(xml, &element)?);
-                }
-            }
+            "Connectors" => component.connectors = connectors(xml, &child)?,
             "ParameterBindings" => component.bindings = bindings(xml, &child)?,
             "ElementGeometry" | "Annotations" => xml.skip(&child)?,
             _ => {
@@ -133,6 +125,17 @@ fn component(xml: &mut Xml<'_>, start: &Start) -> Result<Component, ReadError> {
         }
     }
     Ok(component)
+}
+
+fn connectors(xml: &mut Xml<'_>, start: &Start) -> Result<Vec<Connector>, ReadError> {
+    let mut connectors: Vec<Connector> = Vec::new();
+    while let Some(element) = xml.child(start)? {
+        if local(&element) != "Connector" {
+            return Err(unknown(&element, start, "Connector"));
+        }
+        connectors.push(connector(xml, &element)?);
+    }
+    Ok(connectors)
 }
 
 fn connector(xml: &mut Xml<'_>, start: &Start) -> Result<Connector, ReadError> {

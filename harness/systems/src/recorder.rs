@@ -1,15 +1,16 @@
 //! Rows of a system's recording: every component read by one call a base type.
 
 use loader::{Error, Instance, Row, Rows};
-use model_description::VariableKind;
+use model_description::{Causality, VariableKind};
 
-use crate::system::System;
+use crate::{joint::Place, structure::Linear, system::System};
 
 /// Recorded variables of one component and base type: references, and where their values stand in a row.
 #[derive(Debug, Default)]
 struct Group {
     references: Vec<u32>,
     places: Vec<usize>,
+    linears: Vec<Linear>,
 }
 
 /// Reads the recorded variables of all components.
@@ -37,8 +38,12 @@ impl Recorder {
                 VariableKind::Boolean { .. } => 2,
                 VariableKind::String { .. } => 3,
             };
-            let group = &mut groups[system.origin(position).0][base];
+            let Some(&Place { at: (number, _), linear }) = system.places(position).first() else { continue };
+            let group = &mut groups[number][base];
             group.references.push(variable.value_reference);
+            // Of an input of the system the value is what it was given: back from the variable's unit.
+            let is_input = variable.causality != Causality::Output;
+            group.linears.push(if is_input { linear.inverse() } else { linear });
             group.places.push(sizes[base]);
             sizes[base] += 1;
         }
@@ -67,6 +72,11 @@ impl Recorder {
                 instance.get_reals(&reals.references, &mut self.read_reals)?;
                 if let Some(at) = self.read_reals.iter().position(|value| value.is_nan()) {
                     return Err(instance.not_a_number(reals.references[at], time_s));
+                }
+                for (value, linear) in self.read_reals.iter_mut().zip(&reals.linears) {
+                    if *linear != Linear::IDENTITY {
+                        *value = linear.of(*value);
+                    }
                 }
                 scatter(&self.read_reals, &reals.places, &mut self.reals);
             }

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use loader::{Ended, Error, InputTable, InstanceOptions, LogMessage, Rows, Value};
 
 use crate::{
+    joint::Place,
     master::{FirstExchange, Master, Running, Stepped},
     recorder::Recorder,
     system::System,
@@ -93,18 +94,24 @@ pub fn simulate_into(
 /// Values by component and its variable's name. A connected input is refused: its value would not last.
 fn own_sets(system: &System, sets: &[(String, Value)]) -> Result<Vec<(usize, String, Value)>, Error> {
     let variables = &system.description().variables;
-    sets.iter()
-        .map(|(name, value)| {
-            let position = variables.iter().position(|it| it.name == *name);
-            let position = position.ok_or_else(|| Error::Value {
-                variable: name.clone(),
-                what: "the system has no such variable".to_owned(),
-            })?;
-            let (number, at) = system.origin(position);
-            refuse_connected(system, (number, at), name)?;
-            Ok((number, system.parts()[number].fmu.description().variables[at].name.clone(), value.clone()))
-        })
-        .collect()
+    let mut own = Vec::new();
+    for (name, value) in sets {
+        let position = variables.iter().position(|it| it.name == *name);
+        let position = position.ok_or_else(|| Error::Value {
+            variable: name.clone(),
+            what: "the system has no such variable".to_owned(),
+        })?;
+        for place in system.places(position) {
+            refuse_connected(system, place.at, name)?;
+            let (number, at) = place.at;
+            own.push((
+                number,
+                system.parts()[number].fmu.description().variables[at].name.clone(),
+                place.of(value),
+            ));
+        }
+    }
+    Ok(own)
 }
 
 fn refuse_connected(system: &System, input: (usize, usize), name: &str) -> Result<(), Error> {
@@ -120,8 +127,8 @@ fn refuse_connected(system: &System, input: (usize, usize), name: &str) -> Resul
 /// Open inputs from a table, each set only when it changes.
 struct HeldInputs<'a> {
     table: &'a InputTable,
-    /// Component, position in its `ModelVariables`.
-    columns: Vec<(usize, usize)>,
+    /// Column of the table and a variable that it goes to.
+    columns: Vec<(usize, Place)>,
     names: Vec<String>,
     last: Vec<Option<Value>>,
 }
@@ -129,11 +136,12 @@ struct HeldInputs<'a> {
 impl<'a> HeldInputs<'a> {
     fn new(system: &System, table: &'a InputTable) -> Result<Self, Error> {
         let (mut columns, mut names) = (Vec::new(), Vec::new());
-        for position in table.positions() {
-            let column = system.origin(position);
-            refuse_connected(system, column, &system.description().variables[position].name)?;
-            columns.push(column);
-            names.push(system.parts()[column.0].fmu.description().variables[column.1].name.clone());
+        for (column, position) in table.positions().enumerate() {
+            for place in system.places(position) {
+                refuse_connected(system, place.at, &system.description().variables[position].name)?;
+                columns.push((column, place));
+                names.push(system.parts()[place.at.0].fmu.description().variables[place.at.1].name.clone());
+            }
         }
         let last = vec![None; columns.len()];
         Ok(Self { table, columns, names, last })
@@ -141,18 +149,20 @@ impl<'a> HeldInputs<'a> {
 
     /// The values of the start, which initialization takes.
     fn at_start(&mut self, time_s: f64) -> Vec<(usize, String, Value)> {
-        let columns = self.columns.iter().zip(&self.names).enumerate();
-        columns.map(|(column, (of, name))| (of.0, name.clone(), self.table.value(column, time_s))).collect()
+        let columns = self.columns.iter().zip(&self.names);
+        let at = |(column, place): (usize, Place)| place.of(&self.table.value(column, time_s));
+        columns.map(|(column, name)| (column.1.at.0, name.clone(), at(*column))).collect()
     }
 
     fn set(&mut self, running: &mut Running, time_s: f64) -> Result<(), Error> {
-        for (column, &(number, position)) in self.columns.iter().enumerate() {
-            let value = self.table.value(column, time_s);
-            if self.last[column].as_ref() != Some(&value) {
+        for (last, (column, place)) in self.last.iter_mut().zip(&self.columns) {
+            let (number, position) = place.at;
+            let value = place.of(&self.table.value(*column, time_s));
+            if last.as_ref() != Some(&value) {
                 let instance = &mut running.instances()[number];
                 let fmu = instance.fmu().clone();
                 instance.set_variable(&fmu.description().variables[position], &value)?;
-                self.last[column] = Some(value);
+                *last = Some(value);
             }
         }
         Ok(())

@@ -10,6 +10,8 @@ pub const SSD_FILE: &str = "SystemStructure.ssd";
 pub struct Structure {
     /// The system's name.
     pub name: String,
+    /// The system's own connectors.
+    pub connectors: Vec<Connector>,
     /// Its components, in the order in which a master calls them.
     pub components: Vec<Component>,
     /// What goes where.
@@ -39,7 +41,7 @@ pub struct Component {
     pub line: u32,
 }
 
-/// A connector of a component: a variable of its FMU.
+/// A connector: of a component a variable of its FMU, of the system what its connections join to that.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Connector {
     /// The variable's name.
@@ -125,7 +127,7 @@ pub struct Enumeration {
     pub items: Vec<EnumerationItem>,
 }
 
-/// A connection from an output to an input.
+/// A connection from an output to an input; the system's own inputs and outputs are seen from within.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Connection {
     /// Where the value comes from.

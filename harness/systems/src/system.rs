@@ -8,11 +8,12 @@ use model_description::{Causality, Description};
 use crate::{
     error::Error,
     experiment::complete,
-    joint::{Joint, check_connector, joint},
+    joint::{Joint, Link, Place, check_connector, link},
     merged::{Merged, merge},
+    own::{Own, describe},
     package::Package,
     parameter_set, parameters, reader,
-    structure::{Binding, SSD_FILE, Structure},
+    structure::{Binding, Linear, SSD_FILE, Structure},
 };
 
 /// A component with its FMU.
@@ -32,6 +33,7 @@ pub struct System {
     structure: Structure,
     parts: Vec<Part>,
     joints: Vec<Joint>,
+    own: Vec<Own>,
     merged: Merged,
 }
 
@@ -62,17 +64,30 @@ impl System {
         }
         let mut joints: Vec<Joint> = Vec::with_capacity(structure.connections.len());
         let mut joined: HashMap<(usize, usize), u32> = HashMap::new();
+        let mut own: Vec<Own> = structure.connectors.iter().map(Own::new).collect();
         for connection in &structure.connections {
             let refuse = |what: String| {
                 let (start, end) = (&connection.start, &connection.end);
                 at(connection.line, format!("connection {start} to {end}: {what}"))
             };
-            let joint = joint(&structure, &fmus, connection).map_err(refuse)?;
-            if let Some(line) = joined.insert(joint.to, connection.line) {
-                let what = format!("the input is connected already in line {line}, allowed: once");
-                return Err(refuse(what));
+            let taken =
+                |line: u32| refuse(format!("its end is connected already in line {line}, allowed: once"));
+            let input = match link(&structure, &fmus, connection).map_err(refuse)? {
+                Link::Joint(joint) => {
+                    joints.push(joint.clone());
+                    Some(joint.to)
+                }
+                Link::Own(name, place) => {
+                    let own = own.iter_mut().filter(|own| own.connector.name == name);
+                    own.filter_map(|own| own.join(place, connection.line))
+                        .next()
+                        .map_or(Ok(()), |line| Err(taken(line)))?;
+                    connection.end.component.is_some().then_some(place.at)
+                }
+            };
+            if let Some(line) = input.and_then(|input| joined.insert(input, connection.line)) {
+                return Err(taken(line));
             }
-            joints.push(joint);
         }
         let mut parts: Vec<Part> = structure
             .components
@@ -88,15 +103,21 @@ impl System {
         let of_components = structure.components.iter().enumerate();
         for (number, component) in of_components {
             for binding in &component.bindings {
-                bind(&package, &structure, &fmus, Some(number), binding, &mut parts)?;
+                bind(&package, &structure, (&fmus, &own), Some(number), binding, &mut parts)?;
             }
         }
         for binding in &structure.bindings {
-            bind(&package, &structure, &fmus, None, binding, &mut parts)?;
+            bind(&package, &structure, (&fmus, &own), None, binding, &mut parts)?;
         }
         let named = || parts.iter().map(|part| (part.name.as_str(), &part.fmu));
-        let merged = merge(&structure.name, complete(structure.experiment, fmus.iter()), named());
-        Ok(Self { package, structure, parts, joints, merged })
+        let mut merged = merge(&structure.name, complete(structure.experiment, fmus.iter()), named());
+        own.retain(|own| !own.places.is_empty());
+        for own in &own {
+            describe(&mut merged, &structure, &fmus, own).map_err(|what| {
+                at(own.connector.line, format!("the system's own connector {}: {what}", own.connector.name))
+            })?;
+        }
+        Ok(Self { package, structure, parts, joints, own, merged })
     }
 
     /// The path it was opened from.
@@ -124,14 +145,24 @@ impl System {
         &self.joints
     }
 
-    /// The variables of all components, named `component.variable`, and the default experiment.
+    /// The system's own connectors that a connection joins to variables.
+    pub fn own(&self) -> &[Own] {
+        &self.own
+    }
+
+    /// The variables of all components, named `component.variable`, then the system's own connectors by their names, and the
+    /// default experiment.
     pub fn description(&self) -> &Description {
         &self.merged.description
     }
 
-    /// Component and position in its `ModelVariables` of a variable of [`System::description`].
-    pub fn origin(&self, position: usize) -> (usize, usize) {
-        self.merged.origins[position]
+    /// What a variable of [`System::description`] stands for: one variable of a component, or for an input of the system itself
+    /// all that it is connected to.
+    pub fn places(&self, position: usize) -> Vec<Place> {
+        match self.merged.origins.get(position) {
+            Some(&at) => vec![Place { at, linear: Linear::IDENTITY }],
+            None => self.own[position - self.merged.origins.len()].places.clone(),
+        }
     }
 
     /// Component and position of every input that nothing is connected to.
@@ -141,6 +172,7 @@ impl System {
         all.filter(|&(number, position)| {
             variables(number)[position].causality == Causality::Input
                 && !self.joints.iter().any(|joint| joint.to == (number, position))
+                && !self.own.iter().any(|own| own.has(number, position))
         })
         .collect()
     }
@@ -215,7 +247,7 @@ fn open_fmus(
 fn bind(
     package: &Package,
     structure: &Structure,
-    fmus: &[Fmu],
+    (fmus, own): (&[Fmu], &[Own]),
     component: Option<usize>,
     binding: &Binding,
     parts: &mut [Part],
@@ -227,7 +259,7 @@ fn bind(
         sets.push((source, set));
     }
     for (file, set) in &sets {
-        let values = parameters::values(structure, fmus, component, &binding.prefix, set)
+        let values = parameters::values(structure, (fmus, own), component, &binding.prefix, set)
             .map_err(|(line, what)| package.structure(file, format!("line {line}: {what}")))?;
         for (number, name, value) in values {
             let known = &mut parts[number].parameters;

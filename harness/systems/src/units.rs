@@ -29,6 +29,11 @@ impl Linear {
         self.factor * value + self.offset
     }
 
+    /// What undoes it.
+    pub fn inverse(self) -> Self {
+        Self { factor: 1.0 / self.factor, offset: -self.offset / self.factor }
+    }
+
     /// First this, then another.
     pub fn then(self, next: Self) -> Self {
         Self { factor: next.factor * self.factor, offset: next.of(self.offset) }

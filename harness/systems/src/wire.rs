@@ -53,6 +53,9 @@ pub struct Wired {
 pub struct Wiring {
     /// Patterns of further outputs to list, `component.variable`.
     pub outputs: Vec<String>,
+    /// Patterns of open inputs, parameters and outputs that are connectors of the system too, `component.variable`; each by its
+    /// variable's name.
+    pub exports: Vec<String>,
     /// Enumerations are no connectors and stay open, for tools that do not know them.
     pub without_enumerations: bool,
     /// Parameters of components, `component.name=value`; written in the variables' own units.
@@ -133,6 +136,7 @@ pub fn wire(
         }
     }
     list_outputs(&mut wired.structure, components, wiring)?;
+    export(&mut wired, components, wiring)?;
     for (component, (_, fmu)) in wired.structure.components.iter_mut().zip(components) {
         component.connectors.sort_by_key(|it| (it.kind == Kind::Output, fmu.position(&it.name)));
     }
@@ -381,6 +385,55 @@ fn list_outputs(
                 add_connector(structure, components, (number, variable), Kind::Output);
             }
         }
+    }
+    Ok(())
+}
+
+/// Makes variables that patterns name connectors of the system.
+fn export(wired: &mut Wired, components: &[(String, Fmu)], wiring: &Wiring) -> Result<(), Error> {
+    let named = components.iter().map(|(component, fmu)| (component.as_str(), fmu));
+    let Merged { description, origins } = merge(&wired.structure.name, Experiment::default(), named);
+    let selected = wiring.exports.iter().map(|pattern| loader::select_outputs(&description, pattern));
+    for position in selected.collect::<Result<Vec<_>, _>>()?.concat() {
+        let (number, at) = origins[position];
+        let variable = &components[number].1.description().variables[at];
+        let refuse =
+            |what: &str| Error::Wire(format!("--export {}: {what}", description.variables[position].name));
+        let kind = match variable.causality {
+            Causality::Output => Kind::Output,
+            Causality::Input => Kind::Input,
+            Causality::Parameter => Kind::Parameter,
+            _ => return Err(refuse("it is internal, allowed: outputs, inputs, parameters")),
+        };
+        if matches!(variable.kind, VariableKind::String { .. }) {
+            return Err(refuse("it is a String, which no connector carries"));
+        }
+        if matches!(variable.kind, VariableKind::Enumeration { .. }) && wiring.without_enumerations {
+            continue;
+        }
+        let structure = &mut wired.structure;
+        let inner = End { component: Some(components[number].0.clone()), connector: variable.name.clone() };
+        if kind == Kind::Input && structure.connections.iter().any(|it| it.end == inner) {
+            return Err(refuse("it is connected already, allowed: open inputs"));
+        }
+        if structure.connectors.iter().any(|it| it.name == variable.name) {
+            return Err(refuse("the system has a connector of this name already, allowed: one of each name"));
+        }
+        add_connector(structure, components, (number, variable), kind);
+        let known = &structure.components[number].connectors;
+        structure.connectors.extend(known.iter().find(|it| it.name == variable.name).cloned());
+        let outer = End { component: None, connector: variable.name.clone() };
+        let (start, end) = if kind == Kind::Output { (inner, outer) } else { (outer, inner) };
+        wired
+            .left
+            .retain(|left| end.component.as_ref() != Some(&left.component) || left.input != end.connector);
+        structure.connections.push(Connection {
+            start,
+            end,
+            transformation: None,
+            suppress_unit_conversion: false,
+            line: 0,
+        });
     }
     Ok(())
 }

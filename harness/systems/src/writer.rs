@@ -5,7 +5,7 @@ use std::fmt::Write;
 use files::ANNOTATION;
 use model_description::{Unit, escape};
 
-use crate::structure::{Component, Connection, ParameterSet, Signal, Structure, Written};
+use crate::structure::{Component, Connection, Connector, ParameterSet, Signal, Structure, Written};
 
 const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ssd:SystemStructureDescription \
                     xmlns:ssc=\"http://ssp-standard.org/SSP1/SystemStructureCommon\" \
@@ -62,7 +62,9 @@ fn write_structure(to: &mut String, structure: &Structure) -> std::fmt::Result {
     let name = escape(&structure.name);
     let tool = concat!("heliotorque ", env!("CARGO_PKG_VERSION"));
     writeln!(to, " name=\"{name}\" generationTool=\"{tool}\">")?;
-    writeln!(to, "  <ssd:System name=\"{name}\">\n    <ssd:Elements>")?;
+    writeln!(to, "  <ssd:System name=\"{name}\">")?;
+    write_connectors(to, &structure.connectors, "    ")?;
+    writeln!(to, "    <ssd:Elements>")?;
     for (place, component) in structure.components.iter().enumerate() {
         write_component(to, component, place)?;
     }
@@ -131,25 +133,7 @@ fn write_component(to: &mut String, component: &Component, place: usize) -> std:
         escape(&component.name),
         escape(&component.source)
     )?;
-    if !component.connectors.is_empty() {
-        writeln!(to, "        <ssd:Connectors>")?;
-        for connector in &component.connectors {
-            let (name, kind) = (escape(&connector.name), connector.kind.word());
-            write!(to, "          <ssd:Connector name=\"{name}\" kind=\"{kind}\"")?;
-            match &connector.signal {
-                None => writeln!(to, "/>")?,
-                Some(signal) => {
-                    let attribute = match signal {
-                        Signal::Real { unit: Some(unit) } => format!(" unit=\"{}\"", escape(unit)),
-                        Signal::Enumeration { name } => format!(" name=\"{}\"", escape(name)),
-                        _ => String::new(),
-                    };
-                    writeln!(to, "><ssc:{}{attribute}/></ssd:Connector>", signal.word())?;
-                }
-            }
-        }
-        writeln!(to, "        </ssd:Connectors>")?;
-    }
+    write_connectors(to, &component.connectors, "        ")?;
     let left_mm = place * PITCH_MM;
     writeln!(
         to,
@@ -166,6 +150,29 @@ fn write_component(to: &mut String, component: &Component, place: usize) -> std:
         writeln!(to, "        </ssd:ParameterBindings>")?;
     }
     writeln!(to, "      </ssd:Component>")
+}
+
+fn write_connectors(to: &mut String, connectors: &[Connector], indent: &str) -> std::fmt::Result {
+    if connectors.is_empty() {
+        return Ok(());
+    }
+    writeln!(to, "{indent}<ssd:Connectors>")?;
+    for connector in connectors {
+        let (name, kind) = (escape(&connector.name), connector.kind.word());
+        write!(to, "{indent}  <ssd:Connector name=\"{name}\" kind=\"{kind}\"")?;
+        match &connector.signal {
+            None => writeln!(to, "/>")?,
+            Some(signal) => {
+                let attribute = match signal {
+                    Signal::Real { unit: Some(unit) } => format!(" unit=\"{}\"", escape(unit)),
+                    Signal::Enumeration { name } => format!(" name=\"{}\"", escape(name)),
+                    _ => String::new(),
+                };
+                writeln!(to, "><ssc:{}{attribute}/></ssd:Connector>", signal.word())?;
+            }
+        }
+    }
+    writeln!(to, "{indent}</ssd:Connectors>")
 }
 
 fn write_connection(to: &mut String, connection: &Connection) -> std::fmt::Result {

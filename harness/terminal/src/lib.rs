@@ -7,17 +7,18 @@ mod relay;
 
 use std::{
     borrow::Cow,
+    fmt,
     io::{self, Write},
 };
 
-use comfy_table::{ContentArrangement, Table, TableComponent, presets};
+use comfy_table::{ContentArrangement, TableComponent, presets};
 use indicatif::{ProgressBar, ProgressStyle};
 
 pub use relay::{Output, Relay, Screen, relay_to, screen, show_bar};
 
 /// Prints a text; a reader that went away (as `head` does) is no error.
 pub fn print(text: &str) -> io::Result<()> {
-    let line = format!("{}\n", plain(text));
+    let line = format!("{}\n", plain(&unsigned_zeros(text)));
     match Output.write_all(line.as_bytes()).and_then(|()| Output.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         other => other,
@@ -29,7 +30,7 @@ pub fn note(text: &str) {
     match relay::relay() {
         Some(relay) => relay.note(text),
         None => {
-            let _ = writeln!(io::stderr().lock(), "{}", plain(text));
+            let _ = writeln!(io::stderr().lock(), "{}", plain(&unsigned_zeros(text)));
         }
     }
 }
@@ -58,9 +59,63 @@ pub fn plain(text: &str) -> Cow<'_, str> {
     shown.into()
 }
 
+/// The text with every number that is zero as it is written, `-0` or `-0.000`, without its sign: nothing has no direction. What
+/// follows a letter or a digit is no sign, as in names and dates.
+pub fn unsigned_zeros(text: &str) -> Cow<'_, str> {
+    let is_in_word =
+        |letter: char| letter.is_alphanumeric() || matches!(letter, '.' | '_' | '-' | '+' | ')' | ']');
+    let is_sign = |at: usize| {
+        let number = text[at + 1..].split(|letter: char| !letter.is_alphanumeric() && letter != '.').next();
+        let number = number.unwrap_or_default().trim_end_matches('.');
+        number.starts_with('0')
+            && number.parse() == Ok(0.0)
+            && !text[..at].chars().next_back().is_some_and(is_in_word)
+    };
+    let signs: Vec<usize> = text.match_indices('-').map(|(at, _)| at).filter(|at| is_sign(*at)).collect();
+    if signs.is_empty() {
+        return text.into();
+    }
+    let mut unsigned = String::with_capacity(text.len());
+    let mut from = 0;
+    for at in signs {
+        unsigned.push_str(&text[from..at]);
+        from = at + 1;
+    }
+    (unsigned + &text[from..]).into()
+}
+
+/// A plain table.
+pub struct Table(comfy_table::Table);
+
+impl Table {
+    /// Adds a row; zeros have no sign.
+    pub fn add_row(&mut self, cells: impl IntoIterator<Item = impl AsRef<str>>) {
+        self.0.add_row(cells.into_iter().map(|cell| unsigned_zeros(cell.as_ref()).into_owned()));
+    }
+
+    /// Columns one space apart.
+    pub fn narrow(mut self) -> Self {
+        self.0.column_iter_mut().for_each(|column| {
+            column.set_padding((0, 0));
+        });
+        self
+    }
+
+    /// Whether it has no row but the header.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
 /// A plain table with a header; as wide as the terminal at most, unbounded elsewhere.
 pub fn table(header: &[&str]) -> Table {
-    let mut table = Table::new();
+    let mut table = comfy_table::Table::new();
     table
         .load_preset(presets::UTF8_HORIZONTAL_ONLY)
         .remove_style(TableComponent::HorizontalLines)
@@ -69,7 +124,7 @@ pub fn table(header: &[&str]) -> Table {
     if let Some(columns) = screen().output_columns {
         table.set_content_arrangement(ContentArrangement::Dynamic).set_width(columns);
     }
-    table
+    Table(table)
 }
 
 /// A bar on stderr over `count` of what `unit` names; hidden with `--quiet` and where stderr is no terminal.
@@ -119,6 +174,25 @@ mod tests {
         assert_eq!(plain("\u{9b}1m\u{202e}"), "\\u{9b}1m\\u{202e}");
         assert_eq!(plain("\0\u{7f}"), "\\u{0}\\u{7f}");
         assert_eq!(plain("a\u{200f}b\u{2028}c"), "a\\u{200f}b\\u{2028}c");
+    }
+
+    #[test]
+    fn zeros_have_no_sign() {
+        for (text, expected) in [
+            ("-0", "0"),
+            ("-0.000", "0.000"),
+            ("-0.0e0,-0.00000e0", "0.0e0,0.00000e0"),
+            ("X -0.00, Z -0.01 uN.m (-0.0).", "X 0.00, Z -0.01 uN.m (0.0)."),
+            ("\"miss\": -0.0\n-0.", "\"miss\": 0.0\n0."),
+        ] {
+            assert_eq!(unsigned_zeros(text), expected);
+        }
+        for text in ["-0.0004", "-0x", "2009-04-06 1e-0", "a-0 --0 +-0 x[1]-0 -1.0 -", "-0.0.0"] {
+            assert!(matches!(unsigned_zeros(text), Cow::Borrowed(_)), "{text}");
+        }
+        let mut table = table(&["value"]);
+        table.add_row([format!("{:.3}, {:.1}", -0.000_4, -1.0)]);
+        assert!(table.to_string().contains("0.000, -1.0") && !table.to_string().contains("-0"));
     }
 
     #[test]

@@ -58,10 +58,14 @@ pub struct TargetingVariables {
     /// Momentum in the body frame that a reactive downlink aims at, by momentum.convention.
     #[parameter(unit = "N.m.s", min = -1e12, max = 1e12, start = [0.0; 3])]
     pub target: RealVector<3>,
-    /// How many cycles of science and downlink predictive targets look ahead, each downlink with what sunlight can do then
-    /// (chosen: from 16 on the dumps of paper 000's Table 2 stay the same, each count within 1 of the paper's, which names no
-    /// horizon); with momentum.convention = inertial, under which the body turns, one. Without a cycle to come they are
-    /// momentum.target.
+    /// How many cycles predictive targets look ahead: each is the science after a downlink and the downlink after it, the first begins
+    /// at the end of the downlink (or science that unloads) whose target is sought, the last ends with its science. Each downlink counts
+    /// with what sunlight can do then, none in a solar conjunction, so that the target holds over a gap that lies within the horizon;
+    /// a horizon that cannot be kept is shortened. The default is chosen: paper 000 names none, from 16 on the dumps of its Table 2 stay
+    /// the same, each count within 1 of the paper's, since the conjunction on day 42 is prepared for in time; 1 looks at the next
+    /// science alone. Each choice flies the horizon once ahead, so that its cost, and what it takes of solver.workLimit, grows in
+    /// proportion. With momentum.convention = inertial, under which the body turns, it is one cycle whatever stands here; without a cycle
+    /// to come targets are momentum.target.
     #[parameter(min = 1, max = LONGEST_HORIZON, start = 20)]
     pub horizon: Integer,
 }
@@ -91,8 +95,8 @@ impl TargetingVariables {
 /// Parameters of momentum management.
 #[derive(Variables)]
 pub struct ManagementVariables {
-    /// What sunlight is used for during downlinks. It acts where the attitude is guided, in controlled flight with
-    /// command.source = guidance too.
+    /// What sunlight is used for during downlinks, and in science with guided.scienceUnload. It acts where the attitude is guided, in
+    /// controlled flight with command.source = guidance too.
     #[parameter(start = MomentumStrategy(Strategy::DumpsOnly))]
     pub strategy: Choice<MomentumStrategy>,
     #[group(name = "")]

@@ -3,12 +3,14 @@
 use fmi_export::{
     Boolean, Choice, Elements, Failure, Given, Integer, Knowns, Real, Values, Variables, knowns,
 };
+use physics::attitude::SunAngles;
 use physics::bodies::Body;
 use physics::bodies::surface::{self, PlanetSurface};
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::orbit::Elements as KeplerElements;
 use physics::environment::sun::SOLAR_FLUX_W_M2;
 use physics::guidance::constraints::keep_in::KeepIn;
+use physics::guidance::pointing::boresight::MdisRange;
 use physics::guidance::{self, Guided, Schedule};
 use physics::plant::SunLight;
 
@@ -163,6 +165,15 @@ pub struct GuidedVariables {
     /// How the spacecraft stands while it observes.
     #[parameter(start = ScienceRule::Scaled)]
     pub science_rule: Choice<ScienceRule>,
+    /// Whether science off-points to unload momentum by sunlight (paper 001, MDIS pointing): the Sun's place in the keep-in zone is
+    /// chosen where science begins, or the flight or the scenario in it, for the momentum target of momentum.strategy at its end, and
+    /// held until the next downlink. The body turns about the Sun line until nadir lies in the scan plane YZ of the MDIS camera, which
+    /// is turned back to it; beyond its range (here -50 to 40 deg from +Z, in Guidance mdis.minimum to mdis.maximum) the nearest bound
+    /// comes nearest to nadir. guided.scienceRule does not count then. Without a downlink to come, or a place, the Sun stands on -Y.
+    /// Predictive targets are forecast with it there through coming science; with momentum.convention = inertial science aims at
+    /// momentum.target. Needs a momentum.strategy other than dumpsOnly; every spacecraft counts as having the camera.
+    #[parameter(start = false)]
+    pub science_unload: Boolean,
     /// Sun elevation per (Sun-nadir angle - 90 deg) under the scaled rule; 0.25 is fitted to paper 000's Table 2.
     #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.25)]
     pub science_gain: Real,
@@ -224,8 +235,22 @@ impl EllipseVariables {
 }
 
 impl GuidedVariables {
+    /// Refuses science that unloads without a strategy that chooses the Sun's place.
+    ///
+    /// # Errors
+    /// Science that unloads while nothing manages the momentum.
+    pub fn check_unload(&self, values: &Values, managed: bool) -> Result<(), Failure> {
+        if values.boolean(self.science_unload) && !managed {
+            return Err(Failure::new(
+                "guided.scienceUnload: found true with momentum.strategy dumpsOnly, allowed: false, or reactive or predictive, which \
+                 choose the Sun's place",
+            ));
+        }
+        Ok(())
+    }
+
     /// The guidance law of an orbit with this periapsis and period, in s, or of one window after the start, all in s past J2000
-    /// TDB. Science pitches, and turns go, within the zone `keep_in`.
+    /// TDB. Science pitches, and turns go, within the zone `keep_in`; a camera with the range `camera` keeps nadir where it unloads.
     ///
     /// # Errors
     /// A downlink that ends before it begins.
@@ -236,6 +261,7 @@ impl GuidedVariables {
         period_s: f64,
         start_epoch_s: f64,
         keep_in: KeepIn,
+        camera: MdisRange,
     ) -> Result<Guided, Failure> {
         let [start_s, end_s] = [self.downlink_start, self.downlink_end].map(|time| values.real(time));
         if values.integer(self.downlink_every) != 0 && start_s > end_s {
@@ -255,6 +281,9 @@ impl GuidedVariables {
                 once,
             },
             science: match values.choice(self.science_rule) {
+                _ if values.boolean(self.science_unload) => {
+                    guidance::ScienceRule::Unloading { sun: SunAngles::default(), camera }
+                }
                 Some(ScienceRule::Nadir) => guidance::ScienceRule::Nadir,
                 Some(ScienceRule::FixedToSunLine) => guidance::ScienceRule::PlanetOrbit,
                 Some(ScienceRule::Scaled) | None => {

@@ -51,7 +51,7 @@ pub struct State {
 
 impl Model for Guidance {
     const NAME: &'static str = "Guidance";
-    const STATE_VERSION: u32 = 4;
+    const STATE_VERSION: u32 = 5;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &["timeline.toml", EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
@@ -117,12 +117,12 @@ impl Model for Guidance {
             coarse: CoarseEphemeris::default(),
             fixed: None,
         };
-        let mut shown = state.clone();
+        // Masters that connect inputs one by one look before all of them are set: the first step says what is missing.
+        let mut shown = State { said_unconnected: true, ..state.clone() };
         let mut fixed = Fixed::read(context, values)?;
         management::set_panels(context, values, &mut fixed.panels);
         let settings = inputs::settings(context, values, &fixed)?;
         shown.sample(context, values, &fixed, &settings, InputsOverTime::held())?;
-        state.said_unconnected = shown.said_unconnected;
         state.ephemeris = shown.ephemeris.clone();
         state.coarse = shown.coarse.clone();
         outputs::write(context, values, &shown.system, &shown.dumps, &fixed.burn, start_s, epoch_s);
@@ -261,6 +261,6 @@ impl State {
         let manager = SampledManager { momentum_body_n_m_s, ..manager };
         let inputs = SampleInputs { command, entries, places, sensed, delta_v_body_m_s };
         let is_asked = self.system.sample(&settings, &inputs, &manager);
-        Ok(if is_asked { manager.work() } else { 0 })
+        Ok(if is_asked { manager.work(settings.orbit_phase.science.unloads()) } else { 0 })
     }
 }

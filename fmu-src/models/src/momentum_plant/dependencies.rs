@@ -2,12 +2,13 @@
 
 use fmi_export::{Dependencies, Knowns, knowns};
 
-use super::setup::PlantSetup;
+use super::setup::{OpenChoices, PlantSetup};
 use super::variables::PlantVariables;
 
 /// Rows by groups of outputs.
 pub fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
-    let (inputs, parameters) = (&Inputs::of(setup, v), &Parameters::of(v));
+    let choice = setup.open_choices();
+    let (inputs, parameters) = (&Inputs::of(setup, choice, v), &Parameters::of(choice, v));
     let mut table = Dependencies::new();
     motion(&mut table, v, inputs, parameters);
     loads(&mut table, v, inputs, parameters);
@@ -32,8 +33,7 @@ struct Inputs {
 }
 
 impl Inputs {
-    fn of(setup: &PlantSetup, v: &PlantVariables) -> Self {
-        let choice = setup.open_choices();
+    fn of(setup: &PlantSetup, choice: OpenChoices, v: &PlantVariables) -> Self {
         let places = knowns![v.orbit.position, v.orbit.velocity, &v.sun, &v.earth];
         let panels_weigh = setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some());
         // The Sun's place in a downlink follows the momentum, and that the dump.
@@ -58,7 +58,7 @@ impl Inputs {
     }
 }
 
-/// Parameters by section.
+/// Parameters by section, over the same values.
 struct Parameters {
     orbit: Knowns,
     attitude: Knowns,
@@ -69,25 +69,29 @@ struct Parameters {
 }
 
 impl Parameters {
-    fn of(v: &PlantVariables) -> Self {
+    fn of(choice: OpenChoices, v: &PlantVariables) -> Self {
         let orbit = knowns![&v.start, &v.orbit, &v.planet, &v.ephemeris, v.sun.radius, &v.eclipse];
-        let aimed = knowns![&v.momentum, &v.solar, &v.spacecraft, &v.sunshade, &v.panel];
         let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
-        let attitude = knowns![
-            &orbit,
-            &v.attitude,
-            &v.command,
-            &v.guided,
-            &v.keep_in,
-            aimed,
-            wheels.collect::<Knowns>(),
-        ];
+        // Guidance balances torques against the momentum.
+        let aimed = &knowns![&v.guided, &v.momentum, &v.solar, &v.spacecraft, wheels.collect::<Knowns>()];
+        let turned = knowns![&orbit, &v.attitude, &v.command, &v.keep_in, &v.sunshade, &v.panel];
+        let attitude = knowns![turned, aimed.clone().only_if(choice.guided)];
         let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, &v.noise, v.control.rate];
-        let light = knowns![&v.planet_light, &v.thermal, &v.shadowing, &v.gravity_gradient, &v.solver];
-        let momentum = knowns![&attitude, &v.dump];
+        let light = knowns![
+            &attitude,
+            &v.planet_light,
+            &v.thermal,
+            &v.shadowing,
+            &v.gravity_gradient,
+            &v.solver,
+            &v.solar,
+            &v.spacecraft,
+            &v.tank,
+        ];
+        let momentum = knowns![&attitude, aimed, &v.dump];
         Self {
-            // A dump takes propellant, which moves the centre of mass.
-            light: knowns![&momentum, &v.thruster, &v.tank, light],
+            // A dump at once takes propellant, which moves the centre of mass.
+            light: knowns![light, knowns![&momentum, &v.thruster].only_if(choice.ideal)],
             actuators: knowns![&momentum, &sensors, &v.control, &v.wheel, &v.thruster, &v.tank, &v.thrust],
             sensors: knowns![&attitude, sensors],
             orbit,

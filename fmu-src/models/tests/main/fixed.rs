@@ -3,9 +3,11 @@
 use fmi_export::Model;
 use fmi_export::fmi2::description_of;
 use fmi_export::model_description::{
-    Causality, Description, Initial, ScalarVariable, Variability, VariableKind, rules,
+    Causality, Description, Initial, ScalarVariable, Unknown, Variability, VariableKind, rules,
 };
 use models::{MomentumPlant, SpinPlant};
+
+const FULL: &str = include_str!("../../../resources/messenger-full.toml");
 
 fn with(entries: &str) -> Description {
     let text = format!("{}\n[fixed]\n{entries}\n", MomentumPlant::DEFAULT_SETUP);
@@ -16,12 +18,22 @@ fn variable<'a>(description: &'a Description, name: &str) -> &'a ScalarVariable 
     description.variables.iter().find(|it| it.name == name).unwrap()
 }
 
-/// Names of what an output depends on in steps.
-fn acts_on(description: &Description, output: &str) -> Vec<String> {
-    let at = description.variables.iter().position(|it| it.name == output).unwrap() as u32 + 1;
-    let unknown = description.structure.outputs.iter().find(|it| it.index == at).unwrap();
+/// Names of what an unknown of a list depends on.
+fn listed(description: &Description, unknowns: &[Unknown], name: &str) -> Vec<String> {
+    let at = description.variables.iter().position(|it| it.name == name).unwrap() as u32 + 1;
+    let unknown = unknowns.iter().find(|it| it.index == at).unwrap();
     let name = |index: &u32| description.variables[*index as usize - 1].name.clone();
     unknown.dependencies.as_ref().unwrap().iter().map(name).collect()
+}
+
+/// In steps.
+fn acts_on(description: &Description, output: &str) -> Vec<String> {
+    listed(description, &description.structure.outputs, output)
+}
+
+/// In initialization.
+fn begins_with(description: &Description, unknown: &str) -> Vec<String> {
+    listed(description, &description.structure.initial_unknowns, unknown)
 }
 
 #[test]
@@ -47,6 +59,31 @@ fn a_fixed_choice_is_a_local_constant_and_no_command_acts_at_once() {
         let known = &fixed.variables[*known as usize - 1];
         assert_ne!(known.variability, Variability::Constant, "{}", known.name);
     }
+}
+
+#[test]
+fn a_body_that_guidance_never_turns_begins_without_it() {
+    let begins_guided = |entries: &str, unknown: &str| {
+        begins_with(&with(entries), unknown).iter().any(|name| name.starts_with("guided."))
+    };
+    let controlled =
+        |command: &str| format!("\"attitude.source\" = \"controlled\"\n\"command.source\" = \"{command}\"");
+    for unknown in ["attitude.q[1]", "estimate.q[1]", "force.solar[1]"] {
+        assert!(begins_guided("", unknown) && begins_guided(&controlled("guidance"), unknown), "{unknown}");
+        assert!(!begins_guided(&controlled("inputs"), unknown), "{unknown}");
+        assert!(!begins_guided("\"attitude.source\" = \"free\"", unknown), "{unknown}");
+    }
+}
+
+#[test]
+fn where_no_dump_is_at_once_light_begins_without_thrusters() {
+    let begins_fired = |fixed: &str| {
+        let description =
+            description_of::<MomentumPlant>("my.toml", &format!("{FULL}\n[fixed]\n{fixed}\n")).unwrap();
+        begins_with(&description, "torque.solar[1]").iter().any(|name| name.starts_with("thruster[1]."))
+    };
+    assert!(begins_fired("") && begins_fired("\"attitude.source\" = \"commanded\""));
+    assert!(!begins_fired("\"attitude.source\" = \"controlled\""));
 }
 
 #[test]

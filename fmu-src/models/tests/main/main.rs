@@ -23,6 +23,7 @@ mod plant_thresholds;
 mod plant_tolerance;
 mod plant_unset;
 mod plant_work;
+mod science_unload;
 mod spin_plant;
 mod start_values;
 mod valves;

@@ -10,13 +10,14 @@ pub mod orbit_phase;
 pub mod pointing;
 pub mod timeline;
 
-pub use downlink::downlink_sun::{DownlinkStart, DownlinkSun, SunChooser, SunOnMinusY};
+pub use downlink::downlink_sun::{DownlinkSun, SunChooser, SunOnMinusY, WindowStart};
 pub use downlink::sun_place::{ChosenPlace, SunPlace};
 pub use geometry::surroundings::{Surroundings, TargetPlanet};
 pub use orbit_phase::attitudes::{
-    AttitudeCommand, LinesOfSight, ScienceRule, downlink_toward, science, sun_pointing,
+    AttitudeCommand, LinesOfSight, ScienceRule, downlink_toward, science, sun_pointing, unloading,
 };
 pub use orbit_phase::guided::{Guided, GuidedAttitude};
 pub use orbit_phase::orbit_ahead::{OrbitAhead, lines_of_sight};
 pub use orbit_phase::schedule::{Activity, Schedule, Window};
+pub use orbit_phase::science_course::{CoursePoint, ScienceCourse};
 pub use pointing::law::{Pointing, PointingVectors};

@@ -5,6 +5,8 @@
 //! |E| <= min(theta, 180 deg - theta). An antenna that covers the azimuths m - 45 deg to m + 45 deg allows the azimuths
 //! A of the Sun within 45 deg of m + delta or m - delta. The angle theta changes while a downlink lasts, one way over hours: what
 //! holds at its least and at its greatest holds throughout.
+//!
+//! In science that unloads no antenna looks at the Earth: the keep-in zone alone counts.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
@@ -20,13 +22,13 @@ pub struct KeepInLimits {
     pub elevation_rad: f64,
 }
 
-/// One side of the Sun for the Earth, and one antenna.
+/// One side of the Sun for the Earth, and one antenna; or anywhere in the zone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Branch {
     /// Whether the Earth's azimuth is A + delta.
     pub earth_ahead: bool,
-    /// Middle of the antenna's quadrant, in rad.
-    middle_rad: f64,
+    /// Middle of the antenna's quadrant, in rad; `None`: no antenna.
+    middle_rad: Option<f64>,
     /// Least and greatest angle between Sun and Earth while the downlink lasts, in rad.
     separations_rad: [f64; 2],
     limits: KeepInLimits,
@@ -38,10 +40,20 @@ impl Branch {
         const SUNSHADE_RAD: f64 = -FRAC_PI_4;
         const BACK_RAD: f64 = 3.0 * FRAC_PI_4;
         let separations_rad = [separation_rad; 2];
-        let branch = |earth_ahead, middle_rad| Self { earth_ahead, middle_rad, separations_rad, limits };
+        let branch = |earth_ahead, middle_rad| Self {
+            earth_ahead,
+            middle_rad: Some(middle_rad),
+            separations_rad,
+            limits,
+        };
         let (behind, ahead) = (branch(false, SUNSHADE_RAD), branch(true, BACK_RAD));
         let (first, second) = if separation_rad < FRAC_PI_2 { (behind, ahead) } else { (ahead, behind) };
         [first, second, branch(true, SUNSHADE_RAD), branch(false, BACK_RAD)]
+    }
+
+    /// The zone, whatever becomes of the Earth.
+    pub fn zone(limits: KeepInLimits) -> Self {
+        Self { earth_ahead: false, middle_rad: None, separations_rad: [FRAC_PI_2; 2], limits }
     }
 
     /// The same where the angle between Sun and Earth goes from the least to the greatest of these while the downlink lasts.
@@ -52,18 +64,22 @@ impl Branch {
 
     /// Greatest magnitude of the elevation, in rad.
     pub fn elevation_rad(&self) -> f64 {
+        if self.middle_rad.is_none() {
+            return self.limits.elevation_rad;
+        }
         let [least_rad, greatest_rad] = self.separations_rad;
         self.limits.elevation_rad.min(least_rad).min(PI - greatest_rad)
     }
 
     /// Least and greatest azimuth at an elevation; `None` where no azimuth will do.
     pub fn azimuths_rad(&self, elevation_rad: f64) -> Option<[f64; 2]> {
+        let most_rad = self.limits.azimuth_rad.min(FRAC_PI_2);
+        let Some(middle_rad) = self.middle_rad else { return Some([-most_rad, most_rad]) };
         let middles_rad = self.separations_rad.map(|separation_rad| {
             let cosine = (separation_rad.cos() / elevation_rad.cos()).clamp(-1.0, 1.0);
             let delta_rad = if self.earth_ahead { cosine.acos() } else { -cosine.acos() };
-            (self.middle_rad - delta_rad + PI).rem_euclid(TAU) - PI
+            (middle_rad - delta_rad + PI).rem_euclid(TAU) - PI
         });
-        let most_rad = self.limits.azimuth_rad.min(FRAC_PI_2);
         let low_rad = middles_rad.into_iter().fold(-most_rad, |low_rad, it| low_rad.max(it - FRAC_PI_4));
         let high_rad = middles_rad.into_iter().fold(most_rad, |high_rad, it| high_rad.min(it + FRAC_PI_4));
         // What stands at a bound is inside, whatever rounding says.
@@ -131,7 +147,7 @@ mod tests {
                         let frame = downlink_toward(&lines, &place).frame;
                         let earth = frame.inertial_from_body.inverse() * lines.earth.direction;
                         let azimuth_rad = SunAngles::of(&earth).azimuth_rad;
-                        let off_rad = (azimuth_rad - branch.middle_rad + PI).rem_euclid(TAU) - PI;
+                        let off_rad = (azimuth_rad - branch.middle_rad.unwrap() + PI).rem_euclid(TAU) - PI;
                         if (off_rad.abs() - FRAC_PI_4).abs() < 1e-9 {
                             continue;
                         }
@@ -166,7 +182,8 @@ mod tests {
                             let frame = downlink_toward(lines, &place).frame;
                             let earth = frame.inertial_from_body.inverse() * lines.earth.direction;
                             let azimuth_rad = SunAngles::of(&earth).azimuth_rad;
-                            let off_rad = (azimuth_rad - branch.middle_rad + PI).rem_euclid(TAU) - PI;
+                            let off_rad =
+                                (azimuth_rad - branch.middle_rad.unwrap() + PI).rem_euclid(TAU) - PI;
                             off_rad.abs() - FRAC_PI_4
                         });
                         let greatest_rad = off_rad.fold(f64::NEG_INFINITY, f64::max);

@@ -1,8 +1,9 @@
-//! What lies ahead of a downlink's begin: momentum and light through the coming cycles, flown in default attitudes and without
+//! What lies ahead of a downlink's begin, or of science that unloads: momentum and light through the coming cycles, flown in default attitudes and without
 //! dumps.
 //!
 //! Components that are integrated on their own are noted one by one over the whole horizon ([`super::profile`]); the physical
-//! momentum, under which the body turns, through the next science ([`super::turning`]).
+//! momentum, under which the body turns, through the next science ([`super::turning`]). Science that begins and unloads stands for the
+//! downlink that begins, without a science between it and the next downlink.
 
 use nalgebra::{Rotation3, Vector3};
 
@@ -27,14 +28,17 @@ pub trait Forecast {
     /// Why there is none.
     type Error;
 
-    /// Where the downlink begins, in s.
+    /// Where the downlink begins, or science that unloads, in s.
     fn begin_s(&self) -> f64;
 
     /// Length of a cycle of science and downlink, in s; infinite or 0 where none follows.
     fn cycle_s(&self) -> f64;
 
-    /// How long the downlink lasts that begins, in s.
+    /// How long it lasts, in s.
     fn span_s(&self) -> f64;
+
+    /// Whether science that unloads begins.
+    fn begins_in_science(&self) -> bool;
 
     /// Length of a coming downlink, in s.
     fn downlink_s(&self) -> f64;
@@ -80,6 +84,7 @@ impl Ahead {
         }
         Ok(match forecast.convention() {
             Convention::BodyIntegral => Some(Self::Components(Components::of(forecast, science_s, horizon)?)),
+            Convention::Inertial if forecast.begins_in_science() => None,
             Convention::Inertial => ScienceAhead::of(forecast, cycle_s)?.map(Self::Science),
         })
     }
@@ -129,12 +134,15 @@ impl Components {
         };
         let spans_s = [forecast.span_s(), forecast.downlink_s()];
         let first_end_s = begin_s + spans_s[0];
+        // Without a science first all that comes after it comes so much sooner.
+        let sooner_s = if forecast.begins_in_science() { science_s } else { 0.0 };
         let times_s = (0..visits_before(count) + 1).map(|visit| match cycle_and_sample(visit) {
             (0, 0) => begin_s,
-            (cycle, 0) => first_end_s + (cycle - 1) as f64 * cycle_s + science_s,
+            (0, _) if sooner_s > 0.0 => first_end_s,
+            (cycle, 0) => first_end_s + (cycle - 1) as f64 * cycle_s + (science_s - sooner_s),
             (cycle, sample) => {
                 let share = (sample - 1) as f64 / samples_of(cycle) as f64;
-                first_end_s + cycle as f64 * cycle_s + share * science_s
+                first_end_s + cycle as f64 * cycle_s + (share * science_s - sooner_s)
             }
         });
         let (mut visited, mut base) = (0, [0.0; 2]);

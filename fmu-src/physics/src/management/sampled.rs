@@ -7,10 +7,13 @@ use nalgebra::Vector3;
 use super::ahead::Ahead;
 use super::sampled_forecast::SampledForecast;
 use super::strategy::{Manager, Strategy};
-use super::targeting::Aim;
+use super::targeting::{Aim, ScienceAim};
 use crate::attitude::angle_between_rad;
 use crate::guidance::geometry::moving::value;
-use crate::guidance::{ChosenPlace, DownlinkStart, Guided, OrbitAhead, Schedule, SunChooser};
+use crate::guidance::{
+    Activity, ChosenPlace, CoursePoint, Guided, OrbitAhead, Schedule, ScienceCourse, ScienceRule, SunChooser,
+    WindowStart,
+};
 use crate::momentum::{Convention, DumpPolicy, Totals};
 use crate::numerics::intervals::sampled_range;
 use crate::plant::{StartMomentum, SunLight, SunlitCraft};
@@ -33,7 +36,7 @@ pub struct SampledManager<'a> {
 }
 
 impl SunChooser for SampledManager<'_> {
-    fn choose(&self, start: &DownlinkStart<'_>) -> Option<ChosenPlace> {
+    fn choose(&self, start: &WindowStart<'_>) -> Option<ChosenPlace> {
         if self.manager.strategy == Strategy::DumpsOnly {
             return None;
         }
@@ -43,14 +46,16 @@ impl SunChooser for SampledManager<'_> {
         let pressure_pa = self.light.pressure_pa(to_sun_m.norm());
         let totals = Totals::at_start(self.momentum_body_n_m_s, &start.attitude.inertial_from_body());
         let torque = |sun_body: &Vector3<f64>| craft.torque_body_n_m(sun_body, pressure_pa);
+        let science = self.science_course(start);
         let aim = Aim {
             to_sun: to_sun_m.try_normalize(0.0)?,
             to_earth: to_earth_m.try_normalize(0.0)?,
             momentum: StartMomentum::of(&totals, self.convention),
-            span_s: start.span_s,
+            span_s: science.as_ref().map_or(start.span_s, ScienceCourse::light_s),
             torque_body_n_m: &torque,
             pressure_pa,
             linear: self.manager.linear(&craft.center_of_mass_body_m()),
+            science: science.as_ref().map(|course| ScienceAim { course, convention: self.convention }),
         };
         let separations_rad = separations_rad(start);
         self.manager.place(aim, self.ahead(start, totals).as_ref(), separations_rad)
@@ -59,7 +64,7 @@ impl SunChooser for SampledManager<'_> {
 
 /// Least and greatest angle between Sun and Earth while the downlink lasts, in rad; that at its begin where the spacecraft is on
 /// no ellipse about its planet.
-fn separations_rad(start: &DownlinkStart<'_>) -> [f64; 2] {
+fn separations_rad(start: &WindowStart<'_>) -> [f64; 2] {
     let orbit = OrbitAhead::of(start.surroundings);
     let at = |share: f64| {
         let epoch_s = start.surroundings.epoch_s + start.span_s * share;
@@ -71,21 +76,43 @@ fn separations_rad(start: &DownlinkStart<'_>) -> [f64; 2] {
 
 /// Units of about a microsecond that targeting takes at most.
 const TARGETING_WORK: u32 = 5_000;
+/// Units that targeting takes at most in science that unloads: each of its trials goes through all of it.
+const SCIENCE_WORK: u32 = 100_000;
 /// Units that a cycle of a forecast takes at most.
 const CYCLE_WORK: u32 = 2_000;
 
 impl SampledManager<'_> {
-    /// Units of about a microsecond that a choice takes at most.
-    pub fn work(&self) -> u32 {
+    /// Units of about a microsecond that a choice takes at most, where science unloads or not.
+    pub fn work(&self, unloads: bool) -> u32 {
+        let targeting = if unloads { SCIENCE_WORK } else { TARGETING_WORK };
         match self.manager.strategy {
             Strategy::DumpsOnly => 0,
-            Strategy::Reactive => TARGETING_WORK,
-            Strategy::Predictive => TARGETING_WORK + self.manager.horizon.saturating_mul(CYCLE_WORK),
+            Strategy::Reactive => targeting,
+            Strategy::Predictive => targeting + self.manager.horizon.saturating_mul(CYCLE_WORK),
         }
     }
 
+    /// The science that begins; `None` where a downlink does.
+    fn science_course(&self, start: &WindowStart<'_>) -> Option<ScienceCourse> {
+        let ScienceRule::Unloading { camera, .. } = start.law.science else { return None };
+        if start.activity == Activity::Downlink {
+            return None;
+        }
+        let orbit = OrbitAhead::of(start.surroundings);
+        Some(ScienceCourse::of(camera, start.span_s, |share| {
+            let epoch_s = start.surroundings.epoch_s + start.span_s * share;
+            let then = orbit.map_or(*start.surroundings, |orbit| orbit.at(epoch_s));
+            let to_sun_m = value(&then.to_sun());
+            CoursePoint {
+                to_sun_m,
+                to_planet_m: value(&then.to_planet()),
+                pressure_pa: self.light.pressure_pa(to_sun_m.norm()),
+            }
+        }))
+    }
+
     /// What lies ahead; nothing where the spacecraft is on no ellipse about its planet.
-    fn ahead(&self, start: &DownlinkStart<'_>, totals: Totals) -> Option<Ahead> {
+    fn ahead(&self, start: &WindowStart<'_>, totals: Totals) -> Option<Ahead> {
         if self.manager.strategy != Strategy::Predictive {
             return None;
         }
@@ -101,6 +128,7 @@ impl SampledManager<'_> {
             totals,
             begin_s: start.surroundings.epoch_s,
             span_s: start.span_s,
+            begins_in_science: start.activity == Activity::Science,
         };
         let Ok(ahead) = self.manager.ahead(&mut forecast);
         ahead

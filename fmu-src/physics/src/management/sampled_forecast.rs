@@ -21,7 +21,7 @@ use crate::plant::{ForecastMomentum, SunLight, SunlitCraft};
 pub struct SampledForecast<'a> {
     /// Where everything will be.
     pub orbit: OrbitAhead<'a>,
-    /// Windows and attitudes, the Sun on -Y in downlink.
+    /// Windows and attitudes, the Sun on -Y in downlink and in science that unloads.
     pub law: Guided,
     /// What the light meets.
     pub craft: SunlitCraft<'a>,
@@ -35,8 +35,10 @@ pub struct SampledForecast<'a> {
     pub totals: Totals,
     /// The begin, in s past J2000 TDB.
     pub begin_s: f64,
-    /// How long the downlink lasts that begins, in s.
+    /// How long the downlink lasts that begins, or science that unloads, in s.
     pub span_s: f64,
+    /// Whether that science begins.
+    pub begins_in_science: bool,
 }
 
 impl SampledForecast<'_> {
@@ -78,6 +80,10 @@ impl Forecast for SampledForecast<'_> {
 
     fn downlink_s(&self) -> f64 {
         self.law.schedule.downlink_s()
+    }
+
+    fn begins_in_science(&self) -> bool {
+        self.begins_in_science
     }
 
     fn convention(&self) -> Convention {

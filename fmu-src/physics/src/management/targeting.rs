@@ -2,7 +2,9 @@
 //!
 //! Equation: C(A, E) H + span T(A, E) = target on the targeted axes, C the downlink attitude with the Sun at azimuth A and
 //! elevation E, T the whole torque of sunlight there; with momentum by the body integral, H + span T(A, E) = target. With one
-//! axis the other angle stays 0, or as near to it as the antennas allow. The linear method takes H in the default attitude and
+//! axis the other angle stays 0, or as near to it as the antennas allow. In science that unloads the attitude turns about the Sun
+//! line: C(end) (H + sum of w C_k^T T(A, E)) = target ([`crate::guidance::ScienceCourse`]), and the zone alone bounds the place. The
+//! linear method takes H in the default attitude and
 //! the shade's torque to first order in the angles (eq 17).
 //! Method: Newton with central differences on both sides of the Sun and for both antennas; for one axis a bracketed root. Where
 //! no admissible place reaches the target, the one that comes nearest to it in momentum, by golden section search.
@@ -13,7 +15,8 @@ use nalgebra::{Matrix2, Vector2, Vector3};
 use super::admissible::{Branch, KeepInLimits};
 use super::linear::LinearTorque;
 use crate::attitude::{MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
-use crate::guidance::{LinesOfSight, SunPlace, downlink_toward};
+use crate::guidance::{LinesOfSight, ScienceCourse, SunPlace, downlink_toward};
+use crate::momentum::Convention;
 use crate::numerics::roots;
 use crate::plant::StartMomentum;
 
@@ -59,7 +62,7 @@ pub struct Targeting {
     pub elevation_limit_rad: f64,
 }
 
-/// What a downlink starts from and what its light does.
+/// What a downlink starts from, or science that unloads, and what its light does.
 pub struct Aim<'a> {
     /// Unit vector to the Sun, EME2000.
     pub to_sun: Vector3<f64>,
@@ -67,7 +70,7 @@ pub struct Aim<'a> {
     pub to_earth: Vector3<f64>,
     /// Momentum at the start.
     pub momentum: StartMomentum,
-    /// How long the downlink lasts, in s.
+    /// How long light as at the start acts, in s.
     pub span_s: f64,
     /// Torque of sunlight in N m, body frame, with the Sun in this direction of the body frame.
     pub torque_body_n_m: &'a dyn Fn(&Vector3<f64>) -> Vector3<f64>,
@@ -75,6 +78,17 @@ pub struct Aim<'a> {
     pub pressure_pa: f64,
     /// The shade's linear formula; absent without a shade.
     pub linear: Option<LinearTorque>,
+    /// The science that begins; `None`: a downlink does.
+    pub science: Option<ScienceAim<'a>>,
+}
+
+/// Science that unloads.
+#[derive(Clone, Copy, Debug)]
+pub struct ScienceAim<'a> {
+    /// How it goes.
+    pub course: &'a ScienceCourse,
+    /// Whether the body turns under the momentum.
+    pub convention: Convention,
 }
 
 /// The place found.
@@ -111,17 +125,38 @@ impl Targeting {
         target_body_n_m_s: &Vector3<f64>,
         separations_rad: [f64; 2],
     ) -> Option<Targeted> {
-        let branches = self.branches(aim.separation_rad())?.map(|branch| branch.lasting(separations_rad));
+        let (zone, sides);
+        let branches: &[Branch] = if aim.science.is_some() {
+            zone = [self.zone()];
+            &zone
+        } else {
+            sides = self.branches(aim.separation_rad())?.map(|branch| branch.lasting(separations_rad));
+            &sides
+        };
         match self.method {
-            TargetingMethod::Exact => self.exact(aim, target_body_n_m_s, &branches),
-            TargetingMethod::Linear => self.linear(aim, target_body_n_m_s, &branches),
+            TargetingMethod::Exact => self.exact(aim, target_body_n_m_s, branches),
+            TargetingMethod::Linear => self.linear(aim, target_body_n_m_s, branches),
         }
+    }
+
+    /// Least and greatest torque of sunlight about X and Z in N m through what begins, the other angle at 0: in a downlink with Sun
+    /// and Earth this far apart at both ends where an antenna can stay with it, else as they are at the begin.
+    pub fn present_torques(&self, aim: &Aim<'_>, separations_rad: Option<[f64; 2]>) -> Option<[[f64; 2]; 2]> {
+        if aim.science.is_some() {
+            return Self::torques_on(aim, &self.zone());
+        }
+        let lasting = separations_rad.and_then(|it| self.torques(aim, it));
+        lasting.or_else(|| self.torques(aim, [aim.separation_rad(); 2]))
     }
 
     /// Least and greatest torque of sunlight about X and Z in N m, the other angle at 0, in a downlink that begins and ends with Sun
     /// and Earth this far apart; `None` where one of them has no direction, or the antenna cannot stay with the Earth.
     pub fn torques(&self, aim: &Aim<'_>, [begin_rad, end_rad]: [f64; 2]) -> Option<[[f64; 2]; 2]> {
         let branch = self.branches(begin_rad)?[0].lasting([begin_rad.min(end_rad), begin_rad.max(end_rad)]);
+        Self::torques_on(aim, &branch)
+    }
+
+    fn torques_on(aim: &Aim<'_>, branch: &Branch) -> Option<[[f64; 2]; 2]> {
         let torque = |elevation_rad: f64, azimuth_rad: f64| {
             let sun_body = direction_from_angles(SunAngles { azimuth_rad, elevation_rad });
             (aim.torque_body_n_m)(&sun_body)
@@ -135,21 +170,31 @@ impl Targeting {
         ])
     }
 
-    /// Momentum at the start in the default downlink attitude, body frame, in N m s.
+    /// Momentum at the start in the default attitude, body frame, in N m s.
     pub fn default_momentum(&self, aim: &Aim<'_>) -> Option<Vector3<f64>> {
-        let place = self.branches(aim.separation_rad())?[0].nearest(SunAngles::default())?;
+        let first = match aim.science {
+            Some(_) => self.zone(),
+            None => self.branches(aim.separation_rad())?[0],
+        };
+        let place = first.nearest(SunAngles::default())?;
         Some(aim.momentum_body_n_m_s(&place))
     }
 
     fn branches(&self, separation_rad: f64) -> Option<[Branch; 4]> {
         // Neither places nor separation is known where one has no direction.
         let has_plane = separation_rad.sin() > 1e-9;
-        let limits =
-            KeepInLimits { azimuth_rad: self.azimuth_limit_rad, elevation_rad: self.elevation_limit_rad };
-        has_plane.then(|| Branch::all(limits, separation_rad))
+        has_plane.then(|| Branch::all(self.limits(), separation_rad))
     }
 
-    fn exact(&self, aim: &Aim<'_>, target: &Vector3<f64>, branches: &[Branch; 4]) -> Option<Targeted> {
+    fn zone(&self) -> Branch {
+        Branch::zone(self.limits())
+    }
+
+    fn limits(&self) -> KeepInLimits {
+        KeepInLimits { azimuth_rad: self.azimuth_limit_rad, elevation_rad: self.elevation_limit_rad }
+    }
+
+    fn exact(&self, aim: &Aim<'_>, target: &Vector3<f64>, branches: &[Branch]) -> Option<Targeted> {
         let tolerance = ROUNDING * (1.0 + aim.momentum.magnitude_n_m_s() + target.norm());
         let mut best: Option<(f64, Targeted)> = None;
         for branch in branches {
@@ -239,7 +284,7 @@ impl Targeting {
         left.is_finite().then_some((place, left))
     }
 
-    fn linear(&self, aim: &Aim<'_>, target: &Vector3<f64>, branches: &[Branch; 4]) -> Option<Targeted> {
+    fn linear(&self, aim: &Aim<'_>, target: &Vector3<f64>, branches: &[Branch]) -> Option<Targeted> {
         let linear = aim.linear.as_ref()?;
         let start = branches.iter().find_map(|branch| branch.nearest(SunAngles::default()))?;
         let [by_x, by_z] = self.axes.asked();
@@ -272,8 +317,11 @@ impl Aim<'_> {
         angle_between_rad(&self.to_sun, &self.to_earth)
     }
 
-    /// Momentum at the start in the attitude with the Sun at `place`, body frame, in N m s.
+    /// Momentum at the start in the attitude with the Sun at `place`, body frame, in N m s; of science in its attitude at the end.
     fn momentum_body_n_m_s(&self, place: &SunPlace) -> Vector3<f64> {
+        if let Some((course, momentum)) = self.turning(place) {
+            return course.carried_body_n_m_s(place.angles, &momentum);
+        }
         match self.momentum {
             StartMomentum::Body(momentum) => momentum,
             StartMomentum::Inertial(momentum) => {
@@ -285,9 +333,24 @@ impl Aim<'_> {
         }
     }
 
+    /// Science in which the body turns under the momentum, and that in EME2000 at its start; `None` in any other.
+    fn turning(&self, place: &SunPlace) -> Option<(&ScienceCourse, Vector3<f64>)> {
+        let ScienceAim { course, convention } = self.science?;
+        match (self.momentum, convention) {
+            (StartMomentum::Inertial(momentum), _) => Some((course, momentum)),
+            (StartMomentum::Body(momentum), Convention::Inertial) => {
+                Some((course, course.begin_inertial_n_m_s(place.angles, &momentum)))
+            }
+            (StartMomentum::Body(_), Convention::BodyIntegral) => None,
+        }
+    }
+
     /// Momentum at the end less the target, body frame, in N m s.
     fn left(&self, place: &SunPlace, target: &Vector3<f64>) -> Vector3<f64> {
         let torque = (self.torque_body_n_m)(&direction_from_angles(place.angles));
+        if let Some((course, momentum)) = self.turning(place) {
+            return course.end_body_n_m_s(place.angles, &momentum, &torque) - target;
+        }
         self.momentum_body_n_m_s(place) + torque * self.span_s - target
     }
 }

@@ -1,4 +1,4 @@
-//! The committed JSON Schemas are those the types give; `UPDATE_SCHEMA=1` writes them anew.
+//! The committed JSON Schemas are those the types give; `cargo xtask bless schema` writes them anew.
 
 use std::fs;
 use std::path::Path;
@@ -25,9 +25,9 @@ fn the_schema_of_the_spinner_is_in_step() {
 
 fn assert_in_step(file: &str, wanted: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../resources").join(file);
-    if std::env::var_os("UPDATE_SCHEMA").is_some() {
+    if std::env::var_os("HELIOTORQUE_BLESS").is_some() {
         fs::write(&path, wanted).unwrap();
     }
     let found = fs::read_to_string(&path).unwrap();
-    assert!(found == wanted, "{} is out of step: run the tests once with UPDATE_SCHEMA=1", path.display());
+    assert!(found == wanted, "{} is out of step: cargo xtask bless schema", path.display());
 }

@@ -70,7 +70,7 @@ pub fn run(arguments: &Ephemeris) -> Outcome {
         let span_s = [start_s, arguments.coarse_until_s(stop_s)?];
         made.coarse = fit::coarse(source.as_ref(), &arguments.targets(), span_s, arguments.quiet)?;
     }
-    let text = to_toml(&made);
+    let text = terminal::unsigned_zeros(&to_toml(&made)).into_owned();
     // What a spacecraft will read is what was made.
     if FlownEphemeris::from_toml(FILE, &text).map_err(|error| error.to_string())? != made {
         return Err("the file does not read back as it was made".into());

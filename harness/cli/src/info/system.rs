@@ -24,11 +24,26 @@ pub fn text(system: &System) -> String {
         let part = &system.parts()[number];
         (part.name.clone(), vector(&part.fmu.description().variables[position].name))
     };
-    let joined = grouped(system.joints().iter().map(|joint| {
-        let ((from, output), (to, input)) = (name(joint.from), name(joint.to));
-        let joined = if output == input { output } else { format!("{output} to {input}") };
-        (format!("{from} to {to}"), joined)
-    }));
+    let own = system.own().iter().flat_map(|own| own.places.iter().map(move |place| (own, place.at)));
+    let own = own.map(|(own, at)| {
+        let (part, variable) = name(at);
+        let ends =
+            if own.gives() { format!("the system to {part}") } else { format!("{part} to the system") };
+        let outer = vector(&own.connector.name);
+        let joined = if outer == variable { outer } else { format!("{outer}, {variable} of {part}") };
+        (ends, joined)
+    });
+    let joined = grouped(
+        system
+            .joints()
+            .iter()
+            .map(|joint| {
+                let ((from, output), (to, input)) = (name(joint.from), name(joint.to));
+                let joined = if output == input { output } else { format!("{output} to {input}") };
+                (format!("{from} to {to}"), joined)
+            })
+            .chain(own),
+    );
     let left = grouped(open.into_iter().map(name));
     let experiment = system.description().default_experiment.unwrap_or_default();
     let time =
@@ -41,8 +56,10 @@ pub fn text(system: &System) -> String {
     .into_iter()
     .flatten()
     .collect();
-    let lists =
-        [(joined, format!("{} connections", system.joints().len())), (left, "open inputs".to_owned())];
+    let lists = [
+        (joined, format!("{} connections", system.structure().connections.len())),
+        (left, "open inputs".to_owned()),
+    ];
     let mut text = vec![components.to_string(), format!("default experiment: {}", times.join(", "))];
     for (groups, title) in lists {
         let lines: Vec<String> =

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use files::Destination;
+use loader::csv::Real;
 
 use super::{
     craft::Craft,
@@ -97,7 +98,12 @@ fn torque(craft: &Craft, found: &Found) -> String {
         let sun = direction(place_deg);
         let loads = load.torque_n_m.iter().chain(load.force_n.iter()).copied();
         let angles_deg = craft.panels.iter().map(|turned| turned.angle_rad(&sun).to_degrees());
-        let cells: Vec<String> = place_deg.into_iter().chain(loads).chain(angles_deg).map(number).collect();
+        let cells: Vec<String> = place_deg
+            .into_iter()
+            .chain(loads)
+            .chain(angles_deg)
+            .map(|value| Real(value).to_string())
+            .collect();
         text.push_str(&cells.join(","));
         text.push('\n');
     }
@@ -108,7 +114,7 @@ fn torque(craft: &Craft, found: &Found) -> String {
 fn lines(found: &Found) -> String {
     let mut text = "region,axis,line,sun_azimuth_deg,sun_elevation_deg\n".to_owned();
     let mut row = |region: &str, axis: &str, line: usize, [azimuth_deg, elevation_deg]: Angles| {
-        let (azimuth, elevation) = (number(azimuth_deg), number(elevation_deg));
+        let (azimuth, elevation) = (Real(azimuth_deg), Real(elevation_deg));
         text.push_str(&format!("{region},{axis},{line},{azimuth},{elevation}\n"));
     };
     let zone = found.zone.iter().map(|zone| ("zone", zone));
@@ -123,14 +129,4 @@ fn lines(found: &Found) -> String {
         }
     }
     text
-}
-
-/// The shortest text that reads back to the same bits.
-fn number(value: f64) -> String {
-    let magnitude = value.abs();
-    if magnitude == 0.0 || (1e-5..1e16).contains(&magnitude) {
-        value.to_string()
-    } else {
-        format!("{value:e}")
-    }
 }

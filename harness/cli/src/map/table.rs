@@ -203,21 +203,13 @@ fn attainable(craft: &Craft, found: &Found) -> String {
 }
 
 fn angle(angle_deg: f64) -> String {
-    positive(format!("{angle_deg:.3}"))
+    format!("{angle_deg:.3}")
 }
 
 fn micro(value: f64) -> String {
-    positive(format!("{:.4}", value * 1e6))
+    format!("{:.4}", value * 1e6)
 }
 
 fn fixed(value: f64) -> String {
-    positive(format!("{value:.5}"))
-}
-
-/// Zero without a sign.
-fn positive(text: String) -> String {
-    match text.strip_prefix('-') {
-        Some(rest) if rest.chars().all(|digit| matches!(digit, '0' | '.')) => rest.to_owned(),
-        _ => text,
-    }
+    format!("{value:.5}")
 }

@@ -38,7 +38,7 @@ written!(
 
 #[cfg(test)]
 mod tests {
-    //! The committed schema is the one that the types give; `UPDATE_SCHEMA=1` writes it anew.
+    //! The committed schema is the one that the types give; `cargo xtask bless schema` writes it anew.
 
     use std::{fs, path::Path};
 
@@ -48,14 +48,10 @@ mod tests {
     fn the_schema_of_the_mission_is_in_step() {
         let wanted = format!("{:#}", schemars::schema_for!(Description).as_value());
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fmu-src/resources/mission.schema.json");
-        if std::env::var_os("UPDATE_SCHEMA").is_some() {
+        if std::env::var_os("HELIOTORQUE_BLESS").is_some() {
             fs::write(&path, &wanted).unwrap();
         }
         let found = fs::read_to_string(&path).unwrap();
-        assert!(
-            found == wanted,
-            "{} is out of step: run the tests once with UPDATE_SCHEMA=1",
-            path.display()
-        );
+        assert!(found == wanted, "{} is out of step: cargo xtask bless schema", path.display());
     }
 }

@@ -24,22 +24,22 @@ pub fn write(
     burn: &PlannedBurn,
 ) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     let contents = [
-        ("burn.csv", burn.to_csv()?),
-        ("burn.json", burn.to_json()?),
-        ("start.toml", start_table(&burn.start_values()).into_bytes()),
-        ("burn.svg", picture::svg(burn)?.into_bytes()),
+        ("burn.csv", String::from_utf8(burn.to_csv()?)?),
+        ("burn.json", String::from_utf8(burn.to_json()?)?),
+        ("start.toml", start_table(&burn.start_values())),
+        ("burn.svg", picture::svg(burn)?),
     ];
     fs::create_dir_all(folder).map_err(|error| format!("{}: {error}: see {OPTION}", folder.display()))?;
     let inputs: Vec<&Path> = spacecraft.into_iter().collect();
-    let opened = contents.map(|(name, bytes)| {
+    let opened = contents.map(|(name, text)| {
         let path = folder.join(name);
-        Destination::open(&path, OPTION, &inputs).map(|destination| (path, destination, bytes))
+        Destination::open(&path, OPTION, &inputs).map(|destination| (path, destination, text))
     });
     // None is written unless all can be.
     let opened = opened.into_iter().collect::<Result<Vec<_>, _>>()?;
     let mut written = Vec::with_capacity(opened.len());
-    for (path, destination, bytes) in opened {
-        destination.fill(|file| file.write_all(&bytes))?;
+    for (path, destination, text) in opened {
+        destination.fill(|file| file.write_all(terminal::unsigned_zeros(&text).as_bytes()))?;
         written.push(path);
     }
     Ok(written)

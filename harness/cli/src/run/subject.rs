@@ -153,6 +153,7 @@ impl Subject {
                     inputs,
                     input_derivatives: arguments.slopes,
                     record: Some(positions),
+                    apart: None,
                     instance,
                     progress: Some(progress),
                     cancel: Some(cancel),

@@ -1,16 +1,12 @@
 //! The planner's tables, no wider than a terminal of 80 columns.
 
-use comfy_table::Table;
+use terminal::Table;
 
 use super::{Row, judgement::Judged};
 
 /// A table whose columns stand one space apart.
 pub fn narrow(header: &[&str]) -> Table {
-    let mut table = terminal::table(header);
-    for column in table.column_iter_mut() {
-        column.set_padding((0, 0));
-    }
-    table
+    terminal::table(header).narrow()
 }
 
 /// `count` rows of a trade: the best trains, and the paper's plan as the last; `None` for no rows. `keeps` says which keep the

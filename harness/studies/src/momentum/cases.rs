@@ -2,7 +2,9 @@
 
 use loader::Fmu;
 
+use super::spacing::Spacing;
 use crate::case::{self, chosen, run_all};
+use crate::vector::Vector;
 use crate::{Options, StudyError};
 
 const DAY_S: f64 = 86_400.0;
@@ -243,20 +245,42 @@ impl Case {
     }
 
     fn simulate(&self, fmu: &Fmu) -> Result<Simulated, StudyError> {
-        let names = ["momentum.body[1]", "dump.count", "dump.lastTime"];
-        let recorded = self.settings().simulate(fmu, &names)?;
-        let days = |times_s: &[f64]| times_s.iter().map(|time_s| time_s / DAY_S).collect::<Vec<f64>>();
-        let mut dumps_d = days(&recorded.columns[2]);
-        dumps_d.retain(|&time_d| time_d >= 0.0);
-        dumps_d.dedup();
+        let recorded = self.settings().apart("dump.count").simulate(fmu, &NAMES)?;
         Ok(Simulated {
             case: *self,
-            times_d: days(&recorded.times_s),
+            times_d: recorded.times_s.iter().map(|time_s| time_s / DAY_S).collect(),
             count: recorded.last(1) as i64,
             momentum_x_n_m_s: recorded.columns[0].clone(),
-            dumps_d,
+            dumps: dumps(&recorded),
         })
     }
+}
+
+/// What is recorded.
+const NAMES: [&str; 6] = [
+    "momentum.body[1]",
+    "dump.count",
+    "dump.lastTime",
+    "dump.impulse[1]",
+    "dump.impulse[2]",
+    "dump.impulse[3]",
+];
+
+/// Every dump, from a recording with a point after each.
+fn dumps(recorded: &case::Recorded) -> Vec<Dump> {
+    let [_, count, last_s, x, y, z] = &recorded.columns[..] else { return Vec::new() };
+    let before = [0.0].iter().chain(count);
+    let after = before.zip(count).enumerate().filter(|(_, (before, count))| count > before);
+    after.map(|(k, _)| Dump { time_d: last_s[k] / DAY_S, impulse_body_n_m_s: [x[k], y[k], z[k]] }).collect()
+}
+
+/// A thruster dump.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dump {
+    /// When, in days.
+    pub time_d: f64,
+    /// What it changed the momentum by, in the body frame, in N m s.
+    pub impulse_body_n_m_s: Vector,
 }
 
 /// A finished simulation.
@@ -270,8 +294,15 @@ pub struct Simulated {
     pub momentum_x_n_m_s: Vec<f64>,
     /// Number of dumps.
     pub count: i64,
-    /// Time of each dump, in days; of several within one communication step the last.
-    pub dumps_d: Vec<f64>,
+    /// Each dump.
+    pub dumps: Vec<Dump>,
+}
+
+impl Simulated {
+    /// Statistics of the time between its dumps.
+    pub fn spacing(&self) -> Spacing {
+        Spacing::of(&self.dumps.iter().map(|dump| dump.time_d).collect::<Vec<f64>>())
+    }
 }
 
 /// Simulates those of `cases` that `options` leaves.

@@ -1,6 +1,6 @@
 //! Paper 000, Tables 2 to 5: how many dumps in 90 days, and how long apart.
 
-use super::cases::{Case, Convention, Shade, Simulated, simulate_all};
+use super::cases::{Case, Convention, Dump, Shade, Simulated, simulate_all};
 use super::figures::{FIGURE_4, draw};
 use super::lists;
 use super::paper::Published;
@@ -215,7 +215,7 @@ fn verdict(simulations: &[Simulated]) -> &'static str {
 }
 
 fn count_row(simulation: &Simulated) -> Vec<String> {
-    let spacing = Spacing::of(&simulation.dumps_d);
+    let spacing = simulation.spacing();
     let paper = Published::of(&simulation.case);
     let gaps = paper.as_ref().and_then(Published::spacing);
     let mut row = setting_cells(&simulation.case);
@@ -232,7 +232,7 @@ fn count_row(simulation: &Simulated) -> Vec<String> {
 }
 
 fn gap_row(simulation: &Simulated) -> Vec<String> {
-    let spacing = Spacing::of(&simulation.dumps_d);
+    let spacing = simulation.spacing();
     let paper = Published::of(&simulation.case).and_then(|published| published.spacing());
     let mut row = setting_cells(&simulation.case);
     row.extend([
@@ -265,8 +265,14 @@ Fitted: the science rule's factor 0.25. Chosen, because the paper does not print
 equator with a period of 12 h, start 2009-04-06, downlink 2 to 10 h after every second periapsis, twenty cycles that
 predictive targets look ahead; momentum/assumptions shows what follows from other choices.";
 
-const DUMP_HEADER: [&str; 2] = ["case", "dump_time_d"];
+const DUMP_HEADER: [&str; 5] =
+    ["case", "dump_time_d", "impulse_x_n_m_s", "impulse_y_n_m_s", "impulse_z_n_m_s"];
 
 fn dump_rows(simulation: &Simulated) -> Vec<Vec<String>> {
-    simulation.dumps_d.iter().map(|time_d| vec![simulation.case.label(), format!("{time_d:.6}")]).collect()
+    let row = |dump: &Dump| {
+        let mut row = vec![simulation.case.label(), format!("{:.6}", dump.time_d)];
+        row.extend(dump.impulse_body_n_m_s.map(|impulse_n_m_s| format!("{impulse_n_m_s:.6}")));
+        row
+    };
+    simulation.dumps.iter().map(row).collect()
 }

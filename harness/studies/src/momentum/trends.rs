@@ -88,7 +88,7 @@ mod tests {
             times_d: Vec::new(),
             momentum_x_n_m_s: Vec::new(),
             count: count(&case),
-            dumps_d: Vec::new(),
+            dumps: Vec::new(),
         };
         cases.into_iter().map(simulated).collect()
     }

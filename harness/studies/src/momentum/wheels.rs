@@ -2,7 +2,6 @@
 
 use super::cases::{Convention, DumpsTo, Shade, Simulated, Strategy, simulate_all};
 use super::lists::with_every_strategy;
-use super::spacing::Spacing;
 use crate::case::Case;
 use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
@@ -87,7 +86,7 @@ pyramid.";
 
 /// Their number, with a star where they break the mission's requirement.
 fn dumps(simulation: &Simulated) -> String {
-    let star = if Spacing::of(&simulation.dumps_d).closer_than_five_days { "*" } else { "" };
+    let star = if simulation.spacing().closer_than_five_days { "*" } else { "" };
     format!("{}{star}", simulation.count)
 }
 

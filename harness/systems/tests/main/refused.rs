@@ -16,6 +16,12 @@ const fn connection(connections: &'static str) -> Ssd {
     Ssd { connections, ..GOOD }
 }
 
+/// The system's own connectors, and connections to them.
+fn own(connectors: &str, connections: &'static str) -> Ssd {
+    let connectors = format!("<ssd:Connectors>{connectors}</ssd:Connectors>");
+    Ssd { bindings: connectors.leak(), connections, ..GOOD }
+}
+
 const GOOD: Ssd = Ssd {
     giver: r#"<ssd:Connector name="position[1]" kind="output"><ssc:Real unit="m"/></ssd:Connector>
 <ssd:Connector name="angle" kind="output"/><ssd:Connector name="count" kind="output"/>
@@ -71,7 +77,58 @@ fn what_cannot_be_simulated_is_refused_by_name() {
         ),
         (
             connection(r#"<ssd:Connection startConnector="zero" endElement="b" endConnector="angle"/>"#),
-            &["the system's own connector \"zero\""],
+            &["the system has no connector \"zero\" of its own"],
+        ),
+        (
+            own(
+                r#"<ssd:Connector name="zero" kind="output"/>"#,
+                r#"<ssd:Connection startConnector="zero" endElement="b" endConnector="angle"/>"#,
+            ),
+            &["the system's own zero of kind output", "allowed: input, parameter"],
+        ),
+        (
+            own(
+                r#"<ssd:Connector name="zero" kind="input"><ssc:Real unit="m"/></ssd:Connector>"#,
+                r#"<ssd:Connection startConnector="zero" endElement="b" endConnector="angle"/>"#,
+            ),
+            &["connection zero to b.angle", "found unit \"m\" at its start and \"rad\" at its end"],
+        ),
+        (
+            own(
+                r#"<ssd:Connector name="zero" kind="input"><ssc:Boolean/></ssd:Connector>"#,
+                r#"<ssd:Connection startConnector="zero" endElement="b" endConnector="angle"/>"#,
+            ),
+            &["the system's own zero of type Boolean, allowed: Real"],
+        ),
+        (
+            own(
+                r#"<ssd:Connector name="zero" kind="input"/>"#,
+                r#"<ssd:Connection startConnector="zero" endElement="b" endConnector="angle"/>
+<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"/>"#,
+            ),
+            &["connection a.angle to b.angle", "connected already in line", "allowed: once"],
+        ),
+        (
+            own(
+                r#"<ssd:Connector name="all" kind="output"/>"#,
+                r#"<ssd:Connection startElement="a" startConnector="angle" endConnector="all"/>
+<ssd:Connection startElement="a" startConnector="position[1]" endConnector="all"/>"#,
+            ),
+            &["connection a.position[1] to all", "connected already in line", "allowed: once"],
+        ),
+        (
+            own(
+                r#"<ssd:Connector name="zero" kind="input"/><ssd:Connector name="all" kind="output"/>"#,
+                r#"<ssd:Connection startConnector="zero" endConnector="all"/>"#,
+            ),
+            &["the system's own connectors at both ends"],
+        ),
+        (
+            own(
+                r#"<ssd:Connector name="b.angle" kind="input"/>"#,
+                r#"<ssd:Connection startConnector="b.angle" endElement="b" endConnector="angle"/>"#,
+            ),
+            &["the system's own connector b.angle", "allowed: a name of its own"],
         ),
         (
             connection(

@@ -2,7 +2,7 @@
 
 use loader::Fmu;
 use systems::{
-    Experiment, Linear, System, Wiring, component_name, read_structure, to_parameter_set, to_xml, wire,
+    Experiment, Kind, Linear, System, Wiring, component_name, read_structure, to_parameter_set, to_xml, wire,
 };
 
 use crate::support::{ITEMS, Ssd, description, fmu, giver, ssp, taker};
@@ -220,6 +220,72 @@ fn units_are_converted_on_the_way() {
         ),
         None
     );
+}
+
+#[test]
+fn the_systems_own_connectors_stand_for_variables_in_their_own_units() {
+    let folder = tempfile::tempdir().unwrap();
+    let rest = r#"<ssd:Units><ssc:Unit name="km"><ssc:BaseUnit m="1" factor="1000"/></ssc:Unit></ssd:Units>"#;
+    let bindings = r#"<ssd:Connectors><ssd:Connector name="aim" kind="input"><ssc:Real unit="km"/></ssd:Connector>
+<ssd:Connector name="turn" kind="output"/><ssd:Connector name="size" kind="parameter"/>
+<ssd:Connector name="idle" kind="input"/></ssd:Connectors>
+<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues><ssv:ParameterSet name="own" version="1.0"><ssv:Parameters>
+<ssv:Parameter name="aim"><ssv:Real value="3"/></ssv:Parameter>
+<ssv:Parameter name="size"><ssv:Real value="4" unit="km"/></ssv:Parameter>
+</ssv:Parameters></ssv:ParameterSet></ssd:ParameterValues></ssd:ParameterBinding></ssd:ParameterBindings>"#;
+    let giver = r#"<ssd:Connector name="angle" kind="output"/><ssd:Connector name="size" kind="parameter"/>
+<ssd:Connector name="push" kind="input"/>"#;
+    let connections = r#"<ssd:Connection startConnector="aim" endElement="b" endConnector="position[1]"/>
+<ssd:Connection startConnector="aim" endElement="a" endConnector="push"/>
+<ssd:Connection startConnector="size" endElement="a" endConnector="size"/>
+<ssd:Connection startElement="a" startConnector="angle" endConnector="turn"/>"#;
+    let text = Ssd { giver, connections, bindings, rest, ..Ssd::default() }.text();
+    let system = System::open(ssp(folder.path(), &text, &[])).unwrap();
+    let description = system.description();
+    let position = |name: &str| description.variables.iter().position(|it| it.name == name);
+    let unit = |name: &str| {
+        model_description::value::unit(description, &description.variables[position(name).unwrap()])
+    };
+    assert_eq!((unit("aim"), unit("turn"), unit("size")), (Some("km"), Some("deg"), Some("m")));
+    assert_eq!(position("idle"), None);
+    // One number to both inputs, in their unit.
+    let places = system.places(position("aim").unwrap());
+    assert_eq!(places.iter().map(|place| place.linear.of(2.0)).collect::<Vec<_>>(), [2000.0, 2000.0]);
+    assert_eq!(places[0].at.0, 1);
+    assert_eq!(system.places(position("turn").unwrap())[0].linear, Linear::IDENTITY);
+    let open = system.open_inputs();
+    assert!(!open.contains(&places[0].at) && !open.contains(&places[1].at));
+    // Its bindings: in the connector's unit, or in their own.
+    let parameters = |number: usize| system.parts()[number].parameters.clone();
+    let real = |name: &str, value: f64| (name.to_owned(), loader::Value::Real(value));
+    assert_eq!(parameters(0), [real("push", 3000.0), real("size", 4000.0)]);
+    assert_eq!(parameters(1), [real("position[1]", 3000.0)]);
+}
+
+#[test]
+fn exported_variables_are_connectors_of_the_system() {
+    let folder = tempfile::tempdir().unwrap();
+    let components = [opened(folder.path(), "one", &giver()), opened(folder.path(), "two", &taker())];
+    let exported = |exports: &[&str]| {
+        let wiring =
+            Wiring { exports: exports.iter().map(|it| (*it).to_owned()).collect(), ..Wiring::default() };
+        wire("Pair", &components, Experiment::default(), &wiring)
+    };
+    let wired = exported(&["one.angle", "two.duration", "one.size"]).unwrap();
+    let kinds: Vec<_> = wired.structure.connectors.iter().map(|it| (it.name.as_str(), it.kind)).collect();
+    assert_eq!(kinds, [("angle", Kind::Output), ("duration", Kind::Input), ("size", Kind::Parameter)]);
+    let joined: Vec<String> =
+        wired.structure.connections.iter().map(|it| format!("{} {}", it.start, it.end)).collect();
+    assert_eq!(joined[joined.len() - 3..], ["one.angle angle", "duration two.duration", "size one.size"]);
+    assert!(!wired.left.iter().any(|left| left.input == "duration"));
+    for (exports, said) in [
+        (&["two.position[1]"][..], "--export two.position[1]: it is connected already"),
+        (&["one.angle", "one.angle"], "has a connector of this name already"),
+        (&["one.label"], "it is a String"),
+    ] {
+        let error = exported(exports).unwrap_err().to_string();
+        assert!(error.contains(said), "{error}");
+    }
 }
 
 #[test]

@@ -40,6 +40,7 @@ pub fn manager<'a>(
     let spacecraft = &context.setup.spacecraft;
     let sunshade = values.choice(v.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0);
     let strategy = values.choice(v.momentum.strategy).map_or(Strategy::DumpsOnly, |it| it.0);
+    v.guided.check_unload(values, strategy != Strategy::DumpsOnly)?;
     let [start_s, end_s] = [v.guided.downlink_start, v.guided.downlink_end].map(|time| values.real(time));
     if strategy != Strategy::DumpsOnly && start_s >= end_s {
         return Err(Failure::new(format!(

@@ -184,10 +184,11 @@ pub fn settings<'a>(
         cone_rad: real(v.hot_pole.cone),
     });
     let keep_in = zone(v.keep_in.azimuth, v.keep_in.elevation);
+    let mdis = MdisRange { minimum_rad: real(v.mdis.minimum), maximum_rad: real(v.mdis.maximum) };
     Ok(GuidanceSettings {
         hardware: GuidanceHardware {
             instruments: &context.setup.spacecraft.instruments,
-            mdis: MdisRange { minimum_rad: real(v.mdis.minimum), maximum_rad: real(v.mdis.maximum) },
+            mdis,
             subsolar: values.choice(v.subsolar.method).map_or(SubsolarMethod::Normal, |it| it.0),
             scans: scans(context, values),
         },
@@ -217,7 +218,7 @@ pub fn settings<'a>(
         keep_in,
         keep_in_distance_m: real(v.keep_in.distance),
         link: LinkLimits { sun_separation_rad: real(v.link.sun_exclusion), coverage_rad: real(v.link.beam) },
-        orbit_phase: v.guided.read(values, 0.0, f64::INFINITY, real(v.start.epoch), keep_in)?,
+        orbit_phase: v.guided.read(values, 0.0, f64::INFINITY, real(v.start.epoch), keep_in, mdis)?,
         burn: fixed.burn,
     })
 }

@@ -102,7 +102,8 @@ pub struct MdisVariables {
     /// Greatest angle from +Z: sunward.
     #[parameter(unit = "rad", display = "deg", min = command::BACK_HALF_TURN_RAD, max = PI, start = boresight::MDIS_RANGE_RAD[1])]
     pub maximum: Real,
-    /// Angle of the camera in the scenarios mdis and doubleTarget and with the boresight option mdis; else 0.
+    /// Angle of the camera in the scenarios mdis and doubleTarget, with the boresight option mdis, and in science of the scenario
+    /// orbitPhase with guided.scienceUnload, where it keeps nadir; else 0.
     #[output(discrete, unit = "rad", display = "deg")]
     pub angle: Real,
     /// Whether that is what was asked for; false: clamped to the nearest bound.

@@ -51,7 +51,8 @@ pub struct PanelVariables {
 #[derive(Variables)]
 pub struct MomentumVariables {
     /// What sunlight is used for during downlinks, in Operational: the Sun's place is chosen where the scenario downlink begins
-    /// without an antenna's azimuth, or a window of the orbit phase does, and held. The scenario counts on a downlink of
+    /// without an antenna's azimuth, or a window of the orbit phase does, and held; in science of the orbit phase too with
+    /// guided.scienceUnload. The scenario counts on a downlink of
     /// guided.downlinkEnd - guided.downlinkStart, and predictive on the orbit phase after it: a downlink every
     /// guided.downlinkEvery orbits, science by guided.scienceRule between. Forecasts fly the present orbit in two-body motion, Sun
     /// and Earth on theirs about the Sun, and count on direct sunlight alone.
@@ -66,8 +67,8 @@ pub struct MomentumVariables {
     /// System momentum in the body frame.
     #[input(unit = "N.m.s", min = -1e12, max = 1e12, start = [0.0; 3])]
     pub body: RealVector<3>,
-    /// Whether the Sun's place that brings the momentum to the target of the present downlink is not admissible, so that it
-    /// comes as near as one that is can bring it.
+    /// Whether the Sun's place that brings the momentum to the target of the present downlink, or of science with
+    /// guided.scienceUnload, is not admissible, so that it comes as near as one that is can bring it.
     #[output]
     pub target_clamped: Boolean,
 }

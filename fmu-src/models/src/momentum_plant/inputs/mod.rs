@@ -15,6 +15,7 @@ use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::time;
 use physics::guidance::Guided;
 use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
+use physics::guidance::pointing::boresight::MdisRange;
 use physics::management::Manager;
 use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
@@ -302,13 +303,16 @@ fn attitude(
             method: KeepInMethod::Nearest,
         };
         let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
-        let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in)?;
+        let camera = MdisRange::default();
+        let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, camera)?;
         let management = &variables.momentum.management;
-        let (managed, sun_place) = (management.manages(values), state.flight.sun_choice().place());
+        let (managed, choice) = (management.manages(values), state.flight.sun_choice());
+        variables.guided.check_unload(values, managed)?;
         if managed && !state.waiting {
             check_windows(&law.schedule)?;
         }
-        Ok::<_, Failure>(Guided { managed, sun_place, ..law })
+        let law = law.with_sun_places(choice.place(), choice.in_science());
+        Ok::<_, Failure>(Guided { managed, ..law })
     };
     let guides_itself = dynamics::guides_itself(context, values);
     if dynamics::is_dynamic(context, values) {

@@ -106,8 +106,8 @@ pub struct MomentumVariables {
     pub inertial: RealVector<3>,
     #[group(name = "")]
     pub by_source: MomentumBySource,
-    /// Whether the Sun's place that brings the momentum to the target of the present downlink is not admissible, so that it
-    /// comes as near as one that is can bring it.
+    /// Whether the Sun's place that brings the momentum to the target of the present downlink, or of science with
+    /// guided.scienceUnload, is not admissible, so that it comes as near as one that is can bring it.
     #[output]
     pub target_clamped: Boolean,
 }

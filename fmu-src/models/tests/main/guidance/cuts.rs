@@ -6,8 +6,8 @@ use super::super::named_model::{NamedModel, assert_same};
 use super::{Flight, PLACED, with};
 
 /// A scan; the monitor at work in Safe Hold; windows of the orbit phase with slews; a burn that times out; downlinks that put
-/// the Sun elsewhere, of the scenario and of the orbit phase.
-const CASES: [&[(&str, f64)]; 6] = [
+/// the Sun elsewhere, of the scenario and of the orbit phase; science that unloads.
+const CASES: [&[(&str, f64)]; 7] = [
     &[
         ("pointing.scenario", 2.0),
         ("aimpoint.option", 7.0),
@@ -68,6 +68,18 @@ const CASES: [&[(&str, f64)]; 6] = [
         ("momentum.convention", 2.0),
         ("momentum.body[1]", 0.3),
         ("momentum.body[3]", -0.4),
+        ("monitor.enabled", 0.0),
+    ],
+    &[
+        ("pointing.scenario", 10.0),
+        ("guided.downlinkReference", 2.0),
+        ("guided.downlinkStart", 33.3),
+        ("guided.downlinkEnd", 90.0),
+        ("guided.slewRate", 1e-3),
+        ("guided.scienceUnload", 1.0),
+        ("momentum.strategy", 2.0),
+        ("momentum.body[1]", 1e-4),
+        ("momentum.body[3]", -1e-4),
         ("monitor.enabled", 0.0),
     ],
 ];

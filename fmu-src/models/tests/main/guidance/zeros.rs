@@ -16,6 +16,8 @@ fn zero_on_every_input_holds_the_attitude_with_one_warning() {
             options.into_iter().chain(named.inputs().into_iter().map(|name| (name, 0.0))).collect();
         let before = named.warnings().len();
         let mut flight = named.fly(0.0, &zero).unwrap();
+        // In initialization masters look before they have connected everything.
+        assert_eq!(named.warnings().len(), before);
         for end_s in [1.0, 2.5, 60.0] {
             flight.step_to(end_s).unwrap();
             assert_eq!(flight.not_finite(), None);

@@ -1,34 +1,38 @@
 //! Where the Sun stands during a downlink: chosen at the sample where the downlink begins, held while it lasts.
 //!
 //! A downlink begins where the scenario becomes downlink without an azimuth of its own, with each entry of the timeline that
-//! names it, and where a window of the orbit phase begins. In Operational alone: other modes have the Sun on -Y.
+//! names it, and where a window of the orbit phase begins. Science of the orbit phase that unloads momentum is alike: chosen where it
+//! or the scenario begins, held until the next downlink. In Operational alone: other modes have the Sun on -Y.
 
 use serde::{Deserialize, Serialize};
 
 use super::sun_place::{ChosenPlace, SunPlace};
-use crate::attitude::Attitude;
+use crate::attitude::{Attitude, SunAngles};
 use crate::guidance::geometry::surroundings::Surroundings;
 use crate::guidance::orbit_phase::guided::Guided;
+use crate::guidance::orbit_phase::schedule::Activity;
 use crate::guidance::pointing::command::Scenario;
 
-/// Where a downlink begins.
+/// Where a downlink begins, or science that unloads.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DownlinkStart<'a> {
+pub struct WindowStart<'a> {
+    /// Which of both.
+    pub activity: Activity,
     /// Where everything is.
     pub surroundings: &'a Surroundings,
     /// The attitude as it is estimated.
     pub attitude: Attitude,
-    /// How long the downlink lasts, in s.
+    /// How long it lasts, in s.
     pub span_s: f64,
     /// Science and downlink from here on, in s past J2000 TDB; the scenario downlink counts on the windows of the orbit phase, of
-    /// which one begins here.
+    /// which one begins here. Places of the Sun are those of default attitudes.
     pub law: Guided,
 }
 
 /// Who chooses the Sun's place.
 pub trait SunChooser {
     /// The place; `None` where the Sun is to stand on -Y.
-    fn choose(&self, start: &DownlinkStart<'_>) -> Option<ChosenPlace>;
+    fn choose(&self, start: &WindowStart<'_>) -> Option<ChosenPlace>;
 }
 
 /// Leaves the Sun on -Y.
@@ -36,7 +40,7 @@ pub trait SunChooser {
 pub struct SunOnMinusY;
 
 impl SunChooser for SunOnMinusY {
-    fn choose(&self, _start: &DownlinkStart<'_>) -> Option<ChosenPlace> {
+    fn choose(&self, _start: &WindowStart<'_>) -> Option<ChosenPlace> {
         None
     }
 }
@@ -49,12 +53,16 @@ pub struct DownlinkSun {
     lasts: Option<Scenario>,
     /// The timeline's entry that named the downlink.
     entry: Option<usize>,
+    /// The last choice for science.
+    science: Option<ChosenPlace>,
+    /// Whether that science lasts.
+    science_lasts: bool,
 }
 
 impl DownlinkSun {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
-        self.chosen.is_none_or(|chosen| chosen.place.is_sound())
+        [self.chosen, self.science].into_iter().flatten().all(|chosen| chosen.place.is_sound())
     }
 
     /// The Sun's place; the slew after a window starts from it.
@@ -62,14 +70,31 @@ impl DownlinkSun {
         self.chosen.map(|chosen| chosen.place)
     }
 
-    /// Whether a downlink lasts whose target is out of reach.
-    pub fn is_clamped(&self) -> bool {
-        self.lasts.is_some() && self.chosen.is_some_and(|chosen| chosen.clamped)
+    /// The Sun's place in science that unloads; the slew after it starts from it.
+    pub fn in_science(&self) -> Option<SunAngles> {
+        self.science.map(|chosen| chosen.place.angles)
     }
 
-    /// No downlink lasts.
+    /// Whether a downlink lasts, or science that unloads, whose target is out of reach.
+    pub fn is_clamped(&self) -> bool {
+        let present =
+            if self.lasts.is_some() { self.chosen } else { self.science.filter(|_| self.science_lasts) };
+        present.is_some_and(|chosen| chosen.clamped)
+    }
+
+    /// Neither a downlink lasts nor science.
     pub fn end(&mut self) {
+        (self.lasts, self.science_lasts) = (None, false);
+    }
+
+    /// Science lasts that unloads; where it begins `choose` gives its place. Whether it begins.
+    pub fn last_in_science(&mut self, choose: impl FnOnce() -> Option<ChosenPlace>) -> bool {
         self.lasts = None;
+        let begins = !self.science_lasts;
+        if begins {
+            (self.science, self.science_lasts) = (choose(), true);
+        }
+        begins
     }
 
     /// A downlink of `scenario` lasts, by `entry` of the timeline where one names it; where it begins `choose` gives its place.
@@ -80,6 +105,7 @@ impl DownlinkSun {
         entry: Option<usize>,
         choose: impl FnOnce() -> Option<ChosenPlace>,
     ) -> bool {
+        self.science_lasts = false;
         let is_new_entry = scenario == Scenario::Downlink && entry.is_some() && entry != self.entry;
         let begins = self.lasts != Some(scenario) || is_new_entry;
         if begins {
@@ -121,5 +147,13 @@ mod tests {
         assert!(!sun.is_clamped() && sun.place().is_some());
         sun.last(Scenario::OrbitPhase, Some(6), || None);
         assert!(!sun.is_clamped() && sun.place().is_none());
+        // Science is chosen once too, and a downlink keeps its place for the slew out of it.
+        let angles = SunAngles { azimuth_rad: 0.1, elevation_rad: -0.2 };
+        let place = SunPlace { angles, earth_ahead: false };
+        assert!(sun.last_in_science(|| Some(ChosenPlace { place, clamped: true })) && sun.is_clamped());
+        assert!(!sun.last_in_science(|| None) && sun.is_clamped());
+        sun.last(Scenario::OrbitPhase, Some(6), || None);
+        assert!(!sun.is_clamped() && sun.in_science() == Some(angles));
+        assert!(sun.last_in_science(|| None) && !sun.is_clamped() && sun.in_science().is_none());
     }
 }

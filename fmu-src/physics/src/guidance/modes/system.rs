@@ -17,7 +17,7 @@ use crate::guidance::burn::delta_v::{BurnSettings, BurnState, MeasuredMotion};
 use crate::guidance::constraints::constrained::{ConstrainedPointing, Constraints};
 use crate::guidance::constraints::hot_pole::TurnSide;
 use crate::guidance::constraints::keep_in::KeepIn;
-use crate::guidance::downlink::downlink_sun::{DownlinkStart, DownlinkSun, SunChooser};
+use crate::guidance::downlink::downlink_sun::{DownlinkSun, SunChooser, WindowStart};
 use crate::guidance::downlink::sun_place::{LinkLimits, SunPlace, link};
 use crate::guidance::geometry::moving::{MovingVector, rate, value};
 use crate::guidance::geometry::surroundings::Surroundings;
@@ -254,7 +254,7 @@ impl GuidanceState {
         (self.next_sample_s < end_s - tolerance_s).then_some(self.next_sample_s)
     }
 
-    /// Takes the sample that is due; `chooser` puts the Sun where a downlink begins. Whether it was asked.
+    /// Takes the sample that is due; `chooser` puts the Sun where a downlink begins, or science that unloads. Whether it was asked.
     pub fn sample(
         &mut self,
         settings: &GuidanceSettings<'_>,
@@ -318,7 +318,7 @@ impl GuidanceState {
         is_asked
     }
 
-    /// Puts the Sun where a downlink begins; whether one does.
+    /// Puts the Sun where a downlink begins, or science that unloads; whether one does.
     fn place_sun(
         &mut self,
         settings: &GuidanceSettings<'_>,
@@ -333,25 +333,31 @@ impl GuidanceState {
             Some(scenario @ Scenario::Downlink) => {
                 let is_free = command.boresight.option != Some(BoresightOption::PhasedArray);
                 let span_s = windows.downlink_end_s - windows.downlink_start_s;
-                is_free.then(|| (scenario, windows.begun_at(epoch_s), span_s))
+                is_free.then(|| (scenario, Activity::Downlink, windows.begun_at(epoch_s), span_s))
             }
             Some(scenario @ Scenario::OrbitPhase) => {
                 let windows = self.periapses.windows(windows, surroundings);
                 let window = windows.window(epoch_s);
-                let is_downlink = window.activity == Activity::Downlink;
-                is_downlink.then_some((scenario, windows, window.until_s - epoch_s))
+                let has_place =
+                    window.activity == Activity::Downlink || settings.orbit_phase.science.unloads();
+                has_place.then_some((scenario, window.activity, windows, window.until_s - epoch_s))
             }
             _ => None,
         };
-        let Some((scenario, schedule, span_s)) = found else {
+        let Some((scenario, activity, schedule, span_s)) = found else {
             self.downlink_sun.end();
             return false;
         };
-        self.downlink_sun.last(scenario, self.entries.scenario, || {
+        let choose = || {
             let law = Guided { schedule, ..settings.orbit_phase };
             let is_span = span_s.is_finite() && span_s > 0.0;
-            is_span.then(|| chooser.choose(&DownlinkStart { surroundings, attitude, span_s, law })).flatten()
-        })
+            let start = WindowStart { activity, surroundings, attitude, span_s, law };
+            is_span.then(|| chooser.choose(&start)).flatten()
+        };
+        match activity {
+            Activity::Downlink => self.downlink_sun.last(scenario, self.entries.scenario, choose),
+            Activity::Science => self.downlink_sun.last_in_science(choose),
+        }
     }
 
     /// The Sun's place in the downlinks of the mode; `None`: on -Y.
@@ -523,7 +529,8 @@ impl GuidanceState {
     /// The vectors that the command asks for.
     fn aimed(&mut self, now: &Now<'_>, command: &PointingCommand) -> Option<Aimed> {
         if command.scenario == Some(Scenario::OrbitPhase) {
-            let law = Guided { sun_place: self.sun_place(), ..now.settings.orbit_phase };
+            let science = self.downlink_sun.in_science().filter(|_| self.modes.mode == Mode::Operational);
+            let law = now.settings.orbit_phase.with_sun_places(self.sun_place(), science);
             return Some(self.orbit_phase(&law, now.surroundings));
         }
         let progress = PointingProgress {
@@ -543,11 +550,12 @@ impl GuidanceState {
         let attitude = self.periapses.attitude(law, surroundings);
         let pointing = Pointing::of(&attitude.frame);
         let is_downlink = attitude.window.activity == Activity::Downlink && !attitude.slewing;
+        let keeps_nadir = attitude.window.activity == Activity::Science && law.science.unloads();
         let earth_body = || value(&pointing.to_body(&surroundings.to_earth()));
         Aimed {
             vectors: pointing.vectors(),
             mdis: None,
-            second: None,
+            second: keeps_nadir.then(|| surroundings.to_planet()),
             antenna: is_downlink.then(|| Beam::AtTheEarth(AntennaAzimuth::toward(&earth_body()))),
             reachable: !attitude.slewing && attitude.margins.iter().all(|margin| *margin >= 0.0),
             clamped: false,

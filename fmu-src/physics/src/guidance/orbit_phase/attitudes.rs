@@ -1,11 +1,13 @@
-//! The two attitudes of paper 000: science (pitched about X toward the planet) and default downlink (eq 18).
+//! The two attitudes of paper 000: science (pitched about X toward the planet) and default downlink (eq 18); of paper 001,
+//! science off-pointed to unload momentum, the camera turned back to nadir.
 
-use nalgebra::Vector3;
+use nalgebra::{ComplexField, Vector3};
 
-use crate::attitude::{MovingFrame, MovingUnit, angle_between_rad};
+use crate::attitude::{MovingFrame, MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
 use crate::environment::CartesianState;
 use crate::guidance::downlink::sun_place::{SunPlace, both_solutions};
-use crate::guidance::geometry::moving::{Moving, direction, moving};
+use crate::guidance::geometry::moving::{Moving, direction, fixed, moving};
+use crate::guidance::pointing::boresight::{MdisRange, mdis_direction};
 use crate::guidance::pointing::law::PointingVectors;
 use crate::numerics::scalar::Scalar;
 
@@ -35,6 +37,29 @@ pub enum ScienceRule {
     /// Paper 004's attitude (its eq 4): -Y from the planet's centre to the Sun, -Z to the north of the planet's orbit. It
     /// knows no keep-in zone; from the spacecraft the Sun stands off -Y by its parallax.
     PlanetOrbit,
+    /// Off-pointed to unload momentum ([`unloading`]).
+    Unloading {
+        /// Where the Sun stands in the body frame during the present science, and during the slew out of it.
+        sun: SunAngles,
+        /// Range of the camera that keeps nadir.
+        camera: MdisRange,
+    },
+}
+
+impl ScienceRule {
+    /// Whether the Sun's place is chosen by the momentum.
+    pub fn unloads(&self) -> bool {
+        matches!(self, Self::Unloading { .. })
+    }
+
+    /// The same with the Sun there, where it has a place of its own.
+    #[must_use]
+    pub fn with_sun(self, sun: SunAngles) -> Self {
+        match self {
+            Self::Unloading { camera, .. } => Self::Unloading { sun, camera },
+            Self::Scaled { .. } | Self::Nadir | Self::PlanetOrbit => self,
+        }
+    }
 }
 
 /// A commanded attitude, and where its law changes form.
@@ -57,6 +82,7 @@ pub fn science(lines: &LinesOfSight, rule: ScienceRule, elevation_limit_rad: f64
         ScienceRule::Scaled { gain } => gain,
         ScienceRule::Nadir => 1.0,
         ScienceRule::PlanetOrbit => return planet_orbit(lines),
+        ScienceRule::Unloading { sun, camera } => return unloading(lines, sun, &camera),
     };
     let Some((side, angle_rad, angle_rate_rad_s)) =
         lines.planet.as_ref().and_then(|planet| lines.sun.perpendicular_part(planet))
@@ -75,6 +101,39 @@ pub fn science(lines: &LinesOfSight, rule: ScienceRule, elevation_limit_rad: f64
     };
     // A positive pitch lifts the Sun toward +Z, which is negative elevation.
     AttitudeCommand { frame: base.pitched(-elevation_rad, -rate_rad_s), margins }
+}
+
+/// Science attitude of paper 001's off-pointing: the Sun at `sun`, turned about the Sun line until nadir lies in the scan plane YZ
+/// of the camera, on the side of +Z; where the camera's range does not reach it, until its nearest bound comes nearest to nadir.
+///
+/// With the Sun's direction s in the body, rho = hypot(s_y, s_z) and beta = atan2(-s_z, -s_y), the camera at the angle phi is off
+/// the Sun by theta, cos theta = rho sin(phi - beta): theta between Sun and nadir gives phi.
+pub fn unloading(lines: &LinesOfSight, sun: SunAngles, camera: &MdisRange) -> AttitudeCommand {
+    let Some(planet) = &lines.planet else { return sun_pointing(lines) };
+    let [to_sun, to_planet] = [&lines.sun, planet].map(|to| moving(to.direction, to.rate_1_s));
+    let sun_body = direction_from_angles(sun);
+    let (rho, beta_rad) = (libm::hypot(sun_body.y, sun_body.z), (-sun_body.z).atan2(-sun_body.y));
+    let cosine = to_sun.dot(&to_planet);
+    let quarter = core::f64::consts::FRAC_PI_2;
+    let [least_rad, greatest_rad] =
+        [camera.minimum_rad, camera.maximum_rad].map(|it| (it - beta_rad).clamp(-quarter, quarter));
+    let margins = [rho * greatest_rad.sin() - cosine.re, cosine.re - rho * least_rad.sin()];
+    let off_beta = if margins[0] <= 0.0 {
+        Moving::constant(greatest_rad)
+    } else if margins[1] <= 0.0 {
+        Moving::constant(least_rad)
+    } else {
+        Moving::polar_angle(cosine, ((-cosine + rho) * (cosine + rho)).sqrt())
+    };
+    let vectors = PointingVectors {
+        boresight_body: fixed(sun_body),
+        aimpoint: to_sun,
+        body_roll: mdis_direction(off_beta + beta_rad),
+        external_roll: to_planet,
+    };
+    vectors
+        .pointing()
+        .map_or_else(|| sun_pointing(lines), |pointing| AttitudeCommand { frame: pointing.frame(), margins })
 }
 
 /// Paper 004's attitude; without a planet that moves about the Sun, [`sun_pointing`].
@@ -157,7 +216,7 @@ fn opposite(unit: &MovingUnit) -> MovingUnit {
 mod tests {
     //! What the paper demands of each attitude: where the Sun, the planet and the Earth stand in the body frame.
     use super::*;
-    use crate::attitude::SunAngles;
+    use crate::guidance::pointing::boresight::mdis_boresight;
     use approx::assert_relative_eq;
 
     const LIMIT_RAD: f64 = 13.0 * std::f64::consts::PI / 180.0;
@@ -244,6 +303,42 @@ mod tests {
     }
 
     #[test]
+    fn unloading_has_the_sun_in_its_place_and_the_camera_as_near_to_nadir_as_it_comes() {
+        let camera = MdisRange::default();
+        let (mut kept, mut at_bound) = (0, 0);
+        for (i, lines) in many().enumerate() {
+            let k = i as f64;
+            let sun =
+                SunAngles { azimuth_rad: 0.26 * (0.7 * k).sin(), elevation_rad: 0.22 * (1.3 * k).cos() };
+            let wanted = science(&lines, ScienceRule::Unloading { sun, camera }, 0.0);
+            let found = SunAngles::of(&in_body(&wanted, &lines.sun));
+            assert_relative_eq!(found.azimuth_rad, sun.azimuth_rad, epsilon = 1e-12);
+            assert_relative_eq!(found.elevation_rad, sun.elevation_rad, epsilon = 1e-12);
+            let planet = in_body(&wanted, lines.planet.as_ref().unwrap());
+            let angle = camera.toward(&planet);
+            let off_rad = angle_between_rad(&mdis_boresight(angle.angle_rad), &planet);
+            assert_eq!(angle.in_range, wanted.margins.iter().all(|margin| *margin > 0.0));
+            if angle.in_range {
+                kept += 1;
+                assert_relative_eq!(planet.x, 0.0, epsilon = 1e-12);
+                assert!(off_rad < 1e-12 && planet.z > 0.0, "{off_rad:e}");
+                continue;
+            }
+            at_bound += 1;
+            // No turn about the Sun line and no angle of the camera comes nearer.
+            let axis = nalgebra::Unit::new_normalize(in_body(&wanted, &lines.sun));
+            for turn in -90..90 {
+                let turned = nalgebra::Rotation3::from_axis_angle(&axis, 0.035 * f64::from(turn)) * planet;
+                for degree in -50..=40 {
+                    let look = mdis_boresight(f64::from(degree).to_radians());
+                    assert!(angle_between_rad(&look, &turned) > off_rad - 1e-9, "{i}: {off_rad}");
+                }
+            }
+        }
+        assert!(kept > 50 && at_bound > 20, "{kept} {at_bound}");
+    }
+
+    #[test]
     fn paper_004_shows_the_sun_on_minus_y_and_north_on_minus_z() {
         for lines in many() {
             let sun = lines.sun_from_planet.unwrap();
@@ -285,6 +380,10 @@ mod tests {
             };
             all.push(science(&blind, ScienceRule::Nadir, LIMIT_RAD));
             all.push(science(&blind, ScienceRule::PlanetOrbit, LIMIT_RAD));
+            let sun = SunAngles { azimuth_rad: 0.2, elevation_rad: -0.1 };
+            let unloading = ScienceRule::Unloading { sun, camera: MdisRange::default() };
+            all.push(science(&blind, unloading, LIMIT_RAD));
+            all.push(science(&LinesOfSight { planet: None, ..lines }, unloading, LIMIT_RAD));
             all.push(downlink(&blind));
         }
         let pole = MovingUnit { direction: Vector3::z(), rate_1_s: Vector3::zeros() };

@@ -1,6 +1,6 @@
 //! The guided attitude over a whole orbit phase: science, downlink, and the slews between them.
 
-use crate::attitude::MovingFrame;
+use crate::attitude::{MovingFrame, SunAngles};
 
 use super::attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink, downlink_toward, science};
 use super::schedule::{Activity, Schedule, Window};
@@ -23,7 +23,7 @@ pub struct Guided {
     pub keep_in: Option<KeepIn>,
     /// Where the Sun stands during the present downlink, and during the slew out of it; `None`: on -Y.
     pub sun_place: Option<SunPlace>,
-    /// Whether that place is chosen anew where a downlink begins.
+    /// Whether that place is chosen anew where a downlink begins, and that of science where it unloads.
     pub managed: bool,
 }
 
@@ -44,6 +44,12 @@ pub struct GuidedAttitude {
 }
 
 impl Guided {
+    /// The same with the Sun at these places in downlink and in science that unloads; `None`: on -Y.
+    #[must_use]
+    pub fn with_sun_places(self, sun_place: Option<SunPlace>, science: Option<SunAngles>) -> Self {
+        Self { sun_place, science: self.science.with_sun(science.unwrap_or_default()), ..self }
+    }
+
     /// Attitude at `time_s` (time scale of the schedule). `lines_at` gives the lines of sight at any time.
     pub fn at(&self, time_s: f64, lines_at: impl FnMut(f64) -> LinesOfSight) -> GuidedAttitude {
         self.within(self.schedule.window(time_s), time_s, lines_at)
@@ -109,7 +115,7 @@ impl Guided {
     /// of sight allow where the turn begins.
     fn sun_drift_rad_s(&self, activity: Activity, lines: &LinesOfSight) -> f64 {
         let gain = match (activity, self.science) {
-            (Activity::Downlink, _) => return 0.0,
+            (Activity::Downlink, _) | (Activity::Science, ScienceRule::Unloading { .. }) => return 0.0,
             (Activity::Science, ScienceRule::Scaled { gain }) => gain.abs(),
             (Activity::Science, ScienceRule::Nadir | ScienceRule::PlanetOrbit) => 1.0,
         };
@@ -132,7 +138,8 @@ impl Guided {
 mod tests {
     //! A slew begins where the old attitude was, ends at the new one, and its rate is the derivative of its axes.
     use super::*;
-    use crate::attitude::{MovingUnit, SunAngles, rotation_vector};
+    use crate::attitude::{MovingUnit, rotation_vector};
+    use crate::guidance::pointing::boresight::MdisRange;
     use approx::assert_relative_eq;
     use nalgebra::Vector3;
 
@@ -190,6 +197,8 @@ mod tests {
         let off_sun = SunPlace { angles, earth_ahead: false };
         for sun_place in [None, Some(off_sun)] {
             rate_is_the_derivative(&Guided { sun_place, ..guided(2e-3) });
+            let science = ScienceRule::Unloading { sun: angles, camera: MdisRange::default() };
+            rate_is_the_derivative(&Guided { sun_place, science, ..guided(2e-3) });
         }
     }
 

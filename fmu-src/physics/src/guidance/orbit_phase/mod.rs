@@ -5,3 +5,4 @@ pub mod guided;
 pub mod orbit_ahead;
 pub mod periapsis_count;
 pub mod schedule;
+pub mod science_course;

@@ -2,14 +2,14 @@
 
 use core::f64::consts::{PI, TAU};
 
-use nalgebra::Vector3;
+use nalgebra::{ComplexField, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::antenna::AntennaAzimuth;
 use super::command::{BoresightCommand, BoresightOption};
 use crate::attitude::{SunAngles, direction_from_angles};
 use crate::constants::DEG_RAD;
-use crate::guidance::geometry::moving::{MovingVector, fixed};
+use crate::guidance::geometry::moving::{Moving, MovingVector, fixed};
 use crate::spacecraft::Instrument;
 
 /// Boresight of an instrument, body frame: number 0 is +Z, then the rows of the table from 1; `None` past the last row.
@@ -70,6 +70,12 @@ impl MdisRange {
 pub fn mdis_boresight(angle_rad: f64) -> Vector3<f64> {
     let (sine, cosine) = angle_rad.sin_cos();
     Vector3::new(0.0, -sine, cosine)
+}
+
+/// The same of an angle that moves.
+pub fn mdis_direction(angle: Moving) -> MovingVector {
+    let (sine, cosine) = angle.sin_cos();
+    MovingVector::new(Moving::from_re(0.0), -sine, cosine)
 }
 
 /// The angle in -pi..pi.

@@ -98,6 +98,7 @@ fn an_attainable_target_is_hit_to_rounding() {
                 torque_body_n_m: &torque,
                 pressure_pa: PRESSURE_PA,
                 linear,
+                science: None,
             };
             for (axes, count) in [(TargetAxes::X, 0), (TargetAxes::Z, 1), (TargetAxes::XAndZ, 2)] {
                 let targeting = Targeting { axes, ..TARGETING };
@@ -148,6 +149,7 @@ fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
             torque_body_n_m: &torque,
             pressure_pa: PRESSURE_PA,
             linear: None,
+            science: None,
         };
         for target in
             [Vector3::new(5.0, 0.0, 3.0), Vector3::new(-4.0, 0.0, 0.1), Vector3::new(0.0, 0.0, -6.0)]
@@ -191,6 +193,7 @@ fn the_linear_formula_falls_short_by_a_few_per_cent() {
         torque_body_n_m: &shade,
         pressure_pa: PRESSURE_PA,
         linear,
+        science: None,
     };
     let by =
         |method, target: &Vector3<f64>| Targeting { method, ..TARGETING }.sun_place(&aim, target).unwrap();
@@ -218,6 +221,7 @@ fn without_a_plane_of_sun_and_earth_there_is_no_place() {
             torque_body_n_m: &none,
             pressure_pa: PRESSURE_PA,
             linear: None,
+            science: None,
         };
         assert_eq!(TARGETING.sun_place(&aim, &Vector3::zeros()), None);
     }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::attitude::{Attitude, BodyMotion, GyrostatMotion, MovingFrame};
-use crate::guidance::Activity;
+use crate::guidance::{Activity, Schedule, ScienceRule, Window};
 use crate::momentum::{DumpEvent, TorqueModel, Totals};
 
 use super::outlook::{Outlook, StartMomentum, SunPlanner};
@@ -11,10 +11,27 @@ use super::propagator_state::PropagatorState;
 use crate::plant::disturbances::evaluation::{External, Plant, PreparedSpacecraft, World};
 use crate::plant::settings::configuration::{AttitudeSource, Command, DynamicAttitude};
 use crate::plant::settings::error::PlantError;
+use crate::plant::settings::work::Cost;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
 /// A window computed in epochs begins this near its number in flight time, in s.
 const EPOCH_ROUNDING_S: f64 = 1e-6;
+
+/// Units of a choice for science that unloads: each of its trials goes through all of it.
+const SCIENCE_UNITS: u32 = 50_000;
+
+/// When a window ends, in s past J2000 TDB: of science whose next downlink waits for a periapsis to come, by the schedule's own
+/// counting; infinite where nothing ends it.
+fn end_epoch_s(schedule: &Schedule, window: &Window, now_epoch_s: f64) -> f64 {
+    if window.until_s.is_finite() || window.activity == Activity::Downlink {
+        return window.until_s;
+    }
+    if window.since_s.is_finite() {
+        return window.since_s + (schedule.cycle_s() - schedule.downlink_s());
+    }
+    let counted = schedule.window(now_epoch_s);
+    if counted.activity == Activity::Science { counted.until_s } else { f64::INFINITY }
+}
 
 /// What a step is given from outside.
 #[derive(Clone, Copy)]
@@ -23,7 +40,7 @@ pub struct Given<'a> {
     pub prepared: PreparedSpacecraft<'a>,
     /// Force and torque from outside.
     pub external: &'a External<'a>,
-    /// Who chooses the Sun's place during downlinks; asked where the guidance is managed.
+    /// Who chooses the Sun's place in downlinks and in science that unloads; asked where the guidance is managed.
     pub planner: &'a dyn SunPlanner,
     /// Units of about a microsecond that a step may take.
     pub work_limit: u32,
@@ -49,8 +66,8 @@ impl Craft<'_> {
     }
 
     /// Chooses the Sun's place where a downlink has begun at `time_s`, or began right there and its momentum is another since;
-    /// where it is over, the next one may choose. At the `first` time of a flight nothing is forecast, and a downlink that has
-    /// begun before keeps its default attitude.
+    /// where it is over, the next one may choose. Science that unloads is alike. At the `first` time of a flight nothing is
+    /// forecast, and a downlink that has begun before keeps its default attitude; science that has is chosen for what is left of it.
     pub fn choose_sun_place(
         &mut self,
         time_s: f64,
@@ -63,25 +80,37 @@ impl Craft<'_> {
         };
         let Some(guided) = self.plant().kinematics.guided_attitude(time_s) else { return Ok(()) };
         let downlink = guided.window.activity == Activity::Downlink;
+        let camera = match law.science {
+            ScienceRule::Unloading { camera, .. } if !downlink => Some(camera),
+            _ => None,
+        };
+        let has_place = downlink || camera.is_some();
         let choice = &mut self.propagator.sun_choice;
-        let is_anew = downlink && choice.in_force && choice.chosen_s == Some(time_s);
-        if !(choice.is_due(downlink) || is_anew) {
+        let is_anew = has_place && choice.in_force == downlink && choice.chosen_s == Some(time_s);
+        if !(choice.is_due(downlink) || is_anew || (first && camera.is_some())) {
             return Ok(());
         }
         choice.in_force = downlink;
-        if !downlink {
+        if !has_place {
             return Ok(());
         }
         // A dump at the very start changes nothing of it.
         choice.chosen_s = (!first).then_some(time_s);
-        let [since_s, until_s] = [guided.window.since_s, guided.window.until_s]
-            .map(|epoch_s| epoch_s - self.world.configuration.epoch_minus_time_s);
-        let is_under_way = first && since_s < time_s - EPOCH_ROUNDING_S;
+        let epoch_minus_time_s = self.world.configuration.epoch_minus_time_s;
+        let until_s =
+            end_epoch_s(&law.schedule, &guided.window, time_s + epoch_minus_time_s) - epoch_minus_time_s;
+        let since_s = guided.window.since_s - epoch_minus_time_s;
+        let is_under_way = first && downlink && since_s < time_s - EPOCH_ROUNDING_S;
         let chosen = if until_s.is_finite() && until_s > time_s && !is_under_way {
             let mut plant = self.plant();
             let instant = plant.instant(time_s);
             let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
             let separations_rad = plant.kinematics.separations_rad(time_s, until_s);
+            let science = camera.map(|camera| plant.kinematics.science_course(camera, time_s, until_s));
+            if science.is_some() {
+                let evaluations = self.world.ephemeris.evaluations();
+                self.world.work.spend(Cost::Search, SCIENCE_UNITS, evaluations, time_s)?;
+            }
             let [applied, _] = (self.given.external)(time_s);
             let mut outlook = Outlook {
                 prepared: self.given.prepared,
@@ -98,13 +127,19 @@ impl Craft<'_> {
                 to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
                 pressure_pa,
                 separations_rad,
+                science,
             };
             self.given.planner.choose(&mut outlook)?
         } else {
             None
         };
-        self.propagator.sun_choice.chosen = chosen;
-        self.world.configuration.attitude.set_sun_place(self.propagator.sun_choice.place());
+        let choice = &mut self.propagator.sun_choice;
+        if downlink {
+            choice.chosen = chosen;
+        } else {
+            choice.science = chosen;
+        }
+        self.world.configuration.attitude.set_sun_places(choice.place(), choice.in_science());
         Ok(())
     }
 

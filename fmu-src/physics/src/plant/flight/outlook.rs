@@ -1,12 +1,13 @@
-//! What can be known where a downlink begins: Sun and Earth, torque by the Sun's place, and momentum ahead.
+//! What can be known where a downlink begins, or science that unloads: Sun and Earth, torque by the Sun's place, and momentum ahead.
 //!
-//! A forecast flies the same spacecraft on a copy of its state, guided ideally in the default downlink attitudes, without dumps,
+//! A forecast flies the same spacecraft on a copy of its state, guided ideally in default attitudes (the Sun on -Y in downlinks and in
+//! science that unloads), without dumps,
 //! what is applied from outside being held: nothing of the flight itself changes.
 
 use nalgebra::{Rotation3, Vector3};
 
 use super::propagator_state::PropagatorState;
-use crate::guidance::{ChosenPlace, Guided};
+use crate::guidance::{ChosenPlace, Guided, ScienceCourse};
 use crate::momentum::{Convention, DumpPolicy, MomentumIntegrator, Totals};
 use crate::plant::disturbances::evaluation::{ExternalLoad, Plant, PreparedSpacecraft, World};
 use crate::plant::light::sunlit::SunlitCraft;
@@ -63,7 +64,7 @@ pub struct ForecastMomentum {
     pub body_from_inertial: Rotation3<f64>,
 }
 
-/// Who chooses the Sun's place; asked once a downlink, and again after a dump at its very beginning.
+/// Who chooses the Sun's place; asked once a downlink or science that unloads, and again after a dump at its very beginning.
 pub trait SunPlanner {
     /// The place, and whether limits keep the momentum from its target; no place where the default attitude is to be flown.
     ///
@@ -72,7 +73,7 @@ pub trait SunPlanner {
     fn choose(&self, outlook: &mut Outlook<'_>) -> Result<Option<ChosenPlace>, PlantError>;
 }
 
-/// Where a downlink begins.
+/// Where a downlink begins, or science that unloads.
 pub struct Outlook<'o> {
     pub(crate) prepared: PreparedSpacecraft<'o>,
     pub(crate) world: &'o mut World,
@@ -83,7 +84,7 @@ pub struct Outlook<'o> {
     pub(crate) forecasts: bool,
     /// When, in s.
     pub time_s: f64,
-    /// How long the downlink lasts, in s.
+    /// How long it lasts, in s.
     pub span_s: f64,
     /// Momentum here.
     pub momentum: StartMomentum,
@@ -95,6 +96,8 @@ pub struct Outlook<'o> {
     pub pressure_pa: f64,
     /// Least and greatest angle between Sun and Earth while the downlink lasts, in rad.
     pub separations_rad: [f64; 2],
+    /// The science that begins; `None`: a downlink does.
+    pub science: Option<ScienceCourse>,
 }
 
 impl Outlook<'_> {
@@ -135,7 +138,7 @@ impl Outlook<'_> {
     ) -> Result<(), PlantError> {
         let Self { world, law, totals, time_s, applied, .. } = self;
         let configuration = &mut world.configuration;
-        let guided = Guided { managed: false, sun_place: None, ..*law };
+        let guided = Guided { managed: false, ..law.with_sun_places(None, None) };
         let attitude = core::mem::replace(&mut configuration.attitude, AttitudeSource::Guided(guided));
         let (momentum, light_and_heat) = (configuration.momentum, configuration.light_and_heat);
         // Tolerances shorten what is too coarse.

@@ -1,16 +1,19 @@
-//! Where the Sun stands during a downlink, chosen where the downlink begins.
+//! Where the Sun stands during a downlink, and in science that unloads momentum, chosen where either begins.
 
 use serde::{Deserialize, Serialize};
 
+use crate::attitude::SunAngles;
 use crate::guidance::{ChosenPlace, SunPlace};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
-/// The last choice; the slew after a downlink starts from its attitude.
+/// The last choices; the slew after a downlink starts from its attitude, and that after science from its own.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SunChoice {
-    /// What was chosen.
+    /// What was chosen for a downlink.
     pub chosen: Option<ChosenPlace>,
-    /// When, in s.
+    /// And for science that unloads.
+    pub science: Option<ChosenPlace>,
+    /// When the last of both was, in s.
     pub(crate) chosen_s: Option<f64>,
     /// Whether its downlink lasts.
     pub(crate) in_force: bool,
@@ -19,7 +22,7 @@ pub struct SunChoice {
 impl SunChoice {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
-        self.chosen.is_none_or(|chosen| chosen.place.is_sound())
+        [self.chosen, self.science].into_iter().flatten().all(|chosen| chosen.place.is_sound())
             && self.chosen_s.is_none_or(|at_s| at_s.abs() <= GREATEST_IN_STATE)
     }
 
@@ -28,9 +31,15 @@ impl SunChoice {
         self.chosen.map(|chosen| chosen.place)
     }
 
-    /// Whether a downlink lasts whose target is out of reach.
+    /// Its place in science that unloads; `None`: on -Y.
+    pub fn in_science(&self) -> Option<SunAngles> {
+        self.science.map(|chosen| chosen.place.angles)
+    }
+
+    /// Whether the target of the present downlink is out of reach, or that of science that unloads.
     pub fn is_clamped(&self) -> bool {
-        self.in_force && self.chosen.is_some_and(|chosen| chosen.clamped)
+        let present = if self.in_force { self.chosen } else { self.science };
+        present.is_some_and(|chosen| chosen.clamped)
     }
 
     /// Whether something is due in a window of downlink or of science.

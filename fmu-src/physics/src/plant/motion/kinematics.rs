@@ -7,7 +7,8 @@
 use crate::attitude::{MovingFrame, angle_between_rad};
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::TwoBodyOrbit;
-use crate::guidance::{Activity, Guided, GuidedAttitude};
+use crate::guidance::pointing::boresight::MdisRange;
+use crate::guidance::{Activity, CoursePoint, Guided, GuidedAttitude, ScienceCourse};
 use crate::momentum::{EventValues, after_event_s};
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
@@ -176,6 +177,30 @@ impl Kinematics<'_> {
     /// Least and greatest angle between Sun and Earth from one time to a later one, in rad, the spacecraft going on along the
     /// ellipse that it is on.
     pub fn separations_rad(&mut self, from_s: f64, to_s: f64) -> [f64; 2] {
+        let mut ahead = self.geometry_ahead(from_s);
+        sampled_range(|share| {
+            let geometry = ahead(from_s + (to_s - from_s) * share);
+            angle_between_rad(&geometry.to_sun.position_m, &geometry.to_earth.position_m)
+        })
+    }
+
+    /// Sun and planet from one time to a later one, likewise.
+    pub fn science_course(&mut self, camera: MdisRange, from_s: f64, to_s: f64) -> ScienceCourse {
+        let light = self.configuration.light;
+        let mut ahead = self.geometry_ahead(from_s);
+        ScienceCourse::of(camera, to_s - from_s, |share| {
+            let geometry = ahead(from_s + (to_s - from_s) * share);
+            let to_sun_m = geometry.to_sun.position_m;
+            CoursePoint {
+                to_sun_m,
+                to_planet_m: geometry.to_planet.map_or(Vector3::zeros(), |planet| planet.position_m),
+                pressure_pa: light.pressure_pa(to_sun_m.norm()),
+            }
+        })
+    }
+
+    /// Where everything is later than `from_s`, the spacecraft going on along the ellipse that it is on.
+    fn geometry_ahead(&mut self, from_s: f64) -> impl FnMut(f64) -> Geometry {
         let configuration = self.configuration;
         let now = self.trajectory.state_at(configuration, from_s);
         let from_epoch_s = from_s + configuration.epoch_minus_time_s;
@@ -186,13 +211,12 @@ impl Kinematics<'_> {
             }
             Motion::Held { .. } => None,
         };
-        sampled_range(|share| {
-            let at_s = from_s + (to_s - from_s) * share;
+        let ephemeris = &mut *self.ephemeris;
+        move |at_s| {
             let at_epoch_s = at_s + configuration.epoch_minus_time_s;
             let spacecraft = ellipse.map_or(now, |ellipse| ellipse.state_at(at_epoch_s));
-            let geometry = Geometry::at(configuration, self.ephemeris, at_s, spacecraft);
-            angle_between_rad(&geometry.to_sun.position_m, &geometry.to_earth.position_m)
-        })
+            Geometry::at(configuration, ephemeris, at_s, spacecraft)
+        }
     }
 
     /// The number at which the window or slew of `instant`, at `time_s`, ends, if it does before `limit_s`.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::attitude::{Attitude, MovingFrame};
+use crate::attitude::{Attitude, MovingFrame, SunAngles};
 use crate::bodies::{Body, BodyData};
 use crate::environment::CartesianState;
 use crate::environment::eclipse::Shadow;
@@ -45,15 +45,15 @@ impl AttitudeSource {
 }
 
 impl AttitudeSource {
-    /// Puts the Sun there during downlinks.
-    pub(crate) fn set_sun_place(&mut self, place: Option<SunPlace>) {
+    /// Puts the Sun there during downlinks and in science that unloads.
+    pub(crate) fn set_sun_places(&mut self, place: Option<SunPlace>, science: Option<SunAngles>) {
         let guided = match self {
             Self::Guided(guided) => Some(guided),
             Self::Commanded(_) => None,
             Self::Dynamic(dynamic) => dynamic.guided.as_mut(),
         };
         if let Some(guided) = guided {
-            guided.sun_place = place;
+            *guided = guided.with_sun_places(place, science);
         }
     }
 }

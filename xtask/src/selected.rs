@@ -1,0 +1,148 @@
+//! `cargo xtask test NAME`: the tests whose name contains a text; `cargo xtask bless`: what they compare with, written anew.
+
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+
+use crate::build::TESTS;
+use crate::shell::{Outcome, cargo, command, output, run};
+use crate::{python, test};
+
+/// Crates whose tests need nothing that is built or packed.
+const FREE_STANDING: &[&str] = &["fmu-src", "modelDescription"];
+
+/// With this set, tests write what they compare with.
+const BLESS: (&str, &str) = ("HELIOTORQUE_BLESS", "1");
+
+/// What can be written anew: its name, the tests in Rust that do so, those in Python.
+const RECORDED: &[(&str, Option<&str>, Option<&str>)] = &[
+    ("golden", Some("golden::every_shipped_model"), None),
+    ("reference", Some("reference::"), None),
+    ("schema", Some("in_step"), None),
+    ("mistakes", Some("mistakes::"), None),
+    ("guide", None, Some("prints_what")),
+];
+
+/// A program with tests, and the folder of its crate.
+struct TestProgram {
+    path: PathBuf,
+    crate_folder: PathBuf,
+}
+
+/// Runs the tests in Rust and in Python whose name contains `name`, after building what they need.
+pub fn named(name: &str) -> Outcome {
+    let programs = with_tests(name)?;
+    let in_python = collects(name)?;
+    if programs.is_empty() && !in_python {
+        return Err(format!("no test has `{name}` in its name"));
+    }
+    run_selected(&programs, name, in_python.then_some(name), &[])
+}
+
+/// Writes anew what the tests of that name compare with.
+pub fn bless(name: &str) -> Outcome {
+    let known = || RECORDED.iter().map(|(name, ..)| *name).collect::<Vec<_>>().join(", ");
+    let (_, rust, python) = RECORDED
+        .iter()
+        .find(|(recorded, ..)| *recorded == name)
+        .ok_or_else(|| format!("bless: `{name}` is not recorded; there are {}", known()))?;
+    let programs = rust.map_or(Ok(Vec::new()), with_tests)?;
+    run_selected(&programs, rust.unwrap_or_default(), *python, &[BLESS])
+}
+
+fn run_selected(
+    programs: &[TestProgram],
+    in_rust: &str,
+    in_python: Option<&str>,
+    more: &[(&str, &str)],
+) -> Outcome {
+    let is_free_standing = |program: &TestProgram| {
+        FREE_STANDING.iter().any(|folder| program.crate_folder.starts_with(crate::shell::root().join(folder)))
+    };
+    let environment = if in_python.is_none() && programs.iter().all(is_free_standing) {
+        Vec::new()
+    } else {
+        test::current_environment()?
+    };
+    for program in programs {
+        run(command(&program.path)
+            .arg(in_rust)
+            .current_dir(&program.crate_folder)
+            .envs(environment.clone())
+            .envs(more.iter().copied()))?;
+    }
+    let Some(name) = in_python else { return Ok(()) };
+    run(command(python::interpreter()?)
+        .args(["-m", "pytest", "-q", "tests/python", "-k", name])
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .envs(environment)
+        .envs(more.iter().copied()))
+}
+
+/// The programs that have a test with `name` in its name.
+fn with_tests(name: &str) -> Result<Vec<TestProgram>, String> {
+    let build = output(
+        cargo(&["test", "--no-run", "--message-format=json-render-diagnostics"])
+            .args(TESTS)
+            .stderr(Stdio::inherit()),
+    )?;
+    let mut found = Vec::new();
+    for program in build.lines().filter_map(test_program) {
+        let listed =
+            output(command(&program.path).args(["--list", name]).current_dir(&program.crate_folder))?;
+        if listed.lines().any(|line| line.ends_with(": test")) {
+            found.push(program);
+        }
+    }
+    Ok(found)
+}
+
+/// The test program that a line of cargo's messages names.
+fn test_program(line: &str) -> Option<TestProgram> {
+    let text = |key: &str| {
+        let (_, rest) = line.split_once(&format!("\"{key}\":\""))?;
+        let (text, _) = rest.split_once('"')?;
+        Some(PathBuf::from(text.replace("\\\\", "\\")))
+    };
+    let (profile, _) = line.split_once("\"profile\":{")?.1.split_once('}')?;
+    let path = text("executable").filter(|_| profile.contains("\"test\":true"))?;
+    Some(TestProgram {
+        path,
+        crate_folder: text("manifest_path").as_deref().and_then(Path::parent)?.to_owned(),
+    })
+}
+
+/// Whether a test in Python has `name` in its name.
+fn collects(name: &str) -> Result<bool, String> {
+    /// What pytest ends with where it collects nothing.
+    const NOTHING: i32 = 5;
+    let mut collect = command(python::interpreter()?);
+    collect.args(["-m", "pytest", "-q", "--collect-only", "tests/python", "-k", name]);
+    let ended = collect.env("PYTHONDONTWRITEBYTECODE", "1").output();
+    let ended = ended.map_err(|error| format!("cannot start pytest: {error}"))?;
+    match ended.status.code() {
+        Some(0) => Ok(true),
+        Some(NOTHING) => Ok(false),
+        _ => Err(format!("pytest does not collect the tests:\n{}", String::from_utf8_lossy(&ended.stdout))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Cargo's messages name the programs with tests.
+
+    use super::*;
+
+    #[test]
+    fn programs_with_tests_are_told_from_others() {
+        let message = |test: bool, executable: &str| {
+            format!(
+                r#"{{"reason":"compiler-artifact","package_id":"a#0.1.0","manifest_path":"/w/a/Cargo.toml","target":{{"kind":["lib"],"name":"a","doctest":true,"test":true}},"profile":{{"opt_level":"3","debug_assertions":false,"test":{test}}},"filenames":[],"executable":{executable},"fresh":true}}"#
+            )
+        };
+        let program = test_program(&message(true, "\"/w/target/a-1\"")).unwrap();
+        assert_eq!((program.path, program.crate_folder), ("/w/target/a-1".into(), "/w/a".into()));
+        assert!(test_program(&message(false, "\"/w/target/a\"")).is_none());
+        assert!(test_program(&message(true, "null")).is_none());
+        assert!(test_program(r#"{"reason":"build-finished","success":true}"#).is_none());
+    }
+}
