@@ -6,8 +6,7 @@ use super::describe_shapes::{MirrorPlane, RepeatDescription};
 use super::facets::sincos_deg;
 use crate::spacecraft::polygon::Polygon;
 use crate::spacecraft::surface::Plate;
-use crate::toml::Checker;
-use crate::toml::Place;
+use crate::toml::{Checker, Place};
 
 /// Most copies in a row or around an axis.
 const MOST_COPIES: u32 = 100;

@@ -1,12 +1,13 @@
 //! Wheels, Sun sensors and instruments, from their descriptions.
 
+use nalgebra::Vector3;
+
 use super::description::{InstrumentDescription, SunSensorDescription, WheelDescription};
 use super::names::Named;
 use crate::spacecraft::instruments::Instrument;
 use crate::spacecraft::sun_sensors::{HALF_FIELD_OF_VIEW_DEG, MountedSunSensor};
 use crate::spacecraft::wheels::{SPEED_AT_CAPACITY_RAD_S, TIME_TO_CAPACITY_S, Wheel};
 use crate::toml::{Checker, Place};
-use nalgebra::Vector3;
 
 pub(crate) fn wheel(
     check: &mut Checker<'_>,

@@ -1,9 +1,10 @@
 //! Mass properties, from their description; panels and tanks are a part of them.
 
+use nalgebra::{Matrix3, Vector3};
+
 use super::description::{MassDescription, PanelDescription};
 use crate::spacecraft::mass::{MassProperties, PanelMass, check_inertia};
 use crate::toml::{Checker, Place};
-use nalgebra::{Matrix3, Vector3};
 
 pub(crate) fn mass(check: &mut Checker<'_>, at: &Place, description: &MassDescription) -> MassProperties {
     let [x, y, z] = description.inertia_kg_m2.map(|row| Vector3::from(row).transpose());

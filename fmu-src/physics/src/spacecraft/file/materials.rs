@@ -8,9 +8,7 @@ use crate::spacecraft::optics::Optics;
 use crate::spacecraft::thermal::{
     BACKGROUND_K, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, HIGHEST_TEMPERATURE_K,
 };
-use crate::toml::Place;
-use crate::toml::nearest;
-use crate::toml::{Checker, rounded};
+use crate::toml::{Checker, Place, nearest, rounded};
 
 /// What a file says of a material.
 #[derive(Clone, Copy)]

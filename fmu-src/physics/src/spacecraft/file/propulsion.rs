@@ -7,9 +7,7 @@ use super::names::Named;
 use crate::constants::STANDARD_GRAVITY_M_S2;
 use crate::spacecraft::tank::{Blowdown, HYDRAZINE_KG_M3, Tank};
 use crate::spacecraft::thruster::{Thruster, ValveTiming};
-use crate::toml::Checker;
-use crate::toml::Place;
-use crate::toml::nearest;
+use crate::toml::{Checker, Place, nearest};
 
 /// Pressure of a tank whose file gives none, in Pa; only its ratio counts. Assumed.
 const PRESSURE_PA: f64 = 2e6;

@@ -16,9 +16,7 @@ use super::thermal::thermal;
 use crate::spacecraft::polygon::Polygon;
 use crate::spacecraft::surface::Plate;
 use crate::spacecraft::thermal::Thermal;
-use crate::toml::Checker;
-use crate::toml::Place;
-use crate::toml::nearest;
+use crate::toml::{Checker, Place, nearest};
 
 /// Most facets or corners around an axis.
 const MOST_FACETS: u32 = 128;

@@ -5,8 +5,7 @@ use super::names::Named;
 use crate::attitude::{Appendages, FlexibleMode, Gyrostat, GyrostatError, SloshPendulum};
 use crate::spacecraft::mass::MassProperties;
 use crate::spacecraft::swinging::{COAST_FREQUENCY_HZ, NamedMode, NamedSlosh};
-use crate::toml::Checker;
-use crate::toml::Place;
+use crate::toml::{Checker, Place};
 
 /// Damping ratio where the file gives none. Assumed.
 const DAMPING: f64 = 0.005;
