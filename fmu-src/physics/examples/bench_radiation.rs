@@ -3,7 +3,7 @@
 //!
 //! Prints lines `bench <name> <value> <unit>`; each time is the median of many short runs.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -11,10 +11,10 @@ use i_overlay::core::{fill_rule::FillRule, overlay_rule::OverlayRule};
 use i_overlay::float::single::SingleFloatOverlay;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use physics::bodies::surface::MERCURY;
-use physics::constants::{ASTRONOMICAL_UNIT_M, GM_MERCURY_M3_S2};
+use physics::constants::{ASTRONOMICAL_UNIT_M, GM_MERCURY_M3_S2, GM_SUN_M3_S2};
+use physics::environment::frames::rotation_z;
+use physics::environment::kepler_planet::{MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use physics::environment::orbit::Elements;
-use physics::environment::paper004::{Frames, MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
-use physics::environment::sun::SOLAR_FLUX_PAPER_004_W_M2;
 use physics::numerics::scalar::{Dual64, Scalar, constant_vector};
 use physics::radiation::disturbance::{
     DisturbanceModel, Geometry, Options, PlanetGeometry, Recoil, Workspace,
@@ -50,13 +50,17 @@ fn main() -> Result<(), Failure> {
 /// Sun's flux.
 fn orbit() -> Result<(Vec<Vector3<f64>>, f64), Failure> {
     let planet = Elements { true_anomaly_rad: 279_f64.to_radians(), ..MERCURY_AS_PRINTED };
-    let frames = Frames::from_elements(&planet)?;
-    let flux_w_m2 = SOLAR_FLUX_PAPER_004_W_M2 * (ASTRONOMICAL_UNIT_M / frames.planet_hci_m.norm()).powi(2);
+    let distance_m = planet.state(GM_SUN_M3_S2)?.position_m.norm();
+    let flux_w_m2 = 1365.0 * (ASTRONOMICAL_UNIT_M / distance_m).powi(2);
+    // The Sun along -y, z against the planet's orbit normal (the paper's eqs 2 to 4).
+    let dcm_pl_from_mci =
+        rotation_z(planet.true_anomaly_rad + planet.periapsis_argument_rad + PI).transpose();
+    let dcm_sc_from_mci = Matrix3::new(0.0, -1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, -1.0) * dcm_pl_from_mci;
     let mut positions_m = Vec::new();
     for step in 0..200 {
         let true_anomaly_rad = f64::from(step) * TAU / 200.0;
         let elements = Elements { true_anomaly_rad, ..MESSENGER_AS_PRINTED };
-        positions_m.push(frames.dcm_sc_from_mci() * elements.state(GM_MERCURY_M3_S2)?.position_m);
+        positions_m.push(dcm_sc_from_mci * elements.state(GM_MERCURY_M3_S2)?.position_m);
     }
     Ok((positions_m, flux_w_m2))
 }

@@ -8,7 +8,8 @@ use std::time::Instant;
 use nalgebra::Vector3;
 use physics::numerics::scalar::{Dual64, Scalar, constant_vector};
 use physics::radiation::{Beam, SolarModel, TorquePolynomial};
-use physics::spacecraft::{MESSENGER_TOML, Plate, Spacecraft, SpacecraftError, SunshadeModel};
+use physics::spacecraft::{MESSENGER_TOML, Plate, Spacecraft, SunshadeModel};
+use physics::toml::FileError;
 
 const RUNS: usize = 9;
 const WORK_FACES: usize = 4_000_000;
@@ -54,7 +55,7 @@ fn total<T: Scalar>(model: &SolarModel, i: usize) -> f64 {
 }
 
 /// MESSENGER's front plate in many directions, half of them lit.
-fn hedgehog(plates: usize) -> Result<Spacecraft, SpacecraftError> {
+fn hedgehog(plates: usize) -> Result<Spacecraft, FileError> {
     let mut spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML)?;
     let pattern = spacecraft.sunshade.take().and_then(|shade| shade.plates.into_iter().next());
     spacecraft.panels.clear();

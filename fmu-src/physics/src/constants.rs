@@ -12,8 +12,6 @@ pub const DEG_RAD: f64 = core::f64::consts::PI / 180.0;
 pub const RPM_RAD_S: f64 = core::f64::consts::PI / 30.0;
 /// Seconds in a day.
 pub const DAY_S: f64 = 86_400.0;
-/// Days in a Julian year.
-pub const JULIAN_YEAR_D: f64 = 365.25;
 /// Standard acceleration of gravity, m/s2 (exact, CGPM 1901); turns specific impulse into exhaust speed.
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
 

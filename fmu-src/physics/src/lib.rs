@@ -13,6 +13,8 @@ pub mod bodies;
 
 pub mod attitude;
 
+pub mod toml;
+
 pub mod spacecraft;
 
 pub mod propulsion;

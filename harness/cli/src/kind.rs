@@ -1,6 +1,6 @@
 //! What kind of file a TOML text is meant as, told by its keys also where it is damaged.
 
-use physics::spacecraft::nearest;
+use physics::toml::nearest;
 use toml::de::DeTable;
 
 /// A kind of file that people write.

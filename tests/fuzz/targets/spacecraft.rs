@@ -5,11 +5,12 @@ use heliotorque_fuzz::library;
 use libfuzzer_sys::fuzz_target;
 use model_description::{Severity, validate};
 use physics::guidance::timeline::Timeline;
-use physics::spacecraft::{Spacecraft, SpacecraftError};
+use physics::spacecraft::Spacecraft;
+use physics::toml::FileError;
 use physics::spin::spinner::Spinner;
 
 /// Whether the file was read; the reason of a refusal is not empty.
-fn read<T>(outcome: Result<T, SpacecraftError>) -> bool {
+fn read<T>(outcome: Result<T, FileError>) -> bool {
     if let Err(error) = &outcome {
         assert!(error.to_string().starts_with("any.toml"), "{error}");
     }

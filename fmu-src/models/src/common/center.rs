@@ -3,8 +3,8 @@
 use physics::bodies::Body;
 use physics::bodies::surface::{MERCURY, PlanetSurface};
 use physics::environment::frames::Frame;
+use physics::environment::kepler_planet::{MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use physics::environment::orbit::{self, Elements};
-use physics::environment::paper004::{MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use physics::spacecraft::{Spacecraft, StartEntry};
 
 use super::choices::OrbitCenter;

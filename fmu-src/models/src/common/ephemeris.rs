@@ -6,7 +6,7 @@ use fmi_export::{Failure, Given, SetupError};
 use physics::bodies::Body;
 use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::flown::{FlownEphemeris, FlownTarget};
-use physics::environment::paper004::KeplerPlanet;
+use physics::environment::kepler_planet::KeplerPlanet;
 
 use super::variables::EllipseVariables;
 

@@ -111,16 +111,6 @@ impl PlanetSurface {
             day_temperature: self.day_temperature,
         }
     }
-
-    /// The day side's temperature in K at cos z, `solar_flux_w_m2` being the Sun's at the planet (eq 32).
-    pub fn day_temperature_k(&self, solar_flux_w_m2: f64, cos_zenith: f64) -> f64 {
-        let exitance = self.exitance(solar_flux_w_m2);
-        let infrared_w_m2 = exitance.day_constant_w_m2 + exitance.day_cosine_w_m2 * cos_zenith.max(0.0);
-        if self.emissivity == 0.0 {
-            return 0.0;
-        }
-        (infrared_w_m2 / (self.emissivity * STEFAN_BOLTZMANN_W_M2_K4)).powf(0.25)
-    }
 }
 
 impl<T: Scalar> PlanetSurface<T> {
@@ -219,11 +209,18 @@ mod tests {
     #[test]
     fn temperatures_are_mercurys() {
         let flux_w_m2 = 1365.0 / (0.387_f64 * 0.387);
-        let uniform = mercury(DayTemperature::Uniform).day_temperature_k(flux_w_m2, 0.5);
+        // Eq 32: the temperature whose black body gives off the exitance at cos z.
+        let day_temperature_k = |day_temperature, cos_zenith: f64| {
+            let surface = mercury(day_temperature);
+            let exitance = surface.exitance(flux_w_m2);
+            let infrared_w_m2 = exitance.day_constant_w_m2 + exitance.day_cosine_w_m2 * cos_zenith;
+            (infrared_w_m2 / (surface.emissivity * STEFAN_BOLTZMANN_W_M2_K4)).powf(0.25)
+        };
+        let uniform = day_temperature_k(DayTemperature::Uniform, 0.5);
         assert!((500.0..560.0).contains(&uniform), "{uniform}");
-        let subsolar = mercury(DayTemperature::Cosine).day_temperature_k(flux_w_m2, 1.0);
+        let subsolar = day_temperature_k(DayTemperature::Cosine, 1.0);
         assert_relative_eq!(subsolar / uniform, 2_f64.powf(0.25), max_relative = 1e-12);
-        let edge = mercury(DayTemperature::Cosine).day_temperature_k(flux_w_m2, 0.0);
+        let edge = day_temperature_k(DayTemperature::Cosine, 0.0);
         assert_relative_eq!(edge, 100.0, max_relative = 1e-12);
     }
 

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::CartesianState;
 use super::ephemeris::Ephemeris;
-use super::paper004::KeplerPlanet;
+use super::kepler_planet::KeplerPlanet;
 use crate::bodies::Body;
 
 /// Bodies from a centre: VSOP87, the centre itself possibly on an ellipse instead.

@@ -7,8 +7,8 @@ pub mod eclipse;
 pub mod ephemeris;
 pub mod flown;
 pub mod frames;
+pub mod kepler_planet;
 pub mod orbit;
-pub mod paper004;
 pub mod sun;
 pub mod time;
 

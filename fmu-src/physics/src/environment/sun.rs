@@ -5,12 +5,6 @@ use thiserror::Error;
 use crate::constants::{ASTRONOMICAL_UNIT_M, SPEED_OF_LIGHT_M_S};
 use crate::numerics::scalar::Scalar;
 
-/// Flux at 1 AU behind the numbers of paper 000, W/m2 (its 5.0145e-5 N/m2 at 0.3 AU).
-pub const SOLAR_FLUX_PAPER_000_W_M2: f64 = 1353.0;
-/// Flux at 1 AU in paper 003, W/m2.
-pub const SOLAR_FLUX_PAPER_003_W_M2: f64 = 1358.0;
-/// Flux at 1 AU that fits the numbers of paper 004, W/m2 (unpublished there).
-pub const SOLAR_FLUX_PAPER_004_W_M2: f64 = 1365.0;
 /// Nominal total solar irradiance at 1 AU, W/m2 (IAU 2015 Resolution B3).
 pub const SOLAR_FLUX_W_M2: f64 = 1361.0;
 
@@ -55,7 +49,7 @@ mod tests {
 
     #[test]
     fn published_pressure_of_paper_000() {
-        let p = pressure_n_m2(SOLAR_FLUX_PAPER_000_W_M2, 0.3 * ASTRONOMICAL_UNIT_M).unwrap();
+        let p = pressure_n_m2(1353.0, 0.3 * ASTRONOMICAL_UNIT_M).unwrap();
         assert!((p - 5.0145e-5).abs() < 0.0005e-5, "{p:e}");
     }
 

@@ -9,12 +9,6 @@ use crate::constants::DAY_S;
 pub const J2000_JULIAN_DATE: f64 = 2_451_545.0;
 /// Start of the 90-day momentum study of paper 000, 2009-04-06 00:00.
 pub const MOMENTUM_STUDY_START_S: f64 = midnight_s(2009, 4, 6);
-/// Midnight of MESSENGER's arrival in orbit about Mercury, 2011-03-18 00:00.
-pub const MERCURY_ORBIT_INSERTION_DAY_S: f64 = midnight_s(2011, 3, 18);
-/// Start of the arc between the flybys of paper 003, 2008-03-19 00:00.
-pub const FLYBY_ARC_START_S: f64 = midnight_s(2008, 3, 19);
-/// End of the arc between the flybys of paper 003 (second flyby), 2008-10-06 00:00.
-pub const FLYBY_ARC_END_S: f64 = midnight_s(2008, 10, 6);
 
 /// Seconds past J2000 of 00:00 on a day of the proleptic Gregorian calendar; month and day may overflow.
 pub const fn midnight_s(year: i32, month: u32, day: u32) -> f64 {

@@ -9,8 +9,6 @@
 
 use core::f64::consts::PI;
 
-use nalgebra::SVector;
-
 /// Nodes and weights of Gauss-Legendre quadrature of order 6 on [0, 1].
 pub const GAUSS_3: [(f64, f64); 3] = [
     (0.112_701_665_379_258_31, 0.277_777_777_777_777_8),
@@ -52,16 +50,6 @@ impl<const N: usize> Rule<N> {
     /// The integral of a scalar `function` from `from` to `to`.
     pub fn integrate(&self, from: f64, to: f64, mut function: impl FnMut(f64) -> f64) -> f64 {
         self.on(from, to).map(|(x, w)| w * function(x)).sum()
-    }
-
-    /// The integral of a vector `function` from `from` to `to`.
-    pub fn integrate_vector<const D: usize>(
-        &self,
-        from: f64,
-        to: f64,
-        mut function: impl FnMut(f64) -> SVector<f64, D>,
-    ) -> SVector<f64, D> {
-        self.on(from, to).fold(SVector::zeros(), |sum, (x, w)| sum + function(x) * w)
     }
 }
 
@@ -191,7 +179,5 @@ mod tests {
         let rule = Rule::<12>::gauss_legendre();
         let exact = 3.0_f64.exp() - 0.5_f64.exp();
         assert!((rule.integrate(0.5, 3.0, f64::exp) - exact).abs() < 1e-14 * exact);
-        let vector = rule.integrate_vector(0.5, 3.0, |x| nalgebra::Vector2::new(x.exp(), x));
-        assert!((vector[0] - exact).abs() < 1e-14 * exact && (vector[1] - 4.375).abs() < 1e-14);
     }
 }

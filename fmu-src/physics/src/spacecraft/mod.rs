@@ -7,33 +7,15 @@
 //! Body frame, as in paper 000: -Y is the nominal direction to the Sun, Z the axis of the cylindrical shade, X the
 //! axis of the panels; the origin is wherever the file's coordinates start, not the centre of mass.
 
-mod build;
-mod build_propulsion;
-mod build_shapes;
-mod build_swinging;
-mod build_thermal;
-mod checker;
-mod copies;
-mod describe_shapes;
-mod describe_swinging;
-mod describe_thermal;
-mod description;
-mod document;
-mod error;
-mod facets;
+mod assembly;
+mod file;
 mod instruments;
-mod limits;
 mod mass;
 mod optics;
 mod panel;
 mod panel_mass;
-mod place;
 mod planet_map;
 mod polygon;
-mod reader;
-#[cfg(feature = "schema")]
-mod schema;
-mod spelling;
 mod start;
 mod sun_sensors;
 mod surface;
@@ -46,35 +28,29 @@ mod wheels;
 #[cfg(test)]
 mod tests;
 
-pub use build::{Spacecraft, SunKeepIn};
-pub use checker::Checker;
-pub use document::Document;
-pub use error::{Problem, SpacecraftError};
+pub use crate::toml::MOST_THRUSTERS;
+pub use assembly::{Spacecraft, SunKeepIn};
+#[cfg(feature = "schema")]
+pub use file::schema;
 pub use instruments::Instrument;
-pub use limits::{LIMITS, MOST_ITEMS, MOST_PROBLEMS, MOST_SURFACES, MOST_TEXT_BYTES};
 pub(crate) use mass::steiner;
 pub use mass::{MassProperties, PanelMass, check_inertia};
 pub use optics::Optics;
 pub use panel::{Panel, PanelControl};
 pub use panel_mass::{hinged_masses, with_panels};
-pub use place::Place;
 pub use planet_map::{PlanetCell, PlanetMap, PlanetMapError};
 pub use polygon::{Polygon, PolygonError};
-pub use reader::Findings;
-#[cfg(feature = "schema")]
-pub use schema::schema;
-pub use spelling::nearest;
 pub use start::{StartEntry, StartValue};
 pub(crate) use start::{StartTable, start_entries};
 pub use sun_sensors::MountedSunSensor;
-pub use surface::{Cylinder, Plate, Sunshade, SunshadeModel};
+pub use surface::{Cylinder, MOST_SURFACES, Plate, Sunshade, SunshadeModel};
 pub use swinging::{NamedMode, NamedSlosh};
 pub use tank::{Blowdown, Tank};
 pub use thermal::{
     BACKGROUND_K, BusLink, Conduction, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, Honeycomb,
     Thermal,
 };
-pub use thruster::{MOST_THRUSTERS, Thrust, Thruster, ThrusterSet, ValveTiming};
+pub use thruster::{Thrust, Thruster, ThrusterSet, ValveTiming};
 pub use wheels::{PAPER_DUMP_THRESHOLDS_N_M_S, Wheel};
 
 /// MESSENGER as paper 000 describes it, for callers without a file.

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 
-use super::checker::Checker;
-use super::place::Place;
+use crate::toml::Checker;
+use crate::toml::Place;
 
 /// A start value of a model's variable, as the file gives it.
 #[derive(Clone, Debug, PartialEq)]

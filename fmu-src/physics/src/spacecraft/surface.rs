@@ -7,6 +7,9 @@ use super::optics::Optics;
 use super::polygon::Polygon;
 use super::thermal::Thermal;
 
+/// Most surfaces of a spacecraft, copies and facets of shapes among them.
+pub const MOST_SURFACES: usize = 4000;
+
 /// A flat surface fixed in a frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plate {

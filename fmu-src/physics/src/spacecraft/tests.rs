@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use super::*;
+use crate::toml::Problem;
 
 const SMALL: &str = r#"
 name = "Small"

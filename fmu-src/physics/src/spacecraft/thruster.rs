@@ -3,9 +3,6 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// Most thrusters of a spacecraft: a set of them is a bit mask.
-pub const MOST_THRUSTERS: usize = 24;
-
 /// Thrusters that give a delta-v together (paper 001, "Delta-V").
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

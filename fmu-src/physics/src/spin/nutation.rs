@@ -73,25 +73,9 @@ fn first_moment_s(nutation_rad_s: f64, width_s: f64) -> f64 {
     (sine - half * cosine) / (sine * nutation_rad_s)
 }
 
-/// Eq 8: nutation after `count` equal kicks `kick_rad`, `phase_rad` of nutation apart.
-pub fn uniform_train_rad(kick_rad: f64, phase_rad: f64, count: u32) -> f64 {
-    let half = (0.5 * phase_rad).sin();
-    if half.abs() < 1e-12 {
-        return kick_rad * f64::from(count);
-    }
-    kick_rad * ((0.5 * f64::from(count) * phase_rad).sin() / half).abs()
-}
-
 /// Greatest nutation eq 8 reaches at any count: (Gamma/n) / |sin(phi/2)|; infinite where the kicks add up.
 pub fn exact_envelope_rad(kick_rad: f64, phase_rad: f64) -> f64 {
     kick_rad / (0.5 * phase_rad).sin().abs()
-}
-
-/// Bound on the final nutation of a train whose ends rise and fall by the binomial weights of `order`, whatever its
-/// length: q |2 cos(phi/2)|^m / |sin(phi/2)|, with q the one-unit kick.
-pub fn tapered_bound_rad(unit_kick_rad: f64, phase_rad: f64, order: u32) -> f64 {
-    let (sine, cosine) = (0.5 * phase_rad).sin_cos();
-    unit_kick_rad * (2.0 * cosine).abs().powi(order as i32) / sine.abs()
 }
 
 /// Eq 1: spread of the Sun-crossing period by nutation, in s. Diverges as the Sun angle goes to 0.

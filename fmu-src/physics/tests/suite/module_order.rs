@@ -10,6 +10,7 @@ const ORDER: &[&str] = &[
     "numerics",
     "bodies",
     "attitude",
+    "toml",
     "spacecraft",
     "propulsion",
     "environment",

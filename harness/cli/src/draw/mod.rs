@@ -17,8 +17,9 @@ use std::{
 
 use files::Destination;
 use physics::{
-    spacecraft::{MESSENGER_TOML, Panel, Spacecraft, SpacecraftError},
+    spacecraft::{MESSENGER_TOML, Panel, Spacecraft},
     spin::spinner::Spinner,
+    toml::FileError,
 };
 use toml::de::DeTable;
 
@@ -102,7 +103,7 @@ fn read(file: &str, text: &str, angles: &[PanelAngle]) -> Result<Scene, Box<dyn 
     Ok(Scene::of_spacecraft(&spacecraft, &angles_rad))
 }
 
-fn refusal(error: SpacecraftError) -> String {
+fn refusal(error: FileError) -> String {
     format!("{error}\nsee `heliotorque check`")
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use physics::{
     environment::dates::{self, ALLOWED_DATE},
-    spacecraft::{Checker, Document, Place},
+    toml::{Checker, Document, Place},
 };
 
 use super::{

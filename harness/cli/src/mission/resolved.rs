@@ -2,7 +2,7 @@
 
 use loader::{InputTable, Value};
 use model_description::{Causality, Description, ScalarVariable, VariableKind, value};
-use physics::spacecraft::MOST_PROBLEMS;
+use physics::toml::MOST_PROBLEMS;
 
 use super::file::{At, Bounds, Inputs, Mission};
 use crate::epoch;

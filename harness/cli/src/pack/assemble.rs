@@ -5,7 +5,7 @@ use std::path::Path;
 use ::files::Entries;
 use loader::{Binary, Described};
 use model_description::Description;
-use physics::spacecraft::nearest;
+use physics::toml::nearest;
 
 use super::{per_plate, schedule, source::Source, start};
 use crate::mission::{Craft, Mission};

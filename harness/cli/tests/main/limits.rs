@@ -2,7 +2,8 @@
 
 use std::{collections::BTreeMap, fmt::Write as _, fs, io::Write as _};
 
-use physics::spacecraft::{LIMITS, MOST_ITEMS, MOST_PROBLEMS, MOST_SURFACES, MOST_TEXT_BYTES};
+use physics::spacecraft::MOST_SURFACES;
+use physics::toml::{LIMITS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES};
 use zip::{CompressionMethod, ZipWriter, write::SimpleFileOptions};
 
 use crate::{library, run, shown};

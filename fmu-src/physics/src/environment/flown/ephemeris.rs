@@ -11,7 +11,7 @@ use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::VALID_EPOCH_S;
 use crate::numerics::chebyshev::Segment;
-use crate::spacecraft::{Checker, Document, Place, SpacecraftError};
+use crate::toml::{Checker, Document, FileError, Place};
 
 /// A model of a body's motion with the error it was made with.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +44,7 @@ impl FlownEphemeris {
     ///
     /// Text that is not TOML, or all unknown, missing and ill-typed keys, numbers out of range, gaps and overlaps, and
     /// bodies that have no place, each with line, key, what was found and what is allowed.
-    pub fn from_toml(file: &str, text: &str) -> Result<Self, SpacecraftError> {
+    pub fn from_toml(file: &str, text: &str) -> Result<Self, FileError> {
         let document = Document::parse(file, text)?;
         let (description, findings) = document.read::<Description>()?;
         let Frame::Eme2000 = description.frame;

@@ -8,8 +8,8 @@ use crate::constants::{DAY_S, GM_MERCURY_M3_S2, GM_SUN_M3_S2};
 use crate::environment::CartesianState;
 use crate::environment::coarse_ephemeris::CoarseEphemeris;
 use crate::environment::ephemeris::Ephemeris;
+use crate::environment::kepler_planet::MESSENGER_AS_PRINTED;
 use crate::environment::orbit::{Elements, TwoBodyOrbit};
-use crate::environment::paper004::MESSENGER_AS_PRINTED;
 use crate::environment::time::MOMENTUM_STUDY_START_S as START_S;
 use crate::numerics::chebyshev::Segment;
 

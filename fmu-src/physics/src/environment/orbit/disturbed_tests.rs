@@ -9,7 +9,7 @@ use super::*;
 use crate::{
     bodies::Body,
     constants::{GM_MERCURY_M3_S2 as MU, GM_SUN_M3_S2, RADIUS_MERCURY_M},
-    environment::{CartesianState, paper004::MESSENGER_AS_PRINTED},
+    environment::{CartesianState, kepler_planet::MESSENGER_AS_PRINTED},
 };
 
 const SUN: Vector3<f64> = Vector3::new(3.5e10, 4.5e10, 1.0e10);

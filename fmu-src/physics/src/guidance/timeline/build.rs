@@ -7,7 +7,8 @@ use super::quantity::{Quantity, TIME};
 use super::scans::scan;
 use crate::environment::dates::{self, ALLOWED_DATE};
 use crate::guidance::pointing::command::PointingCommand;
-use crate::spacecraft::{Checker, Document, Instrument, Place, SpacecraftError};
+use crate::spacecraft::Instrument;
+use crate::toml::{Checker, Document, FileError, Place};
 
 /// Commands one after the other.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +25,7 @@ impl Timeline {
     ///
     /// Text that is not TOML, or all unknown, missing and ill-typed keys, all commands that cannot be carried out and all
     /// times that are out of order, each with line, key, what was found and what is allowed.
-    pub fn from_toml(file: &str, text: &str, instruments: &[Instrument]) -> Result<Self, SpacecraftError> {
+    pub fn from_toml(file: &str, text: &str, instruments: &[Instrument]) -> Result<Self, FileError> {
         let document = Document::parse(file, text)?;
         let (description, findings) = document.read::<Description>()?;
         let mut commands = Commands::new(Checker::new(&document, findings), instruments);

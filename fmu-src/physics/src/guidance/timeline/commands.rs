@@ -18,7 +18,8 @@ use crate::guidance::pointing::command::{
     AimpointCommand, BodyRollCommand, BoresightCommand, BoresightOption, ExternalRollCommand, FULL_TURN_RAD,
     LimbCommand, PointingCommand, RIGHT_ANGLE_RAD, Scenario,
 };
-use crate::spacecraft::{Checker, Instrument, Place, nearest};
+use crate::spacecraft::Instrument;
+use crate::toml::{Checker, Place, nearest};
 
 /// Whether each key of a table is given.
 pub(super) type Given<'g> = &'g [(&'g str, bool)];

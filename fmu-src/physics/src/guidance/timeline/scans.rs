@@ -7,7 +7,7 @@ use super::reads::{Keys, reads, scan_keys};
 use crate::guidance::pointing::aimpoint::{AIMPOINTS, AimKind};
 use crate::guidance::pointing::command::{AimpointOption, PointingCommand, ScanCommand, Scenario};
 use crate::guidance::pointing::scan::ScanCompatibility;
-use crate::spacecraft::Place;
+use crate::toml::Place;
 
 /// Greatest number of segments.
 const MOST_SEGMENTS: u32 = 1_000_000;

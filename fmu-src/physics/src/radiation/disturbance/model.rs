@@ -139,11 +139,6 @@ impl DisturbanceModel {
         if found > limit_units { Err(ModelError::Work { found, limit: limit_units }) } else { Ok(self) }
     }
 
-    /// Area of a face in m2; 0 for a face there is not.
-    pub fn face_area_m2(&self, face: usize) -> f64 {
-        self.faces.faces.get(face).map_or(0.0, |face| self.faces.surfaces[face.surface].area_m2)
-    }
-
     /// Whether any surface can shadow another at some direction of the Sun and angle of the panels.
     pub fn can_shadow(&self) -> bool {
         self.scene.is_some()

@@ -6,11 +6,13 @@ use super::*;
 use crate::bodies::surface::MERCURY;
 use crate::constants::{ASTRONOMICAL_UNIT_M, GM_MERCURY_M3_S2, RADIUS_MERCURY_M};
 use crate::environment::eclipse::{Shadow, ShadowModel};
+use crate::environment::kepler_planet::{MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED, tests::Frames};
 use crate::environment::orbit::Elements;
-use crate::environment::paper004::{Frames, MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
-use crate::environment::sun::SOLAR_FLUX_PAPER_004_W_M2;
 use crate::radiation::grid::CellLayout;
 use crate::spacecraft::{MESSENGER_THERMAL_TOML, Spacecraft};
+
+/// Flux at 1 AU that fits the paper's numbers, W/m2 (unpublished there).
+const SOLAR_FLUX_PAPER_004_W_M2: f64 = 1365.0;
 
 /// Accelerations around one orbit with the planet standing still, as in the paper's analytical model: least and
 /// greatest of solar (in m/s2), and of albedo, infrared and recoil (in % of the greatest solar).
@@ -29,7 +31,7 @@ fn around_orbit_by(
     let model = DisturbanceModel::new(&spacecraft, &options).unwrap();
     let shadow = Shadow::new(ShadowModel::AllOrNothingCylinder, RADIUS_MERCURY_M).unwrap();
     let planet = Elements { true_anomaly_rad: mercury_true_anomaly_deg.to_radians(), ..MERCURY_AS_PRINTED };
-    let frames = Frames::from_elements(&planet).unwrap();
+    let frames = Frames::from_elements(&planet);
     let sun_distance_m = frames.planet_hci_m.norm();
     let sun_flux_w_m2 = SOLAR_FLUX_PAPER_004_W_M2 * (ASTRONOMICAL_UNIT_M / sun_distance_m).powi(2);
     let sun_body = -Vector3::y();

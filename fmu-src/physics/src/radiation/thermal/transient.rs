@@ -6,7 +6,6 @@
 //! are all the state there is.
 
 use nalgebra::{Matrix2, Vector2};
-use serde::{Deserialize, Serialize};
 
 use super::balance::{FaceSurroundings, exchange_w_m2};
 use crate::spacecraft::Conduction;
@@ -26,13 +25,6 @@ const MOST_HALVINGS: u32 = 40;
 
 /// Steps after which the rest is taken as one: no temperature of a spacecraft needs a tenth of them.
 const MOST_STEPS: u32 = 10_000;
-
-/// Temperatures of every face, in the order of the model's faces.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ThermalState {
-    /// In K.
-    pub temperatures_k: Vec<f64>,
-}
 
 /// One surface that stores heat in each of its faces.
 #[derive(Clone, Copy, Debug, PartialEq)]

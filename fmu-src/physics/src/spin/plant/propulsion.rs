@@ -1,5 +1,7 @@
 //! What the thrusters use and do: propellant, delta-v, inertia, foreseen nutation.
 
+use std::sync::LazyLock;
+
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -7,6 +9,7 @@ use super::commands::Commands;
 use super::sound::are_moderate;
 use super::valves::Valves;
 use crate::attitude::Inertia;
+use crate::numerics::quadrature::Rule;
 use crate::propulsion::ThrustLaw;
 use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::{
@@ -27,17 +30,8 @@ const IMPULSE_PANEL_MASS: f64 = 0.25;
 /// What the edges of many pulses have lost to rounding by a time, as a share of it and of the time a full tank lasts.
 const EDGE_ROUNDING: f64 = 1e-11;
 
-/// Gauss-Legendre nodes and weights on -1..1 for the impulse of a turning thruster.
-const NODES: [(f64, f64); 8] = [
-    (-0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
-    (-0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
-    (-0.525_532_409_916_329, 0.313_706_645_877_887_27),
-    (-0.183_434_642_495_649_8, 0.362_683_783_378_362),
-    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_27),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
-    (0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
-];
+/// For the impulse of a turning thruster.
+static IMPULSE_RULE: LazyLock<Rule<8>> = LazyLock::new(Rule::gauss_legendre);
 
 /// What the inertia follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -249,11 +243,9 @@ impl Propulsion {
             } else {
                 from_s + (time_s - from_s) * share
             };
-            let half_s = 0.5 * (end_s - start_s);
-            for (node, weight) in NODES {
-                let at_s = start_s + half_s * (1.0 + node);
+            for (at_s, weight_s) in IMPULSE_RULE.on(start_s, end_s) {
                 let force_n = motion.at(at_s).attitude.inertial_from_body(&law.force_at_n(at_s));
-                delta_v += force_n * (weight * half_s / self.mass_at_kg(spinner, at_s));
+                delta_v += force_n * (weight_s / self.mass_at_kg(spinner, at_s));
             }
             start_s = end_s;
         }

@@ -6,17 +6,13 @@ use serde::Serialize;
 
 use super::description::{Description, GroupEntry, ThrusterEntry};
 use super::hardware::{Group, Limits, MassTable, StarTracker, SunSensor};
-use crate::spacecraft::{
-    Checker, Document, MOST_THRUSTERS, Place, SpacecraftError, StartEntry, Thrust, Thruster, ValveTiming,
-    nearest, start_entries,
-};
+use crate::constants::STANDARD_GRAVITY_M_S2;
+use crate::spacecraft::{MOST_THRUSTERS, StartEntry, Thrust, Thruster, ValveTiming, start_entries};
 use crate::spin::geometry::L1Orbit;
+use crate::toml::{Checker, Document, FileError, Place, nearest};
 
 /// Greatest distance, in m: planets and their Lagrange points are nearer to the Sun.
 const GREATEST_DISTANCE_M: f64 = 1e13;
-
-/// Standard gravity, in m/s2 (3rd CGPM 1901): specific impulse in seconds times this is exhaust speed.
-const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
 
 /// The whole setup, validated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -53,7 +49,7 @@ impl Spinner {
     ///
     /// Text that is not TOML, or all unknown, missing and ill-typed keys and all values no spinner can have, each with
     /// line, key, what was found and what is allowed.
-    pub fn parse(file: &str, text: &str) -> Result<Self, SpacecraftError> {
+    pub fn parse(file: &str, text: &str) -> Result<Self, FileError> {
         let document = Document::parse(file, text)?;
         let (raw, findings) = document.read::<Description>()?;
         let mut builder = Builder { check: Checker::new(&document, findings) };

@@ -3,13 +3,13 @@
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
-use super::{ace, directions, paper_start, request};
+use super::{ace, directions, paper_start, request, uniform_train_rad};
 use crate::attitude::angle_between_rad;
 use crate::spacecraft::ValveTiming;
 use crate::spin::{
     burn::BurnRequest,
     forecast::Timing,
-    nutation::{Spin, uniform_train_rad},
+    nutation::Spin,
     outputs::Outputs,
     plant::{Commands, MassSource, Plant, PulseCommand, PulseExecution, Start},
     predictions::Predictions,

@@ -90,3 +90,19 @@ fn paper_start(ratio: f64) -> Start {
         work_limit: 10_000_000,
     }
 }
+
+/// Eq 8: nutation after `count` equal kicks `kick_rad`, `phase_rad` of nutation apart.
+fn uniform_train_rad(kick_rad: f64, phase_rad: f64, count: u32) -> f64 {
+    let half = (0.5 * phase_rad).sin();
+    if half.abs() < 1e-12 {
+        return kick_rad * f64::from(count);
+    }
+    kick_rad * ((0.5 * f64::from(count) * phase_rad).sin() / half).abs()
+}
+
+/// Bound on the final nutation of a train whose ends rise and fall by the binomial weights of `order`, whatever its
+/// length: q |2 cos(phi/2)|^m / |sin(phi/2)|, with q the one-unit kick.
+fn tapered_bound_rad(unit_kick_rad: f64, phase_rad: f64, order: u32) -> f64 {
+    let (sine, cosine) = (0.5 * phase_rad).sin_cos();
+    unit_kick_rad * (2.0 * cosine).abs().powi(order as i32) / sine.abs()
+}

@@ -3,7 +3,6 @@
 use nalgebra::Vector3;
 
 use super::{ACE, ace, directions, paper_start, request};
-use crate::spacecraft::Problem;
 use crate::spin::{
     burn::BurnRequest,
     forecast::Timing,
@@ -11,6 +10,7 @@ use crate::spin::{
     spinner::Spinner,
     train::Shape,
 };
+use crate::toml::Problem;
 
 fn refusal(request: BurnRequest) -> String {
     let mut start = paper_start(1.483);

@@ -3,12 +3,10 @@
 use approx::assert_relative_eq;
 use std::f64::consts::PI;
 
-use super::paper_spin;
+use super::{paper_spin, tapered_bound_rad, uniform_train_rad};
 use crate::spin::{
     forecast::{ForecastCase, Range, Timing},
-    nutation::{
-        allowed_nutation_rad, exact_envelope_rad, period_variation_s, tapered_bound_rad, uniform_train_rad,
-    },
+    nutation::{allowed_nutation_rad, exact_envelope_rad, period_variation_s},
     tracker::{observation_time_eq20_s, observation_time_s},
     train::{Shape, Train, TrainError},
 };

@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::error::{Problem, SpacecraftError};
+use super::error::{FileError, Problem};
 use super::limits::{MOST_PROBLEMS, MOST_TEXT_BYTES};
 use super::place::{Part, Place};
 use super::reader::{Findings, Reader};
@@ -21,12 +21,12 @@ pub struct Document<'t> {
 
 impl<'t> Document<'t> {
     /// Parses the text; an error is one of TOML's grammar, or a text longer than [`MOST_TEXT_BYTES`].
-    pub fn parse(file: &'t str, text: &'t str) -> Result<Self, SpacecraftError> {
+    pub fn parse(file: &'t str, text: &'t str) -> Result<Self, FileError> {
         if text.len() > MOST_TEXT_BYTES {
             let found = format!("a text of {} bytes", text.len());
             let allowed = format!("at most {MOST_TEXT_BYTES}");
             let problem = Problem { line: None, key: String::new(), found, allowed };
-            return Err(SpacecraftError { file: file.to_owned(), problems: vec![problem], unlisted: 0 });
+            return Err(FileError { file: file.to_owned(), problems: vec![problem], unlisted: 0 });
         }
         match DeTable::parse(text) {
             Ok(root) => {
@@ -39,7 +39,7 @@ impl<'t> Document<'t> {
                 let written =
                     line.and_then(|line| text.lines().nth(line - 1)).map(excerpt).unwrap_or_default();
                 let message = one_line(error.message());
-                Err(SpacecraftError {
+                Err(FileError {
                     file: file.to_owned(),
                     problems: vec![Problem {
                         line,
@@ -55,7 +55,7 @@ impl<'t> Document<'t> {
 
     /// Reads the document into a type. Keys that are unknown, missing or of a wrong type are found all at once; the
     /// type then holds values that nobody wrote.
-    pub fn read<T: DeserializeOwned>(&self) -> Result<(T, Findings), SpacecraftError> {
+    pub fn read<T: DeserializeOwned>(&self) -> Result<(T, Findings), FileError> {
         let findings = RefCell::default();
         match T::deserialize(Reader::new(self.root.get_ref(), &findings)) {
             Ok(value) => Ok((value, findings.into_inner())),
@@ -67,10 +67,10 @@ impl<'t> Document<'t> {
     }
 
     /// An error in this file; it lists [`MOST_PROBLEMS`] and counts the rest.
-    pub fn error(&self, mut problems: Vec<Problem>) -> SpacecraftError {
+    pub fn error(&self, mut problems: Vec<Problem>) -> FileError {
         let unlisted = problems.len().saturating_sub(MOST_PROBLEMS);
         problems.truncate(MOST_PROBLEMS);
-        SpacecraftError { file: self.file.to_owned(), problems, unlisted }
+        FileError { file: self.file.to_owned(), problems, unlisted }
     }
 
     /// The line, from 1, of a place, or of the innermost table around it that exists.

@@ -4,19 +4,19 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::build_thermal::{Material, Materials, thermal};
-use super::checker::Checker;
 use super::copies::{MOST_PLATES, check_apart, copy_name, motions};
 use super::describe_shapes::{
     BoxDescription, DiscDescription, DishDescription, FacetedCylinderDescription, MirrorPlane,
     RepeatDescription,
 };
 use super::facets::{BOX_FACES, Facet, box_faces, cylinder_facets, disc, dish_facets};
-use super::place::Place;
-use super::polygon::Polygon;
-use super::spelling::nearest;
-use super::surface::Plate;
-use super::thermal::Thermal;
+use super::materials::{Material, Materials};
+use super::names::Named;
+use super::thermal::thermal;
+use crate::spacecraft::polygon::Polygon;
+use crate::spacecraft::surface::Plate;
+use crate::spacecraft::thermal::Thermal;
+use crate::toml::{Checker, Place, nearest};
 
 /// Most facets or corners around an axis.
 const MOST_FACETS: u32 = 128;
@@ -38,7 +38,7 @@ struct Shape<'s> {
 }
 
 /// The plates of a box.
-pub(super) fn box_plates(
+pub(crate) fn box_plates(
     check: &mut Checker<'_>,
     materials: &Materials,
     at: &Place,
@@ -71,7 +71,7 @@ pub(super) fn box_plates(
         check.positive(&size.item(axis - 1), length_m)
     }));
     let shape = Shape {
-        name: name(description.name.as_deref(), "box", index),
+        name: description.called(index),
         turn: check.rotation(at, ("rotation_deg", description.rotation_deg), ("", None)),
         shift_m: check.vector(&at.key("center_m"), description.center_m),
         facets: box_faces(&size_m, description.open_faces.as_deref().unwrap_or_default()),
@@ -85,7 +85,7 @@ pub(super) fn box_plates(
 }
 
 /// The plates of a cylinder.
-pub(super) fn cylinder_plates(
+pub(crate) fn cylinder_plates(
     check: &mut Checker<'_>,
     materials: &Materials,
     at: &Place,
@@ -102,7 +102,7 @@ pub(super) fn cylinder_plates(
     let facets = number(check, &at.key("facets"), description.facets, 16, 3, MOST_FACETS);
     let open = description.open_ends.as_deref().unwrap_or_default();
     let shape = Shape {
-        name: name(description.name.as_deref(), "cylinder", index),
+        name: description.called(index),
         turn: frame(&axis),
         shift_m: check.vector(&at.key("center_m"), description.center_m),
         facets: cylinder_facets(radius_m, height_m, facets, open),
@@ -116,7 +116,7 @@ pub(super) fn cylinder_plates(
 }
 
 /// The plate of a disc.
-pub(super) fn disc_plates(
+pub(crate) fn disc_plates(
     check: &mut Checker<'_>,
     materials: &Materials,
     at: &Place,
@@ -129,7 +129,7 @@ pub(super) fn disc_plates(
     let radius_m = check.positive(&at.key("radius_m"), description.radius_m);
     let corners = number(check, &at.key("corners"), description.corners, 24, 3, MOST_FACETS);
     let shape = Shape {
-        name: name(description.name.as_deref(), "disc", index),
+        name: description.called(index),
         turn: frame(&normal),
         shift_m: check.vector(&at.key("center_m"), description.center_m),
         facets: disc(radius_m, corners),
@@ -142,7 +142,7 @@ pub(super) fn disc_plates(
 }
 
 /// The plates of a dish.
-pub(super) fn dish_plates(
+pub(crate) fn dish_plates(
     check: &mut Checker<'_>,
     materials: &Materials,
     at: &Place,
@@ -157,7 +157,7 @@ pub(super) fn dish_plates(
     let facets = number(check, &at.key("facets"), description.facets, 12, 3, MOST_FACETS);
     let rings = number(check, &at.key("rings"), description.rings, 3, 1, MOST_RINGS);
     let shape = Shape {
-        name: name(description.name.as_deref(), "dish", index),
+        name: description.called(index),
         turn: frame(&axis),
         shift_m: check.vector(&at.key("vertex_m"), description.vertex_m),
         facets: dish_facets(radius_m, depth_m, facets, rings),
@@ -170,7 +170,7 @@ pub(super) fn dish_plates(
 }
 
 /// Two plates of one name, made by different items of the file, could not be told apart.
-pub(super) fn distinct_plates(check: &mut Checker<'_>, found: &[(Place, Vec<Plate>)]) {
+pub(crate) fn distinct_plates(check: &mut Checker<'_>, found: &[(Place, Vec<Plate>)]) {
     let mut known: BTreeMap<&str, &Place> = BTreeMap::new();
     for (at, plates) in found {
         for plate in plates {
@@ -248,10 +248,6 @@ impl Shape<'_> {
             plate.thermal.internal_heat_w = self.thermal.internal_heat_w.map(|heat_w| heat_w * share);
         }
     }
-}
-
-fn name(name: Option<&str>, kind: &str, index: usize) -> String {
-    name.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned)
 }
 
 fn rear(check: &mut Checker<'_>, materials: &Materials, at: &Place, name: Option<&str>) -> Option<Material> {

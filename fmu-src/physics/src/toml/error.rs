@@ -17,7 +17,7 @@ pub struct Problem {
 
 /// A spacecraft file that cannot be used, with everything found wrong in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SpacecraftError {
+pub struct FileError {
     /// The file as the caller named it.
     pub file: String,
     /// At least one.
@@ -26,7 +26,7 @@ pub struct SpacecraftError {
     pub unlisted: usize,
 }
 
-impl fmt::Display for SpacecraftError {
+impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, problem) in self.problems.iter().enumerate() {
             if i > 0 {
@@ -52,4 +52,4 @@ impl fmt::Display for SpacecraftError {
     }
 }
 
-impl std::error::Error for SpacecraftError {}
+impl std::error::Error for FileError {}

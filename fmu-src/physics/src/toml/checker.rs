@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use nalgebra::{Matrix3, Vector3};
 
 use super::document::Document;
-use super::error::{Problem, SpacecraftError};
+use super::error::{FileError, Problem};
 use super::place::Place;
 use super::reader::{Findings, MOST_KEPT};
 
@@ -46,7 +46,7 @@ impl<'d> Checker<'d> {
     }
 
     /// The value if nothing was reported, all problems in the order of their lines otherwise.
-    pub fn finish<T>(mut self, value: T) -> Result<T, SpacecraftError> {
+    pub fn finish<T>(mut self, value: T) -> Result<T, FileError> {
         self.problems.sort_by_key(|problem| problem.line);
         if self.problems.is_empty() {
             return Ok(value);
@@ -262,7 +262,7 @@ fn has_inside(places: &BTreeSet<Place>, at: &Place) -> bool {
 }
 
 /// To twelve significant digits: without the noise of a sum.
-pub(super) fn rounded(value: f64) -> f64 {
+pub(crate) fn rounded(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }
 

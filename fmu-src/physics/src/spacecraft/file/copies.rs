@@ -2,25 +2,24 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::checker::Checker;
 use super::describe_shapes::{MirrorPlane, RepeatDescription};
 use super::facets::sincos_deg;
-use super::place::Place;
-use super::polygon::Polygon;
-use super::surface::Plate;
+use crate::spacecraft::polygon::Polygon;
+use crate::spacecraft::surface::Plate;
+use crate::toml::{Checker, Place};
 
 /// Most copies in a row or around an axis.
 const MOST_COPIES: u32 = 100;
 
 /// Most plates that one shape and its copies may come to.
-pub(super) const MOST_PLATES: usize = 2000;
+pub(crate) const MOST_PLATES: usize = 2000;
 
 /// Two plates are one if they differ by no more than this part of their size.
 const SAME_PLACE: f64 = 1e-6;
 
 /// Where a copy is: turned or mirrored by a matrix, then shifted.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Motion {
+pub(crate) struct Motion {
     matrix: Matrix3<f64>,
     shift_m: Vector3<f64>,
 }
@@ -48,7 +47,7 @@ impl Motion {
 }
 
 /// Every copy, the one that is written first: those of `repeat`, then the mirror images of all before.
-pub(super) fn motions(
+pub(crate) fn motions(
     check: &mut Checker<'_>,
     at: &Place,
     mirror: Option<&[MirrorPlane]>,
@@ -75,12 +74,12 @@ pub(super) fn motions(
 }
 
 /// Name of a copy: its number in brackets where there are several.
-pub(super) fn copy_name(name: &str, index: usize, count: usize) -> String {
+pub(crate) fn copy_name(name: &str, index: usize, count: usize) -> String {
     if count == 1 { name.to_owned() } else { format!("{name}[{}]", index + 1) }
 }
 
 /// Reports a copy that lies where an earlier one does; `count` copies have each the same number of plates.
-pub(super) fn check_apart(check: &mut Checker<'_>, at: &Place, plates: &[Plate], count: usize) {
+pub(crate) fn check_apart(check: &mut Checker<'_>, at: &Place, plates: &[Plate], count: usize) {
     for (index, later) in plates.iter().enumerate().skip(plates.len() / count.max(1)) {
         let size_m = later.area_m2.sqrt();
         let is_same = |plate: &&Plate| {
@@ -97,7 +96,7 @@ pub(super) fn check_apart(check: &mut Checker<'_>, at: &Place, plates: &[Plate],
 }
 
 /// Copies of a plate, itself among them.
-pub(super) fn plate_copies(plate: &Plate, motions: &[Motion]) -> Vec<Plate> {
+pub(crate) fn plate_copies(plate: &Plate, motions: &[Motion]) -> Vec<Plate> {
     let copy = |(index, motion): (usize, &Motion)| Plate {
         name: copy_name(&plate.name, index, motions.len()),
         center_m: motion.of(&plate.center_m),

@@ -2,23 +2,18 @@
 
 use nalgebra::Vector3;
 
-use super::checker::Checker;
 use super::description::{TankDescription, ThrusterDescription};
-use super::place::Place;
-use super::spelling::nearest;
-use super::tank::{Blowdown, HYDRAZINE_KG_M3, Tank};
-use super::thruster::{Thruster, ValveTiming};
+use super::names::Named;
 use crate::constants::STANDARD_GRAVITY_M_S2;
+use crate::spacecraft::tank::{Blowdown, HYDRAZINE_KG_M3, Tank};
+use crate::spacecraft::thruster::{Thruster, ValveTiming};
+use crate::toml::{Checker, Place, nearest};
 
 /// Pressure of a tank whose file gives none, in Pa; only its ratio counts. Assumed.
 const PRESSURE_PA: f64 = 2e6;
 
-fn name_or_number(name: Option<&str>, kind: &str, index: usize) -> String {
-    name.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned)
-}
-
 /// A tank that holds a part of `mass_kg`.
-pub(super) fn tank(check: &mut Checker<'_>, at: &Place, index: usize, description: &TankDescription) -> Tank {
+pub(crate) fn tank(check: &mut Checker<'_>, at: &Place, index: usize, description: &TankDescription) -> Tank {
     let mut positive = |key: &str, value: f64| check.positive(&at.key(key), value);
     let propellant_kg = positive("propellant_kg", description.propellant_kg);
     let pressure_pa = description.pressure_pa.map_or(PRESSURE_PA, |value| positive("pressure_pa", value));
@@ -39,7 +34,7 @@ pub(super) fn tank(check: &mut Checker<'_>, at: &Place, index: usize, descriptio
         check.report(&place, format_args!("{allowed_pa:?}"), allowed);
     }
     Tank {
-        name: name_or_number(description.name.as_deref(), "tank", index),
+        name: description.called(index),
         position_body_m: check.vector(&at.key("position_m"), description.position_m),
         propellant_kg,
         pressure_pa,
@@ -49,7 +44,7 @@ pub(super) fn tank(check: &mut Checker<'_>, at: &Place, index: usize, descriptio
 }
 
 /// Tanks hold a part of the spacecraft's mass.
-pub(super) fn tanks_fit(check: &mut Checker<'_>, tanks: &[Tank], whole_kg: f64) {
+pub(crate) fn tanks_fit(check: &mut Checker<'_>, tanks: &[Tank], whole_kg: f64) {
     let mut sum_kg = 0.0;
     for (index, tank) in tanks.iter().enumerate() {
         sum_kg += tank.propellant_kg;
@@ -64,7 +59,7 @@ pub(super) fn tanks_fit(check: &mut Checker<'_>, tanks: &[Tank], whole_kg: f64) 
 }
 
 /// A thruster that one of `tanks` feeds.
-pub(super) fn thruster(
+pub(crate) fn thruster(
     check: &mut Checker<'_>,
     tanks: &[Tank],
     at: &Place,
@@ -90,7 +85,7 @@ pub(super) fn thruster(
     let direction: Vector3<f64> = check.unit_vector(&at.key("direction"), description.direction);
     let force_body_n = direction * force_n;
     Thruster {
-        name: name_or_number(description.name.as_deref(), "thruster", index),
+        name: description.called(index),
         position_body_m,
         force_body_n,
         torque_body_n_m: position_body_m.cross(&force_body_n),

@@ -20,7 +20,7 @@ use super::describe_shapes::{BoxFace, CylinderEnd};
 
 /// A flat outline with its front where the right-hand rule has its normal.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Facet {
+pub(crate) struct Facet {
     /// Name within the shape; empty for its only one.
     pub name: String,
     /// Corners in the shape's own axes, in m.
@@ -28,7 +28,7 @@ pub(super) struct Facet {
 }
 
 /// The faces of a box, with axis, side and name.
-pub(super) const BOX_FACES: [(BoxFace, usize, f64, &str); 6] = [
+pub(crate) const BOX_FACES: [(BoxFace, usize, f64, &str); 6] = [
     (BoxFace::PlusX, 0, 1.0, "+X"),
     (BoxFace::MinusX, 0, -1.0, "-X"),
     (BoxFace::PlusY, 1, 1.0, "+Y"),
@@ -38,7 +38,7 @@ pub(super) const BOX_FACES: [(BoxFace, usize, f64, &str); 6] = [
 ];
 
 /// Sine and cosine of an angle in deg, exact at right angles.
-pub(super) fn sincos_deg(angle_deg: f64) -> (f64, f64) {
+pub(crate) fn sincos_deg(angle_deg: f64) -> (f64, f64) {
     let quarters = (angle_deg / 90.0).round();
     let (sin, cos) = libm::sincos((angle_deg - 90.0 * quarters).to_radians());
     match quarters.rem_euclid(4.0) {
@@ -50,7 +50,7 @@ pub(super) fn sincos_deg(angle_deg: f64) -> (f64, f64) {
 }
 
 /// The faces of a box about the origin that it has, outside in front.
-pub(super) fn box_faces(size_m: &Vector3<f64>, open: &[BoxFace]) -> Vec<Facet> {
+pub(crate) fn box_faces(size_m: &Vector3<f64>, open: &[BoxFace]) -> Vec<Facet> {
     let faces = BOX_FACES.into_iter().filter(|(face, ..)| !open.contains(face));
     let facet = |(_, axis, side, name): (BoxFace, usize, f64, &str)| {
         let (second, third) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -68,7 +68,7 @@ pub(super) fn box_faces(size_m: &Vector3<f64>, open: &[BoxFace]) -> Vec<Facet> {
 }
 
 /// Side and ends of a cylinder about Z in the middle, outside in front.
-pub(super) fn cylinder_facets(radius_m: f64, height_m: f64, facets: u32, open: &[CylinderEnd]) -> Vec<Facet> {
+pub(crate) fn cylinder_facets(radius_m: f64, height_m: f64, facets: u32, open: &[CylinderEnd]) -> Vec<Facet> {
     let corners = ring(radius_m * of_equal_area(facets), facets);
     let x = half_step_rad(facets);
     // Half the height over the perimeter's part of that of the circle.
@@ -93,12 +93,12 @@ pub(super) fn cylinder_facets(radius_m: f64, height_m: f64, facets: u32, open: &
 }
 
 /// A disc about the origin with its front along Z.
-pub(super) fn disc(radius_m: f64, corners: u32) -> Vec<Facet> {
+pub(crate) fn disc(radius_m: f64, corners: u32) -> Vec<Facet> {
     vec![Facet { name: String::new(), vertices_m: ring(radius_m * of_equal_area(corners), corners) }]
 }
 
 /// A paraboloid with its vertex at the origin, open along Z, the hollow in front.
-pub(super) fn dish_facets(radius_m: f64, depth_m: f64, facets: u32, rings: u32) -> Vec<Facet> {
+pub(crate) fn dish_facets(radius_m: f64, depth_m: f64, facets: u32, rings: u32) -> Vec<Facet> {
     let focal_length_m = radius_m * radius_m / (4.0 * depth_m);
     let zone_m2 = |radius_m: f64| {
         let u = 1.0 + (radius_m / (2.0 * focal_length_m)).powi(2);

@@ -1,20 +1,16 @@
 //! Flexible modes and propellant, from their descriptions: checks every value, and that the body has an inertia without them.
 
-use super::checker::Checker;
 use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
-use super::mass::MassProperties;
-use super::place::Place;
-use super::swinging::{COAST_FREQUENCY_HZ, NamedMode, NamedSlosh};
+use super::names::Named;
 use crate::attitude::{Appendages, FlexibleMode, Gyrostat, GyrostatError, SloshPendulum};
+use crate::spacecraft::mass::MassProperties;
+use crate::spacecraft::swinging::{COAST_FREQUENCY_HZ, NamedMode, NamedSlosh};
+use crate::toml::{Checker, Place};
 
 /// Damping ratio where the file gives none. Assumed.
 const DAMPING: f64 = 0.005;
 /// Greatest frequency, in Hz.
 const FASTEST_HZ: f64 = 1e3;
-
-fn name_or_number(name: Option<&str>, kind: &str, index: usize) -> String {
-    name.map_or_else(|| format!("{kind} {}", index + 1), str::to_owned)
-}
 
 fn frequency(check: &mut Checker<'_>, at: &Place, frequency_hz: f64) -> f64 {
     let allowed = "a number above 0 and at most 1000 Hz";
@@ -22,14 +18,14 @@ fn frequency(check: &mut Checker<'_>, at: &Place, frequency_hz: f64) -> f64 {
 }
 
 /// A flexible mode.
-pub(super) fn mode(
+pub(crate) fn mode(
     check: &mut Checker<'_>,
     at: &Place,
     index: usize,
     description: &FlexibleModeDescription,
 ) -> NamedMode {
     NamedMode {
-        name: name_or_number(description.name.as_deref(), "flexible mode", index),
+        name: description.called(index),
         mode: FlexibleMode {
             frequency_hz: frequency(check, &at.key("frequency_hz"), description.frequency_hz),
             damping: check.fraction(&at.key("damping"), description.damping.unwrap_or(DAMPING)),
@@ -40,7 +36,7 @@ pub(super) fn mode(
 }
 
 /// Propellant that swings.
-pub(super) fn slosh(
+pub(crate) fn slosh(
     check: &mut Checker<'_>,
     at: &Place,
     index: usize,
@@ -48,7 +44,7 @@ pub(super) fn slosh(
 ) -> NamedSlosh {
     let coast_hz = description.coast_frequency_hz.unwrap_or(COAST_FREQUENCY_HZ);
     NamedSlosh {
-        name: name_or_number(description.name.as_deref(), "slosh", index),
+        name: description.called(index),
         pendulum: SloshPendulum {
             mass_kg: check.positive(&at.key("mass_kg"), description.mass_kg),
             length_m: check.positive(&at.key("length_m"), description.length_m),
@@ -61,7 +57,7 @@ pub(super) fn slosh(
 }
 
 /// The body has mass and inertia without what swings.
-pub(super) fn swinging_fits(
+pub(crate) fn swinging_fits(
     check: &mut Checker<'_>,
     modes: &[NamedMode],
     sloshes: &[NamedSlosh],

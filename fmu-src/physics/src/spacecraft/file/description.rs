@@ -10,10 +10,10 @@ use super::describe_shapes::{
 };
 use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
 use super::describe_thermal::{SurroundingsDescription, ThermalDescription};
-use super::panel::PanelControl;
-use super::start::StartTable;
-use super::surface::SunshadeModel;
-use super::thruster::ThrusterSet;
+use crate::spacecraft::panel::PanelControl;
+use crate::spacecraft::start::StartTable;
+use crate::spacecraft::surface::SunshadeModel;
+use crate::spacecraft::thruster::ThrusterSet;
 
 /// A spacecraft: what light falls on, what it weighs, what stores its momentum.
 #[derive(Debug, Deserialize)]

@@ -4,7 +4,6 @@
 //! 200 MB.
 
 use super::place::Place;
-use super::thruster::MOST_THRUSTERS;
 
 /// Longest text of a file, in bytes.
 pub const MOST_TEXT_BYTES: usize = 4 << 20;
@@ -12,8 +11,8 @@ pub const MOST_TEXT_BYTES: usize = 4 << 20;
 /// Most problems that an error lists; it counts the others.
 pub const MOST_PROBLEMS: usize = 100;
 
-/// Most surfaces of a spacecraft, copies and facets of shapes among them.
-pub const MOST_SURFACES: usize = 4000;
+/// Most thrusters of a spacecraft: a set of them is a bit mask.
+pub const MOST_THRUSTERS: usize = 24;
 
 /// Most items of a list or names of a table by its key; [`MOST_ITEMS`] of every other.
 pub const LIMITS: &[(&str, usize)] = &[

@@ -1,0 +1,69 @@
+//! A planet on an undisturbed ellipse about the Sun, and the orbits that paper 004 prints in its Tables 3 and 4.
+//!
+//! HCI: centred in the Sun, axes of the mean ecliptic and equinox of J2000. MCI: centred in the planet, x to the ascending
+//! node of its orbit, z along the orbit's normal.
+
+use core::f64::consts::PI;
+
+use nalgebra::Matrix3;
+
+use super::{
+    CartesianState,
+    frames::dcm_eme2000_from_ecliptic,
+    orbit::{Elements, OrbitError, TwoBodyOrbit},
+};
+use crate::constants::GM_SUN_M3_S2;
+
+/// Mercury's orbit in HCI (Table 4), at perihelion. The semi-major axis is 57.91e9 m (printed a digit short); 77.46
+/// deg is the longitude of the perihelion but printed, and used, as its argument.
+pub const MERCURY_AS_PRINTED: Elements = Elements {
+    semi_major_axis_m: 57.91e9,
+    eccentricity: 0.205_6,
+    inclination_rad: 7.0 * PI / 180.0,
+    ascending_node_rad: 48.33 * PI / 180.0,
+    periapsis_argument_rad: 77.46 * PI / 180.0,
+    true_anomaly_rad: 0.0,
+};
+
+/// The spacecraft's orbit in MCI (Table 3), at periapsis.
+pub const MESSENGER_AS_PRINTED: Elements = Elements {
+    semi_major_axis_m: 10_175_000.0,
+    eccentricity: 0.74,
+    inclination_rad: 82.52 * PI / 180.0,
+    ascending_node_rad: 350.17 * PI / 180.0,
+    periapsis_argument_rad: 119.16 * PI / 180.0,
+    true_anomaly_rad: 0.0,
+};
+
+/// A planet on an undisturbed ellipse about the Sun given in HCI: `ephemeris.source` kepler, or any planet
+/// by its elements.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KeplerPlanet {
+    orbit_hci: TwoBodyOrbit,
+    dcm_eme2000_from_hci: Matrix3<f64>,
+}
+
+impl KeplerPlanet {
+    /// The planet that has `elements` (in HCI) at `epoch_s`.
+    ///
+    /// # Errors
+    /// See [`Elements::check`].
+    pub fn new(elements: Elements, epoch_s: f64) -> Result<Self, OrbitError> {
+        Ok(Self {
+            orbit_hci: TwoBodyOrbit::from_elements(elements, GM_SUN_M3_S2, epoch_s)?,
+            dcm_eme2000_from_hci: dcm_eme2000_from_ecliptic(),
+        })
+    }
+
+    /// Heliocentric position and velocity in EME2000.
+    pub fn state(&self, epoch_s: f64) -> CartesianState {
+        let hci = self.orbit_hci.state_at(epoch_s);
+        CartesianState {
+            position_m: self.dcm_eme2000_from_hci * hci.position_m,
+            velocity_m_s: self.dcm_eme2000_from_hci * hci.velocity_m_s,
+        }
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests;

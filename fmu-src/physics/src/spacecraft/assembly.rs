@@ -1,0 +1,213 @@
+//! The whole spacecraft, and how its file becomes one.
+
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use super::file::description::Description;
+use super::file::devices::{instrument, sun_sensor, wheel};
+use super::file::mass::{mass, panels_fit};
+use super::file::materials::Materials;
+use super::file::names::{check_names, list};
+use super::file::planet_map::planet_map;
+use super::file::plates::{body_plates, panel, sunshade};
+use super::file::propulsion::{tank, tanks_fit, thruster};
+use super::file::swinging::{mode, slosh, swinging_fits};
+use super::instruments::Instrument;
+use super::mass::MassProperties;
+use super::panel::Panel;
+use super::planet_map::PlanetMap;
+use super::start::{StartEntry, start_entries};
+use super::sun_sensors::MountedSunSensor;
+use super::surface::{Plate, Sunshade, SunshadeModel};
+use super::swinging::{NamedMode, NamedSlosh};
+use super::tank::Tank;
+use super::thruster::Thruster;
+use super::wheels::Wheel;
+use crate::toml::{Checker, Document, FileError, Place};
+
+/// A validated spacecraft.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Spacecraft {
+    /// Name of the spacecraft.
+    pub name: String,
+    /// Mass, centre of mass, inertia.
+    pub mass_properties: MassProperties,
+    /// Plates fixed in the body frame, other than the sunshade's.
+    pub plates: Vec<Plate>,
+    /// The sunshade, if it has one.
+    pub sunshade: Option<Sunshade>,
+    /// Panels that turn.
+    pub panels: Vec<Panel>,
+    /// Reaction wheels.
+    pub wheels: Vec<Wheel>,
+    /// Flexible modes.
+    pub flexible_modes: Vec<NamedMode>,
+    /// Propellant that swings.
+    pub sloshes: Vec<NamedSlosh>,
+    /// Propellant tanks.
+    pub tanks: Vec<Tank>,
+    /// Thrusters.
+    pub thrusters: Vec<Thruster>,
+    /// Sun sensors.
+    pub sun_sensors: Vec<MountedSunSensor>,
+    /// Instruments that are pointed.
+    pub instruments: Vec<Instrument>,
+    /// Magnitude of each body component of the momentum at which thrusters dump it, in N m s.
+    pub dump_threshold_n_m_s: Option<Vector3<f64>>,
+    /// Directions the Sun may have.
+    pub sun_keep_in: Option<SunKeepIn>,
+    /// Whether models report temperature and force of every face.
+    pub per_plate_outputs: bool,
+    /// Temperature of the space that surfaces see, in K.
+    pub background_k: f64,
+    /// The planet it flies about, cell by cell.
+    pub planet_map: Option<PlanetMap>,
+    /// Start values of the models' variables, handed on as they were written.
+    #[serde(skip)]
+    pub start: Vec<StartEntry>,
+}
+
+/// The Sun keep-in zone: azimuth from -Y toward +X in the XY plane, elevation from that plane toward -Z.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SunKeepIn {
+    /// Greatest magnitude of the azimuth, in rad.
+    pub azimuth_rad: f64,
+    /// Greatest magnitude of the elevation, in rad.
+    pub elevation_rad: f64,
+}
+
+impl SunKeepIn {
+    /// The smaller of both limits.
+    #[must_use]
+    pub fn within(&self, other: &Self) -> Self {
+        Self {
+            azimuth_rad: self.azimuth_rad.min(other.azimuth_rad),
+            elevation_rad: self.elevation_rad.min(other.elevation_rad),
+        }
+    }
+}
+
+impl Spacecraft {
+    /// Reads a spacecraft from TOML text; `file_name` only names it in errors.
+    ///
+    /// # Errors
+    ///
+    /// Text that is not TOML, or all unknown, missing and ill-typed keys and all values no spacecraft can have, each
+    /// with line, key, what was found and what is allowed.
+    pub fn from_toml(file_name: &str, text: &str) -> Result<Self, FileError> {
+        let document = Document::parse(file_name, text)?;
+        let (description, findings) = document.read::<Description>()?;
+        let mut check = Checker::new(&document, findings);
+        let spacecraft = Self::read(&mut check, &description);
+        check.finish(spacecraft)
+    }
+
+    fn read(check: &mut Checker<'_>, description: &Description) -> Self {
+        let root = Place::root();
+        if description.name.trim().is_empty() {
+            check.report(&root.key("name"), "an empty name", "a name");
+        }
+        let materials = Materials::read(check, description);
+        let surfaces = [
+            ("plates", description.plates.is_some()),
+            ("boxes", description.boxes.is_some()),
+            ("cylinders", description.cylinders.is_some()),
+            ("discs", description.discs.is_some()),
+            ("dishes", description.dishes.is_some()),
+            ("sunshade", description.sunshade.is_some()),
+            ("panels", description.panels.is_some()),
+        ];
+        if !surfaces.iter().any(|(key, is_given)| *is_given || check.is_stand_in(&root.key(key))) {
+            let keys = surfaces.map(|(key, _)| format!("`{key}`")).join(", ");
+            check.push(&root, "no surface", format_args!("at least one of {keys}"));
+        }
+        check_names(check, description);
+        panels_fit(check, description.panels.as_deref(), description.mass_properties.mass_kg);
+        let tanks = list(check, &root.key("tanks"), description.tanks.as_deref(), tank);
+        tanks_fit(check, &tanks, description.mass_properties.mass_kg);
+        let thrusters =
+            list(check, &root.key("thrusters"), description.thrusters.as_deref(), |check, at, index, it| {
+                thruster(check, &tanks, at, index, it)
+            });
+        let mass_properties = mass(check, &root.key("mass_properties"), &description.mass_properties);
+        let flexible_modes =
+            list(check, &root.key("flexible_modes"), description.flexible_modes.as_deref(), mode);
+        let sloshes = list(check, &root.key("slosh"), description.slosh.as_deref(), slosh);
+        swinging_fits(check, &flexible_modes, &sloshes, &mass_properties);
+        let keep_in = root.key("sun_keep_in");
+        let threshold = root.key("momentum").key("dump_threshold_n_m_s");
+        Self {
+            name: description.name.clone(),
+            mass_properties,
+            plates: body_plates(check, &materials, description),
+            sunshade: description
+                .sunshade
+                .as_ref()
+                .map(|s| sunshade(check, &materials, &root.key("sunshade"), s)),
+            panels: list(
+                check,
+                &root.key("panels"),
+                description.panels.as_deref(),
+                |check, at, index, it| panel(check, &materials, at, index, it),
+            ),
+            wheels: list(check, &root.key("wheels"), description.wheels.as_deref(), wheel),
+            flexible_modes,
+            sloshes,
+            tanks,
+            thrusters,
+            sun_sensors: match description.sun_sensors.as_deref() {
+                Some(sensors) => list(check, &root.key("sun_sensors"), Some(sensors), sun_sensor),
+                None => MountedSunSensor::six(),
+            },
+            instruments: list(
+                check,
+                &root.key("instruments"),
+                description.instruments.as_deref(),
+                instrument,
+            ),
+            dump_threshold_n_m_s: description.momentum.as_ref().map(|momentum| {
+                let mut axis = 0;
+                Vector3::from(momentum.dump_threshold_n_m_s.map(|value| {
+                    axis += 1;
+                    check.positive(&threshold.item(axis - 1), value)
+                }))
+            }),
+            per_plate_outputs: description.per_plate_outputs.unwrap_or(false),
+            background_k: materials.surroundings.background_k,
+            planet_map: description
+                .planet_map
+                .as_ref()
+                .and_then(|map| planet_map(check, &root.key("planet_map"), map)),
+            start: start_entries(check, description.start.as_ref(), description.fixed.as_ref()),
+            sun_keep_in: description.sun_keep_in.as_ref().map(|limits| SunKeepIn {
+                azimuth_rad: check.angle(&keep_in.key("azimuth_deg"), limits.azimuth_deg, 0.0, 180.0),
+                elevation_rad: check.angle(&keep_in.key("elevation_deg"), limits.elevation_deg, 0.0, 90.0),
+            }),
+        }
+    }
+
+    /// How many modal coordinates swing on it: one of each flexible mode, two of each pendulum.
+    pub fn oscillator_count(&self) -> usize {
+        self.flexible_modes.len() + 2 * self.sloshes.len()
+    }
+
+    /// The plates of body and sunshade in the body frame, the body's first; a cylindrical shade adds none.
+    pub fn plates_body(&self, sunshade_model: SunshadeModel) -> Vec<Plate> {
+        let shade = self.sunshade.iter().filter(|_| sunshade_model == SunshadeModel::Plates);
+        let shade_plates =
+            shade.flat_map(|shade| shade.plates.iter().map(|p| p.rotated(&shade.dcm_body_from_shade)));
+        self.plates.iter().cloned().chain(shade_plates).collect()
+    }
+
+    /// How many surfaces have an outline, and the names of those that have none.
+    pub fn outlines(&self, sunshade_model: SunshadeModel) -> (usize, Vec<String>) {
+        let plates = self.plates_body(sunshade_model);
+        let plates = plates.iter().map(|plate| (&plate.name, plate.polygon.is_some()));
+        let panels = self.panels.iter().map(|panel| (&panel.name, panel.polygon.is_some()));
+        let (given, missing): (Vec<_>, Vec<_>) = plates.chain(panels).partition(|(_, has)| *has);
+        let mut missing: Vec<String> = missing.into_iter().map(|(name, _)| name.clone()).collect();
+        let shade = self.sunshade.as_ref().filter(|_| sunshade_model == SunshadeModel::Cylinder);
+        missing.extend(shade.map(|_| "sunshade.cylinder".to_owned()));
+        (given.len(), missing)
+    }
+}

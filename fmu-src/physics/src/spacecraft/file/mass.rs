@@ -1,0 +1,70 @@
+//! Mass properties, from their description; panels and tanks are a part of them.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::description::{MassDescription, PanelDescription};
+use crate::spacecraft::mass::{MassProperties, PanelMass, check_inertia};
+use crate::toml::{Checker, Place};
+
+pub(crate) fn mass(check: &mut Checker<'_>, at: &Place, description: &MassDescription) -> MassProperties {
+    let [x, y, z] = description.inertia_kg_m2.map(|row| Vector3::from(row).transpose());
+    let inertia_body_kg_m2 = Matrix3::from_rows(&[x, y, z]);
+    if let Err(allowed) = check_inertia(&inertia_body_kg_m2) {
+        let found = format!("{:?}", description.inertia_kg_m2);
+        check.report(&at.key("inertia_kg_m2"), found, allowed);
+    }
+    MassProperties {
+        mass_kg: check.positive(&at.key("mass_kg"), description.mass_kg),
+        center_of_mass_body_m: check.vector(&at.key("center_of_mass_m"), description.center_of_mass_m),
+        inertia_body_kg_m2,
+    }
+}
+
+/// Panels are a part of the spacecraft's mass.
+pub(crate) fn panels_fit(check: &mut Checker<'_>, panels: Option<&[PanelDescription]>, whole_kg: f64) {
+    let mut sum_kg = 0.0;
+    for (index, panel) in panels.unwrap_or_default().iter().enumerate() {
+        let Some(mass_kg) = panel.mass_kg else { continue };
+        sum_kg += mass_kg;
+        if sum_kg >= whole_kg {
+            let at = Place::root().key("panels").item(index).key("mass_kg");
+            let found = format!("{mass_kg}, with the panels before it {sum_kg}");
+            let allowed = format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part");
+            check.report(&at, found, allowed);
+            return;
+        }
+    }
+}
+
+/// A panel's mass in the panel frame.
+pub(crate) fn panel_mass(
+    check: &mut Checker<'_>,
+    at: &Place,
+    description: &PanelDescription,
+    area_m2: f64,
+    center_m: Vector3<f64>,
+    normal: &Vector3<f64>,
+) -> Option<PanelMass> {
+    let Some(mass_kg) = description.mass_kg else {
+        for (key, is_given) in [
+            ("mass_center_m", description.mass_center_m.is_some()),
+            ("inertia_kg_m2", description.inertia_kg_m2.is_some()),
+        ] {
+            if is_given {
+                check.report(&at.key(key), "no mass_kg beside it", "with mass_kg alone");
+            }
+        }
+        return None;
+    };
+    let mass_kg = check.positive(&at.key("mass_kg"), mass_kg);
+    let place = description.mass_center_m.map(|place| check.vector(&at.key("mass_center_m"), place));
+    let mut mass = PanelMass::square_plate(mass_kg, area_m2, place.unwrap_or(center_m), normal);
+    if let Some(rows) = description.inertia_kg_m2 {
+        let [x, y, z] = rows.map(|row| Vector3::from(row).transpose());
+        mass.inertia_body_kg_m2 = Matrix3::from_rows(&[x, y, z]);
+        if let Err(allowed) = check_inertia(&mass.inertia_body_kg_m2) {
+            check.report(&at.key("inertia_kg_m2"), format!("{rows:?}"), allowed);
+        }
+    }
+    Some(mass)
+}

@@ -1,0 +1,25 @@
+//! The spacecraft's file: its shape as people write it, and one function for each part that checks and turns it into data.
+
+pub(super) mod description;
+pub(super) mod devices;
+pub(super) mod mass;
+pub(super) mod materials;
+pub(super) mod names;
+pub(super) mod planet_map;
+pub(super) mod plates;
+pub(super) mod propulsion;
+pub(super) mod swinging;
+
+mod copies;
+mod describe_shapes;
+mod describe_swinging;
+mod describe_thermal;
+mod facets;
+mod outline;
+#[cfg(feature = "schema")]
+mod schema;
+mod shapes;
+mod thermal;
+
+#[cfg(feature = "schema")]
+pub use schema::schema;

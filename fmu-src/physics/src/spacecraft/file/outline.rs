@@ -1,0 +1,139 @@
+//! Area, centre and normal of a surface: as the file gives them, or those of its outline.
+
+use nalgebra::Vector3;
+
+use crate::spacecraft::polygon::Polygon;
+use crate::toml::{Checker, Place};
+
+/// How far area, centre and normal may be off the polygon's, relative to its size: printed tables are rounded ...
+const OUTLINE_TOLERANCE: f64 = 1e-3;
+
+/// ... and corners stand in whole millimetres, ...
+const ROUNDING_M: f64 = 1e-3;
+
+/// ... which on the smallest polygons is no excuse for more than this.
+const GREATEST_TOLERANCE: f64 = 0.02;
+
+/// How far a value may be off what the outline gives, relative to its size.
+fn tolerance(outline: &Polygon) -> f64 {
+    (ROUNDING_M / outline.area_m2().sqrt()).clamp(OUTLINE_TOLERANCE, GREATEST_TOLERANCE)
+}
+
+fn short(tolerance: f64) -> String {
+    if tolerance > OUTLINE_TOLERANCE { format!("{tolerance:.1e}") } else { "1e-3".to_owned() }
+}
+
+/// The outline with its front where the normal is, if both are given.
+pub(crate) fn checked_outline(
+    check: &mut Checker<'_>,
+    at: &Place,
+    vertices_m: Option<&[[f64; 3]]>,
+    normal: Option<&Vector3<f64>>,
+) -> Option<Polygon> {
+    let place = at.key("polygon_m");
+    let vertices_m = vertices_m?;
+    for (i, vertex) in vertices_m.iter().enumerate() {
+        check.vector(&place.item(i), *vertex);
+    }
+    match Polygon::new(vertices_m.iter().map(|v| Vector3::from(*v)).collect()) {
+        Ok(polygon) => {
+            let along = normal.map_or(1.0, |normal| polygon.normal().dot(normal));
+            let off = tolerance(&polygon);
+            if let (Some(normal), true) = (normal, along.abs() < (1.0 - off.powi(2) / 2.0)) {
+                check.report_across(
+                    at,
+                    &place,
+                    format_args!("an outline with the normal {:?}", polygon.normal().as_slice()),
+                    format_args!(
+                        "one with the normal {:?} or its opposite, within {}",
+                        normal.as_slice(),
+                        short(off)
+                    ),
+                );
+            }
+            Some(if along < 0.0 { polygon.reversed() } else { polygon })
+        }
+        Err(error) => {
+            let text = error.to_string();
+            let (found, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "a polygon"));
+            check.report(&place, found, allowed);
+            None
+        }
+    }
+}
+
+pub(crate) fn checked_area(
+    check: &mut Checker<'_>,
+    at: &Place,
+    given_m2: Option<f64>,
+    outline: Option<&Polygon>,
+) -> f64 {
+    let place = at.key("area_m2");
+    let given_m2 = given_m2.map(|area_m2| check.positive(&place, area_m2));
+    match (given_m2, outline) {
+        (Some(area_m2), None) => area_m2,
+        (None, None) => missing(check, at, "area_m2", 1.0),
+        (given_m2, Some(outline)) => {
+            let area_m2 = outline.area_m2();
+            if let Some(given_m2) = given_m2
+                && (given_m2 / area_m2 - 1.0).abs() > tolerance(outline)
+            {
+                let allowed = format!("the polygon's {area_m2} within {}", short(tolerance(outline)));
+                check.report_across(at, &place, given_m2, allowed);
+            }
+            area_m2
+        }
+    }
+}
+
+pub(crate) fn checked_center(
+    check: &mut Checker<'_>,
+    at: &Place,
+    given_m: Option<[f64; 3]>,
+    outline: Option<&Polygon>,
+) -> Vector3<f64> {
+    let place = at.key("center_m");
+    let given_m = given_m.map(|center_m| check.vector(&place, center_m));
+    match (given_m, outline) {
+        (Some(center_m), None) => center_m,
+        (None, None) => missing(check, at, "center_m", Vector3::zeros()),
+        (given_m, Some(outline)) => {
+            let center_m = outline.centroid_m();
+            if let Some(given_m) = given_m
+                && (given_m - center_m).norm() > tolerance(outline) * outline.area_m2().sqrt()
+            {
+                let found = format!("{:?}", given_m.as_slice());
+                let allowed = format!(
+                    "the polygon's {:?} within {} of its size",
+                    center_m.as_slice(),
+                    short(tolerance(outline))
+                );
+                check.report_across(at, &place, found, allowed);
+            }
+            center_m
+        }
+    }
+}
+
+pub(crate) fn checked_normal(
+    check: &mut Checker<'_>,
+    at: &Place,
+    given: Option<Vector3<f64>>,
+    outline: Option<&Polygon>,
+) -> Vector3<f64> {
+    match (given, outline) {
+        (_, Some(outline)) => outline.normal(),
+        (Some(normal), None) => normal,
+        (None, None) => missing(check, at, "normal", Vector3::x()),
+    }
+}
+
+fn missing<V>(check: &mut Checker<'_>, at: &Place, key: &str, stand_in: V) -> V {
+    // An outline that was refused would have given it.
+    let outline = at.key("polygon_m");
+    if check.has_reported(&outline) || check.is_stand_in(&outline) {
+        return stand_in;
+    }
+    check.report_lack(at, key, format_args!("a value for `{key}`, or an outline `polygon_m`"));
+    stand_in
+}

@@ -1,0 +1,111 @@
+//! Heat of a surface, from its description.
+
+use super::describe_thermal::{ConductionDescription, ThermalDescription};
+use super::materials::{Material, Surroundings};
+use crate::spacecraft::thermal::{BusLink, Conduction, HIGHEST_TEMPERATURE_K, Honeycomb, Thermal};
+use crate::toml::{Checker, Place};
+
+/// Heat of a surface whose faces are of these materials.
+pub(crate) fn thermal(
+    check: &mut Checker<'_>,
+    surroundings: Surroundings,
+    at: &Place,
+    description: Option<&ThermalDescription>,
+    front: Material,
+    rear: Option<Material>,
+) -> Thermal {
+    let nothing = ThermalDescription::default();
+    let (surface, at) = (at, at.key("thermal"));
+    let description = description.unwrap_or(&nothing);
+    if rear.is_none() && !check.is_stand_in(&surface.key("rear_optics")) {
+        let needs_rear = [
+            ("conduction", description.conduction.is_some()),
+            ("rear_internal_heat_w", description.rear_internal_heat_w.is_some()),
+            ("rear_bus_conductance_w_m2_k", description.rear_bus_conductance_w_m2_k.is_some()),
+        ];
+        for (key, _) in needs_rear.into_iter().filter(|(_, given)| *given) {
+            check.report(&at.key(key), "a surface without `rear_optics`", "a surface with both faces");
+        }
+    }
+    let bus = bus(check, surroundings, &at, description);
+    let mut heat = |key: &str, value: Option<f64>| {
+        let value = value.unwrap_or(0.0);
+        check.not_negative(&at.key(key), value)
+    };
+    Thermal {
+        front: front.thermal,
+        rear: rear.map(|rear| rear.thermal),
+        bus,
+        internal_heat_w: [
+            heat("internal_heat_w", description.internal_heat_w),
+            heat("rear_internal_heat_w", description.rear_internal_heat_w),
+        ],
+        heat_capacity_j_m2_k: heat("heat_capacity_j_m2_k", description.heat_capacity_j_m2_k),
+        conduction: description.conduction.as_ref().map(|c| conduction(check, &at.key("conduction"), c)),
+    }
+}
+
+/// Heat flow from front and rear to the bus.
+fn bus(
+    check: &mut Checker<'_>,
+    surroundings: Surroundings,
+    at: &Place,
+    description: &ThermalDescription,
+) -> [BusLink; 2] {
+    let temperature = at.key("bus_temperature_k");
+    let own_k = description
+        .bus_temperature_k
+        .map(|own_k| check.within(&temperature, own_k, 0.0, HIGHEST_TEMPERATURE_K, "0 to 2000 K"));
+    let faces = [
+        ("bus_conductance_w_m2_k", description.bus_conductance_w_m2_k),
+        ("rear_bus_conductance_w_m2_k", description.rear_bus_conductance_w_m2_k),
+    ];
+    if own_k.is_some() && faces.iter().all(|(_, given)| given.is_none()) {
+        check.report(&temperature, "no conductance to the bus", "`bus_conductance_w_m2_k` beside it");
+    }
+    faces.map(|(key, given)| {
+        let Some(conductance_w_m2_k) = given else { return BusLink::NONE };
+        let place = at.key(key);
+        let conductance_w_m2_k = check.not_negative(&place, conductance_w_m2_k);
+        let temperature_k = own_k.or(surroundings.bus_temperature_k);
+        if temperature_k.is_none() && conductance_w_m2_k > 0.0 {
+            check.report(
+                &place,
+                "no temperature of the bus",
+                "`bus_temperature_k` beside it or under [thermal]",
+            );
+        }
+        BusLink { conductance_w_m2_k, temperature_k: temperature_k.unwrap_or(0.0) }
+    })
+}
+
+fn conduction(check: &mut Checker<'_>, at: &Place, description: &ConductionDescription) -> Conduction {
+    let conductance = at.key("conductance_w_m2_k");
+    let Some(honeycomb) = &description.honeycomb else {
+        if (description.conductance_w_m2_k, description.radiative_exchange) == (None, None) {
+            check.report(
+                at,
+                "no conduction",
+                "`honeycomb`, or `conductance_w_m2_k` and `radiative_exchange` or one of them",
+            );
+        }
+        let q = description.conductance_w_m2_k.unwrap_or(0.0);
+        let exchange = description.radiative_exchange.unwrap_or(0.0);
+        return Conduction {
+            conductance_w_m2_k: check.not_negative(&conductance, q),
+            radiative_exchange: check.fraction(&at.key("radiative_exchange"), exchange),
+        };
+    };
+    if (description.conductance_w_m2_k, description.radiative_exchange) != (None, None) {
+        check.report(at, "both numbers and a `honeycomb`", "one of them");
+    }
+    let place = at.key("honeycomb");
+    Honeycomb {
+        conductivity_w_m_k: check.positive(&place.key("conductivity_w_m_k"), honeycomb.conductivity_w_m_k),
+        thickness_m: check.positive(&place.key("thickness_m"), honeycomb.thickness_m),
+        wall_area_ratio: check.fraction(&place.key("wall_area_ratio"), honeycomb.wall_area_ratio),
+        packing_factor: check.fraction(&place.key("packing_factor"), honeycomb.packing_factor),
+        internal_emissivity: check.fraction(&place.key("internal_emissivity"), honeycomb.internal_emissivity),
+    }
+    .conduction()
+}

@@ -1,0 +1,21 @@
+//! Reading of TOML with the place of every mistake: five formats share it.
+//!
+//! A [`Document`] reads a type through serde and goes on behind every unknown, missing or ill-typed key; a [`Checker`] goes on
+//! with the values. So one run tells of everything, each with line, key, what was found and what is allowed.
+
+mod checker;
+mod document;
+mod error;
+mod limits;
+mod place;
+mod reader;
+mod spelling;
+
+pub use checker::Checker;
+pub(crate) use checker::rounded;
+pub use document::Document;
+pub use error::{FileError, Problem};
+pub use limits::{LIMITS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUSTERS};
+pub use place::Place;
+pub use reader::Findings;
+pub use spelling::nearest;
