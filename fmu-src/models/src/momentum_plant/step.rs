@@ -41,7 +41,7 @@ pub fn begin(
         state.take_first_command(context, values, estimate.attitude, time_s)?;
     }
     // Samples at the start are taken anew by the first step, with its inputs.
-    let step_inputs = dynamics::step_inputs(context, values, state);
+    let step_inputs = dynamics::step_inputs(context, values, state.command, state.inputs.take());
     let sampled = with_given(context, values, held, |given| {
         state.flight.sample_at_start(given, &step_inputs).map_err(failure)
     });
@@ -79,7 +79,7 @@ pub fn step(
     if let Some(changes) = changes {
         apply(context, values, state, step, changes)?;
     }
-    let mut inputs = dynamics::step_inputs(context, values, state);
+    let mut inputs = dynamics::step_inputs(context, values, state.command, state.inputs.take());
     propulsion::warn(context, &inputs, &state.flight.thrusters.settings, &mut state.said_of_thrusters, step);
     if state.request.rises(values.boolean(context.variables.dump.request)) {
         inputs.dump_to_body_n_m_s = Some(Vector3::from(values.vector(context.variables.dump.target)));
@@ -111,7 +111,7 @@ pub fn wait(
     time_s: f64,
 ) -> Result<(), Failure> {
     tell(context, values, state)?;
-    let inputs = dynamics::step_inputs(context, values, state);
+    let inputs = dynamics::step_inputs(context, values, state.command, state.inputs.take());
     state.inputs = Some(inputs);
     show(context, values, state, InputsOverTime::held(), time_s)
 }

@@ -10,15 +10,14 @@ use physics::attitude::{Attitude, Gyrostat, ReactionWheel};
 use physics::guidance::modes::system::CommandKind as Kind;
 use physics::momentum::{Convention, WheelArray};
 use physics::plant::{
-    Configuration, Control, DynamicsInputs, DynamicsSettings, ExternalLoad, IdealSettings, StartMotion,
-    ThrusterControl, Tracked, WheelControlSettings,
+    Command, Configuration, Control, DynamicsInputs, DynamicsSettings, ExternalLoad, IdealSettings,
+    StartMotion, ThrusterControl, Tracked, WheelControlSettings,
 };
 use physics::propulsion::PulseCommand;
 
 use super::{flexibility, propulsion};
 use crate::common::choices::CommandKind;
 use crate::momentum_plant::setup::Plan;
-use crate::momentum_plant::state::PlantState;
 use crate::momentum_plant::variables::choices::{AttitudeSource, CommandSource};
 
 /// Whether the attitude follows from dynamics.
@@ -226,15 +225,20 @@ pub fn wheel_array(context: &Plan<'_>, values: &Values) -> Option<WheelArray> {
     WheelArray::new(&axes.collect::<Option<Vec<_>>>()?)
 }
 
-/// What the inputs of a step say, in the memory that `state` has for it.
-pub fn step_inputs(context: &Plan<'_>, values: &Values, state: &mut PlantState) -> DynamicsInputs {
+/// What the inputs of a step say beside `command`, in this memory if there is any.
+pub fn step_inputs(
+    context: &Plan<'_>,
+    values: &Values,
+    command: Command,
+    memory: Option<DynamicsInputs>,
+) -> DynamicsInputs {
     let v = context.variables;
     let tracked = if guides_itself(context, values) {
         Tracked::Guidance
     } else if matches!(values.choice(v.command.kind), Some(CommandKind(Kind::RateOnly))) {
-        Tracked::Rate(state.command.rate_body_rad_s)
+        Tracked::Rate(command.rate_body_rad_s)
     } else {
-        Tracked::Attitude(state.command)
+        Tracked::Attitude(command)
     };
     let thrust = propulsion::thrust_command(context, values);
     // The spare takes over where the first star tracker has failed.
@@ -242,7 +246,7 @@ pub fn step_inputs(context: &Plan<'_>, values: &Values, state: &mut PlantState) 
         star_tracker: !(values.boolean(v.star_tracker.failed) && values.boolean(v.star_tracker.spare_failed)),
         gyro: !values.boolean(v.gyro.failed),
     };
-    let mut inputs = state.inputs.take().unwrap_or_else(|| DynamicsInputs::new(tracked, thrust, health));
+    let mut inputs = memory.unwrap_or_else(|| DynamicsInputs::new(tracked, thrust, health));
     (inputs.tracked, inputs.thrust, inputs.health) = (tracked, thrust, health);
     inputs.dump_to_body_n_m_s = None;
     inputs.refill(
