@@ -71,7 +71,7 @@ impl Picture for BarChart {
         let share = (WIDTH - PLOT_LEFT - RIGHT) / self.cases.len() as f64;
         for (case, name) in self.cases.iter().enumerate() {
             let at = (PLOT_LEFT + share * (case as f64 + 0.5), below + 8.0);
-            pen.text(at, 14.0, "middle", TEXT, name);
+            pen.text(at, 12.0, "middle", TEXT, name);
         }
     }
 }

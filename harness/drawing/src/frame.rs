@@ -87,20 +87,20 @@ impl Frame {
         for tick in ticks(self.x, axes.steps[0]).into_iter().filter(|_| !x_label.is_empty()) {
             let (x, y) = self.at([tick, self.y[0]]);
             marks.push([(x, y), (x, y + 4.0)]);
-            pen.text((x, y + 17.0), 12.0, "middle", BESIDE, &tick_text(tick, axes.steps[0]));
+            pen.text((x, y + 17.0), 11.0, "middle", BESIDE, &tick_text(tick, axes.steps[0]));
         }
         for tick in ticks(self.y, axes.steps[1]) {
             let (x, y) = self.at([self.x[0], tick]);
             marks.push([(x - 4.0, y), (x, y)]);
-            pen.text((x - 8.0, y + 4.0), 12.0, "end", BESIDE, &text(tick, axes.steps[1]));
+            pen.text((x - 8.0, y + 4.0), 11.0, "end", BESIDE, &text(tick, axes.steps[1]));
         }
         pen.lines(marks.iter().map(|mark| &mark[..]), BORDER);
         if !x_label.is_empty() {
-            pen.text((self.left + 0.5 * self.width, high.1 + 35.0), 13.0, "middle", TEXT, x_label);
+            pen.text((self.left + 0.5 * self.width, high.1 + 34.0), 12.0, "middle", TEXT, x_label);
         }
         let (x, y) = (self.left - axes.label_px, self.top + 0.5 * self.height);
         let turned = format!("{TEXT} transform=\"rotate(-90 {x:.1} {y:.1})\"");
-        pen.text((x, y), 13.0, "middle", &turned, y_label);
+        pen.text((x, y), 12.0, "middle", &turned, y_label);
     }
 }
 

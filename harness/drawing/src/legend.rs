@@ -8,7 +8,7 @@ use super::{
 
 /// Height of a row.
 pub(super) const ROW_HEIGHT: f64 = 26.0;
-const SIZE: f64 = 13.0;
+const SIZE: f64 = 12.0;
 const SWATCH: f64 = 18.0;
 const GAP: f64 = 6.0;
 const BETWEEN: f64 = 20.0;
@@ -71,7 +71,7 @@ impl<'a> Legend<'a> {
             let mut x = WIDTH - RIGHT + BETWEEN - row.iter().map(|(_, label)| width(label)).sum::<f64>();
             for (swatch, label) in row {
                 swatch.draw(pen, x, y);
-                pen.text((x + SWATCH + GAP, y + 4.5), SIZE, "start", TEXT, label);
+                pen.text((x + SWATCH + GAP, y + 4.0), SIZE, "start", TEXT, label);
                 x += width(label);
             }
         }

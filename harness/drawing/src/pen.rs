@@ -25,9 +25,9 @@ pub type Pixel = (f64, f64);
 /// Width of a text, estimated on the safe side: the font is the viewer's.
 pub fn width_px(text: &str, size: f64) -> f64 {
     let part = |c| match c {
-        'i' | 'j' | 'l' | '.' | ',' | '[' | ']' | '(' | ')' | ' ' | 't' | 'f' => 0.31,
-        'm' | 'w' | 'M' | 'W' => 0.81,
-        _ => 0.56,
+        'i' | 'j' | 'l' | '.' | ',' | '[' | ']' | '(' | ')' | ' ' | 't' | 'f' => 0.36,
+        'm' | 'w' | 'M' | 'W' => 0.92,
+        _ => 0.6,
     };
     size * text.chars().map(part).sum::<f64>()
 }

@@ -45,7 +45,7 @@ pub fn svg(pictures: &[&dyn Picture]) -> Result<String, DrawingError> {
     for (picture, height) in pictures.iter().zip(heights) {
         if !picture.title().is_empty() {
             let at = (PLOT_LEFT, top + 0.5 * TITLE_HEIGHT + 7.0);
-            pen.text(at, 20.0, "start", HEADING, picture.title());
+            pen.text(at, 17.0, "start", HEADING, picture.title());
         }
         picture.draw(&mut pen, top);
         top += height;

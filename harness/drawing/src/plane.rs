@@ -85,7 +85,7 @@ impl Picture for PlaneChart {
             let labels = [self.x_label.as_str(), self.y_label.as_str()];
             let step = round_up(panel.half_width / 3.0);
             let axes = Axes { labels, steps: [step; 2], label_px: LABEL - 20.0, is_whole: false };
-            pen.text((left + 0.5 * side, top - 8.0), 15.0, "middle", TEXT, &panel.title);
+            pen.text((left + 0.5 * side, top - 8.0), 13.0, "middle", TEXT, &panel.title);
             panel.draw(pen, &frame, &axes);
         }
     }
@@ -109,7 +109,7 @@ impl PlanePanel {
         }
         for ((x, y), text) in self.texts.iter().filter(|((x, y), _)| frame.holds([*x, *y])) {
             let (x, y) = frame.at([*x, *y]);
-            pen.text((x, y + 4.0), 12.0, "middle", TEXT, text);
+            pen.text((x, y + 4.0), 11.0, "middle", TEXT, text);
         }
     }
 }
