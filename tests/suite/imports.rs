@@ -17,6 +17,7 @@ const CRATES: &[&str] = &[
     "harness/terminal",
     "harness/loader",
     "harness/conformance",
+    "harness/drawing",
     "harness/studies",
     "harness/planner",
     "harness/systems",

@@ -4,7 +4,6 @@
 //! pictures. It knows nothing of the models but what their descriptions say.
 
 mod case;
-pub mod chart;
 mod control;
 mod momentum;
 mod options;

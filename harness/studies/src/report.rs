@@ -3,11 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use drawing::Picture;
 use files::Destination;
 
-use crate::chart::bars::BarChart;
-use crate::chart::plane::PlaneChart;
-use crate::chart::{Chart, ChartError};
 use crate::{Options, StudyError};
 
 /// The outcome of a study.
@@ -56,31 +54,13 @@ impl Report {
     }
 
     /// Writes a picture below the output folder.
-    pub(crate) fn picture(&mut self, options: &Options, file: &str, chart: &Chart) -> Result<(), StudyError> {
-        self.svg(options, file, chart.to_svg())
-    }
-
-    /// Writes a picture of bars below the output folder.
-    pub(crate) fn bars(&mut self, options: &Options, file: &str, chart: &BarChart) -> Result<(), StudyError> {
-        self.svg(options, file, chart.to_svg())
-    }
-
-    /// Writes a picture of a plane below the output folder.
-    pub(crate) fn plane(
+    pub(crate) fn picture(
         &mut self,
         options: &Options,
         file: &str,
-        chart: &PlaneChart,
+        chart: &dyn Picture,
     ) -> Result<(), StudyError> {
-        self.svg(options, file, chart.to_svg())
-    }
-
-    fn svg(
-        &mut self,
-        options: &Options,
-        file: &str,
-        svg: Result<String, ChartError>,
-    ) -> Result<(), StudyError> {
+        let svg = drawing::svg(&[chart]);
         let svg = svg.map_err(|error| StudyError::Write(format!("{file}: {error}")))?;
         self.write(options, file, svg.as_bytes())
     }

@@ -1,14 +1,10 @@
 //! `heliotorque draw`: a spacecraft's file as a picture, three views and a perspective.
 
-mod camera;
-mod labels;
 pub mod options;
 mod pane;
-pub mod pen;
 pub mod scene;
 mod sheet;
-pub mod surface;
-pub mod vector;
+mod surface;
 
 use std::{
     path::{Path, PathBuf},
@@ -30,6 +26,8 @@ use sheet::View;
 
 /// Where the shipped spacecraft is drawn.
 const DEFAULT_NAME: &str = "messenger";
+/// Width and height of an FMU's picture, in px.
+const PICTURE: (f64, f64) = (480.0, 320.0);
 /// Keys that only a spinner's file has.
 const SPINNER_KEYS: [&str; 3] = ["thruster", "damper", "star_tracker"];
 
@@ -63,6 +61,11 @@ pub fn run(arguments: &Draw) -> Outcome {
 /// All views of a file; `None` where no reader takes it, as the library that packs it reports.
 pub fn svg(text: &str) -> Option<String> {
     sheet::svg(&read("", text, &[]).ok()?, &View::ALL)
+}
+
+/// The perspective as PNG; `None` as above.
+pub fn png(text: &str) -> Option<Vec<u8>> {
+    drawing::png(&sheet::picture(&read("", text, &[]).ok()?, PICTURE)?)
 }
 
 fn is_asked(view: View, asked: &[ViewKind]) -> bool {
@@ -114,5 +117,25 @@ fn no_panel(angle: &PanelAngle, panels: &[Panel]) -> String {
     match names[..] {
         [] => format!("--angle: found {found}, allowed: none, the file has no panels"),
         _ => format!("--angle: found {found}, allowed: {}", names.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Every file that is drawn has a picture, anything else none.
+    use super::*;
+
+    #[test]
+    fn spacecraft_and_spinners_become_a_picture() {
+        let outlines = include_str!("../../../../fmu-src/resources/examples/mercury-orbiter.toml");
+        let spinner = include_str!("../../../../fmu-src/resources/ace.toml");
+        for text in [MESSENGER_TOML, outlines, spinner] {
+            let png = png(text).unwrap();
+            assert_eq!(&png[1..4], b"PNG");
+            assert_eq!(png[16..24], [0, 0, 1, 0xe0, 0, 0, 1, 0x40], "480 by 320");
+        }
+        for text in ["", "plates = 3", "not toml [", "[[plates]]\narea_m2 = -1", "[[thruster]]"] {
+            assert!(png(text).is_none() && svg(text).is_none(), "{text}");
+        }
     }
 }

@@ -1,16 +1,16 @@
 //! One view of a scene: surfaces, axes, the Sun, centre of mass, rotations, names.
 
+use drawing::{
+    Camera, Finish, GREY, INK, Labels, NAME_SIZE, Pen, Pixel, Surface, TEXT, Vector, contains, unit,
+};
+
 use super::{
-    camera::{Camera, contains},
-    labels::{Labels, NAME_SIZE},
-    pen::{GREY, INK, Pen, Pixel},
     scene::{Axis, Scene},
-    surface::{Finish, Surface, TO_SUN, cell_lines, colour},
-    vector::{Vector, along, cross, dot, unit},
+    surface::TO_SUN,
 };
 
 /// Where the light of the picture comes from, beside the viewer.
-const LIGHT: Vector = [-0.25, -0.85, 0.46];
+const LIGHT: Vector = Vector::new(-0.25, -0.85, 0.46);
 /// Colours of X, Y, Z and of rotations.
 const AXIS_COLOURS: [&str; 3] = ["#c0392b", "#1e8449", "#1f5fbf"];
 const ROTATION_COLOUR: &str = "#8e44ad";
@@ -40,36 +40,30 @@ impl Reach {
     /// Of a scene with its axes of rotation, origin and centre of mass.
     pub fn of(scene: &Scene) -> Option<Self> {
         let [mut low_m, mut high_m] = scene.bounds_m()?;
-        let ends = scene.axes.iter().flat_map(|axis| {
-            [-1.0, 1.0].map(|end| along(axis.center_m, end * axis.half_length_m, axis.direction))
-        });
-        for point in ends.chain([[0.0; 3], scene.center_of_mass_m]) {
-            for i in 0..3 {
-                low_m[i] = low_m[i].min(point[i]);
-                high_m[i] = high_m[i].max(point[i]);
-            }
+        let ends = scene.axes.iter().flat_map(Axis::ends_m);
+        for point in ends.chain([Vector::zeros(), scene.center_of_mass_m]) {
+            (low_m, high_m) = (low_m.inf(&point), high_m.sup(&point));
         }
-        let size_m = (0..3).map(|i| high_m[i] - low_m[i]).fold(0.0, f64::max);
+        let size_m = (high_m - low_m).max();
         (size_m.is_finite() && size_m > 0.0).then_some(Self { low_m, high_m, arrow_m: 0.09 * size_m })
     }
 
     /// Middle of the box with its arrows.
     pub fn middle_m(&self) -> Vector {
         let [low, high] = self.ends_m();
-        std::array::from_fn(|i| (low[i] + high[i]) / 2.0)
+        low.lerp(&high, 0.5)
     }
 
     /// The box with its arrows.
     pub fn ends_m(&self) -> [Vector; 2] {
         let arrow = self.arrow_m;
-        let [x, y, z] = self.low_m;
-        [[x, y - 1.4 * arrow, z], self.high_m.map(|high| high + arrow)]
+        [self.low_m - 1.4 * arrow * Vector::y(), self.high_m.add_scalar(arrow)]
     }
 
     /// Corners of the box with its arrows.
     pub fn corners_m(&self) -> [Vector; 8] {
         let ends = self.ends_m();
-        std::array::from_fn(|k| std::array::from_fn(|i| ends[k >> i & 1][i]))
+        std::array::from_fn(|k| Vector::from_fn(|i, _| ends[k >> i & 1][i]))
     }
 }
 
@@ -105,7 +99,7 @@ impl Pane<'_> {
     }
 
     fn surface(&self, pen: &mut Pen, surface: &Surface, outline: &[Pixel]) {
-        let fill = colour(surface, self.camera.sees_front(surface), along(self.camera.viewer, 0.6, LIGHT));
+        let fill = surface.colour(self.camera.sees_front(surface), self.camera.viewer + 0.6 * LIGHT);
         let (edge, width) = match surface.finish {
             Finish::Facet | Finish::Nozzle => (fill.as_str(), 0.6),
             Finish::Plate | Finish::Cells => ("#2b3440", 1.1),
@@ -116,7 +110,7 @@ impl Pane<'_> {
         );
         if surface.finish == Finish::Cells && self.camera.sees_front(surface) && outline.len() == 4 {
             let lines: Vec<[Pixel; 2]> =
-                cell_lines(surface).into_iter().map(|line| line.map(|end| self.screen(end))).collect();
+                surface.cell_lines().into_iter().map(|line| line.map(|end| self.screen(end))).collect();
             pen.lines(
                 lines.iter().map(|line| &line[..]),
                 "stroke=\"#c9d8f0\" stroke-opacity=\"0.5\" stroke-width=\"0.7\"",
@@ -134,12 +128,11 @@ impl Pane<'_> {
     /// A line in space, faint where it is hidden.
     fn line(&self, pen: &mut Pen, ends_m: [Vector; 2], outlines: &[Vec<Pixel>], attributes: &str) {
         const STEPS: u32 = 80;
-        let at =
-            |k: u32| along(ends_m[0], f64::from(k) / f64::from(STEPS), along(ends_m[1], -1.0, ends_m[0]));
+        let at = |k: u32| ends_m[0].lerp(&ends_m[1], f64::from(k) / f64::from(STEPS));
         let mut runs: [Vec<Vec<Pixel>>; 2] = [Vec::new(), Vec::new()];
         let mut last = None;
         for k in 0..STEPS {
-            let hidden = self.is_hidden(along(at(k), 0.5, along(at(k + 1), -1.0, at(k))), outlines);
+            let hidden = self.is_hidden(at(k).lerp(&at(k + 1), 0.5), outlines);
             let of_kind = &mut runs[usize::from(hidden)];
             if last != Some(hidden) {
                 of_kind.push(vec![self.screen(at(k))]);
@@ -160,14 +153,14 @@ impl Pane<'_> {
     fn axes(&self, pen: &mut Pen, labels: &mut Labels, outlines: &[Vec<Pixel>]) {
         let [_, tips] = self.reach_m.ends_m();
         for (i, name) in ["X", "Y", "Z"].into_iter().enumerate() {
-            let tip_m: Vector = std::array::from_fn(|j| if i == j { tips[i] } else { 0.0 });
-            let (origin, tip) = (self.screen([0.0; 3]), self.screen(tip_m));
+            let tip_m = tips[i] * Vector::ith(i, 1.0);
+            let (origin, tip) = (self.screen(Vector::zeros()), self.screen(tip_m));
             // One that points at the viewer or away has no length: the heading names it.
             if let Some((x, y)) = direction(origin, tip) {
                 let stroke = AXIS_COLOURS[i];
                 self.line(
                     pen,
-                    [[0.0; 3], tip_m],
+                    [Vector::zeros(), tip_m],
                     outlines,
                     &format!("stroke=\"{stroke}\" stroke-width=\"1.5\""),
                 );
@@ -178,9 +171,8 @@ impl Pane<'_> {
                 labels.keep_off_sign(at, 16.0);
             }
         }
-        let from_m: Vector =
-            std::array::from_fn(|i| TO_SUN[i] * (-self.reach_m.low_m[1] + 0.25 * self.reach_m.arrow_m));
-        let tip_m = along(from_m, 0.9 * self.reach_m.arrow_m, TO_SUN);
+        let from_m = (-self.reach_m.low_m[1] + 0.25 * self.reach_m.arrow_m) * TO_SUN;
+        let tip_m = from_m + 0.9 * self.reach_m.arrow_m * TO_SUN;
         let (from, tip) = (self.screen(from_m), self.screen(tip_m));
         if let Some((x, y)) = direction(from, tip).filter(|_| self.scene.has_sun) {
             pen.lines([&[from, tip][..]], "stroke=\"#e69f00\" stroke-width=\"2\"");
@@ -196,7 +188,7 @@ impl Pane<'_> {
 
     /// A dash-dotted axis and an arrow about it.
     fn rotation(&self, pen: &mut Pen, labels: &mut Labels, axis: &Axis, outlines: &[Vec<Pixel>]) {
-        let ends = [-1.0, 1.0].map(|end| along(axis.center_m, end * axis.half_length_m, axis.direction));
+        let ends = axis.ends_m();
         let stroke = format!("stroke=\"{ROTATION_COLOUR}\" stroke-width=\"1.3\"");
         self.line(pen, ends, outlines, &format!("{stroke} stroke-dasharray=\"9 3 2 3\""));
         labels.keep_off(&ends.map(|end| self.screen(end)));
@@ -213,11 +205,11 @@ impl Pane<'_> {
         const STEPS: u32 = 24;
         const RADIUS_PX: f64 = 13.0;
         let viewer = self.camera.viewer;
-        let toward = dot(axis.direction, viewer);
+        let toward = axis.direction.dot(&viewer);
         // At the end that is farther out, a little before it.
-        let outward = if dot(axis.center_m, axis.direction) < -1e-9 { -1.0 } else { 1.0 };
-        let center_m = along(axis.center_m, 0.93 * outward * axis.half_length_m, axis.direction);
-        let Some(side) = unit(cross(axis.direction, viewer)) else {
+        let outward = if axis.center_m.dot(&axis.direction) < -1e-9 { -1.0 } else { 1.0 };
+        let center_m = axis.center_m + 0.93 * outward * axis.half_length_m * axis.direction;
+        let Some(side) = unit(axis.direction.cross(&viewer)) else {
             return self.circle_arc(self.screen(axis.center_m), toward);
         };
         if toward.abs() > 0.97 {
@@ -226,7 +218,7 @@ impl Pane<'_> {
         let center = self.screen(center_m);
         let step_m = RADIUS_PX / self.pixels_per_m;
         let pixel = |direction: Vector| {
-            let to = self.screen(along(center_m, step_m, direction));
+            let to = self.screen(center_m + step_m * direction);
             (to.0 - center.0, to.1 - center.1)
         };
         let (across, along_axis) = (pixel(side), pixel(axis.direction));
@@ -335,5 +327,5 @@ pub fn scale_bar(pen: &mut Pen, at: Pixel, pixels_per_m: f64, most_px: f64) {
     let lines: [&[Pixel]; 3] = [&[at, end], &tick(at.0), &tick(end.0)];
     pen.lines(lines, &format!("class=\"scale\" stroke=\"{INK}\" stroke-width=\"1.3\""));
     let text = format!("{} m", terminal::short(length_m));
-    pen.text((end.0 + 8.0, at.1 + 4.0), 12.0, "start", &format!("fill=\"{INK}\""), &text);
+    pen.text((end.0 + 8.0, at.1 + 4.0), 12.0, "start", TEXT, &text);
 }

@@ -1,11 +1,9 @@
 //! What a picture shows: surfaces, axes of rotation, centre of mass, and a legend; from a spacecraft or a spinner.
 
+use drawing::{Finish, Surface, Vector, unit};
 use physics::{spacecraft::Spacecraft, spin::spinner::Spinner};
 
-use super::{
-    surface::{Finish, Surface, angle_of_file_rad, surfaces},
-    vector::{Vector, along, cross, unit},
-};
+use super::surface::{angle_of_file_rad, surfaces};
 
 /// A line about which something turns, right-handed.
 pub struct Axis {
@@ -13,6 +11,13 @@ pub struct Axis {
     pub direction: Vector,
     /// How far the line goes to either side.
     pub half_length_m: f64,
+}
+
+impl Axis {
+    /// The ends of the line.
+    pub fn ends_m(&self) -> [Vector; 2] {
+        [-1.0, 1.0].map(|end| self.center_m + end * self.half_length_m * self.direction)
+    }
 }
 
 /// An entry of the legend.
@@ -75,9 +80,8 @@ impl Scene {
         let axes = panels.iter().enumerate().filter_map(|(k, panel)| {
             let of_panel =
                 surfaces.iter().rev().find(|surface| surface.part + panels.len() == parts.len() + k)?;
-            let (center_m, direction): (Vector, Vector) =
-                (panel.center_body_m.into(), panel.axis_body.into());
-            let reach = |corner: &Vector| super::vector::dot(along(*corner, -1.0, center_m), direction).abs();
+            let (center_m, direction) = (panel.center_body_m, panel.axis_body);
+            let reach = |corner: &Vector| (corner - center_m).dot(&direction).abs();
             let reach_m = of_panel.corners.iter().map(reach).fold(0.0, f64::max);
             Some(Axis { center_m, direction, half_length_m: 1.25 * reach_m })
         });
@@ -105,7 +109,7 @@ impl Scene {
             name: spacecraft.name.clone(),
             surfaces,
             axes,
-            center_of_mass_m: at_angle.center_of_mass_body_m.into(),
+            center_of_mass_m: at_angle.center_of_mass_body_m,
             has_sun: true,
             parts,
             remarks,
@@ -115,35 +119,33 @@ impl Scene {
     /// A spinner: its thrusters, on a cylinder through the outermost of them.
     pub fn of_spinner(spinner: &Spinner) -> Self {
         let thrusters = &spinner.thrusters;
-        let radius_of = |place: Vector| (place[0] * place[0] + place[1] * place[1]).sqrt();
-        let places: Vec<Vector> = thrusters.iter().map(|thruster| thruster.position_body_m.into()).collect();
-        let radius_m = places.iter().map(|place| radius_of(*place)).fold(0.0, f64::max);
-        let heights = |pick: fn(f64, f64) -> f64, from| places.iter().map(|place| place[2]).fold(from, pick);
+        let places: Vec<Vector> = thrusters.iter().map(|thruster| thruster.position_body_m).collect();
+        let radius_m = places.iter().map(|place| place.xy().norm()).fold(0.0, f64::max);
+        let heights = |pick: fn(f64, f64) -> f64, from| places.iter().map(|place| place.z).fold(from, pick);
         let (low_m, high_m) = (heights(f64::min, f64::INFINITY), heights(f64::max, f64::NEG_INFINITY));
         // Thrusters in one plane still need a body.
         let missing_m = (0.3 * radius_m - (high_m - low_m)).max(0.0) / 2.0;
         let mut surfaces = body(radius_m, low_m - missing_m, high_m + missing_m);
         let mut parts = Vec::new();
         for (index, thruster) in thrusters.iter().enumerate() {
-            let force: Vector = thruster.force_body_n.into();
-            let Some(jet) = unit(force.map(|x| -x)) else { continue };
+            let Some(jet) = unit(-thruster.force_body_n) else { continue };
             let length_m = 0.28 * radius_m;
             surfaces.extend(nozzle(places[index], jet, length_m, index));
             let what = format!("{} N", terminal::short(thruster.force_body_n.norm()));
             let mut part = Part::new(format!("T{}", index + 1), &thruster.name, what);
-            part.beside_m = Some(along(places[index], 1.55 * length_m, jet));
+            part.beside_m = Some(places[index] + 1.55 * length_m * jet);
             parts.push(part);
         }
         let axis = Axis {
-            center_m: [0.0, 0.0, (low_m + high_m) / 2.0],
-            direction: [0.0, 0.0, 1.0],
+            center_m: Vector::new(0.0, 0.0, (low_m + high_m) / 2.0),
+            direction: Vector::z(),
             half_length_m: (high_m - low_m) / 2.0 + missing_m + 0.35 * radius_m,
         };
         Self {
             name: spinner.name.clone(),
             surfaces,
             axes: vec![axis],
-            center_of_mass_m: [0.0; 3],
+            center_of_mass_m: Vector::zeros(),
             has_sun: false,
             parts,
             remarks: vec![
@@ -156,12 +158,7 @@ impl Scene {
     pub fn bounds_m(&self) -> Option<[Vector; 2]> {
         let mut corners = self.surfaces.iter().flat_map(|surface| &surface.corners);
         let first = *corners.next()?;
-        let bounds = corners.fold([first, first], |[low, high], corner| {
-            [
-                std::array::from_fn(|i| f64::min(low[i], corner[i])),
-                std::array::from_fn(|i| f64::max(high[i], corner[i])),
-            ]
-        });
+        let bounds = corners.fold([first; 2], |[low, high], corner| [low.inf(corner), high.sup(corner)]);
         bounds.iter().flatten().all(|x| x.is_finite()).then_some(bounds)
     }
 }
@@ -184,7 +181,7 @@ fn body(radius_m: f64, low_m: f64, high_m: f64) -> Vec<Surface> {
     const SIDES: u32 = 40;
     let corner = |k: u32, z_m: f64| -> Vector {
         let (sine, cosine) = (f64::from(k) * std::f64::consts::TAU / f64::from(SIDES)).sin_cos();
-        [radius_m * cosine, radius_m * sine, z_m]
+        Vector::new(radius_m * cosine, radius_m * sine, z_m)
     };
     let sides = (0..SIDES)
         .map(|k| vec![corner(k, low_m), corner(k + 1, low_m), corner(k + 1, high_m), corner(k, high_m)]);
@@ -198,13 +195,13 @@ fn body(radius_m: f64, low_m: f64, high_m: f64) -> Vec<Surface> {
 /// A cone from the throat to the exit.
 fn nozzle(throat_m: Vector, jet: Vector, length_m: f64, part: usize) -> Vec<Surface> {
     const SIDES: u32 = 10;
-    let across = unit(cross(jet, [0.0, 0.0, 1.0])).or_else(|| unit(cross(jet, [1.0, 0.0, 0.0])));
+    let across = unit(jet.cross(&Vector::z())).or_else(|| unit(jet.cross(&Vector::x())));
     let Some(first) = across else { return Vec::new() };
-    let second = cross(jet, first);
-    let exit_m = along(throat_m, length_m, jet);
+    let second = jet.cross(&first);
+    let exit_m = throat_m + length_m * jet;
     let rim = |k: u32| {
         let (sine, cosine) = (f64::from(k) * std::f64::consts::TAU / f64::from(SIDES)).sin_cos();
-        along(along(exit_m, 0.32 * length_m * cosine, first), 0.32 * length_m * sine, second)
+        exit_m + 0.32 * length_m * (cosine * first + sine * second)
     };
     let sides = (0..SIDES).map(|k| vec![throat_m, rim(k + 1), rim(k)]);
     let all = sides.chain([(0..SIDES).map(rim).collect()]);

@@ -1,12 +1,10 @@
 //! The sheet: views with one scale, headings, legend.
 
+use drawing::{BESIDE, Camera, Finish, HEADING, Pen, TEXT, Vector, width_px};
+
 use super::{
-    camera::Camera,
     pane::{Pane, Reach, scale_bar},
-    pen::{GREY, INK, Pen, width_px},
-    scene::Scene,
-    surface::Finish,
-    vector::{Vector, along, dot},
+    scene::{Axis, Scene},
 };
 
 /// A way to look at the spacecraft.
@@ -28,11 +26,16 @@ impl View {
 
     fn viewer(self, scene: &Scene) -> Vector {
         match self {
-            Self::Top => [0.0, 0.0, 1.0],
+            Self::Top => Vector::z(),
             Self::Perspective => corner_of_view(scene),
-            Self::Front => [0.0, -1.0, 0.0],
-            Self::Side => [1.0, 0.0, 0.0],
+            Self::Front => -Vector::y(),
+            Self::Side => Vector::x(),
         }
+    }
+
+    fn camera(self, scene: &Scene, reach: &Reach) -> Option<Camera> {
+        let ([low, high], viewer) = (reach.ends_m(), self.viewer(scene));
+        Camera::new(viewer, reach.middle_m(), (high - low).norm(), self == Self::Perspective)
     }
 
     fn heading(self, scene: &Scene) -> [&'static str; 2] {
@@ -50,9 +53,9 @@ impl View {
 /// From where the perspective looks: from above, unless panels show their edge there.
 fn corner_of_view(scene: &Scene) -> Vector {
     let [above, below] = [0.42, -0.42].map(|z| {
-        let viewer = [0.52, -0.75, z];
+        let viewer = Vector::new(0.52, -0.75, z);
         let cells = scene.surfaces.iter().filter(|surface| surface.finish == Finish::Cells);
-        (viewer, cells.map(|surface| dot(surface.normal, viewer).abs()).sum::<f64>())
+        (viewer, cells.map(|surface| surface.normal.dot(&viewer).abs()).sum::<f64>())
     });
     if above.1 < 0.5 * below.1 { below.0 } else { above.0 }
 }
@@ -81,15 +84,7 @@ pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
     let grow = if views.len() == 1 { ALONE } else { 1.0 };
     let (pane_width, most_height) = (grow * PANE_WIDTH, grow * PANE_HEIGHT);
     let inside = (pane_width - 2.0 * MARGIN, most_height - AROUND);
-    let across_m = {
-        let [low, high] = reach.ends_m();
-        let diagonal = along(high, -1.0, low);
-        dot(diagonal, diagonal).sqrt()
-    };
-    let cameras: Vec<Camera> = views
-        .iter()
-        .map(|view| Camera::new(view.viewer(scene), reach.middle_m(), across_m, *view == View::Perspective))
-        .collect::<Option<_>>()?;
+    let cameras: Vec<Camera> = views.iter().map(|view| view.camera(scene, &reach)).collect::<Option<_>>()?;
     // Of each view the extent, and how far its middle lies off the target.
     let drawn_m: Vec<Vector> = drawn_m(scene, &reach);
     let frames: Vec<Frame> = views
@@ -118,8 +113,7 @@ pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
     let legend_top = TITLE_HEIGHT + row_heights.iter().sum::<f64>();
     let legend = Legend::of(scene, width);
     let mut pen = Pen::new(width, legend_top + legend.height(), &scene.name);
-    let bold = format!("fill=\"{INK}\" font-weight=\"bold\"");
-    pen.text((MARGIN, 27.0), 18.0, "start", &bold, &scene.name);
+    pen.text((MARGIN, 27.0), 18.0, "start", HEADING, &scene.name);
     for (index, ((view, camera), frame)) in views.iter().zip(&cameras).zip(&frames).enumerate() {
         let (row, pixels_per_m) = (index / columns, scales[index]);
         let left = (index % columns) as f64 * pane_width;
@@ -129,9 +123,9 @@ pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
         let center = (left + pane_width / 2.0, top + HEADING_HEIGHT + inner_height / 2.0);
         let middle = (center.0 - pixels_per_m * frame.middle.0, center.1 + pixels_per_m * frame.middle.1);
         let [heading, from] = view.heading(scene);
-        pen.text((left + MARGIN, top + 17.0), 14.0, "start", &bold, heading);
+        pen.text((left + MARGIN, top + 17.0), 14.0, "start", HEADING, heading);
         let beside = left + MARGIN + 1.15 * width_px(heading, 14.0) + 10.0;
-        pen.text((beside, top + 17.0), 13.0, "start", &format!("fill=\"{GREY}\""), from);
+        pen.text((beside, top + 17.0), 13.0, "start", BESIDE, from);
         Pane { scene, camera, middle, pixels_per_m, reach_m: &reach }.draw(&mut pen);
         if is_parallel(view) {
             scale_bar(&mut pen, (left + MARGIN, top + pane_height - 14.0), pixels_per_m, 0.25 * pane_width);
@@ -141,13 +135,23 @@ pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
     Some(pen.finish())
 }
 
+/// The perspective alone, of this size and without any text.
+pub fn picture(scene: &Scene, (width, height): (f64, f64)) -> Option<String> {
+    let reach = Reach::of(scene)?;
+    let camera = View::Perspective.camera(scene, &reach)?;
+    let frame = Frame::of(&camera, &drawn_m(scene, &reach));
+    let pixels_per_m = ((width - 2.0 * MARGIN) / frame.size.0).min((height - 2.0 * MARGIN) / frame.size.1);
+    let middle = (0.5 * width - pixels_per_m * frame.middle.0, 0.5 * height + pixels_per_m * frame.middle.1);
+    let mut pen = Pen::new(width, height, &scene.name);
+    Pane { scene, camera: &camera, middle, pixels_per_m, reach_m: &reach }.draw(&mut pen);
+    Some(pen.finish())
+}
+
 /// Corners of surfaces, tips of axes, the Sun.
 fn drawn_m(scene: &Scene, reach: &Reach) -> Vec<Vector> {
     let [low, high] = reach.ends_m();
-    let tips = [[high[0], 0.0, 0.0], [0.0, high[1], 0.0], [0.0, 0.0, high[2]], [0.0, low[1], 0.0]];
-    let ends = scene.axes.iter().flat_map(|axis| {
-        [-1.0, 1.0].map(|end| along(axis.center_m, end * axis.half_length_m, axis.direction))
-    });
+    let tips = [0, 1, 2].map(|i| high[i] * Vector::ith(i, 1.0)).into_iter().chain([low.y * Vector::y()]);
+    let ends = scene.axes.iter().flat_map(Axis::ends_m);
     let corners = scene.surfaces.iter().flat_map(|surface| surface.corners.iter().copied());
     corners.chain(ends).chain(tips).collect()
 }
@@ -193,7 +197,8 @@ impl Legend {
         let (sign_width, name_width) = (widest(|it| &it.sign) + 8.0, widest(|it| &it.name) + 10.0);
         let column_width = sign_width + name_width + widest(|it| &it.what) + 18.0;
         let columns = ((width - 2.0 * MARGIN) / column_width).floor().clamp(1.0, 4.0) as usize;
-        let [x, y, z] = scene.center_of_mass_m.map(|x| terminal::short((x * 1e4).round() / 1e4 + 0.0));
+        let [x, y, z] =
+            <[f64; 3]>::from(scene.center_of_mass_m).map(|x| terminal::short((x * 1e4).round() / 1e4 + 0.0));
         let mut notes = vec![format!("centre of mass, at ({x}, {y}, {z}) m")];
         if !scene.axes.is_empty() {
             notes.push("axis of rotation; the arrow is the positive sense".to_owned());
@@ -215,19 +220,17 @@ impl Legend {
 
     fn draw(&self, pen: &mut Pen, scene: &Scene, top: f64) {
         let mut y = top + MARGIN;
-        let (ink, grey) = (format!("fill=\"{INK}\""), format!("fill=\"{GREY}\""));
-        let bold = format!("{ink} font-weight=\"bold\"");
         let rows = self.rows().max(1);
         for (index, part) in scene.parts.iter().take(self.entries).enumerate() {
             let x = MARGIN + self.column_width * (index / rows) as f64;
             let y = y + ROW * (index % rows) as f64;
-            pen.text((x, y), LEGEND_SIZE, "start", &bold, &part.sign);
-            pen.text((x + self.sign_width, y), LEGEND_SIZE, "start", &ink, &part.name);
-            pen.text((x + self.sign_width + self.name_width, y), LEGEND_SIZE, "start", &grey, &part.what);
+            pen.text((x, y), LEGEND_SIZE, "start", HEADING, &part.sign);
+            pen.text((x + self.sign_width, y), LEGEND_SIZE, "start", TEXT, &part.name);
+            pen.text((x + self.sign_width + self.name_width, y), LEGEND_SIZE, "start", BESIDE, &part.what);
         }
         y += ROW * self.rows() as f64;
         if self.left_out > 0 {
-            pen.text((MARGIN, y), LEGEND_SIZE, "start", &grey, &format!("and {} more", self.left_out));
+            pen.text((MARGIN, y), LEGEND_SIZE, "start", BESIDE, &format!("and {} more", self.left_out));
             y += ROW;
         }
         y += 6.0;
@@ -242,7 +245,7 @@ impl Legend {
                 );
             }
             let x = if has_sign { MARGIN + 34.0 } else { MARGIN };
-            pen.text((x, y), LEGEND_SIZE, "start", &grey, note);
+            pen.text((x, y), LEGEND_SIZE, "start", BESIDE, note);
             y += ROW;
         }
     }

@@ -1,5 +1,7 @@
 //! Bands of a signed quantity: their edges at round values, and their colours from blue over white to red.
 
+use drawing::round_up;
+
 /// Bands on each side of zero, about.
 const BANDS: f64 = 7.0;
 /// From the most negative to the most positive, equally apart.
@@ -14,33 +16,6 @@ const SCALE: [[f64; 3]; 9] = [
     [206.0, 83.0, 70.0],
     [150.0, 22.0, 40.0],
 ];
-
-/// The least round number (1, 2 or 5 times a power of ten) that is not below a value above 0.
-pub fn round_up(value: f64) -> f64 {
-    let power = 10_f64.powf(value.log10().floor());
-    [1.0, 2.0, 5.0]
-        .map(|digit| digit * power)
-        .into_iter()
-        .find(|round| *round >= value * (1.0 - 1e-9))
-        .unwrap_or(10.0 * power)
-}
-
-/// Multiples of a step from the one end to the other.
-pub fn ticks(low: f64, high: f64, step: f64) -> Vec<f64> {
-    let (first, last) = ((low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64);
-    (first..=last).map(|k| k as f64 * step).collect()
-}
-
-/// The text of a multiple of a step.
-pub fn tick_text(value: f64, step: f64) -> String {
-    let digits = usize::try_from(-(step.log10() + 1e-9).floor() as i64).unwrap_or(0);
-    let text = format!("{value:.digits$}");
-    if text.trim_start_matches('-').chars().all(|digit| matches!(digit, '0' | '.')) {
-        "0".to_owned()
-    } else {
-        text
-    }
-}
 
 /// Bands for values up to a greatest size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,15 +72,6 @@ mod tests {
         let bands = Bands::new(7.0);
         assert!(
             bands.colour(-bands.count).starts_with("#2") && bands.colour(bands.count - 1).starts_with("#a")
-        );
-    }
-
-    #[test]
-    fn ticks_have_the_digits_of_their_step() {
-        assert_eq!(ticks(-1.0, 1.0, 0.5), [-1.0, -0.5, 0.0, 0.5, 1.0]);
-        assert_eq!(
-            (tick_text(0.30000000000000004, 0.1), tick_text(-0.0, 5.0), tick_text(20.0, 20.0)),
-            ("0.3".to_owned(), "0".to_owned(), "20".to_owned())
         );
     }
 }

@@ -1,11 +1,11 @@
 //! `heliotorque map`: torque of sunlight over the Sun's azimuth and elevation, as picture, table and CSV.
 
 mod balance;
+mod bands;
 mod colours;
 mod contour;
 mod craft;
 mod found;
-mod frame;
 mod grid;
 mod mission;
 pub mod options;

@@ -1,15 +1,15 @@
 //! The picture: torque by axis over all directions and over the keep-in zone, and what downlinks can undo.
 
+use drawing::{Axes, BESIDE, Frame, HEADING, Pen, TEXT, round_up};
 use physics::constants::ASTRONOMICAL_UNIT_M as AU_M;
 
 use super::{
-    colours::{Bands, round_up},
+    bands,
+    colours::Bands,
     craft::Craft,
     found::{Found, Mapped},
-    frame::{Axes, Frame},
     verdict,
 };
-use crate::draw::pen::{GREY, INK, Pen};
 
 const WIDTH: f64 = 1150.0;
 const HEAD: f64 = 96.0;
@@ -24,9 +24,16 @@ const ZONE_WIDTH: f64 = 310.0;
 const LAST_ROW: f64 = 352.0;
 const MICRO: f64 = 1e6;
 const NAMES: [&str; 3] = ["X", "Y", "Z"];
-const LINE: &str = "#111418";
 const NONE: &str = "#c9ccd1";
-const MARK: &str = "#0b6e4f";
+const ZERO_LINE: &str = "stroke=\"#111418\" stroke-width=\"1.6\" class=\"zero\"";
+const BALANCE: &str = "fill=\"#ffffff\" fill-opacity=\"0.6\" stroke=\"#0b6e4f\" stroke-width=\"2.2\"";
+const LEAST: &str = "stroke=\"#0b6e4f\" stroke-width=\"2.4\"";
+const ZONE: &str = "stroke=\"#262b33\" stroke-width=\"1.1\" stroke-dasharray=\"4 3\"";
+const MISSION: &str = "fill=\"#b2182b\" stroke=\"#ffffff\" stroke-width=\"1.2\" class=\"mission\"";
+const ATTAINABLE: &str = "fill=\"#cfe3d8\" stroke=\"#0b6e4f\" stroke-width=\"1.4\" class=\"attainable\"";
+const MIDDLE: &str = "stroke=\"#5c6570\" stroke-width=\"0.8\" stroke-dasharray=\"2 3\"";
+/// Distance of vertical labels from their axis.
+const LABEL: f64 = 46.0;
 
 /// The sheet.
 pub fn svg(craft: &Craft, found: &Found) -> String {
@@ -38,16 +45,15 @@ pub fn svg(craft: &Craft, found: &Found) -> String {
     let height = if found.zone.is_some() { HEIGHT_OF_PLOT } else { HEIGHT_OF_ONLY_PLOT };
     let row = height + AROUND_PLOT;
     let mut pen = Pen::new(WIDTH, HEAD + 3.0 * row + LAST_ROW, &title);
-    pen.text((LEFT, 36.0), 20.0, "start", &format!("fill=\"{INK}\" font-weight=\"bold\""), &title);
+    pen.text((LEFT, 36.0), 20.0, "start", HEADING, &title);
     legend(&mut pen, found.zone.is_some());
     for (axis, name) in NAMES.into_iter().enumerate() {
         let top = HEAD + row * axis as f64;
-        let heading = format!("fill=\"{INK}\" font-weight=\"bold\"");
         pen.text(
             (LEFT, top - 7.0),
             14.0,
             "start",
-            &heading,
+            HEADING,
             &format!("About {name}, all directions of the Sun"),
         );
         let sphere = frame(&found.sphere, (LEFT, top), [2.0 * height, height]);
@@ -57,7 +63,7 @@ pub fn svg(craft: &Craft, found: &Found) -> String {
             continue;
         };
         outline(&mut pen, sphere, limits_rad);
-        pen.text((ZONE_LEFT, top - 7.0), 14.0, "start", &heading, &format!("About {name}, keep-in zone"));
+        pen.text((ZONE_LEFT, top - 7.0), 14.0, "start", HEADING, &format!("About {name}, keep-in zone"));
         let in_zone = frame(zone, (ZONE_LEFT, top), [ZONE_WIDTH, height]);
         let steps = zone.grid.limits_deg.map(|limit_deg| round_up(limit_deg / 3.5));
         torque(&mut pen, zone, in_zone, axis, steps);
@@ -78,37 +84,26 @@ fn frame(mapped: &Mapped, (left, top): (f64, f64), [width, height]: [f64; 2]) ->
 /// Bands, lines of zero, balances, axes.
 fn torque(pen: &mut Pen, mapped: &Mapped, frame: Frame, axis: usize, steps: [f64; 2]) {
     let grid = &mapped.grid;
-    let bands = Bands::new(MICRO * grid.greatest_n_m(axis));
+    let scale = Bands::new(MICRO * grid.greatest_n_m(axis));
     let value_n_m = grid.component_n_m(axis);
-    frame.bands(pen, grid.steps, &|column, row| MICRO * value_n_m(column, row), bands);
+    bands::draw(&frame, pen, grid.steps, &|column, row| MICRO * value_n_m(column, row), scale);
     let is_flat = grid.is_flat(axis);
-    frame.area(pen, grid.steps, &is_flat, NONE);
+    bands::area(&frame, pen, grid.steps, &is_flat, NONE);
     for line in &mapped.lines[axis] {
-        frame.line(pen, &line.places_deg, &zero_line());
+        frame.line(pen, &line.places_deg, ZERO_LINE);
     }
     for balance in &mapped.balances {
-        pen.circle(frame.at(balance.place_deg), 5.0, &ring());
+        pen.circle(frame.at(balance.place_deg), 5.0, BALANCE);
     }
-    frame.axes(pen, &Axes { labels: ["Sun azimuth [deg]", "Sun elevation [deg]"], steps });
-    frame.scale(pen, bands, "uN.m");
-}
-
-fn zero_line() -> String {
-    format!("stroke=\"{LINE}\" stroke-width=\"1.6\" class=\"zero\"")
-}
-
-fn ring() -> String {
-    format!("fill=\"#ffffff\" fill-opacity=\"0.6\" stroke=\"{MARK}\" stroke-width=\"2.2\"")
-}
-
-fn dashes() -> String {
-    format!("stroke=\"{INK}\" stroke-width=\"1.1\" stroke-dasharray=\"4 3\"")
+    let labels = ["Sun azimuth [deg]", "Sun elevation [deg]"];
+    frame.axes(pen, &Axes { labels, steps, label_px: LABEL, is_whole: false });
+    bands::scale(&frame, pen, scale, "uN.m");
 }
 
 /// The zone's border among all directions.
 fn outline(pen: &mut Pen, frame: Frame, limits_rad: [f64; 2]) {
     let [a, e] = limits_rad.map(f64::to_degrees);
-    frame.line(pen, &[[-a, -e], [a, -e], [a, e], [-a, e], [-a, -e]], &dashes());
+    frame.line(pen, &[[-a, -e], [a, -e], [a, e], [-a, e], [-a, -e]], ZONE);
 }
 
 /// A cross where the whole torque is least.
@@ -119,27 +114,24 @@ fn least(pen: &mut Pen, frame: Frame, found: &Found) {
 
 fn cross(pen: &mut Pen, x: f64, y: f64) {
     let strokes = [[(x - 5.0, y - 5.0), (x + 5.0, y + 5.0)], [(x - 5.0, y + 5.0), (x + 5.0, y - 5.0)]];
-    pen.lines(strokes.iter().map(|stroke| &stroke[..]), &format!("stroke=\"{MARK}\" stroke-width=\"2.4\""));
+    pen.lines(strokes.iter().map(|stroke| &stroke[..]), LEAST);
 }
 
 fn legend(pen: &mut Pen, has_zone: bool) {
     let y = 60.0;
-    let fill = format!("fill=\"{GREY}\"");
-    pen.lines([&[(LEFT, y), (LEFT + 26.0, y)][..]], &zero_line());
-    pen.text((LEFT + 33.0, y + 4.0), 12.0, "start", &fill, "component is zero");
-    pen.circle((LEFT + 166.0, y), 5.0, &ring());
-    pen.text((LEFT + 178.0, y + 4.0), 12.0, "start", &fill, "X and Z are zero");
+    pen.lines([&[(LEFT, y), (LEFT + 26.0, y)][..]], ZERO_LINE);
+    pen.text((LEFT + 33.0, y + 4.0), 12.0, "start", BESIDE, "component is zero");
+    pen.circle((LEFT + 166.0, y), 5.0, BALANCE);
+    pen.text((LEFT + 178.0, y + 4.0), 12.0, "start", BESIDE, "X and Z are zero");
     cross(pen, LEFT + 308.0, y);
     let least = if has_zone { "whole torque is least in the zone" } else { "whole torque is least" };
-    pen.text((LEFT + 321.0, y + 4.0), 12.0, "start", &fill, least);
+    pen.text((LEFT + 321.0, y + 4.0), 12.0, "start", BESIDE, least);
     if has_zone {
-        pen.lines([&[(LEFT + 540.0, y), (LEFT + 566.0, y)][..]], &dashes());
-        pen.text((LEFT + 573.0, y + 4.0), 12.0, "start", &fill, "Sun keep-in zone");
+        pen.lines([&[(LEFT + 540.0, y), (LEFT + 566.0, y)][..]], ZONE);
+        pen.text((LEFT + 573.0, y + 4.0), 12.0, "start", BESIDE, "Sun keep-in zone");
     }
-    let none =
-        [(LEFT + 706.0, y - 5.0), (LEFT + 726.0, y - 5.0), (LEFT + 726.0, y + 5.0), (LEFT + 706.0, y + 5.0)];
-    pen.polygon(&none, &format!("fill=\"{NONE}\""));
-    pen.text((LEFT + 733.0, y + 4.0), 12.0, "start", &fill, "no torque about the axis");
+    pen.rect((LEFT + 706.0, y - 5.0), (LEFT + 726.0, y + 5.0), &format!("fill=\"{NONE}\""));
+    pen.text((LEFT + 733.0, y + 4.0), 12.0, "start", BESIDE, "no torque about the axis");
 }
 
 /// Disturbances that downlinks can undo, the mission's mean among them.
@@ -148,8 +140,7 @@ fn downlinks(pen: &mut Pen, top: f64, craft: &Craft, found: &Found) {
     // A disturbance is undone by its opposite.
     let undone = attainable.mean_added_n_m.scaled(-MICRO, [0.0; 2]);
     let mean = attainable.mission.as_ref().map(|(mission, _)| mission.mean_torque_n_m().map(|x| MICRO * x));
-    let heading = format!("fill=\"{INK}\" font-weight=\"bold\"");
-    pen.text((LEFT, top - 7.0), 14.0, "start", &heading, "Mean disturbance that downlinks can undo");
+    pen.text((LEFT, top - 7.0), 14.0, "start", HEADING, "Mean disturbance that downlinks can undo");
     let range = |axis: usize| {
         let [low, high] = undone.extent(axis);
         let (low, high) = mean.map_or((low, high), |mean| (low.min(mean[axis]), high.max(mean[axis])));
@@ -160,18 +151,15 @@ fn downlinks(pen: &mut Pen, top: f64, craft: &Craft, found: &Found) {
     let (x, y) = (range(0), range(1));
     let frame = Frame { left: LEFT, top, width: 1.6 * HEIGHT_OF_PLOT, height: 1.1 * HEIGHT_OF_PLOT, x, y };
     let corners: Vec<_> = undone.corners.iter().map(|corner| frame.at(*corner)).collect();
-    pen.polygon(&corners, "fill=\"#cfe3d8\" stroke=\"#0b6e4f\" stroke-width=\"1.4\" class=\"attainable\"");
+    pen.polygon(&corners, ATTAINABLE);
     for middle in [[[x[0], 0.0], [x[1], 0.0]], [[0.0, y[0]], [0.0, y[1]]]] {
-        frame.line(pen, &middle, &format!("stroke=\"{GREY}\" stroke-width=\"0.8\" stroke-dasharray=\"2 3\""));
+        frame.line(pen, &middle, MIDDLE);
     }
     let steps = [x, y].map(|[low, high]| round_up((high - low) / 7.0));
-    frame.axes(pen, &Axes { labels: ["mean torque about X [uN.m]", "mean torque about Z [uN.m]"], steps });
+    let labels = ["mean torque about X [uN.m]", "mean torque about Z [uN.m]"];
+    frame.axes(pen, &Axes { labels, steps, label_px: LABEL, is_whole: false });
     if let Some(mean) = mean.filter(|mean| frame.holds(*mean)) {
-        pen.circle(
-            frame.at(mean),
-            5.0,
-            "fill=\"#b2182b\" stroke=\"#ffffff\" stroke-width=\"1.2\" class=\"mission\"",
-        );
+        pen.circle(frame.at(mean), 5.0, MISSION);
     }
     let left = LEFT + frame.width + 40.0;
     let anywhere = if found.zone.is_some() { "anywhere in the zone" } else { "anywhere" };
@@ -186,6 +174,6 @@ fn downlinks(pen: &mut Pen, top: f64, craft: &Craft, found: &Found) {
     for (k, line) in lines.iter().enumerate() {
         let indent = if line.starts_with(' ') { 16.0 } else { 0.0 };
         let at = (left + indent, top + 22.0 + 20.0 * k as f64);
-        pen.text(at, 13.0, "start", &format!("fill=\"{INK}\""), line.trim_start());
+        pen.text(at, 13.0, "start", TEXT, line.trim_start());
     }
 }

@@ -3,7 +3,6 @@
 use std::{io::Read, path::Path};
 
 use files::Destination;
-use studies::chart;
 
 use super::file::OutputFile;
 
@@ -75,7 +74,7 @@ impl Kind<'_> {
             _ if head.is_empty() => Standing::Same,
             Self::Table(header) if head.starts_with(header) => Standing::Same,
             Self::Table(_) if is_over_time(&text) => Standing::Alike,
-            Self::Picture if chart::is_chart(&text) => Standing::Same,
+            Self::Picture if drawing::is_chart(&text) => Standing::Same,
             _ => Standing::Other,
         }
     }
@@ -114,10 +113,13 @@ mod tests {
         ] {
             assert_eq!(table.judge(text.as_bytes()), expected, "{text:?}");
         }
-        let panel = chart::Panel { series: vec![chart::Series::default()], ..chart::Panel::default() };
-        let svg =
-            chart::Chart { panels: vec![panel], ..chart::Chart::default() }.to_svg().unwrap_or_default();
-        assert!(svg.is_empty() || Kind::Picture.judge(svg.as_bytes()) == Standing::Same, "{svg}");
+        let panel = drawing::Panel {
+            series: vec![drawing::Series::line("", vec![(0.0, 0.0)])],
+            ..drawing::Panel::default()
+        };
+        let chart = drawing::Chart { panels: vec![panel], ..drawing::Chart::default() };
+        let svg = drawing::svg(&[&chart]).unwrap();
+        assert!(Kind::Picture.judge(svg.as_bytes()) == Standing::Same, "{svg}");
         for text in ["<svg xmlns=\"http://www.w3.org/2000/svg\"><path/></svg>", "time,a,b\n0,1,2\n"] {
             assert_eq!(Kind::Picture.judge(text.as_bytes()), Standing::Other, "{text:?}");
         }

@@ -5,10 +5,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use drawing::{COLOURS, Chart, Mark, Panel, Series};
 use files::Destination;
 use loader::{Column, Recording};
 use model_description::{Causality, Description};
-use studies::chart::{COLOURS, Chart, Mark, Panel, Series};
 
 use super::{
     exporter::Exporter,
@@ -66,7 +66,7 @@ impl Svg {
         if let Some(first) = chart.chart.panels.first_mut().filter(|_| !eclipses.is_empty()) {
             first.shade_label = "eclipse".to_owned();
         }
-        Ok(chart.chart.to_svg()?)
+        Ok(drawing::svg(&[&chart.chart])?)
     }
 }
 

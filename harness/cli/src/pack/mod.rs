@@ -6,7 +6,6 @@
 pub mod assemble;
 mod manual;
 mod per_plate;
-mod picture;
 mod schedule;
 pub mod source;
 pub mod start;
@@ -61,7 +60,7 @@ pub fn run(arguments: &Pack) -> Outcome {
     let drawing = draw::svg(&setup);
     let page = manual::html(&description, &described, &setup, drawing.as_deref());
     entries.add("documentation/index.html", page.into_bytes())?;
-    if let Some(png) = picture::png(&setup) {
+    if let Some(png) = draw::png(&setup) {
         entries.add("model.png", png)?;
     }
     let flight = reference_flight(&entries, &described.reference_inputs)

@@ -2,12 +2,9 @@
 
 use core::f64::consts::{PI, TAU};
 
+use drawing::{Chart, DrawingError, Panel, PlaneChart, PlanePanel, Series};
 use nalgebra::Vector3;
 use planner::spin::{PlannedBurn, right_ascension_declination_deg};
-use studies::chart::{
-    Chart, ChartError, Panel, Series,
-    plane::{PlaneChart, PlanePanel},
-};
 
 /// Points of a curve.
 const POINTS: u32 = 180;
@@ -20,9 +17,9 @@ const LEAST_CLOSE_DEG: f64 = 0.05;
 /// The picture as SVG text.
 ///
 /// # Errors
-/// What the drawing library refuses.
-pub fn svg(burn: &PlannedBurn) -> Result<String, ChartError> {
-    Ok(stacked(&[sphere(burn).to_svg()?, nutation(burn).to_svg()?]))
+/// Nothing to draw.
+pub fn svg(burn: &PlannedBurn) -> Result<String, DrawingError> {
+    drawing::svg(&[&sphere(burn), &nutation(burn)])
 }
 
 /// An azimuthal equidistant map: every direction at its angle and azimuth from the middle, north up, seen from outside.
@@ -131,13 +128,12 @@ fn sphere(burn: &PlannedBurn) -> PlaneChart {
             let (x, y) = map.place(&direction);
             (x, y + 0.055 * half_width)
         };
-        let is_inside = |(x, y): (f64, f64)| x.abs() < half_width && y.abs() < half_width;
         let named = named.into_iter().map(|(name, direction)| (above(direction), name.to_owned()));
         PlanePanel {
             title: title.to_owned(),
             grid: graticule(&map),
             series: series.clone(),
-            texts: named.filter(|(at, _)| is_inside(*at)).collect(),
+            texts: named.collect(),
             half_width,
             ..PlanePanel::default()
         }
@@ -189,23 +185,4 @@ fn nutation(burn: &PlannedBurn) -> Chart {
         ..Panel::default()
     };
     Chart { title: String::new(), x_label: "time [min]".to_owned(), panels: vec![panel], ..Chart::default() }
-}
-
-/// Pictures of one width below each other.
-fn stacked(pictures: &[String]) -> String {
-    let attribute = |svg: &str, name: &str| {
-        let start = svg.find(&format!(" {name}=\""))? + name.len() + 3;
-        svg[start..].split('"').next()?.parse::<f64>().ok()
-    };
-    let mut body = String::new();
-    let (mut width, mut top) = (0.0_f64, 0.0);
-    for svg in pictures {
-        body.push_str(&svg.replacen("<svg ", &format!("<svg y=\"{top}\" "), 1));
-        width = width.max(attribute(svg, "width").unwrap_or(0.0));
-        top += attribute(svg, "height").unwrap_or(0.0);
-    }
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{top}\" viewBox=\"0 0 {width} {top}\">\n{body}\n\
-         </svg>\n"
-    )
 }

@@ -2,10 +2,10 @@
 
 use super::burn_flight::{Burn, BurnLoop, Corrections, DELTA_V_M_S, Flown, START_S, Sample};
 use crate::case::{chosen, run_all};
-use crate::chart::{Chart, Mark, Panel, Series};
 use crate::settings::digits;
 use crate::vector::{across, angle_rad, norm, scaled, unit};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Mark, Panel, Series};
 
 const SEEDS: i32 = 16;
 /// Of the accelerometers, in m/s2.

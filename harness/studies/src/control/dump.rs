@@ -2,9 +2,9 @@
 //! stands it.
 
 use crate::case::{Case, Recorded, chosen, run_all};
-use crate::chart::{Chart, Panel, Series};
 use crate::vector::{Vector, difference, norm};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 /// How long is flown, and in which steps, in s.
 const SPAN_S: f64 = 600.0;

@@ -4,9 +4,9 @@ use super::jitter_flight::{COUNT, FASTEST_HZ, Flight, LOWEST_HZ, RATE_HZ, Shaken
 use super::jitter_theory::Structure;
 use super::spectrum::Spectrum;
 use crate::case::{chosen, run_all};
-use crate::chart::{Chart, Panel, Series};
 use crate::settings::digits;
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 /// Speeds of the wheel beside those of the modes, in Hz.
 const SPEEDS_HZ: [f64; 4] = [0.7, 2.0, 4.5, 8.5];

@@ -4,9 +4,9 @@ use super::guided_loop::{Loop, Sample};
 use super::safe_mode_checks::{Parameters, attitude_lost, zone_violated};
 use super::safe_mode_flight::{Chain, sun_angle_deg};
 use crate::case::{chosen, run_all};
-use crate::chart::{Chart, Mark, Panel, Series};
 use crate::settings::digits;
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Mark, Panel, Series};
 
 /// Both chains of modes.
 pub fn safe_mode(options: &Options) -> Result<Report, StudyError> {

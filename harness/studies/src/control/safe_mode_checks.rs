@@ -6,8 +6,8 @@ use super::safe_mode_flight::{
     TRACKER_FAILS_S, ZONE_ON_S, sun_angle_deg,
 };
 use crate::StudyError;
-use crate::chart::Series;
 use crate::vector::{Vector, across, angle_rad, body_angles_deg, dot, norm, turn};
+use drawing::Series;
 
 const OPERATIONAL: i32 = 1;
 const SAFE_HOLD: i32 = 2;

@@ -1,8 +1,8 @@
 //! Pictures of slews: error angle, rate, torques and momenta of the wheels over time, with their limits.
 
 use super::slew_flight::{Event, Flown, SLEW_S, Sample};
-use crate::chart::{Chart, Panel, Series};
 use crate::vector::{dot, norm};
+use drawing::{Chart, Panel, Series};
 
 /// A slew over time.
 pub fn figure(flown: &Flown) -> Chart {

@@ -4,11 +4,11 @@ use super::cosimulation::Row;
 use super::guided_loop::{Flight, GUIDANCE, Loop, Sample};
 use super::slew_limits::SlewLimits;
 use crate::case::{chosen, run_all};
-use crate::chart::{Chart, Mark, Panel, Series};
 use crate::pointing::{SLEW_S, TRANSITION_EPOCH_S, TRANSITION_TRUE_ANOMALY_DEG};
 use crate::settings::{Settings, digits, number, real, vector_setting};
 use crate::vector::{angle_rad, body_angles_deg, norm, rotation_vector, turn};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Mark, Panel, Series};
 
 const END_S: f64 = 1500.0;
 /// Errors of attitude and rate below which the spacecraft has settled, assumed: the paper says no number.

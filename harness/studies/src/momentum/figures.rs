@@ -2,8 +2,8 @@
 
 use super::cases::{Case, Convention, Simulated, Strategy, simulate_all};
 use super::lists;
-use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 /// A figure: one panel an offset, one line a strategy.
 pub struct Figure {

@@ -6,10 +6,10 @@ use model_description::labels;
 
 use super::sphere::{self, Lit};
 use crate::case::Case;
-use crate::chart::{Chart, Panel, Series};
 use crate::settings::digits;
 use crate::vector::{Vector, difference, norm, scaled, sum};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 const DAY_S: f64 = 86_400.0;
 const STOP_S: f64 = 10.0 * DAY_S;
@@ -60,10 +60,10 @@ pub fn off_sun(options: &Options) -> Result<Report, StudyError> {
 fn over_the_sphere(report: &mut Report, options: &Options, sphere: &[Lit]) -> Result<(), StudyError> {
     let micro = |v: &Vector| scaled(v, 1e6);
     let force = sphere::picture("Force of sunlight at 0.387 AU", "uN", sphere, |lit| micro(&lit.force_n));
-    report.plane(options, "off-sun-force.svg", &force)?;
+    report.picture(options, "off-sun-force.svg", &force)?;
     let torque =
         sphere::picture("Torque of sunlight at 0.387 AU", "uN.m", sphere, |lit| micro(&lit.torque_n_m));
-    report.plane(options, "off-sun-torque.svg", &torque)?;
+    report.picture(options, "off-sun-torque.svg", &torque)?;
     let rows = sphere.iter().map(|lit| {
         let at = [lit.azimuth_deg, lit.elevation_deg];
         [&at[..], &lit.force_n, &lit.torque_n_m].concat().into_iter().map(digits).collect()

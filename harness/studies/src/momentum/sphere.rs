@@ -4,9 +4,9 @@ use std::f64::consts::FRAC_PI_2;
 
 use loader::{Error, Fmu, Instance, InstanceOptions, Value};
 
-use crate::chart::Series;
-use crate::chart::plane::{PlaneChart, PlanePanel};
 use crate::vector::{Vector, norm};
+use drawing::Series;
+use drawing::{PlaneChart, PlanePanel};
 
 /// Between neighbouring directions, in deg.
 const SPACING_DEG: i32 = 5;

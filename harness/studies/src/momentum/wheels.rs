@@ -3,8 +3,8 @@
 use super::cases::{Convention, DumpsTo, Shade, Simulated, Strategy, simulate_all};
 use super::lists::with_every_strategy;
 use crate::case::Case;
-use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 /// Storage of a wheel in N m s, mass of four in kg, threshold in N m s: "between 4 and 12 Nms per wheel with a total mass between
 /// 12 and 20 kg", of which 17 kg "will allow 8 Nms"; the thresholds are those of small, intermediate and large wheels.

@@ -2,9 +2,9 @@
 
 use super::flight::Place;
 use super::planet::Ellipsoid;
-use crate::chart::Series;
-use crate::chart::plane::PlanePanel;
 use crate::vector::{Vector, across, cross, difference, dot, norm, unit};
+use drawing::PlanePanel;
+use drawing::Series;
 
 /// A view toward nadir: downtrack to the right, the orbit's left up.
 #[derive(Clone, Copy, Debug)]

@@ -5,11 +5,11 @@ use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place};
 use super::limb_orbit;
 use super::limb_point::{Found, PLUS_Z, triaxial};
 use crate::case::{chosen, run_all};
-use crate::chart::Series;
-use crate::chart::plane::{PlaneChart, PlanePanel};
 use crate::settings::{digits, number, real};
 use crate::vector::{Vector, difference, norm};
 use crate::{Options, Report, StudyError};
+use drawing::Series;
+use drawing::{PlaneChart, PlanePanel};
 
 /// Six days in, orbit and terminator lie in nearly one plane: the Sun is across nadir and limb all the way round.
 const EPOCH_S: f64 = DEFAULT_EPOCH_S + 6.0 * 86_400.0;
@@ -157,7 +157,7 @@ fn print_azimuths(
         y_label: Y_LABEL.to_owned(),
         panels: vec![panel],
     };
-    report.plane(options, "limb.svg", &chart)
+    report.picture(options, "limb.svg", &chart)
 }
 
 fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(), StudyError> {
@@ -232,5 +232,5 @@ fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(
         y_label: Y_LABEL.to_owned(),
         panels: vec![whole, close],
     };
-    report.plane(options, "limb-scan.svg", &chart)
+    report.picture(options, "limb-scan.svg", &chart)
 }

@@ -3,11 +3,11 @@
 use super::disc::{View, X_LABEL, Y_LABEL};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample};
 use super::limb_point::{Found, PLUS_Z, triaxial};
-use crate::chart::plane::{PlaneChart, PlanePanel};
-use crate::chart::{Chart, Panel, Series};
 use crate::settings::{digits, flag, number};
 use crate::vector::{Vector, across, angle_rad, difference, dot, norm, unit};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
+use drawing::{PlaneChart, PlanePanel};
 
 /// 25 days in, the orbit passes over noon and midnight.
 const EPOCH_S: f64 = DEFAULT_EPOCH_S + 25.0 * 86_400.0;
@@ -190,7 +190,7 @@ fn draw_discs(
         y_label: Y_LABEL.to_owned(),
         panels,
     };
-    report.plane(options, "limb-discs.svg", &chart)
+    report.picture(options, "limb-discs.svg", &chart)
 }
 
 fn panel(point: &Point<'_>, flown: &Flown) -> PlanePanel {

@@ -5,11 +5,11 @@ use super::disc::{View, X_LABEL, Y_LABEL};
 use super::flight::{Flown, Fmus, GEOMETRY};
 use super::scans::{CASES, Case};
 use crate::case::{chosen, run_all};
-use crate::chart::Series;
-use crate::chart::plane::PlaneChart;
 use crate::settings::digits;
 use crate::vector::{Vector, angle_rad, norm};
 use crate::{Options, Report, StudyError};
+use drawing::PlaneChart;
+use drawing::Series;
 
 /// A mosaic that was flown.
 struct Mosaic {
@@ -124,7 +124,7 @@ pub fn mosaic(options: &Options) -> Result<Report, StudyError> {
     report.line(REMARK);
     write(&mut report, options, &mosaics)?;
     for mosaic in &mosaics {
-        report.plane(options, &format!("mosaic-{}.svg", mosaic.case.label), &mosaic.chart())?;
+        report.picture(options, &format!("mosaic-{}.svg", mosaic.case.label), &mosaic.chart())?;
     }
     Ok(report)
 }

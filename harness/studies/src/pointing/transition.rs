@@ -2,10 +2,10 @@
 
 use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample};
 use crate::case::{chosen, run_all};
-use crate::chart::{Chart, Mark, Panel, Series};
 use crate::settings::{Settings, digits, number, real};
 use crate::vector::angle_rad;
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Mark, Panel, Series};
 
 /// Sun and Earth are 33 deg apart as seen from the spacecraft, as the paper's antenna azimuth of -33 deg asks for with the
 /// Sun at azimuth and elevation 0. The paper prints no epoch.

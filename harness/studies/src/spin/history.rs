@@ -3,8 +3,8 @@
 use super::spinner::{RATIO, paper_case};
 use super::verdict::verdict_text;
 use crate::case::{Case, chosen, run_all};
-use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 const STOP_S: f64 = 1400.0;
 /// End of the paper's simulation, in s.

@@ -5,8 +5,8 @@ use core::f64::consts::PI;
 use super::spinner::{RATIO, paper_case};
 use super::verdict::{rounds, verdict, verdict_text};
 use crate::case::{chosen, run_all};
-use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 /// Nutation of the figure, in rad.
 const NUTATION_RAD: f64 = 0.02 * PI / 180.0;

@@ -2,8 +2,8 @@
 
 use super::orbit::{EFFECTS, Sample};
 use super::paper::Row;
-use crate::chart::bars::{BarChart, BarPanel};
 use crate::{Options, Report, StudyError};
+use drawing::{BarChart, BarPanel};
 
 /// One row of the paper, simulated.
 pub(super) struct Simulated {
@@ -80,7 +80,7 @@ pub(super) fn print(
     }
     report.table(&header, &rows);
     report.csv(options, &format!("{name}.csv"), &header, rows)?;
-    report.bars(options, &format!("{name}.svg"), &chart(simulated))
+    report.picture(options, &format!("{name}.svg"), &chart(simulated))
 }
 
 /// The greatest of each effect by case: the paper's beside ours.

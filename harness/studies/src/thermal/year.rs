@@ -1,7 +1,7 @@
 //! Figure 13: a whole Mercury year, by orbit.
 
-use crate::chart::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 use super::orbit::{Case, EFFECTS, Fmus, MERCURY_YEAR_S, ORBIT_S, Planet, Sample};
 

@@ -3,22 +3,42 @@
 use std::fmt::Write;
 
 use model_description::escape;
+use resvg::{tiny_skia, usvg};
 
-/// Fonts, as in charts.
 const FONTS: &str = "'Source Sans 3','Segoe UI','Helvetica Neue',Arial,sans-serif";
-/// Width of a character as a part of the font size, on the safe side.
-const CHARACTER: f64 = 0.56;
 /// Colour of text.
 pub const INK: &str = "#262b33";
 /// Colour of what is said beside.
 pub const GREY: &str = "#5c6570";
+/// Attributes of text.
+pub const TEXT: &str = "fill=\"#262b33\"";
+/// Attributes of a heading.
+pub const HEADING: &str = "fill=\"#262b33\" font-weight=\"bold\"";
+/// Attributes of what is said beside.
+pub const BESIDE: &str = "fill=\"#5c6570\"";
+/// Colours of lines in their order; distinguishable with any colour vision (Okabe and Ito).
+pub const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6b6b6b"];
 
 /// A point in pixels.
 pub type Pixel = (f64, f64);
 
-/// Width of a text, estimated.
+/// Width of a text, estimated on the safe side: the font is the viewer's.
 pub fn width_px(text: &str, size: f64) -> f64 {
-    CHARACTER * size * text.chars().count() as f64
+    let part = |c| match c {
+        'i' | 'j' | 'l' | '.' | ',' | '[' | ']' | '(' | ')' | ' ' | 't' | 'f' => 0.36,
+        'm' | 'w' | 'M' | 'W' => 0.92,
+        _ => 0.6,
+    };
+    size * text.chars().map(part).sum::<f64>()
+}
+
+/// An SVG as PNG, without its texts; `None` for what is no SVG.
+pub fn png(svg: &str) -> Option<Vec<u8>> {
+    let tree = usvg::Tree::from_str(svg, &usvg::Options::default()).ok()?;
+    let size = tree.size().to_int_size();
+    let mut pixels = tiny_skia::Pixmap::new(size.width(), size.height())?;
+    resvg::render(&tree, tiny_skia::Transform::default(), &mut pixels.as_mut());
+    pixels.encode_png().ok()
 }
 
 /// An SVG in progress.
@@ -46,30 +66,47 @@ impl Pen {
         let _ = writeln!(self.0, "<polygon points=\"{}\" {attributes}/>", points(corners));
     }
 
+    /// A rectangle between two corners.
+    pub fn rect(&mut self, (left, top): Pixel, (right, bottom): Pixel, attributes: &str) {
+        let (width, height) = (right - left, bottom - top);
+        let _ = writeln!(
+            self.0,
+            "<rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" {attributes}/>"
+        );
+    }
+
+    /// Draws what is seen through a rectangle between two corners only.
+    pub fn within(&mut self, (left, top): Pixel, (right, bottom): Pixel, draw: impl FnOnce(&mut Self)) {
+        let (width, height) = (right - left, bottom - top);
+        let at = format!("{left:.1} {top:.1} {width:.1} {height:.1}");
+        let _ = writeln!(
+            self.0,
+            "<svg x=\"{left:.1}\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" viewBox=\"{at}\">"
+        );
+        draw(self);
+        self.0.push_str("</svg>\n");
+    }
+
     /// Lines through points, each with its own beginning.
     pub fn lines<'a>(&mut self, lines: impl IntoIterator<Item = &'a [Pixel]>, attributes: &str) {
-        let mut path = String::new();
-        for line in lines {
-            for (index, (x, y)) in line.iter().enumerate() {
-                let _ = write!(path, "{}{x:.1},{y:.1}", if index == 0 { 'M' } else { 'L' });
-            }
-        }
-        if !path.is_empty() {
-            let _ = writeln!(self.0, "<path d=\"{path}\" fill=\"none\" {attributes}/>");
-        }
+        self.path(lines, "", &format!("fill=\"none\" {attributes}"));
     }
 
     /// The area between closed lines, each by its corners: what an odd number of them encloses.
     pub fn area<'a>(&mut self, lines: impl IntoIterator<Item = &'a [Pixel]>, fill: &str) {
+        self.path(lines, "z", &format!("fill=\"{fill}\" fill-rule=\"evenodd\""));
+    }
+
+    fn path<'a>(&mut self, lines: impl IntoIterator<Item = &'a [Pixel]>, end: &str, attributes: &str) {
         let mut path = String::new();
         for line in lines {
             for (index, (x, y)) in line.iter().enumerate() {
                 let _ = write!(path, "{}{x:.1},{y:.1}", if index == 0 { 'M' } else { 'L' });
             }
-            path.push('z');
+            path.push_str(end);
         }
         if !path.is_empty() {
-            let _ = writeln!(self.0, "<path d=\"{path}\" fill=\"{fill}\" fill-rule=\"evenodd\"/>");
+            let _ = writeln!(self.0, "<path d=\"{path}\" {attributes}/>");
         }
     }
 

@@ -1,9 +1,6 @@
 //! A direction of view, parallel or in perspective, and the order in which surfaces are painted in it.
 
-use super::{
-    surface::Surface,
-    vector::{Vector, along, cross, dot, unit},
-};
+use super::surface::{Surface, Vector, unit};
 
 /// Distance of the eye in perspective, as a multiple of the distance across what is seen.
 const EYE_DISTANCE: f64 = 2.2;
@@ -29,29 +26,29 @@ impl Camera {
     /// With +Z upwards, or +Y where one looks along Z; `across_m` is the distance across what is seen.
     pub fn new(viewer: Vector, target_m: Vector, across_m: f64, is_perspective: bool) -> Option<Self> {
         let viewer = unit(viewer)?;
-        let right = unit(cross([0.0, 0.0, 1.0], viewer)).unwrap_or([1.0, 0.0, 0.0]);
+        let right = unit(Vector::z().cross(&viewer)).unwrap_or(Vector::x());
         let eye_m = is_perspective.then_some(EYE_DISTANCE * across_m);
-        let up = cross(viewer, right);
+        let up = viewer.cross(&right);
         Some(Self { right, up, viewer, target_m, eye_m, tolerance_m: ON_PLANE * across_m })
     }
 
     /// Where a point is seen.
     pub fn flat(&self, point_m: Vector) -> Flat {
-        let from_target = along(point_m, -1.0, self.target_m);
-        let nearer = self.eye_m.map_or(1.0, |eye_m| eye_m / (eye_m - dot(from_target, self.viewer)));
-        (nearer * dot(from_target, self.right), nearer * dot(from_target, self.up))
+        let from_target = point_m - self.target_m;
+        let nearer = self.eye_m.map_or(1.0, |eye_m| eye_m / (eye_m - from_target.dot(&self.viewer)));
+        (nearer * from_target.dot(&self.right), nearer * from_target.dot(&self.up))
     }
 
     /// How far towards the viewer.
     pub fn depth_m(&self, point_m: Vector) -> f64 {
-        dot(along(point_m, -1.0, self.target_m), self.viewer)
+        (point_m - self.target_m).dot(&self.viewer)
     }
 
     /// Distance of the viewer above a surface's front, or its cosine in parallel projection.
     fn above(&self, surface: &Surface) -> f64 {
         match self.eye_m {
-            None => dot(surface.normal, self.viewer),
-            Some(eye_m) => height_m(surface, along(self.target_m, eye_m, self.viewer)),
+            None => surface.normal.dot(&self.viewer),
+            Some(eye_m) => height_m(surface, self.target_m + eye_m * self.viewer),
         }
     }
 
@@ -131,7 +128,7 @@ impl Camera {
 
 /// Height of a point above the front of a surface's plane.
 fn height_m(surface: &Surface, point_m: Vector) -> f64 {
-    dot(surface.normal, along(point_m, -1.0, surface.center))
+    surface.normal.dot(&(point_m - surface.center))
 }
 
 /// Whether an outline goes around a point.
@@ -150,14 +147,32 @@ pub fn contains(outline: &[Flat], point: Flat) -> bool {
 mod tests {
     //! What is painted last is what a ray meets first.
     use super::*;
-    use crate::draw::surface::surfaces;
+    use crate::surface::Finish;
 
-    const ORBITER: &str = include_str!("../../../../fmu-src/resources/examples/mercury-orbiter.toml");
+    /// A box with open boxes, panels and a dish around it: rectangles of any attitude that do not cross.
+    fn craft() -> Vec<Surface> {
+        let rectangle = |middle: [f64; 3], a: [f64; 3], b: [f64; 3]| {
+            let [middle, a, b] = [middle, a, b].map(Vector::from);
+            let corners = vec![middle - a - b, middle + a - b, middle + a + b, middle - a + b];
+            Surface::facet(corners, Finish::Plate, 0).unwrap()
+        };
+        let mut all = Vec::new();
+        for sign in [-1.0, 1.0] {
+            all.extend([
+                rectangle([0.7 * sign, 0.0, 0.0], [0.0, 0.6 * sign, 0.0], [0.0, 0.0, 0.8]),
+                rectangle([0.0, 0.6 * sign, 0.0], [0.0, 0.0, 0.8 * sign], [0.7, 0.0, 0.0]),
+                rectangle([0.0, 0.0, 0.8 * sign], [0.7 * sign, 0.0, 0.0], [0.0, 0.6, 0.0]),
+                rectangle([2.0 * sign, 0.0, 0.1], [1.0, 0.0, 0.0], [0.0, 0.4, -0.5 * sign]),
+            ]);
+        }
+        all.push(rectangle([0.1, -1.2, 0.3], [0.9, 0.2, 0.0], [0.0, 0.0, 0.9]));
+        all.push(rectangle([0.0, 0.1, 1.4], [0.5, 0.0, 0.2], [0.0, 0.5, 0.0]));
+        all
+    }
 
     #[test]
     fn the_surface_painted_last_is_the_first_on_the_ray() {
-        let file = physics::spacecraft::Spacecraft::from_toml("", ORBITER).unwrap();
-        let all = surfaces(&file, |_| 0.6);
+        let all = craft();
         let mut compared = 0;
         for (viewer, is_perspective) in [
             ([0.52, -0.75, 0.42], true),
@@ -166,8 +181,8 @@ mod tests {
             ([0.9, 0.1, 0.2], false),
             ([0.3, -0.2, -0.8], false),
         ] {
-            let target_m = [0.1, -0.1, 0.05];
-            let camera = Camera::new(viewer, target_m, 6.5, is_perspective).unwrap();
+            let target_m = Vector::new(0.1, -0.1, 0.05);
+            let camera = Camera::new(Vector::from(viewer), target_m, 6.5, is_perspective).unwrap();
             let order = camera.painting_order(&all);
             let outlines: Vec<Vec<Flat>> = all
                 .iter()
@@ -177,19 +192,19 @@ mod tests {
                 let seen = (0.05013 * f64::from(i), 0.05007 * f64::from(j));
                 let painted = order.iter().rev().copied().find(|index| contains(&outlines[*index], seen));
                 // Without any projection: from the eye, or far away, through the point of the picture plane.
-                let plane = along(along(target_m, seen.0, camera.right), seen.1, camera.up);
+                let plane = target_m + seen.0 * camera.right + seen.1 * camera.up;
                 let from = match camera.eye_m {
-                    Some(eye_m) => along(target_m, eye_m, camera.viewer),
-                    None => along(plane, 100.0, camera.viewer),
+                    Some(eye_m) => target_m + eye_m * camera.viewer,
+                    None => plane + 100.0 * camera.viewer,
                 };
-                let ray = along(plane, -1.0, from);
+                let ray = plane - from;
                 let met = all.iter().enumerate().filter_map(|(index, surface)| {
-                    let part = -height_m(surface, from) / dot(surface.normal, ray);
-                    let at = along(along(from, part, ray), -1.0, surface.corners[0]);
-                    // Every outline of the file is a rectangle.
-                    let [a, b] = [1, 3].map(|k| along(surface.corners[k], -1.0, surface.corners[0]));
+                    let part = -height_m(surface, from) / surface.normal.dot(&ray);
+                    let at = from + part * ray - surface.corners[0];
+                    // Every outline is a rectangle.
+                    let [a, b] = [1, 3].map(|k| surface.corners[k] - surface.corners[0]);
                     let inside = [a, b].iter().all(|edge| {
-                        let share = dot(at, *edge) / dot(*edge, *edge);
+                        let share = at.dot(edge) / edge.norm_squared();
                         (0.0..=1.0).contains(&share)
                     });
                     (inside && part > 0.0).then_some((index, part))

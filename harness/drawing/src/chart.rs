@@ -1,0 +1,223 @@
+//! Line charts: stacked panels over one horizontal axis, each with its own unit and legend.
+
+use super::{
+    axes::round_up,
+    envelope,
+    frame::{Axes, Frame},
+    legend::{Legend, ROW_HEIGHT},
+    pen::{COLOURS, GREY, Pen, Pixel},
+    picture::{LABEL, PANEL_HEIGHT, PLOT_LEFT, Picture, RIGHT, SHADE, TITLE_HEIGHT, WIDTH, X_AXIS_HEIGHT},
+    series::{Mark, Panel, Series},
+};
+
+const SINGLE_HEIGHT: f64 = 420.0;
+/// Above a chart without title, and above and below the lines of a panel.
+const TOP: f64 = 14.0;
+const MARGIN: f64 = 8.0;
+const PLOT_WIDTH: f64 = WIDTH - PLOT_LEFT - RIGHT;
+/// Columns of half a pixel, in each of which a line keeps what is visible.
+const COLUMNS: f64 = 2.0 * PLOT_WIDTH;
+
+/// A chart: panels over one horizontal axis.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Chart {
+    /// Title; empty for none.
+    pub title: String,
+    /// Label of the horizontal axis, with its unit in brackets.
+    pub x_label: String,
+    /// The panels, top to bottom.
+    pub panels: Vec<Panel>,
+    /// What the lines of the same place in all panels without labels are, beside the title.
+    pub legend: Vec<String>,
+}
+
+impl Chart {
+    /// Horizontal range of the finite points of all panels.
+    fn x_range(&self) -> Option<[f64; 2]> {
+        let points = self.panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points);
+        let finite = points.filter(|(x, y)| x.is_finite() && y.is_finite()).map(|(x, _)| *x);
+        let [low, high] = extremes(finite)?;
+        Some(if low < high { [low, high] } else { padded(low, high) })
+    }
+
+    fn title_height(&self) -> f64 {
+        if self.title.is_empty() && self.legend.is_empty() { TOP } else { TITLE_HEIGHT }
+    }
+
+    /// Of the lines of a panel with one row of legend.
+    fn panel_height(&self) -> f64 {
+        if self.panels.len() == 1 { SINGLE_HEIGHT } else { PANEL_HEIGHT }
+    }
+}
+
+impl Picture for Chart {
+    fn title(&self) -> &str {
+        &self.title
+    }
+
+    fn height(&self) -> Option<f64> {
+        self.x_range()?;
+        let panels: f64 = self.panels.iter().map(|panel| panel.height(self.panel_height())).sum();
+        Some(self.title_height() + panels + X_AXIS_HEIGHT)
+    }
+
+    fn draw(&self, pen: &mut Pen, top: f64) {
+        let Some(x) = self.x_range() else { return };
+        let mut below = top + self.title_height();
+        Legend::of_names(&self.legend).draw(pen, below - ROW_HEIGHT);
+        for (index, panel) in self.panels.iter().enumerate() {
+            let is_last = index + 1 == self.panels.len();
+            let y = panel.y_range.map_or_else(|| panel.data_range(), |(low, high)| [low, high]);
+            let height = panel.height(self.panel_height());
+            let (left, top) = (PLOT_LEFT, below + panel.top());
+            let plot = height - panel.top() - if is_last { 0.0 } else { MARGIN };
+            let frame = Frame { left, top, width: PLOT_WIDTH, height: plot, x, y };
+            let y_ticks = panel.ticks(y, if self.panels.len() == 1 { 8.0 } else { 5.0 });
+            let axes = Axes {
+                labels: [if is_last { &self.x_label } else { "" }, &panel.y_label],
+                steps: [round_up((x[1] - x[0]) / 10.0), round_up((y[1] - y[0]) / y_ticks)],
+                label_px: LABEL,
+                is_whole: panel.is_whole,
+            };
+            panel.draw(pen, &frame, &axes);
+            Legend::of(panel).draw(pen, below);
+            below += height;
+        }
+    }
+}
+
+impl Panel {
+    /// Height above the lines: the legend's rows, or a margin.
+    fn top(&self) -> f64 {
+        Legend::of(self).height().max(MARGIN)
+    }
+
+    /// The panel's whole height with lines `height` high.
+    fn height(&self, height: f64) -> f64 {
+        // The first row of the legend counts as part of every panel, so that panels are alike.
+        height + (self.top() - ROW_HEIGHT).max(0.0)
+    }
+
+    /// How many ticks to ask for, so that their distance is one at least where only whole numbers are.
+    fn ticks(&self, [low, high]: [f64; 2], ticks: f64) -> f64 {
+        if self.is_whole { ticks.min((high - low).floor() + 1.0) } else { ticks }
+    }
+
+    fn data_range(&self) -> [f64; 2] {
+        let data = self.series.iter().flat_map(|series| series.points.iter().map(|(_, y)| *y));
+        let finite = data.chain(self.marks.iter().copied()).filter(|y| y.is_finite());
+        extremes(finite).map_or([0.0, 1.0], |[low, high]| padded(low, high))
+    }
+
+    fn draw(&self, pen: &mut Pen, frame: &Frame, axes: &Axes<'_>) {
+        let ([low, high], [_, bottom]) = (frame.corners(), frame.y);
+        pen.within(low, high, |pen| {
+            for (from, to) in &self.shades {
+                pen.rect((frame.at([*from, bottom]).0, low.1), (frame.at([*to, bottom]).0, high.1), SHADE);
+            }
+        });
+        frame.grid(pen, axes);
+        for mark in &self.marks {
+            let dashes = format!("stroke=\"{GREY}\" stroke-dasharray=\"6 5\"");
+            pen.within(low, high, |pen| frame.line(pen, &frame.x.map(|x| [x, *mark]), &dashes));
+        }
+        frame.axes(pen, axes);
+        for (index, series) in self.series.iter().enumerate() {
+            draw_series(pen, frame, index, series, |points| thinned(points, frame.x));
+        }
+    }
+}
+
+/// Draws a series in the colour of its place; `thin` leaves the points of a piece that are drawn.
+pub(super) fn draw_series(
+    pen: &mut Pen,
+    frame: &Frame,
+    index: usize,
+    series: &Series,
+    thin: impl Fn(&[(f64, f64)]) -> Vec<(f64, f64)>,
+) {
+    let colour = COLOURS[index % COLOURS.len()];
+    let stroke = |width: u32| format!("stroke=\"{colour}\" stroke-width=\"{width}\"");
+    let place = |points: Vec<(f64, f64)>| -> Vec<Pixel> {
+        points.into_iter().map(|(x, y)| frame.at([x, y])).collect()
+    };
+    let dots = || series.points.iter().map(|(x, y)| [*x, *y]).filter(|point| frame.holds(*point));
+    let [low, high] = frame.corners();
+    match series.mark {
+        Mark::Dots => {
+            dots().for_each(|at| pen.circle(frame.at(at), 3.0, &format!("fill=\"{colour}\"")));
+        }
+        Mark::Rings => dots().for_each(|at| {
+            pen.circle(frame.at(at), 5.0, &format!("fill=\"none\" stroke=\"{colour}\""));
+        }),
+        mark => pen.within(low, high, |pen| {
+            let corners = if mark == Mark::Steps { series.corners() } else { Vec::new() };
+            let points = if mark == Mark::Steps { &corners } else { &series.points };
+            let (mut lines, mut edges) = (Vec::new(), Vec::new());
+            for piece in pieces(points) {
+                match envelope::of(piece).filter(|_| mark == Mark::Line) {
+                    Some(band) => {
+                        pen.polygon(
+                            &place(band.outline()),
+                            &format!("fill=\"{colour}\" fill-opacity=\"0.25\""),
+                        );
+                        edges.extend([band.lowest, band.greatest].map(place));
+                    }
+                    None if mark == Mark::Steps => lines.push(place(piece.to_vec())),
+                    None => lines.push(place(thin(piece))),
+                }
+            }
+            let dashes = if mark == Mark::Dashed { " stroke-dasharray=\"6 5\"" } else { "" };
+            pen.lines(edges.iter().map(Vec::as_slice), &stroke(1));
+            pen.lines(
+                lines.iter().map(Vec::as_slice),
+                &format!("{} stroke-linejoin=\"round\"{dashes}", stroke(2)),
+            );
+        }),
+    }
+}
+
+fn extremes(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    values.fold(None, |range: Option<[f64; 2]>, value| {
+        Some(range.map_or([value, value], |[low, high]| [low.min(value), high.max(value)]))
+    })
+}
+
+/// The range with a margin; a single value gets a margin of its own size.
+pub(super) fn padded(low: f64, high: f64) -> [f64; 2] {
+    let span = high - low;
+    let magnitude = low.abs().max(high.abs());
+    // Differences too small for the axis to write are drawn as a flat line.
+    let margin = match span > 1e-5 * magnitude {
+        true => 0.06 * span,
+        // Nothing but zero has no size of its own.
+        false if magnitude < f64::MIN_POSITIVE => 1.0,
+        false => 0.1 * magnitude,
+    };
+    [low - margin, high + margin]
+}
+
+/// The pieces between points that are not finite.
+pub(super) fn pieces(points: &[(f64, f64)]) -> impl Iterator<Item = &[(f64, f64)]> {
+    points.split(|(x, y)| !x.is_finite() || !y.is_finite()).filter(|piece| !piece.is_empty())
+}
+
+/// At most four points a column: first, lowest, highest, last, so that nothing visible is lost.
+pub(super) fn thinned(points: &[(f64, f64)], x: [f64; 2]) -> Vec<(f64, f64)> {
+    if points.len() as f64 <= 4.0 * COLUMNS {
+        return points.to_vec();
+    }
+    let column = |at: f64| ((at - x[0]) / (x[1] - x[0]) * COLUMNS).floor();
+    let mut kept: Vec<(f64, f64)> = Vec::new();
+    for group in points.chunk_by(|a, b| column(a.0) == column(b.0)) {
+        let by_value = |a: &&usize, b: &&usize| group[**a].1.total_cmp(&group[**b].1);
+        let all: Vec<usize> = (0..group.len()).collect();
+        let extreme = [all.iter().min_by(by_value), all.iter().max_by(by_value)];
+        let mut indices = vec![0, group.len() - 1];
+        indices.extend(extreme.into_iter().flatten());
+        indices.sort_unstable();
+        indices.dedup();
+        kept.extend(indices.into_iter().map(|index| group[index]));
+    }
+    kept
+}

@@ -1,0 +1,120 @@
+//! A rectangle of a picture and what its edges mean: where points are on it, its grid and its axes.
+
+use super::{
+    axes::{tick_text, ticks},
+    pen::{BESIDE, Pen, Pixel, TEXT},
+};
+
+/// Pixels beyond this are as good as infinitely far.
+const FAR_PX: f64 = 1e6;
+/// Points of a line nearer than this are one, in pixels.
+const NEAR_PX: f64 = 0.4;
+const GRID: &str = "stroke=\"#e3e6ea\"";
+const BORDER: &str = "stroke=\"#9aa2ac\"";
+
+/// A rectangle of the sheet, and what its edges mean.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    /// Left edge in px.
+    pub left: f64,
+    /// Upper edge in px.
+    pub top: f64,
+    /// Width in px.
+    pub width: f64,
+    /// Height in px.
+    pub height: f64,
+    /// Least and greatest value from left to right.
+    pub x: [f64; 2],
+    /// Least and greatest value from the bottom up.
+    pub y: [f64; 2],
+}
+
+/// What the axes of a frame say.
+pub struct Axes<'a> {
+    /// Labels of the horizontal and the vertical axis; without the first, its ticks have no numbers.
+    pub labels: [&'a str; 2],
+    /// Spacing of ticks; 0 for none.
+    pub steps: [f64; 2],
+    /// Distance of the vertical label from the frame in px.
+    pub label_px: f64,
+    /// Whether only whole numbers have a text.
+    pub is_whole: bool,
+}
+
+impl Frame {
+    /// Where a point is on the sheet.
+    pub fn at(&self, [x, y]: [f64; 2]) -> Pixel {
+        let part = |value: f64, [low, high]: [f64; 2]| (value - low) / (high - low);
+        let (x, y) =
+            (self.left + self.width * part(x, self.x), self.top + self.height * (1.0 - part(y, self.y)));
+        (x.clamp(-FAR_PX, FAR_PX), y.clamp(-FAR_PX, FAR_PX))
+    }
+
+    /// Whether a point is in it.
+    pub fn holds(&self, [x, y]: [f64; 2]) -> bool {
+        (self.x[0]..=self.x[1]).contains(&x) && (self.y[0]..=self.y[1]).contains(&y)
+    }
+
+    /// Its upper left and lower right corner.
+    pub fn corners(&self) -> [Pixel; 2] {
+        [(self.left, self.top), (self.left + self.width, self.top + self.height)]
+    }
+
+    /// A line of places.
+    pub fn line(&self, pen: &mut Pen, places: &[[f64; 2]], attributes: &str) {
+        let line = thinned(places.iter().map(|place| self.at(*place)));
+        pen.lines([line.as_slice()], attributes);
+    }
+
+    /// Thin lines at the ticks of both axes.
+    pub fn grid(&self, pen: &mut Pen, axes: &Axes<'_>) {
+        let across = ticks(self.y, axes.steps[1]).into_iter().map(|y| self.x.map(|x| self.at([x, y])));
+        let along = ticks(self.x, axes.steps[0]).into_iter().map(|x| self.y.map(|y| self.at([x, y])));
+        let lines: Vec<[Pixel; 2]> = across.chain(along).collect();
+        pen.lines(lines.iter().map(|line| &line[..]), GRID);
+    }
+
+    /// Border, ticks, numbers, labels.
+    pub fn axes(&self, pen: &mut Pen, axes: &Axes<'_>) {
+        let [low, high] = self.corners();
+        pen.rect(low, high, &format!("fill=\"none\" {BORDER}"));
+        let text = |value: f64, step: f64| {
+            let is_shown = !axes.is_whole || (value - value.round()).abs() < 1e-6;
+            if is_shown { tick_text(value, step) } else { String::new() }
+        };
+        let mut marks: Vec<[Pixel; 2]> = Vec::new();
+        let [x_label, y_label] = axes.labels;
+        for tick in ticks(self.x, axes.steps[0]).into_iter().filter(|_| !x_label.is_empty()) {
+            let (x, y) = self.at([tick, self.y[0]]);
+            marks.push([(x, y), (x, y + 4.0)]);
+            pen.text((x, y + 17.0), 11.0, "middle", BESIDE, &tick_text(tick, axes.steps[0]));
+        }
+        for tick in ticks(self.y, axes.steps[1]) {
+            let (x, y) = self.at([self.x[0], tick]);
+            marks.push([(x - 4.0, y), (x, y)]);
+            pen.text((x - 8.0, y + 4.0), 11.0, "end", BESIDE, &text(tick, axes.steps[1]));
+        }
+        pen.lines(marks.iter().map(|mark| &mark[..]), BORDER);
+        if !x_label.is_empty() {
+            pen.text((self.left + 0.5 * self.width, high.1 + 34.0), 12.0, "middle", TEXT, x_label);
+        }
+        let (x, y) = (self.left - axes.label_px, self.top + 0.5 * self.height);
+        let turned = format!("{TEXT} transform=\"rotate(-90 {x:.1} {y:.1})\"");
+        pen.text((x, y), 12.0, "middle", &turned, y_label);
+    }
+}
+
+/// Points without those that are near the one before; the last one stays.
+pub fn thinned(points: impl Iterator<Item = Pixel>) -> Vec<Pixel> {
+    let mut kept: Vec<Pixel> = Vec::new();
+    let mut last = None;
+    for point in points {
+        let is_near = kept.last().is_some_and(|(x, y)| (point.0 - x).hypot(point.1 - y) < NEAR_PX);
+        if !is_near {
+            kept.push(point);
+        }
+        last = is_near.then_some(point);
+    }
+    kept.extend(last);
+    kept
+}

@@ -1,0 +1,134 @@
+//! The legend: above a panel, right-aligned, in as many rows as it takes.
+
+use super::{
+    pen::{COLOURS, GREY, Pen, TEXT, width_px},
+    picture::{PLOT_LEFT, RIGHT, SHADE, WIDTH},
+    series::{Mark, Panel, Series},
+};
+
+/// Height of a row.
+pub(super) const ROW_HEIGHT: f64 = 26.0;
+const SIZE: f64 = 12.0;
+const SWATCH: f64 = 18.0;
+const GAP: f64 = 6.0;
+const BETWEEN: f64 = 20.0;
+
+/// What stands before a label.
+#[derive(Clone, Copy)]
+enum Swatch {
+    /// A series by its place and how it is drawn.
+    Series(usize, Mark),
+    /// The dashed lines of marked values.
+    Marks,
+    /// Shaded spans.
+    Shades,
+}
+
+/// Labels with what stands before them, row by row.
+pub(super) struct Legend<'a>(Vec<Vec<(Swatch, &'a str)>>);
+
+impl<'a> Legend<'a> {
+    /// Of a panel's lines, marks and shades.
+    pub fn of(panel: &'a Panel) -> Self {
+        let marks = (Swatch::Marks, panel.mark_label.as_str());
+        Self::rows(series(&panel.series).chain([marks, (Swatch::Shades, panel.shade_label.as_str())]))
+    }
+
+    /// Of lines alone.
+    pub fn of_series(all: &'a [Series]) -> Self {
+        Self::rows(series(all))
+    }
+
+    /// Of lines of these names in the order of colours.
+    pub fn of_names(names: &'a [String]) -> Self {
+        let lines = names.iter().enumerate();
+        Self::rows(lines.map(|(k, name)| (Swatch::Series(k, Mark::Line), name.as_str())))
+    }
+
+    fn rows(entries: impl Iterator<Item = (Swatch, &'a str)>) -> Self {
+        let (mut rows, mut used): (Vec<Vec<_>>, f64) = (Vec::new(), 0.0);
+        for entry in entries.filter(|(_, label)| !label.is_empty()) {
+            let width = width(entry.1);
+            match rows.last_mut() {
+                Some(row) if used + width - BETWEEN <= WIDTH - PLOT_LEFT - RIGHT => row.push(entry),
+                _ => {
+                    rows.push(vec![entry]);
+                    used = 0.0;
+                }
+            }
+            used += width;
+        }
+        Self(rows)
+    }
+
+    pub fn height(&self) -> f64 {
+        ROW_HEIGHT * self.0.len() as f64
+    }
+
+    pub fn draw(&self, pen: &mut Pen, top: f64) {
+        for (index, row) in self.0.iter().enumerate() {
+            let y = top + ROW_HEIGHT * (index as f64 + 0.5);
+            let mut x = WIDTH - RIGHT + BETWEEN - row.iter().map(|(_, label)| width(label)).sum::<f64>();
+            for (swatch, label) in row {
+                swatch.draw(pen, x, y);
+                pen.text((x + SWATCH + GAP, y + 4.0), SIZE, "start", TEXT, label);
+                x += width(label);
+            }
+        }
+    }
+}
+
+fn series(all: &[Series]) -> impl Iterator<Item = (Swatch, &str)> {
+    all.iter().enumerate().map(|(k, it)| (Swatch::Series(k, it.mark), it.label.as_str()))
+}
+
+/// Of an entry with the space to the next one.
+fn width(label: &str) -> f64 {
+    SWATCH + GAP + width_px(label, SIZE) + BETWEEN
+}
+
+impl Swatch {
+    fn draw(self, pen: &mut Pen, x: f64, y: f64) {
+        let mut line = |stroke: &str| pen.lines([&[(x, y), (x + SWATCH, y)][..]], stroke);
+        match self {
+            Self::Shades => pen.rect((x, y - 6.0), (x + SWATCH, y + 6.0), SHADE),
+            Self::Marks => line(&format!("stroke=\"{GREY}\" stroke-dasharray=\"7 4\"")),
+            Self::Series(index, mark) => {
+                let colour = COLOURS[index % COLOURS.len()];
+                let middle = (x + 0.5 * SWATCH, y);
+                match mark {
+                    Mark::Line | Mark::Curve | Mark::Steps => {
+                        line(&format!("stroke=\"{colour}\" stroke-width=\"3\""))
+                    }
+                    Mark::Dashed => {
+                        line(&format!("stroke=\"{colour}\" stroke-width=\"3\" stroke-dasharray=\"7 4\""))
+                    }
+                    Mark::Rings => pen.circle(middle, 5.0, &format!("fill=\"none\" stroke=\"{colour}\"")),
+                    Mark::Dots => pen.circle(middle, 4.0, &format!("fill=\"{colour}\"")),
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! No entry is lost, and no row is wider than the panel.
+    use super::*;
+
+    #[test]
+    fn long_legends_take_several_rows() {
+        let series = (1..=9).map(|k| Series::line(format!("plate[{k}].temperature"), vec![])).collect();
+        let panel = Panel { series, mark_label: "limit".to_owned(), ..Panel::default() };
+        let legend = Legend::of(&panel);
+        assert!(legend.0.len() > 1 && legend.height() == ROW_HEIGHT * legend.0.len() as f64);
+        let shown: Vec<&str> = legend.0.iter().flatten().map(|(_, label)| *label).collect();
+        let labels = panel.series.iter().map(|series| series.label.as_str());
+        assert_eq!(shown, labels.chain(["limit"]).collect::<Vec<_>>());
+        for row in legend.0 {
+            let wide: f64 = row.iter().map(|(_, label)| width(label)).sum();
+            assert!(wide - BETWEEN <= WIDTH - PLOT_LEFT - RIGHT);
+        }
+        assert_eq!(Legend::of(&Panel::default()).height(), 0.0);
+    }
+}

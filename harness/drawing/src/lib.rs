@@ -1,0 +1,29 @@
+//! One drawing kit: SVG elements, axes, charts, a camera; what is drawn is SVG text, or PNG without texts.
+
+mod axes;
+mod bars;
+mod camera;
+mod chart;
+mod envelope;
+mod frame;
+mod labels;
+mod legend;
+mod pen;
+mod picture;
+mod plane;
+mod series;
+mod surface;
+#[cfg(test)]
+mod tests;
+
+pub use axes::{round_up, tick_text, ticks};
+pub use bars::{BarChart, BarPanel};
+pub use camera::{Camera, contains};
+pub use chart::Chart;
+pub use frame::{Axes, Frame, thinned};
+pub use labels::{Labels, NAME_SIZE};
+pub use pen::{BESIDE, COLOURS, GREY, HEADING, INK, Pen, Pixel, TEXT, png, width_px};
+pub use picture::{DrawingError, Picture, is_chart, svg};
+pub use plane::{PlaneChart, PlanePanel};
+pub use series::{Mark, Panel, Series};
+pub use surface::{Finish, Surface, Vector, unit};

@@ -1,0 +1,130 @@
+//! Pictures of a plane: square panels side by side, the same scale along both axes, one legend.
+
+use super::{
+    axes::round_up,
+    chart::{draw_series, pieces},
+    frame::{Axes, Frame},
+    legend::Legend,
+    pen::{Pen, Pixel, TEXT},
+    picture::{LABEL, PLOT_LEFT, Picture, RIGHT, SHADE, TITLE_HEIGHT, WIDTH, X_AXIS_HEIGHT},
+    series::Series,
+};
+
+/// Panels side by side; the legend is that of the first.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct PlaneChart {
+    /// Title.
+    pub title: String,
+    /// Label of the horizontal axes, with its unit in brackets.
+    pub x_label: String,
+    /// Label of the vertical axes, with its unit in brackets.
+    pub y_label: String,
+    /// The panels, left to right. Series of the same place have the same colour.
+    pub panels: Vec<PlanePanel>,
+}
+
+/// One square of the plane.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct PlanePanel {
+    /// Above it.
+    pub title: String,
+    /// Polygons, shaded, under the series.
+    pub areas: Vec<Vec<(f64, f64)>>,
+    /// Thin lines under the series, such as meridians; a point that is not finite interrupts them.
+    pub grid: Vec<(f64, f64)>,
+    /// Curves of any course and dots.
+    pub series: Vec<Series>,
+    /// Short texts and the points they are centred on.
+    pub texts: Vec<((f64, f64), String)>,
+    /// Its middle.
+    pub centre: (f64, f64),
+    /// Half its side.
+    pub half_width: f64,
+}
+
+/// Greatest side of a panel.
+const GREATEST_SIDE: f64 = 600.0;
+const PANEL_TITLE_HEIGHT: f64 = 26.0;
+
+impl PlaneChart {
+    /// Width that a panel takes with its axis.
+    fn panel_width(&self) -> f64 {
+        (WIDTH - 14.0 - RIGHT) / self.panels.len().max(1) as f64
+    }
+
+    fn side(&self) -> f64 {
+        (self.panel_width() - (PLOT_LEFT - 14.0)).min(GREATEST_SIDE)
+    }
+
+    fn legend(&self) -> Legend<'_> {
+        Legend::of_series(self.panels.first().map_or(&[], |panel| &panel.series))
+    }
+}
+
+impl Picture for PlaneChart {
+    fn title(&self) -> &str {
+        &self.title
+    }
+
+    fn height(&self) -> Option<f64> {
+        let drawable = |panel: &PlanePanel| panel.half_width.is_finite() && panel.half_width > 0.0;
+        let is_drawable = !self.panels.is_empty() && self.panels.iter().all(drawable);
+        let around = TITLE_HEIGHT + self.legend().height() + PANEL_TITLE_HEIGHT + X_AXIS_HEIGHT;
+        is_drawable.then_some(around + self.side())
+    }
+
+    fn draw(&self, pen: &mut Pen, top: f64) {
+        let (legend, side) = (self.legend(), self.side());
+        legend.draw(pen, top + TITLE_HEIGHT);
+        let top = top + TITLE_HEIGHT + legend.height() + PANEL_TITLE_HEIGHT;
+        for (index, panel) in self.panels.iter().enumerate() {
+            let left = PLOT_LEFT + self.panel_width() * index as f64;
+            let [x, y] = [panel.centre.0, panel.centre.1]
+                .map(|middle| [middle - panel.half_width, middle + panel.half_width]);
+            let frame = Frame { left, top, width: side, height: side, x, y };
+            let labels = [self.x_label.as_str(), self.y_label.as_str()];
+            let step = round_up(panel.half_width / 3.0);
+            let axes = Axes { labels, steps: [step; 2], label_px: LABEL - 20.0, is_whole: false };
+            pen.text((left + 0.5 * side, top - 8.0), 13.0, "middle", TEXT, &panel.title);
+            panel.draw(pen, &frame, &axes);
+        }
+    }
+}
+
+impl PlanePanel {
+    fn draw(&self, pen: &mut Pen, frame: &Frame, axes: &Axes<'_>) {
+        let at = |points: &[(f64, f64)]| -> Vec<Pixel> {
+            points.iter().map(|(x, y)| frame.at([*x, *y])).collect()
+        };
+        let [low, high] = frame.corners();
+        pen.within(low, high, |pen| self.areas.iter().for_each(|area| pen.polygon(&at(area), SHADE)));
+        frame.grid(pen, axes);
+        frame.axes(pen, axes);
+        let thin: Vec<Vec<Pixel>> = pieces(&self.grid).map(at).collect();
+        pen.within(low, high, |pen| {
+            pen.lines(thin.iter().map(Vec::as_slice), "stroke=\"#9aa2ac\" stroke-width=\"0.5\"");
+        });
+        for (index, series) in self.series.iter().enumerate() {
+            draw_series(pen, frame, index, series, <[(f64, f64)]>::to_vec);
+        }
+        for ((x, y), text) in self.texts.iter().filter(|((x, y), _)| frame.holds([*x, *y])) {
+            let (x, y) = frame.at([*x, *y]);
+            pen.text((x, y + 4.0), 11.0, "middle", TEXT, text);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! A panel is square, and nothing to show is an error.
+    use super::*;
+
+    #[test]
+    fn a_panel_is_square_and_an_empty_picture_an_error() {
+        let panel = PlanePanel { half_width: 2.0, title: "left".to_owned(), ..PlanePanel::default() };
+        let chart = PlaneChart { title: "two".to_owned(), panels: vec![panel; 2], ..PlaneChart::default() };
+        let svg = crate::svg(&[&chart]).unwrap();
+        assert!(svg.contains(" width=\"960\" ") && svg.matches("left").count() == 2);
+        assert!(crate::svg(&[&PlaneChart::default()]).is_err());
+    }
+}
