@@ -3,6 +3,7 @@
 //! A study loads FMUs from a folder, runs them through their C interface, and leaves text, CSV files and
 //! pictures. It knows nothing of the models but what their descriptions say.
 
+mod attitude;
 mod case;
 pub mod chart;
 mod control;
@@ -13,7 +14,6 @@ mod report;
 mod settings;
 mod spin;
 mod thermal;
-mod vector;
 
 pub use options::{Extra, Options, StudyError};
 pub use report::Report;

@@ -3,9 +3,10 @@
 use super::guided_loop::{Loop, Sample};
 use super::safe_mode_checks::{Parameters, attitude_lost, zone_violated};
 use super::safe_mode_flight::{Chain, sun_angle_deg};
+use crate::attitude::unit;
 use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Mark, Panel, Series};
-use crate::settings::digits;
+use crate::settings::cells;
 use crate::{Options, Report, StudyError};
 
 /// Both chains of modes.
@@ -78,11 +79,17 @@ fn history(report: &mut Report, options: &Options, flown: &[(Chain, Vec<Sample>)
     ];
     let rows = flown.iter().flat_map(|(chain, samples)| {
         samples.iter().map(|sample| {
-            let [sun, earth] = [&sample.to_sun_m, &sample.to_earth_m].map(crate::vector::unit);
-            let numbers = [sample.time_s].into_iter().chain(sample.q).chain(sample.rate_rad_s).chain(sun);
-            let numbers = numbers.chain(earth).chain([sun_angle_deg(sample)]);
+            let [sun, earth] = [&sample.to_sun_m, &sample.to_earth_m].map(unit);
             let mut row = vec![chain.label().to_owned()];
-            row.extend(numbers.chain(sample.command_rate_rad_s).map(digits));
+            row.extend(cells(&[
+                &[sample.time_s],
+                sample.q.coords.as_slice(),
+                sample.rate_rad_s.as_slice(),
+                sun.as_slice(),
+                earth.as_slice(),
+                &[sun_angle_deg(sample)],
+                sample.command_rate_rad_s.as_slice(),
+            ]));
             row.extend([sample.mode, sample.command_kind].map(|number| number.to_string()));
             row.extend([sample.is_attitude_known, sample.is_sun_sensed].map(|is| is.to_string()));
             row.push(sample.is_torque_limited.to_string());

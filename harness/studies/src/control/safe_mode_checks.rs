@@ -6,8 +6,8 @@ use super::safe_mode_flight::{
     TRACKER_FAILS_S, ZONE_ON_S, sun_angle_deg,
 };
 use crate::StudyError;
+use crate::attitude::{Vector, across, angle_rad, body_angles_deg, to_body};
 use crate::chart::Series;
-use crate::vector::{Vector, across, angle_rad, body_angles_deg, dot, norm, turn};
 
 const OPERATIONAL: i32 = 1;
 const SAFE_HOLD: i32 = 2;
@@ -58,18 +58,37 @@ pub struct Parameters {
 impl Parameters {
     /// As the FMU has them.
     pub fn read(both: &Loop) -> Result<Self, StudyError> {
-        let [rate, search, search_s] =
-            both.guidance_parameters(["earthAcquisition.rate", "sunSearch.rate", "sunSearch.duration"])?;
-        let zone = both.guidance_parameters(["keepIn.azimuth", "keepIn.elevation"])?;
-        let safe_hold = both.guidance_parameters(["safeHold.keepIn.azimuth", "safeHold.keepIn.elevation"])?;
-        let [persistence_s, margin, beam] =
-            both.guidance_parameters(["monitor.persistence", "monitor.margin", "link.beam"])?;
+        let names = [
+            "earthAcquisition.rate",
+            "sunSearch.rate",
+            "sunSearch.duration",
+            "keepIn.azimuth",
+            "keepIn.elevation",
+            "safeHold.keepIn.azimuth",
+            "safeHold.keepIn.elevation",
+            "monitor.persistence",
+            "monitor.margin",
+            "link.beam",
+        ];
+        let values = both.parameters(names.map(|name| format!("guidance.{name}")))?;
+        let [
+            rate,
+            search,
+            search_s,
+            azimuth,
+            elevation,
+            hold_azimuth,
+            hold_elevation,
+            persistence_s,
+            margin,
+            beam,
+        ] = values;
         Ok(Self {
             earth_acquisition_rad_s: rate,
             search_rad_s: search,
             search_s,
-            zone_deg: zone.map(f64::to_degrees),
-            safe_hold_deg: safe_hold.map(f64::to_degrees),
+            zone_deg: [azimuth, elevation].map(f64::to_degrees),
+            safe_hold_deg: [hold_azimuth, hold_elevation].map(f64::to_degrees),
             persistence_s,
             margin_deg: margin.to_degrees(),
             beam_deg: beam.to_degrees(),
@@ -135,8 +154,8 @@ fn outside_deg(body: &Vector, zone_deg: &[f64; 2]) -> f64 {
 
 /// Whether the greatest errors of the rate along an axis and across it are small beside what is wanted, and text.
 fn turns_about(phase: &Phase<'_>, axis: &Vector, wanted_rad_s: f64) -> (bool, String) {
-    let along = phase.greatest(|sample| (dot(&sample.rate_rad_s, axis) - wanted_rad_s).abs());
-    let aside = phase.greatest(|sample| norm(&across(&sample.rate_rad_s, axis)));
+    let along = phase.greatest(|sample| (sample.rate_rad_s.dot(axis) - wanted_rad_s).abs());
+    let aside = phase.greatest(|sample| across(&sample.rate_rad_s, axis).norm());
     let within = RATE * wanted_rad_s.abs();
     let percent = |error: f64| 100.0 * error / wanted_rad_s.abs();
     let text = format!(
@@ -201,13 +220,13 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     );
     for round in 0..3 {
         let (name, axis) = [
-            ("about a first body axis for a duration", [1.0, 0.0, 0.0]),
-            ("then about a second", [0.0, 1.0, 0.0]),
-            ("then about a third", [0.0, 0.0, 1.0]),
+            ("about a first body axis for a duration", Vector::x()),
+            ("then about a second", Vector::y()),
+            ("then about a third", Vector::z()),
         ][round];
         let from_s = SUN_LOST_S + search_s + round as f64 * parameters.search_s;
         let to_s = from_s + parameters.search_s;
-        let commanded = |sample: &Sample| dot(&sample.command_rate_rad_s, &axis) == parameters.search_rad_s;
+        let commanded = |sample: &Sample| sample.command_rate_rad_s.dot(&axis) == parameters.search_rad_s;
         let seconds =
             Phase::between(samples, SUN_LOST_S, SUN_LOST_S + search_s + 3.0 * parameters.search_s - 1.0);
         let seconds = seconds.0.iter().filter(|sample| commanded(sample)).count();
@@ -220,7 +239,7 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     check(
         "cycling is repeated",
         (
-            again.all(|it| it.command_rate_rad_s == [parameters.search_rad_s, 0.0, 0.0]),
+            again.all(|it| it.command_rate_rad_s == Vector::new(parameters.search_rad_s, 0.0, 0.0)),
             format!("about X again to {SUN_BACK_S:.0} s"),
         ),
     );
@@ -249,7 +268,7 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
         )
     });
     check("an attitude that maintains communication with Earth", {
-        let off_deg = end.greatest(|it| body_angles_deg(&turn(&it.q, &it.to_earth_m))[1].abs());
+        let off_deg = end.greatest(|it| body_angles_deg(&to_body(&it.q, &it.to_earth_m))[1].abs());
         let links = end.all(|sample| sample.has_link);
         (
             links && off_deg <= parameters.beam_deg,
@@ -276,7 +295,7 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
 }
 
 fn plus_z_from_sun_deg(sample: &Sample) -> f64 {
-    angle_rad(&[0.0, 0.0, 1.0], &sample.sun_body_m()).to_degrees()
+    angle_rad(&Vector::z(), &sample.sun_body_m()).to_degrees()
 }
 
 /// The keep-in zone is put in force while the Sun is outside.
@@ -288,8 +307,9 @@ pub fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     let stop_s = samples.last().map_or(f64::NAN, |sample| sample.time_s);
     let commanded = Phase::between(samples, ZONE_ON_S + DELAY_S, stop_s);
     check("the command is forced into the zone", {
-        let most_deg = commanded
-            .greatest(|sample| outside_deg(&turn(&sample.command_q, &sample.to_sun_m), &parameters.zone_deg));
+        let most_deg = commanded.greatest(|sample| {
+            outside_deg(&to_body(&sample.command_q, &sample.to_sun_m), &parameters.zone_deg)
+        });
         let kinds = commanded.all(|sample| sample.command_kind == ATTITUDE);
         (kinds && most_deg < 1e-6, format!("at most {most_deg:.1e} deg outside"))
     });

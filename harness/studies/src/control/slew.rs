@@ -2,9 +2,9 @@
 
 use super::slew_figures::figure;
 use super::slew_flight::{Event, Flown, Plant, SLEW_S, Sample, Slew};
+use crate::attitude::Vector;
 use crate::case::{chosen, run_all};
-use crate::settings::digits;
-use crate::vector::{difference, dot, norm, scaled};
+use crate::settings::cells;
 use crate::{Options, Report, StudyError};
 
 /// Angle of the slews where none is asked for.
@@ -20,7 +20,7 @@ const DUMP_S: f64 = 900.0;
 
 fn slews(options: &Options) -> Vec<Slew> {
     let angle_rad = options.angle_rad.unwrap_or(ANGLE_DEG.to_radians());
-    let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let [x, y, z] = [Vector::x(), Vector::y(), Vector::z()];
     let slew = |label, axis, event, stop_s| Slew { label, axis, angle_rad, event, stop_s };
     vec![
         slew("about X", x, Event::None, None),
@@ -58,7 +58,7 @@ fn greatest(values: impl Iterator<Item = f64>) -> f64 {
 impl Measures {
     fn of(flown: &Flown) -> Self {
         let Flown { slew, limits, samples } = flown;
-        let error_deg = |sample: &Sample| norm(&sample.left_rad).to_degrees();
+        let error_deg = |sample: &Sample| sample.left_rad.norm().to_degrees();
         let after = || samples.iter().filter(|sample| sample.time_s >= SLEW_S);
         let small_from =
             samples.iter().rposition(|sample| error_deg(sample) > SETTLED_DEG).map_or(0, |k| k + 1);
@@ -76,12 +76,11 @@ impl Measures {
                 .map(|sample| -sense * sample.ahead_rad(slew))
                 .fold(0.0, f64::max)
                 .to_degrees(),
-            across_deg: greatest(samples.iter().map(|sample| {
-                norm(&difference(&sample.left_rad, &scaled(&slew.axis, sample.ahead_rad(slew))))
-            }))
+            across_deg: greatest(
+                samples.iter().map(|sample| (sample.left_rad - slew.axis * sample.ahead_rad(slew)).norm()),
+            )
             .to_degrees(),
-            rate_deg_s: greatest(samples.iter().map(|sample| dot(&sample.rate_rad_s, &slew.axis)))
-                .to_degrees(),
+            rate_deg_s: greatest(samples.iter().map(|sample| sample.rate_rad_s.dot(&slew.axis))).to_degrees(),
             torque: share(|wheel| wheel.torque_n_m, &limits.torque_n_m),
             momentum: share(|wheel| wheel.momentum_n_m_s, &limits.capacity_n_m_s),
             full_s: full().next().zip(full().next_back()),
@@ -226,13 +225,15 @@ fn history(report: &mut Report, options: &Options, flown: &[Flown]) -> Result<()
     let rows = flown.iter().flat_map(|flown| {
         flown.samples.iter().map(|sample| {
             let Sample { q, rate_rad_s, left_rad, momentum_n_m_s, .. } = sample;
-            let numbers = [sample.time_s].into_iter().chain(*q).chain(*rate_rad_s).chain(*left_rad);
             let mut row = vec![flown.slew.label.to_owned()];
-            row.extend(numbers.chain(*momentum_n_m_s).map(digits));
+            row.extend(cells(&[&[sample.time_s], q.coords.as_slice()]));
+            row.extend(
+                [rate_rad_s, left_rad, momentum_n_m_s].into_iter().flat_map(|v| cells(&[v.as_slice()])),
+            );
             row.extend([sample.is_torque_limited, sample.is_dumping].map(|is| is.to_string()));
             row.push(format!("{}", sample.dumps));
             for wheel in &sample.wheels {
-                row.extend([wheel.torque_n_m, wheel.momentum_n_m_s].map(digits));
+                row.extend(cells(&[&[wheel.torque_n_m, wheel.momentum_n_m_s]]));
                 row.push(wheel.is_saturated.to_string());
             }
             row

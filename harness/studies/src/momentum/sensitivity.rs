@@ -6,7 +6,6 @@ use super::cases::{Case, Convention, DumpsTo, SPAN_D, Shade, Strategy};
 use super::lists::with_every_strategy;
 use super::variant::{Edit, Variant};
 use crate::case::{chosen, run_all};
-use crate::vector::{Vector, difference, norm};
 use crate::{Options, Report, StudyError};
 
 const THRESHOLD_N_M_S: f64 = 5.5;
@@ -136,10 +135,10 @@ Z = -2.54 cm. Momentum a day: mean magnitude of what each of the 90 days adds wi
 fn fly(change: &Change, template: &Fmu) -> Result<Found, StudyError> {
     let failed = |source| StudyError::Simulation { case: change.what.to_owned(), source };
     let variant = Variant::of(template, change.edits).map_err(failed)?;
-    let simulate = |case: &Case, names: &[String]| {
+    let simulate = |case: &Case, name: &str| {
         let settings =
             change.sets.iter().fold(case.settings(), |case, (name, value)| case.real(name, *value));
-        settings.simulate(&variant.fmu, names)
+        settings.simulate(&variant.fmu, &[name])
     };
     let mut found = Found { what: change.what, dumps: [[0; 3]; 2], daily_n_m_s: [f64::NAN; 2] };
     let conventions =
@@ -148,15 +147,13 @@ fn fly(change: &Change, template: &Fmu) -> Result<Found, StudyError> {
         let group = [(DumpsTo::OWN, Shade::PlatesAndPanels, convention)];
         let cases = with_every_strategy(&group, &[THRESHOLD_N_M_S], &[[0, 0, -1]]);
         for (count, case) in found.dumps[number].iter_mut().zip(&cases) {
-            *count = simulate(case, &["dump.count".to_owned()])?.last(0) as i64;
+            *count = simulate(case, "dump.count")?.last(0) as i64;
         }
         let Some(alone) = cases.iter().find(|case| case.strategy == Strategy::DumpsOnly) else { continue };
-        let names = [1, 2, 3].map(|axis| format!("{name}[{axis}]"));
-        let undumped = simulate(&Case { threshold_n_m_s: NO_DUMP_N_M_S, ..*alone }, &names)?;
-        let at = |k: usize| -> Vector { std::array::from_fn(|axis| undumped.columns[axis][k]) };
-        let a_day = (undumped.times_s.len() - 1) / SPAN_D as usize;
+        let undumped = simulate(&Case { threshold_n_m_s: NO_DUMP_N_M_S, ..*alone }, name)?.vectors(0);
+        let a_day = (undumped.len() - 1) / SPAN_D as usize;
         let days =
-            (0..SPAN_D as usize).map(|day| norm(&difference(&at((day + 1) * a_day), &at(day * a_day))));
+            (0..SPAN_D as usize).map(|day| (undumped[(day + 1) * a_day] - undumped[day * a_day]).norm());
         found.daily_n_m_s[number] = days.sum::<f64>() / SPAN_D;
     }
     Ok(found)

@@ -271,7 +271,7 @@ const DUMP_HEADER: [&str; 5] =
 fn dump_rows(simulation: &Simulated) -> Vec<Vec<String>> {
     let row = |dump: &Dump| {
         let mut row = vec![simulation.case.label(), format!("{:.6}", dump.time_d)];
-        row.extend(dump.impulse_body_n_m_s.map(|impulse_n_m_s| format!("{impulse_n_m_s:.6}")));
+        row.extend(dump.impulse_body_n_m_s.iter().map(|impulse_n_m_s| format!("{impulse_n_m_s:.6}")));
         row
     };
     simulation.dumps.iter().map(row).collect()

@@ -4,11 +4,11 @@ use super::disc::{View, X_LABEL, Y_LABEL};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place};
 use super::limb_orbit;
 use super::limb_point::{Found, PLUS_Z, triaxial};
+use crate::attitude::Vector;
 use crate::case::{chosen, run_all};
 use crate::chart::Series;
 use crate::chart::plane::{PlaneChart, PlanePanel};
-use crate::settings::{digits, number, real};
-use crate::vector::{Vector, difference, norm};
+use crate::settings::{cells, item, real};
 use crate::{Options, Report, StudyError};
 
 /// Six days in, orbit and terminator lie in nearly one plane: the Sun is across nadir and limb all the way round.
@@ -45,7 +45,7 @@ impl Case {
         };
         let command = move |_: &Place| {
             vec![
-                number("pointing.scenario", 8),
+                item("pointing.scenario", "limbGeneric"),
                 real("limb.azimuth", f64::to_radians(azimuth_deg)),
                 real("limb.heightRate", height_rate_m_s),
             ]
@@ -127,7 +127,7 @@ fn print_azimuths(
             if sample.reachable && !sample.constrained { "on the limb" } else { "constrained" }.to_owned(),
         ]);
         let numbers = [*azimuth_deg, found_deg, found.off_nadir_deg, found.height_m];
-        let mut row: Vec<String> = numbers.into_iter().chain(found.sun_deg).map(digits).collect();
+        let mut row = cells(&[&numbers, &found.sun_deg]);
         row.push(sample.reachable.to_string());
         row.extend(sample.geometry());
         rows.push(row);
@@ -172,9 +172,9 @@ fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(
         let Some(found) = Found::of(sample, &ellipsoid) else { continue };
         let commanded_m = HEIGHT_RATE_M_S * sample.place.time_s;
         let fixed = ellipsoid.along_axes(&found.foot_m);
-        creep_m += last.replace(fixed).map_or(0.0, |last| norm(&difference(&fixed, &last)));
-        let numbers = [commanded_m, found.height_m].into_iter().chain(found.sun_deg).map(digits);
-        rows.push(numbers.chain(sample.geometry()).collect());
+        creep_m += last.replace(fixed).map_or(0.0, |last| (fixed - last).norm());
+        let numbers = cells(&[&[commanded_m, found.height_m], &found.sun_deg]);
+        rows.push([numbers, sample.geometry()].concat());
         track.push(View::at(&sample.place).direction(&sample.inertial(&PLUS_Z)));
         if sample.place.time_s % 60.0 == 0.0 {
             shown.push(vec![

@@ -4,11 +4,11 @@ use super::camera::Frame;
 use super::disc::{View, X_LABEL, Y_LABEL};
 use super::flight::{Flown, Fmus, GEOMETRY};
 use super::scans::{CASES, Case};
+use crate::attitude::{Vector, angle_rad};
 use crate::case::{chosen, run_all};
 use crate::chart::Series;
 use crate::chart::plane::PlaneChart;
-use crate::settings::digits;
-use crate::vector::{Vector, angle_rad, norm};
+use crate::settings::cells;
 use crate::{Options, Report, StudyError};
 
 /// A mosaic that was flown.
@@ -44,7 +44,7 @@ impl Numbers {
         let shown: Vec<usize> =
             disc.iter().map(|x| frames.iter().filter(|frame| frame.shows(x)).count()).collect();
         let at_least = |times: usize| shown.iter().filter(|n| **n >= times).count() as f64;
-        let rate = |rate: &Vector| norm(rate).to_degrees();
+        let rate = |rate: &Vector| rate.norm().to_degrees();
         let greatest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
         let sun =
             |i: usize| greatest(&mut flown.samples.iter().map(|s| s.body_angles_deg(&s.place.to_sun_m)[i]));
@@ -143,7 +143,7 @@ fn write(report: &mut Report, options: &Options, mosaics: &[Mosaic]) -> Result<(
     for Mosaic { case, flown, numbers } in mosaics {
         for (index, frame) in case.frames(flown).iter().enumerate() {
             let (sample, place) = (frame.sample, &frame.sample.place);
-            let [x, y, z] = frame.middle_m();
+            let [x, y, z] = frame.middle_m().into();
             let mdis_deg = if case.camera.on_platform { sample.mdis_angle_rad.to_degrees() } else { 0.0 };
             let mut row = vec![case.label.to_owned(), (index + 1).to_string()];
             let numbers = [
@@ -153,10 +153,10 @@ fn write(report: &mut Report, options: &Options, mosaics: &[Mosaic]) -> Result<(
                 y.atan2(x).to_degrees(),
                 frame.surface_m().1,
                 numbers.overlaps.get(index).copied().unwrap_or(f64::NAN),
-                norm(&sample.rate_rad_s).to_degrees(),
+                sample.rate_rad_s.norm().to_degrees(),
                 angle_rad(&frame.boresight(), &place.nadir_m()).to_degrees(),
             ];
-            row.extend(numbers.map(digits));
+            row.extend(cells(&[&numbers]));
             row.extend(sample.geometry());
             rows.push(row);
         }

@@ -1,10 +1,10 @@
 //! Figures 7 and 8: from downlink to the camera at nadir, as commanded.
 
 use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample};
+use crate::attitude::angle_rad;
 use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Mark, Panel, Series};
-use crate::settings::{Settings, digits, number, real};
-use crate::vector::angle_rad;
+use crate::settings::{Settings, cells, item, real};
 use crate::{Options, Report, StudyError};
 
 /// Sun and Earth are 33 deg apart as seen from the spacecraft, as the paper's antenna azimuth of -33 deg asks for with the
@@ -41,9 +41,9 @@ impl Angle {
                 real("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
             };
             if place.time_s == 0.0 {
-                vec![number("pointing.scenario", 6)]
+                vec![item("pointing.scenario", "downlink")]
             } else if place.time_s == SLEW_S {
-                vec![number("pointing.scenario", 4), number("aimpoint.option", 12), camera()]
+                vec![item("pointing.scenario", "mdis"), item("aimpoint.option", "nadir"), camera()]
             } else if place.time_s > SLEW_S && self == Self::Followed {
                 vec![camera()]
             } else {
@@ -81,9 +81,8 @@ impl Angles {
 
 /// Rotation angle from one attitude to another, in deg.
 fn slew_deg(from: &Sample, to: &Sample) -> f64 {
-    let dot: f64 = from.q.iter().zip(&to.q).map(|(a, b)| a * b).sum();
-    let across: f64 = from.q.iter().zip(&to.q).map(|(a, b)| (b - dot * a).powi(2)).sum::<f64>().sqrt();
-    2.0 * across.atan2(dot.abs()).to_degrees()
+    let dot = from.q.dot(&to.q);
+    2.0 * (to.q - from.q * dot).norm().atan2(dot.abs()).to_degrees()
 }
 
 /// The commanded curves of Figures 7 and 8.
@@ -174,8 +173,7 @@ fn write(report: &mut Report, options: &Options, flown: &[(Angle, Flown)]) -> Re
         flown.samples.iter().map(|sample| {
             let Angles { sun, earth, planet } = Angles::of(sample);
             let mut row = vec![angle.label().to_owned()];
-            let numbers = sun.into_iter().chain(earth).chain(planet);
-            row.extend(numbers.chain([sample.mdis_angle_rad.to_degrees()]).map(digits));
+            row.extend(cells(&[&sun, &earth, &planet, &[sample.mdis_angle_rad.to_degrees()]]));
             row.extend(sample.geometry());
             row
         })

@@ -171,18 +171,17 @@ fn half_arc_deg(fmu: &Fmu) -> Result<f64, StudyError> {
 /// the antenna, to 3 deg on the other; the second half is simulated.
 fn deadband_days(fmu: &Fmu) -> Result<f64, StudyError> {
     let still = |label: &str, stop_s: f64| {
-        let case = paper_case(label, stop_s, 600.0).integer("burn.plan", 4).integer("geometry.source", 2);
-        (1..=3).fold(case, |case, axis| case.real(&format!("geometry.amplitude[{axis}]"), 0.0))
+        paper_case(label, stop_s, 600.0)
+            .item("burn.plan", "commanded")
+            .item("geometry.source", "l1Orbit")
+            .elements("geometry.amplitude", [0.0; 3])
     };
-    let names = ["earth.inertial[1]", "earth.inertial[2]", "earth.inertial[3]"];
-    let earth = still("where the Earth stands", 600.0).simulate(fmu, &names)?;
+    let earth = still("where the Earth stands", 600.0).simulate(fmu, &["earth.inertial"])?;
     // The shortest turn that takes +Z opposite the Earth: the antenna looks along -Z.
-    let [x, y, z] = [0, 1, 2].map(|axis| -earth.columns[axis][0]);
+    let [x, y, z] = (-earth.row(0, 0).vector::<3>()).into();
     let scale = (2.0 * (1.0 + z)).sqrt();
     let q = [-y / scale, x / scale, 0.0, 0.5 * scale];
-    let aimed = (1..)
-        .zip(q)
-        .fold(still("deadband", 4.0 * DAY_S), |case, (i, value)| case.real(&format!("start.q[{i}]"), value));
+    let aimed = still("deadband", 4.0 * DAY_S).elements("start.q", q);
     let simulated = aimed.simulate(fmu, &["earth.angle"])?;
     let limit_rad = 3.0_f64.to_radians();
     let beyond = simulated.columns[0].iter().position(|angle| *angle > limit_rad).filter(|i| *i > 0);
@@ -246,7 +245,7 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     ));
     let damped = paper_case("damping", 9.5 * 3600.0, 9.5 * 3600.0)
         .real("damper.timeConstant", 9.5 * 3600.0)
-        .integer("burn.plan", 4)
+        .item("burn.plan", "commanded")
         .real("start.nutation", 0.02_f64.to_radians())
         .simulate(fmu, &["nutation.angle"])?;
     let left = damped.last(0) / 0.02_f64.to_radians();
@@ -262,7 +261,7 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
 /// Section IV and eq 1.
 fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     let tracker = paper_case("observation", 1.0, 1.0)
-        .integer("starTracker.sampling", 2)
+        .item("starTracker.sampling", "clock")
         .simulate(fmu, &["starTracker.observationTimeNominal", "starTracker.observationTime"])?;
     let minutes = tracker.last(0) / 60.0;
     // Nutation that 7 ms allow, from eq 1's slope in the FMU at two Sun angles.
@@ -271,11 +270,9 @@ fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         // The axis stands `nutation` off the momentum; the Sun is revolution about the line both lie across.
         let nutation = 1e-6;
         let found = paper_case("eq 1", 1e-3, 1e-3)
-            .integer("burn.plan", 4)
+            .item("burn.plan", "commanded")
             .real("start.nutation", nutation)
-            .real("sun.direction[1]", 0.0)
-            .real("sun.direction[2]", beta.sin())
-            .real("sun.direction[3]", beta.cos())
+            .elements("sun.direction", [0.0, beta.sin(), beta.cos()])
             .simulate(fmu, &["spin.periodVariation"])?;
         Ok((0.007 * nutation / found.columns[0][0]).to_degrees())
     };
@@ -321,7 +318,7 @@ struct Worst {
 }
 
 impl Worst {
-    fn of(fmu: &Fmu, plan: i32, order: i32, count: i32) -> Result<Self, StudyError> {
+    fn of(fmu: &Fmu, plan: &str, order: i32, count: i32) -> Result<Self, StudyError> {
         let simulations: Vec<Self> = (0..RATIOS)
             .into_par_iter()
             .map(|i| {
@@ -330,7 +327,7 @@ impl Worst {
                     ["nutation.angle", "burn.plannedDuration", "nutation.envelope", "momentum.displacement"];
                 let simulated = paper_case(format!("plan {plan} at {ratio:.4}"), 1500.0, 6.0)
                     .ratio(ratio)
-                    .integer("burn.plan", plan)
+                    .item("burn.plan", plan)
                     .integer("burn.taperOrder", order)
                     .integer("burn.count", count)
                     .real("burn.pulseWidth", 0.032)
@@ -383,11 +380,11 @@ impl Worst {
 
 /// Beyond the paper: trains that end with little nutation.
 fn beyond(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
-    let (uniform, tapered) = (Worst::of(fmu, 1, 1, 114)?, Worst::of(fmu, 2, 1, 58)?);
-    let (second, fourth) = (Worst::of(fmu, 2, 2, 30)?, Worst::of(fmu, 2, 4, 11)?);
+    let (uniform, tapered) = (Worst::of(fmu, "uniform", 1, 114)?, Worst::of(fmu, "tapered", 1, 58)?);
+    let (second, fourth) = (Worst::of(fmu, "tapered", 2, 30)?, Worst::of(fmu, "tapered", 4, 11)?);
     let as_stated = tapered.turns() && tapered.final_deg < 0.0033 && tapered.duration_min < 11.45;
     let split = paper_case("split train", 1600.0, 1600.0)
-        .integer("burn.plan", 3)
+        .item("burn.plan", "split")
         .simulate(fmu, &["nutation.angle", "burn.plannedDuration", "burn.done", "momentum.displacement"])?;
     let (split_deg, split_moved_deg) = (split.last(0).to_degrees(), split.last(3).to_degrees());
     Ok(vec![

@@ -16,7 +16,7 @@ const SHOWN_S: f64 = 800.0;
 const LONG_MIN: f64 = 30.0;
 /// Its picture's height, in min.
 const TALLEST_MIN: f64 = 60.0;
-const SAMPLINGS: [(&str, i32); 2] = [("clock, every 96 s", 2), ("every 8 spins", 1)];
+const SAMPLINGS: [(&str, &str); 2] = [("clock, every 96 s", "clock"), ("every 8 spins", "spins")];
 
 /// Figure 6.
 pub fn figure6(options: &Options) -> Result<Report, StudyError> {
@@ -25,11 +25,11 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
     let mut report = Report::default();
     report.line("Declination of a star in the tracker of a nutating spinner (paper 002, Figure 6)");
     let (mut rows, mut csv, mut panels) = (Vec::new(), Vec::new(), Vec::new());
-    for (label, number) in &samplings {
+    for (label, sampling) in &samplings {
         let case = paper_case(*label, 14_400.0, 0.5)
-            .integer("burn.plan", 4)
+            .item("burn.plan", "commanded")
             .real("start.nutation", NUTATION_RAD)
-            .integer("starTracker.sampling", *number);
+            .item("starTracker.sampling", sampling);
         let names = [
             "starTracker.declinationTrue",
             "starTracker.sampleTime",
@@ -132,15 +132,15 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
     let rates_rpm = |ratio| (0..40).map(move |j| (ratio, 4.9 + 0.2 * (f64::from(j) + 0.5) / 40.0));
     let grid: Vec<(f64, f64)> = ratios.iter().copied().flat_map(rates_rpm).collect();
     let points = run_all(options, &grid, |&(ratio, rate_rpm)| {
-        let time = |number: i32| {
+        let time = |sampling: &str| {
             paper_case(label(&ratio), 1.0, 1.0)
                 .ratio(ratio)
-                .integer("burn.plan", 4)
+                .item("burn.plan", "commanded")
                 .real("spin.initialRate", rate_rpm * PI / 30.0)
-                .integer("starTracker.sampling", number)
+                .item("starTracker.sampling", sampling)
                 .simulate(&fmu, &["starTracker.observationTime", "starTracker.observationTimeNominal"])
         };
-        let (clock, spins) = (time(2)?, time(1)?);
+        let (clock, spins) = (time("clock")?, time("spins")?);
         Ok(Point {
             rate_rpm,
             ratio,
