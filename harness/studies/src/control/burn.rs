@@ -82,8 +82,8 @@ pub fn burn(options: &Options) -> Result<Report, StudyError> {
         .line("A burn of 10 m/s at 0.088 m/s2 with the thrust 0.75 deg off (paper 001, Figures 10 and 11)\n");
     let each: Vec<(Kind, &[Flown])> = kinds.iter().copied().zip(flown.chunks(SEEDS as usize)).collect();
     let rows: Vec<_> = each.iter().map(|(kind, flown)| row(kind, flown)).collect();
-    let header = ["corrections", "direction rms", "direction worst", "magnitude rms", "allowed", "verdict"];
-    report.table(&header, &rows);
+    let header = "corrections | direction rms | direction worst | magnitude rms | allowed | verdict";
+    report.table(header, &rows);
     report.line(&remark(&each));
     write(&mut report, options, &each)?;
     let shown: Vec<(Kind, &Flown)> = each
@@ -156,8 +156,8 @@ fn write(report: &mut Report, options: &Options, each: &[(Kind, &[Flown])]) -> R
             [vec![kind.label.to_owned(), seed.to_string()], numbers].concat()
         })
     });
-    let header = ["case", "seed", "direction_deg", "magnitude_mm_s", "thrust_x", "thrust_y", "thrust_z"];
-    report.csv(options, "burn.csv", &header, rows)?;
+    let header = "case | seed | direction_deg | magnitude_mm_s | thrust_x | thrust_y | thrust_z";
+    report.csv(options, "burn.csv", header, rows)?;
     let rows =
         each.iter().filter_map(|(kind, flown)| Some((kind, flown.first()?))).flat_map(|(kind, flown)| {
             flown.samples.iter().map(|sample| {
@@ -172,12 +172,11 @@ fn write(report: &mut Report, options: &Options, each: &[(Kind, &[Flown])]) -> R
                 [vec![kind.label.to_owned()], numbers].concat()
             })
         });
-    let header = [
-        &["case", "time_s", "command_q1", "command_q2", "command_q3", "command_q4"][..],
-        &["estimate_q1", "estimate_q2", "estimate_q3", "estimate_q4"],
-        &["delta_v_x_m_s", "delta_v_y_m_s", "delta_v_z_m_s", "off_path_m_s"],
-    ];
-    report.csv(options, "burn-history.csv", &header.concat(), rows)
+    let header = "\
+        case | time_s | command_q1 | command_q2 | command_q3 | command_q4 | \
+        estimate_q1 | estimate_q2 | estimate_q3 | estimate_q4 | \
+        delta_v_x_m_s | delta_v_y_m_s | delta_v_z_m_s | off_path_m_s";
+    report.csv(options, "burn-history.csv", header, rows)
 }
 
 /// Distance of the true velocity from the straight path, in m/s.

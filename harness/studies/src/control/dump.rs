@@ -121,19 +121,9 @@ impl Flown {
     }
 }
 
-const HEADER: [&str; 11] = [
-    "case",
-    "impulse [N m s]",
-    "left over [mN m s]",
-    "apart [mN m s]",
-    "lasts [s]",
-    "propellant [g]",
-    "impulsive [g]",
-    "delta-v [mm/s]",
-    "impulsive [mm/s]",
-    "attitude [deg]",
-    "wheel torque [N m]",
-];
+const HEADER: &str = "\
+    case | impulse [N m s] | left over [mN m s] | apart [mN m s] | lasts [s] | propellant [g] | \
+    impulsive [g] | delta-v [mm/s] | impulsive [mm/s] | attitude [deg] | wheel torque [N m]";
 
 const REMARK: &str = "\
 Impulse: of the same dump at once, in commanded flight. Left over: between the momentum after the pulses and the target; the
@@ -148,9 +138,9 @@ pub fn dump(options: &Options) -> Result<Report, StudyError> {
     let mut report = Report::default();
     report.line("Dumps of the controlled craft by pulses of its 4.4 N thrusters\n");
     let rows: Vec<_> = flown.iter().map(Flown::row).collect();
-    report.table(&HEADER, &rows);
+    report.table(HEADER, &rows);
     report.line(REMARK);
-    report.csv(options, "dump.csv", &HEADER, rows)?;
+    report.csv(options, "dump.csv", HEADER, rows)?;
     for flown in &flown {
         let name = flown.dump.label.replace(" %", "").replace(' ', "-");
         report.picture(options, &format!("dump-{name}.svg"), &figure(flown))?;

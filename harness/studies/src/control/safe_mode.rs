@@ -28,10 +28,10 @@ pub fn safe_mode(options: &Options) -> Result<Report, StudyError> {
             checks.into_iter().map(|check| check.row(chain.label()))
         })
         .collect();
-    let header = ["case", "paper 001", "found", "verdict"];
-    report.table(&header, &rows);
+    let header = "case | paper 001 | found | verdict";
+    report.table(header, &rows);
     report.line(REMARK);
-    report.csv(options, "safe-mode.csv", &header, rows)?;
+    report.csv(options, "safe-mode.csv", header, rows)?;
     history(&mut report, options, &flown)?;
     for (chain, samples) in &flown {
         let file = format!("safe-mode-{}.svg", chain.label().replace(' ', "-"));
@@ -49,34 +49,10 @@ how long the monitor waits are assumed: the paper prints none.";
 
 /// Everything of every second.
 fn history(report: &mut Report, options: &Options, flown: &[(Chain, Vec<Sample>)]) -> Result<(), StudyError> {
-    let header = [
-        "case",
-        "time_s",
-        "q1",
-        "q2",
-        "q3",
-        "q4",
-        "rate_x_rad_s",
-        "rate_y_rad_s",
-        "rate_z_rad_s",
-        "sun_x",
-        "sun_y",
-        "sun_z",
-        "earth_x",
-        "earth_y",
-        "earth_z",
-        "sun_angle_deg",
-        "command_x_rad_s",
-        "command_y_rad_s",
-        "command_z_rad_s",
-        "mode",
-        "command_kind",
-        "attitude_known",
-        "sun_sensed",
-        "torque_limited",
-        "dumps",
-        "link",
-    ];
+    let header = "\
+        case | time_s | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | sun_x | sun_y | \
+        sun_z | earth_x | earth_y | earth_z | sun_angle_deg | command_x_rad_s | command_y_rad_s | \
+        command_z_rad_s | mode | command_kind | attitude_known | sun_sensed | torque_limited | dumps | link";
     let rows = flown.iter().flat_map(|(chain, samples)| {
         samples.iter().map(|sample| {
             let [sun, earth] = [&sample.to_sun_m, &sample.to_earth_m].map(unit);
@@ -98,7 +74,7 @@ fn history(report: &mut Report, options: &Options, flown: &[(Chain, Vec<Sample>)
             row
         })
     });
-    report.csv(options, "safe-mode-history.csv", &header, rows.collect::<Vec<_>>())
+    report.csv(options, "safe-mode-history.csv", header, rows.collect::<Vec<_>>())
 }
 
 /// Mode, Sun, rates and flags over time.

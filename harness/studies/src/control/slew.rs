@@ -144,19 +144,9 @@ impl Measures {
     }
 }
 
-const HEADER: [&str; 11] = [
-    "case",
-    "angle [deg]",
-    "settled [s]",
-    "by the limits [s]",
-    "overshoot [deg]",
-    "off the axis [deg]",
-    "rate [deg/s]",
-    "torque",
-    "momentum",
-    "a wheel full [s]",
-    "verdict",
-];
+const HEADER: &str = "\
+    case | angle [deg] | settled [s] | by the limits [s] | overshoot [deg] | off the axis [deg] | \
+    rate [deg/s] | torque | momentum | a wheel full [s] | verdict";
 
 /// Slews about each axis, with full wheels and with a wheel that fails.
 pub fn slew(options: &Options) -> Result<Report, StudyError> {
@@ -166,7 +156,7 @@ pub fn slew(options: &Options) -> Result<Report, StudyError> {
     let mut report = Report::default();
     report.line("Slews under the plant's own controller; the command jumps at 10 s\n");
     let rows: Vec<_> = flown.iter().map(|flown| Measures::of(flown).row(flown)).collect();
-    report.table(&HEADER, &rows);
+    report.table(HEADER, &rows);
     if let Some(Flown { limits, .. }) = flown.first() {
         report.line(&format!(
             "Limits: {:.4} deg/s and {:.5} deg/s2 (control.slewRate and control.slewAcceleration), wheels of {} N m and {} N m s.",
@@ -177,7 +167,7 @@ pub fn slew(options: &Options) -> Result<Report, StudyError> {
         ));
     }
     report.line(REMARK);
-    report.csv(options, "slew.csv", &HEADER, rows)?;
+    report.csv(options, "slew.csv", HEADER, rows)?;
     history(&mut report, options, &flown)?;
     for flown in &flown {
         let file =
@@ -196,31 +186,14 @@ no keep-in zone here: the slews about X and Z take the Sun off the shade.";
 
 /// Every sample of every flight.
 fn history(report: &mut Report, options: &Options, flown: &[Flown]) -> Result<(), StudyError> {
-    let mut header: Vec<String> = [
-        "case",
-        "time_s",
-        "q1",
-        "q2",
-        "q3",
-        "q4",
-        "rate_x_rad_s",
-        "rate_y_rad_s",
-        "rate_z_rad_s",
-        "left_x_rad",
-        "left_y_rad",
-        "left_z_rad",
-        "momentum_x_n_m_s",
-        "momentum_y_n_m_s",
-        "momentum_z_n_m_s",
-        "torque_limited",
-        "dumping",
-        "dumps",
-    ]
-    .map(str::to_owned)
-    .to_vec();
+    let mut header = "\
+        case | time_s | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | \
+        left_x_rad | left_y_rad | left_z_rad | momentum_x_n_m_s | momentum_y_n_m_s | momentum_z_n_m_s | \
+        torque_limited | dumping | dumps"
+        .to_owned();
     let wheels = flown.first().map_or(0, |flown| flown.limits.axes.len());
     for k in 1..=wheels {
-        header.extend(["torque_n_m", "momentum_n_m_s", "full"].map(|name| format!("wheel{k}_{name}")));
+        header += &format!(" | wheel{k}_torque_n_m | wheel{k}_momentum_n_m_s | wheel{k}_full");
     }
     let rows = flown.iter().flat_map(|flown| {
         flown.samples.iter().map(|sample| {
@@ -239,6 +212,5 @@ fn history(report: &mut Report, options: &Options, flown: &[Flown]) -> Result<()
             row
         })
     });
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     report.csv(options, "slew-history.csv", &header, rows.collect::<Vec<_>>())
 }

@@ -120,10 +120,10 @@ pub fn transition(options: &Options) -> Result<Report, StudyError> {
         "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8), under the plant's own controller\n",
     );
     let rows: Vec<_> = flown.iter().flat_map(|(case, samples)| rows(*case, &limits, samples)).collect();
-    let header = ["case", "quantity", "paper", "ours", "verdict"];
-    report.table(&header, &rows);
+    let header = "case | quantity | paper | ours | verdict";
+    report.table(header, &rows);
     report.line(REMARK);
-    report.csv(options, "transition.csv", &header, rows)?;
+    report.csv(options, "transition.csv", header, rows)?;
     history(&mut report, options, &flown)?;
     if let Some((case, samples)) = flown.first() {
         report.picture(options, "transition-quaternion.svg", &quaternion_chart(*case, samples))?;
@@ -215,40 +215,12 @@ fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
 }
 
 fn history(report: &mut Report, options: &Options, flown: &[(Case, Vec<Sample>)]) -> Result<(), StudyError> {
-    let header = [
-        "case",
-        "time_s",
-        "command_q1",
-        "command_q2",
-        "command_q3",
-        "command_q4",
-        "estimate_q1",
-        "estimate_q2",
-        "estimate_q3",
-        "estimate_q4",
-        "q1",
-        "q2",
-        "q3",
-        "q4",
-        "rate_x_rad_s",
-        "rate_y_rad_s",
-        "rate_z_rad_s",
-        "command_x_rad_s",
-        "command_y_rad_s",
-        "command_z_rad_s",
-        "sun_x_m",
-        "sun_y_m",
-        "sun_z_m",
-        "earth_x_m",
-        "earth_y_m",
-        "earth_z_m",
-        "planet_x_m",
-        "planet_y_m",
-        "planet_z_m",
-        "mdis_angle_deg",
-        "torque_limited",
-        "constrained",
-    ];
+    let header = "\
+        case | time_s | command_q1 | command_q2 | command_q3 | command_q4 | estimate_q1 | estimate_q2 | \
+        estimate_q3 | estimate_q4 | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | \
+        command_x_rad_s | command_y_rad_s | command_z_rad_s | sun_x_m | sun_y_m | sun_z_m | earth_x_m | \
+        earth_y_m | earth_z_m | planet_x_m | planet_y_m | planet_z_m | mdis_angle_deg | torque_limited | \
+        constrained";
     let rows = flown.iter().flat_map(|(case, samples)| {
         samples.iter().map(|sample| {
             let Sample { to_sun_m, to_earth_m, to_planet_m, .. } = sample;
@@ -264,7 +236,7 @@ fn history(report: &mut Report, options: &Options, flown: &[(Case, Vec<Sample>)]
             row
         })
     });
-    report.csv(options, "transition-history.csv", &header, rows.collect::<Vec<_>>())
+    report.csv(options, "transition-history.csv", header, rows.collect::<Vec<_>>())
 }
 
 /// A line over time from the first command on, interrupted where the command jumps if `jumps`.

@@ -65,17 +65,10 @@ fn over_the_sphere(report: &mut Report, options: &Options, sphere: &[Lit]) -> Re
         let at = [lit.azimuth_deg, lit.elevation_deg];
         cells(&[&at, lit.force_n.as_slice(), lit.torque_n_m.as_slice()])
     });
-    let header = [
-        "sun_azimuth_deg",
-        "sun_elevation_deg",
-        "force_x_n",
-        "force_y_n",
-        "force_z_n",
-        "torque_x_n_m",
-        "torque_y_n_m",
-        "torque_z_n_m",
-    ];
-    report.csv(options, "off-sun.csv", &header, rows)?;
+    let header = "\
+        sun_azimuth_deg | sun_elevation_deg | force_x_n | force_y_n | force_z_n | torque_x_n_m | \
+        torque_y_n_m | torque_z_n_m";
+    report.csv(options, "off-sun.csv", header, rows)?;
     let most = |what: &str, unit: &str, size: fn(&Lit) -> f64| {
         let at = sphere.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
         at.map_or(Vec::new(), |lit| {
@@ -93,7 +86,7 @@ fn over_the_sphere(report: &mut Report, options: &Options, sphere: &[Lit]) -> Re
     };
     let rows =
         [most("force", "uN", |lit| lit.force_n.norm()), most("torque", "uN.m", |lit| lit.torque_n_m.norm())];
-    report.table(&["at 0.387 AU", "Sun on -Y", "greatest", "there azimuth / elevation [deg]"], &rows);
+    report.table("at 0.387 AU | Sun on -Y | greatest | there azimuth / elevation [deg]", &rows);
     report.line("The panels stand where cells are 65 deg off a Sun on -Y.\n");
     Ok(())
 }
@@ -113,7 +106,7 @@ fn within_the_zone(
     let gap = last(whole) - last(few);
     let rows = [row("shade and panels", &last(few)), row("whole", &last(whole)), row("difference", &gap)];
     report.line("Inertial momentum after 10 days in the keep-in zone, guided, without dumps [N.m.s]\n");
-    report.table(&["spacecraft", "X", "Y", "Z"], &rows);
+    report.table("spacecraft | X | Y | Z", &rows);
     let widest = |axis: usize| whole.angles_deg.iter().map(|at| at[axis].abs()).fold(0.0, f64::max);
     report.line(&format!(
         "The Sun was up to {:.1} deg in azimuth and {:.1} deg in elevation off -Y.\n",
@@ -141,7 +134,7 @@ fn within_the_zone(
     if rows.is_empty() {
         report.line("none of them is lit");
     } else {
-        report.table(&["surface", "X", "Y", "Z", "of the time lit"], &rows);
+        report.table("surface | X | Y | Z | of the time lit", &rows);
     }
     let left = (explained - difference_n_s).norm();
     report.line(&format!(
@@ -151,21 +144,14 @@ fn within_the_zone(
         left / difference_n_s.norm().max(f64::MIN_POSITIVE)
     ));
     report.line(REMARK);
-    let header = [
-        "time_d",
-        "few_x_n_m_s",
-        "few_y_n_m_s",
-        "few_z_n_m_s",
-        "whole_x_n_m_s",
-        "whole_y_n_m_s",
-        "whole_z_n_m_s",
-    ];
+    let header =
+        "time_d | few_x_n_m_s | few_y_n_m_s | few_z_n_m_s | whole_x_n_m_s | whole_y_n_m_s | whole_z_n_m_s";
     let rows = few
         .times_d
         .iter()
         .zip(few.momentum_n_m_s.iter().zip(&whole.momentum_n_m_s))
         .map(|(time_d, (few, whole))| cells(&[&[*time_d], few.as_slice(), whole.as_slice()]));
-    report.csv(options, "off-sun-momentum.csv", &header, rows)?;
+    report.csv(options, "off-sun-momentum.csv", header, rows)?;
     let points = |flown: &Flown, axis: usize| -> Vec<(f64, f64)> {
         flown.times_d.iter().zip(&flown.momentum_n_m_s).map(|(t, h)| (*t, h[axis])).collect()
     };

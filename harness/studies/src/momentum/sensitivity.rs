@@ -119,11 +119,10 @@ pub fn sensitivity(options: &Options) -> Result<Report, StudyError> {
             ]
         })
         .collect();
-    let header =
-        ["change", "dumps, paper's", "paper's a day [N.m.s]", "dumps, inertial", "inertial a day [N.m.s]"];
-    report.table(&header, &rows);
+    let header = "change | dumps, paper's | paper's a day [N.m.s] | dumps, inertial | inertial a day [N.m.s]";
+    report.table(header, &rows);
     report.line(REMARK);
-    report.csv(options, "sensitivity.csv", &header, rows)?;
+    report.csv(options, "sensitivity.csv", header, rows)?;
     Ok(report)
 }
 

@@ -94,11 +94,11 @@ pub fn assumptions(options: &Options) -> Result<Report, StudyError> {
             ]
         })
         .collect();
-    let header = ["threshold", "dumps to", "shade", "choice", "Z offsets", "paper", "ours", "verdict"];
-    report.table(&header, &rows);
+    let header = "threshold | dumps to | shade | choice | Z offsets | paper | ours | verdict";
+    report.table(header, &rows);
     report.line(ASSUMPTIONS_REMARK);
-    report.csv(options, "assumptions.csv", &header, rows)?;
-    report.csv(options, "dumps.csv", &DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
+    report.csv(options, "assumptions.csv", header, rows)?;
+    report.csv(options, "dumps.csv", DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
     Ok(report)
 }
 
@@ -120,25 +120,13 @@ fn counts(
             row
         })
         .collect();
-    let header =
-        ["threshold", "dumps to", "shade", "momentum", "strategy", "offsets", "paper", "ours", "verdict"];
-    report.table(&header, &rows);
+    let header = "threshold | dumps to | shade | momentum | strategy | offsets | paper | ours | verdict";
+    report.table(header, &rows);
     report.line(&trends(simulated).text());
-    let header = [
-        "threshold",
-        "dumps to",
-        "shade",
-        "momentum",
-        "strategy",
-        "offset",
-        "paper",
-        "ours",
-        "verdict",
-        "paper's gaps",
-        "our gaps",
-        "five days",
-    ];
-    report.csv(options, file, &header, simulated.iter().map(count_row))
+    let header = "\
+        threshold | dumps to | shade | momentum | strategy | offset | paper | ours | verdict | paper's gaps | \
+        our gaps | five days";
+    report.csv(options, file, header, simulated.iter().map(count_row))
 }
 
 fn gaps(
@@ -153,27 +141,17 @@ fn gaps(
     }
     report.line(&format!("Time between thruster dumps (paper 000, {table})\n"));
     let rows: Vec<Vec<String>> = simulated.iter().map(gap_row).collect();
-    let header = [
-        "threshold",
-        "dumps to",
-        "shade",
-        "momentum",
-        "strategy",
-        "offset",
-        "paper",
-        "ours",
-        "verdict",
-        "paper's five days",
-        "five days",
-    ];
-    report.table(&header, &rows);
-    report.csv(options, file, &header, rows)
+    let header = "\
+        threshold | dumps to | shade | momentum | strategy | offset | paper | ours | verdict | \
+        paper's five days | five days";
+    report.table(header, &rows);
+    report.csv(options, file, header, rows)
 }
 
 /// What was assumed, and every dump.
 fn finish(mut report: Report, options: &Options, simulated: &[Simulated]) -> Result<Report, StudyError> {
     report.line(REMARK);
-    report.csv(options, "dumps.csv", &DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
+    report.csv(options, "dumps.csv", DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
     Ok(report)
 }
 
@@ -265,8 +243,7 @@ Fitted: the science rule's factor 0.25. Chosen, because the paper does not print
 equator with a period of 12 h, start 2009-04-06, downlink 2 to 10 h after every second periapsis, twenty cycles that
 predictive targets look ahead; momentum/assumptions shows what follows from other choices.";
 
-const DUMP_HEADER: [&str; 5] =
-    ["case", "dump_time_d", "impulse_x_n_m_s", "impulse_y_n_m_s", "impulse_z_n_m_s"];
+const DUMP_HEADER: &str = "case | dump_time_d | impulse_x_n_m_s | impulse_y_n_m_s | impulse_z_n_m_s";
 
 fn dump_rows(simulation: &Simulated) -> Vec<Vec<String>> {
     let row = |dump: &Dump| {

@@ -54,10 +54,9 @@ pub struct Sample {
 }
 
 /// Columns of a sample's geometry in CSV files: EME2000, positions from the planet's centre.
-pub const GEOMETRY: [&str; 15] = [
-    "time_s", "epoch_s", "q1", "q2", "q3", "q4", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s",
-    "sun_x_m", "sun_y_m", "sun_z_m",
-];
+pub const GEOMETRY: &str = "\
+    time_s | epoch_s | q1 | q2 | q3 | q4 | x_m | y_m | z_m | vx_m_s | vy_m_s | vz_m_s | sun_x_m | sun_y_m | \
+    sun_z_m";
 
 impl Sample {
     /// The cells of [`GEOMETRY`].

@@ -101,15 +101,10 @@ fn print_azimuths(
     options: &Options,
     azimuths: &[(f64, &Flown)],
 ) -> Result<(), StudyError> {
-    let own = [
-        "azimuth_deg",
-        "found_azimuth_deg",
-        "off_nadir_deg",
-        "height_m",
-        "sun_azimuth_deg",
-        "sun_elevation_deg",
-    ];
-    let header = [&own[..], &["reachable"], &GEOMETRY].concat();
+    let own = "\
+        azimuth_deg | found_azimuth_deg | off_nadir_deg | height_m | sun_azimuth_deg | sun_elevation_deg | \
+        reachable";
+    let header = format!("{own} | {GEOMETRY}");
     let (mut rows, mut shown, mut limb_points) = (Vec::new(), Vec::new(), Vec::new());
     let mut disc = None;
     for (azimuth_deg, flown) in azimuths {
@@ -136,14 +131,7 @@ fn print_azimuths(
         disc.get_or_insert_with(|| view.disc("limb at azimuths", &ellipsoid, &sample.place.sun_m()));
     }
     report.table(
-        &[
-            "azimuth",
-            "of +Z",
-            "off nadir",
-            "height residual",
-            "Sun azimuth / elevation in the body frame",
-            "",
-        ],
+        "azimuth | of +Z | off nadir | height residual | Sun azimuth / elevation in the body frame | ",
         &shown,
     );
     report.csv(options, "limb.csv", &header, rows)?;
@@ -161,8 +149,7 @@ fn print_azimuths(
 }
 
 fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(), StudyError> {
-    let own = ["commanded_height_m", "height_m", "sun_azimuth_deg", "sun_elevation_deg"];
-    let header = [&own[..], &GEOMETRY].concat();
+    let header = format!("commanded_height_m | height_m | sun_azimuth_deg | sun_elevation_deg | {GEOMETRY}");
     let (mut rows, mut shown, mut track) = (Vec::new(), Vec::new(), Vec::new());
     let (mut creep_m, mut last): (f64, Option<Vector>) = (0.0, None);
     let Some(first) = flown.samples.first() else { return Ok(()) };
@@ -192,14 +179,9 @@ fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(
         HEIGHT_RATE_M_S / 1e3
     ));
     report.table(
-        &[
-            "time",
-            "commanded height",
-            "height residual",
-            "off nadir",
-            "limb point's way on the surface",
-            "Sun azimuth / elevation in the body frame",
-        ],
+        "\
+        time | commanded height | height residual | off nadir | limb point's way on the surface | \
+        Sun azimuth / elevation in the body frame",
         &shown,
     );
     report.csv(options, "limb-scan.csv", &header, rows)?;

@@ -91,7 +91,7 @@ pub(super) fn print(report: &mut Report, options: &Options, flown: &Flown) -> Re
         ),
         ("Sun within its zone of 15 by 13 deg", share(inside)),
     ];
-    report.table(&["terminator limb", ""], &rows.map(|(name, value)| vec![name.to_owned(), value]));
+    report.table("terminator limb | ", &rows.map(|(name, value)| vec![name.to_owned(), value]));
     write(report, options, &points)?;
     report.picture(options, "limb-terminator.svg", &chart(&points))?;
     draw_discs(report, options, flown, &points)
@@ -124,8 +124,7 @@ impl Point<'_> {
 }
 
 fn write(report: &mut Report, options: &Options, points: &[Point<'_>]) -> Result<(), StudyError> {
-    let own = ["solutions", "reachable", "azimuth_deg", "height_m", "sun_azimuth_deg", "sun_elevation_deg"];
-    let header = [&own[..], &GEOMETRY].concat();
+    let own = "solutions | reachable | azimuth_deg | height_m | sun_azimuth_deg | sun_elevation_deg";
     let rows = points.iter().map(|point| {
         let height_m = point.found.as_ref().map_or(f64::NAN, |found| found.height_m);
         let mut row = vec![point.solutions.len().to_string(), point.sample.reachable.to_string()];
@@ -133,7 +132,7 @@ fn write(report: &mut Report, options: &Options, points: &[Point<'_>]) -> Result
         row.extend(point.sample.geometry());
         row
     });
-    report.csv(options, "limb-terminator.csv", &header, rows)
+    report.csv(options, "limb-terminator.csv", &format!("{own} | {GEOMETRY}"), rows)
 }
 
 fn chart(points: &[Point<'_>]) -> Chart {

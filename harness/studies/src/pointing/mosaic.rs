@@ -88,18 +88,9 @@ pub fn mosaic(options: &Options) -> Result<Report, StudyError> {
     })?;
     let mut report = Report::default();
     report.line("Mosaics by scans with reversals and pauses (paper 001, \"Scan patterns\")\n");
-    let header = [
-        "scan",
-        "camera",
-        "frames",
-        "disc covered",
-        "of that twice",
-        "overlap with the next",
-        "greatest rate",
-        "at frames",
-        "Sun azimuth / elevation",
-        "constrained",
-    ];
+    let header = "\
+        scan | camera | frames | disc covered | of that twice | overlap with the next | greatest rate | \
+        at frames | Sun azimuth / elevation | constrained";
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let rows: Vec<Vec<String>> = mosaics
         .iter()
@@ -120,7 +111,7 @@ pub fn mosaic(options: &Options) -> Result<Report, StudyError> {
             ]
         })
         .collect();
-    report.table(&header, &rows);
+    report.table(header, &rows);
     report.line(REMARK);
     write(&mut report, options, &mosaics)?;
     for mosaic in &mosaics {
@@ -137,8 +128,9 @@ those of the body scan along the moving rows. Both axes of a scan begin together
 The fields are those published of MDIS; the one along +Z, rates, durations and pauses are assumed.";
 
 fn write(report: &mut Report, options: &Options, mosaics: &[Mosaic]) -> Result<(), StudyError> {
-    let own = ["scan", "frame", "field_deg", "mdis_angle_deg", "latitude_deg", "longitude_deg", "on_disc"];
-    let header = [&own[..], &["overlap_with_next", "rate_deg_s", "off_nadir_deg"], &GEOMETRY].concat();
+    let own = "\
+        scan | frame | field_deg | mdis_angle_deg | latitude_deg | longitude_deg | on_disc | \
+        overlap_with_next | rate_deg_s | off_nadir_deg";
     let mut rows = Vec::new();
     for Mosaic { case, flown, numbers } in mosaics {
         for (index, frame) in case.frames(flown).iter().enumerate() {
@@ -161,7 +153,7 @@ fn write(report: &mut Report, options: &Options, mosaics: &[Mosaic]) -> Result<(
             rows.push(row);
         }
     }
-    report.csv(options, "mosaic.csv", &header, rows)
+    report.csv(options, "mosaic.csv", &format!("{own} | {GEOMETRY}"), rows)
 }
 
 impl Mosaic {

@@ -96,7 +96,7 @@ pub fn transition(options: &Options) -> Result<Report, StudyError> {
         "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8, commanded curves)\n",
     );
     let rows = flown.iter().flat_map(|(angle, flown)| rows(*angle, flown)).collect::<Vec<_>>();
-    report.table(&["case", "quantity", "paper", "ours", "verdict"], &rows);
+    report.table("case | quantity | paper | ours | verdict", &rows);
     report.line(REMARK);
     write(&mut report, options, &flown)?;
     if let Some((_, flown)) = flown.first() {
@@ -166,9 +166,9 @@ fn rows(angle: Angle, flown: &Flown) -> Vec<Vec<String>> {
 }
 
 fn write(report: &mut Report, options: &Options, flown: &[(Angle, Flown)]) -> Result<(), StudyError> {
-    let sun = ["case", "sun_azimuth_deg", "sun_elevation_deg"];
-    let others = ["earth_azimuth_deg", "earth_elevation_deg", "mercury_azimuth_deg", "mercury_elevation_deg"];
-    let header = [&sun[..], &others, &["mdis_angle_deg"], &GEOMETRY].concat();
+    let own = "\
+        case | sun_azimuth_deg | sun_elevation_deg | earth_azimuth_deg | earth_elevation_deg | \
+        mercury_azimuth_deg | mercury_elevation_deg | mdis_angle_deg";
     let rows = flown.iter().flat_map(|(angle, flown)| {
         flown.samples.iter().map(|sample| {
             let Angles { sun, earth, planet } = Angles::of(sample);
@@ -178,7 +178,7 @@ fn write(report: &mut Report, options: &Options, flown: &[(Angle, Flown)]) -> Re
             row
         })
     });
-    report.csv(options, "transition.csv", &header, rows)
+    report.csv(options, "transition.csv", &format!("{own} | {GEOMETRY}"), rows)
 }
 
 /// A line over time, interrupted at the slew.

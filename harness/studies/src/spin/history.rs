@@ -110,14 +110,14 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
             ..Panel::default()
         });
     }
-    report.table(&["body", "paper [deg]", "ours [deg]", "verdict"], &rows);
+    report.table("body | paper [deg] | ours [deg] | verdict", &rows);
     report.line(
         "The final value turns with the ratio (1.483 and 1.484 above): histories and ranges are compared, not one number.\n\
          I1 is about X, I2 about Y. A triaxial body gives the paper's range if its greater transverse inertia is about X, and\n\
          does not if it is about Y. The paper prints neither axis nor quotient: both are choices, and the range they give is\n\
          no confirmation.",
     );
-    report.csv(options, "figure4.csv", &["case", "time_s", "nutation_deg", "foreseen_deg"], csv)?;
+    report.csv(options, "figure4.csv", "case | time_s | nutation_deg | foreseen_deg", csv)?;
     let chart = Chart {
         title: "Nutation during the 2 deg manoeuvre".to_owned(),
         x_label: "time [s]".to_owned(),

@@ -49,9 +49,9 @@ pub fn numbers(options: &Options) -> Result<Report, StudyError> {
         .collect();
     let mut report = Report::default();
     report.line("Numbers of paper 002 beside simulations of SpinPlant");
-    let header = ["quantity", "paper", "ours", "verdict"];
-    report.table(&header, &table);
-    report.csv(options, "numbers.csv", &header, table)?;
+    let header = "quantity | paper | ours | verdict";
+    report.table(header, &table);
+    report.csv(options, "numbers.csv", header, table)?;
     Ok(report)
 }
 

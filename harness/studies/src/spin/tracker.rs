@@ -98,12 +98,12 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
             ..Panel::default()
         });
     }
-    report.table(&["sampling", "paper", "ours", "verdict"], &rows);
+    report.table("sampling | paper | ours | verdict", &rows);
     report.line(
         "The declination swings by the nutation angle either way: the paper's \"amplitude twice the nutation angle\" is \
          peak to peak.",
     );
-    report.csv(options, "figure6.csv", &["sampling", "time_s", "true_deg", "measured_deg"], csv)?;
+    report.csv(options, "figure6.csv", "sampling | time_s | true_deg | measured_deg", csv)?;
     let chart = Chart {
         title: format!("Star declination, 0.02 deg nutation, ratio {RATIO}, 5 rpm"),
         x_label: "time [s]".to_owned(),
@@ -165,7 +165,7 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
         })
         .fold(0.0, f64::max);
     report.table(
-        &["beyond 30 min", "paper", "ours", "verdict"],
+        "beyond 30 min | paper | ours | verdict",
         &[
             vec![
                 "eq 20".into(),
@@ -198,7 +198,7 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
     report.csv(
         options,
         "figure7.csv",
-        &["spin_rate_rpm", "ratio", "eq20_min", "clock_min", "spins_min"],
+        "spin_rate_rpm | ratio | eq20_min | clock_min | spins_min",
         points.iter().map(|p| {
             vec![
                 format!("{:.4}", p.rate_rpm),

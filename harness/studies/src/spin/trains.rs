@@ -68,7 +68,7 @@ fn figure(
     report.csv(
         options,
         &format!("{file}.csv"),
-        &["n", "pulse_width_s", "eq8_deg", "simulated_deg", "envelope_deg"],
+        "n | pulse_width_s | eq8_deg | simulated_deg | envelope_deg",
         rows.iter().map(|row| {
             vec![
                 row.count.to_string(),
@@ -133,7 +133,7 @@ fn figure(
             if difference(1) > EQ8_DEG { "pulses of seconds are no impulses" } else { AGREES }.to_owned(),
         ],
     ];
-    report.table(&["quantity", "paper", "ours", "verdict"], &table);
+    report.table("quantity | paper | ours | verdict", &table);
     Ok(report)
 }
 

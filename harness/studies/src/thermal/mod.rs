@@ -88,9 +88,9 @@ pub fn figure12(options: &Options) -> Result<Report, StudyError> {
             ]
         })
         .collect();
-    report.table(&["case", "paper: mean sum of thermal effects", "ours", "verdict"], &rows);
+    report.table("case | paper: mean sum of thermal effects | ours | verdict", &rows);
     report.picture(options, "figure12.svg", &chart)?;
-    let header = ["case", "time_s", "solar_m_s2", "albedo_m_s2", "infrared_m_s2", "thermal_m_s2"];
+    let header = "case | time_s | solar_m_s2 | albedo_m_s2 | infrared_m_s2 | thermal_m_s2";
     let rows = simulated.iter().flat_map(|Simulated { row, samples, .. }| {
         samples.iter().step_by(4).map(|sample| {
             let mut cells = vec![row.case.to_string(), format!("{}", sample.time_s)];
@@ -98,7 +98,7 @@ pub fn figure12(options: &Options) -> Result<Report, StudyError> {
             cells
         })
     });
-    report.csv(options, "figure12.csv", &header, rows)?;
+    report.csv(options, "figure12.csv", header, rows)?;
     Ok(report)
 }
 

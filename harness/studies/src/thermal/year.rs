@@ -99,19 +99,15 @@ pub fn figure13(options: &Options) -> Result<Report, StudyError> {
             (5e-7..2e-6).contains(&total),
         ),
     ];
-    report.table(&["quantity", "paper", "ours", "verdict"], &rows);
+    report.table("quantity | paper | ours | verdict", &rows);
     report.line(&format!(
         "The printed elements give {count:.1} orbits in a year. The sum of magnitudes is the paper's; the magnitude of the\n\
          vector sum of albedo, infrared and recoil reaches {} of solar.",
         percent(vector)
     ));
     report.picture(options, "figure13.svg", &chart(&orbits))?;
-    let mut header = vec!["true_anomaly_deg".to_owned()];
-    header.extend(
-        EFFECTS
-            .iter()
-            .flat_map(|effect| ["least", "mean", "greatest"].map(|which| format!("{effect}_{which}_m_s2"))),
-    );
+    let columns = |it| format!(" | {it}_least_m_s2 | {it}_mean_m_s2 | {it}_greatest_m_s2");
+    let header = format!("true_anomaly_deg{}", EFFECTS.map(columns).concat());
     let rows = orbits.iter().map(|orbit| {
         let mut cells = vec![format!("{:.4}", orbit.true_anomaly_deg)];
         cells.extend(
@@ -122,7 +118,6 @@ pub fn figure13(options: &Options) -> Result<Report, StudyError> {
         );
         cells
     });
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     report.csv(options, "figure13.csv", &header, rows)?;
     Ok(report)
 }
