@@ -14,6 +14,7 @@ mod report;
 mod settings;
 mod spin;
 mod thermal;
+mod verdict;
 
 pub use options::{Extra, Options, StudyError};
 pub use report::Report;

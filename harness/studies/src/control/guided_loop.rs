@@ -1,5 +1,6 @@
 //! `MessengerLoop.ssp`: Guidance and the controlled plant, each with the other's outputs at every step.
 
+use loader::Value;
 use systems::System;
 
 use crate::attitude::{Attitude, Vector, rotated, to_body};
@@ -131,6 +132,19 @@ impl Loop {
     /// Parameters that nobody sets.
     pub fn parameters<const N: usize>(&self, names: [impl AsRef<str>; N]) -> Result<[f64; N], StudyError> {
         Ok(at_start(&self.0, &names)?.row(0, 0).vector::<N>().into())
+    }
+
+    /// The number of an item of an Enumeration.
+    pub fn number(&self, name: &str, item: &str) -> Result<i32, StudyError> {
+        let description = self.0.description();
+        let read = || -> Result<i32, loader::Error> {
+            let position = loader::select(description, name)?[0];
+            match loader::parse_value(description, &description.variables[position], item)? {
+                Value::Integer(number) => Ok(number),
+                other => Err(loader::Error::Value { variable: name.to_owned(), what: other.to_string() }),
+            }
+        };
+        read().map_err(|error| StudyError::Simulation { case: name.to_owned(), source: error.into() })
     }
 
     /// Simulates from what Guidance alone starts with; recorded once a second.

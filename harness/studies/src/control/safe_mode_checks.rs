@@ -8,13 +8,7 @@ use super::safe_mode_flight::{
 use crate::StudyError;
 use crate::attitude::{Vector, across, angle_rad, body_angles_deg, to_body};
 use crate::chart::Series;
-
-const OPERATIONAL: i32 = 1;
-const SAFE_HOLD: i32 = 2;
-const EARTH_ACQUISITION: i32 = 3;
-const ATTITUDE: i32 = 1;
-const ERROR_QUATERNION: i32 = 2;
-const RATE_ONLY: i32 = 3;
+use crate::verdict::{agrees, compared};
 
 /// Exchange and sample: what is seen at one second acts at the next and shows at the one after.
 const DELAY_S: f64 = 3.0;
@@ -38,13 +32,18 @@ pub struct Check {
 impl Check {
     /// Cells of the table.
     pub fn row(self, case: &str) -> Vec<String> {
-        let verdict = if self.holds { "agrees" } else { "differs" };
-        vec![case.to_owned(), self.statement.to_owned(), self.found, verdict.to_owned()]
+        compared(&format!("{case} | {}", self.statement), self.found, agrees(self.holds))
     }
 }
 
 /// Parameters of Guidance that the checks compare with.
 pub struct Parameters {
+    operational: i32,
+    safe_hold: i32,
+    earth_acquisition: i32,
+    attitude: i32,
+    error_quaternion: i32,
+    rate_only: i32,
     earth_acquisition_rad_s: f64,
     search_rad_s: f64,
     search_s: f64,
@@ -83,7 +82,15 @@ impl Parameters {
             margin,
             beam,
         ] = values;
+        let mode = |item: &str| both.number("guidance.mode.active", item);
+        let kind = |item: &str| both.number("guidance.command.kind", item);
         Ok(Self {
+            operational: mode("operational")?,
+            safe_hold: mode("safeHold")?,
+            earth_acquisition: mode("earthAcquisition")?,
+            attitude: kind("attitude")?,
+            error_quaternion: kind("errorQuaternion")?,
+            rate_only: kind("rateOnly")?,
             earth_acquisition_rad_s: rate,
             search_rad_s: search,
             search_s,
@@ -189,12 +196,12 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     check("Operational: every pointing option", {
         let off_deg = before.greatest(plus_z_from_sun_deg);
         (
-            before.all(|it| it.mode == OPERATIONAL) && off_deg < ANGLE_DEG,
+            before.all(|it| it.mode == parameters.operational) && off_deg < ANGLE_DEG,
             format!("+Z within {off_deg:.1e} deg of the Sun"),
         )
     });
     let invalid_s = after(samples, 0.0, |sample| !sample.is_attitude_known);
-    let demoted_s = after(samples, invalid_s, |sample| sample.mode == EARTH_ACQUISITION);
+    let demoted_s = after(samples, invalid_s, |sample| sample.mode == parameters.earth_acquisition);
     check(
         "inertial reference lost: Earth Acquisition",
         (
@@ -205,7 +212,7 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     let first = Phase::between(samples, lost_s + DELAY_S, SUN_LOST_S);
     check(
         "quaternion error and rate instead of an attitude",
-        (first.all(|it| it.command_kind == ERROR_QUATERNION), format!("to {SUN_LOST_S:.0} s")),
+        (first.all(|it| it.command_kind == parameters.error_quaternion), format!("to {SUN_LOST_S:.0} s")),
     );
     check("boresight to the Sun", acquired(samples, lost_s, SUN_LOST_S));
     let settled = Phase::between(samples, SUN_LOST_S - SETTLED_S, SUN_LOST_S);
@@ -213,7 +220,7 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
         "slow rotation about the Sun direction",
         turns_about(&settled, &BORESIGHT, parameters.earth_acquisition_rad_s),
     );
-    let search_s = after(samples, SUN_LOST_S, |sample| sample.command_kind == RATE_ONLY);
+    let search_s = after(samples, SUN_LOST_S, |sample| sample.command_kind == parameters.rate_only);
     check(
         "Sun lost: rate only",
         (search_s <= DELAY_S, format!("{search_s:.0} s after the last Sun sensor failed")),
@@ -243,14 +250,15 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
             format!("about X again to {SUN_BACK_S:.0} s"),
         ),
     );
-    let found_s = after(samples, SUN_BACK_S, |sample| sample.command_kind == ERROR_QUATERNION);
+    let found_s = after(samples, SUN_BACK_S, |sample| sample.command_kind == parameters.error_quaternion);
     check(
         "until a valid reading of the Sun",
         (found_s <= DELAY_S, format!("{found_s:.0} s after the Sun sensors work again")),
     );
     check("boresight to the Sun again", acquired(samples, SUN_BACK_S, TRACKER_BACK_S));
     let known_s = after(samples, TRACKER_BACK_S, |sample| sample.is_attitude_known);
-    let kept = Phase::between(samples, TRACKER_BACK_S, SAFE_HOLD_S).all(|it| it.mode == EARTH_ACQUISITION);
+    let kept = Phase::between(samples, TRACKER_BACK_S, SAFE_HOLD_S)
+        .all(|it| it.mode == parameters.earth_acquisition);
     check(
         "promotion only by ground command",
         (
@@ -263,7 +271,7 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     check("Safe Hold: strict Sun safety", {
         let inside_deg = -end.greatest(|sample| beyond_deg(sample, &parameters.safe_hold_deg));
         (
-            held.all(|it| it.mode == SAFE_HOLD) && inside_deg >= 0.0,
+            held.all(|it| it.mode == parameters.safe_hold) && inside_deg >= 0.0,
             format!("{inside_deg:.2} deg inside its zone"),
         )
     });
@@ -287,7 +295,7 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     check("Operational by ground command", {
         let off_deg = end.greatest(plus_z_from_sun_deg);
         (
-            end.all(|it| it.mode == OPERATIONAL) && off_deg < ANGLE_DEG,
+            end.all(|it| it.mode == parameters.operational) && off_deg < ANGLE_DEG,
             format!("+Z within {off_deg:.1e} deg of the Sun"),
         )
     });
@@ -310,13 +318,13 @@ pub fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
         let most_deg = commanded.greatest(|sample| {
             outside_deg(&to_body(&sample.command_q, &sample.to_sun_m), &parameters.zone_deg)
         });
-        let kinds = commanded.all(|sample| sample.command_kind == ATTITUDE);
+        let kinds = commanded.all(|sample| sample.command_kind == parameters.attitude);
         (kinds && most_deg < 1e-6, format!("at most {most_deg:.1e} deg outside"))
     });
     let least_deg = Phase::between(samples, 0.0, ZONE_ON_S).least(|it| beyond_deg(it, &parameters.zone_deg));
     let sun_deg = Phase::between(samples, ZONE_ON_S, ZONE_ON_S).greatest(sun_angle_deg);
-    let demoted_s = after(samples, ZONE_ON_S, |sample| sample.mode == SAFE_HOLD);
-    let lowest = samples.iter().any(|sample| sample.mode == EARTH_ACQUISITION);
+    let demoted_s = after(samples, ZONE_ON_S, |sample| sample.mode == parameters.safe_hold);
+    let lowest = samples.iter().any(|sample| sample.mode == parameters.earth_acquisition);
     check(
         "a violation that persists demotes to the next lowest mode",
         (
@@ -337,7 +345,7 @@ pub fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     let kept = Phase::between(samples, ZONE_ON_S + demoted_s, PARDONED_S);
     check(
         "promotion only by ground command",
-        (kept.all(|it| it.mode == SAFE_HOLD), format!("Safe Hold to {PARDONED_S:.0} s")),
+        (kept.all(|it| it.mode == parameters.safe_hold), format!("Safe Hold to {PARDONED_S:.0} s")),
     );
     let end = Phase::between(samples, stop_s - SETTLED_S, stop_s);
     check("Operational: the valid attitude closest to the target", {
@@ -345,7 +353,7 @@ pub fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
         let [least_deg, most_deg] = [end.least(beyond), end.greatest(beyond)];
         let off_deg = end.least(plus_z_from_sun_deg);
         (
-            end.all(|it| it.mode == OPERATIONAL && it.is_constrained)
+            end.all(|it| it.mode == parameters.operational && it.is_constrained)
                 && least_deg.abs().max(most_deg.abs()) < ANGLE_DEG,
             format!(
                 "Sun within {:.1e} deg of the boundary, {off_deg:.1} deg from +Z",

@@ -7,6 +7,7 @@ use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Mark, Panel, Series};
 use crate::pointing::{SLEW_S, TRANSITION_EPOCH_S, TRANSITION_TRUE_ANOMALY_DEG};
 use crate::settings::{Settings, cells, elements, item, of, real};
+use crate::verdict::{agrees, compared};
 use crate::{Options, Report, StudyError};
 
 const END_S: f64 = 1500.0;
@@ -162,28 +163,24 @@ fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
     });
     let [outside, limited] = [outside.count(), samples.iter().filter(|it| it.is_torque_limited).count()];
     let last_deg = samples.iter().rev().take(300).map(error_deg).fold(0.0, f64::max);
-    let row = |quantity: &str, paper: &str, ours: String, verdict: &str| {
-        vec![case.label().to_owned(), quantity.to_owned(), paper.to_owned(), ours, verdict.to_owned()]
+    let row = |what: &str, ours: String, verdict: &str| {
+        compared(&format!("{} | {what}", case.label()), ours, verdict)
     };
-    let agrees = |is: bool| if is { "agrees" } else { "differs" };
     let [estimated_deg, true_deg] = [off_sun(&|sample| sample.estimate_q), off_sun(&|sample| sample.q)];
     vec![
-        row("slew angle", "not printed", format!("{:.2} deg", slew_rad.to_degrees()), "-"),
+        row("slew angle | not printed", format!("{:.2} deg", slew_rad.to_degrees()), "-"),
         row(
-            "time to settle",
-            "about 70 to 100 s",
+            "time to settle | about 70 to 100 s",
             settled_s.map_or_else(|| "does not".to_owned(), |time_s| format!("{time_s:.0} s")),
             agrees(settled_s.is_some_and(|time_s| (PAPER_S[0]..=PAPER_S[1]).contains(&time_s))),
         ),
         row(
-            "the same by the limits alone",
-            "not printed",
+            "the same by the limits alone | not printed",
             format!("{:.0} s", limits.slew.least_s(slew_rad)),
             "-",
         ),
         row(
-            "slew angles that take 70 to 100 s by the limits",
-            "not printed",
+            "slew angles that take 70 to 100 s by the limits | not printed",
             format!(
                 "{:.1} to {:.1} deg",
                 limits.slew.angle_rad(PAPER_S[0]).to_degrees(),
@@ -192,25 +189,18 @@ fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
             "-",
         ),
         row(
-            "Sun from -Y in the estimated attitude, greatest",
-            "0 deg: never leaves -Y",
+            "Sun from -Y in the estimated attitude, greatest | 0 deg: never leaves -Y",
             format!("{estimated_deg:.1e} deg"),
             agrees(estimated_deg < PRINTED_DEG),
         ),
         row(
-            "Sun from -Y in the true attitude, greatest",
-            "0 deg",
+            "Sun from -Y in the true attitude, greatest | 0 deg",
             format!("{true_deg:.1e} deg"),
             agrees(true_deg < PRINTED_DEG),
         ),
-        row(
-            "seconds outside the keep-in zone, estimated",
-            "never",
-            outside.to_string(),
-            agrees(outside == 0),
-        ),
-        row("error in the last 300 s, greatest", "not printed", format!("{last_deg:.1e} deg"), "-"),
-        row("seconds with torque at its limit", "not printed", limited.to_string(), "-"),
+        row("seconds outside the keep-in zone, estimated | never", outside.to_string(), agrees(outside == 0)),
+        row("error in the last 300 s, greatest | not printed", format!("{last_deg:.1e} deg"), "-"),
+        row("seconds with torque at its limit | not printed", limited.to_string(), "-"),
     ]
 }
 

@@ -29,45 +29,51 @@ pub fn tables(options: &Options) -> Result<Report, StudyError> {
 
 /// Table 2: number of dumps, cylinder.
 pub fn table2(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_all("momentum/table2", options, lists::cylinder())?;
-    let mut report = Report::default();
-    counts(&mut report, options, "table2.csv", &simulated, TABLE_2)?;
-    draw(&mut report, options, &simulated, &FIGURE_4)?;
-    finish(report, options, &simulated)
+    one(options, "momentum/table2", lists::cylinder(), |report, simulated| {
+        counts(report, options, "table2.csv", simulated, TABLE_2)?;
+        draw(report, options, simulated, &FIGURE_4)
+    })
 }
 
 /// Table 3: time between dumps, cylinder.
 pub fn table3(options: &Options) -> Result<Report, StudyError> {
-    let cases = lists::in_papers_convention(lists::cylinder());
-    let simulated = simulate_all("momentum/table3", options, cases)?;
-    let mut report = Report::default();
-    gaps(&mut report, options, "table3.csv", &simulated, "Table 3")?;
-    finish(report, options, &simulated)
+    one(options, "momentum/table3", lists::in_papers_convention(lists::cylinder()), |report, simulated| {
+        gaps(report, options, "table3.csv", simulated, "Table 3")
+    })
 }
 
 /// Table 4: number of dumps, plates and panels.
 pub fn table4(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_all("momentum/table4", options, lists::panels())?;
-    let mut report = Report::default();
-    counts(&mut report, options, "table4.csv", &simulated, TABLE_4)?;
-    finish(report, options, &simulated)
+    one(options, "momentum/table4", lists::panels(), |report, simulated| {
+        counts(report, options, "table4.csv", simulated, TABLE_4)
+    })
 }
 
 /// Table 5: time between dumps, plates and panels.
 pub fn table5(options: &Options) -> Result<Report, StudyError> {
-    let cases = lists::in_papers_convention(lists::panels());
-    let simulated = simulate_all("momentum/table5", options, cases)?;
-    let mut report = Report::default();
-    gaps(&mut report, options, "table5.csv", &simulated, "Table 5")?;
-    finish(report, options, &simulated)
+    one(options, "momentum/table5", lists::in_papers_convention(lists::panels()), |report, simulated| {
+        gaps(report, options, "table5.csv", simulated, "Table 5")
+    })
 }
 
 /// What other targets of thruster dumps do.
 pub fn dump_targets(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_all("momentum/dump-targets", options, lists::other_dumps())?;
+    one(options, "momentum/dump-targets", lists::other_dumps(), |report, simulated| {
+        let what = "plates alone, and dumps that paper 000's tables do not have";
+        counts(report, options, "dump-targets.csv", simulated, what)
+    })
+}
+
+/// One table of its own simulations.
+fn one(
+    options: &Options,
+    study: &'static str,
+    cases: Vec<Case>,
+    print: impl Fn(&mut Report, &[Simulated]) -> Result<(), StudyError>,
+) -> Result<Report, StudyError> {
+    let simulated = simulate_all(study, options, cases)?;
     let mut report = Report::default();
-    let what = "plates alone, and dumps that paper 000's tables do not have";
-    counts(&mut report, options, "dump-targets.csv", &simulated, what)?;
+    print(&mut report, &simulated)?;
     finish(report, options, &simulated)
 }
 

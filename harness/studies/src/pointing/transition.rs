@@ -5,6 +5,7 @@ use crate::attitude::angle_rad;
 use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Mark, Panel, Series};
 use crate::settings::{Settings, cells, item, real};
+use crate::verdict::{agrees, compared};
 use crate::{Options, Report, StudyError};
 
 /// Sun and Earth are 33 deg apart as seen from the spacecraft, as the paper's antenna azimuth of -33 deg asks for with the
@@ -129,39 +130,34 @@ fn rows(angle: Angle, flown: &Flown) -> Vec<Vec<String>> {
     let planet = Angles::of(after).planet.map(|x| (100.0 * x).round() / 100.0 + 0.0);
     let mdis_deg = after.mdis_angle_rad.to_degrees();
     let constrained = flown.samples.iter().filter(|sample| sample.constrained).count();
-    let row = |quantity: &str, paper: &str, ours: String, verdict: &str| {
-        vec![angle.label().to_owned(), quantity.to_owned(), paper.to_owned(), ours, verdict.to_owned()]
+    let row = |what: &str, ours: String, verdict: &str| {
+        compared(&format!("{} | {what}", angle.label()), ours, verdict)
     };
-    let agrees = |is: bool| if is { "agrees" } else { "differs" };
     vec![
         row(
-            "Earth azimuth before the slew",
-            "-33 deg",
+            "Earth azimuth before the slew | -33 deg",
             format!("{azimuth:.2} deg"),
             agrees((azimuth + 33.0).abs() < 0.05),
         ),
         row(
-            "Earth elevation before the slew, greatest",
-            "0 deg",
+            "Earth elevation before the slew, greatest | 0 deg",
             format!("{elevation:.1e} deg"),
             agrees(elevation < 1e-9),
         ),
-        row("Sun azimuth, greatest", "0 deg", format!("{:.1e} deg", sun[0]), agrees(sun[0] < 1e-9)),
-        row("Sun elevation, greatest", "0 deg", format!("{:.1e} deg", sun[1]), agrees(sun[1] < 1e-9)),
-        row("slew angle", "not printed", format!("{:.3} deg", slew_deg(before, after)), "-"),
+        row("Sun azimuth, greatest | 0 deg", format!("{:.1e} deg", sun[0]), agrees(sun[0] < 1e-9)),
+        row("Sun elevation, greatest | 0 deg", format!("{:.1e} deg", sun[1]), agrees(sun[1] < 1e-9)),
+        row("slew angle | not printed", format!("{:.3} deg", slew_deg(before, after)), "-"),
         row(
-            "Mercury azimuth / elevation after the slew",
-            "not printed",
+            "Mercury azimuth / elevation after the slew | not printed",
             format!("{:.2} / {:.2} deg", planet[0], planet[1]),
             "-",
         ),
         row(
-            "camera angle after the slew",
-            "in range (-50 to 40 deg)",
+            "camera angle after the slew | in range (-50 to 40 deg)",
             format!("{mdis_deg:.3} deg"),
             agrees((-50.0..=40.0).contains(&mdis_deg)),
         ),
-        row("samples changed by a constraint", "none", constrained.to_string(), agrees(constrained == 0)),
+        row("samples changed by a constraint | none", constrained.to_string(), agrees(constrained == 0)),
     ]
 }
 

@@ -3,9 +3,9 @@
 use core::f64::consts::PI;
 
 use super::spinner::{RATIO, paper_case};
-use super::verdict::{rounds, verdict, verdict_text};
 use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Panel, Series};
+use crate::verdict::{compared, rounds, verdict, verdict_text};
 use crate::{Options, Report, StudyError};
 
 /// Nutation of the figure, in rad.
@@ -52,18 +52,16 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
             (Some(a), Some(b)) => (b.0 - a.0) / 60.0,
             _ => f64::NAN,
         };
-        rows.push(vec![
-            (*label).to_owned(),
-            "11.2 min".to_owned(),
+        rows.push(compared(
+            &format!("{label} | 11.2 min"),
             format!("{span:.2} min"),
-            verdict_text(rounds(span, 11.2, 0.1), "span of 8 samples").to_owned(),
-        ]);
-        rows.push(vec![
-            format!("{label}: nutation from the samples of 4 h"),
-            "0.02 deg (set)".to_owned(),
+            verdict_text(rounds(span, 11.2, 0.1), "span of 8 samples"),
+        ));
+        rows.push(compared(
+            &format!("{label}: nutation from the samples of 4 h | 0.02 deg (set)"),
             format!("{:.4} +- {:.4} deg", simulated.last(3).to_degrees(), simulated.last(4).to_degrees()),
-            verdict((simulated.last(3) - NUTATION_RAD).abs() < 3.0 * simulated.last(4)).to_owned(),
-        ]);
+            verdict((simulated.last(3) - NUTATION_RAD).abs() < 3.0 * simulated.last(4)),
+        ));
         csv.extend(samples.iter().map(|(time_s, exact, measured)| {
             vec![
                 (*label).to_owned(),
@@ -167,32 +165,27 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
     report.table(
         "beyond 30 min | paper | ours | verdict",
         &[
-            vec![
-                "eq 20".into(),
-                "about 20 %".into(),
+            compared(
+                "eq 20 | about 20 %",
                 share(|p| p.eq20_min),
-                verdict((percent(|p| p.eq20_min) - 20.0).abs() < 2.0).to_owned(),
-            ],
-            vec![
-                "exact, clock samples every 96 s".into(),
-                "-".into(),
+                verdict((percent(|p| p.eq20_min) - 20.0).abs() < 2.0),
+            ),
+            compared(
+                "exact, clock samples every 96 s | -",
                 share(|p| p.clock_min),
                 verdict_text(
                     (percent(|p| p.clock_min) - percent(|p| p.eq20_min)).abs() < 1.0,
                     "what eq 20 approximates",
-                )
-                .to_owned(),
-            ],
-            vec![
-                "exact, samples every 8 spins".into(),
-                "-".into(),
+                ),
+            ),
+            compared(
+                "exact, samples every 8 spins | -",
                 share(|p| p.spins_min),
                 verdict_text(
                     spread < 0.2 / 4.9 + 0.001,
                     "the spin rate drops out but for the length of a spin",
-                )
-                .to_owned(),
-            ],
+                ),
+            ),
         ],
     );
     report.csv(
@@ -200,13 +193,8 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
         "figure7.csv",
         "spin_rate_rpm | ratio | eq20_min | clock_min | spins_min",
         points.iter().map(|p| {
-            vec![
-                format!("{:.4}", p.rate_rpm),
-                format!("{:.6}", p.ratio),
-                format!("{:.6}", p.eq20_min),
-                format!("{:.6}", p.clock_min),
-                format!("{:.6}", p.spins_min),
-            ]
+            let numbers = [p.ratio, p.eq20_min, p.clock_min, p.spins_min].map(|it| format!("{it:.6}"));
+            [vec![format!("{:.4}", p.rate_rpm)], numbers.to_vec()].concat()
         }),
     )?;
     let panel = |y_label: &str, time: fn(&Point) -> f64| {

@@ -9,6 +9,7 @@ mod year;
 
 use crate::case::{chosen, run_all};
 use crate::chart::{Chart, Panel, Series};
+use crate::verdict::{agrees, compared};
 use crate::{Options, Report, StudyError};
 
 use orbit::{Case, EFFECTS, Fmus, Planet, Sample};
@@ -79,13 +80,8 @@ pub fn figure12(options: &Options) -> Result<Report, StudyError> {
             let lit: Vec<&Sample> = samples.iter().filter(|sample| sample.lit).collect();
             let share = |sample: &&Sample| sample.effects[1..].iter().sum::<f64>() / sample.effects[0];
             let mean = lit.iter().map(share).sum::<f64>() / lit.len().max(1) as f64;
-            let verdict = if (0.195..=0.305).contains(&mean) { "agrees" } else { "differs" };
-            vec![
-                row.case.to_string(),
-                "20-30 %".to_owned(),
-                format!("{:.1} %", mean * 100.0),
-                verdict.to_owned(),
-            ]
+            let verdict = agrees((0.195..=0.305).contains(&mean));
+            compared(&format!("{} | 20-30 %", row.case), format!("{:.1} %", mean * 100.0), verdict)
         })
         .collect();
     report.table("case | paper: mean sum of thermal effects | ours | verdict", &rows);

@@ -1,6 +1,7 @@
 //! Figure 13: a whole Mercury year, by orbit.
 
 use crate::chart::{Chart, Panel, Series};
+use crate::verdict::{agrees, compared};
 use crate::{Options, Report, StudyError};
 
 use super::orbit::{Case, EFFECTS, Fmus, MERCURY_YEAR_S, ORBIT_S, Planet, Sample};
@@ -49,9 +50,8 @@ impl Orbit {
     }
 }
 
-fn row(quantity: &str, paper: &str, ours: String, agrees: bool) -> Vec<String> {
-    let verdict = if agrees { "agrees" } else { "differs" };
-    vec![quantity.to_owned(), paper.to_owned(), ours, verdict.to_owned()]
+fn row(what: &str, ours: String, holds: bool) -> Vec<String> {
+    compared(what, ours, agrees(holds))
 }
 
 /// Figure 13: accelerations over a Mercury year; least, mean and greatest of every orbit.
@@ -82,19 +82,17 @@ pub fn figure13(options: &Options) -> Result<Report, StudyError> {
     let count = MERCURY_YEAR_S / ORBIT_S;
     let shares_agree = mean_share.least > 0.195 && mean_share.greatest < 0.305;
     let rows = [
-        row("orbits in a year", "172", format!("{count:.1}"), (count - 172.0).abs() < 0.5),
+        row("orbits in a year | 172", format!("{count:.1}"), (count - 172.0).abs() < 0.5),
         row(
-            "mean sum of thermal effects, of solar",
-            "20-30 %",
+            "mean sum of thermal effects, of solar | 20-30 %",
             format!("{} to {}", percent(mean_share.least), percent(mean_share.greatest)),
             shares_agree,
         ),
-        row("greatest infrared, of solar", "about 25 %", percent(infrared), (infrared - 0.25).abs() < 0.03),
-        row("greatest recoil, of solar", "about 25 %", percent(thermal), (thermal - 0.25).abs() < 0.03),
-        row("greatest sum of magnitudes, of solar", "up to 50 %", percent(scalar), scalar < 0.505),
+        row("greatest infrared, of solar | about 25 %", percent(infrared), (infrared - 0.25).abs() < 0.03),
+        row("greatest recoil, of solar | about 25 %", percent(thermal), (thermal - 0.25).abs() < 0.03),
+        row("greatest sum of magnitudes, of solar | up to 50 %", percent(scalar), scalar < 0.505),
         row(
-            "greatest total",
-            "order of 1e-6 m/s2",
+            "greatest total | order of 1e-6 m/s2",
             format!("{total:.2e} m/s2"),
             (5e-7..2e-6).contains(&total),
         ),
