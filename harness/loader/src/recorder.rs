@@ -2,7 +2,7 @@
 
 use model_description::{Description, VariableKind};
 
-use crate::{Column, Error, Fmu, Instance, Recording};
+use crate::{Column, Error, Fmu, Instance, Recording, Value};
 
 /// Most that a recording may take, in bytes: about ten million points of a dozen Reals.
 const MAX_BYTES: u64 = 1_000_000_000;
@@ -40,6 +40,11 @@ pub struct Row<'a> {
 pub trait Rows {
     /// Takes one more row.
     fn take(&mut self, row: &Row<'_>) -> Result<(), Error>;
+
+    /// Values by name that are set at the point of the row taken last, before the step that follows.
+    fn sets(&mut self) -> Vec<(String, Value)> {
+        Vec::new()
+    }
 }
 
 /// The recorded variables of one base type: their columns and value references.
@@ -189,6 +194,7 @@ impl Reader {
             instance.get_booleans(&booleans.references, &mut self.booleans)?;
         }
         let Self { reals, integers, booleans, .. } = self;
-        rows.take(&Row { time_s, reals, integers, booleans, texts: &texts })
+        rows.take(&Row { time_s, reals, integers, booleans, texts: &texts })?;
+        rows.sets().iter().try_for_each(|(name, value)| instance.set(name, value))
     }
 }

@@ -1,6 +1,7 @@
-//! Optimal plans.
+//! Optimal plans, and how long downlinks can hold the momentum of a mission.
 //!
 //! The planner is the only part of the harness that uses the physics directly: it searches with the fast linear
 //! theory, then runs what it found through the FMU, which knows nothing of the planner.
 
+pub mod momentum;
 pub mod spin;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use loader::Fmu;
+use systems::System;
 
 /// Where a study finds its FMUs and leaves its files.
 #[derive(Clone, Debug)]
@@ -54,6 +55,11 @@ impl Options {
     pub(crate) fn fmu(&self, file: &str) -> Result<Fmu, StudyError> {
         Fmu::open(self.dist.join(file)).map_err(|error| StudyError::Fmu(Box::new(error)))
     }
+
+    /// Opens a system of the folder.
+    pub(crate) fn system(&self, file: &str) -> Result<System, StudyError> {
+        System::open(self.dist.join(file)).map_err(|error| StudyError::System(Box::new(error)))
+    }
 }
 
 /// Why a study did not finish.
@@ -96,6 +102,9 @@ pub enum StudyError {
     /// An FMU could not be loaded; the error names its file.
     #[error("{0}: see --dist")]
     Fmu(Box<loader::Error>),
+    /// A system could not be opened; the error names its file.
+    #[error("{0}: see --dist")]
+    System(Box<systems::Error>),
     /// An FMU could not be simulated.
     #[error("{case}: {source}")]
     Simulation {

@@ -8,6 +8,10 @@ use files::Destination;
 
 use crate::{Options, StudyError};
 
+fn columns(header: &str) -> Vec<&str> {
+    header.split('|').map(str::trim).collect()
+}
+
 /// The outcome of a study.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
@@ -24,26 +28,26 @@ impl Report {
         self.text.push('\n');
     }
 
-    /// Adds a table.
-    pub(crate) fn table(&mut self, header: &[&str], rows: &[Vec<String>]) {
-        let mut table = terminal::table(header);
+    /// Adds a table; `header` names its columns, with bars between them.
+    pub(crate) fn table(&mut self, header: &str, rows: &[Vec<String>]) {
+        let mut table = terminal::table(&columns(header));
         for row in rows {
             table.add_row(row);
         }
         self.line(&table.to_string());
     }
 
-    /// Writes rows as CSV below the output folder.
+    /// Writes rows as CSV below the output folder, with a header as that of a table.
     pub(crate) fn csv(
         &mut self,
         options: &Options,
         file: &str,
-        header: &[&str],
+        header: &str,
         rows: impl IntoIterator<Item = Vec<String>>,
     ) -> Result<(), StudyError> {
         let table = || -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync>> {
             let mut writer = csv::Writer::from_writer(Vec::new());
-            writer.write_record(header)?;
+            writer.write_record(columns(header))?;
             for row in rows {
                 writer.write_record(row.iter().map(|cell| terminal::unsigned_zeros(cell).into_owned()))?;
             }

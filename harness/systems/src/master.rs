@@ -23,6 +23,8 @@ pub enum FirstExchange {
     /// The outputs at the start, exchanged in initialization mode until they stay.
     #[default]
     Initial,
+    /// The outputs at the start, read once initialization is over: in it components are alone.
+    Separate,
     /// Zero, as for FMPy: none is read before the first step.
     Zeros,
 }
@@ -89,7 +91,7 @@ impl Running {
             record_instance(number);
             instance.exit_initialization_mode()?;
         }
-        if first == FirstExchange::Initial {
+        if first != FirstExchange::Zeros {
             running.get_all()?;
         }
         Ok(running)

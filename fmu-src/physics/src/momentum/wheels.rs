@@ -5,6 +5,9 @@ use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 /// Least eigenvalue of the axes' Gram matrix: axes within 1e-6 rad of a plane span no more than that.
 const LEAST_EIGENVALUE: f64 = 1e-12;
 
+/// Least size of the normal of two axes that span a face.
+const LEAST_FACE: f64 = 1e-9;
+
 /// Wheels with the smallest-norm distribution of momentum over their spin axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WheelArray {
@@ -71,6 +74,30 @@ impl WheelArray {
     }
 }
 
+/// The greatest h, in N m s, such that some allocation holds every momentum with body components within -h .. +h, by unit spin
+/// axes and capacities in N m s; 0 unless the axes span all directions.
+///
+/// Method: momenta that the wheels can hold at all form a zonotope, the sum of the segments -c_k a_k .. c_k a_k; an allocation
+/// that makes the greatest relative load least reaches all of it. The cube lies inside it if h |n|_1 <= sum_k c_k |a_k . n|
+/// for the normal n = a_i x a_j of every face. Reference: Markley et al., "Maximum torque and momentum envelopes for
+/// reaction-wheel arrays", JGCD 33, 2010.
+pub fn attainable_threshold_n_m_s(axes_body: &[Vector3<f64>], capacities_n_m_s: &[f64]) -> f64 {
+    let mut least_n_m_s = f64::INFINITY;
+    for (first, a) in axes_body.iter().enumerate() {
+        for b in &axes_body[first + 1..] {
+            let normal = a.cross(b);
+            let wheels = axes_body.iter().zip(capacities_n_m_s);
+            let reach: f64 = wheels.map(|(axis, capacity)| capacity * axis.dot(&normal).abs()).sum();
+            let size = normal.abs().sum();
+            // Two parallel axes span no face.
+            if size > LEAST_FACE {
+                least_n_m_s = least_n_m_s.min(reach / size);
+            }
+        }
+    }
+    if least_n_m_s.is_finite() { least_n_m_s } else { 0.0 }
+}
+
 #[cfg(test)]
 mod tests {
     //! The wheels together hold exactly what they were given, by the pyramid's closed form.
@@ -101,6 +128,19 @@ mod tests {
         let sum: Vector3<f64> =
             pyramid().iter().enumerate().map(|(k, axis)| axis * array.momentum_n_m_s(k, &momentum)).sum();
         assert_relative_eq!(sum, momentum, epsilon = 1e-14);
+    }
+
+    #[test]
+    fn the_most_that_any_sharing_holds_is_that_of_the_closed_form() {
+        // Across the normal (-2, 2, 0)/3 of two neighbours the other two reach 4 sqrt 3/9 each, and its size is 4/3.
+        let h = attainable_threshold_n_m_s(&pyramid(), &[8.0; 4]);
+        assert_relative_eq!(h, 16.0 / 3.0_f64.sqrt(), max_relative = 1e-14);
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        assert_eq!(attainable_threshold_n_m_s(&axes, &[2.0, 3.0, 4.0]), 2.0);
+        // In a plane, along a line, none.
+        assert_eq!(attainable_threshold_n_m_s(&axes[..2], &[2.0; 2]), 0.0);
+        assert_eq!(attainable_threshold_n_m_s(&[Vector3::x(), Vector3::x()], &[2.0; 2]), 0.0);
+        assert_eq!(attainable_threshold_n_m_s(&[], &[]), 0.0);
     }
 
     #[test]

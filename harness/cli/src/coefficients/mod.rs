@@ -27,7 +27,7 @@ pub fn text(fmu: &Fmu, settings: &[String]) -> Result<String, Error> {
         )?);
     }
     let mut instance = started(fmu, &sets)?;
-    let mut parts = spacecraft::tables(fmu, &sets, &mut instance)?;
+    let mut parts = spacecraft::tables(fmu, &mut instance)?;
     parts.extend(others(fmu, &mut instance)?);
     if parts.is_empty() {
         return Ok(format!("{} has no calculated parameters.", fmu.name()));

@@ -1,6 +1,6 @@
 //! What sunshade, torques and wheels of a spacecraft come to, as the FMU itself computes it.
 
-use loader::{Error, Fmu, Instance, Value};
+use loader::{Error, Fmu, Instance};
 use model_description::Causality;
 
 use super::wheels;
@@ -14,7 +14,7 @@ pub fn shows(name: &str) -> bool {
 }
 
 /// The tables of those parts that the FMU has.
-pub fn tables(fmu: &Fmu, sets: &[(String, Value)], instance: &mut Instance) -> Result<Vec<String>, Error> {
+pub fn tables(fmu: &Fmu, instance: &mut Instance) -> Result<Vec<String>, Error> {
     let mut tables = Vec::new();
     if fmu.find("sunshade.coefficient[3,9]").is_some() {
         tables.push(polynomial(instance)?);
@@ -22,9 +22,9 @@ pub fn tables(fmu: &Fmu, sets: &[(String, Value)], instance: &mut Instance) -> R
     if fmu.find("torque.total[1]").is_some() && fmu.find("sun.elevation").is_some() {
         tables.push(loads(fmu, instance)?);
     }
-    let names = ["wheel[1].capacity", "wheel[1].momentum", "start.momentum[3]", "dump.guaranteedThreshold"];
+    let names = ["wheel[1].capacity", "wheel[1].axis[3]", "dump.threshold[3]", "dump.guaranteedThreshold"];
     if names.iter().all(|name| fmu.find(name).is_some()) {
-        tables.push(wheels::table(fmu, sets)?);
+        tables.push(wheels::table(fmu, instance)?);
     }
     Ok(tables)
 }

@@ -4,14 +4,13 @@ use std::{panic::resume_unwind, thread};
 
 use loader::Error;
 use nalgebra::Vector3;
+use planner::momentum::{Held, Mission, Region};
 
 use super::{
     balance::{self, Balance},
     craft::Craft,
     grid::{Angles, Grid},
-    mission::{Held, Mission},
     options::{SourceKind, Steps},
-    region::Region,
     sunlight::Sunlight,
     worth::{self, Worth},
     zero_lines::{self, ZeroLine},

@@ -7,12 +7,10 @@ mod contour;
 mod craft;
 mod found;
 mod grid;
-mod mission;
 pub mod options;
 mod outputs;
 mod panels;
 mod picture;
-mod region;
 mod sunlight;
 mod table;
 mod verdict;
@@ -21,10 +19,11 @@ mod zero_lines;
 
 use std::process::ExitCode;
 
+use planner::momentum::Mission;
+
 use crate::outcome::Outcome;
 use craft::Craft;
 use found::Found;
-use mission::Mission;
 use options::Map;
 use outputs::Outputs;
 

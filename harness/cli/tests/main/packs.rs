@@ -1,10 +1,6 @@
 //! Archives are the same byte for byte, complete, and made anew from a template without a compiler.
 
-use std::{
-    fs,
-    io::Read,
-    path::{Path, PathBuf},
-};
+use std::{fs, io::Read, path::Path};
 
 use model_description::call_table::Function;
 
@@ -373,31 +369,4 @@ fn a_map_that_nothing_reads_is_told() {
     assert!(told.contains("warning: [planet_map] has an effect in DisturbanceTorque with"), "{told}");
     let told = pack("DisturbanceTorque", &["--set", "planetLight.method=map"]);
     assert!(!told.contains("warning"), "{told}");
-}
-
-#[test]
-fn what_paper_000_states_stands_with_its_spacecraft_alone() {
-    let Some(library) = library() else { return };
-    let scratch = tempfile::tempdir().unwrap();
-    let at = |name: &str| scratch.path().join(name);
-    run(&["new", "spacecraft", shown(&at("own.toml"))], 0);
-    let resources = concat!(env!("CARGO_MANIFEST_DIR"), "/../../fmu-src/resources");
-    let shipped = |name: &str| PathBuf::from(format!("{resources}/{name}"));
-    let text = fs::read_to_string(shipped("messenger.toml")).unwrap();
-    fs::write(at("other.toml"), text.replace("name = \"MESSENGER\"", "name = \"MESSENGERS\"")).unwrap();
-    for (file, is_of_paper) in [
-        (at("own.toml"), false),
-        (at("other.toml"), false),
-        (shipped("messenger.toml"), true),
-        (shipped("messenger-full.toml"), true),
-    ] {
-        let fmu = at(&format!("{}.fmu", file.file_stem().unwrap().display()));
-        let pack = ["pack", "--library", shown(&library), "--model", "MomentumPlant"];
-        run(&[&pack[..], &["--spacecraft", shown(&file), "--output", shown(&fmu)]].concat(), 0);
-        let text = run(&["info", shown(&fmu), "--coefficients"], 0);
-        assert!(text.contains("(this spacecraft)"), "{text}");
-        assert_eq!(text.contains("paper 000 states"), is_of_paper, "{text}");
-        assert_eq!(text.contains("Paper 000's"), is_of_paper, "{text}");
-        assert_eq!(text.contains("12 each"), is_of_paper, "{text}");
-    }
 }

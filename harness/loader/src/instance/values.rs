@@ -4,7 +4,7 @@ use model_description::call_table::Function;
 use model_description::{BaseType, ScalarVariable, VariableKind};
 
 use super::Instance;
-use crate::{Error, Value};
+use crate::{Error, Value, parse_value};
 
 impl Instance {
     /// `fmi2GetReal`.
@@ -123,13 +123,17 @@ impl Instance {
         self.set(name, &Value::Real(value))
     }
 
-    /// Writes one variable of the description.
+    /// Writes one variable of the description; a text names an item of an Enumeration.
     pub fn set_variable(&mut self, variable: &ScalarVariable, value: &Value) -> Result<(), Error> {
         let reference = [variable.value_reference];
         match (&variable.kind, value) {
             (VariableKind::Real { .. }, Value::Real(value)) => self.set_reals(&reference, &[*value]),
             (VariableKind::Integer { .. } | VariableKind::Enumeration { .. }, Value::Integer(value)) => {
                 self.set_integers(&reference, &[*value])
+            }
+            (VariableKind::Enumeration { .. }, Value::Text(item)) => {
+                let number = parse_value(self.fmu.description(), variable, item)?;
+                self.set_variable(variable, &number)
             }
             (VariableKind::Boolean { .. }, Value::Boolean(value)) => {
                 self.set_booleans(&reference, &[i32::from(*value)])

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use loader::{Column, Ended, InputTable, Options, Value, simulate};
+use loader::{Column, Ended, Error, InputTable, Options, Row, Rows, Value, simulate, simulate_into};
 
 use crate::probe;
 
@@ -67,6 +67,56 @@ fn an_input_table_drives_the_simulation() {
     // Held: sum of k/2 * 1/2 for k < 8, plus 16. With slopes the ramp is exact: 8 + 16.
     assert!((integral(false) - 23.0).abs() < 1e-12, "{}", integral(false));
     assert!((integral(true) - 24.0).abs() < 1e-12, "{}", integral(true));
+}
+
+/// Keeps what is counted and sets the input to the time, and a choice by its name.
+#[derive(Default)]
+struct Steering {
+    time_s: f64,
+    integrals: Vec<f64>,
+}
+
+impl Rows for Steering {
+    fn take(&mut self, row: &Row<'_>) -> Result<(), Error> {
+        self.time_s = row.time_s;
+        self.integrals.push(row.reals[0]);
+        Ok(())
+    }
+
+    fn sets(&mut self) -> Vec<(String, Value)> {
+        vec![("input.real".to_owned(), real(self.time_s))]
+    }
+}
+
+#[test]
+fn what_a_row_is_answered_acts_from_there_on() {
+    let Some((_folder, fmu)) = probe("AllTypes") else { return };
+    let mut rows = Steering::default();
+    let record = Some(fmu.select("output.integral").unwrap());
+    let options = Options {
+        stop_s: Some(3.0),
+        step_s: Some(0.5),
+        record_every_s: Some(1.0),
+        record,
+        ..Options::default()
+    };
+    simulate_into(&fmu, options, &mut rows).unwrap();
+    // 0 for a second, then 1, then 2.
+    assert_eq!(rows.integrals, [0.0, 0.0, 1.0, 3.0]);
+}
+
+#[test]
+fn a_choice_is_set_by_its_items_name() {
+    let Some((_folder, fmu)) = probe("AllTypes") else { return };
+    let run = |item: &str| {
+        let sets = vec![("input.choice".to_owned(), Value::Text(item.to_owned()))];
+        let record = Some(fmu.select("output.choice").unwrap());
+        simulate(&fmu, Options { stop_s: Some(1.0), step_s: Some(1.0), sets, record, ..Options::default() })
+    };
+    let Column::Integer(values) = &run("blue").unwrap().recording.columns[0] else { panic!("no choice") };
+    assert_eq!(values.last(), Some(&4));
+    let refused = run("violet").unwrap_err().to_string();
+    assert!(refused.contains("violet") && refused.contains("blue"), "{refused}");
 }
 
 #[test]

@@ -1,11 +1,12 @@
 //! Figures 10 and 11 of paper 001: a burn of 10 m/s with each correction of its direction, over seeds.
 
-use super::burn_flight::{Burn, BurnLoop, Corrections, DELTA_V_M_S, Flown, START_S, Sample};
+use super::burn_flight::{Burn, Corrections, DELTA_V_M_S, Flown, START_S, Sample};
+use super::guided_loop::Loop;
+use crate::attitude::{Vector, across, angle_rad, unit};
 use crate::case::{chosen, run_all};
-use crate::settings::digits;
-use crate::vector::{across, angle_rad, norm, scaled, unit};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Mark, Panel, Series};
+use crate::settings::cells;
+use crate::{Options, Report, StudyError};
 
 const SEEDS: i32 = 16;
 /// Of the accelerometers, in m/s2.
@@ -50,10 +51,10 @@ struct Errors {
 impl Errors {
     fn of(flown: &Flown) -> Self {
         let last = flown.samples.last();
-        let reached = last.map_or([0.0; 3], |sample| sample.delta_v_m_s);
+        let reached = last.map_or(Vector::zeros(), |sample| sample.delta_v_m_s);
         Self {
             direction_deg: angle_rad(&reached, &flown.wanted_m_s).to_degrees(),
-            magnitude_mm_s: 1e3 * (norm(&reached) - DELTA_V_M_S),
+            magnitude_mm_s: 1e3 * (reached.norm() - DELTA_V_M_S),
             is_unfinished: last.is_none_or(|last| last.is_commanded || last.is_timed_out),
             is_constrained: flown.samples.iter().any(|sample| sample.is_constrained),
         }
@@ -68,21 +69,21 @@ fn rms(values: impl Iterator<Item = f64>) -> f64 {
 /// The burn of Figures 10 and 11.
 pub fn burn(options: &Options) -> Result<Report, StudyError> {
     let kinds = chosen("pointing/burn", options, KINDS, |kind| kind.label.to_owned())?;
-    let flights = BurnLoop::open(options)?;
+    let both = Loop::open(options)?;
     let cases: Vec<(Kind, i32)> =
         kinds.iter().flat_map(|kind| (1..=SEEDS).map(|seed| (*kind, seed))).collect();
     let flown = run_all(options, &cases, |(kind, seed)| {
         let corrections = Corrections { predictive: kind.predictive, reactive: kind.reactive };
         let burn = Burn { corrections, bias_m_s2: kind.bias_m_s2, seed: *seed };
-        flights.fly(&burn, &format!("{}, seed {seed}", kind.label), options.step_s)
+        burn.fly(&both, &format!("{}, seed {seed}", kind.label), options.step_s)
     })?;
     let mut report = Report::default();
     report
         .line("A burn of 10 m/s at 0.088 m/s2 with the thrust 0.75 deg off (paper 001, Figures 10 and 11)\n");
     let each: Vec<(Kind, &[Flown])> = kinds.iter().copied().zip(flown.chunks(SEEDS as usize)).collect();
     let rows: Vec<_> = each.iter().map(|(kind, flown)| row(kind, flown)).collect();
-    let header = ["corrections", "direction rms", "direction worst", "magnitude rms", "allowed", "verdict"];
-    report.table(&header, &rows);
+    let header = "corrections | direction rms | direction worst | magnitude rms | allowed | verdict";
+    report.table(header, &rows);
     report.line(&remark(&each));
     write(&mut report, options, &each)?;
     let shown: Vec<(Kind, &Flown)> = each
@@ -150,33 +151,37 @@ fn write(report: &mut Report, options: &Options, each: &[(Kind, &[Flown])]) -> R
     let rows = each.iter().flat_map(|(kind, flown)| {
         (1..=SEEDS).zip(flown.iter()).map(|(seed, flown)| {
             let Errors { direction_deg, magnitude_mm_s, .. } = Errors::of(flown);
-            let thrust = flown.samples.last().map_or([f64::NAN; 3], |last| last.thrust_body);
-            let numbers = [direction_deg, magnitude_mm_s].into_iter().chain(thrust).map(digits);
-            [kind.label.to_owned(), seed.to_string()].into_iter().chain(numbers).collect()
+            let thrust = flown.samples.last().map_or(Vector::repeat(f64::NAN), |last| last.thrust_body);
+            let numbers = cells(&[&[direction_deg, magnitude_mm_s], thrust.as_slice()]);
+            [vec![kind.label.to_owned(), seed.to_string()], numbers].concat()
         })
     });
-    let header = ["case", "seed", "direction_deg", "magnitude_mm_s", "thrust_x", "thrust_y", "thrust_z"];
-    report.csv(options, "burn.csv", &header, rows)?;
+    let header = "case | seed | direction_deg | magnitude_mm_s | thrust_x | thrust_y | thrust_z";
+    report.csv(options, "burn.csv", header, rows)?;
     let rows =
         each.iter().filter_map(|(kind, flown)| Some((kind, flown.first()?))).flat_map(|(kind, flown)| {
             flown.samples.iter().map(|sample| {
-                let numbers = [sample.time_s].into_iter().chain(sample.command_q).chain(sample.estimate_q);
-                let numbers =
-                    numbers.chain(sample.delta_v_m_s).chain([off_path_m_s(flown, sample)]).map(digits);
-                [kind.label.to_owned()].into_iter().chain(numbers).collect()
+                let Sample { time_s, command_q, estimate_q, delta_v_m_s, .. } = sample;
+                let numbers = cells(&[
+                    &[*time_s],
+                    command_q.coords.as_slice(),
+                    estimate_q.coords.as_slice(),
+                    delta_v_m_s.as_slice(),
+                    &[off_path_m_s(flown, sample)],
+                ]);
+                [vec![kind.label.to_owned()], numbers].concat()
             })
         });
-    let header = [
-        &["case", "time_s", "command_q1", "command_q2", "command_q3", "command_q4"][..],
-        &["estimate_q1", "estimate_q2", "estimate_q3", "estimate_q4"],
-        &["delta_v_x_m_s", "delta_v_y_m_s", "delta_v_z_m_s", "off_path_m_s"],
-    ];
-    report.csv(options, "burn-history.csv", &header.concat(), rows)
+    let header = "\
+        case | time_s | command_q1 | command_q2 | command_q3 | command_q4 | \
+        estimate_q1 | estimate_q2 | estimate_q3 | estimate_q4 | \
+        delta_v_x_m_s | delta_v_y_m_s | delta_v_z_m_s | off_path_m_s";
+    report.csv(options, "burn-history.csv", header, rows)
 }
 
 /// Distance of the true velocity from the straight path, in m/s.
 fn off_path_m_s(flown: &Flown, sample: &Sample) -> f64 {
-    norm(&across(&sample.delta_v_m_s, &unit(&flown.wanted_m_s)))
+    across(&sample.delta_v_m_s, &unit(&flown.wanted_m_s)).norm()
 }
 
 fn quaternion_chart(flown: &Flown) -> Chart {
@@ -229,7 +234,7 @@ fn velocity_chart(shown: &[(Kind, &Flown)]) -> Chart {
             series: (0..3).map(component).collect(),
             ..Panel::default()
         });
-        let short = from_start(flown, &|sample| norm(&scaled(&sample.delta_v_m_s, 1e-3)));
+        let short = from_start(flown, &|sample| (sample.delta_v_m_s * 1e-3).norm());
         panels.push(Panel {
             y_label: "speed gained [m/s]".to_owned(),
             series: vec![Series::line(kind.label, short)],

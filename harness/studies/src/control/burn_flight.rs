@@ -1,11 +1,10 @@
 //! One burn: `Guidance` steers, the controlled plant thrusts with what its thrusters and accelerometers are wrong by.
 
-use loader::{Error, Fmu};
-
-use super::cosimulation::{Grid, Row, Unit, Wires, fly};
-use crate::settings::{Settings, flag, number, quaternion_setting, real, vector_setting};
-use crate::vector::{Vector, cross, difference, rotated, scaled, unit};
-use crate::{Options, StudyError};
+use super::guided_loop::{Loop, start_settings, whole_part_of_a_second};
+use crate::StudyError;
+use crate::attitude::{Attitude, Vector, unit};
+use crate::case::{Case, Row};
+use crate::settings::Settings;
 
 /// Velocity to add, in m/s.
 pub const DELTA_V_M_S: f64 = 10.0;
@@ -27,43 +26,18 @@ const SCALE: f64 = 1e-4;
 const NOISE_M_S2: f64 = 1e-4;
 const SAMPLE_S: f64 = 1.0;
 
-/// Numbers of the units.
-const PLANT: usize = 0;
-const GUIDANCE: usize = 1;
-
-const TO_GUIDANCE: [(&str, &str); 11] = [
-    ("position", "position"),
-    ("velocity", "velocity"),
-    ("sun.positionInertial", "sun.position"),
-    ("sun.velocityInertial", "sun.velocity"),
-    ("earth.positionInertial", "earth.position"),
-    ("earth.velocityInertial", "earth.velocity"),
-    ("estimate.q", "estimate.q"),
-    ("estimate.valid", "estimate.valid"),
-    ("sun.sensed", "sun.sensed"),
-    ("sun.sensedValid", "sun.sensedValid"),
-    ("accelerometer.deltaV", "accelerometer.deltaV"),
-];
-
-const TO_PLANT: [(&str, &str); 7] = [
-    ("command.kind", "command.kind"),
-    ("command.q", "command.q"),
-    ("command.rate", "command.rate"),
-    ("command.error", "command.error"),
-    ("thrust.request", "thrust.request"),
-    ("thrust.command", "thrust.command"),
-    ("thrust.stop", "thrust.stop"),
-];
-
-const PLANT_OUTPUTS: [&str; 4] = ["deltaV", "estimate.q", "position", "sun.positionInertial"];
-
-const GUIDANCE_OUTPUTS: [&str; 6] = [
-    "command.q",
-    "command.rate",
-    "thrust.command",
-    "burn.thrustEstimate",
-    "burn.timedOut",
-    "constraint.sunKeepIn",
+/// What is recorded, in the order of [`Sample`].
+const OUTPUTS: [&str; 10] = [
+    "plant.deltaV",
+    "plant.estimate.q",
+    "plant.position",
+    "plant.sun.positionInertial",
+    "guidance.command.q",
+    "guidance.command.rate",
+    "guidance.thrust.command",
+    "guidance.burn.thrustEstimate",
+    "guidance.burn.timedOut",
+    "guidance.constraint.sunKeepIn",
 ];
 
 /// Which corrections are made.
@@ -92,9 +66,9 @@ pub struct Sample {
     /// True velocity added, EME2000, in m/s.
     pub delta_v_m_s: Vector,
     /// Estimated attitude.
-    pub estimate_q: [f64; 4],
+    pub estimate_q: Attitude,
     /// Commanded attitude.
-    pub command_q: [f64; 4],
+    pub command_q: Attitude,
     /// Commanded rate, body frame, in rad/s.
     pub command_rate_rad_s: Vector,
     /// Whether they are to.
@@ -120,111 +94,60 @@ pub struct Flown {
 }
 
 impl Sample {
-    fn of(time_s: f64, rows: &[Vec<f64>]) -> Self {
-        let (mut plant, mut guidance) = (Row::of(&rows[PLANT]), Row::of(&rows[GUIDANCE]));
+    fn of(mut row: Row<'_>) -> Self {
         Self {
-            time_s,
-            delta_v_m_s: plant.vector(),
-            estimate_q: plant.vector(),
-            position_m: plant.vector(),
-            sun_m: plant.vector(),
-            command_q: guidance.vector(),
-            command_rate_rad_s: guidance.vector(),
-            is_commanded: guidance.flag(),
-            thrust_body: guidance.vector(),
-            is_timed_out: guidance.flag(),
-            is_constrained: guidance.flag(),
+            time_s: row.time_s,
+            delta_v_m_s: row.vector(),
+            estimate_q: row.attitude(),
+            position_m: row.vector(),
+            sun_m: row.vector(),
+            command_q: row.attitude(),
+            command_rate_rad_s: row.vector(),
+            is_commanded: row.flag(),
+            thrust_body: row.vector(),
+            is_timed_out: row.flag(),
+            is_constrained: row.flag(),
         }
     }
 }
 
-/// Both FMUs.
-pub struct BurnLoop {
-    plant: Fmu,
-    guidance: Fmu,
-}
-
-impl BurnLoop {
-    /// Opens both in the folder `options` names; the plant is one with thrusters.
-    pub fn open(options: &Options) -> Result<Self, StudyError> {
-        Ok(Self { plant: options.fmu("MessengerFull.fmu")?, guidance: options.fmu("Guidance.fmu")? })
-    }
-
+impl Burn {
     /// Flies it from the attitude that is commanded first, in steps of `step_s`, otherwise of a second.
-    pub fn fly(&self, burn: &Burn, label: &str, step_s: Option<f64>) -> Result<Flown, StudyError> {
-        let step_s = step_s.unwrap_or(SAMPLE_S);
-        if ((SAMPLE_S / step_s).round() * step_s - SAMPLE_S).abs() > 1e-9 {
-            return Err(StudyError::Step { found_s: step_s, allowed: "a second or a whole part of it" });
-        }
-        self.flown(burn, step_s)
-            .map_err(|error| StudyError::Simulation { case: label.to_owned(), source: error.into() })
-    }
-
-    fn flown(&self, burn: &Burn, step_s: f64) -> Result<Flown, Error> {
+    pub fn fly(&self, both: &Loop, label: &str, step_s: Option<f64>) -> Result<Flown, StudyError> {
+        let step_s = whole_part_of_a_second(step_s)?;
+        let samples = |case: Case, wanted_m_s: &Vector| -> Result<Vec<Sample>, StudyError> {
+            let case = self.set(case).elements("guidance.burn.deltaV", wanted_m_s.iter().copied());
+            let recorded = both.simulate(case, &OUTPUTS, &mut |_| Settings::new())?;
+            Ok(recorded.rows().map(Sample::of).collect())
+        };
+        let short = Case::new(label, SAMPLE_S, SAMPLE_S);
         // Along the orbit's plane or across it makes no difference; the Sun has to stand on -Y, so across the Sun line.
-        let first = self.samples(burn, &Vec::new(), [0.0, 0.0, 1.0], SAMPLE_S, SAMPLE_S)?;
-        let wanted_m_s = first.first().map_or([0.0, 0.0, 1.0], |sample| {
-            let to_sun = difference(&sample.sun_m, &sample.position_m);
-            scaled(&unit(&cross(&to_sun, &[0.3, 0.0, 1.0])), DELTA_V_M_S)
+        let first = samples(short.clone(), &Vector::z())?;
+        let wanted_m_s = first.first().map_or(Vector::z(), |sample| {
+            let to_sun = sample.sun_m - sample.position_m;
+            unit(&to_sun.cross(&Vector::new(0.3, 0.0, 1.0))) * DELTA_V_M_S
         });
-        let pointed = self.samples(burn, &Vec::new(), wanted_m_s, SAMPLE_S, SAMPLE_S)?;
-        let mut start = Vec::new();
-        if let Some(last) = pointed.last() {
-            let q = rotated(&last.command_q, &last.command_rate_rad_s, -last.time_s);
-            start.extend(quaternion_setting("start.q", &q));
-            start.extend(vector_setting("start.rate", &last.command_rate_rad_s));
-        }
-        let samples = self.samples(burn, &start, wanted_m_s, STOP_S, step_s)?;
+        let start = samples(short, &wanted_m_s)?.last().map_or(Settings::new(), |last| {
+            start_settings(&last.command_q, &last.command_rate_rad_s, last.time_s)
+        });
+        let samples = samples(Case::new(label, STOP_S, step_s).with(start), &wanted_m_s)?;
         Ok(Flown { samples, wanted_m_s })
     }
 
-    fn samples(
-        &self,
-        burn: &Burn,
-        start: &Settings,
-        wanted_m_s: Vector,
-        stop_s: f64,
-        step_s: f64,
-    ) -> Result<Vec<Sample>, Error> {
-        let plant = [
-            vec![
-                // controlled
-                number("attitude.source", 3),
-                number("command.source", 1),
-                number("noise.seed", burn.seed),
-                real("spacecraft.mass", MASS_KG),
-                real("thrust.misalignment", MISALIGNMENT_DEG.to_radians()),
-                real("thrust.drift", DRIFT_DEG.to_radians() / BURN_S),
-                real("thrust.jitter", JITTER_DEG.to_radians()),
-                real("accelerometer.bias", burn.bias_m_s2),
-                real("accelerometer.scale", SCALE),
-                real("accelerometer.noise", NOISE_M_S2),
-            ],
-            start.clone(),
-        ];
-        let guidance = [
-            vec![
-                // inputs
-                number("ephemeris.source", 3),
-                // c22
-                number("burn.thrusters", 2),
-                real("burn.start", START_S),
-                real("burn.acceleration", ACCELERATION_M_S2),
-                flag("burn.predictive", burn.corrections.predictive),
-                flag("burn.reactive", burn.corrections.reactive),
-            ],
-            vector_setting("burn.deltaV", &wanted_m_s),
-        ];
-        // burn
-        let scenario = vec![number("pointing.scenario", 9)];
-        let mut units = [
-            Unit::start(&self.plant, &plant.concat(), &Vec::new(), &PLANT_OUTPUTS)?,
-            Unit::start(&self.guidance, &guidance.concat(), &scenario, &GUIDANCE_OUTPUTS)?,
-        ];
-        let (plant, guidance) = ((PLANT, &self.plant), (GUIDANCE, &self.guidance));
-        let wires =
-            [Wires::connect(plant, guidance, &TO_GUIDANCE)?, Wires::connect(guidance, plant, &TO_PLANT)?];
-        let grid = Grid { stop_s, step_s, sample_s: SAMPLE_S };
-        fly(&mut units, &wires, grid, |_, _| Vec::new(), Sample::of)
+    fn set(&self, case: Case) -> Case {
+        case.integer("plant.noise.seed", self.seed)
+            .real("plant.spacecraft.mass", MASS_KG)
+            .real("plant.thrust.misalignment", MISALIGNMENT_DEG.to_radians())
+            .real("plant.thrust.drift", DRIFT_DEG.to_radians() / BURN_S)
+            .real("plant.thrust.jitter", JITTER_DEG.to_radians())
+            .real("plant.accelerometer.bias", self.bias_m_s2)
+            .real("plant.accelerometer.scale", SCALE)
+            .real("plant.accelerometer.noise", NOISE_M_S2)
+            .item("guidance.pointing.scenario", "burn")
+            .item("guidance.burn.thrusters", "c22")
+            .real("guidance.burn.start", START_S)
+            .real("guidance.burn.acceleration", ACCELERATION_M_S2)
+            .boolean("guidance.burn.predictive", self.corrections.predictive)
+            .boolean("guidance.burn.reactive", self.corrections.reactive)
     }
 }

@@ -1,10 +1,10 @@
 //! Dumps by pulses in controlled flight beside the impulse of the same dump: what is left over, what it takes, how the attitude
 //! stands it.
 
+use crate::attitude::Vector;
 use crate::case::{Case, Recorded, chosen, run_all};
-use crate::vector::{Vector, difference, norm};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
+use crate::{Options, Report, StudyError};
 
 /// How long is flown, and in which steps, in s.
 const SPAN_S: f64 = 600.0;
@@ -25,7 +25,7 @@ struct Dump {
 const THRUSTERS: core::ops::RangeInclusive<usize> = 6..=17;
 
 fn dumps() -> Vec<Dump> {
-    let dump = |label, target_n_m_s, each| Dump { label, target_n_m_s, each };
+    let dump = |label, target: [f64; 3], each| Dump { label, target_n_m_s: target.into(), each };
     vec![
         dump("to zero", [0.0; 3], None),
         dump("biased", [0.4, -0.3, 0.2], None),
@@ -42,16 +42,10 @@ struct Flown {
     ideal: Recorded,
 }
 
-const OUTPUTS: [&str; 16] = [
-    "momentum.body[1]",
-    "momentum.body[2]",
-    "momentum.body[3]",
-    "dump.impulse[1]",
-    "dump.impulse[2]",
-    "dump.impulse[3]",
-    "dump.deltaV[1]",
-    "dump.deltaV[2]",
-    "dump.deltaV[3]",
+const OUTPUTS: [&str; 10] = [
+    "momentum.body",
+    "dump.impulse",
+    "dump.deltaV",
     "propellant.used",
     "control.error",
     "dump.active",
@@ -68,31 +62,21 @@ const ERROR: usize = 10;
 const ACTIVE: usize = 11;
 const WHEELS: core::ops::Range<usize> = 12..16;
 
-fn vector(recorded: &Recorded, first: usize, row: usize) -> Vector {
-    [0, 1, 2].map(|i| recorded.columns[first + i][row])
-}
-
 fn last(recorded: &Recorded, first: usize) -> Vector {
-    vector(recorded, first, recorded.times_s.len() - 1)
+    recorded.row(recorded.times_s.len() - 1, first).vector()
 }
 
 impl Dump {
     /// In the dark, so that nothing but the dump moves the momentum, in an attitude that is held.
-    fn case(&self, source: i32) -> Case {
+    fn case(&self, source: &str) -> Case {
         let case = Case::new(self.label, SPAN_S, STEP_S)
-            .integer("attitude.source", source)
-            .integer("command.source", 1)
-            .integer("command.kind", 0)
+            .item("attitude.source", source)
+            .item("command.source", "inputs")
+            .item("command.kind", "none")
             .real("solar.flux", 0.0)
             .boolean("gravityGradient.enabled", false)
-            .boolean("dump.request", true);
-        let vector = |case: Case, name: &str, values: &Vector| {
-            values
-                .iter()
-                .enumerate()
-                .fold(case, |case, (i, value)| case.real(&format!("{name}[{}]", i + 1), *value))
-        };
-        let case = vector(case, "dump.target", &self.target_n_m_s);
+            .boolean("dump.request", true)
+            .elements("dump.target", self.target_n_m_s.iter().copied());
         let Some((name, value)) = self.each else { return case };
         THRUSTERS.fold(case, |case, k| case.real(&format!("thruster[{k}].{name}"), value))
     }
@@ -100,14 +84,11 @@ impl Dump {
 
 fn fly(options: &Options, dump: &Dump) -> Result<Flown, StudyError> {
     let fmu = options.fmu("MessengerFull.fmu")?;
-    let held = HELD_N_M_S.iter().enumerate();
-    let controlled = held
-        .fold(dump.case(3), |case, (k, held)| case.real(&format!("wheel[{}].startMomentum", k + 1), *held));
-    let controlled = controlled.simulate(&fmu, &OUTPUTS)?;
-    let before = vector(&controlled, MOMENTUM, 0);
-    let start = before.iter().enumerate();
-    let ideal =
-        start.fold(dump.case(2), |case, (i, value)| case.real(&format!("start.momentum[{}]", i + 1), *value));
+    let [one, two] = HELD_N_M_S;
+    let controlled = dump.case("controlled").real("wheel[1].startMomentum", one);
+    let controlled = controlled.real("wheel[2].startMomentum", two).simulate(&fmu, &OUTPUTS)?;
+    let before: Vector = controlled.row(0, MOMENTUM).vector();
+    let ideal = dump.case("commanded").elements("start.momentum", before.iter().copied());
     let ideal = ideal.grid(10.0, 1.0).simulate(&fmu, &OUTPUTS)?;
     Ok(Flown { dump: dump.clone(), controlled, ideal })
 }
@@ -120,39 +101,29 @@ impl Flown {
 
     fn row(&self) -> Vec<String> {
         let Self { dump, controlled, ideal } = self;
-        let left = difference(&last(controlled, MOMENTUM), &dump.target_n_m_s);
-        let apart = difference(&last(controlled, IMPULSE), &last(ideal, IMPULSE));
+        let left = last(controlled, MOMENTUM) - dump.target_n_m_s;
+        let apart = last(controlled, IMPULSE) - last(ideal, IMPULSE);
         let torque =
             WHEELS.map(|k| controlled.columns[k].iter().fold(0.0_f64, |most, it| most.max(it.abs())));
         vec![
             dump.label.to_owned(),
-            format!("{:.3}", norm(&last(ideal, IMPULSE))),
-            format!("{:.1}", 1e3 * norm(&left)),
-            format!("{:.1}", 1e3 * norm(&apart)),
+            format!("{:.3}", last(ideal, IMPULSE).norm()),
+            format!("{:.1}", 1e3 * left.norm()),
+            format!("{:.1}", 1e3 * apart.norm()),
             format!("{:.0}", self.duration_s()),
             format!("{:.2}", 1e3 * controlled.last(USED)),
             format!("{:.2}", 1e3 * ideal.last(USED)),
-            format!("{:.2}", 1e3 * norm(&last(controlled, DELTA_V))),
-            format!("{:.2}", 1e3 * norm(&last(ideal, DELTA_V))),
+            format!("{:.2}", 1e3 * last(controlled, DELTA_V).norm()),
+            format!("{:.2}", 1e3 * last(ideal, DELTA_V).norm()),
             format!("{:.3}", controlled.most(ERROR).to_degrees()),
             format!("{:.3}", torque.fold(0.0, f64::max)),
         ]
     }
 }
 
-const HEADER: [&str; 11] = [
-    "case",
-    "impulse [N m s]",
-    "left over [mN m s]",
-    "apart [mN m s]",
-    "lasts [s]",
-    "propellant [g]",
-    "impulsive [g]",
-    "delta-v [mm/s]",
-    "impulsive [mm/s]",
-    "attitude [deg]",
-    "wheel torque [N m]",
-];
+const HEADER: &str = "\
+    case | impulse [N m s] | left over [mN m s] | apart [mN m s] | lasts [s] | propellant [g] | \
+    impulsive [g] | delta-v [mm/s] | impulsive [mm/s] | attitude [deg] | wheel torque [N m]";
 
 const REMARK: &str = "\
 Impulse: of the same dump at once, in commanded flight. Left over: between the momentum after the pulses and the target; the
@@ -167,9 +138,9 @@ pub fn dump(options: &Options) -> Result<Report, StudyError> {
     let mut report = Report::default();
     report.line("Dumps of the controlled craft by pulses of its 4.4 N thrusters\n");
     let rows: Vec<_> = flown.iter().map(Flown::row).collect();
-    report.table(&HEADER, &rows);
+    report.table(HEADER, &rows);
     report.line(REMARK);
-    report.csv(options, "dump.csv", &HEADER, rows)?;
+    report.csv(options, "dump.csv", HEADER, rows)?;
     for flown in &flown {
         let name = flown.dump.label.replace(" %", "").replace(' ', "-");
         report.picture(options, &format!("dump-{name}.svg"), &figure(flown))?;
@@ -196,7 +167,7 @@ fn figure(flown: &Flown) -> Chart {
             Panel {
                 y_label: "momentum [N m s]".to_owned(),
                 series: components(MOMENTUM, 1.0),
-                marks: flown.dump.target_n_m_s.to_vec(),
+                marks: flown.dump.target_n_m_s.as_slice().to_vec(),
                 mark_label: "target".to_owned(),
                 ..Panel::default()
             },

@@ -12,16 +12,9 @@ use drawing::{Chart, Panel, Series};
 const SPEEDS_HZ: [f64; 4] = [0.7, 2.0, 4.5, 8.5];
 /// Speed under control, in Hz.
 const CONTROLLED_HZ: f64 = 4.5;
-const HEADER: [&str; 8] = [
-    "case",
-    "wheel [Hz]",
-    "line at [Hz]",
-    "amplitude [urad]",
-    "in closed form [urad]",
-    "ratio",
-    "greatest at a mode [urad]",
-    "rms [urad]",
-];
+const HEADER: &str = "\
+    case | wheel [Hz] | line at [Hz] | amplitude [urad] | in closed form [urad] | ratio | \
+    greatest at a mode [urad] | rms [urad]";
 
 fn flights(structure: &Structure) -> Vec<Flight> {
     let flight = |wheel_hz: f64, controlled: bool, at: String| {
@@ -79,7 +72,7 @@ pub fn jitter(options: &Options) -> Result<Report, StudyError> {
     let mut report = Report::default();
     report.line("Attitude jitter by the static imbalance of one wheel of FlexibleCraft\n");
     let rows: Vec<_> = shaken.iter().map(|shaken| row(shaken, &structure)).collect();
-    report.table(&HEADER, &rows);
+    report.table(HEADER, &rows);
     for (k, mode) in structure.modes.iter().enumerate() {
         report.line(&format!(
             "Mode {}: {:.3} Hz with the body held, {:.3} Hz with the body free.",
@@ -89,7 +82,7 @@ pub fn jitter(options: &Options) -> Result<Report, StudyError> {
         ));
     }
     report.line(REMARK);
-    report.csv(options, "jitter.csv", &HEADER, rows)?;
+    report.csv(options, "jitter.csv", HEADER, rows)?;
     let lines = shaken.iter().flat_map(|Shaken { flight, spectrum }| {
         let points = spectrum.between(LOWEST_HZ, FASTEST_HZ + 1.0);
         points.map(|(hz, amplitude)| vec![flight.label.clone(), digits(hz), digits(amplitude)])
@@ -97,15 +90,15 @@ pub fn jitter(options: &Options) -> Result<Report, StudyError> {
     report.csv(
         options,
         "jitter-spectra.csv",
-        &["case", "frequency_hz", "amplitude_rad"],
+        "case | frequency_hz | amplitude_rad",
         lines.collect::<Vec<_>>(),
     )?;
     report.picture(options, "jitter-spectra.svg", &spectra(&shaken))?;
     if options.only.is_none() {
         let points = run_up(&fmu, &structure)?;
-        let header = ["wheel_hz", "amplitude_rad", "in_closed_form_rad"];
+        let header = "wheel_hz | amplitude_rad | in_closed_form_rad";
         let row = |(hz, rad): &(f64, f64)| [*hz, *rad, structure.jitter_rad(*hz)].map(digits).to_vec();
-        report.csv(options, "jitter-run-up.csv", &header, points.iter().map(row).collect::<Vec<_>>())?;
+        report.csv(options, "jitter-run-up.csv", header, points.iter().map(row).collect::<Vec<_>>())?;
         report.picture(options, "jitter-run-up.svg", &run_up_figure(&points, &structure))?;
     }
     Ok(report)

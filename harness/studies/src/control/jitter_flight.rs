@@ -21,7 +21,6 @@ pub const FASTEST_HZ: f64 = 9.0;
 const RUN_UP_S: f64 = 600.0;
 /// Noise of star tracker (rad) and gyros (rad after a second) under control, assumed.
 const NOISE: [f64; 2] = [2e-5, 1e-6];
-const RATES: [&str; 3] = ["attitude.rate[1]", "attitude.rate[2]", "attitude.rate[3]"];
 
 /// What is flown.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,19 +54,18 @@ impl Flight {
         let mut case = dark(&self.label, stop_s).real("wheel[1].startMomentum", held_n_m_s);
         if self.controlled {
             let [tracker, gyro] = NOISE;
-            case =
-                case.integer("attitude.source", 3).real("control.balanceTime", 0.0).real("gyro.noise", gyro);
-            for (i, q) in [0.1, 0.2, -0.3, 0.927_361_849_549_570_4].into_iter().enumerate() {
-                let element = i + 1;
-                case = case.real(&format!("start.q[{element}]"), q).real(&format!("command.q[{element}]"), q);
-            }
-            for axis in 1..=3 {
-                case = case.real(&format!("starTracker.noise[{axis}]"), tracker);
-            }
+            let q = [0.1, 0.2, -0.3, 0.927_361_849_549_570_4];
+            case = case
+                .item("attitude.source", "controlled")
+                .real("control.balanceTime", 0.0)
+                .real("gyro.noise", gyro)
+                .elements("start.q", q)
+                .elements("command.q", q)
+                .elements("starTracker.noise", [tracker; 3]);
         } else {
-            case = case.integer("attitude.source", 4);
+            case = case.item("attitude.source", "free");
         }
-        let recorded = case.simulate(fmu, &RATES)?;
+        let recorded = case.simulate(fmu, &["attitude.rate"])?;
         let axes: Vec<Spectrum> =
             recorded.columns.iter().map(|rate| Spectrum::of(&rate[rate.len() - COUNT..], RATE_HZ)).collect();
         let angle = |frequency_hz: f64, rate_rad_s: f64| {
@@ -82,9 +80,8 @@ pub fn run_up(fmu: &Fmu, structure: &Structure) -> Result<Vec<(f64, f64)>, Study
     const WINDOW: usize = 400;
     let torque_n_m = structure.rotor_kg_m2 * std::f64::consts::TAU * FASTEST_HZ / RUN_UP_S;
     let case =
-        dark("run-up", RUN_UP_S).integer("attitude.source", 4).real("wheel[1].torqueCommand", torque_n_m);
-    let names: Vec<&str> = RATES.into_iter().chain(["wheel[1].speed"]).collect();
-    let recorded = case.simulate(fmu, &names)?;
+        dark("run-up", RUN_UP_S).item("attitude.source", "free").real("wheel[1].torqueCommand", torque_n_m);
+    let recorded = case.simulate(fmu, &["attitude.rate", "wheel[1].speed"])?;
     let windows = recorded.times_s.len() / (WINDOW / 4);
     let points = (0..windows.saturating_sub(4)).map(|window| {
         let span = window * WINDOW / 4..window * WINDOW / 4 + WINDOW;
@@ -112,9 +109,6 @@ fn mean_square(samples: &[f64]) -> f64 {
 /// The plant with flexible modes.
 pub fn open(options: &Options) -> Result<(Fmu, Structure), StudyError> {
     let fmu = options.fmu("FlexibleCraft.fmu")?;
-    let structure = Structure::read(&fmu).map_err(|error| StudyError::Simulation {
-        case: "parameters of FlexibleCraft".to_owned(),
-        source: error.into(),
-    })?;
+    let structure = Structure::read(&fmu)?;
     Ok((fmu, structure))
 }

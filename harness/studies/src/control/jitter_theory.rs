@@ -4,10 +4,11 @@
 //! -W^2 (J + sum of d d^T W^2 / (w^2 - W^2 + 2 i z w W)) a = T, with J less the rotors about their axes and without the
 //! stored momentum's gyroscopic torque.
 
-use loader::{Error, Fmu};
+use loader::Fmu;
 use nalgebra::{Complex, Matrix3, Vector3};
 
-use super::cosimulation::{Row, Unit};
+use crate::StudyError;
+use crate::case::at_start;
 
 /// One flexible mode.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +34,7 @@ pub struct Structure {
 
 impl Structure {
     /// Reads it; the first wheel is the one that shakes.
-    pub fn read(fmu: &Fmu) -> Result<Self, Error> {
+    pub fn read(fmu: &Fmu) -> Result<Self, StudyError> {
         let count =
             |what: &dyn Fn(usize) -> String| (1..).take_while(|k| fmu.position(&what(*k)).is_some()).count();
         let modes = count(&|k| format!("flexibleMode[{k}].frequency"));
@@ -48,25 +49,21 @@ impl Structure {
             names.extend(["inertia", "axis"].map(|name| format!("wheel[{k}].{name}")));
         }
         names.extend(["staticImbalance", "position"].map(|name| format!("wheel[1].{name}")));
-        let values = Unit::start(fmu, &Vec::new(), &Vec::new(), &names)?.read()?;
-        let mut row = Row::of(&values);
-        let mut carrier = Matrix3::from_row_slice(&row.vector::<9>());
-        let center_m = Vector3::from(row.vector::<3>());
+        let values = at_start(fmu, &names)?;
+        let mut row = values.row(0, 0);
+        let mut carrier = Matrix3::from_row_slice(row.vector::<9>().as_slice());
+        let center_m: Vector3<f64> = row.vector();
         let modes = (0..modes)
-            .map(|_| Mode {
-                frequency_hz: row.real(),
-                damping: row.real(),
-                coupling: Vector3::from(row.vector::<3>()),
-            })
+            .map(|_| Mode { frequency_hz: row.real(), damping: row.real(), coupling: row.vector() })
             .collect();
         let rotors: Vec<(f64, Vector3<f64>)> =
-            (0..wheels).map(|_| (row.real(), Vector3::from(row.vector::<3>()).normalize())).collect();
+            (0..wheels).map(|_| (row.real(), row.vector::<3>().normalize())).collect();
         for (inertia, axis) in &rotors {
             carrier -= axis * axis.transpose() * *inertia;
         }
         let (rotor_kg_m2, axis) = rotors.first().copied().unwrap_or((f64::NAN, Vector3::z()));
         let imbalance_kg_m = row.real();
-        let lever_m = Vector3::from(row.vector::<3>()) - center_m;
+        let lever_m = row.vector() - center_m;
         Ok(Self { carrier, modes, axis, lever_m, imbalance_kg_m, rotor_kg_m2 })
     }
 

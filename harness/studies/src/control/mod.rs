@@ -5,7 +5,6 @@
 
 mod burn;
 mod burn_flight;
-mod cosimulation;
 mod dump;
 mod guided_loop;
 mod jitter;

@@ -3,10 +3,11 @@
 use super::guided_loop::{Loop, Sample};
 use super::safe_mode_checks::{Parameters, attitude_lost, zone_violated};
 use super::safe_mode_flight::{Chain, sun_angle_deg};
+use crate::attitude::unit;
 use crate::case::{chosen, run_all};
-use crate::settings::digits;
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Mark, Panel, Series};
+use crate::settings::cells;
+use crate::{Options, Report, StudyError};
 
 /// Both chains of modes.
 pub fn safe_mode(options: &Options) -> Result<Report, StudyError> {
@@ -27,10 +28,10 @@ pub fn safe_mode(options: &Options) -> Result<Report, StudyError> {
             checks.into_iter().map(|check| check.row(chain.label()))
         })
         .collect();
-    let header = ["case", "paper 001", "found", "verdict"];
-    report.table(&header, &rows);
+    let header = "case | paper 001 | found | verdict";
+    report.table(header, &rows);
     report.line(REMARK);
-    report.csv(options, "safe-mode.csv", &header, rows)?;
+    report.csv(options, "safe-mode.csv", header, rows)?;
     history(&mut report, options, &flown)?;
     for (chain, samples) in &flown {
         let file = format!("safe-mode-{}.svg", chain.label().replace(' ', "-"));
@@ -48,41 +49,23 @@ how long the monitor waits are assumed: the paper prints none.";
 
 /// Everything of every second.
 fn history(report: &mut Report, options: &Options, flown: &[(Chain, Vec<Sample>)]) -> Result<(), StudyError> {
-    let header = [
-        "case",
-        "time_s",
-        "q1",
-        "q2",
-        "q3",
-        "q4",
-        "rate_x_rad_s",
-        "rate_y_rad_s",
-        "rate_z_rad_s",
-        "sun_x",
-        "sun_y",
-        "sun_z",
-        "earth_x",
-        "earth_y",
-        "earth_z",
-        "sun_angle_deg",
-        "command_x_rad_s",
-        "command_y_rad_s",
-        "command_z_rad_s",
-        "mode",
-        "command_kind",
-        "attitude_known",
-        "sun_sensed",
-        "torque_limited",
-        "dumps",
-        "link",
-    ];
+    let header = "\
+        case | time_s | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | sun_x | sun_y | \
+        sun_z | earth_x | earth_y | earth_z | sun_angle_deg | command_x_rad_s | command_y_rad_s | \
+        command_z_rad_s | mode | command_kind | attitude_known | sun_sensed | torque_limited | dumps | link";
     let rows = flown.iter().flat_map(|(chain, samples)| {
         samples.iter().map(|sample| {
-            let [sun, earth] = [&sample.to_sun_m, &sample.to_earth_m].map(crate::vector::unit);
-            let numbers = [sample.time_s].into_iter().chain(sample.q).chain(sample.rate_rad_s).chain(sun);
-            let numbers = numbers.chain(earth).chain([sun_angle_deg(sample)]);
+            let [sun, earth] = [&sample.to_sun_m, &sample.to_earth_m].map(unit);
             let mut row = vec![chain.label().to_owned()];
-            row.extend(numbers.chain(sample.command_rate_rad_s).map(digits));
+            row.extend(cells(&[
+                &[sample.time_s],
+                sample.q.coords.as_slice(),
+                sample.rate_rad_s.as_slice(),
+                sun.as_slice(),
+                earth.as_slice(),
+                &[sun_angle_deg(sample)],
+                sample.command_rate_rad_s.as_slice(),
+            ]));
             row.extend([sample.mode, sample.command_kind].map(|number| number.to_string()));
             row.extend([sample.is_attitude_known, sample.is_sun_sensed].map(|is| is.to_string()));
             row.push(sample.is_torque_limited.to_string());
@@ -91,7 +74,7 @@ fn history(report: &mut Report, options: &Options, flown: &[(Chain, Vec<Sample>)
             row
         })
     });
-    report.csv(options, "safe-mode-history.csv", &header, rows.collect::<Vec<_>>())
+    report.csv(options, "safe-mode-history.csv", header, rows.collect::<Vec<_>>())
 }
 
 /// Mode, Sun, rates and flags over time.

@@ -6,15 +6,9 @@ use super::safe_mode_flight::{
     TRACKER_FAILS_S, ZONE_ON_S, sun_angle_deg,
 };
 use crate::StudyError;
-use crate::vector::{Vector, across, angle_rad, body_angles_deg, dot, norm, turn};
+use crate::attitude::{Vector, across, angle_rad, body_angles_deg, to_body};
 use drawing::Series;
-
-const OPERATIONAL: i32 = 1;
-const SAFE_HOLD: i32 = 2;
-const EARTH_ACQUISITION: i32 = 3;
-const ATTITUDE: i32 = 1;
-const ERROR_QUATERNION: i32 = 2;
-const RATE_ONLY: i32 = 3;
+use crate::verdict::{agrees, compared};
 
 /// Exchange and sample: what is seen at one second acts at the next and shows at the one after.
 const DELAY_S: f64 = 3.0;
@@ -38,13 +32,18 @@ pub struct Check {
 impl Check {
     /// Cells of the table.
     pub fn row(self, case: &str) -> Vec<String> {
-        let verdict = if self.holds { "agrees" } else { "differs" };
-        vec![case.to_owned(), self.statement.to_owned(), self.found, verdict.to_owned()]
+        compared(&format!("{case} | {}", self.statement), self.found, agrees(self.holds))
     }
 }
 
 /// Parameters of Guidance that the checks compare with.
 pub struct Parameters {
+    operational: i32,
+    safe_hold: i32,
+    earth_acquisition: i32,
+    attitude: i32,
+    error_quaternion: i32,
+    rate_only: i32,
     earth_acquisition_rad_s: f64,
     search_rad_s: f64,
     search_s: f64,
@@ -58,18 +57,45 @@ pub struct Parameters {
 impl Parameters {
     /// As the FMU has them.
     pub fn read(both: &Loop) -> Result<Self, StudyError> {
-        let [rate, search, search_s] =
-            both.guidance_parameters(["earthAcquisition.rate", "sunSearch.rate", "sunSearch.duration"])?;
-        let zone = both.guidance_parameters(["keepIn.azimuth", "keepIn.elevation"])?;
-        let safe_hold = both.guidance_parameters(["safeHold.keepIn.azimuth", "safeHold.keepIn.elevation"])?;
-        let [persistence_s, margin, beam] =
-            both.guidance_parameters(["monitor.persistence", "monitor.margin", "link.beam"])?;
+        let names = [
+            "earthAcquisition.rate",
+            "sunSearch.rate",
+            "sunSearch.duration",
+            "keepIn.azimuth",
+            "keepIn.elevation",
+            "safeHold.keepIn.azimuth",
+            "safeHold.keepIn.elevation",
+            "monitor.persistence",
+            "monitor.margin",
+            "link.beam",
+        ];
+        let values = both.parameters(names.map(|name| format!("guidance.{name}")))?;
+        let [
+            rate,
+            search,
+            search_s,
+            azimuth,
+            elevation,
+            hold_azimuth,
+            hold_elevation,
+            persistence_s,
+            margin,
+            beam,
+        ] = values;
+        let mode = |item: &str| both.number("guidance.mode.active", item);
+        let kind = |item: &str| both.number("guidance.command.kind", item);
         Ok(Self {
+            operational: mode("operational")?,
+            safe_hold: mode("safeHold")?,
+            earth_acquisition: mode("earthAcquisition")?,
+            attitude: kind("attitude")?,
+            error_quaternion: kind("errorQuaternion")?,
+            rate_only: kind("rateOnly")?,
             earth_acquisition_rad_s: rate,
             search_rad_s: search,
             search_s,
-            zone_deg: zone.map(f64::to_degrees),
-            safe_hold_deg: safe_hold.map(f64::to_degrees),
+            zone_deg: [azimuth, elevation].map(f64::to_degrees),
+            safe_hold_deg: [hold_azimuth, hold_elevation].map(f64::to_degrees),
             persistence_s,
             margin_deg: margin.to_degrees(),
             beam_deg: beam.to_degrees(),
@@ -135,8 +161,8 @@ fn outside_deg(body: &Vector, zone_deg: &[f64; 2]) -> f64 {
 
 /// Whether the greatest errors of the rate along an axis and across it are small beside what is wanted, and text.
 fn turns_about(phase: &Phase<'_>, axis: &Vector, wanted_rad_s: f64) -> (bool, String) {
-    let along = phase.greatest(|sample| (dot(&sample.rate_rad_s, axis) - wanted_rad_s).abs());
-    let aside = phase.greatest(|sample| norm(&across(&sample.rate_rad_s, axis)));
+    let along = phase.greatest(|sample| (sample.rate_rad_s.dot(axis) - wanted_rad_s).abs());
+    let aside = phase.greatest(|sample| across(&sample.rate_rad_s, axis).norm());
     let within = RATE * wanted_rad_s.abs();
     let percent = |error: f64| 100.0 * error / wanted_rad_s.abs();
     let text = format!(
@@ -170,12 +196,12 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     check("Operational: every pointing option", {
         let off_deg = before.greatest(plus_z_from_sun_deg);
         (
-            before.all(|it| it.mode == OPERATIONAL) && off_deg < ANGLE_DEG,
+            before.all(|it| it.mode == parameters.operational) && off_deg < ANGLE_DEG,
             format!("+Z within {off_deg:.1e} deg of the Sun"),
         )
     });
     let invalid_s = after(samples, 0.0, |sample| !sample.is_attitude_known);
-    let demoted_s = after(samples, invalid_s, |sample| sample.mode == EARTH_ACQUISITION);
+    let demoted_s = after(samples, invalid_s, |sample| sample.mode == parameters.earth_acquisition);
     check(
         "inertial reference lost: Earth Acquisition",
         (
@@ -186,7 +212,7 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     let first = Phase::between(samples, lost_s + DELAY_S, SUN_LOST_S);
     check(
         "quaternion error and rate instead of an attitude",
-        (first.all(|it| it.command_kind == ERROR_QUATERNION), format!("to {SUN_LOST_S:.0} s")),
+        (first.all(|it| it.command_kind == parameters.error_quaternion), format!("to {SUN_LOST_S:.0} s")),
     );
     check("boresight to the Sun", acquired(samples, lost_s, SUN_LOST_S));
     let settled = Phase::between(samples, SUN_LOST_S - SETTLED_S, SUN_LOST_S);
@@ -194,20 +220,20 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
         "slow rotation about the Sun direction",
         turns_about(&settled, &BORESIGHT, parameters.earth_acquisition_rad_s),
     );
-    let search_s = after(samples, SUN_LOST_S, |sample| sample.command_kind == RATE_ONLY);
+    let search_s = after(samples, SUN_LOST_S, |sample| sample.command_kind == parameters.rate_only);
     check(
         "Sun lost: rate only",
         (search_s <= DELAY_S, format!("{search_s:.0} s after the last Sun sensor failed")),
     );
     for round in 0..3 {
         let (name, axis) = [
-            ("about a first body axis for a duration", [1.0, 0.0, 0.0]),
-            ("then about a second", [0.0, 1.0, 0.0]),
-            ("then about a third", [0.0, 0.0, 1.0]),
+            ("about a first body axis for a duration", Vector::x()),
+            ("then about a second", Vector::y()),
+            ("then about a third", Vector::z()),
         ][round];
         let from_s = SUN_LOST_S + search_s + round as f64 * parameters.search_s;
         let to_s = from_s + parameters.search_s;
-        let commanded = |sample: &Sample| dot(&sample.command_rate_rad_s, &axis) == parameters.search_rad_s;
+        let commanded = |sample: &Sample| sample.command_rate_rad_s.dot(&axis) == parameters.search_rad_s;
         let seconds =
             Phase::between(samples, SUN_LOST_S, SUN_LOST_S + search_s + 3.0 * parameters.search_s - 1.0);
         let seconds = seconds.0.iter().filter(|sample| commanded(sample)).count();
@@ -220,18 +246,19 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     check(
         "cycling is repeated",
         (
-            again.all(|it| it.command_rate_rad_s == [parameters.search_rad_s, 0.0, 0.0]),
+            again.all(|it| it.command_rate_rad_s == Vector::new(parameters.search_rad_s, 0.0, 0.0)),
             format!("about X again to {SUN_BACK_S:.0} s"),
         ),
     );
-    let found_s = after(samples, SUN_BACK_S, |sample| sample.command_kind == ERROR_QUATERNION);
+    let found_s = after(samples, SUN_BACK_S, |sample| sample.command_kind == parameters.error_quaternion);
     check(
         "until a valid reading of the Sun",
         (found_s <= DELAY_S, format!("{found_s:.0} s after the Sun sensors work again")),
     );
     check("boresight to the Sun again", acquired(samples, SUN_BACK_S, TRACKER_BACK_S));
     let known_s = after(samples, TRACKER_BACK_S, |sample| sample.is_attitude_known);
-    let kept = Phase::between(samples, TRACKER_BACK_S, SAFE_HOLD_S).all(|it| it.mode == EARTH_ACQUISITION);
+    let kept = Phase::between(samples, TRACKER_BACK_S, SAFE_HOLD_S)
+        .all(|it| it.mode == parameters.earth_acquisition);
     check(
         "promotion only by ground command",
         (
@@ -244,12 +271,12 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     check("Safe Hold: strict Sun safety", {
         let inside_deg = -end.greatest(|sample| beyond_deg(sample, &parameters.safe_hold_deg));
         (
-            held.all(|it| it.mode == SAFE_HOLD) && inside_deg >= 0.0,
+            held.all(|it| it.mode == parameters.safe_hold) && inside_deg >= 0.0,
             format!("{inside_deg:.2} deg inside its zone"),
         )
     });
     check("an attitude that maintains communication with Earth", {
-        let off_deg = end.greatest(|it| body_angles_deg(&turn(&it.q, &it.to_earth_m))[1].abs());
+        let off_deg = end.greatest(|it| body_angles_deg(&to_body(&it.q, &it.to_earth_m))[1].abs());
         let links = end.all(|sample| sample.has_link);
         (
             links && off_deg <= parameters.beam_deg,
@@ -268,7 +295,7 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     check("Operational by ground command", {
         let off_deg = end.greatest(plus_z_from_sun_deg);
         (
-            end.all(|it| it.mode == OPERATIONAL) && off_deg < ANGLE_DEG,
+            end.all(|it| it.mode == parameters.operational) && off_deg < ANGLE_DEG,
             format!("+Z within {off_deg:.1e} deg of the Sun"),
         )
     });
@@ -276,7 +303,7 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
 }
 
 fn plus_z_from_sun_deg(sample: &Sample) -> f64 {
-    angle_rad(&[0.0, 0.0, 1.0], &sample.sun_body_m()).to_degrees()
+    angle_rad(&Vector::z(), &sample.sun_body_m()).to_degrees()
 }
 
 /// The keep-in zone is put in force while the Sun is outside.
@@ -288,15 +315,16 @@ pub fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     let stop_s = samples.last().map_or(f64::NAN, |sample| sample.time_s);
     let commanded = Phase::between(samples, ZONE_ON_S + DELAY_S, stop_s);
     check("the command is forced into the zone", {
-        let most_deg = commanded
-            .greatest(|sample| outside_deg(&turn(&sample.command_q, &sample.to_sun_m), &parameters.zone_deg));
-        let kinds = commanded.all(|sample| sample.command_kind == ATTITUDE);
+        let most_deg = commanded.greatest(|sample| {
+            outside_deg(&to_body(&sample.command_q, &sample.to_sun_m), &parameters.zone_deg)
+        });
+        let kinds = commanded.all(|sample| sample.command_kind == parameters.attitude);
         (kinds && most_deg < 1e-6, format!("at most {most_deg:.1e} deg outside"))
     });
     let least_deg = Phase::between(samples, 0.0, ZONE_ON_S).least(|it| beyond_deg(it, &parameters.zone_deg));
     let sun_deg = Phase::between(samples, ZONE_ON_S, ZONE_ON_S).greatest(sun_angle_deg);
-    let demoted_s = after(samples, ZONE_ON_S, |sample| sample.mode == SAFE_HOLD);
-    let lowest = samples.iter().any(|sample| sample.mode == EARTH_ACQUISITION);
+    let demoted_s = after(samples, ZONE_ON_S, |sample| sample.mode == parameters.safe_hold);
+    let lowest = samples.iter().any(|sample| sample.mode == parameters.earth_acquisition);
     check(
         "a violation that persists demotes to the next lowest mode",
         (
@@ -317,7 +345,7 @@ pub fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     let kept = Phase::between(samples, ZONE_ON_S + demoted_s, PARDONED_S);
     check(
         "promotion only by ground command",
-        (kept.all(|it| it.mode == SAFE_HOLD), format!("Safe Hold to {PARDONED_S:.0} s")),
+        (kept.all(|it| it.mode == parameters.safe_hold), format!("Safe Hold to {PARDONED_S:.0} s")),
     );
     let end = Phase::between(samples, stop_s - SETTLED_S, stop_s);
     check("Operational: the valid attitude closest to the target", {
@@ -325,7 +353,7 @@ pub fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
         let [least_deg, most_deg] = [end.least(beyond), end.greatest(beyond)];
         let off_deg = end.least(plus_z_from_sun_deg);
         (
-            end.all(|it| it.mode == OPERATIONAL && it.is_constrained)
+            end.all(|it| it.mode == parameters.operational && it.is_constrained)
                 && least_deg.abs().max(most_deg.abs()) < ANGLE_DEG,
             format!(
                 "Sun within {:.1e} deg of the boundary, {off_deg:.1} deg from +Z",

@@ -1,9 +1,9 @@
 //! Two chains of safe modes in the loop: inertial reference and Sun are lost and come back; the keep-in zone is violated.
 
-use super::guided_loop::{Flight, GUIDANCE, Loop, PLANT, Sample};
+use super::guided_loop::{Flight, Loop, Sample};
 use crate::StudyError;
-use crate::settings::{Settings, flag, number, real, vector_setting};
-use crate::vector::angle_rad;
+use crate::attitude::{Vector, angle_rad};
+use crate::settings::{Settings, elements, flag, item, of, real};
 
 /// 2009-04-06 00:00 TDB in seconds past J2000, the start of the default flight.
 const EPOCH_S: f64 = 292_248_000.0;
@@ -35,7 +35,7 @@ pub const PARDONED_S: f64 = 2400.0;
 const VIOLATED_END_S: f64 = 4000.0;
 
 /// The boresight of Earth Acquisition and centre of the keep-in zone by default, body frame.
-pub const BORESIGHT: [f64; 3] = [0.0, -1.0, 0.0];
+pub const BORESIGHT: Vector = Vector::new(0.0, -1.0, 0.0);
 
 /// Angle between the boresight and the Sun, in deg.
 pub fn sun_angle_deg(sample: &Sample) -> f64 {
@@ -60,28 +60,29 @@ impl Chain {
         }
     }
 
-    /// What is set when: time in s, unit, values.
-    fn events(self) -> Vec<(f64, usize, Settings)> {
+    /// What is set when, in s.
+    fn events(self) -> Vec<(f64, Settings)> {
         let tracker =
-            |failed| vec![flag("starTracker.failed", failed), flag("starTracker.spareFailed", failed)];
+            |failed| ["failed", "spareFailed"].map(|it| flag(&format!("plant.starTracker.{it}"), failed));
         let sensors = |failed| {
-            (1..=SUN_SENSORS).map(|k| flag(&format!("sunSensor[{k}].failed"), failed)).collect::<Settings>()
+            let sensors = 1..=SUN_SENSORS;
+            sensors.map(|k| flag(&format!("plant.sunSensor[{k}].failed"), failed)).collect::<Settings>()
         };
-        let request = |mode| vec![number("mode.request", mode)];
+        let request = |mode| vec![item("guidance.mode.request", mode)];
         match self {
             Self::AttitudeLost => vec![
-                (0.0, GUIDANCE, plus_z_at_the_sun()),
-                (TRACKER_FAILS_S, PLANT, tracker(true)),
-                (SUN_LOST_S, PLANT, sensors(true)),
-                (SUN_BACK_S, PLANT, sensors(false)),
-                (TRACKER_BACK_S, PLANT, tracker(false)),
-                (SAFE_HOLD_S, GUIDANCE, request(2)),
-                (OPERATIONAL_S, GUIDANCE, request(1)),
+                (0.0, plus_z_at_the_sun()),
+                (TRACKER_FAILS_S, tracker(true).to_vec()),
+                (SUN_LOST_S, sensors(true)),
+                (SUN_BACK_S, sensors(false)),
+                (TRACKER_BACK_S, tracker(false).to_vec()),
+                (SAFE_HOLD_S, request("safeHold")),
+                (OPERATIONAL_S, request("operational")),
             ],
             Self::ZoneViolated => vec![
-                (0.0, GUIDANCE, plus_z_at_the_sun()),
-                (ZONE_ON_S, GUIDANCE, vec![flag("keepIn.enabled", true)]),
-                (PARDONED_S, GUIDANCE, request(1)),
+                (0.0, plus_z_at_the_sun()),
+                (ZONE_ON_S, vec![flag("guidance.keepIn.enabled", true)]),
+                (PARDONED_S, request("operational")),
             ],
         }
     }
@@ -89,9 +90,9 @@ impl Chain {
     /// Flies it.
     pub fn fly(self, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
         let events = self.events();
-        let inputs = |sample: &Sample| -> Vec<(usize, Settings)> {
-            let due = events.iter().filter(|(at_s, ..)| (at_s - sample.time_s).abs() < 0.25);
-            due.map(|(_, unit, settings)| (*unit, settings.clone())).collect()
+        let inputs = |sample: &Sample| {
+            let due = events.iter().filter(|(at_s, _)| (at_s - sample.time_s).abs() < 0.25);
+            due.flat_map(|(_, settings)| settings.clone()).collect()
         };
         let stop_s = match self {
             Self::AttitudeLost => LOST_END_S,
@@ -103,9 +104,11 @@ impl Chain {
                 epoch_s: EPOCH_S,
                 true_anomaly_deg: TRUE_ANOMALY_DEG,
                 stop_s,
-                plant: vec![real("starTracker.outage", OUTAGE_S)],
                 // The Sun is where the keep-in zone would not let it be.
-                guidance: vec![flag("keepIn.enabled", false)],
+                settings: vec![
+                    real("plant.starTracker.outage", OUTAGE_S),
+                    flag("guidance.keepIn.enabled", false),
+                ],
                 inputs: &inputs,
             },
             step_s,
@@ -116,13 +119,13 @@ impl Chain {
 /// The scenario generic: +Z at the Sun, rolled toward the Earth.
 fn plus_z_at_the_sun() -> Settings {
     let mut settings = vec![
-        number("pointing.scenario", 1),
-        number("boresight.option", 1),
-        number("aimpoint.option", 10),
-        number("bodyRoll.option", 1),
-        number("externalRoll.option", 4),
+        item("pointing.scenario", "generic"),
+        item("boresight.option", "vector"),
+        item("aimpoint.option", "sun"),
+        item("bodyRoll.option", "vector"),
+        item("externalRoll.option", "earth"),
     ];
-    settings.extend(vector_setting("boresight.vector", &[0.0, 0.0, 1.0]));
-    settings.extend(vector_setting("bodyRoll.vector", &[1.0, 0.0, 0.0]));
-    settings
+    settings.extend(elements("boresight.vector", [0.0, 0.0, 1.0]));
+    settings.extend(elements("bodyRoll.vector", [1.0, 0.0, 0.0]));
+    of("guidance", settings)
 }

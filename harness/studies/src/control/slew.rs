@@ -2,9 +2,9 @@
 
 use super::slew_figures::figure;
 use super::slew_flight::{Event, Flown, Plant, SLEW_S, Sample, Slew};
+use crate::attitude::Vector;
 use crate::case::{chosen, run_all};
-use crate::settings::digits;
-use crate::vector::{difference, dot, norm, scaled};
+use crate::settings::cells;
 use crate::{Options, Report, StudyError};
 
 /// Angle of the slews where none is asked for.
@@ -20,7 +20,7 @@ const DUMP_S: f64 = 900.0;
 
 fn slews(options: &Options) -> Vec<Slew> {
     let angle_rad = options.angle_rad.unwrap_or(ANGLE_DEG.to_radians());
-    let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let [x, y, z] = [Vector::x(), Vector::y(), Vector::z()];
     let slew = |label, axis, event, stop_s| Slew { label, axis, angle_rad, event, stop_s };
     vec![
         slew("about X", x, Event::None, None),
@@ -58,7 +58,7 @@ fn greatest(values: impl Iterator<Item = f64>) -> f64 {
 impl Measures {
     fn of(flown: &Flown) -> Self {
         let Flown { slew, limits, samples } = flown;
-        let error_deg = |sample: &Sample| norm(&sample.left_rad).to_degrees();
+        let error_deg = |sample: &Sample| sample.left_rad.norm().to_degrees();
         let after = || samples.iter().filter(|sample| sample.time_s >= SLEW_S);
         let small_from =
             samples.iter().rposition(|sample| error_deg(sample) > SETTLED_DEG).map_or(0, |k| k + 1);
@@ -76,12 +76,11 @@ impl Measures {
                 .map(|sample| -sense * sample.ahead_rad(slew))
                 .fold(0.0, f64::max)
                 .to_degrees(),
-            across_deg: greatest(samples.iter().map(|sample| {
-                norm(&difference(&sample.left_rad, &scaled(&slew.axis, sample.ahead_rad(slew))))
-            }))
+            across_deg: greatest(
+                samples.iter().map(|sample| (sample.left_rad - slew.axis * sample.ahead_rad(slew)).norm()),
+            )
             .to_degrees(),
-            rate_deg_s: greatest(samples.iter().map(|sample| dot(&sample.rate_rad_s, &slew.axis)))
-                .to_degrees(),
+            rate_deg_s: greatest(samples.iter().map(|sample| sample.rate_rad_s.dot(&slew.axis))).to_degrees(),
             torque: share(|wheel| wheel.torque_n_m, &limits.torque_n_m),
             momentum: share(|wheel| wheel.momentum_n_m_s, &limits.capacity_n_m_s),
             full_s: full().next().zip(full().next_back()),
@@ -145,19 +144,9 @@ impl Measures {
     }
 }
 
-const HEADER: [&str; 11] = [
-    "case",
-    "angle [deg]",
-    "settled [s]",
-    "by the limits [s]",
-    "overshoot [deg]",
-    "off the axis [deg]",
-    "rate [deg/s]",
-    "torque",
-    "momentum",
-    "a wheel full [s]",
-    "verdict",
-];
+const HEADER: &str = "\
+    case | angle [deg] | settled [s] | by the limits [s] | overshoot [deg] | off the axis [deg] | \
+    rate [deg/s] | torque | momentum | a wheel full [s] | verdict";
 
 /// Slews about each axis, with full wheels and with a wheel that fails.
 pub fn slew(options: &Options) -> Result<Report, StudyError> {
@@ -167,7 +156,7 @@ pub fn slew(options: &Options) -> Result<Report, StudyError> {
     let mut report = Report::default();
     report.line("Slews under the plant's own controller; the command jumps at 10 s\n");
     let rows: Vec<_> = flown.iter().map(|flown| Measures::of(flown).row(flown)).collect();
-    report.table(&HEADER, &rows);
+    report.table(HEADER, &rows);
     if let Some(Flown { limits, .. }) = flown.first() {
         report.line(&format!(
             "Limits: {:.4} deg/s and {:.5} deg/s2 (control.slewRate and control.slewAcceleration), wheels of {} N m and {} N m s.",
@@ -178,7 +167,7 @@ pub fn slew(options: &Options) -> Result<Report, StudyError> {
         ));
     }
     report.line(REMARK);
-    report.csv(options, "slew.csv", &HEADER, rows)?;
+    report.csv(options, "slew.csv", HEADER, rows)?;
     history(&mut report, options, &flown)?;
     for flown in &flown {
         let file =
@@ -197,47 +186,31 @@ no keep-in zone here: the slews about X and Z take the Sun off the shade.";
 
 /// Every sample of every flight.
 fn history(report: &mut Report, options: &Options, flown: &[Flown]) -> Result<(), StudyError> {
-    let mut header: Vec<String> = [
-        "case",
-        "time_s",
-        "q1",
-        "q2",
-        "q3",
-        "q4",
-        "rate_x_rad_s",
-        "rate_y_rad_s",
-        "rate_z_rad_s",
-        "left_x_rad",
-        "left_y_rad",
-        "left_z_rad",
-        "momentum_x_n_m_s",
-        "momentum_y_n_m_s",
-        "momentum_z_n_m_s",
-        "torque_limited",
-        "dumping",
-        "dumps",
-    ]
-    .map(str::to_owned)
-    .to_vec();
+    let mut header = "\
+        case | time_s | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | \
+        left_x_rad | left_y_rad | left_z_rad | momentum_x_n_m_s | momentum_y_n_m_s | momentum_z_n_m_s | \
+        torque_limited | dumping | dumps"
+        .to_owned();
     let wheels = flown.first().map_or(0, |flown| flown.limits.axes.len());
     for k in 1..=wheels {
-        header.extend(["torque_n_m", "momentum_n_m_s", "full"].map(|name| format!("wheel{k}_{name}")));
+        header += &format!(" | wheel{k}_torque_n_m | wheel{k}_momentum_n_m_s | wheel{k}_full");
     }
     let rows = flown.iter().flat_map(|flown| {
         flown.samples.iter().map(|sample| {
             let Sample { q, rate_rad_s, left_rad, momentum_n_m_s, .. } = sample;
-            let numbers = [sample.time_s].into_iter().chain(*q).chain(*rate_rad_s).chain(*left_rad);
             let mut row = vec![flown.slew.label.to_owned()];
-            row.extend(numbers.chain(*momentum_n_m_s).map(digits));
+            row.extend(cells(&[&[sample.time_s], q.coords.as_slice()]));
+            row.extend(
+                [rate_rad_s, left_rad, momentum_n_m_s].into_iter().flat_map(|v| cells(&[v.as_slice()])),
+            );
             row.extend([sample.is_torque_limited, sample.is_dumping].map(|is| is.to_string()));
             row.push(format!("{}", sample.dumps));
             for wheel in &sample.wheels {
-                row.extend([wheel.torque_n_m, wheel.momentum_n_m_s].map(digits));
+                row.extend(cells(&[&[wheel.torque_n_m, wheel.momentum_n_m_s]]));
                 row.push(wheel.is_saturated.to_string());
             }
             row
         })
     });
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     report.csv(options, "slew-history.csv", &header, rows.collect::<Vec<_>>())
 }

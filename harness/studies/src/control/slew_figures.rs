@@ -1,7 +1,6 @@
 //! Pictures of slews: error angle, rate, torques and momenta of the wheels over time, with their limits.
 
 use super::slew_flight::{Event, Flown, SLEW_S, Sample};
-use crate::vector::{dot, norm};
 use drawing::{Chart, Panel, Series};
 
 /// A slew over time.
@@ -24,14 +23,14 @@ pub fn figure(flown: &Flown) -> Chart {
         Panel {
             y_label: "error [deg]".to_owned(),
             series: vec![line("angle from the attitude commanded at 10 s", &|sample| {
-                norm(&sample.left_rad).to_degrees()
+                sample.left_rad.norm().to_degrees()
             })],
             ..Panel::default()
         },
         Panel {
             y_label: "rate [deg/s]".to_owned(),
             series: vec![
-                line("about the slew's axis", &|sample| dot(&sample.rate_rad_s, &slew.axis).to_degrees()),
+                line("about the slew's axis", &|sample| sample.rate_rad_s.dot(&slew.axis).to_degrees()),
                 dashed("control.slewRate", limit, samples),
             ],
             ..Panel::default()

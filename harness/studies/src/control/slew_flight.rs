@@ -1,11 +1,11 @@
 //! Slews of the controlled plant: a commanded attitude that jumps, with wheels that start near capacity or fail.
 
-use loader::{Error, Fmu};
+use loader::Fmu;
 
-use super::cosimulation::{Grid, Row, Unit, fly};
 use super::slew_limits::SlewLimits;
-use crate::settings::{Settings, flag, number, quaternion_setting, real, vector_setting};
-use crate::vector::{Vector, dot, rotated, rotation_vector, scaled};
+use crate::attitude::{Attitude, Vector, rotated, rotation_vector, unit};
+use crate::case::{Case, Row, at_start};
+use crate::settings::{Settings, elements, flag};
 use crate::{Options, StudyError};
 
 /// The command jumps then, in s.
@@ -60,20 +60,23 @@ pub struct Limits {
 }
 
 impl Limits {
-    fn read(fmu: &Fmu) -> Result<Self, Error> {
+    fn read(fmu: &Fmu) -> Result<Self, StudyError> {
         let wheels = (1..).take_while(|k| fmu.find(&format!("wheel[{k}].torque")).is_some()).count();
-        let each = |name: &str| (1..=wheels).map(|k| format!("wheel[{k}].{name}")).collect::<Vec<_>>();
-        let read = |names: &[String]| Unit::start(fmu, &Vec::new(), &Vec::new(), names)?.read();
-        let control =
-            read(&[SlewLimits::NAMES[0], SlewLimits::NAMES[1], "control.bandwidth"].map(str::to_owned))?;
-        let mut control = Row::of(&control);
-        let axes = read(&each("axis"))?;
+        let read = |name: &str| {
+            let each: Vec<String> = (1..=wheels).map(|k| format!("wheel[{k}].{name}")).collect();
+            Ok::<_, StudyError>(
+                at_start(fmu, &each)?.columns.iter().map(|column| column[0]).collect::<Vec<_>>(),
+            )
+        };
+        let control = at_start(fmu, &[SlewLimits::NAMES[0], SlewLimits::NAMES[1], "control.bandwidth"])?;
+        let mut control = control.row(0, 0);
+        let axes = read("axis")?;
         Ok(Self {
-            slew: SlewLimits::of(&mut control),
+            slew: SlewLimits::from([control.real(), control.real()]),
             bandwidth_rad_s: control.real(),
-            torque_n_m: read(&each("maxTorque"))?,
-            capacity_n_m_s: read(&each("capacity"))?,
-            axes: axes.chunks_exact(3).map(|a| crate::vector::unit(&[a[0], a[1], a[2]])).collect(),
+            torque_n_m: read("maxTorque")?,
+            capacity_n_m_s: read("capacity")?,
+            axes: axes.chunks_exact(3).map(|axis| unit(&Vector::from_row_slice(axis))).collect(),
         })
     }
 }
@@ -95,7 +98,7 @@ pub struct Sample {
     /// In s.
     pub time_s: f64,
     /// True attitude: EME2000 to body, scalar last.
-    pub q: [f64; 4],
+    pub q: Attitude,
     /// True rate, body frame, in rad/s.
     pub rate_rad_s: Vector,
     /// Rotation from the attitude to the one after the slew, body frame, in rad.
@@ -115,7 +118,7 @@ pub struct Sample {
 impl Sample {
     /// How far the body still is from the commanded attitude along the slew's axis, in rad; negative beyond it.
     pub fn ahead_rad(&self, slew: &Slew) -> f64 {
-        dot(&self.left_rad, &slew.axis)
+        self.left_rad.dot(&slew.axis)
     }
 }
 
@@ -134,7 +137,7 @@ pub struct Plant {
     fmu: Fmu,
     limits: Limits,
     /// Attitude that the plant's own guidance has at the start.
-    q: [f64; 4],
+    q: Attitude,
     /// Body rows of the start values of `dump.threshold`.
     threshold_n_m_s: Vector,
 }
@@ -143,61 +146,36 @@ impl Plant {
     /// Of the folder that `options` names.
     pub fn open(options: &Options) -> Result<Self, StudyError> {
         let fmu = options.fmu("MessengerFull.fmu")?;
-        let read = || -> Result<_, Error> {
-            let names = ["attitude.q", "dump.threshold"];
-            let row = Unit::start(&fmu, &Vec::new(), &Vec::new(), &names)?.read()?;
-            let mut row = Row::of(&row);
-            Ok((Limits::read(&fmu)?, row.vector(), row.vector()))
-        };
-        let (limits, q, threshold_n_m_s) = read().map_err(|error| StudyError::Simulation {
-            case: "parameters of MessengerFull".to_owned(),
-            source: error.into(),
-        })?;
-        Ok(Self { fmu, limits, q, threshold_n_m_s })
+        let start = at_start(&fmu, &["attitude.q", "dump.threshold"])?;
+        let mut start = start.row(0, 0);
+        let limits = Limits::read(&fmu)?;
+        Ok(Self { limits, q: start.attitude(), threshold_n_m_s: start.vector(), fmu })
     }
 
     /// Flies it.
     pub fn fly(&self, slew: &Slew, step_s: Option<f64>) -> Result<Flown, StudyError> {
-        let failed =
-            |error: Error| StudyError::Simulation { case: slew.label.to_owned(), source: error.into() };
-        let samples = self.samples(slew, step_s.unwrap_or(SAMPLE_S)).map_err(failed)?;
-        Ok(Flown { slew: slew.clone(), limits: self.limits.clone(), samples })
-    }
-
-    fn samples(&self, slew: &Slew, step_s: f64) -> Result<Vec<Sample>, Error> {
-        let target = rotated(&self.q, &scaled(&slew.axis, slew.angle_rad), 1.0);
+        let target = rotated(&self.q, &(slew.axis * slew.angle_rad), 1.0);
         let wheels = self.limits.axes.len();
-        let outputs = ["attitude.q", "attitude.rate", "control.saturated", "dump.active", "dump.count"];
-        let mut outputs: Vec<String> = outputs.map(str::to_owned).to_vec();
-        outputs.push("momentum.body".to_owned());
+        let mut outputs = OUTPUTS.map(str::to_owned).to_vec();
         for k in 1..=wheels {
             outputs.extend(["torque", "momentum", "saturated"].map(|name| format!("wheel[{k}].{name}")));
         }
-        let plant = Unit::start(
-            &self.fmu,
-            &self.parameters(slew),
-            &quaternion_setting("command.q", &self.q),
-            &outputs,
-        )?;
         let ideal_s = self.limits.slew.least_s(slew.angle_rad.abs());
-        let grid = Grid {
-            stop_s: slew.stop_s.unwrap_or_else(|| (SLEW_S + 1.4 * ideal_s + 100.0).ceil()),
-            step_s,
-            sample_s: SAMPLE_S,
-        };
+        let stop_s = slew.stop_s.unwrap_or_else(|| (SLEW_S + 1.4 * ideal_s + 100.0).ceil());
         let mut events = self.events(slew, &target, ideal_s).into_iter().peekable();
-        let inputs = |time_s: f64, _: &[Vec<f64>]| {
-            let mut due = Vec::new();
-            while let Some((_, settings)) = events.next_if(|(at_s, _)| *at_s <= time_s + 1e-9) {
-                due.push((0, settings));
+        let mut inputs = |row: Row<'_>| {
+            let mut due = Settings::new();
+            while let Some((_, settings)) = events.next_if(|(at_s, _)| *at_s <= row.time_s + 1e-9) {
+                due.extend(settings);
             }
             due
         };
-        fly(&mut [plant], &[], grid, inputs, |time_s, rows| {
-            let mut row = Row::of(&rows[0]);
-            let q = row.vector();
+        let case = Case::new(slew.label, stop_s, step_s.unwrap_or(SAMPLE_S)).every(SAMPLE_S);
+        let recorded = self.start(case, slew).steer(&self.fmu, &outputs, &mut inputs)?;
+        let sample = |mut row: Row<'_>| {
+            let q = row.attitude();
             Sample {
-                time_s,
+                time_s: row.time_s,
                 q,
                 rate_rad_s: row.vector(),
                 left_rad: rotation_vector(&q, &target),
@@ -213,37 +191,47 @@ impl Plant {
                     })
                     .collect(),
             }
-        })
+        };
+        let samples = recorded.rows().map(sample).collect();
+        Ok(Flown { slew: slew.clone(), limits: self.limits.clone(), samples })
     }
 
     /// At rest in the start attitude, which is held until the command jumps.
-    fn parameters(&self, slew: &Slew) -> Settings {
-        let mut parameters = vec![number("attitude.source", 3), number("command.source", 1)];
-        parameters.extend(quaternion_setting("start.q", &self.q));
+    fn start(&self, case: Case, slew: &Slew) -> Case {
+        let mut case = case
+            .item("attitude.source", "controlled")
+            .item("command.source", "inputs")
+            .elements("start.q", self.q.coords.iter().copied())
+            .elements("command.q", self.q.coords.iter().copied());
         if let Event::Dumped(share, _) | Event::Threshold(share, _) = slew.event {
-            parameters.extend(vector_setting("dump.threshold", &[NEVER_N_M_S; 3]));
+            case = case.elements("dump.threshold", [NEVER_N_M_S; 3]);
             for (k, (capacity, axis)) in self.limits.capacity_n_m_s.iter().zip(&self.limits.axes).enumerate()
             {
                 // The wheels take up the opposite of the body's momentum.
-                let sense = -dot(axis, &slew.axis).signum() * slew.angle_rad.signum();
-                parameters.push(real(&format!("wheel[{}].startMomentum", k + 1), sense * share * capacity));
+                let sense = -axis.dot(&slew.axis).signum() * slew.angle_rad.signum();
+                case = case.real(&format!("wheel[{}].startMomentum", k + 1), sense * share * capacity);
             }
         }
-        parameters
+        case
     }
 
-    fn events(&self, slew: &Slew, target: &[f64; 4], ideal_s: f64) -> Vec<(f64, Settings)> {
-        let jump = (SLEW_S, quaternion_setting("command.q", target));
-        match slew.event {
-            Event::None => vec![jump],
-            Event::Dumped(_, at_s) => vec![jump, (at_s, vec![flag("dump.request", true)])],
+    fn events(&self, slew: &Slew, target: &Attitude, ideal_s: f64) -> Vec<(f64, Settings)> {
+        let jump = (SLEW_S, elements("command.q", target.coords.iter().copied()));
+        let other = match slew.event {
+            Event::None => None,
+            Event::Dumped(_, at_s) => Some((at_s, vec![flag("dump.request", true)])),
             Event::Threshold(_, at_s) => {
-                vec![jump, (at_s, vector_setting("dump.threshold", &self.threshold_n_m_s))]
+                Some((at_s, elements("dump.threshold", self.threshold_n_m_s.iter().copied())))
             }
             Event::Failed(wheel, share) => {
                 let failure = vec![flag(&format!("wheel[{wheel}].failed"), true)];
-                vec![jump, (SLEW_S + share * ideal_s, failure)]
+                Some((SLEW_S + share * ideal_s, failure))
             }
-        }
+        };
+        [jump].into_iter().chain(other).collect()
     }
 }
+
+/// What is recorded of the body, in the order of [`Sample`].
+const OUTPUTS: [&str; 6] =
+    ["attitude.q", "attitude.rate", "control.saturated", "dump.active", "dump.count", "momentum.body"];

@@ -1,7 +1,5 @@
 //! Limits of a slew's rate and acceleration, and the least time that they allow: accelerate, coast, decelerate.
 
-use super::cosimulation::Row;
-
 /// Limits, both above 0.
 #[derive(Clone, Copy, Debug)]
 pub struct SlewLimits {
@@ -11,14 +9,15 @@ pub struct SlewLimits {
     pub acceleration_rad_s2: f64,
 }
 
+impl From<[f64; 2]> for SlewLimits {
+    fn from([rate_rad_s, acceleration_rad_s2]: [f64; 2]) -> Self {
+        Self { rate_rad_s, acceleration_rad_s2 }
+    }
+}
+
 impl SlewLimits {
     /// The variables of the plant.
     pub const NAMES: [&str; 2] = ["control.slewRate", "control.slewAcceleration"];
-
-    /// From the values of [`Self::NAMES`].
-    pub fn of(row: &mut Row<'_>) -> Self {
-        Self { rate_rad_s: row.real(), acceleration_rad_s2: row.real() }
-    }
 
     /// The least time of a slew by an angle, in s.
     pub fn least_s(&self, angle_rad: f64) -> f64 {

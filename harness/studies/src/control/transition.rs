@@ -1,12 +1,12 @@
 //! Figures 7 and 8 of paper 001 with the controlled plant: commanded, estimated and true attitude over a scenario change.
 
-use super::cosimulation::Row;
-use super::guided_loop::{Flight, GUIDANCE, Loop, Sample};
+use super::guided_loop::{Flight, Loop, Sample};
 use super::slew_limits::SlewLimits;
+use crate::attitude::{Attitude, Vector, angle_rad, body_angles_deg, rotation_vector, to_body};
 use crate::case::{chosen, run_all};
 use crate::pointing::{SLEW_S, TRANSITION_EPOCH_S, TRANSITION_TRUE_ANOMALY_DEG};
-use crate::settings::{Settings, digits, number, real, vector_setting};
-use crate::vector::{angle_rad, body_angles_deg, norm, rotation_vector, turn};
+use crate::settings::{Settings, cells, elements, item, of, real};
+use crate::verdict::{agrees, compared};
 use crate::{Options, Report, StudyError};
 use drawing::{Chart, Mark, Panel, Series};
 
@@ -49,25 +49,22 @@ impl Case {
             let sun_nadir_rad = angle_rad(&sample.to_sun_m, &sample.to_planet_m);
             real("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
         };
-        let inputs = |sample: &Sample| -> Vec<(usize, Settings)> {
-            let settings = if sample.time_s == 0.0 {
-                vec![number("pointing.scenario", 6)]
+        let inputs = |sample: &Sample| {
+            let mut settings = Settings::new();
+            if sample.time_s == 0.0 {
+                settings.push(item("pointing.scenario", "downlink"));
             } else if sample.time_s == SLEW_S {
-                vec![number("pointing.scenario", 4), number("aimpoint.option", 12), camera(sample)]
-            } else if sample.time_s > SLEW_S {
-                vec![camera(sample)]
-            } else {
-                return Vec::new();
-            };
-            vec![(GUIDANCE, settings)]
-        };
-        let plant = match self {
-            Self::Noise => {
-                let mut noise = vector_setting("starTracker.noise", &[TRACKER_RAD; 3]);
-                noise.extend([real("gyro.noise", GYRO_RAD_SQRT_S), real("gyro.drift", DRIFT_RAD_S_SQRT_S)]);
-                noise
+                settings.extend([item("pointing.scenario", "mdis"), item("aimpoint.option", "nadir")]);
             }
-            Self::NoNoise => Vec::new(),
+            if sample.time_s >= SLEW_S {
+                settings.push(camera(sample));
+            }
+            of("guidance", settings)
+        };
+        let noise = || {
+            let mut noise = elements("starTracker.noise", [TRACKER_RAD; 3]);
+            noise.extend([real("gyro.noise", GYRO_RAD_SQRT_S), real("gyro.drift", DRIFT_RAD_S_SQRT_S)]);
+            of("plant", noise)
         };
         both.fly(
             &Flight {
@@ -75,8 +72,7 @@ impl Case {
                 epoch_s: TRANSITION_EPOCH_S,
                 true_anomaly_deg: TRANSITION_TRUE_ANOMALY_DEG,
                 stop_s: END_S,
-                plant,
-                guidance: Vec::new(),
+                settings: if self == Self::Noise { noise() } else { Settings::new() },
                 inputs: &inputs,
             },
             step_s,
@@ -85,18 +81,18 @@ impl Case {
 }
 
 /// Azimuth and elevation in the estimated body frame, in deg.
-fn estimated_deg(sample: &Sample, inertial: &[f64; 3]) -> [f64; 2] {
-    body_angles_deg(&turn(&sample.estimate_q, inertial))
+fn estimated_deg(sample: &Sample, inertial: &Vector) -> [f64; 2] {
+    body_angles_deg(&to_body(&sample.estimate_q, inertial))
 }
 
 /// Angle between the estimated and the commanded attitude, in deg.
 fn error_deg(sample: &Sample) -> f64 {
-    norm(&rotation_vector(&sample.estimate_q, &sample.command_q)).to_degrees()
+    rotation_vector(&sample.estimate_q, &sample.command_q).norm().to_degrees()
 }
 
 /// Angle between the true rate and the commanded one, in deg/s.
 fn rate_error_deg_s(sample: &Sample) -> f64 {
-    norm(&crate::vector::difference(&sample.rate_rad_s, &sample.command_rate_rad_s)).to_degrees()
+    (sample.rate_rad_s - sample.command_rate_rad_s).norm().to_degrees()
 }
 
 /// Limits of the plant's slews.
@@ -107,8 +103,8 @@ struct Limits {
 
 impl Limits {
     fn read(both: &Loop) -> Result<Self, StudyError> {
-        let slew = SlewLimits::of(&mut Row::of(&both.plant_parameters(SlewLimits::NAMES)?));
-        let zone = both.guidance_parameters(["keepIn.azimuth", "keepIn.elevation"])?;
+        let slew = SlewLimits::from(both.parameters(SlewLimits::NAMES.map(|it| format!("plant.{it}")))?);
+        let zone = both.parameters(["guidance.keepIn.azimuth", "guidance.keepIn.elevation"])?;
         Ok(Self { slew, zone_deg: zone.map(f64::to_degrees) })
     }
 }
@@ -125,10 +121,10 @@ pub fn transition(options: &Options) -> Result<Report, StudyError> {
         "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8), under the plant's own controller\n",
     );
     let rows: Vec<_> = flown.iter().flat_map(|(case, samples)| rows(*case, &limits, samples)).collect();
-    let header = ["case", "quantity", "paper", "ours", "verdict"];
-    report.table(&header, &rows);
+    let header = "case | quantity | paper | ours | verdict";
+    report.table(header, &rows);
     report.line(REMARK);
-    report.csv(options, "transition.csv", &header, rows)?;
+    report.csv(options, "transition.csv", header, rows)?;
     history(&mut report, options, &flown)?;
     if let Some((case, samples)) = flown.first() {
         report.picture(options, "transition-quaternion.svg", &quaternion_chart(*case, samples))?;
@@ -153,13 +149,13 @@ fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
     // The command of the sample at 500 s stands one second later.
     let (Some(before), Some(after)) = (at(SLEW_S), at(SLEW_S + 1.0)) else { return Vec::new() };
     let greatest = |value: &dyn Fn(&Sample) -> f64| samples.iter().skip(1).map(value).fold(0.0, f64::max);
-    let slew_rad = norm(&rotation_vector(&before.command_q, &after.command_q));
+    let slew_rad = rotation_vector(&before.command_q, &after.command_q).norm();
     let is_off =
         |sample: &Sample| error_deg(sample) > SETTLED_DEG || rate_error_deg_s(sample) > SETTLED_DEG_S;
     let settled_s =
         samples.iter().rposition(is_off).and_then(|k| samples.get(k + 1)).map(|it| it.time_s - SLEW_S);
-    let off_sun = |frame: &dyn Fn(&Sample) -> [f64; 4]| {
-        greatest(&|it| angle_rad(&[0.0, -1.0, 0.0], &turn(&frame(it), &it.to_sun_m)).to_degrees())
+    let off_sun = |frame: &dyn Fn(&Sample) -> Attitude| {
+        greatest(&|it| angle_rad(&-Vector::y(), &to_body(&frame(it), &it.to_sun_m)).to_degrees())
     };
     let outside = samples.iter().skip(1).filter(|sample| {
         let [azimuth, elevation] = estimated_deg(sample, &sample.to_sun_m);
@@ -167,28 +163,24 @@ fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
     });
     let [outside, limited] = [outside.count(), samples.iter().filter(|it| it.is_torque_limited).count()];
     let last_deg = samples.iter().rev().take(300).map(error_deg).fold(0.0, f64::max);
-    let row = |quantity: &str, paper: &str, ours: String, verdict: &str| {
-        vec![case.label().to_owned(), quantity.to_owned(), paper.to_owned(), ours, verdict.to_owned()]
+    let row = |what: &str, ours: String, verdict: &str| {
+        compared(&format!("{} | {what}", case.label()), ours, verdict)
     };
-    let agrees = |is: bool| if is { "agrees" } else { "differs" };
     let [estimated_deg, true_deg] = [off_sun(&|sample| sample.estimate_q), off_sun(&|sample| sample.q)];
     vec![
-        row("slew angle", "not printed", format!("{:.2} deg", slew_rad.to_degrees()), "-"),
+        row("slew angle | not printed", format!("{:.2} deg", slew_rad.to_degrees()), "-"),
         row(
-            "time to settle",
-            "about 70 to 100 s",
+            "time to settle | about 70 to 100 s",
             settled_s.map_or_else(|| "does not".to_owned(), |time_s| format!("{time_s:.0} s")),
             agrees(settled_s.is_some_and(|time_s| (PAPER_S[0]..=PAPER_S[1]).contains(&time_s))),
         ),
         row(
-            "the same by the limits alone",
-            "not printed",
+            "the same by the limits alone | not printed",
             format!("{:.0} s", limits.slew.least_s(slew_rad)),
             "-",
         ),
         row(
-            "slew angles that take 70 to 100 s by the limits",
-            "not printed",
+            "slew angles that take 70 to 100 s by the limits | not printed",
             format!(
                 "{:.1} to {:.1} deg",
                 limits.slew.angle_rad(PAPER_S[0]).to_degrees(),
@@ -197,75 +189,44 @@ fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
             "-",
         ),
         row(
-            "Sun from -Y in the estimated attitude, greatest",
-            "0 deg: never leaves -Y",
+            "Sun from -Y in the estimated attitude, greatest | 0 deg: never leaves -Y",
             format!("{estimated_deg:.1e} deg"),
             agrees(estimated_deg < PRINTED_DEG),
         ),
         row(
-            "Sun from -Y in the true attitude, greatest",
-            "0 deg",
+            "Sun from -Y in the true attitude, greatest | 0 deg",
             format!("{true_deg:.1e} deg"),
             agrees(true_deg < PRINTED_DEG),
         ),
-        row(
-            "seconds outside the keep-in zone, estimated",
-            "never",
-            outside.to_string(),
-            agrees(outside == 0),
-        ),
-        row("error in the last 300 s, greatest", "not printed", format!("{last_deg:.1e} deg"), "-"),
-        row("seconds with torque at its limit", "not printed", limited.to_string(), "-"),
+        row("seconds outside the keep-in zone, estimated | never", outside.to_string(), agrees(outside == 0)),
+        row("error in the last 300 s, greatest | not printed", format!("{last_deg:.1e} deg"), "-"),
+        row("seconds with torque at its limit | not printed", limited.to_string(), "-"),
     ]
 }
 
 fn history(report: &mut Report, options: &Options, flown: &[(Case, Vec<Sample>)]) -> Result<(), StudyError> {
-    let header = [
-        "case",
-        "time_s",
-        "command_q1",
-        "command_q2",
-        "command_q3",
-        "command_q4",
-        "estimate_q1",
-        "estimate_q2",
-        "estimate_q3",
-        "estimate_q4",
-        "q1",
-        "q2",
-        "q3",
-        "q4",
-        "rate_x_rad_s",
-        "rate_y_rad_s",
-        "rate_z_rad_s",
-        "command_x_rad_s",
-        "command_y_rad_s",
-        "command_z_rad_s",
-        "sun_x_m",
-        "sun_y_m",
-        "sun_z_m",
-        "earth_x_m",
-        "earth_y_m",
-        "earth_z_m",
-        "planet_x_m",
-        "planet_y_m",
-        "planet_z_m",
-        "mdis_angle_deg",
-        "torque_limited",
-        "constrained",
-    ];
+    let header = "\
+        case | time_s | command_q1 | command_q2 | command_q3 | command_q4 | estimate_q1 | estimate_q2 | \
+        estimate_q3 | estimate_q4 | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | \
+        command_x_rad_s | command_y_rad_s | command_z_rad_s | sun_x_m | sun_y_m | sun_z_m | earth_x_m | \
+        earth_y_m | earth_z_m | planet_x_m | planet_y_m | planet_z_m | mdis_angle_deg | torque_limited | \
+        constrained";
     let rows = flown.iter().flat_map(|(case, samples)| {
         samples.iter().map(|sample| {
-            let numbers = [sample.time_s].into_iter().chain(sample.command_q).chain(sample.estimate_q);
-            let numbers = numbers.chain(sample.q).chain(sample.rate_rad_s).chain(sample.command_rate_rad_s);
-            let places = [sample.to_sun_m, sample.to_earth_m, sample.to_planet_m].concat();
+            let Sample { to_sun_m, to_earth_m, to_planet_m, .. } = sample;
+            let attitudes = [&sample.command_q, &sample.estimate_q, &sample.q].map(|q| q.coords.as_slice());
+            let rates = [&sample.rate_rad_s, &sample.command_rate_rad_s];
+            let vectors = rates.into_iter().chain([to_sun_m, to_earth_m, to_planet_m]);
             let mut row = vec![case.label().to_owned()];
-            row.extend(numbers.chain(places).chain([sample.mdis_angle_rad.to_degrees()]).map(digits));
+            row.extend(cells(&[&[sample.time_s]]));
+            row.extend(cells(&attitudes));
+            row.extend(vectors.flat_map(|vector| cells(&[vector.as_slice()])));
+            row.extend(cells(&[&[sample.mdis_angle_rad.to_degrees()]]));
             row.extend([sample.is_torque_limited, sample.is_constrained].map(|is| is.to_string()));
             row
         })
     });
-    report.csv(options, "transition-history.csv", &header, rows.collect::<Vec<_>>())
+    report.csv(options, "transition-history.csv", header, rows.collect::<Vec<_>>())
 }
 
 /// A line over time from the first command on, interrupted where the command jumps if `jumps`.
@@ -281,14 +242,12 @@ fn over_time(label: &str, samples: &[Sample], jumps: bool, value: impl Fn(&Sampl
 }
 
 /// The sign of a quaternion that leaves it closest to the commanded one at the end of the flight.
-fn sign(samples: &[Sample], q: &[f64; 4]) -> f64 {
-    let last = samples.last().map_or([0.0; 4], |last| last.command_q);
-    let dot: f64 = q.iter().zip(&last).map(|(a, b)| a * b).sum();
-    if dot < 0.0 { -1.0 } else { 1.0 }
+fn sign(samples: &[Sample], q: &Attitude) -> f64 {
+    if samples.last().is_some_and(|last| q.dot(&last.command_q) < 0.0) { -1.0 } else { 1.0 }
 }
 
 fn quaternion_chart(case: Case, samples: &[Sample]) -> Chart {
-    let signed = |q: &[f64; 4], i: usize| sign(samples, q) * q[i];
+    let signed = |q: &Attitude, i: usize| sign(samples, q) * q[i];
     let mut panels: Vec<Panel> = (0..4)
         .map(|i| Panel {
             y_label: format!("q{}", i + 1),

@@ -3,8 +3,8 @@
 use loader::Fmu;
 
 use super::spacing::Spacing;
+use crate::attitude::Vector;
 use crate::case::{self, chosen, run_all};
-use crate::vector::Vector;
 use crate::{Options, StudyError};
 
 const DAY_S: f64 = 86_400.0;
@@ -83,11 +83,11 @@ impl Strategy {
     }
 
     /// Of `momentum.strategy`.
-    fn number(self) -> i32 {
+    fn item(self) -> &'static str {
         match self {
-            Self::DumpsOnly => 1,
-            Self::Reactive => 2,
-            Self::Predictive => 3,
+            Self::DumpsOnly => "dumpsOnly",
+            Self::Reactive => "reactive",
+            Self::Predictive => "predictive",
         }
     }
 }
@@ -121,7 +121,7 @@ impl DumpsTo {
         match self {
             Self::Opposite(fraction) => case.real("dump.reinitFraction", fraction),
             Self::AlongX(fraction) => {
-                case.integer("dump.reinitTo", 2).real("dump.target[1]", fraction * threshold_n_m_s)
+                case.item("dump.reinitTo", "target").real("dump.target[1]", fraction * threshold_n_m_s)
             }
         }
     }
@@ -158,14 +158,14 @@ impl Choice {
     }
 
     fn set(self, case: case::Case) -> case::Case {
-        let tilt = |positive| if positive { 1 } else { 2 };
+        let tilt = |positive| if positive { "positive" } else { "negative" };
         match self {
             Self::Study => case,
             Self::Later => case.real("start.epoch", START_S + 40.0 * DAY_S),
-            Self::OrbitPlane => case.integer("orbit.frame", 1),
-            Self::Ecliptic => case.integer("orbit.frame", 4),
+            Self::OrbitPlane => case.item("orbit.frame", "planetOrbit"),
+            Self::Ecliptic => case.item("orbit.frame", "ecliptic"),
             Self::Tilts(plus_x, minus_x) => {
-                case.integer("panel[1].tilt", tilt(plus_x)).integer("panel[2].tilt", tilt(minus_x))
+                case.item("panel[1].tilt", tilt(plus_x)).item("panel[2].tilt", tilt(minus_x))
             }
         }
     }
@@ -225,22 +225,18 @@ impl Case {
     /// The case with all that it sets.
     pub fn settings(&self) -> case::Case {
         let has_panels = self.shade == Shade::PlatesAndPanels;
-        let mut case = case::Case::new(self.label(), SPAN_D * DAY_S, STEP_S)
+        let is_papers = self.convention == Convention::BodyIntegral;
+        let case = case::Case::new(self.label(), SPAN_D * DAY_S, STEP_S)
             .boolean("solar.fixedPressure", true)
             .boolean("gravityGradient.enabled", false)
-            .integer("eclipse.method", 4)
+            .item("eclipse.method", "off")
             .boolean("panel[1].enabled", has_panels)
             .boolean("panel[2].enabled", has_panels)
-            .integer("sunshade.shape", if self.shade == Shade::Cylinder { 2 } else { 1 })
-            .integer("momentum.convention", if self.convention == Convention::BodyIntegral { 2 } else { 1 })
-            .integer("momentum.strategy", self.strategy.number());
-        for axis in 0..3 {
-            let number = axis + 1;
-            let offset_m = INCH_M * f64::from(self.offset_in[axis]);
-            case = case
-                .real(&format!("spacecraft.centerOfMass[{number}]"), offset_m)
-                .real(&format!("dump.threshold[{number}]"), self.threshold_n_m_s);
-        }
+            .item("sunshade.shape", if self.shade == Shade::Cylinder { "cylinder" } else { "plates" })
+            .item("momentum.convention", if is_papers { "bodyIntegral" } else { "inertial" })
+            .item("momentum.strategy", self.strategy.item())
+            .elements("spacecraft.centerOfMass", self.offset_in.map(|it| INCH_M * f64::from(it)))
+            .elements("dump.threshold", [self.threshold_n_m_s; 3]);
         self.choice.set(self.dumps_to.set(case, self.threshold_n_m_s))
     }
 
@@ -257,21 +253,16 @@ impl Case {
 }
 
 /// What is recorded.
-const NAMES: [&str; 6] = [
-    "momentum.body[1]",
-    "dump.count",
-    "dump.lastTime",
-    "dump.impulse[1]",
-    "dump.impulse[2]",
-    "dump.impulse[3]",
-];
+const NAMES: [&str; 4] = ["momentum.body[1]", "dump.count", "dump.lastTime", "dump.impulse"];
 
 /// Every dump, from a recording with a point after each.
 fn dumps(recorded: &case::Recorded) -> Vec<Dump> {
-    let [_, count, last_s, x, y, z] = &recorded.columns[..] else { return Vec::new() };
+    let (count, last_s) = (&recorded.columns[1], &recorded.columns[2]);
     let before = [0.0].iter().chain(count);
-    let after = before.zip(count).enumerate().filter(|(_, (before, count))| count > before);
-    after.map(|(k, _)| Dump { time_d: last_s[k] / DAY_S, impulse_body_n_m_s: [x[k], y[k], z[k]] }).collect()
+    let after = before.zip(count).zip(last_s.iter().zip(recorded.vectors(3)));
+    let after = after.filter(|((before, count), _)| count > before);
+    let dump = |(time_s, impulse_body_n_m_s)| Dump { time_d: time_s / DAY_S, impulse_body_n_m_s };
+    after.map(|(_, at)| dump(at)).collect()
 }
 
 /// A thruster dump.

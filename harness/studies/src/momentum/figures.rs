@@ -101,5 +101,5 @@ pub fn draw(
             move |(time_d, momentum)| vec![label.clone(), format!("{time_d:.6}"), format!("{momentum:.9}")],
         )
     });
-    report.csv(options, &format!("{}.csv", figure.name), &["case", "time_d", "momentum_x_n_m_s"], rows)
+    report.csv(options, &format!("{}.csv", figure.name), "case | time_d | momentum_x_n_m_s", rows)
 }

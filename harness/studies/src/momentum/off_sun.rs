@@ -5,11 +5,11 @@ use loader::Fmu;
 use model_description::labels;
 
 use super::sphere::{self, Lit};
+use crate::attitude::Vector;
 use crate::case::Case;
-use crate::settings::digits;
-use crate::vector::{Vector, difference, norm, scaled, sum};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
+use crate::settings::cells;
+use crate::{Options, Report, StudyError};
 
 const DAY_S: f64 = 86_400.0;
 const STOP_S: f64 = 10.0 * DAY_S;
@@ -44,9 +44,7 @@ struct Flown {
 
 /// Study `momentum/off-sun`.
 pub fn off_sun(options: &Options) -> Result<Report, StudyError> {
-    let failed =
-        |error: loader::Error| StudyError::Simulation { case: "the sphere".to_owned(), source: error.into() };
-    let sphere = sphere::map(&options.fmu("MessengerLight.fmu")?).map_err(failed)?;
+    let sphere = sphere::map(&options.fmu("MessengerLight.fmu")?)?;
     let few = fly(&options.fmu("MomentumPlant.fmu")?, "shade and panels")?;
     let whole = fly(&options.fmu("MessengerFull.fmu")?, "whole")?;
     let mut report = Report::default();
@@ -58,27 +56,19 @@ pub fn off_sun(options: &Options) -> Result<Report, StudyError> {
 }
 
 fn over_the_sphere(report: &mut Report, options: &Options, sphere: &[Lit]) -> Result<(), StudyError> {
-    let micro = |v: &Vector| scaled(v, 1e6);
-    let force = sphere::picture("Force of sunlight at 0.387 AU", "uN", sphere, |lit| micro(&lit.force_n));
+    let force = sphere::picture("Force of sunlight at 0.387 AU", "uN", sphere, |lit| lit.force_n * 1e6);
     report.picture(options, "off-sun-force.svg", &force)?;
     let torque =
-        sphere::picture("Torque of sunlight at 0.387 AU", "uN.m", sphere, |lit| micro(&lit.torque_n_m));
+        sphere::picture("Torque of sunlight at 0.387 AU", "uN.m", sphere, |lit| lit.torque_n_m * 1e6);
     report.picture(options, "off-sun-torque.svg", &torque)?;
     let rows = sphere.iter().map(|lit| {
         let at = [lit.azimuth_deg, lit.elevation_deg];
-        [&at[..], &lit.force_n, &lit.torque_n_m].concat().into_iter().map(digits).collect()
+        cells(&[&at, lit.force_n.as_slice(), lit.torque_n_m.as_slice()])
     });
-    let header = [
-        "sun_azimuth_deg",
-        "sun_elevation_deg",
-        "force_x_n",
-        "force_y_n",
-        "force_z_n",
-        "torque_x_n_m",
-        "torque_y_n_m",
-        "torque_z_n_m",
-    ];
-    report.csv(options, "off-sun.csv", &header, rows)?;
+    let header = "\
+        sun_azimuth_deg | sun_elevation_deg | force_x_n | force_y_n | force_z_n | torque_x_n_m | \
+        torque_y_n_m | torque_z_n_m";
+    report.csv(options, "off-sun.csv", header, rows)?;
     let most = |what: &str, unit: &str, size: fn(&Lit) -> f64| {
         let at = sphere.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
         at.map_or(Vec::new(), |lit| {
@@ -95,8 +85,8 @@ fn over_the_sphere(report: &mut Report, options: &Options, sphere: &[Lit]) -> Re
         })
     };
     let rows =
-        [most("force", "uN", |lit| norm(&lit.force_n)), most("torque", "uN.m", |lit| norm(&lit.torque_n_m))];
-    report.table(&["at 0.387 AU", "Sun on -Y", "greatest", "there azimuth / elevation [deg]"], &rows);
+        [most("force", "uN", |lit| lit.force_n.norm()), most("torque", "uN.m", |lit| lit.torque_n_m.norm())];
+    report.table("at 0.387 AU | Sun on -Y | greatest | there azimuth / elevation [deg]", &rows);
     report.line("The panels stand where cells are 65 deg off a Sun on -Y.\n");
     Ok(())
 }
@@ -107,16 +97,16 @@ fn within_the_zone(
     few: &Flown,
     whole: &Flown,
 ) -> Result<(), StudyError> {
-    let last = |flown: &Flown| flown.momentum_n_m_s.last().copied().unwrap_or([f64::NAN; 3]);
+    let last = |flown: &Flown| flown.momentum_n_m_s.last().copied().unwrap_or(Vector::repeat(f64::NAN));
     let row = |what: &str, v: &Vector| {
         let mut cells = vec![what.to_owned()];
         cells.extend(v.iter().map(|x| format!("{x:.6}")));
         cells
     };
-    let gap = difference(&last(whole), &last(few));
+    let gap = last(whole) - last(few);
     let rows = [row("shade and panels", &last(few)), row("whole", &last(whole)), row("difference", &gap)];
     report.line("Inertial momentum after 10 days in the keep-in zone, guided, without dumps [N.m.s]\n");
-    report.table(&["spacecraft", "X", "Y", "Z"], &rows);
+    report.table("spacecraft | X | Y | Z", &rows);
     let widest = |axis: usize| whole.angles_deg.iter().map(|at| at[axis].abs()).fold(0.0, f64::max);
     report.line(&format!(
         "The Sun was up to {:.1} deg in azimuth and {:.1} deg in elevation off -Y.\n",
@@ -124,16 +114,16 @@ fn within_the_zone(
         widest(1)
     ));
 
-    let difference_n_s = difference(&impulse(&whole.force_n), &impulse(&few.force_n));
-    let (mut rows, mut explained) = (Vec::new(), scaled(&impulse(&few.force_n), -1.0));
+    let difference_n_s = impulse(&whole.force_n) - impulse(&few.force_n);
+    let (mut rows, mut explained) = (Vec::new(), -impulse(&few.force_n));
     let mut seen: Vec<&str> = Vec::new();
     for (name, force_n) in &whole.surfaces {
         let total = impulse(force_n);
-        explained = sum(&explained, &total);
+        explained += total;
         let is_known = KNOWN.contains(&name.as_str()) && !seen.contains(&name.as_str());
         seen.push(name);
-        let lit = force_n.iter().filter(|force| norm(force) > 0.0).count();
-        if norm(&total) > LEAST_N_S && !is_known {
+        let lit = force_n.iter().filter(|force| force.norm() > 0.0).count();
+        if total.norm() > LEAST_N_S && !is_known {
             let mut cells = row(name, &total);
             cells.push(format!("{:.1} %", 100.0 * lit as f64 / force_n.len().max(1) as f64));
             rows.push(cells);
@@ -144,32 +134,24 @@ fn within_the_zone(
     if rows.is_empty() {
         report.line("none of them is lit");
     } else {
-        report.table(&["surface", "X", "Y", "Z", "of the time lit"], &rows);
+        report.table("surface | X | Y | Z | of the time lit", &rows);
     }
-    let left = norm(&difference(&explained, &difference_n_s));
+    let left = (explained - difference_n_s).norm();
     report.line(&format!(
         "All surfaces of the whole less shade and panels: {:.6} N.s; what both flights differ by: {:.6} N.s; apart {:.1e} of it.",
-        norm(&explained),
-        norm(&difference_n_s),
-        left / norm(&difference_n_s).max(f64::MIN_POSITIVE)
+        explained.norm(),
+        difference_n_s.norm(),
+        left / difference_n_s.norm().max(f64::MIN_POSITIVE)
     ));
     report.line(REMARK);
-    let header = [
-        "time_d",
-        "few_x_n_m_s",
-        "few_y_n_m_s",
-        "few_z_n_m_s",
-        "whole_x_n_m_s",
-        "whole_y_n_m_s",
-        "whole_z_n_m_s",
-    ];
-    let rows = few.times_d.iter().zip(few.momentum_n_m_s.iter().zip(&whole.momentum_n_m_s)).map(
-        |(time_d, (few, whole))| {
-            let at = [*time_d];
-            [&at[..], few, whole].concat().into_iter().map(digits).collect()
-        },
-    );
-    report.csv(options, "off-sun-momentum.csv", &header, rows)?;
+    let header =
+        "time_d | few_x_n_m_s | few_y_n_m_s | few_z_n_m_s | whole_x_n_m_s | whole_y_n_m_s | whole_z_n_m_s";
+    let rows = few
+        .times_d
+        .iter()
+        .zip(few.momentum_n_m_s.iter().zip(&whole.momentum_n_m_s))
+        .map(|(time_d, (few, whole))| cells(&[&[*time_d], few.as_slice(), whole.as_slice()]));
+    report.csv(options, "off-sun-momentum.csv", header, rows)?;
     let points = |flown: &Flown, axis: usize| -> Vec<(f64, f64)> {
         flown.times_d.iter().zip(&flown.momentum_n_m_s).map(|(t, h)| (*t, h[axis])).collect()
     };
@@ -197,37 +179,28 @@ through the slit of 6 mm that the printed heights leave between the shade and it
 from 10.5 deg of azimuth on.";
 
 fn fly(fmu: &Fmu, label: &str) -> Result<Flown, StudyError> {
-    let mut names = three("momentum.inertial");
-    names.extend(three("force.solar"));
-    names.extend(["sun.azimuth".to_owned(), "sun.elevation".to_owned()]);
+    let body = ["momentum.inertial", "force.solar", "sun.azimuth", "sun.elevation"];
+    let mut names = body.map(str::to_owned).to_vec();
     let surfaces = surfaces(fmu);
-    for number in 1..=surfaces.len() {
-        names.extend(three(&format!("plate[{number}].force")));
-    }
-    let mut case = Case::new(label, STOP_S, STEP_S)
-        .integer("attitude.source", 1)
+    names.extend((1..=surfaces.len()).map(|number| format!("plate[{number}].force")));
+    let recorded = Case::new(label, STOP_S, STEP_S)
+        .item("attitude.source", "guided")
         .boolean("gravityGradient.enabled", false)
-        .integer("momentum.convention", 1);
-    for axis in 1..=3 {
-        case = case.real(&format!("dump.threshold[{axis}]"), THRESHOLD_N_M_S);
-    }
-    let recorded = case.simulate(fmu, &names)?;
-    let vectors = |first: usize| -> Vec<Vector> {
-        let column = |axis: usize| &recorded.columns[first + axis];
-        (0..recorded.times_s.len()).map(|k| [column(0)[k], column(1)[k], column(2)[k]]).collect()
-    };
+        .item("momentum.convention", "inertial")
+        .elements("dump.threshold", [THRESHOLD_N_M_S; 3])
+        .simulate(fmu, &names)?;
     let angles = recorded.columns[6].iter().zip(&recorded.columns[7]);
     Ok(Flown {
         times_d: recorded.times_s.iter().map(|time_s| time_s / DAY_S).collect(),
-        momentum_n_m_s: vectors(0),
-        force_n: vectors(3),
+        momentum_n_m_s: recorded.vectors(0),
+        force_n: recorded.vectors(3),
         angles_deg: angles.map(|(a, e)| [a.to_degrees(), e.to_degrees()]).collect(),
-        surfaces: surfaces.into_iter().enumerate().map(|(k, name)| (name, vectors(8 + 3 * k))).collect(),
+        surfaces: surfaces
+            .into_iter()
+            .enumerate()
+            .map(|(k, name)| (name, recorded.vectors(8 + 3 * k)))
+            .collect(),
     })
-}
-
-fn three(name: &str) -> Vec<String> {
-    (1..=3).map(|axis| format!("{name}[{axis}]")).collect()
 }
 
 /// Names of the surfaces that are reported one by one.
@@ -239,7 +212,6 @@ fn surfaces(fmu: &Fmu) -> Vec<String> {
 
 /// Sum of forces at equal steps, by the trapezoid rule, in N s.
 fn impulse(force_n: &[Vector]) -> Vector {
-    let ends = force_n.first().zip(force_n.last()).map_or([0.0; 3], |(first, last)| sum(first, last));
-    let all = force_n.iter().fold([0.0; 3], |all, force| sum(&all, force));
-    scaled(&difference(&all, &scaled(&ends, 0.5)), STEP_S)
+    let ends = force_n.first().zip(force_n.last()).map_or(Vector::zeros(), |(first, last)| first + last);
+    (force_n.iter().sum::<Vector>() - ends * 0.5) * STEP_S
 }

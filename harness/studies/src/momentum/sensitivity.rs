@@ -6,7 +6,6 @@ use super::cases::{Case, Convention, DumpsTo, SPAN_D, Shade, Strategy};
 use super::lists::with_every_strategy;
 use super::variant::{Edit, Variant};
 use crate::case::{chosen, run_all};
-use crate::vector::{Vector, difference, norm};
 use crate::{Options, Report, StudyError};
 
 const THRESHOLD_N_M_S: f64 = 5.5;
@@ -36,59 +35,46 @@ const AGED_SIDE: Edit =
 const AGED_FRONT: Edit = Edit { after: "name = \"front\"", ..AGED_SIDE };
 const AGED_TOP: Edit = Edit { after: "name = \"top front\"", ..AGED_SIDE };
 
+const OFFSETS: [&str; 2] = ["panel[1].sunOffset", "panel[2].sunOffset"];
 const AXIS_UP: &str = "axis = [0.99984770, 0.0, 0.01745241]";
 const AXIS_AHEAD: &str = "axis = [0.99984770, -0.01745241, 0.0]";
 const NORMAL_AHEAD: &str = "zero_normal = [-0.01745241, -0.99984770, 0.0]";
 
+const fn edited(what: &'static str, edits: &'static [Edit]) -> Change {
+    Change { what, edits, sets: &[] }
+}
+
+const fn set(what: &'static str, sets: &'static [(&'static str, f64)]) -> Change {
+    Change { what, edits: &[], sets }
+}
+
 const CHANGES: &[Change] = &[
-    Change { what: "nothing", edits: &[], sets: &[] },
-    Change {
-        what: "shade turned 1 deg about X",
-        edits: &[Edit { to: "rotation_deg = [1.0, 0.0, 0.0]", ..SHADE }],
-        sets: &[],
-    },
-    Change {
-        what: "shade turned 1 deg about Y",
-        edits: &[Edit { to: "rotation_deg = [0.0, 1.0, 0.0]", ..SHADE }],
-        sets: &[],
-    },
-    Change {
-        what: "shade turned 1 deg about Z",
-        edits: &[Edit { to: "rotation_deg = [0.0, 0.0, 1.0]", ..SHADE }],
-        sets: &[],
-    },
-    Change { what: "axis of +X panel 1 deg toward Z", edits: &[Edit { to: AXIS_UP, ..AXIS }], sets: &[] },
-    Change {
-        what: "axis of +X panel 1 deg toward -Y",
-        edits: &[Edit { to: AXIS_AHEAD, ..AXIS }, Edit { to: NORMAL_AHEAD, ..NORMAL }],
-        sets: &[],
-    },
-    Change {
-        what: "axes of both panels 1 deg toward -Y",
-        edits: &[
+    edited("nothing", &[]),
+    edited("shade turned 1 deg about X", &[Edit { to: "rotation_deg = [1.0, 0.0, 0.0]", ..SHADE }]),
+    edited("shade turned 1 deg about Y", &[Edit { to: "rotation_deg = [0.0, 1.0, 0.0]", ..SHADE }]),
+    edited("shade turned 1 deg about Z", &[Edit { to: "rotation_deg = [0.0, 0.0, 1.0]", ..SHADE }]),
+    edited("axis of +X panel 1 deg toward Z", &[Edit { to: AXIS_UP, ..AXIS }]),
+    edited(
+        "axis of +X panel 1 deg toward -Y",
+        &[Edit { to: AXIS_AHEAD, ..AXIS }, Edit { to: NORMAL_AHEAD, ..NORMAL }],
+    ),
+    edited(
+        "axes of both panels 1 deg toward -Y",
+        &[
             Edit { to: AXIS_AHEAD, ..AXIS },
             Edit { to: NORMAL_AHEAD, ..NORMAL },
             Edit { to: AXIS_AHEAD, ..OTHER_AXIS },
             Edit { to: NORMAL_AHEAD, ..OTHER_NORMAL },
         ],
-        sets: &[],
-    },
-    Change { what: "+X panel at 66 deg", edits: &[], sets: &[("panel[1].sunOffset", 66.0 * DEG)] },
-    Change {
-        what: "panels at 66 and 64 deg",
-        edits: &[],
-        sets: &[("panel[1].sunOffset", 66.0 * DEG), ("panel[2].sunOffset", 64.0 * DEG)],
-    },
-    Change {
-        what: "panels at 66 and 66 deg",
-        edits: &[],
-        sets: &[("panel[1].sunOffset", 66.0 * DEG), ("panel[2].sunOffset", 66.0 * DEG)],
-    },
-    Change { what: "side +X at specular 0.10", edits: &[AGED, AGED_SIDE], sets: &[] },
-    Change { what: "front at specular 0.10", edits: &[AGED, AGED_FRONT], sets: &[] },
-    Change { what: "top front at specular 0.10", edits: &[AGED, AGED_TOP], sets: &[] },
-    Change { what: "turns at 0.1 deg/s", edits: &[], sets: &[("guided.slewRate", 0.1 * DEG)] },
-    Change { what: "turns at 0.01 deg/s", edits: &[], sets: &[("guided.slewRate", 0.01 * DEG)] },
+    ),
+    set("+X panel at 66 deg", &[(OFFSETS[0], 66.0 * DEG)]),
+    set("panels at 66 and 64 deg", &[(OFFSETS[0], 66.0 * DEG), (OFFSETS[1], 64.0 * DEG)]),
+    set("panels at 66 and 66 deg", &[(OFFSETS[0], 66.0 * DEG), (OFFSETS[1], 66.0 * DEG)]),
+    edited("side +X at specular 0.10", &[AGED, AGED_SIDE]),
+    edited("front at specular 0.10", &[AGED, AGED_FRONT]),
+    edited("top front at specular 0.10", &[AGED, AGED_TOP]),
+    set("turns at 0.1 deg/s", &[("guided.slewRate", 0.1 * DEG)]),
+    set("turns at 0.01 deg/s", &[("guided.slewRate", 0.01 * DEG)]),
 ];
 
 /// What one change does.
@@ -108,23 +94,13 @@ pub fn sensitivity(options: &Options) -> Result<Report, StudyError> {
     let mut report = Report::default();
     report.line("Small changes of the spacecraft: dumps in 90 days and momentum a day (paper 000, plates and panels)\n");
     let join = |dumps: &[i64; 3]| dumps.map(|count| count.to_string()).join(" / ");
-    let rows: Vec<Vec<String>> = found
-        .iter()
-        .map(|it| {
-            vec![
-                it.what.to_owned(),
-                join(&it.dumps[0]),
-                format!("{:.4}", it.daily_n_m_s[0]),
-                join(&it.dumps[1]),
-                format!("{:.4}", it.daily_n_m_s[1]),
-            ]
-        })
-        .collect();
-    let header =
-        ["change", "dumps, paper's", "paper's a day [N.m.s]", "dumps, inertial", "inertial a day [N.m.s]"];
-    report.table(&header, &rows);
+    let cells = |it: &Found, k: usize| [join(&it.dumps[k]), format!("{:.4}", it.daily_n_m_s[k])];
+    let row = |it: &Found| [&[it.what.to_owned()][..], &cells(it, 0), &cells(it, 1)].concat();
+    let rows: Vec<Vec<String>> = found.iter().map(row).collect();
+    let header = "change | dumps, paper's | paper's a day [N.m.s] | dumps, inertial | inertial a day [N.m.s]";
+    report.table(header, &rows);
     report.line(REMARK);
-    report.csv(options, "sensitivity.csv", &header, rows)?;
+    report.csv(options, "sensitivity.csv", header, rows)?;
     Ok(report)
 }
 
@@ -136,10 +112,10 @@ Z = -2.54 cm. Momentum a day: mean magnitude of what each of the 90 days adds wi
 fn fly(change: &Change, template: &Fmu) -> Result<Found, StudyError> {
     let failed = |source| StudyError::Simulation { case: change.what.to_owned(), source };
     let variant = Variant::of(template, change.edits).map_err(failed)?;
-    let simulate = |case: &Case, names: &[String]| {
+    let simulate = |case: &Case, name: &str| {
         let settings =
             change.sets.iter().fold(case.settings(), |case, (name, value)| case.real(name, *value));
-        settings.simulate(&variant.fmu, names)
+        settings.simulate(&variant.fmu, &[name])
     };
     let mut found = Found { what: change.what, dumps: [[0; 3]; 2], daily_n_m_s: [f64::NAN; 2] };
     let conventions =
@@ -148,15 +124,13 @@ fn fly(change: &Change, template: &Fmu) -> Result<Found, StudyError> {
         let group = [(DumpsTo::OWN, Shade::PlatesAndPanels, convention)];
         let cases = with_every_strategy(&group, &[THRESHOLD_N_M_S], &[[0, 0, -1]]);
         for (count, case) in found.dumps[number].iter_mut().zip(&cases) {
-            *count = simulate(case, &["dump.count".to_owned()])?.last(0) as i64;
+            *count = simulate(case, "dump.count")?.last(0) as i64;
         }
         let Some(alone) = cases.iter().find(|case| case.strategy == Strategy::DumpsOnly) else { continue };
-        let names = [1, 2, 3].map(|axis| format!("{name}[{axis}]"));
-        let undumped = simulate(&Case { threshold_n_m_s: NO_DUMP_N_M_S, ..*alone }, &names)?;
-        let at = |k: usize| -> Vector { std::array::from_fn(|axis| undumped.columns[axis][k]) };
-        let a_day = (undumped.times_s.len() - 1) / SPAN_D as usize;
+        let undumped = simulate(&Case { threshold_n_m_s: NO_DUMP_N_M_S, ..*alone }, name)?.vectors(0);
+        let a_day = (undumped.len() - 1) / SPAN_D as usize;
         let days =
-            (0..SPAN_D as usize).map(|day| norm(&difference(&at((day + 1) * a_day), &at(day * a_day))));
+            (0..SPAN_D as usize).map(|day| (undumped[(day + 1) * a_day] - undumped[day * a_day]).norm());
         found.daily_n_m_s[number] = days.sum::<f64>() / SPAN_D;
     }
     Ok(found)

@@ -2,11 +2,14 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use loader::{Error, Fmu, Instance, InstanceOptions, Value};
+use loader::Fmu;
 
-use crate::vector::{Vector, norm};
+use crate::StudyError;
+use crate::attitude::{Vector, body_direction};
+use crate::case::{Case, Row};
 use drawing::Series;
 use drawing::{PlaneChart, PlanePanel};
+use crate::settings::{Settings, elements};
 
 /// Between neighbouring directions, in deg.
 const SPACING_DEG: i32 = 5;
@@ -29,55 +32,45 @@ pub struct Lit {
     pub torque_n_m: Vector,
 }
 
-/// The Sun's direction in the body frame, as paper 001 counts azimuth and elevation: -Y at zero.
-fn direction([azimuth_deg, elevation_deg]: [f64; 2]) -> Vector {
-    let ((sin_a, cos_a), (sin_e, cos_e)) =
-        (azimuth_deg.to_radians().sin_cos(), elevation_deg.to_radians().sin_cos());
-    [cos_e * sin_a, -cos_e * cos_a, -sin_e]
+/// All directions, row by row of elevation.
+pub fn map(fmu: &Fmu) -> Result<Vec<Lit>, StudyError> {
+    let azimuths = || (-180..180).step_by(SPACING_DEG as usize).map(f64::from);
+    let elevations = (-90..=90).step_by(SPACING_DEG as usize).map(f64::from);
+    let at: Vec<[f64; 2]> = elevations.flat_map(|e| azimuths().map(move |a| [a, e])).collect();
+    let case = Case::new("the sphere", at.len() as f64 * STEP_S, STEP_S)
+        .boolean("planet.present", false)
+        .real("panel[1].angle", PANEL_RAD)
+        .real("panel[2].angle", PANEL_RAD);
+    let mut ahead = at.iter();
+    let mut inputs = |_: Row<'_>| {
+        ahead.next().map_or(Settings::new(), |at| {
+            elements("sun.positionBody", (direction(*at) * DISTANCE_M).iter().copied())
+        })
+    };
+    let recorded = case.steer(fmu, &["force.solar", "torque.solar"], &mut inputs)?;
+    let lit = |([azimuth_deg, elevation_deg], mut row): ([f64; 2], Row<'_>)| Lit {
+        azimuth_deg,
+        elevation_deg,
+        force_n: row.vector(),
+        torque_n_m: row.vector(),
+    };
+    Ok(at.iter().copied().zip(recorded.rows().skip(1)).map(lit).collect())
 }
 
-/// All directions, row by row of elevation.
-pub fn map(fmu: &Fmu) -> Result<Vec<Lit>, Error> {
-    let mut instance = Instance::new(fmu, fmu.name(), &InstanceOptions::default())?;
-    instance.set("planet.present", &Value::Boolean(false))?;
-    instance.setup_experiment(None, 0.0, None)?;
-    instance.enter_initialization_mode()?;
-    for panel in 1..=2 {
-        instance.set(&format!("panel[{panel}].angle"), &Value::Real(PANEL_RAD))?;
-    }
-    instance.exit_initialization_mode()?;
-    let read: Vec<usize> = [fmu.select("force.solar")?, fmu.select("torque.solar")?].concat();
-    let mut found = Vec::new();
-    for elevation in (-90..=90).step_by(SPACING_DEG as usize) {
-        for azimuth in (-180..180).step_by(SPACING_DEG as usize) {
-            let at = [f64::from(azimuth), f64::from(elevation)];
-            for (axis, part) in direction(at).into_iter().enumerate() {
-                let name = format!("sun.positionBody[{}]", axis + 1);
-                instance.set(&name, &Value::Real(part * DISTANCE_M))?;
-            }
-            instance.do_step(found.len() as f64 * STEP_S, STEP_S, true)?;
-            let mut loads = [0.0; 6];
-            for (load, &position) in loads.iter_mut().zip(&read) {
-                if let Value::Real(value) = instance.get_variable(&fmu.description().variables[position])? {
-                    *load = value;
-                }
-            }
-            let [fx, fy, fz, tx, ty, tz] = loads;
-            let (force_n, torque_n_m) = ([fx, fy, fz], [tx, ty, tz]);
-            found.push(Lit { azimuth_deg: at[0], elevation_deg: at[1], force_n, torque_n_m });
-        }
-    }
-    Ok(found)
+/// The Sun's direction in the body frame, as paper 001 counts azimuth and elevation: -Y at zero.
+fn direction(at_deg: [f64; 2]) -> Vector {
+    let [azimuth_rad, elevation_rad] = at_deg.map(f64::to_radians);
+    body_direction(azimuth_rad, elevation_rad)
 }
 
 /// The sphere as two discs, from -Y and from +Y, a degree of which is everywhere as long toward their middle; dots are coloured
 /// by six bands of `size`, whose unit is `unit`.
 pub fn picture(title: &str, unit: &str, found: &[Lit], size: impl Fn(&Lit) -> Vector) -> PlaneChart {
     const BANDS: usize = 6;
-    let most = found.iter().map(|lit| norm(&size(lit))).fold(0.0, f64::max);
-    let band = |lit: &Lit| ((norm(&size(lit)) / most * BANDS as f64) as usize).min(BANDS - 1);
+    let most = found.iter().map(|lit| size(lit).norm()).fold(0.0, f64::max);
+    let band = |lit: &Lit| ((size(lit).norm() / most * BANDS as f64) as usize).min(BANDS - 1);
     let place = |lit: &Lit, side: f64| {
-        let [x, y, z] = direction([lit.azimuth_deg, lit.elevation_deg]);
+        let [x, y, z] = direction([lit.azimuth_deg, lit.elevation_deg]).into();
         let away_rad = (y * side).clamp(-1.0, 1.0).acos();
         let scale = if away_rad > 0.0 { away_rad.to_degrees() / x.hypot(z) } else { 0.0 };
         (away_rad <= FRAC_PI_2 + 1e-9).then_some((x * scale, z * scale))

@@ -29,45 +29,51 @@ pub fn tables(options: &Options) -> Result<Report, StudyError> {
 
 /// Table 2: number of dumps, cylinder.
 pub fn table2(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_all("momentum/table2", options, lists::cylinder())?;
-    let mut report = Report::default();
-    counts(&mut report, options, "table2.csv", &simulated, TABLE_2)?;
-    draw(&mut report, options, &simulated, &FIGURE_4)?;
-    finish(report, options, &simulated)
+    one(options, "momentum/table2", lists::cylinder(), |report, simulated| {
+        counts(report, options, "table2.csv", simulated, TABLE_2)?;
+        draw(report, options, simulated, &FIGURE_4)
+    })
 }
 
 /// Table 3: time between dumps, cylinder.
 pub fn table3(options: &Options) -> Result<Report, StudyError> {
-    let cases = lists::in_papers_convention(lists::cylinder());
-    let simulated = simulate_all("momentum/table3", options, cases)?;
-    let mut report = Report::default();
-    gaps(&mut report, options, "table3.csv", &simulated, "Table 3")?;
-    finish(report, options, &simulated)
+    one(options, "momentum/table3", lists::in_papers_convention(lists::cylinder()), |report, simulated| {
+        gaps(report, options, "table3.csv", simulated, "Table 3")
+    })
 }
 
 /// Table 4: number of dumps, plates and panels.
 pub fn table4(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_all("momentum/table4", options, lists::panels())?;
-    let mut report = Report::default();
-    counts(&mut report, options, "table4.csv", &simulated, TABLE_4)?;
-    finish(report, options, &simulated)
+    one(options, "momentum/table4", lists::panels(), |report, simulated| {
+        counts(report, options, "table4.csv", simulated, TABLE_4)
+    })
 }
 
 /// Table 5: time between dumps, plates and panels.
 pub fn table5(options: &Options) -> Result<Report, StudyError> {
-    let cases = lists::in_papers_convention(lists::panels());
-    let simulated = simulate_all("momentum/table5", options, cases)?;
-    let mut report = Report::default();
-    gaps(&mut report, options, "table5.csv", &simulated, "Table 5")?;
-    finish(report, options, &simulated)
+    one(options, "momentum/table5", lists::in_papers_convention(lists::panels()), |report, simulated| {
+        gaps(report, options, "table5.csv", simulated, "Table 5")
+    })
 }
 
 /// What other targets of thruster dumps do.
 pub fn dump_targets(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_all("momentum/dump-targets", options, lists::other_dumps())?;
+    one(options, "momentum/dump-targets", lists::other_dumps(), |report, simulated| {
+        let what = "plates alone, and dumps that paper 000's tables do not have";
+        counts(report, options, "dump-targets.csv", simulated, what)
+    })
+}
+
+/// One table of its own simulations.
+fn one(
+    options: &Options,
+    study: &'static str,
+    cases: Vec<Case>,
+    print: impl Fn(&mut Report, &[Simulated]) -> Result<(), StudyError>,
+) -> Result<Report, StudyError> {
+    let simulated = simulate_all(study, options, cases)?;
     let mut report = Report::default();
-    let what = "plates alone, and dumps that paper 000's tables do not have";
-    counts(&mut report, options, "dump-targets.csv", &simulated, what)?;
+    print(&mut report, &simulated)?;
     finish(report, options, &simulated)
 }
 
@@ -94,11 +100,11 @@ pub fn assumptions(options: &Options) -> Result<Report, StudyError> {
             ]
         })
         .collect();
-    let header = ["threshold", "dumps to", "shade", "choice", "Z offsets", "paper", "ours", "verdict"];
-    report.table(&header, &rows);
+    let header = "threshold | dumps to | shade | choice | Z offsets | paper | ours | verdict";
+    report.table(header, &rows);
     report.line(ASSUMPTIONS_REMARK);
-    report.csv(options, "assumptions.csv", &header, rows)?;
-    report.csv(options, "dumps.csv", &DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
+    report.csv(options, "assumptions.csv", header, rows)?;
+    report.csv(options, "dumps.csv", DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
     Ok(report)
 }
 
@@ -120,25 +126,13 @@ fn counts(
             row
         })
         .collect();
-    let header =
-        ["threshold", "dumps to", "shade", "momentum", "strategy", "offsets", "paper", "ours", "verdict"];
-    report.table(&header, &rows);
+    let header = "threshold | dumps to | shade | momentum | strategy | offsets | paper | ours | verdict";
+    report.table(header, &rows);
     report.line(&trends(simulated).text());
-    let header = [
-        "threshold",
-        "dumps to",
-        "shade",
-        "momentum",
-        "strategy",
-        "offset",
-        "paper",
-        "ours",
-        "verdict",
-        "paper's gaps",
-        "our gaps",
-        "five days",
-    ];
-    report.csv(options, file, &header, simulated.iter().map(count_row))
+    let header = "\
+        threshold | dumps to | shade | momentum | strategy | offset | paper | ours | verdict | paper's gaps | \
+        our gaps | five days";
+    report.csv(options, file, header, simulated.iter().map(count_row))
 }
 
 fn gaps(
@@ -153,27 +147,17 @@ fn gaps(
     }
     report.line(&format!("Time between thruster dumps (paper 000, {table})\n"));
     let rows: Vec<Vec<String>> = simulated.iter().map(gap_row).collect();
-    let header = [
-        "threshold",
-        "dumps to",
-        "shade",
-        "momentum",
-        "strategy",
-        "offset",
-        "paper",
-        "ours",
-        "verdict",
-        "paper's five days",
-        "five days",
-    ];
-    report.table(&header, &rows);
-    report.csv(options, file, &header, rows)
+    let header = "\
+        threshold | dumps to | shade | momentum | strategy | offset | paper | ours | verdict | \
+        paper's five days | five days";
+    report.table(header, &rows);
+    report.csv(options, file, header, rows)
 }
 
 /// What was assumed, and every dump.
 fn finish(mut report: Report, options: &Options, simulated: &[Simulated]) -> Result<Report, StudyError> {
     report.line(REMARK);
-    report.csv(options, "dumps.csv", &DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
+    report.csv(options, "dumps.csv", DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
     Ok(report)
 }
 
@@ -265,13 +249,12 @@ Fitted: the science rule's factor 0.25. Chosen, because the paper does not print
 equator with a period of 12 h, start 2009-04-06, downlink 2 to 10 h after every second periapsis, twenty cycles that
 predictive targets look ahead; momentum/assumptions shows what follows from other choices.";
 
-const DUMP_HEADER: [&str; 5] =
-    ["case", "dump_time_d", "impulse_x_n_m_s", "impulse_y_n_m_s", "impulse_z_n_m_s"];
+const DUMP_HEADER: &str = "case | dump_time_d | impulse_x_n_m_s | impulse_y_n_m_s | impulse_z_n_m_s";
 
 fn dump_rows(simulation: &Simulated) -> Vec<Vec<String>> {
     let row = |dump: &Dump| {
         let mut row = vec![simulation.case.label(), format!("{:.6}", dump.time_d)];
-        row.extend(dump.impulse_body_n_m_s.map(|impulse_n_m_s| format!("{impulse_n_m_s:.6}")));
+        row.extend(dump.impulse_body_n_m_s.iter().map(|impulse_n_m_s| format!("{impulse_n_m_s:.6}")));
         row
     };
     simulation.dumps.iter().map(row).collect()

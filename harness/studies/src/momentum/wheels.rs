@@ -61,19 +61,12 @@ pub fn wheels(options: &Options) -> Result<Report, StudyError> {
             ]);
         }
     }
-    let header = [
-        "storage [N.m.s]",
-        "mass of four [kg]",
-        "threshold [N.m.s]",
-        "no wheel saturates up to [N.m.s]",
-        "momentum",
-        "dumps only",
-        "reactive",
-        "predictive",
-    ];
-    report.table(&header, &rows);
+    let header = "\
+        storage [N.m.s] | mass of four [kg] | threshold [N.m.s] | no wheel saturates up to [N.m.s] | \
+        momentum | dumps only | reactive | predictive";
+    report.table(header, &rows);
     report.line(REMARK);
-    report.csv(options, "wheels.csv", &header, rows)?;
+    report.csv(options, "wheels.csv", header, rows)?;
     draw(&mut report, options, &simulated, &wheels)?;
     Ok(report)
 }

@@ -2,7 +2,7 @@
 
 use super::flight::Sample;
 use super::planet::{Ellipsoid, Planet};
-use crate::vector::{Vector, difference, dot, scaled, sum, turn};
+use crate::attitude::{Vector, to_body};
 
 /// Half the field and where it looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +38,7 @@ impl Camera {
         Frame {
             sample,
             half_tangent: (0.5 * self.field_deg).to_radians().tan(),
-            axes: [[0.0, -sine, cosine], [1.0, 0.0, 0.0], [0.0, -cosine, -sine]],
+            axes: [Vector::new(0.0, -sine, cosine), Vector::x(), Vector::new(0.0, -cosine, -sine)],
             planet,
         }
     }
@@ -52,8 +52,8 @@ impl Frame<'_> {
     /// EME2000 direction at -1 to 1 across the field.
     fn direction(&self, x: f64, y: f64) -> Vector {
         let [boresight, right, sunward] = &self.axes;
-        let side = sum(&scaled(right, self.half_tangent * x), &scaled(sunward, self.half_tangent * y));
-        self.sample.inertial(&sum(boresight, &side))
+        let side = right * (self.half_tangent * x) + sunward * (self.half_tangent * y);
+        self.sample.inertial(&(boresight + side))
     }
 
     /// Of the boresight, EME2000.
@@ -89,8 +89,8 @@ impl Frame<'_> {
         let ellipsoid = self.ellipsoid();
         let point = ellipsoid.inertial(surface_m);
         let from = &self.sample.place.position_m;
-        let seen = turn(&self.sample.q, &difference(&point, from));
-        let [depth, x, y] = self.axes.map(|axis| dot(&axis, &seen));
+        let seen = to_body(&self.sample.q, &(point - from));
+        let [depth, x, y] = self.axes.map(|axis| axis.dot(&seen));
         let limit = self.half_tangent * depth;
         depth > 0.0 && x.abs() <= limit && y.abs() <= limit && ellipsoid.beyond_limb(&point, from) > 0.0
     }

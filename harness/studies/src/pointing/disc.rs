@@ -2,9 +2,9 @@
 
 use super::flight::Place;
 use super::planet::Ellipsoid;
-use crate::vector::{Vector, across, cross, difference, dot, norm, unit};
-use drawing::PlanePanel;
+use crate::attitude::{Vector, across, unit};
 use drawing::Series;
+use drawing::PlanePanel;
 
 /// A view toward nadir: downtrack to the right, the orbit's left up.
 #[derive(Clone, Copy, Debug)]
@@ -28,31 +28,31 @@ impl View {
         let nadir = unit(&place.nadir_m());
         let right = unit(&across(&place.velocity_m_s, &nadir));
         // Seen along nadir: right, up and the direction to the viewer are right-handed.
-        Self { from_m: place.position_m, right, up: cross(&right, &nadir), nadir }
+        Self { from_m: place.position_m, right, up: right.cross(&nadir), nadir }
     }
 
     /// The direction with these tangents to the right and up.
     pub fn ray(&self, x: f64, y: f64) -> Vector {
-        [0, 1, 2].map(|i| self.nadir[i] + x * self.right[i] + y * self.up[i])
+        self.nadir + self.right * x + self.up * y
     }
 
     /// A direction: the angle from nadir in deg, laid off at its position angle.
     pub fn direction(&self, direction: &Vector) -> (f64, f64) {
-        let [x, y] = [&self.right, &self.up].map(|axis| dot(axis, direction));
+        let [x, y] = [&self.right, &self.up].map(|axis| axis.dot(direction));
         let side = x.hypot(y);
-        let angle_deg = side.atan2(dot(direction, &self.nadir)).to_degrees();
+        let angle_deg = side.atan2(direction.dot(&self.nadir)).to_degrees();
         if side == 0.0 { (0.0, 0.0) } else { (angle_deg * x / side, angle_deg * y / side) }
     }
 
     /// A point by its vector from the planet's centre.
     pub fn point(&self, point_m: &Vector) -> (f64, f64) {
-        self.direction(&difference(point_m, &self.from_m))
+        self.direction(&(point_m - self.from_m))
     }
 
     /// Azimuth of a direction about the local vertical, right-handed about up from downtrack, in deg.
     pub fn azimuth_deg(&self, direction: &Vector) -> f64 {
         // Right-handed about up, as seen from above: counterclockwise.
-        dot(&self.up, direction).atan2(dot(&self.right, direction)).to_degrees()
+        self.up.dot(direction).atan2(self.right.dot(direction)).to_degrees()
     }
 
     /// Angular radius of the disc, in deg.
@@ -70,7 +70,7 @@ impl View {
         let mut night = dark.clone();
         match (night.last(), seen.first(), seen.last()) {
             (Some(end), Some(first), Some(last)) => {
-                let nearer = norm(&difference(end, first)) <= norm(&difference(end, last));
+                let nearer = (end - first).norm() <= (end - last).norm();
                 if nearer { night.extend(&seen) } else { night.extend(seen.iter().rev()) }
             }
             (None, _, _) => night.clear(),

@@ -1,10 +1,11 @@
-//! One flight: `MomentumPlant` moves along its orbit, `Guidance` commands; both get each other's outputs once a second.
+//! One flight: `MomentumPlant` moves along its orbit, `Guidance` gets where it is once a second and commands.
 
-use loader::{Error, Fmu, Instance, InstanceOptions, Value};
+use loader::Fmu;
 
 use super::planet::Planet;
-use crate::settings::{Settings, digits, real, vector_setting};
-use crate::vector::{Vector, body_angles_deg, difference, rotated, scaled, turn, turn_back};
+use crate::attitude::{Attitude, Vector, body_angles_deg, body_direction, rotated, to_body, to_inertial};
+use crate::case::{Case, Row};
+use crate::settings::{Settings, cells, elements};
 use crate::{Options, StudyError};
 
 /// 2009-04-06 00:00 TDB in seconds past J2000, the start of the default flight.
@@ -39,7 +40,7 @@ pub struct Sample {
     /// Where everything was.
     pub place: Place,
     /// Commanded attitude: EME2000 to body, scalar last.
-    pub q: [f64; 4],
+    pub q: Attitude,
     /// Commanded rate, body frame, in rad/s.
     pub rate_rad_s: Vector,
     /// The camera's angle from +Z, positive sunward, in rad.
@@ -53,27 +54,27 @@ pub struct Sample {
 }
 
 /// Columns of a sample's geometry in CSV files: EME2000, positions from the planet's centre.
-pub const GEOMETRY: [&str; 15] = [
-    "time_s", "epoch_s", "q1", "q2", "q3", "q4", "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s",
-    "sun_x_m", "sun_y_m", "sun_z_m",
-];
+pub const GEOMETRY: &str = "\
+    time_s | epoch_s | q1 | q2 | q3 | q4 | x_m | y_m | z_m | vx_m_s | vy_m_s | vz_m_s | sun_x_m | sun_y_m | \
+    sun_z_m";
 
 impl Sample {
     /// The cells of [`GEOMETRY`].
-    pub fn geometry(&self) -> impl Iterator<Item = String> {
-        let Place { time_s, epoch_s, position_m, velocity_m_s, .. } = self.place;
-        let numbers = [time_s, epoch_s].into_iter().chain(self.q).chain(position_m).chain(velocity_m_s);
-        numbers.chain(self.place.sun_m()).map(digits)
+    pub fn geometry(&self) -> Vec<String> {
+        let Place { time_s, epoch_s, position_m, velocity_m_s, .. } = &self.place;
+        let sun_m = self.place.sun_m();
+        let vectors = [position_m, velocity_m_s, &sun_m].map(|vector| cells(&[vector.as_slice()]));
+        [cells(&[&[*time_s, *epoch_s], self.q.coords.as_slice()]), vectors.concat()].concat()
     }
 
     /// EME2000 direction of a body direction.
     pub fn inertial(&self, body: &Vector) -> Vector {
-        turn_back(&self.q, body)
+        to_inertial(&self.q, body)
     }
 
     /// Azimuth and elevation of a direction in the body frame, in deg.
     pub fn body_angles_deg(&self, inertial: &Vector) -> [f64; 2] {
-        body_angles_deg(&turn(&self.q, inertial))
+        body_angles_deg(&to_body(&self.q, inertial))
     }
 }
 
@@ -107,139 +108,92 @@ impl Fmus {
         Ok(Self { plant: options.fmu("MomentumPlant.fmu")?, guidance: options.fmu("Guidance.fmu")? })
     }
 
-    /// Flies it.
+    /// Flies it. Where the plant is does not hang on what is commanded: it goes first.
     pub fn fly(&self, flight: &Flight<'_>) -> Result<Flown, StudyError> {
-        self.samples(flight)
-            .map_err(|error| StudyError::Simulation { case: flight.label.to_owned(), source: error.into() })
-    }
-
-    fn samples(&self, flight: &Flight<'_>) -> Result<Flown, Error> {
-        let epoch = real("start.epoch", flight.epoch_s);
-        let anomaly = real("orbit.trueAnomaly", flight.true_anomaly_deg.to_radians());
-        let mut plant = Connected::start(&self.plant, &PLANT_OUTPUTS, &[epoch.clone(), anomaly])?;
-        let mut guidance = Connected::start(
-            &self.guidance,
-            &GUIDANCE_OUTPUTS,
-            &[vec![epoch], flight.parameters.clone()].concat(),
-        )?;
-        let planet = Planet::read(&mut guidance.instance)?;
-        let mut samples = Vec::with_capacity(flight.seconds as usize + 1);
-        for second in 0..=flight.seconds {
-            let time_s = f64::from(second);
-            let place = plant.place(time_s, flight.epoch_s + time_s)?;
-            let inputs = vector_setting("position", &place.position_m)
-                .into_iter()
-                .chain(vector_setting("velocity", &place.velocity_m_s))
-                .chain((flight.command)(&place));
-            for (name, value) in inputs {
-                guidance.instance.set(&name, &value)?;
-            }
-            guidance.instance.do_step(time_s, 1.0, true)?;
-            plant.instance.do_step(time_s, 1.0, true)?;
-            samples.push(guidance.sample(place)?);
-        }
-        Ok(Flown { samples, planet })
+        let case = || {
+            let case = Case::new(flight.label, f64::from(flight.seconds + 1), 1.0);
+            case.real("start.epoch", flight.epoch_s)
+        };
+        let anomaly_rad = flight.true_anomaly_deg.to_radians();
+        let trajectory =
+            case().real("orbit.trueAnomaly", anomaly_rad).simulate(&self.plant, &PLANT_OUTPUTS)?;
+        let places: Vec<Place> = trajectory.rows().map(|row| Place::of(row, flight.epoch_s)).collect();
+        let mut ahead = places.iter();
+        let mut inputs = |_: Row<'_>| {
+            ahead.next().map_or(Settings::new(), |place| {
+                let mut inputs = elements("position", place.position_m.iter().copied());
+                inputs.extend(elements("velocity", place.velocity_m_s.iter().copied()));
+                inputs.extend((flight.command)(place));
+                inputs
+            })
+        };
+        let case = case().with(flight.parameters.clone());
+        let commanded = case.steer(&self.guidance, &GUIDANCE_OUTPUTS, &mut inputs)?;
+        let planet = Planet::of(commanded.row(0, PLANET_COLUMN));
+        let samples = places.into_iter().zip(commanded.rows().skip(1));
+        Ok(Flown { samples: samples.map(|(place, row)| Sample::of(place, row)).collect(), planet })
     }
 }
 
-/// An instance and the outputs that are read together.
-struct Connected {
-    instance: Instance,
-    reals: Vec<u32>,
-    booleans: Vec<u32>,
-}
+const PLANT_OUTPUTS: [&str; 6] =
+    ["position", "velocity", "heliocentric.position", "attitude.q", "earth.azimuth", "earth.elevation"];
 
-/// Vectors and their sizes.
-type Outputs = (&'static [(&'static str, usize)], &'static [&'static str]);
+const GUIDANCE_OUTPUTS: [&str; 13] = [
+    "command.q",
+    "command.rate",
+    "mdis.angle",
+    "target.reachable",
+    "scan.active",
+    "constraint.sunKeepIn",
+    "constraint.hotPole",
+    "constraint.clamped",
+    "planet.radii",
+    "planet.poleRightAscension",
+    "planet.poleDeclination",
+    "planet.primeMeridian",
+    "planet.rotationRate",
+];
+/// Where the planet's parameters begin.
+const PLANET_COLUMN: usize = 13;
 
-const PLANT_OUTPUTS: Outputs = (
-    &[
-        ("position", 3),
-        ("velocity", 3),
-        ("heliocentric.position", 3),
-        ("attitude.q", 4),
-        ("earth.azimuth", 0),
-        ("earth.elevation", 0),
-    ],
-    &[],
-);
-
-const GUIDANCE_OUTPUTS: Outputs = (
-    &[("command.q", 4), ("command.rate", 3), ("mdis.angle", 0)],
-    &["target.reachable", "scan.active", "constraint.sunKeepIn", "constraint.hotPole", "constraint.clamped"],
-);
-
-impl Connected {
-    fn start(fmu: &Fmu, (reals, booleans): &Outputs, parameters: &[(String, Value)]) -> Result<Self, Error> {
-        let mut instance = Instance::new(fmu, fmu.name(), &InstanceOptions::default())?;
-        for (name, value) in parameters {
-            instance.set(name, value)?;
-        }
-        instance.setup_experiment(None, 0.0, None)?;
-        instance.enter_initialization_mode()?;
-        instance.exit_initialization_mode()?;
-        let reference = |name: &str| fmu.variable(name).map(|variable| variable.value_reference);
-        let names = reals.iter().flat_map(|(name, size)| match size {
-            0 => vec![(*name).to_owned()],
-            _ => (1..=*size).map(|i| format!("{name}[{i}]")).collect(),
-        });
-        Ok(Self {
-            reals: names.map(|name| reference(&name)).collect::<Result<_, _>>()?,
-            booleans: booleans.iter().map(|name| reference(name)).collect::<Result<_, _>>()?,
-            instance,
-        })
-    }
-
-    fn values<const N: usize>(&mut self) -> Result<[f64; N], Error> {
-        let mut values = [0.0; N];
-        self.instance.get_reals(&self.reals, &mut values)?;
-        Ok(values)
-    }
-
-    /// Where the plant is.
-    fn place(&mut self, time_s: f64, epoch_s: f64) -> Result<Place, Error> {
-        let x = self.values::<15>()?;
-        let vector = |first: usize| -> Vector { [0, 1, 2].map(|i| x[first + i]) };
-        let (sin_a, cos_a) = x[13].sin_cos();
-        let (sin_e, cos_e) = x[14].sin_cos();
-        let earth_body = [cos_e * sin_a, -cos_e * cos_a, -sin_e];
-        Ok(Place {
-            time_s,
-            epoch_s,
-            position_m: vector(0),
-            velocity_m_s: vector(3),
-            to_sun_m: scaled(&vector(6), -1.0),
-            to_earth: turn_back(&[x[9], x[10], x[11], x[12]], &earth_body),
-        })
-    }
-
+impl Sample {
     /// What guidance commanded a second ago, at `place`: since then it has turned by its constant rate.
-    fn sample(&mut self, place: Place) -> Result<Sample, Error> {
-        let x = self.values::<8>()?;
-        let rate_rad_s = [x[4], x[5], x[6]];
-        let mut flags = [0; 5];
-        self.instance.get_booleans(&self.booleans, &mut flags)?;
-        let [reachable, scan_active, sun_keep_in, hot_pole, clamped] = flags.map(|flag| flag != 0);
-        Ok(Sample {
+    fn of(place: Place, mut row: Row<'_>) -> Self {
+        let (q, rate_rad_s) = (row.attitude(), row.vector());
+        Self {
             place,
-            q: rotated(&[x[0], x[1], x[2], x[3]], &rate_rad_s, -1.0),
+            q: rotated(&q, &rate_rad_s, -1.0),
             rate_rad_s,
-            mdis_angle_rad: x[7],
-            reachable,
-            scan_active,
-            constrained: sun_keep_in || hot_pole || clamped,
-        })
+            mdis_angle_rad: row.real(),
+            reachable: row.flag(),
+            scan_active: row.flag(),
+            constrained: row.flag() | row.flag() | row.flag(),
+        }
     }
 }
 
 impl Place {
+    fn of(mut row: Row<'_>, start_epoch_s: f64) -> Self {
+        let (position_m, velocity_m_s) = (row.vector(), row.vector());
+        let heliocentric_m: Vector = row.vector();
+        let q = row.attitude();
+        Self {
+            time_s: row.time_s,
+            epoch_s: start_epoch_s + row.time_s,
+            position_m,
+            velocity_m_s,
+            to_sun_m: -heliocentric_m,
+            to_earth: to_inertial(&q, &body_direction(row.real(), row.real())),
+        }
+    }
+
     /// From the spacecraft to the planet's centre, in m.
     pub fn nadir_m(&self) -> Vector {
-        scaled(&self.position_m, -1.0)
+        -self.position_m
     }
 
     /// From the planet's centre to the Sun, in m.
     pub fn sun_m(&self) -> Vector {
-        difference(&self.to_sun_m, &self.nadir_m())
+        self.to_sun_m - self.nadir_m()
     }
 }

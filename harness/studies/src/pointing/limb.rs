@@ -4,12 +4,12 @@ use super::disc::{View, X_LABEL, Y_LABEL};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place};
 use super::limb_orbit;
 use super::limb_point::{Found, PLUS_Z, triaxial};
+use crate::attitude::Vector;
 use crate::case::{chosen, run_all};
-use crate::settings::{digits, number, real};
-use crate::vector::{Vector, difference, norm};
-use crate::{Options, Report, StudyError};
 use drawing::Series;
 use drawing::{PlaneChart, PlanePanel};
+use crate::settings::{cells, item, real};
+use crate::{Options, Report, StudyError};
 
 /// Six days in, orbit and terminator lie in nearly one plane: the Sun is across nadir and limb all the way round.
 const EPOCH_S: f64 = DEFAULT_EPOCH_S + 6.0 * 86_400.0;
@@ -45,7 +45,7 @@ impl Case {
         };
         let command = move |_: &Place| {
             vec![
-                number("pointing.scenario", 8),
+                item("pointing.scenario", "limbGeneric"),
                 real("limb.azimuth", f64::to_radians(azimuth_deg)),
                 real("limb.heightRate", height_rate_m_s),
             ]
@@ -101,15 +101,10 @@ fn print_azimuths(
     options: &Options,
     azimuths: &[(f64, &Flown)],
 ) -> Result<(), StudyError> {
-    let own = [
-        "azimuth_deg",
-        "found_azimuth_deg",
-        "off_nadir_deg",
-        "height_m",
-        "sun_azimuth_deg",
-        "sun_elevation_deg",
-    ];
-    let header = [&own[..], &["reachable"], &GEOMETRY].concat();
+    let own = "\
+        azimuth_deg | found_azimuth_deg | off_nadir_deg | height_m | sun_azimuth_deg | sun_elevation_deg | \
+        reachable";
+    let header = format!("{own} | {GEOMETRY}");
     let (mut rows, mut shown, mut limb_points) = (Vec::new(), Vec::new(), Vec::new());
     let mut disc = None;
     for (azimuth_deg, flown) in azimuths {
@@ -127,7 +122,7 @@ fn print_azimuths(
             if sample.reachable && !sample.constrained { "on the limb" } else { "constrained" }.to_owned(),
         ]);
         let numbers = [*azimuth_deg, found_deg, found.off_nadir_deg, found.height_m];
-        let mut row: Vec<String> = numbers.into_iter().chain(found.sun_deg).map(digits).collect();
+        let mut row = cells(&[&numbers, &found.sun_deg]);
         row.push(sample.reachable.to_string());
         row.extend(sample.geometry());
         rows.push(row);
@@ -136,14 +131,7 @@ fn print_azimuths(
         disc.get_or_insert_with(|| view.disc("limb at azimuths", &ellipsoid, &sample.place.sun_m()));
     }
     report.table(
-        &[
-            "azimuth",
-            "of +Z",
-            "off nadir",
-            "height residual",
-            "Sun azimuth / elevation in the body frame",
-            "",
-        ],
+        "azimuth | of +Z | off nadir | height residual | Sun azimuth / elevation in the body frame | ",
         &shown,
     );
     report.csv(options, "limb.csv", &header, rows)?;
@@ -161,8 +149,7 @@ fn print_azimuths(
 }
 
 fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(), StudyError> {
-    let own = ["commanded_height_m", "height_m", "sun_azimuth_deg", "sun_elevation_deg"];
-    let header = [&own[..], &GEOMETRY].concat();
+    let header = format!("commanded_height_m | height_m | sun_azimuth_deg | sun_elevation_deg | {GEOMETRY}");
     let (mut rows, mut shown, mut track) = (Vec::new(), Vec::new(), Vec::new());
     let (mut creep_m, mut last): (f64, Option<Vector>) = (0.0, None);
     let Some(first) = flown.samples.first() else { return Ok(()) };
@@ -172,9 +159,9 @@ fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(
         let Some(found) = Found::of(sample, &ellipsoid) else { continue };
         let commanded_m = HEIGHT_RATE_M_S * sample.place.time_s;
         let fixed = ellipsoid.along_axes(&found.foot_m);
-        creep_m += last.replace(fixed).map_or(0.0, |last| norm(&difference(&fixed, &last)));
-        let numbers = [commanded_m, found.height_m].into_iter().chain(found.sun_deg).map(digits);
-        rows.push(numbers.chain(sample.geometry()).collect());
+        creep_m += last.replace(fixed).map_or(0.0, |last| (fixed - last).norm());
+        let numbers = cells(&[&[commanded_m, found.height_m], &found.sun_deg]);
+        rows.push([numbers, sample.geometry()].concat());
         track.push(View::at(&sample.place).direction(&sample.inertial(&PLUS_Z)));
         if sample.place.time_s % 60.0 == 0.0 {
             shown.push(vec![
@@ -192,14 +179,9 @@ fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(
         HEIGHT_RATE_M_S / 1e3
     ));
     report.table(
-        &[
-            "time",
-            "commanded height",
-            "height residual",
-            "off nadir",
-            "limb point's way on the surface",
-            "Sun azimuth / elevation in the body frame",
-        ],
+        "\
+        time | commanded height | height residual | off nadir | limb point's way on the surface | \
+        Sun azimuth / elevation in the body frame",
         &shown,
     );
     report.csv(options, "limb-scan.csv", &header, rows)?;

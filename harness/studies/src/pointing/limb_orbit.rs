@@ -3,11 +3,11 @@
 use super::disc::{View, X_LABEL, Y_LABEL};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample};
 use super::limb_point::{Found, PLUS_Z, triaxial};
-use crate::settings::{digits, flag, number};
-use crate::vector::{Vector, across, angle_rad, difference, dot, norm, unit};
-use crate::{Options, Report, StudyError};
-use drawing::{Chart, Panel, Series};
+use crate::attitude::{Vector, across, angle_rad, unit};
 use drawing::{PlaneChart, PlanePanel};
+use drawing::{Chart, Panel, Series};
+use crate::settings::{cells, flag, item};
+use crate::{Options, Report, StudyError};
 
 /// 25 days in, the orbit passes over noon and midnight.
 const EPOCH_S: f64 = DEFAULT_EPOCH_S + 25.0 * 86_400.0;
@@ -28,7 +28,7 @@ pub(super) fn fly(fmus: &Fmus) -> Result<Flown, StudyError> {
         true_anomaly_deg: 0.0,
         seconds: ORBIT_S,
         parameters,
-        command: &|_: &Place| vec![number("pointing.scenario", 7)],
+        command: &|_: &Place| vec![item("pointing.scenario", "limbTerminator")],
     })
 }
 
@@ -53,7 +53,7 @@ pub(super) fn print(report: &mut Report, options: &Options, flown: &Flown) -> Re
     let two = || points.iter().filter_map(|point| Some((point, point.nearer?)));
     let greatest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
     let aim_rad = |(point, aim): (&Point<'_>, Vector)| {
-        angle_rad(&point.boresight, &difference(&aim, &point.sample.place.position_m))
+        angle_rad(&point.boresight, &(aim - point.sample.place.position_m))
     };
     let told = points.iter().filter(|point| point.sample.reachable != point.solutions.is_empty()).count();
     let nadir_rad = |point: &Point<'_>| angle_rad(&point.boresight, &point.sample.place.nadir_m());
@@ -91,7 +91,7 @@ pub(super) fn print(report: &mut Report, options: &Options, flown: &Flown) -> Re
         ),
         ("Sun within its zone of 15 by 13 deg", share(inside)),
     ];
-    report.table(&["terminator limb", ""], &rows.map(|(name, value)| vec![name.to_owned(), value]));
+    report.table("terminator limb | ", &rows.map(|(name, value)| vec![name.to_owned(), value]));
     write(report, options, &points)?;
     report.picture(options, "limb-terminator.svg", &chart(&points))?;
     draw_discs(report, options, flown, &points)
@@ -103,8 +103,8 @@ fn point<'a>(sample: &'a Sample, flown: &Flown) -> Point<'a> {
     let up = unit(&place.position_m);
     let along = |x: &Vector| {
         let track = across(&place.velocity_m_s, &up);
-        let to = difference(x, &place.position_m);
-        dot(&to, &track) / norm(&to)
+        let to = x - place.position_m;
+        to.dot(&track) / to.norm()
     };
     let nearer = solutions.iter().copied().max_by(|a, b| along(a).total_cmp(&along(b)));
     let found = nearer.and_then(|_| Found::of(sample, &ellipsoid));
@@ -124,16 +124,15 @@ impl Point<'_> {
 }
 
 fn write(report: &mut Report, options: &Options, points: &[Point<'_>]) -> Result<(), StudyError> {
-    let own = ["solutions", "reachable", "azimuth_deg", "height_m", "sun_azimuth_deg", "sun_elevation_deg"];
-    let header = [&own[..], &GEOMETRY].concat();
+    let own = "solutions | reachable | azimuth_deg | height_m | sun_azimuth_deg | sun_elevation_deg";
     let rows = points.iter().map(|point| {
         let height_m = point.found.as_ref().map_or(f64::NAN, |found| found.height_m);
         let mut row = vec![point.solutions.len().to_string(), point.sample.reachable.to_string()];
-        row.extend([point.azimuth_deg(), height_m].into_iter().chain(point.sun_deg()).map(digits));
+        row.extend(cells(&[&[point.azimuth_deg(), height_m], &point.sun_deg()]));
         row.extend(point.sample.geometry());
         row
     });
-    report.csv(options, "limb-terminator.csv", &header, rows)
+    report.csv(options, "limb-terminator.csv", &format!("{own} | {GEOMETRY}"), rows)
 }
 
 fn chart(points: &[Point<'_>]) -> Chart {

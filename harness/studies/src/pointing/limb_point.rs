@@ -1,20 +1,18 @@
 //! Where +Z passes the limb of a triaxial planet, found from the attitude alone.
 
-use loader::Value;
-
 use super::disc::View;
 use super::flight::Sample;
 use super::planet::Ellipsoid;
-use crate::settings::Settings;
-use crate::vector::Vector;
+use crate::attitude::Vector;
+use crate::settings::{Settings, elements};
 
-pub(super) const PLUS_Z: Vector = [0.0, 0.0, 1.0];
+pub(super) const PLUS_Z: Vector = Vector::new(0.0, 0.0, 1.0);
 /// Assumed, close to the planet's figure; the default is a sphere: so that the limb is that of a triaxial ellipsoid, in m.
-const RADII_M: Vector = [2_440_530.0, 2_439_280.0, 2_438_260.0];
+const RADII_M: [f64; 3] = [2_440_530.0, 2_439_280.0, 2_438_260.0];
 
 /// The planet's radii as settings.
 pub(super) fn triaxial() -> Settings {
-    (0..3).map(|i| (format!("planet.radii[{}]", i + 1), Value::Real(RADII_M[i]))).collect()
+    elements("planet.radii", RADII_M)
 }
 
 /// Where +Z passes the limb, found from the attitude alone.

@@ -4,12 +4,12 @@ use super::camera::Frame;
 use super::disc::{View, X_LABEL, Y_LABEL};
 use super::flight::{Flown, Fmus, GEOMETRY};
 use super::scans::{CASES, Case};
+use crate::attitude::{Vector, angle_rad};
 use crate::case::{chosen, run_all};
-use crate::settings::digits;
-use crate::vector::{Vector, angle_rad, norm};
-use crate::{Options, Report, StudyError};
-use drawing::PlaneChart;
 use drawing::Series;
+use drawing::PlaneChart;
+use crate::settings::cells;
+use crate::{Options, Report, StudyError};
 
 /// A mosaic that was flown.
 struct Mosaic {
@@ -44,7 +44,7 @@ impl Numbers {
         let shown: Vec<usize> =
             disc.iter().map(|x| frames.iter().filter(|frame| frame.shows(x)).count()).collect();
         let at_least = |times: usize| shown.iter().filter(|n| **n >= times).count() as f64;
-        let rate = |rate: &Vector| norm(rate).to_degrees();
+        let rate = |rate: &Vector| rate.norm().to_degrees();
         let greatest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
         let sun =
             |i: usize| greatest(&mut flown.samples.iter().map(|s| s.body_angles_deg(&s.place.to_sun_m)[i]));
@@ -88,18 +88,9 @@ pub fn mosaic(options: &Options) -> Result<Report, StudyError> {
     })?;
     let mut report = Report::default();
     report.line("Mosaics by scans with reversals and pauses (paper 001, \"Scan patterns\")\n");
-    let header = [
-        "scan",
-        "camera",
-        "frames",
-        "disc covered",
-        "of that twice",
-        "overlap with the next",
-        "greatest rate",
-        "at frames",
-        "Sun azimuth / elevation",
-        "constrained",
-    ];
+    let header = "\
+        scan | camera | frames | disc covered | of that twice | overlap with the next | greatest rate | \
+        at frames | Sun azimuth / elevation | constrained";
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let rows: Vec<Vec<String>> = mosaics
         .iter()
@@ -120,7 +111,7 @@ pub fn mosaic(options: &Options) -> Result<Report, StudyError> {
             ]
         })
         .collect();
-    report.table(&header, &rows);
+    report.table(header, &rows);
     report.line(REMARK);
     write(&mut report, options, &mosaics)?;
     for mosaic in &mosaics {
@@ -137,13 +128,14 @@ those of the body scan along the moving rows. Both axes of a scan begin together
 The fields are those published of MDIS; the one along +Z, rates, durations and pauses are assumed.";
 
 fn write(report: &mut Report, options: &Options, mosaics: &[Mosaic]) -> Result<(), StudyError> {
-    let own = ["scan", "frame", "field_deg", "mdis_angle_deg", "latitude_deg", "longitude_deg", "on_disc"];
-    let header = [&own[..], &["overlap_with_next", "rate_deg_s", "off_nadir_deg"], &GEOMETRY].concat();
+    let own = "\
+        scan | frame | field_deg | mdis_angle_deg | latitude_deg | longitude_deg | on_disc | \
+        overlap_with_next | rate_deg_s | off_nadir_deg";
     let mut rows = Vec::new();
     for Mosaic { case, flown, numbers } in mosaics {
         for (index, frame) in case.frames(flown).iter().enumerate() {
             let (sample, place) = (frame.sample, &frame.sample.place);
-            let [x, y, z] = frame.middle_m();
+            let [x, y, z] = frame.middle_m().into();
             let mdis_deg = if case.camera.on_platform { sample.mdis_angle_rad.to_degrees() } else { 0.0 };
             let mut row = vec![case.label.to_owned(), (index + 1).to_string()];
             let numbers = [
@@ -153,15 +145,15 @@ fn write(report: &mut Report, options: &Options, mosaics: &[Mosaic]) -> Result<(
                 y.atan2(x).to_degrees(),
                 frame.surface_m().1,
                 numbers.overlaps.get(index).copied().unwrap_or(f64::NAN),
-                norm(&sample.rate_rad_s).to_degrees(),
+                sample.rate_rad_s.norm().to_degrees(),
                 angle_rad(&frame.boresight(), &place.nadir_m()).to_degrees(),
             ];
-            row.extend(numbers.map(digits));
+            row.extend(cells(&[&numbers]));
             row.extend(sample.geometry());
             rows.push(row);
         }
     }
-    report.csv(options, "mosaic.csv", &header, rows)
+    report.csv(options, "mosaic.csv", &format!("{own} | {GEOMETRY}"), rows)
 }
 
 impl Mosaic {

@@ -2,9 +2,10 @@
 //!
 //! Lengths along its axes in units of its radii make it the unit sphere.
 
-use loader::{Error, Instance};
+use nalgebra::Matrix3;
 
-use crate::vector::{Vector, cross, dot, norm, scaled, sum, unit};
+use crate::attitude::{Vector, unit};
+use crate::case::Row;
 
 /// Radii, pole and rotation.
 #[derive(Clone, Copy, Debug)]
@@ -20,87 +21,86 @@ pub struct Planet {
 /// The planet at one moment, by vectors in EME2000 from its centre.
 #[derive(Clone, Copy, Debug)]
 pub struct Ellipsoid {
-    axes: [Vector; 3],
+    axes: Matrix3<f64>,
     radii_m: Vector,
 }
 
 impl Planet {
-    /// By the parameters of an instance of `Guidance`.
-    pub fn read(guidance: &mut Instance) -> Result<Self, Error> {
-        let mut real = |name: &str| guidance.get_real(&format!("planet.{name}"));
-        Ok(Self {
-            radii_m: [real("radii[1]")?, real("radii[2]")?, real("radii[3]")?],
-            pole_right_ascension_rad: real("poleRightAscension")?,
-            pole_declination_rad: real("poleDeclination")?,
-            prime_meridian_rad: real("primeMeridian")?,
-            rotation_rate_rad_s: real("rotationRate")?,
-        })
+    /// From radii, pole and rotation, one after the other.
+    pub fn of(mut row: Row<'_>) -> Self {
+        Self {
+            radii_m: row.vector(),
+            pole_right_ascension_rad: row.real(),
+            pole_declination_rad: row.real(),
+            prime_meridian_rad: row.real(),
+            rotation_rate_rad_s: row.real(),
+        }
     }
 
     /// At an epoch in s past J2000 TDB.
     pub fn at(&self, epoch_s: f64) -> Ellipsoid {
         let (sin_a, cos_a) = self.pole_right_ascension_rad.sin_cos();
         let (sin_d, cos_d) = self.pole_declination_rad.sin_cos();
-        let pole = [cos_d * cos_a, cos_d * sin_a, sin_d];
+        let pole = Vector::new(cos_d * cos_a, cos_d * sin_a, sin_d);
         // The ascending node of its equator on that of EME2000.
-        let node = [-sin_a, cos_a, 0.0];
-        let ahead = cross(&pole, &node);
+        let node = Vector::new(-sin_a, cos_a, 0.0);
+        let ahead = pole.cross(&node);
         let (sin_w, cos_w) = (self.prime_meridian_rad + self.rotation_rate_rad_s * epoch_s).sin_cos();
-        let x = sum(&scaled(&node, cos_w), &scaled(&ahead, sin_w));
-        Ellipsoid { axes: [x, cross(&pole, &x), pole], radii_m: self.radii_m }
+        let x = node * cos_w + ahead * sin_w;
+        Ellipsoid { axes: Matrix3::from_columns(&[x, pole.cross(&x), pole]), radii_m: self.radii_m }
     }
 }
 
 impl Ellipsoid {
-    /// Its x, y and z axis.
-    pub fn axes(&self) -> &[Vector; 3] {
+    /// Its x, y and z axis: columns.
+    pub fn axes(&self) -> &Matrix3<f64> {
         &self.axes
     }
 
     /// Components along its axes in units of its radii.
     fn in_radii(&self, v: &Vector) -> Vector {
-        [0, 1, 2].map(|i| dot(&self.axes[i], v) / self.radii_m[i])
+        self.along_axes(v).component_div(&self.radii_m)
     }
 
     /// The other way.
     fn in_meters(&self, y: &Vector) -> Vector {
-        self.inertial(&[0, 1, 2].map(|i| y[i] * self.radii_m[i]))
+        self.inertial(&y.component_mul(&self.radii_m))
     }
 
     /// EME2000 components of components along its axes.
     pub fn inertial(&self, v: &Vector) -> Vector {
-        [0, 1, 2].map(|i| (0..3).map(|axis| self.axes[axis][i] * v[axis]).sum())
+        self.axes * v
     }
 
     /// Components along its axes.
     pub fn along_axes(&self, v: &Vector) -> Vector {
-        self.axes.map(|axis| dot(&axis, v))
+        self.axes.tr_mul(v)
     }
 
     /// The surface point in this direction from the centre.
     pub fn surface(&self, direction: &Vector) -> Vector {
-        scaled(direction, 1.0 / norm(&self.in_radii(direction)))
+        direction * (1.0 / self.in_radii(direction).norm())
     }
 
     /// x . r in units of the radii, less 1: 0 at limb points, positive where the surface is seen (paper 001, eq 21).
     pub fn beyond_limb(&self, surface: &Vector, from: &Vector) -> f64 {
-        dot(&self.in_radii(surface), &self.in_radii(from)) - 1.0
+        self.in_radii(surface).dot(&self.in_radii(from)) - 1.0
     }
 
     /// Where a line first meets the surface.
     pub fn hit(&self, from: &Vector, direction: &Vector) -> Option<Vector> {
         let (origin, ray) = (self.in_radii(from), self.in_radii(direction));
-        let (along, square) = (-dot(&origin, &ray), dot(&ray, &ray));
-        let inside = along * along - square * (dot(&origin, &origin) - 1.0);
+        let (along, square) = (-origin.dot(&ray), ray.norm_squared());
+        let inside = along * along - square * (origin.norm_squared() - 1.0);
         let distance = (along - inside.max(0.0).sqrt()) / square;
-        (inside >= 0.0 && along > 0.0).then(|| sum(from, &scaled(direction, distance)))
+        (inside >= 0.0 && along > 0.0).then(|| from + direction * distance)
     }
 
     /// Where a line meets the surface, or comes nearest to it in units of the radii.
     pub fn hit_or_nearest(&self, from: &Vector, direction: &Vector) -> Vector {
         self.hit(from, direction).unwrap_or_else(|| {
             let (origin, ray) = (self.in_radii(from), self.in_radii(direction));
-            sum(from, &scaled(direction, -dot(&origin, &ray) / dot(&ray, &ray)))
+            from + direction * (-origin.dot(&ray) / ray.norm_squared())
         })
     }
 
@@ -109,9 +109,9 @@ impl Ellipsoid {
     /// Of the line's points the one whose radius meets the surface at the limb (eq 21), by bisection: from the spacecraft on
     /// the radius turns toward the line's direction, and its end goes from the visible side over the limb.
     pub fn height_over_limb_m(&self, from: &Vector, direction: &Vector) -> Option<(Vector, f64)> {
-        let at = |distance: f64| sum(from, &scaled(direction, distance));
+        let at = |distance: f64| from + direction * distance;
         let beyond = |distance: f64| self.beyond_limb(&self.surface(&at(distance)), from);
-        let (mut near, mut far) = (0.0, 2.0 * norm(from));
+        let (mut near, mut far) = (0.0, 2.0 * from.norm());
         if beyond(far) >= 0.0 {
             return None;
         }
@@ -121,7 +121,7 @@ impl Ellipsoid {
         }
         let point = at(near);
         let foot = self.surface(&point);
-        Some((foot, norm(&point) - norm(&foot)))
+        Some((foot, point.norm() - foot.norm()))
     }
 
     /// The points of the surface in the plane through the centre normal to `normal`, once round.
@@ -140,7 +140,7 @@ impl Ellipsoid {
                 let (mut seen, mut hidden) =
                     if self.beyond_limb(a, from) > 0.0 { (*a, *b) } else { (*b, *a) };
                 for _ in 0..60 {
-                    let middle = self.surface(&scaled(&sum(&seen, &hidden), 0.5));
+                    let middle = self.surface(&((seen + hidden) * 0.5));
                     if self.beyond_limb(&middle, from) > 0.0 { seen = middle } else { hidden = middle }
                 }
                 seen
@@ -150,28 +150,25 @@ impl Ellipsoid {
 
     /// Whether the Sun is above the terminator's plane there.
     pub fn is_day(surface: &Vector, sun: &Vector) -> bool {
-        dot(surface, sun) > 0.0
+        surface.dot(sun) > 0.0
     }
 
     /// The limb, once round: the circle on the unit sphere whose tangents meet at the spacecraft.
     pub fn limb(&self, from: &Vector, count: u32) -> Vec<Vector> {
         let rho = self.in_radii(from);
-        let square = dot(&rho, &rho);
-        let middle = scaled(&rho, 1.0 / square);
+        let square = rho.norm_squared();
+        let middle = rho * (1.0 / square);
         let radius = (1.0 - 1.0 / square).sqrt();
-        circle(&rho, count).map(|side| self.in_meters(&sum(&middle, &scaled(&side, radius)))).collect()
+        circle(&rho, count).map(|side| self.in_meters(&(middle + side * radius))).collect()
     }
 }
 
 /// Unit vectors across `normal`, once round.
 fn circle(normal: &Vector, count: u32) -> impl Iterator<Item = Vector> {
-    let least = (0..3).min_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs())).unwrap_or(0);
-    let mut axis = [0.0; 3];
-    axis[least] = 1.0;
-    let u = unit(&cross(normal, &axis));
-    let v = unit(&cross(normal, &u));
+    let u = unit(&normal.cross(&Vector::ith(normal.iamin(), 1.0)));
+    let v = unit(&normal.cross(&u));
     (0..count).map(move |k| {
         let (sine, cosine) = (core::f64::consts::TAU * f64::from(k) / f64::from(count)).sin_cos();
-        sum(&scaled(&u, cosine), &scaled(&v, sine))
+        u * cosine + v * sine
     })
 }

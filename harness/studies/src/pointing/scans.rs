@@ -1,10 +1,12 @@
 //! The scans of the mosaics: motion of each axis, what is commanded, when frames are taken.
 
+use nalgebra::Matrix3;
+
 use super::camera::{Camera, Frame};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, Place};
 use crate::StudyError;
-use crate::settings::{Settings, flag, number, real, vector_setting};
-use crate::vector::{Vector, dot, sum, unit};
+use crate::attitude::{Vector, unit};
+use crate::settings::{Settings, elements, flag, item, number, real};
 
 const TRUE_ANOMALY_DEG: f64 = 175.0;
 
@@ -138,14 +140,15 @@ impl Case {
     }
 
     /// The two of these axes that lie most across the line of sight: along rows, and from row to row.
-    fn across(axes: &[Vector; 3], toward: &Vector) -> [usize; 2] {
+    fn across(axes: &Matrix3<f64>, toward: &Vector) -> [usize; 2] {
+        let along = axes.tr_mul(toward).abs();
         let mut order = [0, 1, 2];
-        order.sort_by(|a, b| dot(&axes[*a], toward).abs().total_cmp(&dot(&axes[*b], toward).abs()));
+        order.sort_by(|a, b| along[*a].total_cmp(&along[*b]));
         [order[1], order[0]]
     }
 
     /// What is commanded from the first place on.
-    fn settings(&self, place: &Place, axes: &[Vector; 3], radius_m: f64) -> Settings {
+    fn settings(&self, place: &Place, axes: &Matrix3<f64>, radius_m: f64) -> Settings {
         let nadir = unit(&place.nadir_m());
         let degree = f64::to_radians(1.0);
         match self.kind {
@@ -155,41 +158,39 @@ impl Case {
                 let (sin_y, cos_y) = about_y.sin_cos();
                 let (sin_x, cos_x) = about_x.sin_cos();
                 let boresight = [sin_y, -sin_x * cos_y, cos_x * cos_y];
-                let generic = [
-                    number("pointing.scenario", 1),
-                    number("boresight.option", 1),
-                    number("aimpoint.option", 12),
-                    number("bodyRoll.option", 1),
-                    number("externalRoll.option", 3),
-                    number("scan.frame", 1),
+                let mut settings = vec![
+                    item("pointing.scenario", "generic"),
+                    item("boresight.option", "vector"),
+                    item("aimpoint.option", "nadir"),
+                    item("bodyRoll.option", "vector"),
+                    item("externalRoll.option", "sun"),
+                    item("scan.frame", "body"),
                 ];
-                let mut settings = generic.to_vec();
-                settings.extend(vector_setting("boresight.vector", &boresight));
-                settings.extend(vector_setting("bodyRoll.vector", &[0.0, -1.0, 0.0]));
+                settings.extend(elements("boresight.vector", boresight));
+                settings.extend(elements("bodyRoll.vector", [0.0, -1.0, 0.0]));
                 settings.extend(self.fast.settings(1, "rate", degree));
                 settings.extend(self.slow.settings(0, "rate", degree));
                 settings
             }
             Kind::Inertial | Kind::PlanetFixed => {
                 let [fast, slow] = Self::across(axes, &nadir);
-                let mut start = [0.0; 3];
+                let mut start = Vector::zeros();
                 (start[fast], start[slow]) = (self.fast.start(), self.slow.start());
                 let (option, frame) = match self.kind {
                     Kind::PlanetFixed => {
                         // About the point below the spacecraft.
-                        let below = axes.map(|axis| dot(&axis, &nadir) * -radius_m);
-                        start = sum(&start, &below);
-                        (6, 4)
+                        start += axes.tr_mul(&nadir) * -radius_m;
+                        ("planetFixed", "planetTranslation")
                     }
-                    _ => (5, 3),
+                    _ => ("planetCentered", "inertialTranslation"),
                 };
                 let mut settings = vec![
-                    number("pointing.scenario", 4),
+                    item("pointing.scenario", "mdis"),
                     real("boresight.angle", degree * self.mdis_deg),
-                    number("aimpoint.option", option),
-                    number("scan.frame", frame),
+                    item("aimpoint.option", option),
+                    item("scan.frame", frame),
                 ];
-                settings.extend(vector_setting("aimpoint.position", &start));
+                settings.extend(elements("aimpoint.position", start.iter().copied()));
                 settings.extend(self.fast.settings(fast, "speed", 1.0));
                 settings.extend(self.slow.settings(slow, "speed", 1.0));
                 settings
@@ -211,7 +212,7 @@ impl Case {
         let planet = fmus.fly(&flight)?.planet;
         let axes = match self.kind {
             Kind::PlanetFixed => *planet.at(self.epoch_s()).axes(),
-            Kind::Inertial | Kind::Body => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            Kind::Inertial | Kind::Body => Matrix3::identity(),
         };
         let command = |place: &Place| {
             if place.time_s == 0.0 { self.settings(place, &axes, planet.radii_m[0]) } else { Vec::new() }

@@ -1,11 +1,12 @@
 //! Figures 7 and 8: from downlink to the camera at nadir, as commanded.
 
 use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample};
+use crate::attitude::angle_rad;
 use crate::case::{chosen, run_all};
-use crate::settings::{Settings, digits, number, real};
-use crate::vector::angle_rad;
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Mark, Panel, Series};
+use crate::settings::{Settings, cells, item, real};
+use crate::verdict::{agrees, compared};
+use crate::{Options, Report, StudyError};
 
 /// Sun and Earth are 33 deg apart as seen from the spacecraft, as the paper's antenna azimuth of -33 deg asks for with the
 /// Sun at azimuth and elevation 0. The paper prints no epoch.
@@ -41,9 +42,9 @@ impl Angle {
                 real("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
             };
             if place.time_s == 0.0 {
-                vec![number("pointing.scenario", 6)]
+                vec![item("pointing.scenario", "downlink")]
             } else if place.time_s == SLEW_S {
-                vec![number("pointing.scenario", 4), number("aimpoint.option", 12), camera()]
+                vec![item("pointing.scenario", "mdis"), item("aimpoint.option", "nadir"), camera()]
             } else if place.time_s > SLEW_S && self == Self::Followed {
                 vec![camera()]
             } else {
@@ -81,9 +82,8 @@ impl Angles {
 
 /// Rotation angle from one attitude to another, in deg.
 fn slew_deg(from: &Sample, to: &Sample) -> f64 {
-    let dot: f64 = from.q.iter().zip(&to.q).map(|(a, b)| a * b).sum();
-    let across: f64 = from.q.iter().zip(&to.q).map(|(a, b)| (b - dot * a).powi(2)).sum::<f64>().sqrt();
-    2.0 * across.atan2(dot.abs()).to_degrees()
+    let dot = from.q.dot(&to.q);
+    2.0 * (to.q - from.q * dot).norm().atan2(dot.abs()).to_degrees()
 }
 
 /// The commanded curves of Figures 7 and 8.
@@ -97,7 +97,7 @@ pub fn transition(options: &Options) -> Result<Report, StudyError> {
         "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8, commanded curves)\n",
     );
     let rows = flown.iter().flat_map(|(angle, flown)| rows(*angle, flown)).collect::<Vec<_>>();
-    report.table(&["case", "quantity", "paper", "ours", "verdict"], &rows);
+    report.table("case | quantity | paper | ours | verdict", &rows);
     report.line(REMARK);
     write(&mut report, options, &flown)?;
     if let Some((_, flown)) = flown.first() {
@@ -130,57 +130,51 @@ fn rows(angle: Angle, flown: &Flown) -> Vec<Vec<String>> {
     let planet = Angles::of(after).planet.map(|x| (100.0 * x).round() / 100.0 + 0.0);
     let mdis_deg = after.mdis_angle_rad.to_degrees();
     let constrained = flown.samples.iter().filter(|sample| sample.constrained).count();
-    let row = |quantity: &str, paper: &str, ours: String, verdict: &str| {
-        vec![angle.label().to_owned(), quantity.to_owned(), paper.to_owned(), ours, verdict.to_owned()]
+    let row = |what: &str, ours: String, verdict: &str| {
+        compared(&format!("{} | {what}", angle.label()), ours, verdict)
     };
-    let agrees = |is: bool| if is { "agrees" } else { "differs" };
     vec![
         row(
-            "Earth azimuth before the slew",
-            "-33 deg",
+            "Earth azimuth before the slew | -33 deg",
             format!("{azimuth:.2} deg"),
             agrees((azimuth + 33.0).abs() < 0.05),
         ),
         row(
-            "Earth elevation before the slew, greatest",
-            "0 deg",
+            "Earth elevation before the slew, greatest | 0 deg",
             format!("{elevation:.1e} deg"),
             agrees(elevation < 1e-9),
         ),
-        row("Sun azimuth, greatest", "0 deg", format!("{:.1e} deg", sun[0]), agrees(sun[0] < 1e-9)),
-        row("Sun elevation, greatest", "0 deg", format!("{:.1e} deg", sun[1]), agrees(sun[1] < 1e-9)),
-        row("slew angle", "not printed", format!("{:.3} deg", slew_deg(before, after)), "-"),
+        row("Sun azimuth, greatest | 0 deg", format!("{:.1e} deg", sun[0]), agrees(sun[0] < 1e-9)),
+        row("Sun elevation, greatest | 0 deg", format!("{:.1e} deg", sun[1]), agrees(sun[1] < 1e-9)),
+        row("slew angle | not printed", format!("{:.3} deg", slew_deg(before, after)), "-"),
         row(
-            "Mercury azimuth / elevation after the slew",
-            "not printed",
+            "Mercury azimuth / elevation after the slew | not printed",
             format!("{:.2} / {:.2} deg", planet[0], planet[1]),
             "-",
         ),
         row(
-            "camera angle after the slew",
-            "in range (-50 to 40 deg)",
+            "camera angle after the slew | in range (-50 to 40 deg)",
             format!("{mdis_deg:.3} deg"),
             agrees((-50.0..=40.0).contains(&mdis_deg)),
         ),
-        row("samples changed by a constraint", "none", constrained.to_string(), agrees(constrained == 0)),
+        row("samples changed by a constraint | none", constrained.to_string(), agrees(constrained == 0)),
     ]
 }
 
 fn write(report: &mut Report, options: &Options, flown: &[(Angle, Flown)]) -> Result<(), StudyError> {
-    let sun = ["case", "sun_azimuth_deg", "sun_elevation_deg"];
-    let others = ["earth_azimuth_deg", "earth_elevation_deg", "mercury_azimuth_deg", "mercury_elevation_deg"];
-    let header = [&sun[..], &others, &["mdis_angle_deg"], &GEOMETRY].concat();
+    let own = "\
+        case | sun_azimuth_deg | sun_elevation_deg | earth_azimuth_deg | earth_elevation_deg | \
+        mercury_azimuth_deg | mercury_elevation_deg | mdis_angle_deg";
     let rows = flown.iter().flat_map(|(angle, flown)| {
         flown.samples.iter().map(|sample| {
             let Angles { sun, earth, planet } = Angles::of(sample);
             let mut row = vec![angle.label().to_owned()];
-            let numbers = sun.into_iter().chain(earth).chain(planet);
-            row.extend(numbers.chain([sample.mdis_angle_rad.to_degrees()]).map(digits));
+            row.extend(cells(&[&sun, &earth, &planet, &[sample.mdis_angle_rad.to_degrees()]]));
             row.extend(sample.geometry());
             row
         })
     });
-    report.csv(options, "transition.csv", &header, rows)
+    report.csv(options, "transition.csv", &format!("{own} | {GEOMETRY}"), rows)
 }
 
 /// A line over time, interrupted at the slew.

@@ -1,10 +1,10 @@
 //! Figure 4: nutation during the 2 deg manoeuvre, and what shape of body gives the paper's range.
 
 use super::spinner::{RATIO, paper_case};
-use super::verdict::verdict_text;
 use crate::case::{Case, chosen, run_all};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
+use crate::verdict::{compared, verdict_text};
+use crate::{Options, Report, StudyError};
 
 const STOP_S: f64 = 1400.0;
 /// End of the paper's simulation, in s.
@@ -79,15 +79,14 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
             end_deg: between(PAPER_END_S, STOP_S),
             envelope_deg: simulated.last(3).to_degrees(),
         };
-        rows.push(vec![
-            case.label.clone(),
-            "0.001 to 0.032, final 0.024".to_owned(),
+        rows.push(compared(
+            &format!("{} | 0.001 to 0.032, final 0.024", case.label),
             format!(
                 "{least_deg:.4} to {most_deg:.4}, final {:.4} to {:.4}",
                 found.end_deg.0, found.end_deg.1
             ),
-            verdict_text(simulated.last(2) == 1.0, &found.verdict()).to_owned(),
-        ]);
+            verdict_text(simulated.last(2) == 1.0, &found.verdict()),
+        ));
         csv.extend(simulated.times_s.iter().zip(degrees(0)).zip(degrees(1)).map(
             |((time_s, angle), foreseen)| {
                 vec![case.label.clone(), format!("{time_s}"), format!("{angle:.9}"), format!("{foreseen:.9}")]
@@ -110,14 +109,14 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
             ..Panel::default()
         });
     }
-    report.table(&["body", "paper [deg]", "ours [deg]", "verdict"], &rows);
+    report.table("body | paper [deg] | ours [deg] | verdict", &rows);
     report.line(
         "The final value turns with the ratio (1.483 and 1.484 above): histories and ranges are compared, not one number.\n\
          I1 is about X, I2 about Y. A triaxial body gives the paper's range if its greater transverse inertia is about X, and\n\
          does not if it is about Y. The paper prints neither axis nor quotient: both are choices, and the range they give is\n\
          no confirmation.",
     );
-    report.csv(options, "figure4.csv", &["case", "time_s", "nutation_deg", "foreseen_deg"], csv)?;
+    report.csv(options, "figure4.csv", "case | time_s | nutation_deg | foreseen_deg", csv)?;
     let chart = Chart {
         title: "Nutation during the 2 deg manoeuvre".to_owned(),
         x_label: "time [s]".to_owned(),

@@ -5,7 +5,6 @@ mod numbers;
 mod spinner;
 mod tracker;
 mod trains;
-mod verdict;
 
 pub use history::figure4;
 pub use numbers::numbers;

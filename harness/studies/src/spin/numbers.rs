@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use super::spinner::{
     AXIAL_ARM_M, FORCE_N, PERIOD_S, RADIAL_ARM_M, RATE_RAD_S, SPIN_INERTIA_KG_M2, paper_case,
 };
-use super::verdict::{rounds, verdict, verdict_text};
 use crate::case::chosen;
+use crate::verdict::{compared, rounds, verdict, verdict_text};
 use crate::{Options, Report, StudyError};
 
 /// Number of ratios over 1.471 to 1.494 at which trains are simulated.
@@ -23,18 +23,7 @@ const AXIAL_OPPOSITE: i32 = 4;
 /// Marks rows in which nothing was simulated.
 const ARITHMETIC: &str = "agrees (arithmetic, not simulated)";
 
-struct Row {
-    quantity: &'static str,
-    paper: &'static str,
-    ours: String,
-    verdict: String,
-}
-
-impl Row {
-    fn new(quantity: &'static str, paper: &'static str, ours: String, verdict: impl Into<String>) -> Self {
-        Self { quantity, paper, ours, verdict: verdict.into() }
-    }
-}
+type Row = Vec<String>;
 
 /// Every number.
 pub fn numbers(options: &Options) -> Result<Report, StudyError> {
@@ -43,15 +32,12 @@ pub fn numbers(options: &Options) -> Result<Report, StudyError> {
     rows.extend(envelopes(&fmu)?);
     rows.extend(observation(&fmu)?);
     rows.extend(beyond(&fmu)?);
-    let table: Vec<Vec<String>> = chosen("spin/numbers", options, rows, |row| row.quantity.to_owned())?
-        .into_iter()
-        .map(|row| vec![row.quantity.into(), row.paper.into(), row.ours, row.verdict])
-        .collect();
+    let table = chosen("spin/numbers", options, rows, |row| row[0].clone())?;
     let mut report = Report::default();
     report.line("Numbers of paper 002 beside simulations of SpinPlant");
-    let header = ["quantity", "paper", "ours", "verdict"];
-    report.table(&header, &table);
-    report.csv(options, "numbers.csv", &header, table)?;
+    let header = "quantity | paper | ours | verdict";
+    report.table(header, &table);
+    report.csv(options, "numbers.csv", header, table)?;
     Ok(report)
 }
 
@@ -80,69 +66,59 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     let total_s = 6.0_f64.to_radians() / one.last(3);
     let (arc_deg, days) = (half_arc_deg(fmu)?, deadband_days(fmu)?);
     Ok(vec![
-        Row::new(
-            "axis moved by one 1 s pulse (eq 3)",
-            "0.0095 rad",
+        compared(
+            "axis moved by one 1 s pulse (eq 3) | 0.0095 rad",
             format!("{:.6} rad planned, {:.6} rad simulated", one.last(0), one.last(3)),
             verdict(rounds(one.last(3), 0.0095, 1e-4)),
         ),
-        Row::new(
-            "thruster time for 6 deg",
-            "11.02 s",
+        compared(
+            "thruster time for 6 deg | 11.02 s",
             format!("{total_s:.2} s"),
             verdict_text(
                 rounds(total_s, 11.03, 0.01) && rounds(6.0_f64.to_radians() / 0.0095, 11.02, 0.01),
                 "paper divides by the rounded 0.0095 rad",
             ),
         ),
-        Row::new(
-            "half arc of a 32 ms pulse",
-            "0.48 deg",
+        compared(
+            "half arc of a 32 ms pulse | 0.48 deg",
             format!("{arc_deg:.2} deg"),
             verdict(rounds(arc_deg, 0.48, 0.01)),
         ),
-        Row::new(
-            "axis moved by one 32 ms pulse",
-            "0.0176 deg",
+        compared(
+            "axis moved by one 32 ms pulse | 0.0176 deg",
             format!("{:.5} deg", radial.last(3).to_degrees() / radial.last(4)),
             verdict(rounds(radial.last(3).to_degrees() / radial.last(4), 0.0176, 1e-4)),
         ),
-        Row::new(
-            "32 ms pulses for 2 deg, lower radial",
-            "114",
+        compared(
+            "32 ms pulses for 2 deg, lower radial | 114",
             format!("{} (simulated {:.4} deg)", radial.last(4), radial.last(3).to_degrees()),
             verdict(rounds(radial.last(4), 114.0, 1.0) && rounds(radial.last(3).to_degrees(), 2.0, 0.02)),
         ),
-        Row::new(
-            "32 ms pulses for 2 deg, upper axial",
-            "about 58",
+        compared(
+            "32 ms pulses for 2 deg, upper axial | about 58",
             format!("{} (simulated {:.4} deg)", axial.last(4), axial.last(3).to_degrees()),
             verdict(rounds(axial.last(4), 58.0, 1.0) && rounds(axial.last(3).to_degrees(), 2.0, 0.04)),
         ),
-        Row::new(
-            "duration, once a turn",
-            "22.6 min",
+        compared(
+            "duration, once a turn | 22.6 min",
             format!("{:.2} min", radial.last(1) / 60.0),
             verdict(rounds(radial.last(1) / 60.0, 22.6, 0.1)),
         ),
-        Row::new(
-            "duration, twice a turn",
-            "11.6 min",
+        compared(
+            "duration, twice a turn | 11.6 min",
             format!("{:.2} min", half.last(1) / 60.0),
             verdict_text(
                 rounds(half.last(1) / 60.0, 11.3, 0.1),
                 "113 half turns are 11.3 min: a slip of the paper",
             ),
         ),
-        Row::new(
-            "simulation, end of the manoeuvre",
-            "1368 s",
+        compared(
+            "simulation, end of the manoeuvre | 1368 s",
             format!("{:.0} s for 114 turns", 114.0 * PERIOD_S),
             verdict_text(rounds(114.0 * PERIOD_S, 1368.0, 1.0), ARITHMETIC),
         ),
-        Row::new(
-            "days in the 3 deg deadband",
-            "6.1 d",
+        compared(
+            "days in the 3 deg deadband | 6.1 d",
             format!("{days:.2} d"),
             verdict(rounds(days, 6.1, 0.1)),
         ),
@@ -171,18 +147,17 @@ fn half_arc_deg(fmu: &Fmu) -> Result<f64, StudyError> {
 /// the antenna, to 3 deg on the other; the second half is simulated.
 fn deadband_days(fmu: &Fmu) -> Result<f64, StudyError> {
     let still = |label: &str, stop_s: f64| {
-        let case = paper_case(label, stop_s, 600.0).integer("burn.plan", 4).integer("geometry.source", 2);
-        (1..=3).fold(case, |case, axis| case.real(&format!("geometry.amplitude[{axis}]"), 0.0))
+        paper_case(label, stop_s, 600.0)
+            .item("burn.plan", "commanded")
+            .item("geometry.source", "l1Orbit")
+            .elements("geometry.amplitude", [0.0; 3])
     };
-    let names = ["earth.inertial[1]", "earth.inertial[2]", "earth.inertial[3]"];
-    let earth = still("where the Earth stands", 600.0).simulate(fmu, &names)?;
+    let earth = still("where the Earth stands", 600.0).simulate(fmu, &["earth.inertial"])?;
     // The shortest turn that takes +Z opposite the Earth: the antenna looks along -Z.
-    let [x, y, z] = [0, 1, 2].map(|axis| -earth.columns[axis][0]);
+    let [x, y, z] = (-earth.row(0, 0).vector::<3>()).into();
     let scale = (2.0 * (1.0 + z)).sqrt();
     let q = [-y / scale, x / scale, 0.0, 0.5 * scale];
-    let aimed = (1..)
-        .zip(q)
-        .fold(still("deadband", 4.0 * DAY_S), |case, (i, value)| case.real(&format!("start.q[{i}]"), value));
+    let aimed = still("deadband", 4.0 * DAY_S).elements("start.q", q);
     let simulated = aimed.simulate(fmu, &["earth.angle"])?;
     let limit_rad = 3.0_f64.to_radians();
     let beyond = simulated.columns[0].iter().position(|angle| *angle > limit_rad).filter(|i| *i > 0);
@@ -223,36 +198,33 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         Ok((printed_rad.to_degrees(), exact_rad.to_degrees()))
     };
     let mut rows = Vec::new();
-    for (quantity, paper_text, paper, thruster, turns, count) in [
-        ("envelope, radial, twice a turn", "0.0237 deg", 0.0237, RADIAL, 0.5, 113.0),
-        ("envelope, radial, once a turn", "0.0177 deg", 0.0177, RADIAL, 1.0, 113.0),
-        ("envelope, axial, twice a turn", "0.0461 deg", 0.0461, AXIAL, 0.5, 58.0),
-        ("envelope, axial, once a turn", "0.0345 deg", 0.0345, AXIAL, 1.0, 58.0),
+    for (what, paper, thruster, turns, count) in [
+        ("envelope, radial, twice a turn | 0.0237 deg", 0.0237, RADIAL, 0.5, 113.0),
+        ("envelope, radial, once a turn | 0.0177 deg", 0.0177, RADIAL, 1.0, 113.0),
+        ("envelope, axial, twice a turn | 0.0461 deg", 0.0461, AXIAL, 0.5, 58.0),
+        ("envelope, axial, once a turn | 0.0345 deg", 0.0345, AXIAL, 1.0, 58.0),
     ] {
         let (printed, exact) = envelope(thruster, turns, count)?;
-        rows.push(Row::new(
-            quantity,
-            paper_text,
+        rows.push(compared(
+            what,
             format!("{printed:.5} deg as printed, {exact:.5} deg exact"),
             verdict_text(rounds(printed, paper, 1e-4), "as printed; eq 9 and 10 are misprinted"),
         ));
     }
     let hours = 9.5 * (envelope(RADIAL, 0.5, 113.0)?.0 / envelope(RADIAL, 1.0, 113.0)?.0).ln();
-    rows.push(Row::new(
-        "damping time avoided by once a turn",
-        "2 3/4 h",
+    rows.push(compared(
+        "damping time avoided by once a turn | 2 3/4 h",
         format!("{hours:.2} h"),
         verdict((hours - 2.75).abs() < 0.1),
     ));
     let damped = paper_case("damping", 9.5 * 3600.0, 9.5 * 3600.0)
         .real("damper.timeConstant", 9.5 * 3600.0)
-        .integer("burn.plan", 4)
+        .item("burn.plan", "commanded")
         .real("start.nutation", 0.02_f64.to_radians())
         .simulate(fmu, &["nutation.angle"])?;
     let left = damped.last(0) / 0.02_f64.to_radians();
-    rows.push(Row::new(
-        "nutation left after 9.5 h",
-        "1/e = 0.3679",
+    rows.push(compared(
+        "nutation left after 9.5 h | 1/e = 0.3679",
         format!("{left:.4}"),
         verdict(rounds(left, (-1.0_f64).exp(), 1e-4)),
     ));
@@ -262,7 +234,7 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
 /// Section IV and eq 1.
 fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     let tracker = paper_case("observation", 1.0, 1.0)
-        .integer("starTracker.sampling", 2)
+        .item("starTracker.sampling", "clock")
         .simulate(fmu, &["starTracker.observationTimeNominal", "starTracker.observationTime"])?;
     let minutes = tracker.last(0) / 60.0;
     // Nutation that 7 ms allow, from eq 1's slope in the FMU at two Sun angles.
@@ -271,20 +243,17 @@ fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         // The axis stands `nutation` off the momentum; the Sun is revolution about the line both lie across.
         let nutation = 1e-6;
         let found = paper_case("eq 1", 1e-3, 1e-3)
-            .integer("burn.plan", 4)
+            .item("burn.plan", "commanded")
             .real("start.nutation", nutation)
-            .real("sun.direction[1]", 0.0)
-            .real("sun.direction[2]", beta.sin())
-            .real("sun.direction[3]", beta.cos())
+            .elements("sun.direction", [0.0, beta.sin(), beta.cos()])
             .simulate(fmu, &["spin.periodVariation"])?;
         Ok((0.007 * nutation / found.columns[0][0]).to_degrees())
     };
     let (wide, narrow) = (allowed(20.0)?, allowed(1.0)?);
     let exact = tracker.last(1) / 60.0;
     Ok(vec![
-        Row::new(
-            "observation time at 5 rpm, ratio 1.483",
-            "11.2 min",
+        compared(
+            "observation time at 5 rpm, ratio 1.483 | 11.2 min",
             format!("{minutes:.2} min by eq 20, {exact:.2} min exactly"),
             // 8 samples 96 s apart span 7 of these; figure6 runs them.
             verdict_text(
@@ -293,15 +262,13 @@ fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
             ),
         ),
         // The notes to the paper solve eq 1 by hand.
-        Row::new(
-            "nutation that 7 ms allow at a Sun angle of 20 deg",
-            "-",
+        compared(
+            "nutation that 7 ms allow at a Sun angle of 20 deg | -",
             format!("{wide:.4} deg"),
             verdict_text(rounds(wide, 0.038, 1e-3), "eq 1"),
         ),
-        Row::new(
-            "nutation that 7 ms allow at a Sun angle of 1 deg",
-            "-",
+        compared(
+            "nutation that 7 ms allow at a Sun angle of 1 deg | -",
             format!("{narrow:.4} deg"),
             verdict_text(rounds(narrow, 0.0018, 1e-4), "eq 1 diverges as the Sun angle goes to 0"),
         ),
@@ -321,7 +288,7 @@ struct Worst {
 }
 
 impl Worst {
-    fn of(fmu: &Fmu, plan: i32, order: i32, count: i32) -> Result<Self, StudyError> {
+    fn of(fmu: &Fmu, plan: &str, order: i32, count: i32) -> Result<Self, StudyError> {
         let simulations: Vec<Self> = (0..RATIOS)
             .into_par_iter()
             .map(|i| {
@@ -330,7 +297,7 @@ impl Worst {
                     ["nutation.angle", "burn.plannedDuration", "nutation.envelope", "momentum.displacement"];
                 let simulated = paper_case(format!("plan {plan} at {ratio:.4}"), 1500.0, 6.0)
                     .ratio(ratio)
-                    .integer("burn.plan", plan)
+                    .item("burn.plan", plan)
                     .integer("burn.taperOrder", order)
                     .integer("burn.count", count)
                     .real("burn.pulseWidth", 0.032)
@@ -383,17 +350,16 @@ impl Worst {
 
 /// Beyond the paper: trains that end with little nutation.
 fn beyond(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
-    let (uniform, tapered) = (Worst::of(fmu, 1, 1, 114)?, Worst::of(fmu, 2, 1, 58)?);
-    let (second, fourth) = (Worst::of(fmu, 2, 2, 30)?, Worst::of(fmu, 2, 4, 11)?);
+    let (uniform, tapered) = (Worst::of(fmu, "uniform", 1, 114)?, Worst::of(fmu, "tapered", 1, 58)?);
+    let (second, fourth) = (Worst::of(fmu, "tapered", 2, 30)?, Worst::of(fmu, "tapered", 4, 11)?);
     let as_stated = tapered.turns() && tapered.final_deg < 0.0033 && tapered.duration_min < 11.45;
     let split = paper_case("split train", 1600.0, 1600.0)
-        .integer("burn.plan", 3)
+        .item("burn.plan", "split")
         .simulate(fmu, &["nutation.angle", "burn.plannedDuration", "burn.done", "momentum.displacement"])?;
     let (split_deg, split_moved_deg) = (split.last(0).to_degrees(), split.last(3).to_degrees());
     Ok(vec![
-        Row::new(
-            "uniform train, worst of 1.471 to 1.494",
-            "envelope 0.0177 deg, 22.6 min",
+        compared(
+            "uniform train, worst of 1.471 to 1.494 | envelope 0.0177 deg, 22.6 min",
             uniform.text(),
             verdict(
                 uniform.turns()
@@ -402,27 +368,23 @@ fn beyond(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
                     && rounds(uniform.duration_min, 22.6, 0.1),
             ),
         ),
-        Row::new(
-            "train 1 2 2 ... 2 1, worst of 1.471 to 1.494",
-            "-",
+        compared(
+            "train 1 2 2 ... 2 1, worst of 1.471 to 1.494 | -",
             tapered.text(),
             verdict_text(as_stated, "2 deg in 11.4 min under 0.0033 deg"),
         ),
-        Row::new(
-            "train 1 3 4 ... 4 3 1, worst of 1.471 to 1.494",
-            "-",
+        compared(
+            "train 1 3 4 ... 4 3 1, worst of 1.471 to 1.494 | -",
             second.text(),
-            second.beyond(&uniform),
+            &second.beyond(&uniform),
         ),
-        Row::new(
-            "binomial train of order 4, worst of 1.471 to 1.494",
-            "-",
+        compared(
+            "binomial train of order 4, worst of 1.471 to 1.494 | -",
             fourth.text(),
-            fourth.beyond(&uniform),
+            &fourth.beyond(&uniform),
         ),
-        Row::new(
-            "split train, ratio known",
-            "-",
+        compared(
+            "split train, ratio known | -",
             format!("final {split_deg:.6} deg, {:.2} min", split.last(1) / 60.0),
             verdict_text(
                 split.last(2) == 1.0 && split_deg < 2e-5 && rounds(split_moved_deg, 2.0, 0.08),

@@ -31,9 +31,8 @@ impl Case {
     /// A body of I3/sqrt(I1 I2) = `ratio` and I1/I2 = `quotient`.
     pub fn triaxial(self, ratio: f64, quotient: f64) -> Self {
         let transverse = SPIN_INERTIA_KG_M2 / ratio;
-        self.real("inertia[1]", transverse * quotient.sqrt())
-            .real("inertia[2]", transverse / quotient.sqrt())
-            .real("inertia[3]", SPIN_INERTIA_KG_M2)
+        let inertia = [transverse * quotient.sqrt(), transverse / quotient.sqrt(), SPIN_INERTIA_KG_M2];
+        self.elements("inertia", inertia)
     }
 }
 

@@ -3,10 +3,10 @@
 use core::f64::consts::PI;
 
 use super::spinner::{RATIO, paper_case};
-use super::verdict::{rounds, verdict, verdict_text};
 use crate::case::{chosen, run_all};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
+use crate::verdict::{compared, rounds, verdict, verdict_text};
+use crate::{Options, Report, StudyError};
 
 /// Nutation of the figure, in rad.
 const NUTATION_RAD: f64 = 0.02 * PI / 180.0;
@@ -16,7 +16,7 @@ const SHOWN_S: f64 = 800.0;
 const LONG_MIN: f64 = 30.0;
 /// Its picture's height, in min.
 const TALLEST_MIN: f64 = 60.0;
-const SAMPLINGS: [(&str, i32); 2] = [("clock, every 96 s", 2), ("every 8 spins", 1)];
+const SAMPLINGS: [(&str, &str); 2] = [("clock, every 96 s", "clock"), ("every 8 spins", "spins")];
 
 /// Figure 6.
 pub fn figure6(options: &Options) -> Result<Report, StudyError> {
@@ -25,11 +25,11 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
     let mut report = Report::default();
     report.line("Declination of a star in the tracker of a nutating spinner (paper 002, Figure 6)");
     let (mut rows, mut csv, mut panels) = (Vec::new(), Vec::new(), Vec::new());
-    for (label, number) in &samplings {
+    for (label, sampling) in &samplings {
         let case = paper_case(*label, 14_400.0, 0.5)
-            .integer("burn.plan", 4)
+            .item("burn.plan", "commanded")
             .real("start.nutation", NUTATION_RAD)
-            .integer("starTracker.sampling", *number);
+            .item("starTracker.sampling", sampling);
         let names = [
             "starTracker.declinationTrue",
             "starTracker.sampleTime",
@@ -52,18 +52,16 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
             (Some(a), Some(b)) => (b.0 - a.0) / 60.0,
             _ => f64::NAN,
         };
-        rows.push(vec![
-            (*label).to_owned(),
-            "11.2 min".to_owned(),
+        rows.push(compared(
+            &format!("{label} | 11.2 min"),
             format!("{span:.2} min"),
-            verdict_text(rounds(span, 11.2, 0.1), "span of 8 samples").to_owned(),
-        ]);
-        rows.push(vec![
-            format!("{label}: nutation from the samples of 4 h"),
-            "0.02 deg (set)".to_owned(),
+            verdict_text(rounds(span, 11.2, 0.1), "span of 8 samples"),
+        ));
+        rows.push(compared(
+            &format!("{label}: nutation from the samples of 4 h | 0.02 deg (set)"),
             format!("{:.4} +- {:.4} deg", simulated.last(3).to_degrees(), simulated.last(4).to_degrees()),
-            verdict((simulated.last(3) - NUTATION_RAD).abs() < 3.0 * simulated.last(4)).to_owned(),
-        ]);
+            verdict((simulated.last(3) - NUTATION_RAD).abs() < 3.0 * simulated.last(4)),
+        ));
         csv.extend(samples.iter().map(|(time_s, exact, measured)| {
             vec![
                 (*label).to_owned(),
@@ -98,12 +96,12 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
             ..Panel::default()
         });
     }
-    report.table(&["sampling", "paper", "ours", "verdict"], &rows);
+    report.table("sampling | paper | ours | verdict", &rows);
     report.line(
         "The declination swings by the nutation angle either way: the paper's \"amplitude twice the nutation angle\" is \
          peak to peak.",
     );
-    report.csv(options, "figure6.csv", &["sampling", "time_s", "true_deg", "measured_deg"], csv)?;
+    report.csv(options, "figure6.csv", "sampling | time_s | true_deg | measured_deg", csv)?;
     let chart = Chart {
         title: format!("Star declination, 0.02 deg nutation, ratio {RATIO}, 5 rpm"),
         x_label: "time [s]".to_owned(),
@@ -132,15 +130,15 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
     let rates_rpm = |ratio| (0..40).map(move |j| (ratio, 4.9 + 0.2 * (f64::from(j) + 0.5) / 40.0));
     let grid: Vec<(f64, f64)> = ratios.iter().copied().flat_map(rates_rpm).collect();
     let points = run_all(options, &grid, |&(ratio, rate_rpm)| {
-        let time = |number: i32| {
+        let time = |sampling: &str| {
             paper_case(label(&ratio), 1.0, 1.0)
                 .ratio(ratio)
-                .integer("burn.plan", 4)
+                .item("burn.plan", "commanded")
                 .real("spin.initialRate", rate_rpm * PI / 30.0)
-                .integer("starTracker.sampling", number)
+                .item("starTracker.sampling", sampling)
                 .simulate(&fmu, &["starTracker.observationTime", "starTracker.observationTimeNominal"])
         };
-        let (clock, spins) = (time(2)?, time(1)?);
+        let (clock, spins) = (time("clock")?, time("spins")?);
         Ok(Point {
             rate_rpm,
             ratio,
@@ -165,48 +163,38 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
         })
         .fold(0.0, f64::max);
     report.table(
-        &["beyond 30 min", "paper", "ours", "verdict"],
+        "beyond 30 min | paper | ours | verdict",
         &[
-            vec![
-                "eq 20".into(),
-                "about 20 %".into(),
+            compared(
+                "eq 20 | about 20 %",
                 share(|p| p.eq20_min),
-                verdict((percent(|p| p.eq20_min) - 20.0).abs() < 2.0).to_owned(),
-            ],
-            vec![
-                "exact, clock samples every 96 s".into(),
-                "-".into(),
+                verdict((percent(|p| p.eq20_min) - 20.0).abs() < 2.0),
+            ),
+            compared(
+                "exact, clock samples every 96 s | -",
                 share(|p| p.clock_min),
                 verdict_text(
                     (percent(|p| p.clock_min) - percent(|p| p.eq20_min)).abs() < 1.0,
                     "what eq 20 approximates",
-                )
-                .to_owned(),
-            ],
-            vec![
-                "exact, samples every 8 spins".into(),
-                "-".into(),
+                ),
+            ),
+            compared(
+                "exact, samples every 8 spins | -",
                 share(|p| p.spins_min),
                 verdict_text(
                     spread < 0.2 / 4.9 + 0.001,
                     "the spin rate drops out but for the length of a spin",
-                )
-                .to_owned(),
-            ],
+                ),
+            ),
         ],
     );
     report.csv(
         options,
         "figure7.csv",
-        &["spin_rate_rpm", "ratio", "eq20_min", "clock_min", "spins_min"],
+        "spin_rate_rpm | ratio | eq20_min | clock_min | spins_min",
         points.iter().map(|p| {
-            vec![
-                format!("{:.4}", p.rate_rpm),
-                format!("{:.6}", p.ratio),
-                format!("{:.6}", p.eq20_min),
-                format!("{:.6}", p.clock_min),
-                format!("{:.6}", p.spins_min),
-            ]
+            let numbers = [p.ratio, p.eq20_min, p.clock_min, p.spins_min].map(|it| format!("{it:.6}"));
+            [vec![format!("{:.4}", p.rate_rpm)], numbers.to_vec()].concat()
         }),
     )?;
     let panel = |y_label: &str, time: fn(&Point) -> f64| {

@@ -1,10 +1,10 @@
 //! Figures 2 and 3: nutation left by a 2 deg manoeuvre in n pulses, once per half turn and once per turn.
 
 use super::spinner::{PERIOD_S, RADIAL_ARM_M, RATIO, eq8, paper_case, width_s};
-use super::verdict::{AGREES, rounds, verdict, verdict_text};
 use crate::case::{chosen, run_all};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
+use crate::verdict::{AGREES, compared, rounds, verdict, verdict_text};
+use crate::{Options, Report, StudyError};
 
 /// The manoeuvre, in rad.
 const MANOEUVRE_RAD: f64 = 2.0 * core::f64::consts::PI / 180.0;
@@ -68,15 +68,12 @@ fn figure(
     report.csv(
         options,
         &format!("{file}.csv"),
-        &["n", "pulse_width_s", "eq8_deg", "simulated_deg", "envelope_deg"],
+        "n | pulse_width_s | eq8_deg | simulated_deg | envelope_deg",
         rows.iter().map(|row| {
-            vec![
-                row.count.to_string(),
-                format!("{:.9}", row.width_s),
-                format!("{:.9}", row.printed_rad.to_degrees()),
-                format!("{:.9}", row.simulated_rad.to_degrees()),
-                format!("{:.9}", envelope_deg(f64::from(row.count), phase)),
-            ]
+            let [printed_deg, simulated_deg] = [row.printed_rad, row.simulated_rad].map(f64::to_degrees);
+            let numbers =
+                [row.width_s, printed_deg, simulated_deg, envelope_deg(f64::from(row.count), phase)];
+            [vec![row.count.to_string()], numbers.map(|it| format!("{it:.9}")).to_vec()].concat()
         }),
     )?;
     report.picture(options, &format!("{file}.svg"), &chart(&rows, turns, phase))?;
@@ -99,9 +96,8 @@ fn figure(
     let impulses = rows.iter().filter(|row| row.count >= IMPULSES).count();
     let judged = |holds: bool| if impulses > 0 { verdict(holds) } else { "-" };
     let table = [
-        vec![
-            "envelope at n = 113".to_owned(),
-            format!("{paper_envelope_deg} deg"),
+        compared(
+            &format!("envelope at n = 113 | {paper_envelope_deg} deg"),
             format!("{exact_deg:.5} deg"),
             if rounds(exact_deg, paper_envelope_deg, 1e-4) {
                 "agrees, though the paper's equation is misprinted"
@@ -111,29 +107,25 @@ fn figure(
                     rounds(printed_deg, paper_envelope_deg, 1e-4),
                     "as its eq 9 is printed; ours is exact",
                 )
-            }
-            .to_owned(),
-        ],
-        vec![
-            "simulated beyond the exact envelope, n >= 20".to_owned(),
-            "-".to_owned(),
+            },
+        ),
+        compared(
+            "simulated beyond the exact envelope, n >= 20 | -",
             format!("{beyond} of {impulses}"),
-            judged(beyond == 0).to_owned(),
-        ],
-        vec![
-            "eq 8 against simulation, n >= 20".to_owned(),
-            "-".to_owned(),
+            judged(beyond == 0),
+        ),
+        compared(
+            "eq 8 against simulation, n >= 20 | -",
             format!("{:.6} deg", difference(IMPULSES)),
-            judged(difference(IMPULSES) < EQ8_DEG).to_owned(),
-        ],
-        vec![
-            "eq 8 against simulation, all n".to_owned(),
-            "-".to_owned(),
+            judged(difference(IMPULSES) < EQ8_DEG),
+        ),
+        compared(
+            "eq 8 against simulation, all n | -",
             format!("{:.6} deg", difference(1)),
-            if difference(1) > EQ8_DEG { "pulses of seconds are no impulses" } else { AGREES }.to_owned(),
-        ],
+            if difference(1) > EQ8_DEG { "pulses of seconds are no impulses" } else { AGREES },
+        ),
     ];
-    report.table(&["quantity", "paper", "ours", "verdict"], &table);
+    report.table("quantity | paper | ours | verdict", &table);
     Ok(report)
 }
 

@@ -8,8 +8,9 @@ mod table;
 mod year;
 
 use crate::case::{chosen, run_all};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
+use crate::verdict::{agrees, compared};
+use crate::{Options, Report, StudyError};
 
 use orbit::{Case, EFFECTS, Fmus, Planet, Sample};
 use paper::{Row, TABLE_7, TABLE_8};
@@ -79,18 +80,13 @@ pub fn figure12(options: &Options) -> Result<Report, StudyError> {
             let lit: Vec<&Sample> = samples.iter().filter(|sample| sample.lit).collect();
             let share = |sample: &&Sample| sample.effects[1..].iter().sum::<f64>() / sample.effects[0];
             let mean = lit.iter().map(share).sum::<f64>() / lit.len().max(1) as f64;
-            let verdict = if (0.195..=0.305).contains(&mean) { "agrees" } else { "differs" };
-            vec![
-                row.case.to_string(),
-                "20-30 %".to_owned(),
-                format!("{:.1} %", mean * 100.0),
-                verdict.to_owned(),
-            ]
+            let verdict = agrees((0.195..=0.305).contains(&mean));
+            compared(&format!("{} | 20-30 %", row.case), format!("{:.1} %", mean * 100.0), verdict)
         })
         .collect();
-    report.table(&["case", "paper: mean sum of thermal effects", "ours", "verdict"], &rows);
+    report.table("case | paper: mean sum of thermal effects | ours | verdict", &rows);
     report.picture(options, "figure12.svg", &chart)?;
-    let header = ["case", "time_s", "solar_m_s2", "albedo_m_s2", "infrared_m_s2", "thermal_m_s2"];
+    let header = "case | time_s | solar_m_s2 | albedo_m_s2 | infrared_m_s2 | thermal_m_s2";
     let rows = simulated.iter().flat_map(|Simulated { row, samples, .. }| {
         samples.iter().step_by(4).map(|sample| {
             let mut cells = vec![row.case.to_string(), format!("{}", sample.time_s)];
@@ -98,7 +94,7 @@ pub fn figure12(options: &Options) -> Result<Report, StudyError> {
             cells
         })
     });
-    report.csv(options, "figure12.csv", &header, rows)?;
+    report.csv(options, "figure12.csv", header, rows)?;
     Ok(report)
 }
 

@@ -1,9 +1,10 @@
 //! One simulation: `MomentumPlant` runs the orbit in the paper's attitude, `DisturbanceTorque` gives the force of light and heat.
 
-use loader::{Fmu, Instance, InstanceOptions, Value};
+use loader::Fmu;
 
-use crate::case;
-use crate::vector::{Vector, cross, dot, turn};
+use crate::attitude::{Attitude, Vector, angle_rad, to_body};
+use crate::case::{self, Row};
+use crate::settings::{Settings, elements};
 use crate::{Options, StudyError};
 
 /// Mercury's sidereal revolution by the paper's semi-major axis, in s.
@@ -41,13 +42,23 @@ impl Case {
     fn trajectory(&self) -> case::Case {
         let label = format!("Mercury at {} deg", self.true_anomaly_deg);
         case::Case::new(label, self.duration_s, self.step_s)
-            .integer("guided.scienceRule", 3)
+            .item("guided.scienceRule", "fixedToSunLine")
             .integer("guided.downlinkEvery", 0)
-            .integer("ephemeris.source", 2)
+            .item("ephemeris.source", "kepler")
             .real("ephemeris.trueAnomaly", self.true_anomaly_deg.to_radians())
-            .integer("orbit.frame", 1)
+            .item("orbit.frame", "planetOrbit")
             .real("orbit.semiMajorAxis", 10_175_000.0)
-            .integer("eclipse.method", 4)
+            .item("eclipse.method", "off")
+    }
+
+    /// How `DisturbanceTorque` follows so many points of it.
+    fn disturbance(&self, points: usize) -> case::Case {
+        let eclipse = if self.planet == Planet::Still { "cylinder" } else { "cone" };
+        let label = format!("Mercury at {} deg", self.true_anomaly_deg);
+        let case = case::Case::new(label, points as f64 * self.step_s, self.step_s);
+        let case = case.item("eclipse.method", eclipse);
+        let Some(belts) = self.belts else { return case };
+        case.item("planetLight.method", "cells").integer("planetLight.belts", belts)
     }
 }
 
@@ -88,46 +99,31 @@ impl Fmus {
 
     /// Runs one case.
     pub fn simulate(&self, case: &Case) -> Result<Vec<Sample>, StudyError> {
-        let trajectory_case = case.trajectory();
-        let fail = |error: loader::Error| trajectory_case.failed(error);
-        let trajectory = self.trajectory(case, &trajectory_case)?;
-        let mut disturbance = DisturbanceRun::start(&self.disturbance, case).map_err(fail)?;
-        let mut samples = Vec::with_capacity(trajectory.len());
+        let trajectory = self.trajectory(case)?;
+        let names: Vec<String> = EFFECTS.iter().map(|effect| format!("force.{effect}")).collect();
+        let names = [names, vec!["sun.litFraction".to_owned()]].concat();
+        let mut ahead = trajectory.iter();
+        let mut inputs = |_: Row<'_>| ahead.next().map_or(Settings::new(), TrajectoryPoint::inputs);
+        let forces = case.disturbance(trajectory.len()).steer(&self.disturbance, &names, &mut inputs)?;
         let mut revolution = PlanetRevolution::default();
-        for point in &trajectory {
-            let true_anomaly_deg = case.true_anomaly_deg + revolution.to(&point.planet_m).to_degrees();
-            samples.push(disturbance.at(point, true_anomaly_deg).map_err(fail)?);
-        }
-        Ok(samples)
+        let sample = |(point, row): (&TrajectoryPoint, Row<'_>)| {
+            let revolution_deg = revolution.to(&point.planet_m).to_degrees();
+            Sample::of(point, case.true_anomaly_deg + revolution_deg, row)
+        };
+        Ok(trajectory.iter().zip(forces.rows().skip(1)).map(sample).collect())
     }
 
     /// Where everything is at every communication point.
-    fn trajectory(&self, case: &Case, trajectory: &case::Case) -> Result<Vec<TrajectoryPoint>, StudyError> {
-        let vectors = [("position", 3), ("heliocentric.position", 3), ("attitude.q", 4)];
-        let names: Vec<String> = vectors
-            .iter()
-            .flat_map(|(name, count)| (1..=*count).map(move |i| format!("{name}[{i}]")))
-            .chain(["mass".to_owned()])
-            .collect();
-        let recorded = trajectory.simulate(&self.plant, &names)?;
-        let mut points: Vec<TrajectoryPoint> = recorded
-            .times_s
-            .iter()
-            .enumerate()
-            .map(|(row, &time_s)| {
-                let value = |column: usize| recorded.columns[column][row];
-                let position_m = [0, 1, 2].map(value);
-                let heliocentric_m = [3, 4, 5].map(value);
-                let planet_m = [0, 1, 2].map(|i| heliocentric_m[i] - position_m[i]);
-                TrajectoryPoint {
-                    time_s,
-                    position_m,
-                    planet_m,
-                    q: [6, 7, 8, 9].map(value),
-                    mass_kg: value(10),
-                }
-            })
-            .collect();
+    fn trajectory(&self, case: &Case) -> Result<Vec<TrajectoryPoint>, StudyError> {
+        let names = ["position", "heliocentric.position", "attitude.q", "mass"];
+        let recorded = case.trajectory().simulate(&self.plant, &names)?;
+        let point = |mut row: Row<'_>| {
+            let position_m = row.vector();
+            let planet_m = row.vector() - position_m;
+            let (q, mass_kg) = (row.attitude(), row.real());
+            TrajectoryPoint { time_s: row.time_s, position_m, planet_m, q, mass_kg }
+        };
+        let mut points: Vec<TrajectoryPoint> = recorded.rows().map(point).collect();
         if let (Planet::Still, Some(first)) = (case.planet, points.first().copied()) {
             for point in &mut points {
                 *point = TrajectoryPoint { planet_m: first.planet_m, q: first.q, ..*point };
@@ -146,8 +142,33 @@ struct TrajectoryPoint {
     /// Planet from the Sun.
     planet_m: Vector,
     /// EME2000 to body, scalar last.
-    q: [f64; 4],
+    q: Attitude,
     mass_kg: f64,
+}
+
+impl TrajectoryPoint {
+    /// Sun and planet in the body frame.
+    fn inputs(&self) -> Settings {
+        let body = |name: &str, v: Vector| elements(name, to_body(&self.q, &v).iter().copied());
+        let mut inputs = body("sun.positionBody", -self.planet_m - self.position_m);
+        inputs.extend(body("planet.positionBody", -self.position_m));
+        inputs
+    }
+}
+
+impl Sample {
+    fn of(point: &TrajectoryPoint, true_anomaly_deg: f64, mut row: Row<'_>) -> Self {
+        let effects: [Vector; 4] = std::array::from_fn(|_| row.vector() / point.mass_kg);
+        let without_solar: Vector = effects[1..].iter().sum();
+        Self {
+            time_s: point.time_s,
+            true_anomaly_deg,
+            lit: row.real() > 0.0,
+            effects: effects.map(|effect| effect.norm()),
+            total: effects.iter().sum::<Vector>().norm(),
+            without_solar: without_solar.norm(),
+        }
+    }
 }
 
 /// How far the planet has gone round.
@@ -160,71 +181,8 @@ struct PlanetRevolution {
 impl PlanetRevolution {
     fn to(&mut self, planet_m: &Vector) -> f64 {
         if let Some(last) = self.last.replace(*planet_m) {
-            let across = cross(&last, planet_m);
-            self.angle_rad += dot(&across, &across).sqrt().atan2(dot(&last, planet_m));
+            self.angle_rad += angle_rad(&last, planet_m);
         }
         self.angle_rad
-    }
-}
-
-/// An instance of `DisturbanceTorque`, stepped along a trajectory.
-struct DisturbanceRun {
-    instance: Instance,
-    inputs: Vec<u32>,
-    outputs: Vec<u32>,
-    step_s: f64,
-    steps: u32,
-}
-
-impl DisturbanceRun {
-    fn start(fmu: &Fmu, case: &Case) -> Result<Self, loader::Error> {
-        let mut instance = Instance::new(fmu, "disturbance", &InstanceOptions::default())?;
-        let eclipse = if case.planet == Planet::Still { 3 } else { 2 };
-        instance.set("eclipse.method", &Value::Integer(eclipse))?;
-        if let Some(belts) = case.belts {
-            instance.set("planetLight.method", &Value::Integer(2))?;
-            instance.set("planetLight.belts", &Value::Integer(belts))?;
-        }
-        instance.setup_experiment(None, 0.0, None)?;
-        instance.enter_initialization_mode()?;
-        instance.exit_initialization_mode()?;
-        let reference = |name: String| fmu.variable(&name).map(|variable| variable.value_reference);
-        let vector = |name: &str| (1..=3).map(|i| format!("{name}[{i}]")).collect::<Vec<_>>();
-        let inputs = ["sun.positionBody", "planet.positionBody"].iter().flat_map(|name| vector(name));
-        let outputs = EFFECTS.iter().flat_map(|effect| vector(&format!("force.{effect}")));
-        Ok(Self {
-            inputs: inputs.map(reference).collect::<Result<_, _>>()?,
-            outputs: outputs
-                .chain(["sun.litFraction".to_owned()])
-                .map(reference)
-                .collect::<Result<_, _>>()?,
-            instance,
-            step_s: case.step_s,
-            steps: 0,
-        })
-    }
-
-    fn at(&mut self, point: &TrajectoryPoint, true_anomaly_deg: f64) -> Result<Sample, loader::Error> {
-        let to_sun = [0, 1, 2].map(|i| -point.planet_m[i] - point.position_m[i]);
-        let [sun, planet] = [to_sun, point.position_m.map(|x| -x)].map(|v| turn(&point.q, &v));
-        let inputs: Vec<f64> = sun.into_iter().chain(planet).collect();
-        self.instance.set_reals(&self.inputs, &inputs)?;
-        self.instance.do_step(f64::from(self.steps) * self.step_s, self.step_s, true)?;
-        self.steps += 1;
-        let mut outputs = [0.0; 13];
-        self.instance.get_reals(&self.outputs, &mut outputs)?;
-        let effect = |index: usize| -> Vector { [0, 1, 2].map(|i| outputs[3 * index + i] / point.mass_kg) };
-        let sum = |effects: &[usize]| {
-            let vector = [0, 1, 2].map(|i| effects.iter().map(|&k| effect(k)[i]).sum::<f64>());
-            dot(&vector, &vector).sqrt()
-        };
-        Ok(Sample {
-            time_s: point.time_s,
-            true_anomaly_deg,
-            lit: outputs[12] > 0.0,
-            effects: [0, 1, 2, 3].map(|k| sum(&[k])),
-            total: sum(&[0, 1, 2, 3]),
-            without_solar: sum(&[1, 2, 3]),
-        })
     }
 }

@@ -2,8 +2,8 @@
 
 use super::orbit::{EFFECTS, Sample};
 use super::paper::Row;
-use crate::{Options, Report, StudyError};
 use drawing::{BarChart, BarPanel};
+use crate::{Options, Report, StudyError};
 
 /// One row of the paper, simulated.
 pub(super) struct Simulated {
@@ -44,17 +44,9 @@ pub(super) fn print(
     simulated: &[Simulated],
     tolerances: &Tolerances,
 ) -> Result<(), StudyError> {
-    let header = [
-        "case",
-        "effect",
-        "paper",
-        "ours",
-        "difference of the greatest",
-        "difference of the least",
-        "verdict",
-        "by cells",
-        "difference",
-    ];
+    let header = "\
+        case | effect | paper | ours | difference of the greatest | difference of the least | verdict | \
+        by cells | difference";
     let mut rows = Vec::new();
     for Simulated { row, samples, by_cells } in simulated {
         let ours = as_printed(samples);
@@ -78,8 +70,8 @@ pub(super) fn print(
             ]);
         }
     }
-    report.table(&header, &rows);
-    report.csv(options, &format!("{name}.csv"), &header, rows)?;
+    report.table(header, &rows);
+    report.csv(options, &format!("{name}.csv"), header, rows)?;
     report.picture(options, &format!("{name}.svg"), &chart(simulated))
 }
 

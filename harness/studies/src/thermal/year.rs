@@ -1,7 +1,8 @@
 //! Figure 13: a whole Mercury year, by orbit.
 
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
+use crate::verdict::{agrees, compared};
+use crate::{Options, Report, StudyError};
 
 use super::orbit::{Case, EFFECTS, Fmus, MERCURY_YEAR_S, ORBIT_S, Planet, Sample};
 
@@ -49,9 +50,8 @@ impl Orbit {
     }
 }
 
-fn row(quantity: &str, paper: &str, ours: String, agrees: bool) -> Vec<String> {
-    let verdict = if agrees { "agrees" } else { "differs" };
-    vec![quantity.to_owned(), paper.to_owned(), ours, verdict.to_owned()]
+fn row(what: &str, ours: String, holds: bool) -> Vec<String> {
+    compared(what, ours, agrees(holds))
 }
 
 /// Figure 13: accelerations over a Mercury year; least, mean and greatest of every orbit.
@@ -82,36 +82,30 @@ pub fn figure13(options: &Options) -> Result<Report, StudyError> {
     let count = MERCURY_YEAR_S / ORBIT_S;
     let shares_agree = mean_share.least > 0.195 && mean_share.greatest < 0.305;
     let rows = [
-        row("orbits in a year", "172", format!("{count:.1}"), (count - 172.0).abs() < 0.5),
+        row("orbits in a year | 172", format!("{count:.1}"), (count - 172.0).abs() < 0.5),
         row(
-            "mean sum of thermal effects, of solar",
-            "20-30 %",
+            "mean sum of thermal effects, of solar | 20-30 %",
             format!("{} to {}", percent(mean_share.least), percent(mean_share.greatest)),
             shares_agree,
         ),
-        row("greatest infrared, of solar", "about 25 %", percent(infrared), (infrared - 0.25).abs() < 0.03),
-        row("greatest recoil, of solar", "about 25 %", percent(thermal), (thermal - 0.25).abs() < 0.03),
-        row("greatest sum of magnitudes, of solar", "up to 50 %", percent(scalar), scalar < 0.505),
+        row("greatest infrared, of solar | about 25 %", percent(infrared), (infrared - 0.25).abs() < 0.03),
+        row("greatest recoil, of solar | about 25 %", percent(thermal), (thermal - 0.25).abs() < 0.03),
+        row("greatest sum of magnitudes, of solar | up to 50 %", percent(scalar), scalar < 0.505),
         row(
-            "greatest total",
-            "order of 1e-6 m/s2",
+            "greatest total | order of 1e-6 m/s2",
             format!("{total:.2e} m/s2"),
             (5e-7..2e-6).contains(&total),
         ),
     ];
-    report.table(&["quantity", "paper", "ours", "verdict"], &rows);
+    report.table("quantity | paper | ours | verdict", &rows);
     report.line(&format!(
         "The printed elements give {count:.1} orbits in a year. The sum of magnitudes is the paper's; the magnitude of the\n\
          vector sum of albedo, infrared and recoil reaches {} of solar.",
         percent(vector)
     ));
     report.picture(options, "figure13.svg", &chart(&orbits))?;
-    let mut header = vec!["true_anomaly_deg".to_owned()];
-    header.extend(
-        EFFECTS
-            .iter()
-            .flat_map(|effect| ["least", "mean", "greatest"].map(|which| format!("{effect}_{which}_m_s2"))),
-    );
+    let columns = |it| format!(" | {it}_least_m_s2 | {it}_mean_m_s2 | {it}_greatest_m_s2");
+    let header = format!("true_anomaly_deg{}", EFFECTS.map(columns).concat());
     let rows = orbits.iter().map(|orbit| {
         let mut cells = vec![format!("{:.4}", orbit.true_anomaly_deg)];
         cells.extend(
@@ -122,7 +116,6 @@ pub fn figure13(options: &Options) -> Result<Report, StudyError> {
         );
         cells
     });
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     report.csv(options, "figure13.csv", &header, rows)?;
     Ok(report)
 }

@@ -15,6 +15,16 @@ pub fn verdict_text(holds: bool, text: &str) -> &str {
     if holds { text } else { OFF }
 }
 
+/// `AGREES`, or that it differs from what a paper says in words.
+pub fn agrees(holds: bool) -> &'static str {
+    if holds { AGREES } else { "differs" }
+}
+
+/// A row of a comparison: `what` is the quantity and the paper's value with a bar between them.
+pub fn compared(what: &str, ours: String, verdict: &str) -> Vec<String> {
+    what.split('|').map(|text| text.trim().to_owned()).chain([ours, verdict.to_owned()]).collect()
+}
+
 /// Whether `ours` is `paper` to half a unit of its last digit.
 pub fn rounds(ours: f64, paper: f64, digit: f64) -> bool {
     (ours - paper).abs() <= 0.5 * digit * (1.0 + 1e-9)

@@ -6,6 +6,7 @@ pub type Point = [f64; 2];
 /// A convex set; a point has one corner, a segment two, the empty set none.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Region {
+    /// Its corners.
     pub corners: Vec<Point>,
 }
 
