@@ -4,9 +4,9 @@ use super::burn_flight::{Burn, Corrections, DELTA_V_M_S, Flown, START_S, Sample}
 use super::guided_loop::Loop;
 use crate::attitude::{Vector, across, angle_rad, unit};
 use crate::case::{chosen, run_all};
-use drawing::{Chart, Mark, Panel, Series};
 use crate::settings::cells;
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Mark, Panel, Series};
 
 const SEEDS: i32 = 16;
 /// Of the accelerometers, in m/s2.

@@ -3,8 +3,8 @@
 
 use crate::attitude::Vector;
 use crate::case::{Case, Recorded, chosen, run_all};
-use drawing::{Chart, Panel, Series};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 /// How long is flown, and in which steps, in s.
 const SPAN_S: f64 = 600.0;

@@ -5,9 +5,9 @@ use super::safe_mode_checks::{Parameters, attitude_lost, zone_violated};
 use super::safe_mode_flight::{Chain, sun_angle_deg};
 use crate::attitude::unit;
 use crate::case::{chosen, run_all};
-use drawing::{Chart, Mark, Panel, Series};
 use crate::settings::cells;
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Mark, Panel, Series};
 
 /// Both chains of modes.
 pub fn safe_mode(options: &Options) -> Result<Report, StudyError> {

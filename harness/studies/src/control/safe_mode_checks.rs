@@ -7,8 +7,8 @@ use super::safe_mode_flight::{
 };
 use crate::StudyError;
 use crate::attitude::{Vector, across, angle_rad, body_angles_deg, to_body};
-use drawing::Series;
 use crate::verdict::{agrees, compared};
+use drawing::Series;
 
 /// Exchange and sample: what is seen at one second acts at the next and shows at the one after.
 const DELAY_S: f64 = 3.0;

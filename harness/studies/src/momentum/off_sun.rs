@@ -7,9 +7,9 @@ use model_description::labels;
 use super::sphere::{self, Lit};
 use crate::attitude::Vector;
 use crate::case::Case;
-use drawing::{Chart, Panel, Series};
 use crate::settings::cells;
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 const DAY_S: f64 = 86_400.0;
 const STOP_S: f64 = 10.0 * DAY_S;

@@ -7,9 +7,9 @@ use loader::Fmu;
 use crate::StudyError;
 use crate::attitude::{Vector, body_direction};
 use crate::case::{Case, Row};
+use crate::settings::{Settings, elements};
 use drawing::Series;
 use drawing::{PlaneChart, PlanePanel};
-use crate::settings::{Settings, elements};
 
 /// Between neighbouring directions, in deg.
 const SPACING_DEG: i32 = 5;

@@ -3,8 +3,8 @@
 use super::flight::Place;
 use super::planet::Ellipsoid;
 use crate::attitude::{Vector, across, unit};
-use drawing::Series;
 use drawing::PlanePanel;
+use drawing::Series;
 
 /// A view toward nadir: downtrack to the right, the orbit's left up.
 #[derive(Clone, Copy, Debug)]

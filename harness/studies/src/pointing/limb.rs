@@ -6,10 +6,10 @@ use super::limb_orbit;
 use super::limb_point::{Found, PLUS_Z, triaxial};
 use crate::attitude::Vector;
 use crate::case::{chosen, run_all};
-use drawing::Series;
-use drawing::{PlaneChart, PlanePanel};
 use crate::settings::{cells, item, real};
 use crate::{Options, Report, StudyError};
+use drawing::Series;
+use drawing::{PlaneChart, PlanePanel};
 
 /// Six days in, orbit and terminator lie in nearly one plane: the Sun is across nadir and limb all the way round.
 const EPOCH_S: f64 = DEFAULT_EPOCH_S + 6.0 * 86_400.0;

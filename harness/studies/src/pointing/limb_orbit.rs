@@ -4,10 +4,10 @@ use super::disc::{View, X_LABEL, Y_LABEL};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample};
 use super::limb_point::{Found, PLUS_Z, triaxial};
 use crate::attitude::{Vector, across, angle_rad, unit};
-use drawing::{PlaneChart, PlanePanel};
-use drawing::{Chart, Panel, Series};
 use crate::settings::{cells, flag, item};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
+use drawing::{PlaneChart, PlanePanel};
 
 /// 25 days in, the orbit passes over noon and midnight.
 const EPOCH_S: f64 = DEFAULT_EPOCH_S + 25.0 * 86_400.0;

@@ -6,10 +6,10 @@ use super::flight::{Flown, Fmus, GEOMETRY};
 use super::scans::{CASES, Case};
 use crate::attitude::{Vector, angle_rad};
 use crate::case::{chosen, run_all};
-use drawing::Series;
-use drawing::PlaneChart;
 use crate::settings::cells;
 use crate::{Options, Report, StudyError};
+use drawing::PlaneChart;
+use drawing::Series;
 
 /// A mosaic that was flown.
 struct Mosaic {

@@ -3,10 +3,10 @@
 use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample};
 use crate::attitude::angle_rad;
 use crate::case::{chosen, run_all};
-use drawing::{Chart, Mark, Panel, Series};
 use crate::settings::{Settings, cells, item, real};
 use crate::verdict::{agrees, compared};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Mark, Panel, Series};
 
 /// Sun and Earth are 33 deg apart as seen from the spacecraft, as the paper's antenna azimuth of -33 deg asks for with the
 /// Sun at azimuth and elevation 0. The paper prints no epoch.

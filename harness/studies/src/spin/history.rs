@@ -2,9 +2,9 @@
 
 use super::spinner::{RATIO, paper_case};
 use crate::case::{Case, chosen, run_all};
-use drawing::{Chart, Panel, Series};
 use crate::verdict::{compared, verdict_text};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 const STOP_S: f64 = 1400.0;
 /// End of the paper's simulation, in s.

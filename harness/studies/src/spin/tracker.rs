@@ -4,9 +4,9 @@ use core::f64::consts::PI;
 
 use super::spinner::{RATIO, paper_case};
 use crate::case::{chosen, run_all};
-use drawing::{Chart, Panel, Series};
 use crate::verdict::{compared, rounds, verdict, verdict_text};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 /// Nutation of the figure, in rad.
 const NUTATION_RAD: f64 = 0.02 * PI / 180.0;

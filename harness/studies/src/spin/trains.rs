@@ -2,9 +2,9 @@
 
 use super::spinner::{PERIOD_S, RADIAL_ARM_M, RATIO, eq8, paper_case, width_s};
 use crate::case::{chosen, run_all};
-use drawing::{Chart, Panel, Series};
 use crate::verdict::{AGREES, compared, rounds, verdict, verdict_text};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 /// The manoeuvre, in rad.
 const MANOEUVRE_RAD: f64 = 2.0 * core::f64::consts::PI / 180.0;

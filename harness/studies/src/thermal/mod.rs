@@ -8,9 +8,9 @@ mod table;
 mod year;
 
 use crate::case::{chosen, run_all};
-use drawing::{Chart, Panel, Series};
 use crate::verdict::{agrees, compared};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 use orbit::{Case, EFFECTS, Fmus, Planet, Sample};
 use paper::{Row, TABLE_7, TABLE_8};

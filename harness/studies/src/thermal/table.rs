@@ -2,8 +2,8 @@
 
 use super::orbit::{EFFECTS, Sample};
 use super::paper::Row;
-use drawing::{BarChart, BarPanel};
 use crate::{Options, Report, StudyError};
+use drawing::{BarChart, BarPanel};
 
 /// One row of the paper, simulated.
 pub(super) struct Simulated {

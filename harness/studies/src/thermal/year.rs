@@ -1,8 +1,8 @@
 //! Figure 13: a whole Mercury year, by orbit.
 
-use drawing::{Chart, Panel, Series};
 use crate::verdict::{agrees, compared};
 use crate::{Options, Report, StudyError};
+use drawing::{Chart, Panel, Series};
 
 use super::orbit::{Case, EFFECTS, Fmus, MERCURY_YEAR_S, ORBIT_S, Planet, Sample};
 
