@@ -52,10 +52,6 @@ mod tests {
             fs::write(&path, &wanted).unwrap();
         }
         let found = fs::read_to_string(&path).unwrap();
-        assert!(
-            found == wanted,
-            "{} is out of step: cargo xtask bless schema",
-            path.display()
-        );
+        assert!(found == wanted, "{} is out of step: cargo xtask bless schema", path.display());
     }
 }

@@ -5,8 +5,8 @@ use model_description::BaseType;
 use serde::{Deserialize, Serialize};
 
 use crate::fmi2::access::{AccessTable, CONTINUOUS, INPUT, SET_BY_IMPORTER};
-use crate::fmi2::problem::StateMismatch;
 use crate::model::InputDerivative;
+use crate::state_bytes::StateMismatch;
 use crate::variables::{GREATEST_SET, SetBits, Values};
 use model_description::call_table::State;
 
