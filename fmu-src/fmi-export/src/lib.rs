@@ -11,6 +11,7 @@
 #[cfg(test)]
 extern crate self as fmi_export;
 
+mod bounded;
 mod dependencies;
 #[allow(unsafe_code, reason = "calls the C library to find unwind tables")]
 #[cfg(all(target_os = "linux", target_env = "gnu", any(target_arch = "x86_64", target_arch = "aarch64")))]

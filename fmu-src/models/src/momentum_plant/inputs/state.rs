@@ -137,20 +137,7 @@ impl PlantState {
         // Panels without mass have no motion of their own.
         let has_mass = spacecraft.panels.iter().any(|panel| panel.mass.is_some());
         let panels = if has_mass { spacecraft.panels.len() } else { 0 };
-        let finite = |x: &f64| x.is_finite();
-        let CommandInputs { q, rate, error, .. } = &self.command_inputs;
-        let inputs = q.iter().chain(rate).chain(error).chain(self.orbit_inputs.iter().flatten());
-        let times = [&self.start_s, &self.orbit_since_s];
         let parts = [
-            (
-                "the times and inputs",
-                inputs
-                    .chain(&self.light_inputs)
-                    .chain(&self.tunables)
-                    .chain(&self.force)
-                    .chain(times)
-                    .all(finite),
-            ),
             ("the command", self.command.is_sound()),
             ("the momentum and dumps", self.integrator.is_sound() && self.spacing.is_sound()),
             (
@@ -168,7 +155,7 @@ impl PlantState {
         match parts.iter().find(|(_, is_sound)| !is_sound) {
             None => Ok(()),
             Some((part, _)) => Err(Failure::new(format!(
-                "{part} in the saved state hold numbers that no flight has (not finite, beyond 1e100, or no rotation)"
+                "{part} in the saved state hold what no flight has: no rotation, or counts and times that do not fit"
             ))),
         }
     }

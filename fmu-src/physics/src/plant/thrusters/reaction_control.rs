@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::GyrostatMotion;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::numerics::or_infinite;
 use crate::numerics::quadrature::GAUSS_3;
 use crate::propulsion::{PropellantState, PulseCommand, PulseSchedule, ThrusterSelection, Valve, due_s};
 use crate::spacecraft::{MassProperties, Thrust, Thruster, ThrusterSet};
@@ -24,6 +25,7 @@ use crate::plant::settings::reaction_control_settings::{ReactionControlSettings,
 struct Burn {
     set: ThrusterSet,
     since_s: f64,
+    #[serde(with = "or_infinite")]
     stop_s: f64,
 }
 
