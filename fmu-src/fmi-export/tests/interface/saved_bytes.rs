@@ -1,6 +1,7 @@
 //! Whatever bytes are given to DeSerialize, the answer is a state or an error that says what is wrong.
 
 use client::InProcess;
+use fmi_export::model_description::BaseType;
 use fmi_export::model_description::Status::{Error, Ok};
 
 use super::{Random, fresh, started};
@@ -160,4 +161,50 @@ fn a_float_of_the_model_that_no_simulation_can_go_on_with_is_refused() {
             assert!(super::only_message(&instance).contains(&format!("holds {float:?}")), "{float}");
         }
     }
+}
+
+/// An Integer in postcard's format.
+fn encoded(value: i32) -> Vec<u8> {
+    let mut rest = ((value << 1) ^ (value >> 31)) as u32;
+    let mut bytes = Vec::new();
+    while rest >= 0x80 {
+        bytes.push(rest as u8 | 0x80);
+        rest >>= 7;
+    }
+    bytes.push(rest as u8);
+    bytes
+}
+
+#[test]
+fn a_wrong_enumeration_in_a_restored_state_is_refused() {
+    let (mut instance, description) = started("AllTypes");
+    let integers: Vec<_> =
+        description.variables.iter().filter(|it| it.kind.base_type() == BaseType::Integer).collect();
+    let references: Vec<u32> = integers.iter().map(|it| it.value_reference).collect();
+    let mut values = vec![0; references.len()];
+    assert_eq!(instance.get_integer(&references, &mut values), Ok);
+    let bytes = instance.state_bytes().1;
+    let words: Vec<Vec<u8>> = values.iter().map(|&value| encoded(value)).collect();
+    let needle = words.concat();
+    let start = bytes.windows(needle.len()).position(|window| window == needle).unwrap() - HEADER;
+    let mut enumerations = 0;
+    for (place, variable) in integers.iter().enumerate() {
+        if !variable.name.ends_with(".choice") {
+            continue;
+        }
+        enumerations += 1;
+        let at = start + words[..place].concat().len();
+        // 3 is a gap between the items of `Colour`, -1 and 63 lie beside them.
+        for (value, accepted) in [(values[place], true), (3, false), (-1, false), (63, false)] {
+            let mut payload = bytes[HEADER..].to_vec();
+            payload.splice(at..at + words[place].len(), encoded(value));
+            let (mut instance, _) = fresh("AllTypes");
+            let (status, _state) = instance.deserialize(&sealed(&bytes, &payload));
+            assert_eq!(status == Ok, accepted, "{} = {value}", variable.name);
+            if !accepted {
+                assert!(super::only_message(&instance).contains(&format!("`{}` is {value}", variable.name)));
+            }
+        }
+    }
+    assert!(enumerations >= 4, "{enumerations}");
 }

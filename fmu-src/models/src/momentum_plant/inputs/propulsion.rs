@@ -99,7 +99,7 @@ pub fn pulse(context: &Plan<'_>, values: &Values, k: usize) -> PulseCommand {
 /// The delta-v commanded.
 pub fn thrust_command(context: &Plan<'_>, values: &Values) -> ThrustCommand {
     let thrust = &context.variables.thrust;
-    let set = values.choice(thrust.request).and_then(|it| it.0);
+    let set = values.choice(thrust.request).0;
     let stop_s = values.real(thrust.stop);
     ThrustCommand {
         set: set.filter(|_| values.boolean(thrust.command)),

@@ -49,7 +49,7 @@ fn tracked(context: &Plan<'_>, values: &Values, state: &PlantState) -> Tracked {
         return Tracked::Guidance;
     }
     match values.choice(context.variables.command.kind) {
-        Some(CommandKind(Kind::RateOnly)) => Tracked::Rate(state.command.rate_body_rad_s),
+        CommandKind(Kind::RateOnly) => Tracked::Rate(state.command.rate_body_rad_s),
         _ => Tracked::Attitude(state.command),
     }
 }
