@@ -32,9 +32,12 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     let values: Vec<_> = items.iter().map(|item| item.value).collect();
     let names = items.iter().map(|item| &item.name);
     let descriptions = items.iter().map(|item| &item.description);
+    let first = variants.first();
     Ok(quote! {
         #[automatically_derived]
         impl ::fmi_export::Enumeration for #ident {
+            const FIRST: Self = Self::#first;
+
             const TYPE: ::fmi_export::variables::EnumerationType = ::fmi_export::variables::EnumerationType {
                 name: #type_name,
                 description: #about,

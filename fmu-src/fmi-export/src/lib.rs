@@ -11,17 +11,26 @@
 #[cfg(test)]
 extern crate self as fmi_export;
 
+mod bounded;
 mod dependencies;
+#[allow(unsafe_code, reason = "calls the C library to find unwind tables")]
+#[cfg(all(target_os = "linux", target_env = "gnu", any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod find_object;
 pub mod fmi2;
+mod library;
+mod location;
+pub mod logger;
 pub mod model;
 mod panics;
 mod runtime;
+mod start_values;
+pub mod state_bytes;
 pub mod time;
 pub mod variables;
 
 pub use dependencies::{Dependencies, Knowns, Section};
 pub use fmi_export_derive::{Enumeration, Variables};
-pub use fmi2::{Entry, Library};
+pub use library::{Entry, Library};
 pub use model::{
     About, Context, Differentiable, Extensions, Failure, InputDerivative, InputsOverTime, Manual, Model,
     OutputRates, SetupError, SetupValue, Source, StartValue, Step, StepEnd,

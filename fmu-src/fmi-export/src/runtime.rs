@@ -3,6 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
+use crate::bounded;
 use crate::model::{Context, Failure, Log, Model, SetupError, Step, StepEnd};
 use crate::variables::{Real, Values};
 
@@ -61,6 +62,11 @@ pub(crate) struct Typed<M: Model> {
 impl<M: Model> Typed<M> {
     fn context<'a>(&'a self, log: &'a dyn Log) -> Context<'a, M> {
         Context { setup: &self.setup, variables: &self.variables, start: &self.start, log }
+    }
+
+    fn check_state(&self, state: &M::State) -> Result<(), Failure> {
+        bounded::check(state)?;
+        M::check_state(&self.setup, state)
     }
 
     fn own(saved: &ErasedState) -> Result<&Option<M::State>, Failure> {
@@ -142,7 +148,7 @@ impl<M: Model> Runtime for Typed<M> {
 
     fn check(&self, saved: &ErasedState) -> Result<(), Failure> {
         match Self::own(saved)? {
-            Some(state) => M::check_state(&self.setup, state),
+            Some(state) => self.check_state(state),
             None => Ok(()),
         }
     }
@@ -163,7 +169,7 @@ impl<M: Model> Runtime for Typed<M> {
             return Err(Failure::new(format!("{} bytes after the model state", rest.len())));
         }
         if let Some(state) = &state {
-            M::check_state(&self.setup, state)?;
+            self.check_state(state)?;
         }
         Ok(Box::new(state))
     }

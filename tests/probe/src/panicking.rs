@@ -177,7 +177,7 @@ fn deserialize_fault<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Fault
 
 /// The fault chosen now.
 fn chosen(context: &Context<'_, Panicking>, values: &Values) -> Fault {
-    values.choice(context.variables.fault).unwrap_or(Fault::Nowhere)
+    values.choice(context.variables.fault)
 }
 
 impl Model for Panicking {

@@ -88,7 +88,10 @@ impl AccessTable {
                 .real_limits
                 .push((attributes.min.unwrap_or(f64::MIN), attributes.max.unwrap_or(f64::MAX))),
             VariableKind::Integer { min, max, .. } => {
-                self.integer_limits.push((min.unwrap_or(i32::MIN), max.unwrap_or(i32::MAX)));
+                // What the model writes has no limits; an enumeration has its items, whoever writes it.
+                let given = matches!(variable.causality, Causality::Input | Causality::Parameter);
+                let limits = (min.unwrap_or(i32::MIN), max.unwrap_or(i32::MAX));
+                self.integer_limits.push(if given { limits } else { (i32::MIN, i32::MAX) });
                 self.integer_items.push(None);
             }
             VariableKind::Enumeration { declared_type, .. } => {

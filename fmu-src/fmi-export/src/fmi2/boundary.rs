@@ -11,9 +11,9 @@ use model_description::call_table::Function;
 use model_description::functions::types::{CallbackLogger, Component, FmuState};
 
 use super::instance::Instance;
-use super::logger::LogSink;
+use super::instance::saved::SavedState;
 use super::problem::{ArgumentError, Problem};
-use super::state_bytes::SavedState;
+use crate::logger::LogSink;
 use crate::panics::contain;
 
 /// Their addresses distinguish this library's handles from those of any other, another copy of this library

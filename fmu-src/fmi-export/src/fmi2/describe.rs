@@ -6,7 +6,7 @@ use model_description::describe::{Receive, kind};
 
 use super::arguments::text;
 use super::description::DescribeError;
-use super::library::{Entry, Library};
+use crate::library::{Entry, Library};
 use crate::model::Manual;
 use crate::panics::contain;
 

@@ -10,13 +10,13 @@ use model_description::{
 use uuid::Uuid;
 
 use super::access::AccessTable;
-use super::logger::Category;
 use super::references;
-use super::start::{self, OtherReaders, Readers};
 use super::structure::structure;
 use crate::dependencies::Dependencies;
+use crate::logger::Category;
 use crate::model::{About, Model, SetupError};
 use crate::runtime::{Runtime, Typed};
+use crate::start_values::{self, OtherReaders, Readers};
 use crate::variables::{
     Declare, DeclareError, Element, EnumerationType, Interface, Kind, Values, Variable, Variables,
 };
@@ -70,7 +70,7 @@ pub(crate) fn start_names<M: Model>(file: &str, setup_text: &str) -> Option<BTre
     let setup = M::parse_setup(file, setup_text).ok()?;
     let mut declare = Declare::new();
     M::Variables::declare(&mut declare, &setup, 0).ok()?;
-    Some(start::settable_names(&scalar_variables(&declare.finish())))
+    Some(start_values::settable_names(&scalar_variables(&declare.finish())))
 }
 
 /// Describes a model; `others` are the models that the setup may serve beside it.
@@ -111,7 +111,7 @@ pub(crate) fn prepare<M: Model>(
     description.units = units_of(&description);
     let readers = Readers::new(M::NAME, file, others);
     let given = M::start_values(&setup);
-    let fixed = start::apply(&given, &readers, &mut description, &mut interface.start)
+    let fixed = start_values::apply(&given, &readers, &mut description, &mut interface.start)
         .map_err(DescribeError::Start)?;
     description.co_simulation = Some(co_simulation::<M>(&description.variables));
     description.structure = structure(&dependencies, &description.variables).map_err(DescribeError::Table)?;

@@ -23,9 +23,9 @@ use super::arguments::{flag, place, slice, slice_mut, text};
 use super::boundary::{self, ImporterLogger, call, saved, state_handle_of};
 use super::instance::Instance;
 use super::instance::stepping::StatusKind;
-use super::library::Library;
-use super::logger::{Category, Logger};
 use super::problem::{ArgumentError, Problem};
+use crate::library::Library;
+use crate::logger::{Category, Logger};
 use crate::panics::contain;
 
 /// Declares C functions: documentation, name in the call table, symbol, arguments after the instance, and the body, which

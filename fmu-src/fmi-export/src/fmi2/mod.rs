@@ -12,21 +12,13 @@ mod arguments;
 mod boundary;
 #[allow(unsafe_code, reason = "takes the raw pointers of the C interface")]
 mod describe;
-mod description;
+pub(crate) mod description;
 mod export;
-#[allow(unsafe_code, reason = "calls the C library to find unwind tables")]
-#[cfg(all(target_os = "linux", target_env = "gnu", any(target_arch = "x86_64", target_arch = "aarch64")))]
-mod find_object;
 #[allow(unsafe_code, reason = "takes the raw pointers of the C interface")]
 mod functions;
 pub(crate) mod instance;
-mod library;
-mod location;
-pub mod logger;
 pub(crate) mod problem;
 pub mod references;
-mod start;
-mod state_bytes;
 mod structure;
 
 pub use crate::model::{SetupValue, StartValue};
@@ -34,8 +26,6 @@ pub use describe::{check_schedule, describe};
 pub use description::{DescribeError, description_of, scalar_variables};
 pub use functions::*;
 pub use instance::MAX_INPUT_DERIVATIVE_ORDER;
-pub use library::{Entry, Library};
-pub use problem::StateMismatch;
 
 /// For a shared library: its panics, which are all contained, write nothing to standard error.
 pub fn silence_panics() {

@@ -4,8 +4,9 @@ use crate::fmi2::references;
 use core::fmt;
 use model_description::BaseType;
 
-use crate::Failure;
 use crate::fmi2::access::AccessTable;
+use crate::model::Failure;
+use crate::state_bytes::StateMismatch;
 use crate::variables::GREATEST_SET;
 use model_description::Status;
 use model_description::call_table::{Access, Function, State, allowed};
@@ -76,49 +77,6 @@ pub(crate) enum ArgumentError {
     NotOurs,
 }
 
-/// Why an FMU state or its bytes are refused.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum StateMismatch {
-    /// Not produced by this export tool.
-    #[error("these bytes are no FMU state of this tool: they do not begin with its mark")]
-    Mark,
-    /// A layout this library does not know.
-    #[error("the FMU state has layout version {found}, this library reads {expected}")]
-    Version {
-        /// In the bytes.
-        found: u32,
-        /// What can be read.
-        expected: u32,
-    },
-    /// Another model, or the same model with another setup.
-    #[error(
-        "the FMU state belongs to another model or another setup (GUID digest {found}, expected {expected})"
-    )]
-    Guid {
-        /// In the state.
-        found: uuid::Uuid,
-        /// Of this instance.
-        expected: uuid::Uuid,
-    },
-    /// Cut short or padded.
-    #[error("the FMU state has {found} bytes, expected {expected}")]
-    Length {
-        /// Bytes given.
-        found: u64,
-        /// Bytes announced or needed.
-        expected: u64,
-    },
-    /// Damaged.
-    #[error("the FMU state is damaged: its checksum does not match")]
-    Checksum,
-    /// Of a flight with numbers that no simulation can go on with.
-    #[error("the FMU state cannot be written, because it could not be read: {0}")]
-    Unreadable(String),
-    /// Well sealed, but its content makes no sense for this model.
-    #[error("the FMU state is damaged: {0}")]
-    Content(String),
-}
-
 impl Problem {
     /// The status by which a function reports the problem.
     pub(crate) fn status(&self) -> Status {
@@ -150,12 +108,6 @@ impl From<Failure> for Problem {
 impl From<StateMismatch> for Problem {
     fn from(mismatch: StateMismatch) -> Self {
         Self::ForeignState(mismatch)
-    }
-}
-
-impl From<Failure> for StateMismatch {
-    fn from(failure: Failure) -> Self {
-        Self::Content(failure.to_string())
     }
 }
 
@@ -328,7 +280,7 @@ impl fmt::Display for Explained<'_> {
                 f,
                 "log category number {} is not declared; known are {}",
                 index + 1,
-                crate::fmi2::logger::Category::names()
+                crate::logger::Category::names()
             ),
             Problem::Terminated(reason) => write!(f, "{reason}"),
             Problem::StepEnd { from_s, end_s, came_to_s } => write!(

@@ -134,6 +134,8 @@ impl<const R: usize, const C: usize> From<RealMatrix<R, C>> for Elements {
 pub trait Enumeration: Copy + 'static {
     /// The type with its items.
     const TYPE: EnumerationType;
+    /// The variant of the first item.
+    const FIRST: Self;
     /// The variant of an item value.
     fn from_value(value: i32) -> Option<Self>;
     /// The item value of a variant.

@@ -170,9 +170,9 @@ impl Values {
         value.clone_into(&mut self.strings[handle.0 as usize]);
     }
 
-    /// The chosen item; `None` cannot happen through the interface, which admits only known items.
-    pub fn choice<E: Enumeration>(&self, handle: Choice<E>) -> Option<E> {
-        E::from_value(self.integers[handle.0 as usize])
+    /// The chosen item. Declaration, sets and restored states admit no other values than items'.
+    pub fn choice<E: Enumeration>(&self, handle: Choice<E>) -> E {
+        E::from_value(self.integers[handle.0 as usize]).unwrap_or(E::FIRST)
     }
 
     /// Writes a choice.

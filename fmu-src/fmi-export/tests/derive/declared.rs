@@ -195,7 +195,7 @@ fn starts_come_from_setup_index_and_literals() {
     assert_eq!(start.real(variables.mass), 500.0);
     assert_eq!(start.matrix(variables.inertia), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
     assert_eq!(start.vector(variables.center_of_mass), [0.1, 0.2, 0.3]);
-    assert_eq!(start.choice(variables.source), Some(AttitudeSource::Commanded));
+    assert_eq!(start.choice(variables.source), AttitudeSource::Commanded);
     assert_eq!(start.text(variables.label), "Prüfling");
     assert!(start.boolean(variables.dump_request));
     assert_eq!(start.integer(variables.count), -1);

@@ -17,6 +17,8 @@ macro_rules! enumeration_of {
         pub struct $name(pub $type);
 
         impl ::fmi_export::Enumeration for $name {
+            const FIRST: Self = Self([$(<$type>::$variant),+][0]);
+
             const TYPE: ::fmi_export::variables::EnumerationType = ::fmi_export::variables::EnumerationType {
                 name: stringify!($name),
                 description: concat!($($about),+).trim_ascii(),
@@ -55,6 +57,8 @@ macro_rules! optional_enumeration_of {
         pub struct $name(pub Option<$type>);
 
         impl ::fmi_export::Enumeration for $name {
+            const FIRST: Self = Self(None);
+
             const TYPE: ::fmi_export::variables::EnumerationType = ::fmi_export::variables::EnumerationType {
                 name: stringify!($name),
                 description: concat!($($about),+).trim_ascii(),

@@ -74,8 +74,8 @@ impl TargetingVariables {
     /// Axes, formula and limits.
     pub fn read(&self, values: &Values, azimuth_limit_rad: f64, elevation_limit_rad: f64) -> Targeting {
         Targeting {
-            axes: values.choice(self.target_axes).map_or(TargetAxes::XAndZ, |it| it.0),
-            method: values.choice(self.targeting).map_or(TargetingMethod::Exact, |it| it.0),
+            axes: values.choice(self.target_axes).0,
+            method: values.choice(self.targeting).0,
             azimuth_limit_rad,
             elevation_limit_rad,
         }
@@ -131,7 +131,7 @@ pub struct Limits {
 impl ManagementVariables {
     /// Whether downlinks are used.
     pub fn manages(&self, values: &Values) -> bool {
-        values.choice(self.strategy).is_some_and(|it| it.0 != Strategy::DumpsOnly)
+        values.choice(self.strategy).0 != Strategy::DumpsOnly
     }
 
     /// The manager of a spacecraft whose shade takes the light in this form.
@@ -143,7 +143,7 @@ impl ManagementVariables {
         sunshade: SunshadeModel,
     ) -> Manager<'s> {
         Manager {
-            strategy: values.choice(self.strategy).map_or(Strategy::DumpsOnly, |it| it.0),
+            strategy: values.choice(self.strategy).0,
             targeting: self.aim.read(values, values.real(limits.azimuth), values.real(limits.elevation)),
             target_body_n_m_s: self.aim.target_body_n_m_s(values),
             horizon: self.aim.horizon(values),

@@ -5,7 +5,7 @@ use fmi_export::{
 };
 use physics::attitude::SunAngles;
 use physics::bodies::Body;
-use physics::bodies::surface::{self, PlanetSurface};
+use physics::bodies::surface::PlanetSurface;
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::orbit::Elements as KeplerElements;
 use physics::environment::sun::SOLAR_FLUX_W_M2;
@@ -58,14 +58,14 @@ impl SurfaceVariables {
         radius_m: f64,
         own: &PlanetSurface,
     ) -> PlanetSurface {
-        let day_temperature = values.choice(self.day_temperature).filter(|_| given.has(self.day_temperature));
+        let day_temperature = given.has(self.day_temperature).then(|| values.choice(self.day_temperature).0);
         PlanetSurface {
             radius_m,
             absorptivity: given.real_or(self.absorptivity, own.absorptivity),
             diffuse_reflectivity: given.real_or(self.diffuse_reflectivity, own.diffuse_reflectivity),
             emissivity: given.real_or(self.emissivity, own.emissivity),
             night_temperature_k: given.real_or(self.night_temperature, own.night_temperature_k),
-            day_temperature: day_temperature.map_or(own.day_temperature, |it| it.0),
+            day_temperature: day_temperature.unwrap_or(own.day_temperature),
         }
     }
 
@@ -86,9 +86,7 @@ impl SurfaceVariables {
             diffuse_reflectivity: values.real(self.diffuse_reflectivity),
             emissivity: values.real(self.emissivity),
             night_temperature_k: values.real(self.night_temperature),
-            day_temperature: values
-                .choice(self.day_temperature)
-                .map_or(surface::DayTemperature::Uniform, |it| it.0),
+            day_temperature: values.choice(self.day_temperature).0,
         }
     }
 }
@@ -137,7 +135,7 @@ pub struct EclipseVariables {
 impl EclipseVariables {
     /// The shadow of a planet of this radius in the light of a Sun of this one, both in m.
     pub fn read(&self, values: &Values, radius_m: f64, sun_radius_m: f64) -> Result<Shadow, Failure> {
-        let model = values.choice(self.method).map_or(ShadowModel::DiscOverlap, |it| it.0);
+        let model = values.choice(self.method).0;
         Shadow::with_sun_radius(model, radius_m, sun_radius_m)
             .map_err(|error| Failure::new(format!("planet.radius, sun.radius: {error}")))
     }
@@ -270,7 +268,7 @@ impl GuidedVariables {
                  after the end; guided.downlinkEvery = 0 for no downlink"
             )));
         }
-        let once = matches!(values.choice(self.downlink_reference), Some(DownlinkReference::Start));
+        let once = matches!(values.choice(self.downlink_reference), DownlinkReference::Start);
         Ok(Guided {
             schedule: Schedule {
                 periapsis_s: if once { start_epoch_s } else { periapsis_s },
@@ -284,11 +282,9 @@ impl GuidedVariables {
                 _ if values.boolean(self.science_unload) => {
                     guidance::ScienceRule::Unloading { sun: SunAngles::default(), camera }
                 }
-                Some(ScienceRule::Nadir) => guidance::ScienceRule::Nadir,
-                Some(ScienceRule::FixedToSunLine) => guidance::ScienceRule::PlanetOrbit,
-                Some(ScienceRule::Scaled) | None => {
-                    guidance::ScienceRule::Scaled { gain: values.real(self.science_gain) }
-                }
+                ScienceRule::Nadir => guidance::ScienceRule::Nadir,
+                ScienceRule::FixedToSunLine => guidance::ScienceRule::PlanetOrbit,
+                ScienceRule::Scaled => guidance::ScienceRule::Scaled { gain: values.real(self.science_gain) },
             },
             elevation_limit_rad: keep_in.elevation_rad,
             slew_rate_rad_s: values.real(self.slew_rate),

@@ -10,7 +10,7 @@ use physics::radiation::disturbance::{
     PositionError, Positions, Workspace,
 };
 use physics::radiation::grid::CellLayout;
-use physics::spacecraft::{Spacecraft, SunshadeModel};
+use physics::spacecraft::Spacecraft;
 
 use super::setup::Plan;
 use super::variables::{DisturbanceVariables, PlanetLightVariables, PlanetMethod};
@@ -127,15 +127,13 @@ fn method(
 ) -> Result<PlanetLightMethod, Failure> {
     let count = |handle| usize::try_from(values.integer(handle)).unwrap_or(0);
     Ok(match values.choice(light.method) {
-        Some(PlanetMethod::Cells) => PlanetLightMethod::Cells(CellLayout::Corrected, count(light.belts)),
-        Some(PlanetMethod::Map) => {
-            PlanetLightMethod::Map(spacecraft.planet_map.clone().ok_or_else(|| {
-                Failure::new(
-                    "planetLight.method is map, allowed only where the spacecraft's file has a planet_map",
-                )
-            })?)
-        }
-        Some(PlanetMethod::Rings) | None => PlanetLightMethod::Rings(count(light.rings.nodes)),
+        PlanetMethod::Cells => PlanetLightMethod::Cells(CellLayout::Corrected, count(light.belts)),
+        PlanetMethod::Map => PlanetLightMethod::Map(spacecraft.planet_map.clone().ok_or_else(|| {
+            Failure::new(
+                "planetLight.method is map, allowed only where the spacecraft's file has a planet_map",
+            )
+        })?),
+        PlanetMethod::Rings => PlanetLightMethod::Rings(count(light.rings.nodes)),
     })
 }
 
@@ -145,10 +143,10 @@ fn method(
 /// A setting that cannot have any.
 pub fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
     let (variables, spacecraft) = (context.variables, &context.setup.spacecraft);
-    let shape = values.choice(variables.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0);
+    let shape = values.choice(variables.sunshade.shape).0;
     let shadows = variables.shadowing.check(values, spacecraft, shape)?;
     let light = &variables.planet_light;
-    let maps = values.boolean(light.rings.enabled) && values.choice(light.method) == Some(PlanetMethod::Map);
+    let maps = values.boolean(light.rings.enabled) && values.choice(light.method) == PlanetMethod::Map;
     let map = unused_map(spacecraft).filter(|_| !maps);
     for warning in [shadows, map].into_iter().flatten() {
         context.log.warning(&warning);
@@ -172,13 +170,13 @@ impl Prepared {
             gravity_gradient: values.boolean(variables.gravity_gradient.enabled),
         };
         let surface = planet.surface.read(values, planet.radius);
-        let sunshade_model = values.choice(variables.sunshade.shape).map(|it| it.0);
+        let sunshade_model = values.choice(variables.sunshade.shape).0;
         let options = Options {
             planet: present.then_some(surface),
             planet_light: method(values, &variables.planet_light, spacecraft)?,
             self_shadowing: values.boolean(variables.shadowing.enabled),
             sun_disc: values.boolean(variables.shadowing.sun_disc),
-            sunshade_model: sunshade_model.filter(|_| spacecraft.sunshade.is_some()),
+            sunshade_model: spacecraft.sunshade.is_some().then_some(sunshade_model),
         };
         let sun_radius_m = values.real(variables.sun.radius);
         let shadow = variables.eclipse.read(values, surface.radius_m, sun_radius_m)?;

@@ -34,8 +34,8 @@ pub fn write(
     values.set_real(v.epoch, epoch_s);
     values.set_boolean(v.ephemeris.valid, state.ephemeris_is_valid());
     let is_coarse = match values.choice(v.ephemeris.source) {
-        Some(EphemerisSource::Chebyshev) => state.uses_coarse_ephemeris(),
-        Some(EphemerisSource::Coarse) => true,
+        EphemerisSource::Chebyshev => state.uses_coarse_ephemeris(),
+        EphemerisSource::Coarse => true,
         _ => false,
     };
     let active = if is_coarse { EphemerisModel::Coarse } else { EphemerisModel::Precise };
@@ -69,8 +69,8 @@ pub fn write(
 /// Writes what a burn tells the thrusters and what it found.
 fn burn(context: &Plan<'_>, values: &mut Values, state: &BurnState, settings: &BurnSettings) {
     let (burn, thrust) = (&context.variables.burn, &context.variables.thrust);
-    let thrusters = values.choice(burn.thrusters).filter(|_| state.is_requested());
-    values.set_choice(thrust.request, thrusters.unwrap_or(ThrustRequest(None)));
+    let thrusters = if state.is_requested() { values.choice(burn.thrusters) } else { ThrustRequest(None) };
+    values.set_choice(thrust.request, thrusters);
     let stop_s = state.stop_s();
     values.set_boolean(thrust.command, stop_s.is_some());
     values.set_real(thrust.stop, stop_s.unwrap_or(NO_STOP_S));

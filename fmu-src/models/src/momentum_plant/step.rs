@@ -3,7 +3,6 @@
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use nalgebra::Vector3;
 use physics::plant::{Changes, Given, ModeSettings, Report, Start, World};
-use physics::spacecraft::SunshadeModel;
 
 use super::inputs::{self, dynamics, propulsion};
 use super::outputs::{self, failure, log_dump};
@@ -165,7 +164,7 @@ fn with_given<T>(
     use_it: impl FnOnce(Given<'_>) -> Result<T, Failure>,
 ) -> Result<T, Failure> {
     let variables = context.variables;
-    let sunshade = values.choice(variables.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0);
+    let sunshade = values.choice(variables.sunshade.shape).0;
     use_it(Given {
         prepared: context.setup.prepared_spacecraft(sunshade)?,
         external: &|time_s| dynamics::external(context, values, over_time, time_s),

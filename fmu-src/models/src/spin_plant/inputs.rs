@@ -6,9 +6,8 @@ use physics::spacecraft::{MOST_THRUSTERS, ValveTiming};
 use physics::spin::{
     burn::BurnRequest,
     execution::PulseExecution,
-    forecast::Timing,
     geometry::{L1Ephemeris, L1Phases},
-    plant::{Commands, Directions, MassSource, PulseCommand, Sampling, Start},
+    plant::{Commands, Directions, PulseCommand, Start},
     series::{BodyTorque, TORQUE_TERMS},
     train::Shape,
 };
@@ -24,7 +23,7 @@ pub fn start(context: &Plan<'_>, values: &Values) -> Start {
     Start {
         inertia_kg_m2: values.vector(v.inertia),
         products_kg_m2: values.vector(v.products_of_inertia),
-        mass_source: values.choice(v.mass_properties.source).map_or(MassSource::Fixed, |it| it.0),
+        mass_source: values.choice(v.mass_properties.source).0,
         propellant_kg: values.real(v.propellant.loaded),
         execution: execution(context, values),
         spin_rate_rad_s: values.real(v.spin.initial_rate),
@@ -34,7 +33,7 @@ pub fn start(context: &Plan<'_>, values: &Values) -> Start {
         damper_time_constant_s: values.real(v.damper.time_constant),
         burn: burn(context, values),
         l1: match values.choice(v.geometry.source) {
-            Some(GeometrySource::L1Orbit) => {
+            GeometrySource::L1Orbit => {
                 let (line_rate, amplitude) = (v.geometry.line_rate, v.geometry.amplitude);
                 Some(L1Ephemeris {
                     orbit: context.setup.l1_orbit.changed(values.real(line_rate), values.vector(amplitude)),
@@ -45,9 +44,9 @@ pub fn start(context: &Plan<'_>, values: &Values) -> Start {
                     },
                 })
             }
-            Some(GeometrySource::Inputs) | None => None,
+            GeometrySource::Inputs => None,
         },
-        sampling: values.choice(v.star_tracker.sampling).map_or(Sampling::Spins, |it| it.0),
+        sampling: values.choice(v.star_tracker.sampling).0,
         nominal_rate_rad_s: values.real(v.limit.spin_rate),
         seed: i64::from(values.integer(v.seed)) as u64,
         work_limit: v.solver.units(values),
@@ -73,16 +72,16 @@ fn execution(context: &Plan<'_>, values: &Values) -> [PulseExecution; MOST_THRUS
 fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {
     let v = &context.variables.burn;
     let shape = match values.choice(v.plan) {
-        Some(BurnPlan::Uniform) => Shape::Uniform,
-        Some(BurnPlan::Tapered) => {
+        BurnPlan::Uniform => Shape::Uniform,
+        BurnPlan::Tapered => {
             Shape::Tapered { order: u32::try_from(values.integer(v.taper_order)).unwrap_or(0) }
         }
-        Some(BurnPlan::Split) => Shape::Split,
-        Some(BurnPlan::Commanded) | None => return None,
+        BurnPlan::Split => Shape::Split,
+        BurnPlan::Commanded => return None,
     };
     Some(BurnRequest {
         shape,
-        timing: values.choice(v.timing).map_or(Timing::Clock, |it| it.0),
+        timing: values.choice(v.timing).0,
         start_s: values.real(v.start),
         thruster: values.integer(v.thruster),
         opposite_thruster: values.integer(v.opposite_thruster),
@@ -139,7 +138,7 @@ pub fn torque(context: &Plan<'_>, values: &Values, step: &Step<'_>) -> Result<Bo
 
 /// Whether Sun and Earth come from the inputs.
 pub fn takes_directions(context: &Plan<'_>, values: &Values) -> bool {
-    values.choice(context.variables.geometry.source) != Some(GeometrySource::L1Orbit)
+    values.choice(context.variables.geometry.source) != GeometrySource::L1Orbit
 }
 
 /// Where Sun, Earth and star stand, as unit vectors; 0 where the input is, and Sun and Earth where the L1 orbit has them.

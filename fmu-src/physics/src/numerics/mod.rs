@@ -7,6 +7,7 @@ pub mod collocation;
 pub mod events;
 pub mod intervals;
 pub mod noise;
+pub mod or_infinite;
 pub mod quadrature;
 pub mod roots;
 pub mod scalar;

@@ -7,7 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::numerics::or_infinite;
 use crate::numerics::spacing::spacing;
 use crate::spacecraft::ValveTiming;
 
@@ -20,28 +20,33 @@ const SAME_LENGTH: f64 = 1e-12;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct OpenPulse {
     /// When the valve closes, in s; infinite without end.
+    #[serde(with = "or_infinite")]
     closes_s: f64,
     /// It does not close before, in s.
     holds_until_s: f64,
+}
+
+/// The pulse ahead: when the valve opens and closes, in s.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct NextPulse {
+    opens_s: f64,
+    /// Infinite without end.
+    #[serde(with = "or_infinite")]
+    closes_s: f64,
 }
 
 /// The pulse of a valve at hand and the one ahead, and what became of the last step's command.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PulseSchedule {
     open: Option<OpenPulse>,
-    /// When the valve next opens and closes, in s.
-    next_s: Option<[f64; 2]>,
+    next: Option<NextPulse>,
     was_too_short: bool,
 }
 
 impl PulseSchedule {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
-        let later = |x: &f64| x.abs() <= GREATEST_IN_STATE || *x == f64::INFINITY;
-        self.open.is_none_or(|it| later(&it.closes_s) && it.holds_until_s.abs() <= GREATEST_IN_STATE)
-            && self.next_s.is_none_or(|[opens_s, closes_s]| {
-                opens_s.abs() <= GREATEST_IN_STATE && later(&closes_s) && opens_s <= closes_s
-            })
+        self.next.is_none_or(|next| next.opens_s <= next.closes_s)
     }
 
     /// Takes the pulse commanded for the step from `start_s` to `end_s`, both in s; whether anything opens or goes on.
@@ -78,13 +83,16 @@ impl PulseSchedule {
     pub fn plan(&mut self, timing: &ValveTiming, opens_s: f64, closes_s: f64) {
         match &mut self.open {
             Some(open) if opens_s <= due_s(open.closes_s) => open.closes_s = closes_s.max(open.holds_until_s),
-            _ => self.next_s = Some([opens_s, closes_s.max(opens_s + timing.min_on_s)]),
+            _ => {
+                let closes_s = closes_s.max(opens_s + timing.min_on_s);
+                self.next = Some(NextPulse { opens_s, closes_s });
+            }
         }
     }
 
     /// Ends the pulse at hand as soon as the valve may close from `time_s` on, in s, and plans none.
     pub fn end(&mut self, time_s: f64) {
-        self.next_s = None;
+        self.next = None;
         if let Some(open) = &mut self.open {
             open.closes_s = time_s.max(open.holds_until_s);
         }
@@ -92,7 +100,7 @@ impl PulseSchedule {
 
     /// Nothing at hand and nothing ahead.
     pub fn clear(&mut self) {
-        (self.open, self.next_s) = (None, None);
+        (self.open, self.next) = (None, None);
     }
 
     /// When the valve next closes, in s; infinite where it is closed or stays open.
@@ -102,7 +110,7 @@ impl PulseSchedule {
 
     /// When it next opens, in s; infinite where it does not.
     pub fn opens_s(&self) -> f64 {
-        self.next_s.map_or(f64::INFINITY, |[opens_s, _]| opens_s)
+        self.next.map_or(f64::INFINITY, |next| next.opens_s)
     }
 
     /// Takes note that the pulse at hand is over; whether it is by `due_s`, in s.
@@ -116,10 +124,10 @@ impl PulseSchedule {
 
     /// Takes note that the pulse ahead began; whether it did by `due_s`, in s.
     pub fn take_opening(&mut self, timing: &ValveTiming, due_s: f64) -> bool {
-        let Some([opens_s, closes_s]) = self.next_s.filter(|[opens_s, _]| *opens_s <= due_s) else {
+        let Some(NextPulse { opens_s, closes_s }) = self.next.filter(|next| next.opens_s <= due_s) else {
             return false;
         };
-        self.next_s = None;
+        self.next = None;
         self.open = Some(OpenPulse { closes_s, holds_until_s: opens_s + timing.min_on_s });
         true
     }

@@ -152,7 +152,7 @@ impl Motion {
             Path::Series(segment) => segment.is_sound(),
         };
         let unit = Quaternion::from_components(self.attitude.0).is_some();
-        path && unit && self.torque.is_sound() && self.damper.is_sound() && !self.diverges()
+        path && unit && self.damper.is_sound() && !self.diverges()
     }
 
     /// Whether the motion can be followed from the anchor on.

@@ -119,11 +119,6 @@ impl LinearNutation {
         self.time_s = to_s;
     }
 
-    /// Whether a decoded sum can be one.
-    pub fn is_sound(&self) -> bool {
-        self.time_s.is_finite() && self.across.iter().all(|x| x.abs() <= 1e100)
-    }
-
     /// Nutation angle, in rad: the theory's sum is the tangent.
     pub fn angle_rad(&self) -> f64 {
         libm::hypot(self.across[0], self.across[1]).atan()

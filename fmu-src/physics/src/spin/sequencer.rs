@@ -95,17 +95,13 @@ impl Sequencer {
     /// Whether the numbers of a decoded state belong together.
     pub fn is_sound(&self) -> bool {
         let edges = match self.phase {
-            Phase::Waiting { on_s, off_s } => on_s.is_finite() && off_s.is_finite() && off_s >= on_s,
-            Phase::Firing { off_s } => off_s.is_finite(),
-            Phase::Later { at_s } => at_s.is_finite(),
-            Phase::Idle | Phase::Done => true,
+            Phase::Waiting { on_s, off_s } => off_s >= on_s,
+            _ => true,
         };
-        let times = [self.burn.start_s, self.first_centre_s, self.last_centre_s, self.sensor_azimuth_rad];
-        let finite = times.iter().chain(&self.sun_crossing_s).all(|x| x.is_finite()) && self.burn.is_sound();
         let (rate, count) = (self.burn.assumed_rate_rad_s, self.burn.train.count());
         let left = matches!(self.phase, Phase::Done) == (self.fired >= count);
         edges
-            && finite
+            && self.burn.is_sound()
             && left
             && self.fired <= count
             && self.burn.train.is_sound()

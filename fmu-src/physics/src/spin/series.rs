@@ -62,11 +62,6 @@ impl BodyTorque {
         Some(())
     }
 
-    /// Whether a decoded torque can be one.
-    pub fn is_sound(&self) -> bool {
-        self.origin_s.is_finite() && self.coefficients_n_m.iter().flatten().all(|c| c.is_finite())
-    }
-
     /// Whether it vanishes at all times.
     pub fn is_zero(&self) -> bool {
         self.coefficients_n_m.iter().flatten().all(|&c| c == 0.0)
@@ -208,10 +203,7 @@ impl TaylorSegment {
 
     /// Whether a decoded segment can be one.
     pub fn is_sound(&self) -> bool {
-        let mut coefficients = self.momentum_body.iter().chain(&self.attitude).flatten();
-        usize::from(self.order) <= ORDER
-            && (0.0..=LONGEST_S).contains(&self.length_s)
-            && coefficients.all(|c| c.is_finite())
+        usize::from(self.order) <= ORDER && (0.0..=LONGEST_S).contains(&self.length_s)
     }
 
     /// How long the segment holds, in s; 0 where it does not at all.

@@ -220,7 +220,7 @@ impl Train {
             && self.second_half.first <= self.count
             && self.second_half.half_turns <= 200 * MOST_PULSES + 400
             && self.second_half.offset_turns.abs() <= 1.0
-            && self.widths_s.iter().all(|w| w.is_finite() && *w > 0.0)
+            && self.widths_s.iter().all(|w| *w > 0.0)
     }
 
     /// Its shape.

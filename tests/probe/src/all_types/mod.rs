@@ -242,9 +242,7 @@ fn write_outputs(variables: &AllTypesVariables, values: &mut Values, state: &mut
         }
     }
     for (from, to) in [(input.choice, output.choice), (tunable.choice, echo.choice)] {
-        if let Some(colour) = values.choice(from) {
-            values.set_choice(to, colour);
-        }
+        values.set_choice(to, values.choice(from));
     }
     values.set_real(role.calculated_tunable, 2.0 * values.real(tunable.real));
     values.set_real(role.output_approx, step.end_s - state.start_time_s);

@@ -3,9 +3,9 @@
 use super::{Instance, once};
 use crate::fmi2::access::SET_BY_IMPORTER;
 use crate::fmi2::instance::state::{Experiment, InstanceState};
-use crate::fmi2::logger::Category;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
+use crate::logger::Category;
 use crate::variables::Real;
 use model_description::BaseType;
 use model_description::Status;

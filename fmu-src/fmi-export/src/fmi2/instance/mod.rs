@@ -5,6 +5,7 @@
 
 mod derivatives;
 mod lifecycle;
+pub(crate) mod saved;
 pub(crate) mod state;
 pub(crate) mod stepping;
 mod values;
@@ -13,9 +14,9 @@ use std::sync::Arc;
 
 use crate::fmi2::access::AccessTable;
 use crate::fmi2::description::Prepared;
-use crate::fmi2::logger::Logger;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
+use crate::logger::Logger;
 use crate::runtime::Runtime;
 use crate::variables::{Real, Values};
 use model_description::BaseType;
@@ -23,8 +24,8 @@ use model_description::Status;
 use model_description::call_table::{self, Access, Function, Next, State};
 use state::copy_values;
 
+use state::InstanceState;
 pub use state::MAX_INPUT_DERIVATIVE_ORDER;
-pub(crate) use state::{InstanceState, content};
 
 /// Messages that are logged once per instance, as bits.
 mod once {

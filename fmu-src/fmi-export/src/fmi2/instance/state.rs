@@ -5,8 +5,8 @@ use model_description::BaseType;
 use serde::{Deserialize, Serialize};
 
 use crate::fmi2::access::{AccessTable, CONTINUOUS, INPUT, SET_BY_IMPORTER};
-use crate::fmi2::problem::StateMismatch;
 use crate::model::InputDerivative;
+use crate::state_bytes::StateMismatch;
 use crate::variables::{GREATEST_SET, SetBits, Values};
 use model_description::call_table::State;
 
@@ -206,8 +206,7 @@ fn check_values(values: &Values, access: &AccessTable) -> Result<(), StateMismat
         }
     }
     for (index, &value) in values.integers.iter().enumerate() {
-        let flags = access.flags(BaseType::Integer).get(index).copied().unwrap_or(0);
-        if flags & SET_BY_IMPORTER != 0 && !access.admits_integer(index, value) {
+        if !access.admits_integer(index, value) {
             let reference = references::first(BaseType::Integer) + index as u32;
             let name = access.name(BaseType::Integer, reference).unwrap_or_default();
             return Err(content(format!("`{name}` is {value}")));

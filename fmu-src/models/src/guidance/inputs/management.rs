@@ -4,11 +4,10 @@ use fmi_export::{Failure, Values};
 use nalgebra::Vector3;
 use physics::guidance::constraints::keep_in::KeepIn;
 use physics::management::{Manager, SampledManager, Strategy};
-use physics::momentum::{Convention, DumpPolicy, Reinitialise};
+use physics::momentum::{DumpPolicy, Reinitialise};
 use physics::plant::{PanelSetting, Ramp, SunlitCraft};
-use physics::spacecraft::{MassProperties, SunshadeModel};
+use physics::spacecraft::MassProperties;
 
-use crate::common::choices::PanelTilt;
 use crate::guidance::setup::Plan;
 use crate::guidance::variables::choices::DumpReinitTo;
 
@@ -21,7 +20,7 @@ pub fn set_panels(context: &Plan<'_>, values: &Values, panels: &mut Vec<PanelSet
         }
         PanelSetting::SunOffset {
             offset: Ramp::held(values.real(panel.nominal_sun_offset)),
-            tilt_sign: values.choice(panel.tilt).map_or(1.0, PanelTilt::sign),
+            tilt_sign: values.choice(panel.tilt).sign(),
         }
     }));
 }
@@ -38,8 +37,8 @@ pub fn manager<'a>(
 ) -> Result<SampledManager<'a>, Failure> {
     let v = context.variables;
     let spacecraft = &context.setup.spacecraft;
-    let sunshade = values.choice(v.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0);
-    let strategy = values.choice(v.momentum.strategy).map_or(Strategy::DumpsOnly, |it| it.0);
+    let sunshade = values.choice(v.sunshade.shape).0;
+    let strategy = values.choice(v.momentum.strategy).0;
     v.guided.check_unload(values, strategy != Strategy::DumpsOnly)?;
     let [start_s, end_s] = [v.guided.downlink_start, v.guided.downlink_end].map(|time| values.real(time));
     if strategy != Strategy::DumpsOnly && start_s >= end_s {
@@ -68,7 +67,7 @@ pub fn manager<'a>(
             time_s: 0.0,
         },
         light: v.solar.read(values),
-        convention: values.choice(v.momentum.convention).map_or(Convention::Inertial, |it| it.0),
+        convention: values.choice(v.momentum.convention).0,
         policy: policy(context, values),
         momentum_body_n_m_s: Vector3::from([0.0; 3]),
     })
@@ -80,10 +79,10 @@ pub fn policy(context: &Plan<'_>, values: &Values) -> DumpPolicy {
     DumpPolicy {
         threshold_body_n_m_s: Vector3::from(values.vector(v.dump.threshold)),
         reinitialise: match values.choice(v.dump.reinit_to) {
-            Some(DumpReinitTo::Target) => {
+            DumpReinitTo::Target => {
                 Reinitialise::Target { momentum_body_n_m_s: v.momentum.aim.target_body_n_m_s(values) }
             }
-            Some(DumpReinitTo::Opposite) | None => {
+            DumpReinitTo::Opposite => {
                 Reinitialise::Opposite { fraction: values.real(v.dump.reinit_fraction) }
             }
         },

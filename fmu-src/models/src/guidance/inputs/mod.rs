@@ -16,9 +16,8 @@ use physics::guidance::burn::nominal_thrust::NominalThrust;
 use physics::guidance::burn::velocity_path::VelocityPath;
 use physics::guidance::constraints::constrained::Constraints;
 use physics::guidance::constraints::hot_pole::HotPole;
-use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
+use physics::guidance::constraints::keep_in::KeepIn;
 use physics::guidance::downlink::sun_place::LinkLimits;
-use physics::guidance::geometry::lighting::SubsolarMethod;
 use physics::guidance::modes::monitor::Monitor;
 use physics::guidance::modes::places::Places;
 use physics::guidance::modes::system::GuidanceSettings;
@@ -56,7 +55,7 @@ impl Fixed {
         let v = context.variables;
         let (body, planet) = target(context, values);
         let epoch_s = values.real(v.start.epoch);
-        let source = values.choice(v.ephemeris.source).unwrap_or(EphemerisSource::Vsop87);
+        let source = values.choice(v.ephemeris.source);
         if source != EphemerisSource::Inputs {
             ephemeris::check_start(epoch_s)?;
         }
@@ -84,7 +83,7 @@ impl Fixed {
 /// The target planet: what is given of `planet.*`, else its own.
 fn target(context: &Plan<'_>, values: &Values) -> (Body, TargetPlanet) {
     let v = &context.variables.planet;
-    let body = values.choice(context.variables.target.planet).map_or(context.setup.target, |it| it.0);
+    let body = values.choice(context.variables.target.planet).0;
     let own = TargetPlanet::of(body.data());
     let given = context.given(
         values,
@@ -132,7 +131,7 @@ fn burn(context: &Plan<'_>, values: &Values) -> Result<BurnSettings, Failure> {
         delta_v_m_s,
         [0, 1, 2].map(|power| Vector3::from(rows.map(|component| component[power]))),
     );
-    let thrusters = values.choice(v.thrusters).and_then(|it| it.0);
+    let thrusters = values.choice(v.thrusters).0;
     let direction_body = Vector3::from(values.vector(v.thrust_direction));
     let nominal = NominalThrust::new(&context.setup.spacecraft, thrusters, direction_body);
     let given_m_s2 = Some(real(v.acceleration)).filter(|it| *it > 0.0);
@@ -160,7 +159,7 @@ pub fn settings<'a>(
 ) -> Result<GuidanceSettings<'a>, Failure> {
     let v = context.variables;
     let real = |handle| values.real(handle);
-    let method = values.choice(v.keep_in.method).map_or(KeepInMethod::Nearest, |it| it.0);
+    let method = values.choice(v.keep_in.method).0;
     let axis_body = Vector3::from(values.vector(v.keep_in.axis));
     if axis_body == Vector3::from([0.0; 3]) {
         return Err(Failure::new("keepIn.axis: found (0, 0, 0), allowed: a vector of any length but zero"));
@@ -189,7 +188,7 @@ pub fn settings<'a>(
         hardware: GuidanceHardware {
             instruments: &context.setup.spacecraft.instruments,
             mdis,
-            subsolar: values.choice(v.subsolar.method).map_or(SubsolarMethod::Normal, |it| it.0),
+            subsolar: values.choice(v.subsolar.method).0,
             scans: scans(context, values),
         },
         modes: ModeSettings {
@@ -277,7 +276,7 @@ impl<'a> Reader<'a> {
 
     /// The item of an input; none where nothing is chosen.
     fn item<E: Enumeration, T>(&self, handle: Choice<E>, inner: impl Fn(E) -> Option<T>) -> Option<T> {
-        self.values.choice(handle).and_then(inner)
+        inner(self.values.choice(handle))
     }
 
     /// What the inputs command.

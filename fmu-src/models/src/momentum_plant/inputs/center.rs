@@ -31,7 +31,7 @@ pub struct Settled {
 impl<'a> Center<'a> {
     /// The centre that `orbit.center` names.
     pub fn of(context: &'a Plan<'_>, values: &'a Values) -> Self {
-        let body = values.choice(context.variables.orbit.center).map_or(context.setup.center, |it| it.0);
+        let body = values.choice(context.variables.orbit.center).0;
         Self { context, values, body }
     }
 
@@ -106,8 +106,7 @@ impl<'a> Center<'a> {
     /// Frame of those elements.
     pub fn frame(&self) -> Frame {
         let frame = self.context.variables.orbit.frame;
-        let given = self.values.choice(frame).filter(|_| self.orbit().has(frame));
-        given.map_or(center::frame(self.body), |it| it.0)
+        if self.orbit().has(frame) { self.values.choice(frame).0 } else { center::frame(self.body) }
     }
 
     /// All of it, as it acts.
@@ -162,7 +161,7 @@ pub fn say_followed(context: &Plan<'_>, values: &Values) {
     let mut told: Vec<String> =
         followed.map(|(name, _, own, unit)| format!("{name} = {}", shown(*own, unit).trim_end())).collect();
     let frame = center.frame();
-    if values.choice(orbit.frame).is_some_and(|it| it.0 != frame) {
+    if values.choice(orbit.frame).0 != frame {
         told.push(format!(
             "orbit.frame = {}",
             if frame == Frame::Ecliptic { "ecliptic" } else { "planetEquator" }

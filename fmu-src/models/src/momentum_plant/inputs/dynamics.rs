@@ -3,8 +3,8 @@
 use fmi_export::{Failure, InputsOverTime, Real, RealVector, Values};
 use nalgebra::Vector3;
 use physics::attitude::control::{
-    AccelerometerSettings, Allocation, ControllerSettings, Gyro, SensorHealth, SensorSettings, StarTracker,
-    SunSensor, WheelAllocator,
+    AccelerometerSettings, ControllerSettings, Gyro, SensorHealth, SensorSettings, StarTracker, SunSensor,
+    WheelAllocator,
 };
 use physics::attitude::{Attitude, Gyrostat, ReactionWheel};
 use physics::guidance::modes::system::CommandKind as Kind;
@@ -23,17 +23,17 @@ use crate::momentum_plant::variables::choices::{AttitudeSource, CommandSource};
 /// Whether the attitude follows from dynamics.
 pub fn is_dynamic(context: &Plan<'_>, values: &Values) -> bool {
     let source = values.choice(context.variables.attitude.source);
-    matches!(source, Some(AttitudeSource::Controlled | AttitudeSource::Free))
+    matches!(source, AttitudeSource::Controlled | AttitudeSource::Free)
 }
 
 /// Whether the orbit phase's own guidance gives the commands that are followed or tracked.
 pub fn guides_itself(context: &Plan<'_>, values: &Values) -> bool {
     let variables = context.variables;
-    let from_guidance = matches!(values.choice(variables.command.source), Some(CommandSource::Guidance));
+    let from_guidance = matches!(values.choice(variables.command.source), CommandSource::Guidance);
     match values.choice(variables.attitude.source) {
-        Some(AttitudeSource::Guided) | None => true,
-        Some(AttitudeSource::Commanded | AttitudeSource::Controlled) => from_guidance,
-        Some(AttitudeSource::Free) => false,
+        AttitudeSource::Guided => true,
+        AttitudeSource::Commanded | AttitudeSource::Controlled => from_guidance,
+        AttitudeSource::Free => false,
     }
 }
 
@@ -93,7 +93,7 @@ pub fn settings(
             rigid.with_appendages(appendages, configuration.mass_kg, configuration.center_of_mass_body_m)
         })
         .map_err(|error| Failure::new(format!("spacecraft.inertia, wheel[k].*: {error}")))?;
-    let controlled = matches!(values.choice(v.attitude.source), Some(AttitudeSource::Controlled));
+    let controlled = matches!(values.choice(v.attitude.source), AttitudeSource::Controlled);
     let control = if controlled {
         let turns = |k: usize| !gyrostat.wheels()[k].locked;
         if WheelAllocator::new(&axes, turns).is_none() {
@@ -179,7 +179,7 @@ fn control(context: &Plan<'_>, values: &Values) -> Result<Control, Failure> {
     Ok(Control {
         controller,
         wheels: WheelControlSettings {
-            allocation: values.choice(control.allocation).map_or(Allocation::PseudoInverse, |it| it.0),
+            allocation: values.choice(control.allocation).0,
             balance_time_s: or_none(values.real(control.balance_time)),
             compensates_friction: values.boolean(control.friction_compensation),
         },
@@ -235,7 +235,7 @@ pub fn step_inputs(
     let v = context.variables;
     let tracked = if guides_itself(context, values) {
         Tracked::Guidance
-    } else if matches!(values.choice(v.command.kind), Some(CommandKind(Kind::RateOnly))) {
+    } else if matches!(values.choice(v.command.kind), CommandKind(Kind::RateOnly)) {
         Tracked::Rate(command.rate_body_rad_s)
     } else {
         Tracked::Attitude(command)

@@ -10,7 +10,7 @@ use crate::momentum_plant::variables::choices::OrbitSource;
 
 /// Whether position and velocity are inputs.
 pub fn is_given(variables: &PlantVariables, values: &Values) -> bool {
-    matches!(values.choice(variables.orbit.source), Some(OrbitSource::Inputs | OrbitSource::Held))
+    matches!(values.choice(variables.orbit.source), OrbitSource::Inputs | OrbitSource::Held)
 }
 
 /// Position and velocity that are set.

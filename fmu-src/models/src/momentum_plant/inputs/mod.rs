@@ -17,7 +17,7 @@ use physics::guidance::Guided;
 use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
 use physics::guidance::pointing::boresight::MdisRange;
 use physics::management::Manager;
-use physics::momentum::{Convention, DumpPolicy, Reinitialise, Settings};
+use physics::momentum::{DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
     self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, RadiationSolver, Ramp,
 };
@@ -30,7 +30,6 @@ use super::setup::Plan;
 use super::state::PlantState;
 use super::variables::PlantVariables;
 use super::variables::choices::{AttitudeSource, DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource};
-use crate::common::choices::PanelTilt;
 use crate::common::effects::unused_map;
 use crate::common::ephemeris;
 use crate::common::management::{Limits, check_windows};
@@ -60,7 +59,7 @@ pub fn configuration(
         )));
     }
     let epoch_s = values.real(variables.start.epoch);
-    if !matches!(values.choice(variables.ephemeris.source), Some(EphemerisSource::Inputs)) {
+    if !matches!(values.choice(variables.ephemeris.source), EphemerisSource::Inputs) {
         ephemeris::check_start(epoch_s)?;
     }
     let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
@@ -74,11 +73,8 @@ pub fn configuration(
             rate_rad_s: over_time.rate(input, over_time.start_s()),
             since_s: over_time.start_s(),
         };
-        let offset = |offset| PanelSetting::SunOffset {
-            offset,
-            tilt_sign: values.choice(panel.tilt).map_or(1.0, PanelTilt::sign),
-        };
-        match values.choice(panel.control).map_or(PanelControl::SunOffset, |it| it.0) {
+        let offset = |offset| PanelSetting::SunOffset { offset, tilt_sign: values.choice(panel.tilt).sign() };
+        match values.choice(panel.control).0 {
             PanelControl::Angle => PanelSetting::Angle(ramp(panel.angle)),
             PanelControl::SunOffset => offset(Ramp::held(values.real(panel.sun_offset))),
             PanelControl::Command => offset(ramp(panel.sun_offset_command)),
@@ -102,7 +98,7 @@ pub fn configuration(
             grid_s: values.real(variables.solver.disturbance_step),
             tolerance: values.real(variables.solver.disturbance_tolerance),
         },
-        sunshade: values.choice(variables.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0),
+        sunshade: values.choice(variables.sunshade.shape).0,
         panels,
         center_of_mass_body_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass)),
         mass_kg: values.real(variables.spacecraft.mass),
@@ -122,7 +118,7 @@ pub fn configuration(
 /// A setting that cannot have any.
 pub fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
     let (variables, spacecraft) = (context.variables, &context.setup.spacecraft);
-    let shape = values.choice(variables.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0);
+    let shape = values.choice(variables.sunshade.shape).0;
     let shadows = variables.shadowing.check(values, spacecraft, shape)?;
     for warning in [shadows, unused_map(spacecraft)].into_iter().flatten() {
         context.log.warning(&warning);
@@ -149,7 +145,7 @@ pub fn check_span(
     end_s: f64,
 ) -> Result<(), Failure> {
     let variables = context.variables;
-    let is_flown = matches!(values.choice(variables.ephemeris.source), Some(EphemerisSource::Chebyshev));
+    let is_flown = matches!(values.choice(variables.ephemeris.source), EphemerisSource::Chebyshev);
     let Some(carried) = ephemeris::precise(context.setup.ephemeris.as_ref()).filter(|_| is_flown) else {
         return Ok(());
     };
@@ -193,10 +189,10 @@ fn orbit(
     let (orbit, data) = (&variables.orbit, center.data());
     match values.choice(orbit.source) {
         // Nothing is computed on it before position and velocity are set.
-        Some(OrbitSource::Inputs | OrbitSource::Held) if state.waiting => {
+        OrbitSource::Inputs | OrbitSource::Held if state.waiting => {
             circle(1e10, data.gm_m3_s2, epoch_minus_time_s)
         }
-        Some(source @ (OrbitSource::Inputs | OrbitSource::Held)) => {
+        source @ (OrbitSource::Inputs | OrbitSource::Held) => {
             let start = given_state(variables, values);
             let epoch_s = time::epoch_at_s(state.orbit_since_s, epoch_minus_time_s);
             let found = TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_s);
@@ -206,7 +202,7 @@ fn orbit(
             }
             found.map_err(|error| Failure::new(format!("orbit.position, orbit.velocity: {error}")))
         }
-        Some(OrbitSource::Elements) | None => {
+        OrbitSource::Elements => {
             let epoch_s = values.real(variables.start.epoch);
             plant::orbit_from_elements(center.elements(), center.frame(), &data, data.gm_m3_s2, epoch_s)
                 .map_err(|error| Failure::new(format!("orbit elements: {error}")))
@@ -221,10 +217,10 @@ fn circle(radius_m: f64, gm_m3_s2: f64, epoch_s: f64) -> Result<TwoBodyOrbit, Fa
 
 fn motion(variables: &PlantVariables, values: &Values, center: &BodyData, given_epoch_s: f64) -> Motion {
     let orbit = &variables.orbit;
-    if matches!(values.choice(orbit.source), Some(OrbitSource::Held)) {
+    if matches!(values.choice(orbit.source), OrbitSource::Held) {
         return Motion::Held { state: given_state(variables, values), since_epoch_s: given_epoch_s };
     }
-    if !matches!(values.choice(orbit.dynamics), Some(OrbitDynamics::Disturbed)) {
+    if !matches!(values.choice(orbit.dynamics), OrbitDynamics::Disturbed) {
         return Motion::TwoBody;
     }
     let flattening = Flattening::of(center);
@@ -252,7 +248,7 @@ fn ephemeris_source(
     let variables = context.variables;
     let epoch_s = values.real(variables.start.epoch);
     Ok(match values.choice(variables.ephemeris.source) {
-        Some(EphemerisSource::Inputs) => {
+        EphemerisSource::Inputs => {
             let sun_m = Vector3::from(values.vector(variables.sun.position));
             let at_the_planet = center.body.is_planet() && sun_m == Vector3::from([0.0; 3]);
             if at_the_planet && !state.waiting {
@@ -270,19 +266,19 @@ fn ephemeris_source(
                 earth: given(variables.earth.position, variables.earth.velocity),
             }
         }
-        Some(EphemerisSource::Kepler) => {
+        EphemerisSource::Kepler => {
             let ellipse = &variables.ephemeris.ellipse;
             let given = context.given(values, &ellipse.group());
             plant::EphemerisSource::Kepler(ephemeris::kepler(ellipse, given, center.body, epoch_s)?)
         }
-        Some(EphemerisSource::Chebyshev) => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
+        EphemerisSource::Chebyshev => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
             Some(carried) => {
                 ephemeris::check_flown(carried, center.body, "start.epoch", epoch_s)?;
                 plant::EphemerisSource::Flown(carried.clone())
             }
             None => plant::EphemerisSource::Vsop87,
         },
-        Some(EphemerisSource::Vsop87) | None => plant::EphemerisSource::Vsop87,
+        EphemerisSource::Vsop87 => plant::EphemerisSource::Vsop87,
     })
 }
 
@@ -338,7 +334,7 @@ pub fn manager<'s>(context: &Plan<'s>, values: &Values, sunshade: SunshadeModel)
 /// Whether no dump begins by itself: in free flight, where the master controls, unless thresholds are set.
 pub fn is_left_to_master(context: &Plan<'_>, values: &Values) -> bool {
     let variables = context.variables;
-    let is_free = matches!(values.choice(variables.attitude.source), Some(AttitudeSource::Free));
+    let is_free = matches!(values.choice(variables.attitude.source), AttitudeSource::Free);
     let dump = &variables.dump;
     let others = [dump.reinit_fraction, dump.required_spacing, dump.torque, dump.pulse_period];
     let [a, b, c, d] = others.map(Elements::from);
@@ -352,17 +348,17 @@ fn settings(context: &Plan<'_>, values: &Values) -> Settings {
     Settings {
         grid_s: values.real(variables.solver.step),
         tolerance: values.real(variables.solver.tolerance),
-        convention: values.choice(variables.momentum.convention).map_or(Convention::Inertial, |it| it.0),
+        convention: values.choice(variables.momentum.convention).0,
         policy: DumpPolicy {
             threshold_body_n_m_s: match is_left_to_master(context, values) {
                 true => Vector3::repeat(f64::INFINITY),
                 false => Vector3::from(values.vector(dump.threshold)),
             },
             reinitialise: match values.choice(dump.reinit_to) {
-                Some(DumpReinitTo::Target) => {
+                DumpReinitTo::Target => {
                     Reinitialise::Target { momentum_body_n_m_s: Vector3::from(values.vector(dump.target)) }
                 }
-                Some(DumpReinitTo::Opposite) | None => {
+                DumpReinitTo::Opposite => {
                     Reinitialise::Opposite { fraction: values.real(dump.reinit_fraction) }
                 }
             },

@@ -89,7 +89,7 @@ pub fn warn_unserved(
 /// The delta-v commanded.
 pub fn thrust_command(context: &Plan<'_>, values: &Values) -> ThrustCommand {
     let thrust = &context.variables.thrust;
-    let set = values.choice(thrust.request).and_then(|it| it.0);
+    let set = values.choice(thrust.request).0;
     let stop_s = values.real(thrust.stop);
     ThrustCommand {
         set: set.filter(|_| values.boolean(thrust.command)),

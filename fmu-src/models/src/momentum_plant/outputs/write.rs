@@ -8,7 +8,6 @@ use physics::momentum::DumpEvent;
 use physics::plant::{Configuration, Cost, Evaluation, Flight, PlantError, Report};
 use physics::propulsion::hits_a_surface;
 use physics::radiation::{Effect, TorquePolynomial, polynomial_valid};
-use physics::spacecraft::SunshadeModel;
 
 use super::super::inputs::dynamics;
 use super::super::setup::Plan;
@@ -186,7 +185,7 @@ pub fn write_plates(
     if v.plate.is_empty() || flight.is_waiting() {
         return Ok(());
     }
-    let shape = values.choice(v.sunshade.shape).map_or(SunshadeModel::Plates, |it| it.0);
+    let shape = values.choice(v.sunshade.shape).0;
     let prepared = context.setup.prepared_spacecraft(shape)?;
     let mut faces = v.plate.iter().zip(&context.setup.reported_faces);
     let write = |temperature_k, force_body_n: Vector3<f64>| {

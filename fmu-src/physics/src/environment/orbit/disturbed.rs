@@ -172,7 +172,7 @@ impl DisturbedOrbit {
     /// Whether it can come from an integration; bytes from elsewhere may hold anything.
     pub fn is_sound(&self) -> bool {
         self.chain.is_sound()
-            && (0.0..1e100).contains(&self.radius_m)
+            && self.radius_m >= 0.0
             && self.deviation.as_ref().is_none_or(Deviation::is_sound)
     }
 

@@ -72,11 +72,6 @@ impl EphemerisTrust {
         }
     }
 
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
-        self.disagreement.is_sound()
-    }
-
     /// Trusts them again, to be judged anew.
     pub fn renew(&mut self) {
         *self = Self::default();

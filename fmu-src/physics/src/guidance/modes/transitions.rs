@@ -107,13 +107,6 @@ impl ModeState {
         self.last_request = None;
     }
 
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
-        self.search_since_s.is_none_or(|since_s| since_s.abs() <= GREATEST_IN_STATE)
-            && self.monitor.is_sound()
-            && self.ephemeris.is_sound()
-    }
-
     /// Takes a sample: changes the mode, and says how to steer in it. `None` where no boresight has a direction.
     /// While no place is known nothing is judged.
     pub fn sample(&mut self, settings: &ModeSettings, sensed: &Sensed, places: &Places) -> Option<Steering> {

@@ -15,11 +15,6 @@ pub struct PeriapsisCount {
 }
 
 impl PeriapsisCount {
-    /// Whether its number can come from a flight.
-    pub fn is_sound(&self) -> bool {
-        self.first_epoch_s.is_none_or(f64::is_finite)
-    }
-
     /// The attitude of the orbit phase. Periapsis and period of `law` are replaced by those of the orbit that position and
     /// velocity give; between disturbed orbits the count goes on. Where a slew begins the spacecraft stood on that orbit, and
     /// Sun and Earth moved evenly since.

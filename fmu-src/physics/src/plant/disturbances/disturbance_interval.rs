@@ -23,6 +23,7 @@ use crate::momentum::TorqueModel;
 use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::intervals::next_multiple_s;
+use crate::numerics::or_infinite;
 use crate::radiation::{Effect, ForceTorque, Loads};
 
 use super::evaluation::{Evaluation, Plant};
@@ -49,9 +50,12 @@ pub type Linear = [Vector3<f64>; 2];
 /// What acts on the body and where the Sun stands, over one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DisturbanceInterval {
+    #[serde(with = "or_infinite")]
     start_s: f64,
+    #[serde(with = "or_infinite")]
     end_s: f64,
     /// Length the tolerance will probably allow the next interval, in s.
+    #[serde(with = "or_infinite")]
     next_longest_s: f64,
     /// Force and torque of effect after effect, body frame.
     loads: [Linear; ROWS],

@@ -13,6 +13,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
+use crate::numerics::or_infinite;
 use crate::radiation::{Effect, ForceTorque, Loads};
 
 /// Chebyshev nodes a segment.
@@ -25,9 +26,12 @@ pub(crate) const HOTTEST_K: f64 = 1e5;
 /// Light and heat over one interval, and the heat stored at its end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RadiationSegment {
+    #[serde(with = "or_infinite")]
     pub(crate) start_s: f64,
+    #[serde(with = "or_infinite")]
     pub(crate) end_s: f64,
     /// Length the tolerance will probably allow the next segment, in s.
+    #[serde(with = "or_infinite")]
     pub(crate) next_longest_s: f64,
     /// Absent before the first segment.
     pub(crate) loads: Option<Segment<ROWS, NODES>>,

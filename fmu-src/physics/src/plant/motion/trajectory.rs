@@ -20,6 +20,8 @@ const SAME_PASSAGE: f64 = 1e-3;
 const SAME_WINDOW: f64 = 1e-7;
 /// Passages kept for the schedule: one may lie ahead of the time at hand, one may be too recent for its window.
 const KEPT: usize = 3;
+/// A passage that never was; a number, for states hold no infinity.
+const BEFORE_ALL_TIME_S: f64 = -1e100;
 
 /// The state of motion. Empty for two-body motion, which needs none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -83,8 +85,7 @@ impl Trajectory {
         self.orbit.as_ref().is_none_or(DisturbedOrbit::is_sound)
             && last_s.iter().all(sound)
             && number.unsigned_abs() < 1 << 60
-            // Passages that never were lie before all time.
-            && scheduled_s.iter().all(|at_s| sound(at_s) || *at_s == f64::NEG_INFINITY)
+            && scheduled_s.iter().all(sound)
             && self.window_start.as_ref().is_none_or(|(since_s, at)| sound(since_s) && state(at))
     }
 
@@ -285,7 +286,7 @@ impl Periapses {
         }
         if self.scheduled_s[0] == self.last_s[0] {
             self.scheduled_s.rotate_left(1);
-            self.scheduled_s[KEPT - 1] = f64::NEG_INFINITY;
+            self.scheduled_s[KEPT - 1] = BEFORE_ALL_TIME_S;
         }
         self.last_s[0] = self.last_s[1];
         self.number -= 1;

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::attitude::GyrostatMotion;
 use crate::momentum::DumpEvent;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
+use crate::numerics::or_infinite;
 use crate::numerics::quadrature::GAUSS_3;
 use crate::propulsion::{PropellantState, PulseCommand, PulseSchedule, Valve, due_s};
 use crate::spacecraft::{MassProperties, Thrust, Thruster, ThrusterSet};
@@ -26,6 +27,7 @@ use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSet
 struct Burn {
     set: ThrusterSet,
     since_s: f64,
+    #[serde(with = "or_infinite")]
     stop_s: f64,
 }
 

@@ -43,6 +43,6 @@ impl Commands {
 
     /// Whether decoded commands can be some.
     pub(super) fn is_sound(&self) -> bool {
-        self.pulses.iter().all(PulseCommand::is_sound) && self.torque.is_sound()
+        self.pulses.iter().all(PulseCommand::is_sound)
     }
 }

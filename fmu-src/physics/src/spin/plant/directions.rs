@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::sound::is_moderate;
+use crate::numerics::or_infinite;
 use crate::spin::geometry::L1Ephemeris;
 
 /// Sun and Earth of the L1 orbit stand still for the sensors over intervals of this length, in s: less than 0.01 deg.
@@ -31,6 +32,7 @@ pub(super) struct DirectionSource {
     /// The L1 orbit; without it Sun and Earth stand where they are given.
     l1: Option<L1Ephemeris>,
     refresh_count: i64,
+    #[serde(with = "or_infinite")]
     refresh_s: f64,
 }
 

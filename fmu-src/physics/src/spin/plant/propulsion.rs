@@ -257,10 +257,8 @@ impl Propulsion {
         // A tank that is never empty and has nothing left would be emptied without end.
         (0.0..=spinner.mass_properties.most_propellant_kg()).contains(&self.initial_propellant_kg)
             && (0.0..=self.initial_propellant_kg).contains(&self.used_kg)
-            && self.delta_v_until_s.is_finite()
             && self.delta_v_until_s <= latest_s
             && self.valves.is_sound(spinner, latest_s)
             && are_moderate(&self.delta_v_inertial_m_s)
-            && self.predicted.is_sound()
     }
 }

@@ -410,8 +410,7 @@ impl Plant {
 
     fn motion_is_sound(&self, slack_s: f64) -> bool {
         let (now_s, anchor_s, end_s) = (self.time_s, self.motion.anchor_s(), self.motion.segment_end_s());
-        now_s.is_finite()
-            && self.motion.is_sound()
+        self.motion.is_sound()
             && anchor_s <= now_s + slack_s
             && now_s <= end_s + slack_s
             && self.motion.check_at(now_s).is_ok()

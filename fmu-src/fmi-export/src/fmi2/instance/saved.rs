@@ -1,19 +1,14 @@
-//! FMU states: kept in memory, and as bytes that another process can read.
-//!
-//! Layout of the bytes, little endian: mark (8), layout version (4), GUID digest (16), payload length (8),
-//! checksum of the payload (8), payload: [`InstanceState`] and the model's state in postcard's format.
+//! FMU states: kept in memory, and as bytes that another process can read: behind the header of [`crate::state_bytes`],
+//! [`InstanceState`] and the model's state in postcard's format.
 
 use uuid::Uuid;
 
-use crate::fmi2::instance::Instance;
-use crate::fmi2::instance::{InstanceState, content};
-use crate::fmi2::problem::{Problem, StateMismatch};
+use super::Instance;
+use super::state::{InstanceState, content};
+use crate::fmi2::problem::Problem;
 use crate::runtime::{ErasedState, unencodable};
+use crate::state_bytes::{self, HEADER, StateMismatch};
 use model_description::call_table::{Function, State};
-
-const MARK: [u8; 8] = *b"FMUSTATE";
-const LAYOUT: u32 = 3;
-const HEADER: usize = 8 + 4 + 16 + 8 + 8;
 
 /// A saved instance.
 pub(crate) struct SavedState {
@@ -76,17 +71,7 @@ impl Instance {
             .map_err(|error| StateMismatch::from(unencodable(error)))?
             .len();
         self.runtime.encode(&saved.model, &mut payload[used..]).map_err(StateMismatch::from)?;
-        let length = payload.len() as u64;
-        let parts: [&[u8]; 5] = [
-            &MARK,
-            &LAYOUT.to_le_bytes(),
-            saved.digest.as_bytes(),
-            &length.to_le_bytes(),
-            &checksum(payload).to_le_bytes(),
-        ];
-        for (to, from) in header.iter_mut().zip(parts.into_iter().flatten()) {
-            *to = *from;
-        }
+        state_bytes::seal(header, self.digest, payload);
         Ok(())
     }
 
@@ -94,7 +79,7 @@ impl Instance {
     /// than the bytes can fill.
     pub(crate) fn deserialize(&self, bytes: &[u8]) -> Result<SavedState, Problem> {
         self.guard(Function::DeSerializeFmuState)?;
-        let payload = self.unsealed(bytes)?;
+        let payload = state_bytes::unsealed(bytes, self.digest)?;
         let (state, rest) = postcard::take_from_bytes::<InstanceState>(payload)
             .map_err(|error| content(format!("instance: {error}")))?;
         state.check(&self.access)?;
@@ -111,35 +96,6 @@ impl Instance {
         Ok(SavedState { digest: self.digest, state, model })
     }
 
-    /// The payload behind a valid header.
-    fn unsealed<'a>(&self, bytes: &'a [u8]) -> Result<&'a [u8], StateMismatch> {
-        let short = || StateMismatch::Length { found: bytes.len() as u64, expected: HEADER as u64 };
-        let (mark, rest) = bytes.split_first_chunk::<8>().ok_or_else(short)?;
-        if *mark != MARK {
-            return Err(StateMismatch::Mark);
-        }
-        let (layout, rest) = rest.split_first_chunk::<4>().ok_or_else(short)?;
-        let found = u32::from_le_bytes(*layout);
-        if found != LAYOUT {
-            return Err(StateMismatch::Version { found, expected: LAYOUT });
-        }
-        let (digest, rest) = rest.split_first_chunk::<16>().ok_or_else(short)?;
-        let found = Uuid::from_bytes(*digest);
-        if found != self.digest {
-            return Err(StateMismatch::Guid { found, expected: self.digest });
-        }
-        let (length, rest) = rest.split_first_chunk::<8>().ok_or_else(short)?;
-        let (sum, rest) = rest.split_first_chunk::<8>().ok_or_else(short)?;
-        let length = u64::from_le_bytes(*length);
-        // A buffer may be longer than the blob, never shorter.
-        let payload =
-            usize::try_from(length).ok().and_then(|length| rest.get(..length)).ok_or_else(|| {
-                let expected = length.saturating_add(HEADER as u64);
-                StateMismatch::Length { found: bytes.len() as u64, expected }
-            })?;
-        if checksum(payload) == u64::from_le_bytes(*sum) { Ok(payload) } else { Err(StateMismatch::Checksum) }
-    }
-
     fn own(&self, saved: &SavedState) -> Result<(), StateMismatch> {
         if saved.digest == self.digest {
             Ok(())
@@ -147,11 +103,4 @@ impl Instance {
             Err(StateMismatch::Guid { found: saved.digest, expected: self.digest })
         }
     }
-}
-
-/// FNV-1a, 64 bits: guards against damage, not against intent.
-fn checksum(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xCBF2_9CE4_8422_2325, |hash, &byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3)
-    })
 }

@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::fmi2::description::{DescribeError, Prepared, prepare, start_names};
-use crate::fmi2::location::{self, Resources};
-use crate::fmi2::start::{OtherReaders, Reader};
+use crate::location::{self, Resources};
 use crate::model::{Manual, Model, SetupError, Source};
 use crate::panics::contain;
+use crate::start_values::{OtherReaders, Reader};
 
 /// One model of a library, its type erased.
 #[derive(Clone, Copy, Debug)]
