@@ -1,10 +1,14 @@
-//! Every model has the same files: `mod`, `setup`, `variables`, `inputs`, `outputs` and `dependencies`.
+//! Every model has the same files: `mod`, `setup`, `variables`, `inputs`, `outputs` and `dependencies`; one with a state of many parts
+//! has `state` and `step` beside them.
 
 use std::collections::BTreeSet;
 
 use crate::sources::workspace;
 
 const FILES: [&str; 6] = ["dependencies", "inputs", "mod", "outputs", "setup", "variables"];
+
+/// Files that a model may have besides.
+const OPTIONAL: [&str; 2] = ["state", "step"];
 
 /// What models share is no model.
 const COMMON: &str = "common";
@@ -21,6 +25,7 @@ fn every_model_has_the_same_files() {
         let files = std::fs::read_dir(&folder).unwrap();
         let found: BTreeSet<String> = files
             .map(|file| file.unwrap().path().file_stem().unwrap().to_str().unwrap().to_owned())
+            .filter(|name| !OPTIONAL.contains(&name.as_str()))
             .collect();
         assert_eq!(found, FILES.map(str::to_owned).into(), "{}", folder.display());
         models += 1;

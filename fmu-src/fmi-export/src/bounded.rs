@@ -10,7 +10,10 @@ use crate::model::Failure;
 const GREATEST: f64 = 1e100;
 
 /// Refuses a state with a float that no simulation can go on with. Allocates only to refuse.
-pub(crate) fn check<T: Serialize>(state: &T) -> Result<(), Failure> {
+///
+/// # Errors
+/// The field that is not finite or beyond 1e100 in magnitude, and its value.
+pub fn check_finite<T: Serialize>(state: &T) -> Result<(), Failure> {
     state.serialize(Bounded).map_err(|found| {
         Failure::new(format!(
             "model state: {} holds {:?}, allowed are finite numbers within {GREATEST:e}",
@@ -203,15 +206,15 @@ mod tests {
     #[test]
     fn each_float_that_is_not_finite_or_beyond_the_bound_is_refused_with_its_field() {
         let fields = ["plain", "single", "maybe", "list", "table", "shapes", "shapes", "depth"];
-        assert_eq!(check(&everything([-1e30; 8])), Ok(()));
+        assert_eq!(check_finite(&everything([-1e30; 8])), Ok(()));
         for (place, field) in fields.into_iter().enumerate() {
             for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1.1e100, -f64::MAX] {
                 let mut numbers = [1.0; 8];
                 numbers[place] = wrong;
-                let refused = check(&everything(numbers)).unwrap_err().to_string();
+                let refused = check_finite(&everything(numbers)).unwrap_err().to_string();
                 assert!(refused.contains(&format!("{field} holds")), "{place}: {refused}");
             }
         }
-        assert_eq!(check(&1e100), Ok(()));
+        assert_eq!(check_finite(&1e100), Ok(()));
     }
 }

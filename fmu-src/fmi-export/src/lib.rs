@@ -28,6 +28,7 @@ pub mod state_bytes;
 pub mod time;
 pub mod variables;
 
+pub use bounded::check_finite;
 pub use dependencies::{Dependencies, Knowns, Section};
 pub use fmi_export_derive::{Enumeration, Variables};
 pub use library::{Entry, Library};

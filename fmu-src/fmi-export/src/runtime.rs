@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use crate::bounded;
+use crate::bounded::check_finite;
 use crate::model::{Context, Failure, Log, Model, SetupError, Step, StepEnd};
 use crate::variables::{Real, Values};
 
@@ -65,7 +65,7 @@ impl<M: Model> Typed<M> {
     }
 
     fn check_state(&self, state: &M::State) -> Result<(), Failure> {
-        bounded::check(state)?;
+        check_finite(state)?;
         M::check_state(&self.setup, state)
     }
 

@@ -368,6 +368,7 @@ impl<M: Model> NamedInstance<'_, M> {
     /// Another flight with the state of these bytes; `None` where they are refused.
     pub fn with_state(&self, bytes: &[u8]) -> Option<Self> {
         let state = postcard::from_bytes(bytes).ok()?;
+        fmi_export::check_finite(&state).ok()?;
         M::check_state(&self.named.setup, &state).ok()?;
         M::check_time(&state, self.time_s).ok()?;
         Some(Self {
