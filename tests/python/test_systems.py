@@ -3,6 +3,7 @@
 import importlib.util
 import os
 import pty
+import re
 import subprocess
 import zipfile
 
@@ -274,12 +275,12 @@ def test_the_systems_own_connectors_are_set_and_recorded_by_their_names(heliotor
     done = call(heliotorque, "wire", *parts, "--export", f"body.attitude.q,body.attitude.rate,{inner}", "--output", ssp, "-q")
     assert done.returncode == 0, done.stderr
     options = ("--stop", "600", "--step", "10")
-    bare = [name.removeprefix("body.") for name in RATE]
+    bare = [re.sub(r"[.\[]", "_", name.removeprefix("body.")).removesuffix("]") for name in RATE]
     plain = flown(heliotorque, dist / "DisturbanceLoop.ssp", RATE, *options, "--set", f"{inner}=30deg")
-    ours = flown(heliotorque, ssp, ["panel[1].angle", inner, *bare, *RATE], *options, "--set", "panel[1].angle=30deg")
+    ours = flown(heliotorque, ssp, ["panel_1_angle", inner, *bare, *RATE], *options, "--set", "panel_1_angle=30deg")
     for name, of_system in zip(RATE, bare):
         assert (ours[of_system] == plain[name]).all() and (ours[name] == plain[name]).all()
-    assert (ours[inner] == np.pi / 6.0).all() and (ours["panel[1].angle"] == np.pi / 6.0).all()
+    assert (ours[inner] == np.pi / 6.0).all() and (ours["panel_1_angle"] == np.pi / 6.0).all()
     # In a unit of the connector's own, from a table.
     with zipfile.ZipFile(ssp) as archive:
         files = {name: archive.read(name) for name in archive.namelist()}
@@ -292,9 +293,9 @@ def test_the_systems_own_connectors_are_set_and_recorded_by_their_names(heliotor
         for name, content in files.items():
             archive.writestr(name, content)
     angles = tmp_path / "angles.csv"
-    angles.write_text("time,panel[1].angle\n0,0\n300,0\n300,0.5\n", encoding="utf-8")
-    turned = flown(heliotorque, other, ["panel[1].angle", inner], *options, "--input", angles)
-    assert turned["panel[1].angle"].tolist() == [0.0] * 31 + [0.5] * 30
+    angles.write_text("time,panel_1_angle\n0,0\n300,0\n300,0.5\n", encoding="utf-8")
+    turned = flown(heliotorque, other, ["panel_1_angle", inner], *options, "--input", angles)
+    assert turned["panel_1_angle"].tolist() == [0.0] * 31 + [0.5] * 30
     assert turned[inner].tolist() == [0.0] * 31 + [np.pi / 2.0] * 30
     # FMPy shows them, too, and libcosim takes no such system.
     theirs = flown_by_fmpy(ssp, 600.0, 10.0)

@@ -350,7 +350,7 @@ pub struct Wire {
     /// List these outputs too, for tools that show only connectors: component.variable, vectors, patterns with *
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub outputs: Vec<String>,
-    /// Make these connectors of the system too, by their variables' names: outputs, open inputs, parameters. FMPy sets connected
+    /// Make these connectors of the system too, by names such as attitude_q_1: outputs, open inputs, parameters. FMPy sets connected
     /// inputs to 0 where it is given nothing; libcosim refuses systems with such connectors
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub export: Vec<String>,

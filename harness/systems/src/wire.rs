@@ -389,6 +389,12 @@ fn list_outputs(
     Ok(())
 }
 
+/// A variable's name as an identifier: `attitude.q[1]` is `attitude_q_1`. OMSimulator takes what stands before a dot for a
+/// component.
+fn identifier(name: &str) -> String {
+    name.replace(['.', '['], "_").replace(']', "")
+}
+
 /// Makes variables that patterns name connectors of the system.
 fn export(wired: &mut Wired, components: &[(String, Fmu)], wiring: &Wiring) -> Result<(), Error> {
     let named = components.iter().map(|(component, fmu)| (component.as_str(), fmu));
@@ -416,13 +422,16 @@ fn export(wired: &mut Wired, components: &[(String, Fmu)], wiring: &Wiring) -> R
         if kind == Kind::Input && structure.connections.iter().any(|it| it.end == inner) {
             return Err(refuse("it is connected already, allowed: open inputs"));
         }
-        if structure.connectors.iter().any(|it| it.name == variable.name) {
-            return Err(refuse("the system has a connector of this name already, allowed: one of each name"));
+        let name = identifier(&variable.name);
+        if structure.connectors.iter().any(|it| it.name == name) {
+            return Err(refuse(&format!(
+                "the system has a connector `{name}` already, allowed: one of each name"
+            )));
         }
         add_connector(structure, components, (number, variable), kind);
-        let known = &structure.components[number].connectors;
-        structure.connectors.extend(known.iter().find(|it| it.name == variable.name).cloned());
-        let outer = End { component: None, connector: variable.name.clone() };
+        let known = structure.components[number].connectors.iter().find(|it| it.name == variable.name);
+        structure.connectors.extend(known.map(|it| Connector { name: name.clone(), ..it.clone() }));
+        let outer = End { component: None, connector: name };
         let (start, end) = if kind == Kind::Output { (inner, outer) } else { (outer, inner) };
         wired
             .left

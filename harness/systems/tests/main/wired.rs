@@ -278,9 +278,11 @@ fn exported_variables_are_connectors_of_the_system() {
         wired.structure.connections.iter().map(|it| format!("{} {}", it.start, it.end)).collect();
     assert_eq!(joined[joined.len() - 3..], ["one.angle angle", "duration two.duration", "size one.size"]);
     assert!(!wired.left.iter().any(|left| left.input == "duration"));
+    let named = exported(&["one.position[2]"]).unwrap().structure.connectors;
+    assert_eq!(named.last().map(|it| it.name.as_str()), Some("position_2"));
     for (exports, said) in [
         (&["two.position[1]"][..], "--export two.position[1]: it is connected already"),
-        (&["one.angle", "one.angle"], "has a connector of this name already"),
+        (&["one.angle", "one.angle"], "the system has a connector `angle` already"),
         (&["one.label"], "it is a String"),
     ] {
         let error = exported(exports).unwrap_err().to_string();
