@@ -8,6 +8,7 @@ use super::description::{
 };
 use crate::toml::{Checker, Place};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// A part that has a name, or the name of its kind and its number from 1.
 pub(crate) trait Named {
@@ -105,16 +106,18 @@ pub(crate) fn check_names(check: &mut Checker<'_>, description: &Description) {
     for kind in kinds {
         let mut known: BTreeMap<String, (Place, bool)> = BTreeMap::new();
         for (at, name, is_given) in kind {
-            match known.get(&name) {
-                // A plate and one of the shade that nobody named are both called by their number.
-                Some((_, false)) if !is_given => {}
-                Some((other, _)) => {
-                    let unnamed = if is_given { "" } else { " as what has no name is called" };
-                    let found = format!("`{name}`{unnamed}, the name of {other} too");
-                    check.report(&at.key("name"), found, "a name of its own");
+            match known.entry(name) {
+                Entry::Vacant(new) => {
+                    new.insert((at, is_given));
                 }
-                None => {
-                    known.insert(name, (at, is_given));
+                Entry::Occupied(known) => {
+                    let (name, (other, other_is_given)) = (known.key(), known.get());
+                    // A plate and one of the shade that nobody named are both called by their number.
+                    if is_given || *other_is_given {
+                        let unnamed = if is_given { "" } else { " as what has no name is called" };
+                        let found = format!("`{name}`{unnamed}, the name of {other} too");
+                        check.report(&at.key("name"), found, "a name of its own");
+                    }
                 }
             }
         }
