@@ -8,7 +8,6 @@ use super::description::{
 };
 use crate::toml::{Checker, Place};
 use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
 
 /// A part that has a name, or the name of its kind and its number from 1.
 pub(crate) trait Named {
@@ -83,14 +82,17 @@ fn names<D: Named>(at: Place, items: Option<&[D]>) -> Vec<Name> {
 /// Two parts of one kind with one name could not be told apart; all plates are one kind, the shade's among them.
 pub(crate) fn check_names(check: &mut Checker<'_>, description: &Description) {
     let at = |key: &str| Place::root().key(key);
-    let shade_plates = description.sunshade.as_ref().and_then(|shade| shade.plates.as_deref());
+    let of_shade = description
+        .sunshade
+        .as_ref()
+        .map_or_else(Vec::new, |shade| names(at("sunshade").key("plates"), shade.plates.as_deref()));
     let plates = [
         names(at("plates"), description.plates.as_deref()),
         names(at("boxes"), description.boxes.as_deref()),
         names(at("cylinders"), description.cylinders.as_deref()),
         names(at("discs"), description.discs.as_deref()),
         names(at("dishes"), description.dishes.as_deref()),
-        names(at("sunshade").key("plates"), shade_plates),
+        of_shade,
     ];
     let kinds = [
         plates.concat(),
@@ -103,23 +105,21 @@ pub(crate) fn check_names(check: &mut Checker<'_>, description: &Description) {
         names(at("flexible_modes"), description.flexible_modes.as_deref()),
         names(at("slosh"), description.slosh.as_deref()),
     ];
-    for kind in kinds {
-        let mut known: BTreeMap<String, (Place, bool)> = BTreeMap::new();
-        for (at, name, is_given) in kind {
-            match known.entry(name) {
-                Entry::Vacant(new) => {
-                    new.insert((at, is_given));
-                }
-                Entry::Occupied(known) => {
-                    let (name, (other, other_is_given)) = (known.key(), known.get());
-                    // A plate and one of the shade that nobody named are both called by their number.
-                    if is_given || *other_is_given {
-                        let unnamed = if is_given { "" } else { " as what has no name is called" };
-                        let found = format!("`{name}`{unnamed}, the name of {other} too");
-                        check.report(&at.key("name"), found, "a name of its own");
-                    }
-                }
-            }
+    for kind in &kinds {
+        check_kind(check, kind);
+    }
+}
+
+fn check_kind(check: &mut Checker<'_>, names: &[Name]) {
+    let mut known: BTreeMap<&str, &Name> = BTreeMap::new();
+    for part in names {
+        let (at, name, is_given) = part;
+        let (other, _, other_is_given) = *known.entry(name).or_insert(part);
+        // A plate and one of the shade that nobody named are both called by their number.
+        if at != other && (*is_given || *other_is_given) {
+            let unnamed = if *is_given { "" } else { " as what has no name is called" };
+            let found = format!("`{name}`{unnamed}, the name of {other} too");
+            check.report(&at.key("name"), found, "a name of its own");
         }
     }
 }
