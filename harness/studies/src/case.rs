@@ -117,7 +117,7 @@ impl Row<'_> {
 
     /// The next four.
     pub fn attitude(&mut self) -> Attitude {
-        Attitude::from(self.vector::<4>())
+        Attitude::new_unchecked(self.vector::<4>().into())
     }
 
     /// Whether the next is true.

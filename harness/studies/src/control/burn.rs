@@ -2,7 +2,7 @@
 
 use super::burn_flight::{Burn, Corrections, DELTA_V_M_S, Flown, START_S, Sample};
 use super::guided_loop::Loop;
-use crate::attitude::{Vector, across, angle_rad, unit};
+use crate::attitude::{Vector, across, angle_rad};
 use crate::case::{chosen, run_all};
 use crate::settings::cells;
 use crate::{Options, Report, StudyError};
@@ -181,7 +181,7 @@ fn write(report: &mut Report, options: &Options, each: &[(Kind, &[Flown])]) -> R
 
 /// Distance of the true velocity from the straight path, in m/s.
 fn off_path_m_s(flown: &Flown, sample: &Sample) -> f64 {
-    across(&sample.delta_v_m_s, &unit(&flown.wanted_m_s)).norm()
+    across(&sample.delta_v_m_s, &flown.wanted_m_s.normalize()).norm()
 }
 
 fn quaternion_chart(flown: &Flown) -> Chart {
@@ -223,7 +223,7 @@ fn velocity_chart(shown: &[(Kind, &Flown)]) -> Chart {
     let mut panels =
         vec![Panel { y_label: "off path [mm/s]".to_owned(), series: off.collect(), ..Panel::default() }];
     if let Some((kind, flown)) = shown.last() {
-        let along = unit(&flown.wanted_m_s);
+        let along = flown.wanted_m_s.normalize();
         let component = |i: usize| {
             let name = ["x", "y", "z"][i];
             let points = from_start(flown, &|sample| across(&sample.delta_v_m_s, &along)[i]);

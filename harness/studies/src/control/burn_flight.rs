@@ -2,7 +2,7 @@
 
 use super::guided_loop::{Loop, start_settings, whole_part_of_a_second};
 use crate::StudyError;
-use crate::attitude::{Attitude, Vector, unit};
+use crate::attitude::{Attitude, Vector};
 use crate::case::{Case, Row};
 use crate::settings::Settings;
 
@@ -125,7 +125,7 @@ impl Burn {
         let first = samples(short.clone(), &Vector::z())?;
         let wanted_m_s = first.first().map_or(Vector::z(), |sample| {
             let to_sun = sample.sun_m - sample.position_m;
-            unit(&to_sun.cross(&Vector::new(0.3, 0.0, 1.0))) * DELTA_V_M_S
+            to_sun.cross(&Vector::new(0.3, 0.0, 1.0)).normalize() * DELTA_V_M_S
         });
         let start = samples(short, &wanted_m_s)?.last().map_or(Settings::new(), |last| {
             start_settings(&last.command_q, &last.command_rate_rad_s, last.time_s)

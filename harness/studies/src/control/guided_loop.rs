@@ -3,7 +3,7 @@
 use loader::Value;
 use systems::System;
 
-use crate::attitude::{Attitude, Vector, rotated, to_body};
+use crate::attitude::{Attitude, Vector};
 use crate::case::{Case, Recorded, Row, at_start};
 use crate::settings::{Settings, elements};
 use crate::{Options, StudyError};
@@ -100,7 +100,7 @@ impl Sample {
 
     /// The Sun in the true body frame, in m.
     pub fn sun_body_m(&self) -> Vector {
-        to_body(&self.q, &self.to_sun_m)
+        self.q.inverse_transform_vector(&self.to_sun_m)
     }
 }
 
@@ -183,7 +183,10 @@ impl Loop {
 
 /// The plant's attitude and rate at the start from the command that stands `time_s` later.
 pub fn start_settings(q: &Attitude, rate_rad_s: &Vector, time_s: f64) -> Settings {
-    let mut start = elements("plant.start.q", rotated(q, rate_rad_s, -time_s).coords.iter().copied());
+    let mut start = elements(
+        "plant.start.q",
+        (q * Attitude::from_scaled_axis(rate_rad_s * -time_s)).coords.iter().copied(),
+    );
     start.extend(elements("plant.start.rate", rate_rad_s.iter().copied()));
     start
 }

@@ -3,7 +3,7 @@
 use super::guided_loop::{Loop, Sample};
 use super::safe_mode_checks::{Parameters, attitude_lost, zone_violated};
 use super::safe_mode_flight::{Chain, sun_angle_deg};
-use crate::attitude::unit;
+use crate::attitude::Vector;
 use crate::case::{chosen, run_all};
 use crate::settings::cells;
 use crate::{Options, Report, StudyError};
@@ -55,7 +55,7 @@ fn history(report: &mut Report, options: &Options, flown: &[(Chain, Vec<Sample>)
         command_z_rad_s | mode | command_kind | attitude_known | sun_sensed | torque_limited | dumps | link";
     let rows = flown.iter().flat_map(|(chain, samples)| {
         samples.iter().map(|sample| {
-            let [sun, earth] = [&sample.to_sun_m, &sample.to_earth_m].map(unit);
+            let [sun, earth] = [&sample.to_sun_m, &sample.to_earth_m].map(Vector::normalize);
             let mut row = vec![chain.label().to_owned()];
             row.extend(cells(&[
                 &[sample.time_s],

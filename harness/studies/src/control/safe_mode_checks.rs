@@ -6,7 +6,7 @@ use super::safe_mode_flight::{
     TRACKER_FAILS_S, ZONE_ON_S, sun_angle_deg,
 };
 use crate::StudyError;
-use crate::attitude::{Vector, across, angle_rad, body_angles_deg, to_body};
+use crate::attitude::{Vector, across, angle_rad, body_angles_deg};
 use crate::verdict::{agrees, compared};
 use drawing::Series;
 
@@ -276,7 +276,8 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
         )
     });
     check("an attitude that maintains communication with Earth", {
-        let off_deg = end.greatest(|it| body_angles_deg(&to_body(&it.q, &it.to_earth_m))[1].abs());
+        let off_deg =
+            end.greatest(|it| body_angles_deg(&it.q.inverse_transform_vector(&it.to_earth_m))[1].abs());
         let links = end.all(|sample| sample.has_link);
         (
             links && off_deg <= parameters.beam_deg,
@@ -316,7 +317,7 @@ pub fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     let commanded = Phase::between(samples, ZONE_ON_S + DELAY_S, stop_s);
     check("the command is forced into the zone", {
         let most_deg = commanded.greatest(|sample| {
-            outside_deg(&to_body(&sample.command_q, &sample.to_sun_m), &parameters.zone_deg)
+            outside_deg(&sample.command_q.inverse_transform_vector(&sample.to_sun_m), &parameters.zone_deg)
         });
         let kinds = commanded.all(|sample| sample.command_kind == parameters.attitude);
         (kinds && most_deg < 1e-6, format!("at most {most_deg:.1e} deg outside"))

@@ -3,7 +3,7 @@
 use loader::Fmu;
 
 use super::slew_limits::SlewLimits;
-use crate::attitude::{Attitude, Vector, rotated, rotation_vector, unit};
+use crate::attitude::{Attitude, Vector};
 use crate::case::{Case, Row, at_start};
 use crate::settings::{Settings, elements, flag};
 use crate::{Options, StudyError};
@@ -76,7 +76,7 @@ impl Limits {
             bandwidth_rad_s: control.real(),
             torque_n_m: read("maxTorque")?,
             capacity_n_m_s: read("capacity")?,
-            axes: axes.chunks_exact(3).map(|axis| unit(&Vector::from_row_slice(axis))).collect(),
+            axes: axes.chunks_exact(3).map(|axis| Vector::from_row_slice(axis).normalize()).collect(),
         })
     }
 }
@@ -154,7 +154,7 @@ impl Plant {
 
     /// Flies it.
     pub fn fly(&self, slew: &Slew, step_s: Option<f64>) -> Result<Flown, StudyError> {
-        let target = rotated(&self.q, &(slew.axis * slew.angle_rad), 1.0);
+        let target = self.q * Attitude::from_scaled_axis(slew.axis * slew.angle_rad);
         let wheels = self.limits.axes.len();
         let mut outputs = OUTPUTS.map(str::to_owned).to_vec();
         for k in 1..=wheels {
@@ -178,7 +178,7 @@ impl Plant {
                 time_s: row.time_s,
                 q,
                 rate_rad_s: row.vector(),
-                left_rad: rotation_vector(&q, &target),
+                left_rad: (q.inverse() * target).scaled_axis(),
                 is_torque_limited: row.flag(),
                 is_dumping: row.flag(),
                 dumps: row.real(),

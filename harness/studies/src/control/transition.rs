@@ -2,7 +2,7 @@
 
 use super::guided_loop::{Flight, Loop, Sample};
 use super::slew_limits::SlewLimits;
-use crate::attitude::{Attitude, Vector, angle_rad, body_angles_deg, rotation_vector, to_body};
+use crate::attitude::{Attitude, Vector, angle_rad, body_angles_deg};
 use crate::case::{chosen, run_all};
 use crate::pointing::{SLEW_S, TRANSITION_EPOCH_S, TRANSITION_TRUE_ANOMALY_DEG};
 use crate::settings::{Settings, cells, elements, item, of, real};
@@ -82,12 +82,12 @@ impl Case {
 
 /// Azimuth and elevation in the estimated body frame, in deg.
 fn estimated_deg(sample: &Sample, inertial: &Vector) -> [f64; 2] {
-    body_angles_deg(&to_body(&sample.estimate_q, inertial))
+    body_angles_deg(&sample.estimate_q.inverse_transform_vector(inertial))
 }
 
 /// Angle between the estimated and the commanded attitude, in deg.
 fn error_deg(sample: &Sample) -> f64 {
-    rotation_vector(&sample.estimate_q, &sample.command_q).norm().to_degrees()
+    (sample.estimate_q.inverse() * sample.command_q).scaled_axis().norm().to_degrees()
 }
 
 /// Angle between the true rate and the commanded one, in deg/s.
@@ -149,13 +149,15 @@ fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
     // The command of the sample at 500 s stands one second later.
     let (Some(before), Some(after)) = (at(SLEW_S), at(SLEW_S + 1.0)) else { return Vec::new() };
     let greatest = |value: &dyn Fn(&Sample) -> f64| samples.iter().skip(1).map(value).fold(0.0, f64::max);
-    let slew_rad = rotation_vector(&before.command_q, &after.command_q).norm();
+    let slew_rad = (before.command_q.inverse() * after.command_q).scaled_axis().norm();
     let is_off =
         |sample: &Sample| error_deg(sample) > SETTLED_DEG || rate_error_deg_s(sample) > SETTLED_DEG_S;
     let settled_s =
         samples.iter().rposition(is_off).and_then(|k| samples.get(k + 1)).map(|it| it.time_s - SLEW_S);
     let off_sun = |frame: &dyn Fn(&Sample) -> Attitude| {
-        greatest(&|it| angle_rad(&-Vector::y(), &to_body(&frame(it), &it.to_sun_m)).to_degrees())
+        greatest(&|it| {
+            angle_rad(&-Vector::y(), &frame(it).inverse_transform_vector(&it.to_sun_m)).to_degrees()
+        })
     };
     let outside = samples.iter().skip(1).filter(|sample| {
         let [azimuth, elevation] = estimated_deg(sample, &sample.to_sun_m);

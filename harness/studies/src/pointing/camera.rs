@@ -2,7 +2,7 @@
 
 use super::flight::Sample;
 use super::planet::{Ellipsoid, Planet};
-use crate::attitude::{Vector, to_body};
+use crate::attitude::Vector;
 
 /// Half the field and where it looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,7 +89,7 @@ impl Frame<'_> {
         let ellipsoid = self.ellipsoid();
         let point = ellipsoid.inertial(surface_m);
         let from = &self.sample.place.position_m;
-        let seen = to_body(&self.sample.q, &(point - from));
+        let seen = self.sample.q.inverse_transform_vector(&(point - from));
         let [depth, x, y] = self.axes.map(|axis| axis.dot(&seen));
         let limit = self.half_tangent * depth;
         depth > 0.0 && x.abs() <= limit && y.abs() <= limit && ellipsoid.beyond_limb(&point, from) > 0.0

@@ -2,7 +2,7 @@
 
 use super::flight::Place;
 use super::planet::Ellipsoid;
-use crate::attitude::{Vector, across, unit};
+use crate::attitude::{Vector, across};
 use drawing::PlanePanel;
 use drawing::Series;
 
@@ -25,8 +25,8 @@ const POINTS: u32 = 720;
 impl View {
     /// From where the spacecraft is.
     pub fn at(place: &Place) -> Self {
-        let nadir = unit(&place.nadir_m());
-        let right = unit(&across(&place.velocity_m_s, &nadir));
+        let nadir = place.nadir_m().normalize();
+        let right = across(&place.velocity_m_s, &nadir).normalize();
         // Seen along nadir: right, up and the direction to the viewer are right-handed.
         Self { from_m: place.position_m, right, up: right.cross(&nadir), nadir }
     }

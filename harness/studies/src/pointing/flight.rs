@@ -3,7 +3,7 @@
 use loader::Fmu;
 
 use super::planet::Planet;
-use crate::attitude::{Attitude, Vector, body_angles_deg, body_direction, rotated, to_body, to_inertial};
+use crate::attitude::{Attitude, Vector, body_angles_deg, body_direction};
 use crate::case::{Case, Row};
 use crate::settings::{Settings, cells, elements};
 use crate::{Options, StudyError};
@@ -69,12 +69,12 @@ impl Sample {
 
     /// EME2000 direction of a body direction.
     pub fn inertial(&self, body: &Vector) -> Vector {
-        to_inertial(&self.q, body)
+        self.q.transform_vector(body)
     }
 
     /// Azimuth and elevation of a direction in the body frame, in deg.
     pub fn body_angles_deg(&self, inertial: &Vector) -> [f64; 2] {
-        body_angles_deg(&to_body(&self.q, inertial))
+        body_angles_deg(&self.q.inverse_transform_vector(inertial))
     }
 }
 
@@ -162,7 +162,7 @@ impl Sample {
         let (q, rate_rad_s) = (row.attitude(), row.vector());
         Self {
             place,
-            q: rotated(&q, &rate_rad_s, -1.0),
+            q: q * Attitude::from_scaled_axis(rate_rad_s * -1.0),
             rate_rad_s,
             mdis_angle_rad: row.real(),
             reachable: row.flag(),
@@ -183,7 +183,7 @@ impl Place {
             position_m,
             velocity_m_s,
             to_sun_m: -heliocentric_m,
-            to_earth: to_inertial(&q, &body_direction(row.real(), row.real())),
+            to_earth: q.transform_vector(&body_direction(row.real(), row.real())),
         }
     }
 

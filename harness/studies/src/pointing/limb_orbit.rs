@@ -3,7 +3,7 @@
 use super::disc::{View, X_LABEL, Y_LABEL};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample};
 use super::limb_point::{Found, PLUS_Z, triaxial};
-use crate::attitude::{Vector, across, angle_rad, unit};
+use crate::attitude::{Vector, across, angle_rad};
 use crate::settings::{cells, flag, item};
 use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
@@ -100,7 +100,7 @@ pub(super) fn print(report: &mut Report, options: &Options, flown: &Flown) -> Re
 fn point<'a>(sample: &'a Sample, flown: &Flown) -> Point<'a> {
     let (place, ellipsoid) = (&sample.place, flown.planet.at(sample.place.epoch_s));
     let solutions = ellipsoid.terminator_limb_points(&place.position_m, &place.sun_m());
-    let up = unit(&place.position_m);
+    let up = place.position_m.normalize();
     let along = |x: &Vector| {
         let track = across(&place.velocity_m_s, &up);
         let to = x - place.position_m;

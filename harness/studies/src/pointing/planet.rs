@@ -4,7 +4,7 @@
 
 use nalgebra::Matrix3;
 
-use crate::attitude::{Vector, unit};
+use crate::attitude::Vector;
 use crate::case::Row;
 
 /// Radii, pole and rotation.
@@ -165,8 +165,8 @@ impl Ellipsoid {
 
 /// Unit vectors across `normal`, once round.
 fn circle(normal: &Vector, count: u32) -> impl Iterator<Item = Vector> {
-    let u = unit(&normal.cross(&Vector::ith(normal.iamin(), 1.0)));
-    let v = unit(&normal.cross(&u));
+    let u = (normal.cross(&Vector::ith(normal.iamin(), 1.0))).normalize();
+    let v = normal.cross(&u).normalize();
     (0..count).map(move |k| {
         let (sine, cosine) = (core::f64::consts::TAU * f64::from(k) / f64::from(count)).sin_cos();
         u * cosine + v * sine

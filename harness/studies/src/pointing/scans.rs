@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use super::camera::{Camera, Frame};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, Place};
 use crate::StudyError;
-use crate::attitude::{Vector, unit};
+use crate::attitude::Vector;
 use crate::settings::{Settings, elements, flag, item, number, real};
 
 const TRUE_ANOMALY_DEG: f64 = 175.0;
@@ -149,7 +149,7 @@ impl Case {
 
     /// What is commanded from the first place on.
     fn settings(&self, place: &Place, axes: &Matrix3<f64>, radius_m: f64) -> Settings {
-        let nadir = unit(&place.nadir_m());
+        let nadir = place.nadir_m().normalize();
         let degree = f64::to_radians(1.0);
         match self.kind {
             Kind::Body => {

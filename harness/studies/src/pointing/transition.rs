@@ -82,8 +82,7 @@ impl Angles {
 
 /// Rotation angle from one attitude to another, in deg.
 fn slew_deg(from: &Sample, to: &Sample) -> f64 {
-    let dot = from.q.dot(&to.q);
-    2.0 * (to.q - from.q * dot).norm().atan2(dot.abs()).to_degrees()
+    from.q.angle_to(&to.q).to_degrees()
 }
 
 /// The commanded curves of Figures 7 and 8.

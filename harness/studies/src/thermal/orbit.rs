@@ -2,7 +2,7 @@
 
 use loader::Fmu;
 
-use crate::attitude::{Attitude, Vector, angle_rad, to_body};
+use crate::attitude::{Attitude, Vector, angle_rad};
 use crate::case::{self, Row};
 use crate::settings::{Settings, elements};
 use crate::{Options, StudyError};
@@ -149,7 +149,8 @@ struct TrajectoryPoint {
 impl TrajectoryPoint {
     /// Sun and planet in the body frame.
     fn inputs(&self) -> Settings {
-        let body = |name: &str, v: Vector| elements(name, to_body(&self.q, &v).iter().copied());
+        let body =
+            |name: &str, v: Vector| elements(name, self.q.inverse_transform_vector(&v).iter().copied());
         let mut inputs = body("sun.positionBody", -self.planet_m - self.position_m);
         inputs.extend(body("planet.positionBody", -self.position_m));
         inputs
