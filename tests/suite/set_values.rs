@@ -60,18 +60,18 @@ fn what_was_set_is_saved_and_restored_to_the_bit() {
         assert!((distance_m(instance, &names) / expected_m - 1.0).abs() < 1e-12);
         ok(instance.do_step(0.0, 600.0));
     }
-    let flown = bytes(&mut here);
-    assert_eq!(flown, bytes(&mut there));
+    let simulated = bytes(&mut here);
+    assert_eq!(simulated, bytes(&mut there));
     // On from a state of the flight, in memory and from bytes.
     let mut state = StatePointer::null();
     ok(here.get_state(&mut state));
     ok(here.do_step(600.0, 600.0));
     let once = bytes(&mut here);
     ok(here.set_state(&state));
-    assert_eq!(bytes(&mut here), flown);
+    assert_eq!(bytes(&mut here), simulated);
     ok(here.do_step(600.0, 600.0));
     assert_eq!(bytes(&mut here), once);
-    let mut elsewhere = restored(&flown);
+    let mut elsewhere = restored(&simulated);
     ok(elsewhere.do_step(600.0, 600.0));
     assert_eq!(bytes(&mut elsewhere), once);
     // A reset forgets it.

@@ -133,7 +133,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn programs_with_tests_are_told_from_others() {
+    fn programs_with_tests_are_reported_from_others() {
         let message = |test: bool, executable: &str| {
             format!(
                 r#"{{"reason":"compiler-artifact","package_id":"a#0.1.0","manifest_path":"/w/a/Cargo.toml","target":{{"kind":["lib"],"name":"a","doctest":true,"test":true}},"profile":{{"opt_level":"3","debug_assertions":false,"test":{test}}},"filenames":[],"executable":{executable},"fresh":true}}"#

@@ -138,7 +138,7 @@ impl Logger {
         self.enabled.set(self.initially);
     }
 
-    /// Whether a message with this status is sent. Only events wait to be asked for: importers show the reason of a value that
+    /// Whether a message with this status is sent. Only events wait to be requested: importers show the reason of a value that
     /// was not accepted nowhere else, and turn debug logging off by default.
     #[inline]
     pub fn is_enabled(&self, status: Status) -> bool {

@@ -101,7 +101,7 @@ pub const MOMENTUM_PLANT: &[Source] = &[
     source(
         "inputs that are all zero",
         "count as not set yet, for masters send zeros before the first exchange: without orbit.position, orbit.velocity or \
-         sun.position where they are asked for nothing acts, without command.q, command.error or command.kind the attitude is \
+         sun.position where they are requested nothing acts, without command.q, command.error or command.kind the attitude is \
          held; a warning names them once",
     ),
     source(

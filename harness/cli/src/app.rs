@@ -63,9 +63,9 @@ fn loading(command: &Command) -> Option<Relayed> {
             (of_template(it.library.as_ref().or(it.template.as_ref())), of_call(it.patience.timeout), SMALL)
         }
         Command::Map(it) => {
-            (shown(it.template.as_ref().unwrap_or(&it.craft)), of_call(it.patience.timeout), SMALL)
+            (shown(it.template.as_ref().unwrap_or(&it.spacecraft)), of_call(it.patience.timeout), SMALL)
         }
-        Command::Ephemeris(it) => (shown(&it.flown()), of_call(it.patience.timeout), LARGE),
+        Command::Ephemeris(it) => (shown(&it.simulated()), of_call(it.patience.timeout), LARGE),
         Command::Plan(Plan::Spin(it)) => {
             (of_template(it.options.fmu.as_ref()), of_call(it.patience.timeout), LARGE)
         }
@@ -80,7 +80,7 @@ fn carry_out(mut command: Command) -> Outcome {
         Command::Info(arguments) => Some(&mut arguments.fmu),
         Command::Check(arguments) => Some(&mut arguments.subject),
         Command::Run(arguments) => Some(&mut arguments.fmu),
-        Command::Map(arguments) => Some(&mut arguments.craft),
+        Command::Map(arguments) => Some(&mut arguments.spacecraft),
         _ => None,
     };
     if let Some(file) = read {
@@ -113,7 +113,7 @@ fn carry_out(mut command: Command) -> Outcome {
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
-        Command::Assemble(arguments) => simulation::flown::assemble_into(&arguments),
+        Command::Assemble(arguments) => simulation::simulated::assemble_into(&arguments),
         Command::InChild(_) => Err("in-child: found another one in it, allowed: a command".into()),
     }
 }

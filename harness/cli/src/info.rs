@@ -49,7 +49,7 @@ pub fn run(arguments: &Info) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Prints what a system joins, and its variables where they are asked for.
+/// Prints what a system joins, and its variables where they are requested.
 fn of_system(arguments: &Info) -> Outcome {
     if arguments.coefficients {
         return Err("--coefficients is for an FMU, and this is a system".into());

@@ -47,7 +47,7 @@ fn warning(description: &Description, sets: &[(String, Value)], prefix: &str) ->
     })
 }
 
-/// Distance of the periapsis from the Earth's centre. An ellipse through the Earth is none that is flown: left at the default of
+/// Distance of the periapsis from the Earth's centre. An ellipse through the Earth is none that is simulated: left at the default of
 /// another centre, the eccentricity counts as 0.
 fn periapsis_m(value: &dyn Fn(&str) -> Option<f64>, source: Option<&str>) -> Option<f64> {
     let earth = Body::Earth.data();
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn low_orbits_of_the_earth_alone_are_told() {
+    fn low_orbits_of_the_earth_alone_are_reported() {
         let plant = description("", "");
         let earth = ("orbit.center".to_owned(), Value::Integer(4));
         let axis = |axis_m: f64| ("orbit.semiMajorAxis".to_owned(), Value::Real(axis_m));

@@ -24,11 +24,11 @@ pub fn run(arguments: &Manual) -> Outcome {
         return Ok(ExitCode::SUCCESS);
     }
     let program = env!("CARGO_PKG_NAME");
-    let wanted = match &arguments.command {
+    let requested = match &arguments.command {
         Some(command) => format!("{program}-{command}"),
         None => program.to_owned(),
     };
-    let Some((_, page)) = pages.iter().find(|(name, _)| *name == wanted) else {
+    let Some((_, page)) = pages.iter().find(|(name, _)| *name == requested) else {
         let prefix = format!("{program}-");
         let names: Vec<&str> = pages.iter().filter_map(|(name, _)| name.strip_prefix(&prefix)).collect();
         let command = arguments.command.as_deref().unwrap_or_default();

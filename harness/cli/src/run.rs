@@ -15,14 +15,14 @@ use crate::{
 };
 
 mod child;
-pub mod flown;
 mod input_copy;
 pub mod settings;
+pub mod simulated;
 pub mod subject;
 
-use flown::Flown;
 use input_copy::InputCopy;
 use settings::Settings;
+use simulated::Simulated;
 use subject::Subject;
 
 /// Why a run ends before its stop.
@@ -31,7 +31,7 @@ const LOST_READER: &str = "nobody reads the standard output any more";
 /// A run of which everything was accepted that can be refused without the FMU's library.
 pub struct Prepared {
     /// The arguments and the mission.
-    pub flown: Flown,
+    pub simulated: Simulated,
     /// What is run.
     pub subject: Subject,
     /// What they mean.
@@ -53,31 +53,31 @@ impl Prepared {
         if let Some(path) = &arguments.plot {
             output::check_svg_path(path, "--plot")?;
         }
-        let flown = Flown::of(arguments)?;
-        let (subject, _packed) = flown.open()?;
-        subject.check_options(&flown.run)?;
-        let input_copy = InputCopy::of(&flown.run)?;
+        let simulated = Simulated::of(arguments)?;
+        let (subject, _packed) = simulated.open()?;
+        subject.check_options(&simulated.run)?;
+        let input_copy = InputCopy::of(&simulated.run)?;
         let copy = input_copy.as_ref().map(InputCopy::path);
-        let settings = Settings::of(&subject, &flown, copy.as_deref())?;
+        let settings = Settings::of(&subject, &simulated, copy.as_deref())?;
         subject.check_libraries()?;
         let described = subject.description();
         let known = Known::of(&subject.parts(), described, &settings.sets, &settings.limits);
         let collector = Collector::new(described, &settings.positions);
-        let outputs = Outputs::open(&settings.wanted, collector.recording(), &known, &flown.reads())?;
-        let points = RecordedPoints::new(&settings.times, flown.run.every)?.count();
+        let outputs = Outputs::open(&settings.requested, collector.recording(), &known, &simulated.reads())?;
+        let points = RecordedPoints::new(&settings.times, simulated.run.every)?.count();
         collector.fits(points)?;
-        Ok(Self { flown, subject, settings, points, outputs, input_copy, _packed })
+        Ok(Self { simulated, subject, settings, points, outputs, input_copy, _packed })
     }
 }
 
 /// Runs in a child process.
 pub fn run(arguments: &Run) -> Outcome {
     let prepared = Prepared::of(arguments)?;
-    let Prepared { flown, subject, settings, points, mut outputs, input_copy, _packed } = prepared;
-    let arguments = &flown.run;
+    let Prepared { simulated, subject, settings, points, mut outputs, input_copy, _packed } = prepared;
+    let arguments = &simulated.run;
     let described = subject.description();
     let warnings = low_orbit::warnings(described, &settings.sets);
-    let Settings { times, positions, limits, wanted, .. } = settings;
+    let Settings { times, positions, limits, requested, .. } = settings;
     if !arguments.quiet {
         warnings.iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));
     }
@@ -90,7 +90,7 @@ pub fn run(arguments: &Run) -> Outcome {
     let began = Instant::now();
     let in_child =
         child::InChild { subject: &subject, input_copy: copy.as_deref(), timeout_s: arguments.timeout };
-    let simulated = child::simulate(&in_child, points, &mut collector, |recording, time_s| {
+    let result = child::simulate(&in_child, points, &mut collector, |recording, time_s| {
         if let Some(time_s) = time_s {
             progress.set_position((time_s - times.start_s).max(0.0) as u64);
         }
@@ -104,19 +104,19 @@ pub fn run(arguments: &Run) -> Outcome {
     let recording = collector.recording();
     judge.update(recording);
     if arguments.log {
-        print_log(&simulated.messages);
+        print_log(&result.messages);
     }
     let last_s = recording.times_s.last().copied().unwrap_or(times.start_s);
     if outputs.has_lost_reader() {
         // Nobody is there for the rest; what is drawn and judged at the end is not, and that is no success.
-        return if wanted.plots.is_empty() && !is_judged {
+        return if requested.plots.is_empty() && !is_judged {
             Ok(ExitCode::SUCCESS)
         } else {
             let last = terminal::short(last_s);
             Err(format!("{LOST_READER}: the run ends at {last} s, without pictures and judgement").into())
         };
     }
-    let ended = match simulated.outcome {
+    let ended = match result.outcome {
         Ok(ended) => ended,
         Err(error) => {
             // What was simulated until then is worth keeping.
@@ -138,7 +138,7 @@ pub fn run(arguments: &Run) -> Outcome {
         terminal::note(&format!("{steps} steps to {last} s in {elapsed:.3} s"));
     }
     if !arguments.quiet || !judge.is_kept() {
-        let zero_s = flown.mission.as_ref().and_then(|mission| Some(mission.epoch_s.as_ref()?.it));
+        let zero_s = simulated.mission.as_ref().and_then(|mission| Some(mission.epoch_s.as_ref()?.it));
         let lines = judge.report(described, zero_s.map(|zero_s| zero_s - times.start_s));
         lines.iter().for_each(|line| terminal::note(line));
     }
@@ -159,7 +159,7 @@ pub fn run(arguments: &Run) -> Outcome {
             return Ok(ExitCode::from(INTERRUPTED));
         }
     }
-    match simulated.fault {
+    match result.fault {
         // The recording is complete, the FMU is not what it should be.
         Some(fault) => Err(fault.into()),
         None if !judge.is_kept() => Ok(ExitCode::FAILURE),

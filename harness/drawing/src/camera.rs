@@ -150,7 +150,7 @@ mod tests {
     use crate::surface::Finish;
 
     /// A box with open boxes, panels and a dish around it: rectangles of any attitude that do not cross.
-    fn craft() -> Vec<Surface> {
+    fn spacecraft() -> Vec<Surface> {
         let rectangle = |middle: [f64; 3], a: [f64; 3], b: [f64; 3]| {
             let [middle, a, b] = [middle, a, b].map(Vector::from);
             let corners = vec![middle - a - b, middle + a - b, middle + a + b, middle - a + b];
@@ -172,7 +172,7 @@ mod tests {
 
     #[test]
     fn the_surface_painted_last_is_the_first_on_the_ray() {
-        let all = craft();
+        let all = spacecraft();
         let mut compared = 0;
         for (viewer, is_perspective) in [
             ([0.52, -0.75, 0.42], true),

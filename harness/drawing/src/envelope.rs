@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn what_can_be_told_apart_stays_a_line() {
+    fn what_can_be_reported_apart_stays_a_line() {
         assert_eq!(of(&line(100_000, |x| (50.0 * x).sin())), None);
         assert_eq!(of(&line(1_000, |x| (1e4 * x).sin())), None);
         assert_eq!(of(&line(2_000, |x| 5.0 * x + 0.1 * (1200.0 * x).sin())), None);

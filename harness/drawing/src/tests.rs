@@ -146,7 +146,7 @@ fn ticks_read_well() {
 
 /// A limit's dashes and the rings about dots are drawn, and stand in the legend as they are drawn.
 #[test]
-fn dashes_and_rings_are_told_from_lines_and_dots() {
+fn dashes_and_rings_are_reported_from_lines_and_dots() {
     let points = vec![(0.0, 1.0), (4.0, 2.0), (8.0, 1.5)];
     let svg = |series: Series| {
         let range = Some((0.0, 3.0));

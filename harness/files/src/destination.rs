@@ -458,7 +458,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_written_is_told_with_its_option() {
+    fn what_cannot_be_written_is_reported_with_its_option() {
         let scratch = tempfile::tempdir().unwrap();
         let message = |path: &Path| Destination::open(path, "--plot", &[]).err().unwrap();
         let folder = message(&scratch.path().join("no/such/a.svg"));

@@ -5,7 +5,7 @@ use crate::{Error, Instance};
 /// Events closer than a millionth of the step stay together.
 pub(crate) const MOST_HALVINGS: u32 = 20;
 
-/// Takes a step; one in which the counter, an Integer, rises by more than one is taken back and made in halves. `between` is told
+/// Takes a step; one in which the counter, an Integer, rises by more than one is taken back and made in halves. `between` is reported
 /// every communication point within the step.
 pub(crate) fn step_apart(
     instance: &mut Instance,

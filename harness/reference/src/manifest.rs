@@ -23,11 +23,11 @@ pub struct Related {
     pub role: String,
     /// In words.
     pub description: String,
-    /// How its results were flown.
+    /// How its results were simulated.
     pub flight: Option<Flight>,
 }
 
-/// How results were flown and how near they are met.
+/// How results were simulated and how near they are met.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flight {
     /// Greatest deviation, as a fraction of the largest magnitude of a vector or scalar.

@@ -13,7 +13,7 @@ use crate::{
 /// Where no tolerance is stated: what tools with solvers of their own meet.
 const UNSTATED_TOLERANCE: f64 = 1e-3;
 
-/// A flight that was flown again.
+/// A flight that was simulated again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replay {
     /// Its file, from the manifest.

@@ -81,7 +81,7 @@ pub enum StudyError {
         /// What it does not take.
         option: &'static str,
     },
-    /// A step that a study cannot be flown in.
+    /// A step that a study cannot be simulated in.
     #[error("--step: found {found_s} s, allowed: {allowed}")]
     Step {
         /// What was given, in s.

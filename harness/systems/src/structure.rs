@@ -48,7 +48,7 @@ pub struct Connector {
     pub name: String,
     /// Its role.
     pub kind: Kind,
-    /// Its type, where it is told.
+    /// Its type, where it is reported.
     pub signal: Option<Signal>,
     /// Line in the file.
     pub line: u32,

@@ -42,13 +42,13 @@ pub struct Left {
 /// A wired system.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wired {
-    /// Its description; the connectors are what is connected, and the outputs that were asked for.
+    /// Its description; the connectors are what is connected, and the outputs that were requested.
     pub structure: Structure,
     /// The inputs that were left open.
     pub left: Vec<Left>,
 }
 
-/// What is asked for beside the connections of equal names.
+/// What is requested beside the connections of equal names.
 #[derive(Clone, Debug, Default)]
 pub struct Wiring {
     /// Patterns of further outputs to list, `component.variable`.

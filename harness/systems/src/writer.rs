@@ -16,7 +16,7 @@ const WIDTH_MM: usize = 60;
 const HEIGHT_MM: usize = 40;
 const PITCH_MM: usize = 100;
 
-/// How OMSimulator's program is told of the step, without which it imports no system: its own annotation of the system, in its own
+/// How OMSimulator's program is reported of the step, without which it imports no system: its own annotation of the system, in its own
 /// name space.
 const OMSIMULATOR: [&str; 2] =
     ["org.openmodelica", "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd"];

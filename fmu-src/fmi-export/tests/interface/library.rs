@@ -120,7 +120,7 @@ fn a_bad_setup_file_or_folder_is_named() {
 }
 
 #[test]
-fn a_setup_file_that_is_not_there_is_the_first_thing_told() {
+fn a_setup_file_that_is_not_there_is_the_first_thing_reported() {
     let folder = Folder::new::<&str>("empty", &[]);
     let text = refused(&guid("AllTypes", TWO), Some(&folder.uri()));
     assert!(text.starts_with("fmi2Instantiate: cannot read `") && text.contains("all-types.toml"), "{text}");

@@ -7,7 +7,7 @@ use fmi_export::model_description::Status::{Discard, Error, Ok, Warning};
 use super::{fresh, only_message, reference, started};
 
 #[test]
-fn events_and_warnings_of_a_model_reach_the_log_when_asked_for() {
+fn events_and_warnings_of_a_model_reach_the_log_when_requested() {
     let (mut instance, description) = started("AllTypes");
     let at = |name| reference(&description, name);
     assert_eq!(instance.set_boolean(&[at("input.boolean")], &[1]), Ok);

@@ -52,7 +52,7 @@ impl ShadowingVariables {
     /// What to warn of: surfaces that have no outline, among others that do.
     ///
     /// # Errors
-    /// Shadows asked for where no surface has an outline.
+    /// Shadows requested where no surface has an outline.
     pub fn check(
         &self,
         values: &Values,

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use fmi_export::{Failure, Given, SetupError};
 use physics::bodies::Body;
 use physics::environment::ephemeris::VALID_EPOCH_S;
-use physics::environment::flown::{FlownEphemeris, FlownTarget};
 use physics::environment::kepler_planet::KeplerPlanet;
+use physics::environment::onboard::{OnboardEphemeris, OnboardTarget};
 
 use super::variables::EllipseVariables;
 
@@ -14,12 +14,12 @@ use super::variables::EllipseVariables;
 pub const EPHEMERIS_FILE: &str = "ephemeris.toml";
 
 /// Reads flown ephemerides; `file` names the text in errors.
-pub fn read(file: &str, text: &str) -> Result<Arc<FlownEphemeris>, SetupError> {
-    FlownEphemeris::from_toml(file, text).map(Arc::new).map_err(|error| SetupError(error.to_string()))
+pub fn read(file: &str, text: &str) -> Result<Arc<OnboardEphemeris>, SetupError> {
+    OnboardEphemeris::from_toml(file, text).map(Arc::new).map_err(|error| SetupError(error.to_string()))
 }
 
 /// The file's ephemerides if it has precise models.
-pub fn precise(carried: Option<&Arc<FlownEphemeris>>) -> Option<&Arc<FlownEphemeris>> {
+pub fn precise(carried: Option<&Arc<OnboardEphemeris>>) -> Option<&Arc<OnboardEphemeris>> {
     carried.filter(|carried| !carried.precise.is_empty())
 }
 
@@ -46,9 +46,14 @@ pub fn kepler(
 }
 
 /// Refuses flown ephemerides that do not place Sun and Earth from a centre, or not at `epoch_s`, which `what` gives.
-pub fn check_flown(carried: &FlownEphemeris, center: Body, what: &str, epoch_s: f64) -> Result<(), Failure> {
-    let from = FlownTarget::from(center);
-    for target in [FlownTarget::Sun, FlownTarget::Earth].into_iter().filter(|target| *target != from) {
+pub fn check_onboard(
+    carried: &OnboardEphemeris,
+    center: Body,
+    what: &str,
+    epoch_s: f64,
+) -> Result<(), Failure> {
+    let from = OnboardTarget::from(center);
+    for target in [OnboardTarget::Sun, OnboardTarget::Earth].into_iter().filter(|target| *target != from) {
         let [start_s, end_s] = carried.span_s(target, center).ok_or_else(|| {
             Failure::new(format!(
                 "{EPHEMERIS_FILE}: found no [[body]] that joins {target} with {from}, allowed: positions of sun and earth \

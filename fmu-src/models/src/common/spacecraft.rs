@@ -36,7 +36,7 @@ impl PreparedShapes {
         Self { plates: prepared(SunshadeModel::Plates), cylinder: prepared(SunshadeModel::Cylinder) }
     }
 
-    /// The shape asked for, of the spacecraft of this name.
+    /// The shape requested, of the spacecraft of this name.
     ///
     /// # Errors
     /// A shape that the file does not describe.
@@ -46,12 +46,12 @@ impl PreparedShapes {
             SunshadeModel::Cylinder => &self.cylinder,
         };
         prepared.as_ref().ok_or_else(|| {
-            let (asked, other) = match model {
+            let (requested, other) = match model {
                 SunshadeModel::Plates => ("plates", "cylinder"),
                 SunshadeModel::Cylinder => ("cylinder", "plates"),
             };
             Failure::new(format!(
-                "sunshade.shape: found {asked}, allowed: {other}, as which alone the spacecraft.toml of {name} describes the \
+                "sunshade.shape: found {requested}, allowed: {other}, as which alone the spacecraft.toml of {name} describes the \
                  shade"
             ))
         })

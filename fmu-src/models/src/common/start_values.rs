@@ -48,8 +48,9 @@ fn given(value: &FileValue) -> SetupValue {
 /// The entry that counts for a variable of `model`: a constant goes before a start value, one for this model alone before one
 /// for all.
 pub fn entry_of<'a>(entries: &'a [StartEntry], model: &str, name: &str) -> Option<&'a StartEntry> {
-    let counts =
-        |entry: &&StartEntry| entry.name == name && entry.model.as_deref().is_none_or(|asked| asked == model);
+    let counts = |entry: &&StartEntry| {
+        entry.name == name && entry.model.as_deref().is_none_or(|requested| requested == model)
+    };
     entries.iter().filter(counts).max_by_key(|entry| (entry.is_fixed, entry.model.is_some()))
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use fmi_export::{Context, Model, SetupError};
 use physics::bodies::Body;
-use physics::environment::flown::FlownEphemeris;
+use physics::environment::onboard::OnboardEphemeris;
 use physics::guidance::timeline::Timeline;
 use physics::momentum::WheelArray;
 use physics::plant::ControlDefaults;
@@ -33,7 +33,7 @@ pub struct GuidanceSetup {
     pub shapes: PreparedShapes,
     /// Positions over time, if there is a file of them; they do not enter the GUID.
     #[serde(skip)]
-    pub ephemeris: Option<Arc<FlownEphemeris>>,
+    pub ephemeris: Option<Arc<OnboardEphemeris>>,
     /// Commands over time, if there is a file of them; it does not enter the GUID.
     #[serde(skip)]
     pub timeline: Option<Timeline>,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use fmi_export::{Context, Failure, Model, SetupError};
 use physics::bodies::Body;
-use physics::environment::flown::FlownEphemeris;
+use physics::environment::onboard::OnboardEphemeris;
 use physics::environment::orbit::OrbitMethod;
 use physics::momentum::WheelArray;
 use physics::plant::{ControlDefaults, PreparedSpacecraft};
@@ -45,7 +45,7 @@ pub struct PlantSetup {
     pub control: ControlDefaults,
     /// Positions of Sun and planets over time, if there is a file of them; they do not enter the GUID.
     #[serde(skip)]
-    pub ephemeris: Option<Arc<FlownEphemeris>>,
+    pub ephemeris: Option<Arc<OnboardEphemeris>>,
     /// How disturbed orbits are integrated.
     #[serde(skip)]
     orbit_method: OrbitMethod,
@@ -77,7 +77,7 @@ impl PlantSetup {
         matches!(source, Some(AttitudeSource::Controlled | AttitudeSource::Free))
     }
 
-    /// What flies, with its shade modelled as asked for.
+    /// What flies, with its shade modelled as requested.
     pub fn prepared_spacecraft(&self, model: SunshadeModel) -> Result<PreparedSpacecraft<'_>, Failure> {
         Ok(PreparedSpacecraft {
             panels: &self.spacecraft.panels,

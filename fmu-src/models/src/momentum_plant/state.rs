@@ -28,7 +28,7 @@ pub struct PlantState {
     /// The command in effect.
     pub command: Command,
     /// Whether the present command.error was turned out.
-    turned_out: bool,
+    consumed: bool,
     /// Inputs and tunables at the last change.
     last: LastInputs,
     /// When the orbit's position and velocity inputs last changed, in s.
@@ -83,8 +83,8 @@ impl PlantState {
     /// Checks numbers that were decoded; bytes from elsewhere may hold anything.
     pub fn check(&self, spacecraft: &Spacecraft) -> Result<(), Failure> {
         let parts =
-            [("the command", self.command.is_sound()), ("the flight", self.flight.is_sound(spacecraft))];
-        match parts.iter().find(|(_, is_sound)| !is_sound) {
+            [("the command", self.command.is_valid()), ("the flight", self.flight.is_valid(spacecraft))];
+        match parts.iter().find(|(_, is_valid)| !is_valid) {
             None => Ok(()),
             Some((part, _)) => Err(Failure::new(format!(
                 "{part} in the saved state hold what no flight has: no rotation, or counts and times that do not fit"
@@ -103,7 +103,7 @@ impl PlantState {
             flight: Flight::waiting(Thrusters::new(reaction_control(context, values)?, start_s)),
             waiting: !unset_places(context, values).is_empty(),
             command: Command { attitude, rate_body_rad_s, since_s: start_s },
-            turned_out: false,
+            consumed: false,
             last: LastInputs {
                 command: CommandInputs::read(context, values),
                 orbit: orbit_inputs(context, values),
@@ -135,9 +135,9 @@ impl PlantState {
         let command = CommandInputs::read(context, values);
         let before = core::mem::replace(&mut self.last.command, command);
         let commanded =
-            is_commanded(context, values) && command.given(self.turned_out) != before.given(self.turned_out);
+            is_commanded(context, values) && command.given(self.consumed) != before.given(self.consumed);
         if command.kind != before.kind {
-            self.turned_out = false;
+            self.consumed = false;
         }
         if commanded {
             self.take_command(context, values, time_s)?;
@@ -181,7 +181,7 @@ impl PlantState {
     ) -> Result<(), Failure> {
         self.command = Command { attitude, rate_body_rad_s: Vector3::from([0.0; 3]), since_s: time_s };
         // What was turned out while there was no body to turn counts for nothing.
-        self.turned_out = false;
+        self.consumed = false;
         if is_commanded(context, values) { self.take_command(context, values, time_s) } else { Ok(()) }
     }
 
@@ -195,10 +195,10 @@ impl PlantState {
         let (attitude, rate) = match values.choice(context.variables.command.kind).0 {
             Kind::None => (held, [0.0; 3]),
             Kind::RateOnly => (held, rate),
-            Kind::ErrorQuaternion if self.turned_out => (held, rate),
+            Kind::ErrorQuaternion if self.consumed => (held, rate),
             Kind::ErrorQuaternion if is_zero(&error) => (held, [0.0; 3]),
             Kind::ErrorQuaternion => {
-                self.turned_out = estimate.is_none();
+                self.consumed = estimate.is_none();
                 (held.then(&quaternion("command.error", error)?.inverse()), rate)
             }
             Kind::Attitude if is_zero(&q) => (held, [0.0; 3]),
@@ -224,7 +224,7 @@ impl PlantState {
             match values.choice(context.variables.command.kind).0 {
                 Kind::None => unset.push("command.kind"),
                 Kind::Attitude if is_zero(q) => unset.push("command.q"),
-                Kind::ErrorQuaternion if !self.turned_out && is_zero(error) => {
+                Kind::ErrorQuaternion if !self.consumed && is_zero(error) => {
                     unset.push("command.error");
                 }
                 _ => {}
@@ -286,12 +286,12 @@ impl CommandInputs {
     }
 
     /// With everything that the kind of command does not give left out; an error that was turned out gives no more.
-    fn given(self, turned_out: bool) -> Self {
+    fn given(self, consumed: bool) -> Self {
         let (no_q, no_rate) = ([0.0; 4], [0.0; 3]);
         match CommandKind::from_value(self.kind).unwrap_or(CommandKind::FIRST).0 {
             Kind::None => Self { q: no_q, rate: no_rate, error: no_q, ..self },
             Kind::RateOnly => Self { q: no_q, error: no_q, ..self },
-            Kind::ErrorQuaternion if turned_out => Self { q: no_q, error: no_q, ..self },
+            Kind::ErrorQuaternion if consumed => Self { q: no_q, error: no_q, ..self },
             Kind::ErrorQuaternion => Self { q: no_q, ..self },
             Kind::Attitude => Self { error: no_q, ..self },
         }

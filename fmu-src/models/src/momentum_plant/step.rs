@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use nalgebra::Vector3;
-use physics::plant::{Changes, Given, ModeSettings, Report, Start, World};
+use physics::plant::{Changes, ModeSettings, Report, Start, StepContext, World};
 
 use super::inputs::{self, dynamics, propulsion};
 use super::outputs::{self, failure, log_dump};
@@ -16,13 +16,13 @@ pub fn begin(
     state: &mut PlantState,
     time_s: f64,
 ) -> Result<(), Failure> {
-    tell(context, values, state)?;
+    configure(context, values, state)?;
     let is_dynamic = dynamics::is_dynamic(context, values);
     let mass_kg = values.real(context.variables.spacecraft.mass);
     propulsion::check(&state.flight.thrusters.settings, mass_kg)?;
     if is_dynamic && inputs::is_left_to_master(context, values) {
-        let told = "dump.threshold is not set: in free flight dumps come on dump.request alone";
-        context.log.event(time_s, told);
+        let reported = "dump.threshold is not set: in free flight dumps come on dump.request alone";
+        context.log.event(time_s, reported);
     }
     let wheels = &context.variables.wheel;
     let start = if is_dynamic {
@@ -72,8 +72,8 @@ pub fn step(
     if state.waiting {
         return wait(context, values, state, step.end_s);
     }
-    if !state.flight.is_told() {
-        tell(context, values, state)?;
+    if !state.flight.is_configured() {
+        configure(context, values, state)?;
     }
     if let Some(changes) = changes {
         apply(context, values, state, step, changes)?;
@@ -86,11 +86,11 @@ pub fn step(
     let unserved = state.flight.thrusters.unserved_dumps();
     let log = &mut |event: &_| log_dump(context, event);
     let span_s = [step.start_s, step.end_s];
-    let flown = with_given(context, values, step.inputs, |given| {
+    let simulated = with_given(context, values, step.inputs, |given| {
         state.flight.advance(given, &inputs, span_s, log).map_err(failure)
     });
     state.inputs = Some(inputs);
-    flown?;
+    simulated?;
     show(context, values, state, step.inputs, step.end_s)?;
     propulsion::warn_unserved(
         context,
@@ -109,14 +109,14 @@ pub fn wait(
     state: &mut PlantState,
     time_s: f64,
 ) -> Result<(), Failure> {
-    tell(context, values, state)?;
+    configure(context, values, state)?;
     let inputs = dynamics::step_inputs(context, values, state.command, state.inputs.take());
     state.inputs = Some(inputs);
     show(context, values, state, InputsOverTime::held(), time_s)
 }
 
 /// Tells the flight what parameters and inputs say.
-fn tell(context: &Plan<'_>, values: &mut Values, state: &mut PlantState) -> Result<(), Failure> {
+fn configure(context: &Plan<'_>, values: &mut Values, state: &mut PlantState) -> Result<(), Failure> {
     let panels = Vec::with_capacity(context.variables.panel.len());
     let configuration = inputs::configuration(context, values, state, InputsOverTime::held(), panels)?;
     let settings = match dynamics::is_dynamic(context, values) && !state.waiting {
@@ -130,7 +130,7 @@ fn tell(context: &Plan<'_>, values: &mut Values, state: &mut PlantState) -> Resu
     state.flight.thrusters.settings = propulsion::reaction_control(context, values)?;
     outputs::write_calculated(context, values, &world.configuration);
     outputs::write_guaranteed(context, values);
-    state.flight.tell(world, settings);
+    state.flight.configure(world, settings);
     Ok(())
 }
 
@@ -146,12 +146,12 @@ fn apply(
     let (mut configuration, mut settings) = (None, None);
     if !is_dynamic || changes.orbit || changes.light || changes.tunables {
         let panels = state.flight.take_panels();
-        let told = inputs::configuration(context, values, state, step.inputs, panels)?;
-        outputs::write_calculated(context, values, &told);
+        let reported = inputs::configuration(context, values, state, step.inputs, panels)?;
+        outputs::write_calculated(context, values, &reported);
         if is_dynamic {
-            settings = Some(ModeSettings::Dynamic(dynamics::settings(context, values, &told)?.into()));
+            settings = Some(ModeSettings::Dynamic(dynamics::settings(context, values, &reported)?.into()));
         }
-        configuration = Some(told);
+        configuration = Some(reported);
     }
     state.flight.apply(changes, configuration, settings, step.start_s).map_err(failure)
 }
@@ -161,11 +161,11 @@ fn with_given<T>(
     context: &Plan<'_>,
     values: &Values,
     over_time: InputsOverTime<'_>,
-    use_it: impl FnOnce(Given<'_>) -> Result<T, Failure>,
+    use_it: impl FnOnce(StepContext<'_>) -> Result<T, Failure>,
 ) -> Result<T, Failure> {
     let variables = context.variables;
     let sunshade = values.choice(variables.sunshade.shape).0;
-    use_it(Given {
+    use_it(StepContext {
         prepared: context.setup.prepared_spacecraft(sunshade)?,
         external: &|time_s| dynamics::external(context, values, over_time, time_s),
         planner: &inputs::manager(context, values, sunshade),

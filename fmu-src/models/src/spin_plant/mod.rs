@@ -140,7 +140,7 @@ impl OutputRates for SpinPlant {
     }
 }
 
-/// What a burn that can be flown will not do as one may expect.
+/// What a burn that can be simulated will not do as one may expect.
 fn warn_of_burn(context: &Plan<'_>, plant: &Plant) {
     let (log, seen) = (context.log, Predictions::of(plant));
     if plant.propulsion().is_dry() {

@@ -113,7 +113,7 @@ fn a_center_set_later_gives_the_same_orbit_and_a_warning() {
 
 /// About the Sun an eccentricity that happens to be the one of the default about Mercury is flown by a file about the Sun.
 #[test]
-fn values_that_are_set_are_flown() {
+fn values_that_are_set_are_simulated() {
     let set = format!(
         "{}\"orbit.eccentricity\" = 0.74\n\"orbit.trueAnomaly\" = 0\n\"orbit.frame\" = \"planetEquator\"\n",
         about("sun")

@@ -237,12 +237,12 @@ fn looking_ahead_costs_no_dumps_in_any_of_thirty_missions() {
 fn the_communication_step_changes_no_dump() {
     let named = NamedModel::<MomentumPlant>::shipped();
     for strategy in [1.0, 2.0, 3.0] {
-        let flown = [10.0, 60.0, 600.0].map(|step_s| {
+        let simulated = [10.0, 60.0, 600.0].map(|step_s| {
             let mut flight = named.fly(0.0, &mission(strategy)).unwrap();
             flight.fly_to(90.0 * 86_400.0, step_s).unwrap();
             (flight.integer("dump.count"), flight.real("dump.lastTime"))
         });
-        assert!(flown.iter().all(|it| *it == flown[0]), "{strategy}: {flown:?}");
+        assert!(simulated.iter().all(|it| *it == simulated[0]), "{strategy}: {simulated:?}");
     }
 }
 
@@ -269,15 +269,15 @@ fn cutting_and_saving_change_no_bit() {
             &[("momentum.convention", 1.0), ("attitude.source", 3.0), ("command.source", 2.0)],
         ] {
             let sets = with(&mission(strategy), more);
-            let is_flown = more.iter().any(|(name, _)| *name == "attitude.source");
-            let (from_s, until_s) = if is_flown { (6000.0, 8000.0) } else { (80_000.0, 220_000.0) };
+            let is_simulated = more.iter().any(|(name, _)| *name == "attitude.source");
+            let (from_s, until_s) = if is_simulated { (6000.0, 8000.0) } else { (80_000.0, 220_000.0) };
             let mut whole = named.fly(0.0, &sets).unwrap();
             whole.step_to(until_s).unwrap();
             let mut cut: Plant<'_> = named.fly(0.0, &sets).unwrap();
             cut.step_to(from_s).unwrap();
             let mut at_s = from_s;
             while at_s < until_s {
-                at_s = (at_s + if is_flown { 333.3 } else { 7777.7 }).min(until_s);
+                at_s = (at_s + if is_simulated { 333.3 } else { 7777.7 }).min(until_s);
                 cut.step_to(at_s).unwrap();
                 cut = cut.restored();
             }

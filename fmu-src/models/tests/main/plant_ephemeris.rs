@@ -2,13 +2,13 @@
 
 use models::MomentumPlant;
 
-use super::flown_ephemeris::{FILE, START_S, file};
 use super::named_model::{NamedInstance, NamedModel, assert_same};
+use super::onboard_ephemeris::{FILE, START_S, file};
 
 const CHEBYSHEV: &[(&str, f64)] = &[("ephemeris.source", 4.0)];
 
 fn refusal<T>(flown: Result<T, fmi_export::Failure>) -> String {
-    flown.err().expect("it was flown").to_string()
+    flown.err().expect("it was simulated").to_string()
 }
 
 fn sun_m(flight: &NamedInstance<'_, MomentumPlant>) -> nalgebra::Vector3<f64> {

@@ -182,15 +182,15 @@ fn in_balance_every_source_is_that_of_the_memoryless_model() {
 #[test]
 fn momentum_does_not_depend_on_how_light_is_resolved() {
     let named = radiating::<MomentumPlant>();
-    let flown = |step_s: f64, tolerance: f64| {
+    let simulated = |step_s: f64, tolerance: f64| {
         let solver = [("solver.disturbanceStep", step_s), ("solver.disturbanceTolerance", tolerance)];
         let mut plant = named.fly(0.0, &[EFFECTS, SHADOWED, &solver].concat()).unwrap();
         plant.step_to(DAY_S).unwrap();
         plant.vector("momentum.inertial")
     };
-    let fine = flown(60.0, 1e-9);
+    let fine = simulated(60.0, 1e-9);
     for (step_s, tolerance, allowed) in [(600.0, 1e-5, 2e-5), (3600.0, 1e-5, 2e-5), (300.0, 1e-7, 2e-6)] {
-        let apart = (flown(step_s, tolerance) - fine).norm() / fine.norm();
+        let apart = (simulated(step_s, tolerance) - fine).norm() / fine.norm();
         assert!(apart < allowed, "{step_s} {tolerance} {apart:e}");
     }
 }
@@ -318,14 +318,14 @@ fn impossible_settings_are_refused_by_name() {
 }
 
 #[test]
-fn states_torn_at_random_are_refused_or_flown_on() {
+fn states_torn_at_random_are_refused_or_simulated_on() {
     let named = radiating::<MomentumPlant>();
     let mut seed = 1_u64;
     let mut random = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (seed >> 33) as usize
     };
-    let (mut refused, mut flown, mut failed) = (0, 0, 0);
+    let (mut refused, mut simulated, mut failed) = (0, 0, 0);
     for feedback in [0.0, 1.0] {
         let sets = [EFFECTS, SHADOWED, BUSY, &[("orbit.radiationFeedback", feedback)]].concat();
         let mut start = named.fly(0.0, &sets).unwrap();
@@ -347,7 +347,7 @@ fn states_torn_at_random_are_refused_or_flown_on() {
                 refused += 1;
                 continue;
             };
-            flown += 1;
+            simulated += 1;
             let outcome = other.step_to(5_060.0);
             failed += i32::from(outcome.is_err());
             assert!(
@@ -357,7 +357,7 @@ fn states_torn_at_random_are_refused_or_flown_on() {
             );
         }
     }
-    assert!(refused + failed > 100 && flown > 500, "{refused} {flown} {failed}");
+    assert!(refused + failed > 100 && simulated > 500, "{refused} {simulated} {failed}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What cannot be flown is refused by name, with what was found and what is allowed.
+//! What cannot be simulated is refused by name, with what was found and what is allowed.
 
 use models::MomentumPlant;
 

@@ -42,7 +42,7 @@ fn momentum_bits(plant: &mut InProcess) -> [u64; 3] {
     values.map(f64::to_bits)
 }
 
-fn flown(plant: &mut InProcess, from: u32) -> [u64; 3] {
+fn simulated(plant: &mut InProcess, from: u32) -> [u64; 3] {
     for i in from..4 {
         assert_eq!(plant.do_step(f64::from(i) * 21_600.0, 21_600.0), Ok, "{:?}", plant.take_messages());
     }
@@ -52,7 +52,7 @@ fn flown(plant: &mut InProcess, from: u32) -> [u64; 3] {
 fn flight(experiment: Option<f64>, set: Option<f64>, set_late: bool) -> [u64; 3] {
     let mut plant = InProcess::of(&LIBRARY, "MomentumPlant").unwrap();
     enter(&mut plant, experiment, set, set_late);
-    flown(&mut plant, 0)
+    simulated(&mut plant, 0)
 }
 
 #[test]
@@ -91,9 +91,9 @@ fn the_experiments_tolerance_is_part_of_the_state_and_a_reset_forgets_it() {
     let mut read = [0.0];
     assert_eq!(other.get_real(&[reference("solver.tolerance")], &mut read), Ok);
     assert_eq!(read, [LOOSE]);
-    assert_eq!(flown(&mut other, 1), loose);
-    assert_eq!(flown(&mut plant, 1), loose);
+    assert_eq!(simulated(&mut other, 1), loose);
+    assert_eq!(simulated(&mut plant, 1), loose);
     assert_eq!(plant.reset(), Ok);
     enter(&mut plant, None, None, false);
-    assert_eq!(flown(&mut plant, 0), flight(None, None, false));
+    assert_eq!(simulated(&mut plant, 0), flight(None, None, false));
 }

@@ -8,8 +8,8 @@ use super::named_model::{NamedInstance, NamedModel};
 
 /// Time this thread spent computing, so that a busy machine does not count; where that is not told, all time.
 fn busy(since: Instant) -> Duration {
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let spent_ns = told.and_then(|text| text.split(' ').next().and_then(|word| word.parse().ok()));
+    let reported = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let spent_ns = reported.and_then(|text| text.split(' ').next().and_then(|word| word.parse().ok()));
     spent_ns.map_or(since.elapsed(), Duration::from_nanos)
 }
 
@@ -54,9 +54,9 @@ const LONGEST_UNIT: Duration = Duration::from_nanos(2_000);
 const OTHERWISE: Duration = Duration::from_millis(400);
 
 /// Start values, a step in s, and words of the refusal.
-type Asked<'a> = (&'a [(&'a str, f64)], f64, &'a [&'a str]);
+type Requested<'a> = (&'a [(&'a str, f64)], f64, &'a [&'a str]);
 
-fn asked(sets: &[(&str, f64)], step_s: f64) -> Result<f64, String> {
+fn requested(sets: &[(&str, f64)], step_s: f64) -> Result<f64, String> {
     let named = NamedModel::<MomentumPlant>::shipped();
     let mut flight = named.fly(0.0, sets).map_err(|failure| failure.to_string())?;
     flight.step_to(step_s).map_err(|failure| failure.to_string())?;
@@ -67,7 +67,7 @@ fn asked(sets: &[(&str, f64)], step_s: f64) -> Result<f64, String> {
 fn what_asks_for_too_much_is_named_with_how_far_it_came() {
     let limit = ("solver.workLimit", LIMIT);
     let light = [("planetLight.enabled", 1.0), ("thermal.enabled", 1.0)];
-    let cases: &[Asked] = &[
+    let cases: &[Requested] = &[
         (&[limit], 1e12, &["solver.workLimit = 100000", "solver.step"]),
         (&[limit, ("dump.threshold[1]", 1e-6), ("torque.applied[1]", 1e-6)], 1e9, &["dump.threshold"]),
         (&[limit, ("solver.step", 1e-3)], 1e6, &["solver.step"]),
@@ -76,12 +76,12 @@ fn what_asks_for_too_much_is_named_with_how_far_it_came() {
         (&[limit, ("orbit.dynamics", 2.0), ("orbit.step", 1.0)], 1e7, &["orbit.step"]),
     ];
     for (sets, step_s, words) in cases {
-        let text = asked(sets, *step_s).unwrap_err();
+        let text = requested(sets, *step_s).unwrap_err();
         assert!(words.iter().all(|word| text.contains(word)), "{sets:?}: {text}");
         assert!(text.contains("came to") && text.contains("shorter step"), "{text}");
     }
-    // Enough for what it is asked for, it comes to the end.
-    assert_eq!(asked(&[limit], 86_400.0), Ok(86_400.0));
+    // Enough for what it is requested, it comes to the end.
+    assert_eq!(requested(&[limit], 86_400.0), Ok(86_400.0));
 }
 
 /// Light and heat of a controlled flight are paid from the same budget as its motion, and the message tells that budget.
@@ -89,8 +89,8 @@ fn what_asks_for_too_much_is_named_with_how_far_it_came() {
 fn light_and_heat_of_a_controlled_flight_count() {
     let plain = [("attitude.source", 3.0), ("command.source", 2.0), ("solver.workLimit", 20_000.0)];
     let lit = [("planetLight.enabled", 1.0), ("thermal.enabled", 1.0), ("solver.disturbanceStep", 0.05)];
-    assert_eq!(asked(&plain, 60.0), Ok(60.0));
-    let text = asked(&[&plain[..], &lit[..]].concat(), 60.0).unwrap_err();
+    assert_eq!(requested(&plain, 60.0), Ok(60.0));
+    let text = requested(&[&plain[..], &lit[..]].concat(), 60.0).unwrap_err();
     for words in ["than the 20000 units", "solver.workLimit = 20000", "light and heat", "came to"] {
         assert!(text.contains(words), "{text}");
     }
@@ -173,17 +173,17 @@ fn any_legal_parameters_get_an_answer() {
         std::env::var("HELIOTORQUE_WORK_TRIALS").ok().and_then(|text| text.parse().ok()).unwrap_or(200);
     let limit =
         std::env::var("HELIOTORQUE_WORK_LIMIT").ok().and_then(|text| text.parse().ok()).unwrap_or(LIMIT);
-    let (mut flown, mut exhausted, mut worst) = (0, 0, Duration::ZERO);
+    let (mut simulated, mut exhausted, mut worst) = (0, 0, Duration::ZERO);
     for seed in 1..=trials {
         let (took, answer) = scattered(&named, seed, limit);
         let allowed = LONGEST_UNIT.mul_f64(limit) + OTHERWISE;
         assert!(took < allowed, "{took:?} where {allowed:?} is allowed, trial {seed}: {answer}");
-        flown += u32::from(answer.ends_with("finite"));
+        simulated += u32::from(answer.ends_with("finite"));
         exhausted += u32::from(answer.contains("solver.workLimit ="));
         worst = worst.max(took);
     }
-    println!("{trials} trials: {flown} flown, {exhausted} out of work, the longest {worst:?}");
-    assert!(flown > 0 && exhausted > 0);
+    println!("{trials} trials: {simulated} flown, {exhausted} out of work, the longest {worst:?}");
+    assert!(simulated > 0 && exhausted > 0);
 }
 
 /// Bytes of a state with some numbers replaced by what no flight has.
@@ -215,7 +215,7 @@ fn forged_states_are_refused_or_fly_on_with_finite_numbers() {
         4e4,
     ];
     let mut random = RandomNumbers(7);
-    let (mut refused, mut flown) = (0, 0);
+    let (mut refused, mut simulated) = (0, 0);
     for _ in 0..1500 {
         let mut forged = bytes.clone();
         let at = random.below(bytes.len() - 8);
@@ -231,8 +231,8 @@ fn forged_states_are_refused_or_fly_on_with_finite_numbers() {
         assert!(took < Duration::from_secs(1), "{took:?} for byte {at}");
         if outcome.is_ok() {
             assert_eq!(other.not_finite(), None, "byte {at}");
-            flown += 1;
+            simulated += 1;
         }
     }
-    assert!(refused > 300 && flown > 100, "{refused} {flown}");
+    assert!(refused > 300 && simulated > 100, "{refused} {simulated}");
 }

@@ -206,13 +206,14 @@ const SAMPLED: &[(&str, f64)] =
 #[test]
 fn guidance_turns_the_camera_to_nadir_and_flies_the_plants_attitude() {
     let (plants, guidances) = (NamedModel::<MomentumPlant>::shipped(), NamedModel::<Guidance>::shipped());
-    let told = with(&[&CRAFT[..4], UNLOAD, &[("momentum.convention", 2.0), ("solar.fixedPressure", 1.0)]]);
+    let reported =
+        with(&[&CRAFT[..4], UNLOAD, &[("momentum.convention", 2.0), ("solar.fixedPressure", 1.0)]]);
     let start =
         [("start.momentum[1]", 0.3), ("start.momentum[3]", 0.2), ("guided.downlinkStart", 23.0 * HOUR_S)];
     let more = [("guided.downlinkEnd", 23.5 * HOUR_S)];
-    let mut plant = plants.fly(0.0, &with(&[&told, &start, &more])).unwrap();
+    let mut plant = plants.fly(0.0, &with(&[&reported, &start, &more])).unwrap();
     let at_start = places(&plant);
-    let mut sets = with(&[&told, SAMPLED, &start[2..], &more]);
+    let mut sets = with(&[&reported, SAMPLED, &start[2..], &more]);
     sets.extend(at_start.iter().map(|(name, value)| (&**name, *value)));
     let mut guidance = guidances.fly(0.0, &sets).unwrap();
     let place = sun_place(&plant);
@@ -222,8 +223,8 @@ fn guidance_turns_the_camera_to_nadir_and_flies_the_plants_attitude() {
         places(&plant).iter().for_each(|(name, value)| guidance.set(name, *value));
         let time_s = plant.time_s();
         guidance.step_to(time_s + 1e-10).unwrap();
-        let (flown, commanded) = (to_inertial(&plant, "attitude.q"), to_inertial(&guidance, "command.q"));
-        let turn_rad = flown.angle_to(&commanded);
+        let (simulated, commanded) = (to_inertial(&plant, "attitude.q"), to_inertial(&guidance, "command.q"));
+        let turn_rad = simulated.angle_to(&commanded);
         assert!(turn_rad < 1e-12, "{turn_rad:e} at {time_s} s");
         assert!(off(sun_place(&plant), place) < 1e-12);
         let angle_rad = guidance.real("mdis.angle");
@@ -268,9 +269,9 @@ fn a_sample_in_science_chooses_what_a_plant_chooses() {
                 ("guided.downlinkEvery", 1.0),
                 ("guided.downlinkEnd", 5.1 * HOUR_S),
             ];
-            let told = with(&[&CRAFT[..4], &choice]);
+            let reported = with(&[&CRAFT[..4], &choice]);
             let alone = [("gravityGradient.enabled", 0.0), ("eclipse.method", 4.0)];
-            let mut plant = plants.fly(0.0, &with(&[&told, &alone])).unwrap();
+            let mut plant = plants.fly(0.0, &with(&[&reported, &alone])).unwrap();
             let (mut worst_rad, mut largest_rad) = (0.0_f64, 0.0_f64);
             for cycle in 0..8 {
                 plant.step_to(5.1 * HOUR_S + f64::from(cycle) * 12.0 * HOUR_S - 60.0).unwrap();
@@ -279,7 +280,7 @@ fn a_sample_in_science_chooses_what_a_plant_chooses() {
                     plant.step_to(plant.time_s() + 1.0).unwrap();
                 }
                 let epoch = [("start.epoch", plant.real("start.epoch") + plant.time_s())];
-                let mut sets = with(&[&told, SAMPLED, &epoch]);
+                let mut sets = with(&[&reported, SAMPLED, &epoch]);
                 let seen = places(&plant);
                 sets.extend(seen.iter().map(|(name, value)| (&**name, *value)));
                 let guidance = guidances.fly(0.0, &sets).unwrap();

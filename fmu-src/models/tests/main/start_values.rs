@@ -120,12 +120,12 @@ fn an_instance_begins_with_them_and_returns_to_them() {
     assert_eq!(read(&mut fmu), from_file);
 
     // The shipped FMU, told the same by its master.
-    let mut told = InProcess::instantiate(&LIBRARY, &plain.guid, None).unwrap();
-    assert_ne!(read(&mut told), from_file);
-    assert_eq!(told.reset(), Status::Ok);
-    assert_eq!(told.set_real(&center, &[0.01, 0.0, -0.02]), Status::Ok);
-    assert_eq!(told.set_integer(&[shape], &[2]), Status::Ok);
-    assert_eq!(read(&mut told), from_file);
+    let mut reported = InProcess::instantiate(&LIBRARY, &plain.guid, None).unwrap();
+    assert_ne!(read(&mut reported), from_file);
+    assert_eq!(reported.reset(), Status::Ok);
+    assert_eq!(reported.set_real(&center, &[0.01, 0.0, -0.02]), Status::Ok);
+    assert_eq!(reported.set_integer(&[shape], &[2]), Status::Ok);
+    assert_eq!(read(&mut reported), from_file);
 }
 
 #[test]
@@ -301,12 +301,12 @@ const REFUSALS: &[(&str, &str)] = &[
 ];
 
 #[test]
-fn what_no_variable_takes_is_told_by_line_and_key() {
+fn what_no_variable_takes_is_reported_by_line_and_key() {
     let before = text::<MomentumPlant>("").lines().count();
     let mut others = Vec::new();
     for (lines, expected) in REFUSALS {
-        let told = described::<MomentumPlant>(lines).unwrap_err();
-        let relative: Vec<String> = told
+        let reported = described::<MomentumPlant>(lines).unwrap_err();
+        let relative: Vec<String> = reported
             .lines()
             .map(|line| {
                 let (number, rest) = line.strip_prefix("my.toml:").unwrap().split_once(':').unwrap();
@@ -322,10 +322,11 @@ fn what_no_variable_takes_is_told_by_line_and_key() {
 
 #[test]
 fn a_spinner_knows_no_other_models() {
-    let told = described::<SpinPlant>("[start]\n\"spin.initialRat\" = \"5 rpm\"").unwrap_err();
+    let reported = described::<SpinPlant>("[start]\n\"spin.initialRat\" = \"5 rpm\"").unwrap_err();
     assert!(
-        told.contains("(did you mean \"spin.initialRate\"?), allowed: a parameter or an input of SpinPlant"),
-        "{told}"
+        reported
+            .contains("(did you mean \"spin.initialRate\"?), allowed: a parameter or an input of SpinPlant"),
+        "{reported}"
     );
     let rate = described::<SpinPlant>("[start]\n\"spin.initialRate\" = \"6 rpm\"").unwrap();
     assert_eq!(start(&rate, "spin.initialRate"), format!("{:?}", 6.0 / (30.0 / core::f64::consts::PI)));

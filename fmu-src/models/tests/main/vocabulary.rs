@@ -153,13 +153,13 @@ fn compare(
                 Some(at) => used[at] = true,
                 None => {
                     let (of_a, of_b) = (facts(variable), facts(same));
-                    let told =
+                    let reported =
                         |facts: &BTreeMap<_, String>| facts.get(fact.as_str()).cloned().unwrap_or_default();
                     let line = format!(
                         "{} {fact}: {one} {:?}, {other} {:?}",
                         variable.name,
-                        told(&of_a),
-                        told(&of_b)
+                        reported(&of_a),
+                        reported(&of_b)
                     );
                     if !found.contains(&line) {
                         found.push(line);

@@ -99,8 +99,8 @@ fn controlled_wheels_turn_by_the_torque_that_is_shown() {
     assert!(moved);
 }
 
-/// A motor that has failed, one that is asked for more than it can, one whose rotor is at its capacity and one that does as it
-/// is told.
+/// A motor that has failed, one that is requested more than it can, one whose rotor is at its capacity and one that does as it
+/// is reported.
 #[test]
 fn a_motor_shows_what_acts_after_failure_limit_and_capacity() {
     let named = NamedModel::<MomentumPlant>::shipped();

@@ -91,7 +91,7 @@ fn a_map_of_the_planet_that_nothing_reads() {
 fn each_switch_of_disturbance_torque_takes_one_source_away() {
     let named = NamedModel::<DisturbanceTorque>::with("my.toml", RADIATING);
     let all = [("planetLight.enabled", 1.0), ("thermal.enabled", 1.0), ("gravityGradient.enabled", 1.0)];
-    let flown = |sets: &[(&str, f64)]| {
+    let simulated = |sets: &[(&str, f64)]| {
         let flight = named.fly(0.0, sets).unwrap();
         let mut found = Vec::new();
         for source in ["solar", "albedo", "infrared", "thermal"] {
@@ -112,17 +112,17 @@ fn each_switch_of_disturbance_torque_takes_one_source_away() {
         assert!((faces - force).norm() < 1e-12 * force.norm());
         (found, gradient)
     };
-    let (whole, gradient) = flown(&all);
+    let (whole, gradient) = simulated(&all);
     assert!(whole.iter().all(|it| it.1.norm() > 0.0 && it.2.norm() > 0.0) && gradient.norm() > 0.0);
-    let (dim, _) = flown(&[&all[..], &[("planetLight.enabled", 0.0)]].concat());
+    let (dim, _) = simulated(&[&all[..], &[("planetLight.enabled", 0.0)]].concat());
     assert_eq!(dim[0], whole[0]);
     assert!(dim[1].2.norm() == 0.0 && dim[2].2.norm() == 0.0 && dim[3].2.norm() > 0.0);
     // Less heat arrives.
     assert!(dim[3].2 != whole[3].2);
-    let (cold, _) = flown(&[&all[..], &[("thermal.enabled", 0.0)]].concat());
+    let (cold, _) = simulated(&[&all[..], &[("thermal.enabled", 0.0)]].concat());
     assert_eq!(cold[..3], whole[..3]);
     assert!(cold[3].1.norm() == 0.0 && cold[3].2.norm() == 0.0);
-    let (light, none) = flown(&[&all[..], &[("gravityGradient.enabled", 0.0)]].concat());
+    let (light, none) = simulated(&[&all[..], &[("gravityGradient.enabled", 0.0)]].concat());
     assert_eq!(light, whole);
     assert_eq!(none.norm(), 0.0);
 }

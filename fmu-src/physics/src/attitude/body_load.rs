@@ -63,11 +63,11 @@ impl BodyLoad {
         [start, (self.force_body_n[1] + start * self.flow_kg_s[0]) / self.mass_kg]
     }
 
-    pub(super) fn is_sound(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         let vectors = self.torque_body_n_m.iter().chain(&self.force_body_n);
         vectors.flatten_all().chain(&self.flow_kg_s).all(|x| x.abs() <= GREATEST_IN_STATE)
-            && self.mass_flow.as_ref().is_none_or(MassFlow::is_sound)
-            && self.internal.as_ref().is_none_or(InternalMotion::is_sound)
+            && self.mass_flow.as_ref().is_none_or(MassFlow::is_valid)
+            && self.internal.as_ref().is_none_or(InternalMotion::is_valid)
             && self.mass_kg > 0.0
             && self.mass_kg <= GREATEST_IN_STATE
     }

@@ -97,7 +97,7 @@ impl GyrostatMotion {
     }
 
     /// Whether its numbers can come from a flight of a body with so many wheels and modal coordinates; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self, wheels: usize, oscillators: usize) -> bool {
+    pub fn is_valid(&self, wheels: usize, oscillators: usize) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let vectors = self.rate.iter().chain(&self.momentum_body);
         let totals = [&self.momentum_inertial_n_m_s, &self.delta_v_inertial_m_s];
@@ -105,8 +105,8 @@ impl GyrostatMotion {
         self.rotors.len() == wheels
             && self.oscillators.len() == oscillators
             && self.imbalances.len() <= wheels
-            && self.oscillators.iter().all(OscillatorMotion::is_sound)
-            && self.imbalances.iter().all(ImbalanceMotion::is_sound)
+            && self.oscillators.iter().all(OscillatorMotion::is_valid)
+            && self.imbalances.iter().all(ImbalanceMotion::is_valid)
             && self.order < TERMS
             && [self.start_s, self.end_s].iter().all(sound)
             && self.start_s <= self.end_s
@@ -114,8 +114,8 @@ impl GyrostatMotion {
             && self.attitude.iter().flatten().all(sound)
             && vectors.chain(totals).flatten_all().all(sound)
             && self.inverse_inertia.iter().all(sound)
-            && self.load.is_sound()
-            && self.rotors.iter().all(RotorMotion::is_sound)
+            && self.load.is_valid()
+            && self.rotors.iter().all(RotorMotion::is_valid)
     }
 
     /// Before the first segment, what turns on hinges adds to the momentum.
@@ -201,9 +201,9 @@ impl GyrostatMotion {
         if mass_flow.is_none() && internal.is_none() {
             return self.inverse_inertia;
         }
-        let flown = mass_flow.map_or(Matrix3::zeros(), |flow| flow.inertia_rate_kg_m2_s * elapsed_s);
+        let simulated = mass_flow.map_or(Matrix3::zeros(), |flow| flow.inertia_rate_kg_m2_s * elapsed_s);
         let turned = internal.as_ref().map_or(Matrix3::zeros(), |it| it.inertia_change_after(elapsed_s));
-        let grown = Matrix3::identity() + self.inverse_inertia * (flown + turned);
+        let grown = Matrix3::identity() + self.inverse_inertia * (simulated + turned);
         grown.try_inverse().map_or(self.inverse_inertia, |inverse| inverse * self.inverse_inertia)
     }
 
@@ -474,7 +474,7 @@ impl GyrostatMotion {
     }
 
     #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
-    /// When the first rotor changes how it moves, at most `longest_s` after the start, in s; that rotor is told.
+    /// When the first rotor changes how it moves, at most `longest_s` after the start, in s; that rotor is reported.
     fn first_event_s(&mut self, gyrostat: &Gyrostat, motors: &[Motor], longest_s: f64) -> f64 {
         let mut first: Option<(usize, f64, Rotor)> = None;
         for k in 0..self.rotors.len() {

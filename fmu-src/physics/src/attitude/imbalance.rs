@@ -101,7 +101,7 @@ impl ImbalanceMotion {
         self.torque_and_force(self.phase_after(order, elapsed_s).map(|it| it * speed_rad_s * speed_rad_s))
     }
 
-    pub(super) fn is_sound(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         (libm::hypot(self.cosine[0], self.sine[0]) - 1.0).abs() < 1e-9
     }
 

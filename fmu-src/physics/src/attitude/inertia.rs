@@ -112,7 +112,7 @@ impl Inertia {
     }
 
     /// Whether decoded numbers can be some.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let is_unit = |it: Quaternion| (it.0.iter().map(|c| c * c).sum::<f64>() - 1.0).abs() < 1e-12;
         Self::new(self.principal_kg_m2).is_ok() && self.axes.is_none_or(is_unit)
     }

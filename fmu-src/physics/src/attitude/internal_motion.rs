@@ -157,7 +157,7 @@ impl InternalMotion {
         terms.fold(Matrix3::zeros(), |sum, term| sum * elapsed_s + term) * elapsed_s
     }
 
-    pub(super) fn is_sound(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let inertia = self.inertia.iter().flat_map(|it| it.iter());
         inertia.chain(self.momentum.iter().flat_map(|it| it.iter())).all(sound)

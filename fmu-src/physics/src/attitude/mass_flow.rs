@@ -33,7 +33,7 @@ impl MassFlow {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let matrices = self.jet_damping_kg_m2_s.iter().chain([&self.inertia_rate_kg_m2_s]);
         matrices.flat_map(|matrix| matrix.iter()).all(|x| x.abs() <= GREATEST_IN_STATE)
     }

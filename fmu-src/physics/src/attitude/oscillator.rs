@@ -148,7 +148,7 @@ impl OscillatorMotion {
         displacement.max(self.momentum[j].abs())
     }
 
-    pub(super) fn is_sound(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         self.oscillator.mass_share > 0.0 && self.oscillator.stiffness_1_s2 >= 0.0
     }
 

@@ -19,9 +19,9 @@ pub(super) struct RotorMotion {
 
 impl RotorMotion {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
-        self.rotor.is_sound()
-            && self.next.is_none_or(|next| next.is_sound())
+    pub fn is_valid(&self) -> bool {
+        self.rotor.is_valid()
+            && self.next.is_none_or(|next| next.is_valid())
             && self.axial.iter().all(|x| x.abs() <= GREATEST_IN_STATE)
     }
 

@@ -103,7 +103,7 @@ impl Rotor {
     }
 
     /// Whether it can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         match self {
             Self::Turning { direction } => direction.abs() == 1.0,
             Self::Held { momentum_n_m_s } => momentum_n_m_s.is_finite(),

@@ -1,7 +1,7 @@
 //! Coarse ephemerides of the planets by VSOP87, for a spacecraft that carries none of its own.
 //!
 //! Classical elements of VSOP87 are averaged over windows of ten Julian years with edges fixed past J2000: polynomials of
-//! fourth degree, as in [`super::flown`]. A window is a pure function of its number: what was asked before never changes a
+//! fourth degree, as in [`super::simulated`]. A window is a pure function of its number: what was asked before never changes a
 //! bit. The Earth is its barycentre with the Moon.
 //!
 //! Error against [`Ephemeris`](super::ephemeris::Ephemeris) between 1950 and 2050 (tested): as a direction from the Sun
@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 
 use super::CartesianState;
 use super::ephemeris::{Theory, eme2000_from_vsop87, theory};
-use super::flown::{CoarseElements, FlownEphemeris, KeplerianElements};
+use super::onboard::{CoarseElements, KeplerianElements, OnboardEphemeris};
 use super::time::julian_date;
 use crate::bodies::Body;
 use crate::constants::{ASTRONOMICAL_UNIT_M, DAY_S};
@@ -57,7 +57,7 @@ impl CoarseEphemeris {
     /// Position and velocity of a body from another one, by the coarse models that a spacecraft carries where it has them.
     pub fn from_center(
         &mut self,
-        carried: Option<&FlownEphemeris>,
+        carried: Option<&OnboardEphemeris>,
         body: Body,
         center: Body,
         epoch_s: f64,

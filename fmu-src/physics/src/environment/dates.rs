@@ -131,7 +131,7 @@ fn number(text: &str, digits: usize) -> Option<u32> {
 
 #[cfg(test)]
 mod tests {
-    //! Dates are epochs that were published or follow by hand; what is no date is told.
+    //! Dates are epochs that were published or follow by hand; what is no date is reported.
 
     use approx::assert_abs_diff_eq;
 
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_date_is_told() {
+    fn what_is_no_date_is_reported() {
         for (text, error) in [
             ("2008-03-19T19:30:00", DateError::Scale),
             ("2008-03-19T19:30:00Z", DateError::Scale),

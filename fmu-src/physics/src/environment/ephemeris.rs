@@ -125,7 +125,7 @@ impl Ephemeris {
         CartesianState { position_m, velocity_m_s }
     }
 
-    /// Begins a count of work: of each body the segment that is asked for first counts as held.
+    /// Begins a count of work: of each body the segment that is requested first counts as held.
     pub fn count_from_here(&mut self) {
         for entered in &mut self.entered {
             entered.numbers = [None; 2];
@@ -133,7 +133,7 @@ impl Ephemeris {
     }
 
     /// How often VSOP87 itself, which takes some 100 to 200 microseconds each time, would have been evaluated so far by an
-    /// ephemeris that held nothing but the first segment of each count: by what is asked for alone, so that an ephemeris with a
+    /// ephemeris that held nothing but the first segment of each count: by what is requested alone, so that an ephemeris with a
     /// past and a new one count alike.
     pub fn evaluations(&self) -> u64 {
         let terms = |body| match body {

@@ -12,7 +12,7 @@ pub mod timeline;
 
 pub use downlink::downlink_sun::{DownlinkSun, SunChooser, SunOnMinusY, WindowStart};
 pub use downlink::sun_place::{ChosenPlace, SunPlace};
-pub use geometry::surroundings::{Surroundings, TargetPlanet};
+pub use geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 pub use orbit_phase::attitudes::{
     AttitudeCommand, LinesOfSight, ScienceRule, downlink_toward, science, sun_pointing, unloading,
 };

@@ -39,7 +39,7 @@ impl DumpRequests {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         self.target_body_n_m_s.iter().all(|x| x.abs() <= GREATEST_IN_STATE)
     }
 }

@@ -35,16 +35,16 @@ impl LinearTorque {
         &self,
         torque_body_n_m: &Vector3<f64>,
         pressure_pa: f64,
-        asked: [bool; 2],
+        requested: [bool; 2],
     ) -> Option<SunAngles> {
         let torque_m3 = self.dcm_body_from_shade.tr_mul(torque_body_n_m) / pressure_pa;
-        let solve = |asked: bool, wanted_m3: f64, [slope_m3, constant_m3]: [f64; 2]| {
+        let solve = |requested: bool, wanted_m3: f64, [slope_m3, constant_m3]: [f64; 2]| {
             let angle_rad = (wanted_m3 - constant_m3) / slope_m3;
-            if asked { Some(angle_rad).filter(|it| it.is_finite()) } else { Some(0.0) }
+            if requested { Some(angle_rad).filter(|it| it.is_finite()) } else { Some(0.0) }
         };
         let in_shade = SunAngles {
-            azimuth_rad: solve(asked[1], torque_m3.z, self.along_z_m3)?,
-            elevation_rad: solve(asked[0], torque_m3.x, self.along_x_m3)?,
+            azimuth_rad: solve(requested[1], torque_m3.z, self.along_z_m3)?,
+            elevation_rad: solve(requested[0], torque_m3.x, self.along_x_m3)?,
         };
         Some(SunAngles::of(&(self.dcm_body_from_shade * direction_from_angles(in_shade))))
     }
@@ -72,13 +72,13 @@ mod tests {
             let error = |size: f64| {
                 // A torque that asks for angles of this size about the one that asks for none.
                 let none = Vector3::new(linear.along_x_m3[1], 0.0, linear.along_z_m3[1]);
-                let asked =
+                let requested =
                     none + Vector3::new(linear.along_x_m3[0] * size, 0.0, -linear.along_z_m3[0] * size);
-                let asked_body = shade.dcm_body_from_shade * asked * 5e-5;
+                let asked_body = shade.dcm_body_from_shade * requested * 5e-5;
                 let angles = linear.sun_angles(&asked_body, 5e-5, [true; 2]).unwrap();
                 let source_body = shade.dcm_body_from_shade.tr_mul(&direction_from_angles(angles));
                 let torque = polynomial.torque_n_m(&Beam { source_body, pressure_pa: 1.0 });
-                (torque - asked).xz().norm()
+                (torque - requested).xz().norm()
             };
             let (coarse, fine) = (error(0.1), error(0.05));
             assert!(coarse > 1e-4 && coarse > 3.5 * fine, "{coarse} {fine}");

@@ -2,22 +2,24 @@
 //! during a downlink so that its torque brings the momentum to a target, and which target that is.
 
 mod admissible;
-mod ahead;
 mod dump_request;
 mod linear;
+mod prediction;
 mod profile;
+mod rotated_momentum;
 mod sampled;
 mod sampled_forecast;
 mod strategy;
 mod targeting;
-mod turning;
 
-pub use ahead::{Ahead, Components, DownlinkAhead, Forecast, LONGEST_HORIZON, ScienceAhead};
 pub use dump_request::DumpRequests;
 pub use linear::LinearTorque;
-pub use profile::{Component, Cycle, Reach, Swing};
+pub use prediction::{
+    Components, Forecast, LONGEST_HORIZON, PredictedDownlink, PredictedScience, Prediction,
+};
+pub use profile::{Component, ControlAuthority, Cycle, Excursion};
+pub use rotated_momentum::{RotatedMomentum, SquareSum, best_turned};
 pub use sampled::SampledManager;
 pub use sampled_forecast::SampledForecast;
 pub use strategy::{Manager, Strategy};
-pub use targeting::{Aim, TargetAxes, Targeted, Targeting, TargetingMethod};
-pub use turning::{SquareSum, Turned, best_turned};
+pub use targeting::{DownlinkState, TargetAxes, Targeted, Targeting, TargetingMethod};

@@ -13,7 +13,7 @@
 
 /// What a span of science does to one component, in N m s, from its start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Swing {
+pub struct Excursion {
     /// At its end.
     pub change: f64,
     /// Lowest on the way, at most 0.
@@ -22,7 +22,7 @@ pub struct Swing {
     pub highest: f64,
 }
 
-impl Swing {
+impl Excursion {
     /// Takes note of a momentum on the way, relative to the start.
     pub fn note(&mut self, since_start: f64) {
         self.change = since_start;
@@ -32,15 +32,15 @@ impl Swing {
 }
 
 /// What a downlink can add to one component, in N m s: least and most.
-pub type Reach = [f64; 2];
+pub type ControlAuthority = [f64; 2];
 
 /// Science to come and the downlink after it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cycle {
     /// Of the science.
-    pub swing: Swing,
+    pub swing: Excursion,
     /// Of the downlink.
-    pub reach: Reach,
+    pub reach: ControlAuthority,
 }
 
 /// One component where a downlink begins.
@@ -49,7 +49,7 @@ pub struct Component<'a, D: Fn(f64) -> f64> {
     /// Momentum, in N m s.
     pub now: f64,
     /// Of the downlink that begins.
-    pub reach: Reach,
+    pub reach: ControlAuthority,
     /// What follows it.
     pub cycles: &'a [Cycle],
     /// Momentum through the first science, relative to its start, in N m s, in the order of time.
@@ -138,18 +138,18 @@ mod tests {
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
-    fn drift(change: f64) -> Swing {
-        let mut swing = Swing::default();
+    fn drift(change: f64) -> Excursion {
+        let mut swing = Excursion::default();
         swing.note(change);
         swing
     }
 
-    fn cycles(changes: &[f64], reach: Reach) -> Vec<Cycle> {
+    fn cycles(changes: &[f64], reach: ControlAuthority) -> Vec<Cycle> {
         changes.iter().map(|change| Cycle { swing: drift(*change), reach }).collect()
     }
 
     /// The target without dumps in sight.
-    fn target(now: f64, reach: Reach, cycles: &[Cycle], threshold: f64) -> f64 {
+    fn target(now: f64, reach: ControlAuthority, cycles: &[Cycle], threshold: f64) -> f64 {
         Component { now, reach, cycles, path: &[], threshold, dumped: |_| 0.0 }.target()
     }
 
@@ -200,10 +200,10 @@ mod tests {
         let path: Vec<f64> = (1..=32)
             .map(|k| if k <= 30 { -0.643 * f64::from(k) / 30.0 } else { -0.643 + 0.0205 * f64::from(k - 30) })
             .collect();
-        let mut swing = Swing::default();
+        let mut swing = Excursion::default();
         path.iter().for_each(|at| swing.note(*at));
         let ahead = [Cycle { swing, reach: [0.0; 2] }];
-        let with = |reach: Reach, fraction: f64| {
+        let with = |reach: ControlAuthority, fraction: f64| {
             let component = Component {
                 now: -3.6,
                 reach,
@@ -228,7 +228,7 @@ mod tests {
     fn what_stays_just_below_the_threshold_is_not_given_up_for_a_dump() {
         // The dip of 0.1 and the rise behind it leave 0.02 to the threshold; a little lower two dumps would follow, much lower one.
         let path = [-0.05, -0.1, -0.08, -0.06];
-        let mut swing = Swing::default();
+        let mut swing = Excursion::default();
         path.iter().for_each(|at| swing.note(*at));
         let ahead = [Cycle { swing, reach: [0.0; 2] }];
         let dumped = |at: f64| -at.signum() * 4.0;
@@ -255,7 +255,7 @@ mod tests {
     fn any_cycle() -> impl Strategy<Value = Cycle> {
         let parts = (-3.0..3.0_f64, 0.0..1.0_f64, 0.0..1.0_f64, -2.0..1.0_f64, 0.05..2.0_f64);
         parts.prop_map(|(change, below, above, least, width)| Cycle {
-            swing: Swing { change, lowest: change.min(0.0) - below, highest: change.max(0.0) + above },
+            swing: Excursion { change, lowest: change.min(0.0) - below, highest: change.max(0.0) + above },
             reach: [least, least + width],
         })
     }
@@ -315,7 +315,7 @@ mod tests {
         ) {
             let reach = [reach.0, reach.0 + reach.1];
             let mut path = vec![];
-            let mut swing = Swing::default();
+            let mut swing = Excursion::default();
             for step in steps {
                 path.push(path.last().unwrap_or(&0.0) + step);
                 swing.note(path[path.len() - 1]);

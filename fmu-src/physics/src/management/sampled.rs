@@ -4,10 +4,10 @@
 
 use nalgebra::Vector3;
 
-use super::ahead::Ahead;
+use super::prediction::Prediction;
 use super::sampled_forecast::SampledForecast;
 use super::strategy::{Manager, Strategy};
-use super::targeting::{Aim, ScienceAim};
+use super::targeting::{DownlinkState, ScienceAim};
 use crate::attitude::angle_between_rad;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::{
@@ -24,7 +24,7 @@ pub struct SampledManager<'a> {
     /// Strategy and target.
     pub manager: Manager<'a>,
     /// What the light meets.
-    pub craft: SunlitCraft<'a>,
+    pub spacecraft: SunlitCraft<'a>,
     /// Sunlight.
     pub light: SunLight,
     /// What the momentum means.
@@ -40,21 +40,21 @@ impl SunChooser for SampledManager<'_> {
         if self.manager.strategy == Strategy::DumpsOnly {
             return None;
         }
-        let craft = &self.craft;
+        let spacecraft = &self.spacecraft;
         let [to_sun_m, to_earth_m] =
             [start.surroundings.to_sun(), start.surroundings.to_earth()].map(|it| value(&it));
         let pressure_pa = self.light.pressure_pa(to_sun_m.norm());
         let totals = Totals::at_start(self.momentum_body_n_m_s, &start.attitude.inertial_from_body());
-        let torque = |sun_body: &Vector3<f64>| craft.torque_body_n_m(sun_body, pressure_pa);
+        let torque = |sun_body: &Vector3<f64>| spacecraft.torque_body_n_m(sun_body, pressure_pa);
         let science = self.science_course(start);
-        let aim = Aim {
+        let aim = DownlinkState {
             to_sun: to_sun_m.try_normalize(0.0)?,
             to_earth: to_earth_m.try_normalize(0.0)?,
             momentum: StartMomentum::of(&totals, self.convention),
             span_s: science.as_ref().map_or(start.span_s, ScienceCourse::light_s),
             torque_body_n_m: &torque,
             pressure_pa,
-            linear: self.manager.linear(&craft.center_of_mass_body_m()),
+            linear: self.manager.linear(&spacecraft.center_of_mass_body_m()),
             science: science.as_ref().map(|course| ScienceAim { course, convention: self.convention }),
         };
         let separations_rad = separations_rad(start);
@@ -112,7 +112,7 @@ impl SampledManager<'_> {
     }
 
     /// What lies ahead; nothing where the spacecraft is on no ellipse about its planet.
-    fn ahead(&self, start: &WindowStart<'_>, totals: Totals) -> Option<Ahead> {
+    fn ahead(&self, start: &WindowStart<'_>, totals: Totals) -> Option<Prediction> {
         if self.manager.strategy != Strategy::Predictive {
             return None;
         }
@@ -121,7 +121,7 @@ impl SampledManager<'_> {
         let mut forecast = SampledForecast {
             orbit,
             law: Guided { schedule, ..start.law },
-            craft: self.craft,
+            spacecraft: self.spacecraft,
             light: self.light,
             convention: self.convention,
             policy: self.policy,

@@ -9,7 +9,7 @@ use core::convert::Infallible;
 
 use nalgebra::Vector3;
 
-use super::ahead::Forecast;
+use super::prediction::Forecast;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::{Activity, Guided, GuidedAttitude, OrbitAhead, lines_of_sight};
 use crate::momentum::{Convention, DumpPolicy, Totals};
@@ -24,7 +24,7 @@ pub struct SampledForecast<'a> {
     /// Windows and attitudes, the Sun on -Y in downlink and in science that unloads.
     pub law: Guided,
     /// What the light meets.
-    pub craft: SunlitCraft<'a>,
+    pub spacecraft: SunlitCraft<'a>,
     /// Sunlight.
     pub light: SunLight,
     /// What the momentum means.
@@ -57,7 +57,7 @@ impl SampledForecast<'_> {
         let to_sun_m = surroundings.to_sun().map(|it| it.re);
         let distance_m = to_sun_m.norm();
         let sun_body = inertial_from_body.inverse() * (to_sun_m / distance_m);
-        let torque_body = self.craft.torque_body_n_m(&sun_body, self.light.pressure_pa(distance_m));
+        let torque_body = self.spacecraft.torque_body_n_m(&sun_body, self.light.pressure_pa(distance_m));
         totals.torque_integral_body_n_m_s += torque_body * span_s;
         totals.momentum_inertial_n_m_s += inertial_from_body * torque_body * span_s;
     }

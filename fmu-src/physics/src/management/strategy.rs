@@ -1,22 +1,22 @@
 //! Strategies of paper 000: dumps alone, reactive targets, predictive targets.
 //!
 //! Reactive: every downlink aims at the same momentum. Predictive: every downlink aims at the middle of the momenta from which the
-//! coming cycles, forecast in their default attitudes ([`super::ahead`]), can be flown below all thresholds, each coming downlink
+//! coming cycles, forecast in their default attitudes ([`super::ahead`]), can be simulated below all thresholds, each coming downlink
 //! with what sunlight can do then; of the physical momentum at the one that keeps X and Z smallest through the next science.
 //! Without a cycle to come it is reactive. Science that unloads has the same targets at its end, of the physical momentum the reactive
 //! one.
 
 use nalgebra::Vector3;
 
-use super::ahead::{Ahead, Components, DownlinkAhead, Forecast, ScienceAhead};
 use super::linear::LinearTorque;
-use super::profile::{Component, Reach};
-use super::targeting::{Aim, ScienceAim, Targeted, Targeting};
-use super::turning::best_turned;
+use super::prediction::{Components, Forecast, PredictedDownlink, PredictedScience, Prediction};
+use super::profile::{Component, ControlAuthority};
+use super::rotated_momentum::best_turned;
+use super::targeting::{DownlinkState, ScienceAim, Targeted, Targeting};
 use crate::attitude::{SunAngles, direction_from_angles};
 use crate::guidance::{ChosenPlace, ScienceCourse};
 use crate::momentum::{Convention, DumpPolicy};
-use crate::plant::{ForecastMomentum, Outlook, PlantError, StartMomentum, SunPlanner};
+use crate::plant::{DownlinkForecast, ForecastMomentum, PlantError, StartMomentum, SunPlanner};
 use crate::radiation::TorquePolynomial;
 use crate::spacecraft::{Sunshade, SunshadeModel};
 
@@ -48,14 +48,14 @@ pub struct Manager<'a> {
 }
 
 impl SunPlanner for Manager<'_> {
-    fn choose(&self, outlook: &mut Outlook<'_>) -> Result<Option<ChosenPlace>, PlantError> {
+    fn choose(&self, outlook: &mut DownlinkForecast<'_>) -> Result<Option<ChosenPlace>, PlantError> {
         let Some(to_earth) = outlook.to_earth.filter(|_| self.strategy != Strategy::DumpsOnly) else {
             return Ok(None);
         };
         let ahead = self.ahead(outlook)?;
         let linear = self.linear(&outlook.center_of_mass_body_m());
         let torque = |sun_body: &Vector3<f64>| outlook.torque_body_n_m(sun_body);
-        let aim = Aim {
+        let aim = DownlinkState {
             to_sun: outlook.to_sun,
             to_earth,
             momentum: outlook.momentum,
@@ -66,14 +66,14 @@ impl SunPlanner for Manager<'_> {
             science: outlook
                 .science
                 .as_ref()
-                .map(|course| ScienceAim { course, convention: Outlook::convention(outlook) }),
+                .map(|course| ScienceAim { course, convention: DownlinkForecast::convention(outlook) }),
         };
         let separations_rad = outlook.separations_rad;
         Ok(self.place(aim, ahead.as_ref(), separations_rad))
     }
 }
 
-impl Forecast for Outlook<'_> {
+impl Forecast for DownlinkForecast<'_> {
     type Error = PlantError;
 
     fn begin_s(&self) -> f64 {
@@ -81,7 +81,7 @@ impl Forecast for Outlook<'_> {
     }
 
     fn cycle_s(&self) -> f64 {
-        Outlook::cycle_s(self)
+        DownlinkForecast::cycle_s(self)
     }
 
     fn span_s(&self) -> f64 {
@@ -89,7 +89,7 @@ impl Forecast for Outlook<'_> {
     }
 
     fn downlink_s(&self) -> f64 {
-        Outlook::downlink_s(self)
+        DownlinkForecast::downlink_s(self)
     }
 
     fn begins_in_science(&self) -> bool {
@@ -97,11 +97,11 @@ impl Forecast for Outlook<'_> {
     }
 
     fn convention(&self) -> Convention {
-        Outlook::convention(self)
+        DownlinkForecast::convention(self)
     }
 
     fn dump_policy(&self) -> DumpPolicy {
-        Outlook::dump_policy(self)
+        DownlinkForecast::dump_policy(self)
     }
 
     fn fly(
@@ -126,20 +126,20 @@ impl Manager<'_> {
     ///
     /// # Errors
     /// What ends a forecast.
-    pub(super) fn ahead<F: Forecast>(&self, forecast: &mut F) -> Result<Option<Ahead>, F::Error> {
-        if self.strategy == Strategy::Predictive { Ahead::of(forecast, self.horizon) } else { Ok(None) }
+    pub(super) fn ahead<F: Forecast>(&self, forecast: &mut F) -> Result<Option<Prediction>, F::Error> {
+        if self.strategy == Strategy::Predictive { Prediction::of(forecast, self.horizon) } else { Ok(None) }
     }
 
     /// Where the Sun is to stand for the target predicted from what lies ahead, or else the one target; `None` where no place is
     /// admissible.
     pub(super) fn place(
         &self,
-        mut aim: Aim<'_>,
-        ahead: Option<&Ahead>,
+        mut aim: DownlinkState<'_>,
+        ahead: Option<&Prediction>,
         separations_rad: [f64; 2],
     ) -> Option<ChosenPlace> {
         let predicted = match (ahead, aim.momentum) {
-            (Some(Ahead::Science(science)), StartMomentum::Inertial(momentum)) => {
+            (Some(Prediction::Science(science)), StartMomentum::Inertial(momentum)) => {
                 // A target in the body would be another one under the other antenna: what is off it in space is brought to zero.
                 self.turned(&aim, science).map(|end_body| {
                     let end = science.inertial_from_body * end_body;
@@ -147,7 +147,7 @@ impl Manager<'_> {
                     Vector3::zeros()
                 })
             }
-            (Some(Ahead::Components(components)), _) => self.kept(&aim, components),
+            (Some(Prediction::Components(components)), _) => self.kept(&aim, components),
             _ => None,
         };
         let target = predicted.unwrap_or(self.target_body_n_m_s);
@@ -156,12 +156,12 @@ impl Manager<'_> {
     }
 
     /// The target from which X and Z stay below their thresholds through the coming cycles.
-    fn kept(&self, aim: &Aim<'_>, ahead: &Components) -> Option<Vector3<f64>> {
+    fn kept(&self, aim: &DownlinkState<'_>, ahead: &Components) -> Option<Vector3<f64>> {
         let now = self.targeting.default_momentum(aim)?;
         let torques = self.targeting.present_torques(aim, ahead.present().separations_rad)?;
         let default_n_m = (aim.torque_body_n_m)(&direction_from_angles(SunAngles::default())).xz();
         // What the default attitude adds beside sunlight alone comes in others too.
-        let beside = |downlink: &DownlinkAhead| {
+        let beside = |downlink: &PredictedDownlink| {
             let light = default_n_m * downlink.equivalent_s(aim.pressure_pa);
             [0, 1].map(|axis| downlink.added[axis] - light[axis])
         };
@@ -191,19 +191,19 @@ impl Manager<'_> {
     }
 
     /// The target that keeps the momentum of the next science smallest.
-    fn turned(&self, aim: &Aim<'_>, science: &ScienceAhead) -> Option<Vector3<f64>> {
+    fn turned(&self, aim: &DownlinkState<'_>, science: &PredictedScience) -> Option<Vector3<f64>> {
         let now = self.targeting.default_momentum(aim)?;
         let reach = self
             .targeting
             .torques(aim, [aim.separation_rad(); 2])?
             .map(|it| it.map(|torque| torque * aim.span_s));
         let end = science.end_body_n_m_s;
-        let range = |axis: usize, reach: Reach, asked: bool| {
+        let range = |axis: usize, reach: ControlAuthority, requested: bool| {
             // Under the other antenna the body stands half a turn about the Sun line away.
             let [least, most] = [reach[0].min(-reach[1]), reach[1].max(-reach[0])];
-            if asked { [now[axis] + least, now[axis] + most] } else { [end[axis]; 2] }
+            if requested { [now[axis] + least, now[axis] + most] } else { [end[axis]; 2] }
         };
-        let [by_x, by_z] = self.targeting.axes.asked();
+        let [by_x, by_z] = self.targeting.axes.requested();
         let ranges = [range(0, reach[0], by_x), range(2, reach[1], by_z)];
         Some(best_turned(&science.squares, ranges, end.y))
     }
@@ -215,7 +215,7 @@ mod tests {
     use approx::assert_relative_eq;
     use nalgebra::Rotation3;
 
-    use super::super::ahead::Forecast;
+    use super::super::prediction::Forecast;
     use super::super::targeting::{TargetAxes, TargetingMethod};
     use super::*;
     use crate::momentum::Reinitialise;
@@ -320,7 +320,7 @@ mod tests {
             let SunAngles { azimuth_rad, elevation_rad } = SunAngles::of(sun_body);
             Vector3::new(0.0025 * elevation_rad, 0.0, 0.0025 * azimuth_rad)
         };
-        let aim = Aim {
+        let aim = DownlinkState {
             to_sun: Vector3::x(),
             to_earth: Vector3::new(separations_rad[0].cos(), separations_rad[0].sin(), 0.0),
             momentum: StartMomentum::Body(Vector3::new(0.9, 0.0, 0.0)),
@@ -331,7 +331,7 @@ mod tests {
             science: None,
         };
         let Ok(ahead) = manager.ahead(&mut ByHand { separations_rad, begins_in_science: false });
-        let Some(Ahead::Components(components)) = ahead else { panic!("no forecast") };
+        let Some(Prediction::Components(components)) = ahead else { panic!("no forecast") };
         manager.kept(&aim, &components).unwrap().x
     }
 
@@ -354,7 +354,7 @@ mod tests {
     #[test]
     fn science_that_unloads_looks_ahead_over_the_next_downlink() {
         let mut forecast = ByHand { separations_rad: [1.0; 4], begins_in_science: true };
-        let Ok(Some(Ahead::Components(components))) = Ahead::of(&mut forecast, 3) else {
+        let Ok(Some(Prediction::Components(components))) = Prediction::of(&mut forecast, 3) else {
             panic!("no forecast")
         };
         assert_eq!(components.present().span_s, SCIENCE_S);

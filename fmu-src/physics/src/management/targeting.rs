@@ -34,7 +34,7 @@ pub enum TargetAxes {
 
 impl TargetAxes {
     /// Whether X and Z are targeted.
-    pub fn asked(self) -> [bool; 2] {
+    pub fn requested(self) -> [bool; 2] {
         [self != Self::Z, self != Self::X]
     }
 }
@@ -63,7 +63,7 @@ pub struct Targeting {
 }
 
 /// What a downlink starts from, or science that unloads, and what its light does.
-pub struct Aim<'a> {
+pub struct DownlinkState<'a> {
     /// Unit vector to the Sun, EME2000.
     pub to_sun: Vector3<f64>,
     /// Unit vector to the Earth, EME2000.
@@ -114,14 +114,14 @@ const INTERVALS: usize = 16;
 impl Targeting {
     /// The place of the Sun for `target_body_n_m_s` at the downlink's end; `None` where Sun and Earth give no downlink attitude,
     /// or no place is admissible.
-    pub fn sun_place(&self, aim: &Aim<'_>, target_body_n_m_s: &Vector3<f64>) -> Option<Targeted> {
+    pub fn sun_place(&self, aim: &DownlinkState<'_>, target_body_n_m_s: &Vector3<f64>) -> Option<Targeted> {
         self.sun_place_throughout(aim, target_body_n_m_s, [aim.separation_rad(); 2])
     }
 
     /// The same where Sun and Earth come from the least to the greatest of these angles apart while the downlink lasts.
     pub fn sun_place_throughout(
         &self,
-        aim: &Aim<'_>,
+        aim: &DownlinkState<'_>,
         target_body_n_m_s: &Vector3<f64>,
         separations_rad: [f64; 2],
     ) -> Option<Targeted> {
@@ -141,7 +141,11 @@ impl Targeting {
 
     /// Least and greatest torque of sunlight about X and Z in N m through what begins, the other angle at 0: in a downlink with Sun
     /// and Earth this far apart at both ends where an antenna can stay with it, else as they are at the begin.
-    pub fn present_torques(&self, aim: &Aim<'_>, separations_rad: Option<[f64; 2]>) -> Option<[[f64; 2]; 2]> {
+    pub fn present_torques(
+        &self,
+        aim: &DownlinkState<'_>,
+        separations_rad: Option<[f64; 2]>,
+    ) -> Option<[[f64; 2]; 2]> {
         if aim.science.is_some() {
             return Self::torques_on(aim, &self.zone());
         }
@@ -151,12 +155,12 @@ impl Targeting {
 
     /// Least and greatest torque of sunlight about X and Z in N m, the other angle at 0, in a downlink that begins and ends with Sun
     /// and Earth this far apart; `None` where one of them has no direction, or the antenna cannot stay with the Earth.
-    pub fn torques(&self, aim: &Aim<'_>, [begin_rad, end_rad]: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+    pub fn torques(&self, aim: &DownlinkState<'_>, [begin_rad, end_rad]: [f64; 2]) -> Option<[[f64; 2]; 2]> {
         let branch = self.branches(begin_rad)?[0].lasting([begin_rad.min(end_rad), begin_rad.max(end_rad)]);
         Self::torques_on(aim, &branch)
     }
 
-    fn torques_on(aim: &Aim<'_>, branch: &Branch) -> Option<[[f64; 2]; 2]> {
+    fn torques_on(aim: &DownlinkState<'_>, branch: &Branch) -> Option<[[f64; 2]; 2]> {
         let torque = |elevation_rad: f64, azimuth_rad: f64| {
             let sun_body = direction_from_angles(SunAngles { azimuth_rad, elevation_rad });
             (aim.torque_body_n_m)(&sun_body)
@@ -171,7 +175,7 @@ impl Targeting {
     }
 
     /// Momentum at the start in the default attitude, body frame, in N m s.
-    pub fn default_momentum(&self, aim: &Aim<'_>) -> Option<Vector3<f64>> {
+    pub fn default_momentum(&self, aim: &DownlinkState<'_>) -> Option<Vector3<f64>> {
         let first = match aim.science {
             Some(_) => self.zone(),
             None => self.branches(aim.separation_rad())?[0],
@@ -194,7 +198,7 @@ impl Targeting {
         KeepInLimits { azimuth_rad: self.azimuth_limit_rad, elevation_rad: self.elevation_limit_rad }
     }
 
-    fn exact(&self, aim: &Aim<'_>, target: &Vector3<f64>, branches: &[Branch]) -> Option<Targeted> {
+    fn exact(&self, aim: &DownlinkState<'_>, target: &Vector3<f64>, branches: &[Branch]) -> Option<Targeted> {
         let tolerance = ROUNDING * (1.0 + aim.momentum.magnitude_n_m_s() + target.norm());
         let mut best: Option<(f64, Targeted)> = None;
         for branch in branches {
@@ -217,7 +221,7 @@ impl Targeting {
     /// The place for both axes on one branch, and what is left of the target.
     fn both(
         &self,
-        aim: &Aim<'_>,
+        aim: &DownlinkState<'_>,
         target: &Vector3<f64>,
         branch: &Branch,
         tolerance: f64,
@@ -245,7 +249,12 @@ impl Targeting {
     }
 
     /// The same for one axis, the other angle at 0 as far as that is admissible.
-    fn one(&self, aim: &Aim<'_>, target: &Vector3<f64>, branch: &Branch) -> Option<(SunPlace, f64)> {
+    fn one(
+        &self,
+        aim: &DownlinkState<'_>,
+        target: &Vector3<f64>,
+        branch: &Branch,
+    ) -> Option<(SunPlace, f64)> {
         let by_elevation = self.axes == TargetAxes::X;
         let angles = |angle_rad: f64| {
             if by_elevation {
@@ -284,34 +293,39 @@ impl Targeting {
         left.is_finite().then_some((place, left))
     }
 
-    fn linear(&self, aim: &Aim<'_>, target: &Vector3<f64>, branches: &[Branch]) -> Option<Targeted> {
+    fn linear(
+        &self,
+        aim: &DownlinkState<'_>,
+        target: &Vector3<f64>,
+        branches: &[Branch],
+    ) -> Option<Targeted> {
         let linear = aim.linear.as_ref()?;
         let start = branches.iter().find_map(|branch| branch.nearest(SunAngles::default()))?;
-        let [by_x, by_z] = self.axes.asked();
+        let [by_x, by_z] = self.axes.requested();
         let mut change = target - aim.momentum_body_n_m_s(&start);
         change.y = 0.0;
-        for (component, asked) in [(0, by_x), (2, by_z)] {
-            if !asked {
+        for (component, is_targeted) in [(0, by_x), (2, by_z)] {
+            if !is_targeted {
                 change[component] = 0.0;
             }
         }
-        let asked = linear.sun_angles(&(change / aim.span_s), aim.pressure_pa, self.axes.asked());
-        let wanted = asked.unwrap_or_default();
+        let solution = linear.sun_angles(&(change / aim.span_s), aim.pressure_pa, self.axes.requested());
+        let requested = solution.unwrap_or_default();
         let distance_rad = |place: &SunPlace| {
             let to = direction_from_angles(place.angles);
-            angle_between_rad(&to, &direction_from_angles(wanted))
+            angle_between_rad(&to, &direction_from_angles(requested))
         };
-        let places = branches.iter().filter_map(|branch| branch.nearest(wanted));
+        let places = branches.iter().filter_map(|branch| branch.nearest(requested));
         let nearest = |best: SunPlace, next: SunPlace| {
             if distance_rad(&next) < distance_rad(&best) - ROUNDING { next } else { best }
         };
         let place = places.reduce(nearest)?;
-        let clamped = asked.is_none() || distance_rad(&place) > 1e-9;
+        let clamped = solution.is_none() || distance_rad(&place) > 1e-9;
         Some(Targeted { place, clamped })
     }
 }
 
-impl Aim<'_> {
+impl DownlinkState<'_> {
     /// Angle between Sun and Earth, in rad.
     pub fn separation_rad(&self) -> f64 {
         angle_between_rad(&self.to_sun, &self.to_earth)

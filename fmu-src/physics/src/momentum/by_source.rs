@@ -34,7 +34,7 @@ pub struct SourceMomenta([Vector3<f64>; SOURCES.len()]);
 
 impl SourceMomenta {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         self.0.iter().flatten().all(|x| x.abs() <= GREATEST_IN_STATE)
     }
 

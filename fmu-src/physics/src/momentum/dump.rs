@@ -137,7 +137,7 @@ pub struct DumpSpacing {
 
 impl DumpSpacing {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         self.closest_s.is_none_or(|gap_s| gap_s >= 0.0)
     }
 
@@ -152,7 +152,7 @@ impl DumpSpacing {
 
 impl Dumps {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub(crate) fn is_sound(&self) -> bool {
+    pub(crate) fn is_valid(&self) -> bool {
         self.count >= 0
     }
 

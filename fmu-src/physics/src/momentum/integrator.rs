@@ -21,7 +21,7 @@ pub struct MomentumIntegrator {
 /// Why the integration stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stop {
-    /// The time asked for is covered.
+    /// The time requested is covered.
     Reached,
     /// Thrusters dumped.
     Dump(DumpEvent),
@@ -40,8 +40,8 @@ impl MomentumIntegrator {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
-        self.segment.is_sound() && self.dumps.is_sound()
+    pub fn is_valid(&self) -> bool {
+        self.segment.is_valid() && self.dumps.is_valid()
     }
 
     /// Dumps so far: those at or before the time last advanced to.

@@ -71,14 +71,14 @@ impl MomentumSegment {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         self.next_longest_s > 0.0
-            && self.totals.as_ref().is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s))
-            && self.by_source.as_ref().is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s))
+            && self.totals.as_ref().is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
+            && self.by_source.as_ref().is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
             && self
                 .rate_body_rad_s
                 .as_ref()
-                .is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s))
+                .is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
     }
 
     /// The same, expecting that the tolerance allows the next segment this length, in s.

@@ -38,7 +38,7 @@ impl<const D: usize, const N: usize> Segment<D, N> {
     }
 
     /// Whether a decoded interval is not reversed.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         self.half_length >= 0.0
     }
 

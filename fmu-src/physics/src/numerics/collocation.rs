@@ -229,8 +229,8 @@ impl<const D: usize, const M: usize> SegmentChain<D, M> {
     }
 
     /// Whether it can come from an integration; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
-        self.length_s > 0.0 && self.segment.is_sound() && self.segment.spans(self.start_s, self.end_s)
+    pub fn is_valid(&self) -> bool {
+        self.length_s > 0.0 && self.segment.is_valid() && self.segment.spans(self.start_s, self.end_s)
     }
 
     /// Length of the segments, s.

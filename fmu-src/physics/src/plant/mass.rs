@@ -23,7 +23,7 @@ impl MassState {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         [Some(self.known), Some(self.now), self.left].iter().flatten().all(|mass| {
             let numbers = mass.center_of_mass_body_m.iter().chain(&mass.inertia_body_kg_m2);
             mass.mass_kg > 0.0 && numbers.chain([&mass.mass_kg]).all(|x| x.abs() <= GREATEST_IN_STATE)

@@ -31,7 +31,7 @@ impl PropellantState {
     }
 
     /// Whether its numbers can come from a flight with so many tanks; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self, tanks: usize) -> bool {
+    pub fn is_valid(&self, tanks: usize) -> bool {
         self.tanks.len() == tanks && self.tanks.iter().all(|tank| tank.used_kg >= 0.0)
     }
 
@@ -47,7 +47,7 @@ impl PropellantState {
     }
 
     /// Counts what was used until `time_s`; from there nothing flows.
-    pub fn settle(&mut self, time_s: f64) {
+    pub fn accumulate(&mut self, time_s: f64) {
         for k in 0..self.tanks.len() {
             let used_kg = self.used_kg(k, time_s);
             self.tanks[k] = TankUse { used_kg, flow_kg_s: [0.0; 2] };
@@ -77,7 +77,7 @@ impl PropellantState {
     }
 
     /// When tank `k` runs dry at the present flow, in s.
-    pub fn dry_s(&self, k: usize, tank: &Tank) -> f64 {
+    pub fn depletion_time_s(&self, k: usize, tank: &Tank) -> f64 {
         self.tanks.get(k).map_or(f64::INFINITY, |used| {
             self.since_s + lasts_s(used.flow_kg_s, tank.propellant_kg - used.used_kg)
         })
@@ -98,7 +98,7 @@ impl PropellantState {
         without(loaded, tanks, |k| self.used_kg(k, time_s))
     }
 
-    /// Mass properties without what flowed since [`PropellantState::settle`] until `time_s`, of a spacecraft that had `settled`
+    /// Mass properties without what flowed since [`PropellantState::accumulate`] until `time_s`, of a spacecraft that had `settled`
     /// then.
     pub fn mass_properties_since(
         &self,
@@ -196,13 +196,13 @@ mod tests {
         for flow in [[0.1, 0.0], [0.1, 0.01], [0.1, -1e-3], [0.0, 0.02]] {
             let mut used = PropellantState::new(1, 100.0);
             used.add_flow(0, flow);
-            let dry_s = used.dry_s(0, &tank);
-            assert_relative_eq!(used.used_kg(0, dry_s), 3.0, max_relative = 1e-13);
+            let depletion_time_s = used.depletion_time_s(0, &tank);
+            assert_relative_eq!(used.used_kg(0, depletion_time_s), 3.0, max_relative = 1e-13);
         }
         let mut used = PropellantState::new(1, 100.0);
-        assert_eq!(used.dry_s(0, &tank), f64::INFINITY);
+        assert_eq!(used.depletion_time_s(0, &tank), f64::INFINITY);
         used.add_flow(0, [0.1, -0.01]);
-        assert_eq!(used.dry_s(0, &tank), f64::INFINITY, "the flow stops before");
+        assert_eq!(used.depletion_time_s(0, &tank), f64::INFINITY, "the flow stops before");
     }
 
     #[test]

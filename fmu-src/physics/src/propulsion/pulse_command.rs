@@ -26,7 +26,7 @@ impl PulseCommand {
     }
 
     /// Whether decoded numbers can be some.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         self.delay_s >= 0.0 && self.on_s >= 0.0
     }
 

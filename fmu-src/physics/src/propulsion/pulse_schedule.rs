@@ -45,7 +45,7 @@ pub struct PulseSchedule {
 
 impl PulseSchedule {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         self.next.is_none_or(|next| next.opens_s <= next.closes_s)
     }
 

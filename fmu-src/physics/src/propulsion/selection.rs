@@ -67,9 +67,10 @@ impl ThrusterSelection {
         let mut problem = Problem::new(thrusters, may_fire, center_of_mass_body_m, preference);
         let mut per_impulse_s = [[0.0; MOST_THRUSTERS]; 6];
         for ((axis, sign, name), on_times) in SENSES.into_iter().zip(&mut per_impulse_s) {
-            let mut wanted = Vector3::zeros();
-            wanted[axis] = sign;
-            *on_times = problem.solve(&wanted).ok_or(SelectionError { axis: name, of: "that may fire" })?;
+            let mut requested = Vector3::zeros();
+            requested[axis] = sign;
+            *on_times =
+                problem.solve(&requested).ok_or(SelectionError { axis: name, of: "that may fire" })?;
         }
         Ok(Self { per_impulse_s, count })
     }
@@ -177,12 +178,12 @@ impl Problem {
         &self.candidates[i].1
     }
 
-    /// On-times of all thrusters that give `wanted`; none where nothing does.
-    fn solve(&mut self, wanted: &Vector3<f64>) -> Option<OnTimes> {
+    /// On-times of all thrusters that give `requested`; none where nothing does.
+    fn solve(&mut self, requested: &Vector3<f64>) -> Option<OnTimes> {
         let (mut times, mut chosen) = ([0.0; MOST_THRUSTERS], [false; MOST_THRUSTERS]);
         // Every thruster comes in and goes out a few times at most.
         for _ in 0..4 * MOST_THRUSTERS {
-            let next = (0..self.count).filter(|i| !chosen[*i]).map(|i| (i, self.gain(i, &times, wanted)));
+            let next = (0..self.count).filter(|i| !chosen[*i]).map(|i| (i, self.gain(i, &times, requested)));
             let threshold = 1e-9 * self.torque_weight * self.torque_scale();
             let Some((best, _)) =
                 next.filter(|(_, gain)| *gain > threshold).max_by(|(_, a), (_, b)| a.total_cmp(b))
@@ -190,7 +191,7 @@ impl Problem {
                 break;
             };
             chosen[best] = true;
-            while let Some(found) = self.unconstrained(&chosen, wanted) {
+            while let Some(found) = self.unconstrained(&chosen, requested) {
                 let falls = |i: usize| chosen[i] && found[i] <= 0.0;
                 let part = (0..self.count)
                     .filter(|i| falls(*i))
@@ -209,12 +210,12 @@ impl Problem {
                 }
             }
         }
-        let least = self.exact(&chosen, [0.0; MOST_THRUSTERS], wanted);
+        let least = self.exact(&chosen, [0.0; MOST_THRUSTERS], requested);
         // Where more thrusters were chosen than the torque needs, rounding may ask for less than nothing.
         let times =
-            if least.iter().all(|it| *it >= 0.0) { least } else { self.exact(&chosen, times, wanted) };
+            if least.iter().all(|it| *it >= 0.0) { least } else { self.exact(&chosen, times, requested) };
         let given = (0..self.count).map(|i| self.torque(i) * times[i]).sum::<Vector3<f64>>();
-        if (given - wanted).norm() > MISS || times.iter().any(|it| *it < 0.0) {
+        if (given - requested).norm() > MISS || times.iter().any(|it| *it < 0.0) {
             return None;
         }
         let mut all = [0.0; MOST_THRUSTERS];
@@ -229,15 +230,15 @@ impl Problem {
     }
 
     /// By how much the sum of squares falls per second more of candidate `i`, halved.
-    fn gain(&self, i: usize, times: &OnTimes, wanted: &Vector3<f64>) -> f64 {
+    fn gain(&self, i: usize, times: &OnTimes, requested: &Vector3<f64>) -> f64 {
         let given = (0..self.count).map(|j| self.torque(j) * times[j]).sum::<Vector3<f64>>();
         let preferred: f64 = (0..self.count).map(|j| self.weight[i][j] * times[j]).sum();
-        self.torque_weight * self.torque(i).dot(&(wanted - given)) - preferred
+        self.torque_weight * self.torque(i).dot(&(requested - given)) - preferred
     }
 
     /// The least squares without regard to signs over the chosen ones, by Cholesky's decomposition.
-    fn unconstrained(&self, chosen: &[bool; MOST_THRUSTERS], wanted: &Vector3<f64>) -> Option<OnTimes> {
-        self.solve_chosen(chosen, |i| self.torque_weight * self.torque(i).dot(wanted), self.torque_weight)
+    fn unconstrained(&self, chosen: &[bool; MOST_THRUSTERS], requested: &Vector3<f64>) -> Option<OnTimes> {
+        self.solve_chosen(chosen, |i| self.torque_weight * self.torque(i).dot(requested), self.torque_weight)
     }
 
     /// (W + torque_weight B'B) x = right over the chosen ones.
@@ -274,7 +275,12 @@ impl Problem {
     }
 
     /// Adds what the weighted constraint left of the torque: dt = W^-1 B' (B W^-1 B')^-1 (wanted - B t), over the chosen ones.
-    fn exact(&self, chosen: &[bool; MOST_THRUSTERS], mut times: OnTimes, wanted: &Vector3<f64>) -> OnTimes {
+    fn exact(
+        &self,
+        chosen: &[bool; MOST_THRUSTERS],
+        mut times: OnTimes,
+        requested: &Vector3<f64>,
+    ) -> OnTimes {
         let mut columns = [[0.0; MOST_THRUSTERS]; 3];
         for (axis, column) in columns.iter_mut().enumerate() {
             let Some(found) = self.solve_chosen(chosen, |i| self.torque(i)[axis], 0.0) else { return times };
@@ -287,7 +293,7 @@ impl Problem {
         let Ok(inverse) = gram.pseudo_inverse(1e-12 * gram.norm()) else { return times };
         for _ in 0..2 {
             let given = (0..self.count).map(|i| self.torque(i) * times[i]).sum::<Vector3<f64>>();
-            let multiplier = inverse * (wanted - given);
+            let multiplier = inverse * (requested - given);
             for i in 0..self.count {
                 times[i] += (0..3).map(|axis| columns[axis][i] * multiplier[axis]).sum::<f64>();
             }
@@ -334,10 +340,10 @@ mod tests {
         let thrusters = couples();
         let found =
             ThrusterSelection::new(&thrusters, |_| true, &Vector3::zeros(), Preference::LeastForce).unwrap();
-        let wanted = Vector3::new(0.5, -2.0, 1.0);
-        let times: Vec<f64> = found.on_times_s(&wanted).collect();
+        let requested = Vector3::new(0.5, -2.0, 1.0);
+        let times: Vec<f64> = found.on_times_s(&requested).collect();
         let (torque, force) = given(&thrusters, &times);
-        assert_relative_eq!(torque, wanted, epsilon = 1e-13);
+        assert_relative_eq!(torque, requested, epsilon = 1e-13);
         assert!(force.norm() < 1e-12, "{force}");
         // 4 N at 1 m twice.
         assert_relative_eq!(found.least_torque_n_m(), 8.0, max_relative = 1e-12);
@@ -383,7 +389,7 @@ mod tests {
     }
 
     /// The least t'W t over all sets of at most three thrusters, and of pairs of such sets, found by trying.
-    fn least_on_time(thrusters: &[Thruster], wanted: &Vector3<f64>) -> f64 {
+    fn least_on_time(thrusters: &[Thruster], requested: &Vector3<f64>) -> f64 {
         let torque: Vec<Vector3<f64>> =
             thrusters.iter().map(|it| it.position_body_m.cross(&it.force_body_n)).collect();
         let n = thrusters.len() as u32;
@@ -392,10 +398,10 @@ mod tests {
             .filter_map(|set| {
                 let members: Vec<usize> = (0..n).filter(|k| set >> k & 1 == 1).map(|k| k as usize).collect();
                 let gram: Matrix3<f64> = members.iter().map(|k| torque[*k] * torque[*k].transpose()).sum();
-                let dual = gram.pseudo_inverse(1e-10 * gram.norm()).ok()? * wanted;
+                let dual = gram.pseudo_inverse(1e-10 * gram.norm()).ok()? * requested;
                 let times: Vec<f64> = members.iter().map(|k| torque[*k].dot(&dual)).collect();
                 let given: Vector3<f64> = members.iter().zip(&times).map(|(k, t)| torque[*k] * *t).sum();
-                let fits = (given - wanted).norm() < 1e-9 && times.iter().all(|t| *t >= -1e-12);
+                let fits = (given - requested).norm() < 1e-9 && times.iter().all(|t| *t >= -1e-12);
                 fits.then(|| times.iter().map(|t| t * t).sum::<f64>())
             })
             .fold(f64::INFINITY, f64::min)
@@ -410,14 +416,14 @@ mod tests {
             let thrusters: Vec<Thruster> = places.iter().map(|(at, force)| thruster(*at, *force)).collect();
             let found = ThrusterSelection::new(&thrusters, |_| true, &Vector3::zeros(), Preference::LeastOnTime);
             for (axis, sign, _) in SENSES {
-                let mut wanted = Vector3::zeros();
-                wanted[axis] = sign;
-                let least = least_on_time(&thrusters, &wanted);
+                let mut requested = Vector3::zeros();
+                requested[axis] = sign;
+                let least = least_on_time(&thrusters, &requested);
                 match &found {
                     Ok(selection) => {
-                        let times: Vec<f64> = selection.on_times_s(&wanted).collect();
+                        let times: Vec<f64> = selection.on_times_s(&requested).collect();
                         let (torque, _) = given(&thrusters, &times);
-                        prop_assert!((torque - wanted).norm() < 1e-9);
+                        prop_assert!((torque - requested).norm() < 1e-9);
                         let square: f64 = times.iter().map(|t| t * t).sum();
                         // Thrusters with hardly a lever are left to rounding on both sides.
                         prop_assert!(square > 1e4 || (square / least - 1.0).abs() < 1e-4, "{square} {least}");

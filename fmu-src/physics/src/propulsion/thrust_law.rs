@@ -33,7 +33,7 @@ impl ThrustLaw {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let vectors = self.force_body_n.iter().chain(&self.torque_body_n_m);
         let numbers = vectors.flat_map(|vector| vector.iter()).chain(&self.flow_kg_s).chain([&self.since_s]);
         numbers.into_iter().all(|x| x.abs() <= GREATEST_IN_STATE)

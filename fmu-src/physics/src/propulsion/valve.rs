@@ -23,7 +23,7 @@ pub struct Valve {
 
 impl Valve {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         (0.0..=1.0).contains(&self.fraction) && (0.0..=10.0).contains(&self.scale)
     }
 

@@ -60,7 +60,7 @@ pub enum GridError {
     /// Too coarse or too fine.
     #[error("planet grid of resolution {found}, allowed: 1 to 2000 (2 n2 cells)")]
     Resolution {
-        /// The resolution asked for.
+        /// The resolution requested.
         found: usize,
     },
     /// A pole that gives no meridian.

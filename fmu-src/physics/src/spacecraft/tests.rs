@@ -228,20 +228,20 @@ fn two_of_a_kind_with_one_name_are_refused_by_both_places() {
     let wheel = "[[wheels]]\naxis = [1.0, 0.0, 0.0]\ncapacity_n_m_s = 4.0\n";
     for (list, item) in [("plates", plate), ("panels", panel), ("wheels", wheel)] {
         let named = |name: &str| format!("{item}name = \"{name}\"\n");
-        let told = problems(&format!("{SMALL}{}{}{}", named("a"), named("b"), named("a")));
-        assert_eq!(told.len(), 1, "{told:?}");
-        assert_eq!(told[0].key, format!("{list}[4].name"));
-        assert_eq!(told[0].found, format!("`a`, the name of {list}[2] too"));
+        let reported = problems(&format!("{SMALL}{}{}{}", named("a"), named("b"), named("a")));
+        assert_eq!(reported.len(), 1, "{reported:?}");
+        assert_eq!(reported[0].key, format!("{list}[4].name"));
+        assert_eq!(reported[0].found, format!("`a`, the name of {list}[2] too"));
         // The first has no name and is called by its number.
         let number = format!("{} 1", list.trim_end_matches('s'));
-        let told = problems(&format!("{SMALL}{}", named(&number)));
-        assert_eq!(told[0].found, format!("`{number}`, the name of {list}[1] too"));
+        let reported = problems(&format!("{SMALL}{}", named(&number)));
+        assert_eq!(reported[0].found, format!("`{number}`, the name of {list}[1] too"));
     }
     let shade = format!("[sunshade]\nmodel = \"plates\"\n{}", plate.replace("plates", "sunshade.plates"));
     assert!(Spacecraft::from_toml("small.toml", &format!("{SMALL}{shade}")).is_ok());
-    let told = problems(&format!("{SMALL}{plate}name = \"a\"\n{shade}name = \"a\"\n"));
+    let reported = problems(&format!("{SMALL}{plate}name = \"a\"\n{shade}name = \"a\"\n"));
     assert_eq!(
-        (told[0].key.as_str(), told[0].found.as_str()),
+        (reported[0].key.as_str(), reported[0].found.as_str()),
         ("sunshade.plates[1].name", "`a`, the name of plates[2] too")
     );
 }
@@ -274,12 +274,12 @@ fn numbers_beyond_all_measure_are_short_and_the_limit_is_named() {
 }
 
 /// Key and what was found, of every problem.
-fn told(text: &str) -> Vec<(String, String)> {
+fn reported(text: &str) -> Vec<(String, String)> {
     problems(text).into_iter().map(|problem| (problem.key, problem.found)).collect()
 }
 
 #[test]
-fn keys_types_and_values_are_told_together_in_the_order_of_the_file() {
+fn keys_types_and_values_are_reported_together_in_the_order_of_the_file() {
     let mut text = SMALL.to_owned();
     for (from, to) in [
         ("mass_kg = 100\n", ""),
@@ -292,7 +292,7 @@ fn keys_types_and_values_are_told_together_in_the_order_of_the_file() {
         assert!(text.contains(from), "{from}");
         text = text.replacen(from, to, 1);
     }
-    let wanted = [
+    let expected = [
         ("mass_properties", "no key `mass_kg`"),
         ("mass_properties.center_of_mass_m[2]", "string \"low\""),
         ("optics.white.specular", "boolean `true`"),
@@ -304,7 +304,7 @@ fn keys_types_and_values_are_told_together_in_the_order_of_the_file() {
         ("wheels[1].capacity_n_m_s", "0"),
         ("wheels[1].axle", "the unknown key `axle`"),
     ];
-    assert_eq!(told(&text), wanted.map(|(key, found)| (key.to_owned(), found.to_owned())));
+    assert_eq!(reported(&text), expected.map(|(key, found)| (key.to_owned(), found.to_owned())));
     let lines: Vec<_> = problems(&text).into_iter().map(|problem| problem.line).collect();
     assert!(lines.is_sorted() && lines[0] == Some(3), "{lines:?}");
 }
@@ -344,12 +344,12 @@ fn one_mistake_is_one_problem_whatever_hangs_on_it() {
         .replace(&SMALL[plate.clone()], "")
         .replace(&SMALL[panel], &SMALL[plate].replace("plates", "plate"));
     assert_eq!(
-        told(&bare),
+        reported(&bare),
         [("plate".to_owned(), "the unknown key `plate` (did you mean `plates`?)".to_owned())]
     );
-    // Of an empty file only what it must have is told.
+    // Of an empty file only what it must have is reported.
     let lacks = ["name", "mass_properties", "optics"].map(|key| (String::new(), format!("no key `{key}`")));
-    assert_eq!(told("").split_last().unwrap(), (&(String::new(), "no surface".to_owned()), &lacks[..]));
+    assert_eq!(reported("").split_last().unwrap(), (&(String::new(), "no surface".to_owned()), &lacks[..]));
 }
 
 #[test]
@@ -555,15 +555,15 @@ fn start_values_are_handed_on_with_their_lines() {
 }
 
 #[test]
-fn what_is_no_start_value_of_anything_is_told() {
+fn what_is_no_start_value_of_anything_is_reported() {
     for (lines, key, found) in [
         ("[start]\na = 2011-04-06", "start.a", "the time 2011-04-06"),
         ("[start]\na = 99999999999999999999", "start.a", "integer `99999999999999999999`"),
         ("[start]\na = [1, {b = 2}]", "start.a[2]", "a table"),
         ("[start.Plant]\na.b = 2", "start.Plant.a", "a table"),
     ] {
-        let told = problem("[[wheels]]", &format!("{lines}\n[[wheels]]"));
-        assert_eq!((told.key.as_str(), told.found.as_str()), (key, found), "{told:?}");
+        let reported = problem("[[wheels]]", &format!("{lines}\n[[wheels]]"));
+        assert_eq!((reported.key.as_str(), reported.found.as_str()), (key, found), "{reported:?}");
     }
     let wrong = problem("name = \"Small\"", "name = \"Small\"\nstart = 1");
     assert_eq!((wrong.found.as_str(), wrong.allowed.as_str()), ("integer `1`", "a table"));

@@ -19,7 +19,7 @@ pub enum ThrusterSet {
 /// How a valve opens and closes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
 pub struct ValveTiming {
-    /// Shortest time for which it opens, in s; what is asked for less does not fire.
+    /// Shortest time for which it opens, in s; what is requested less does not fire.
     pub min_on_s: f64,
     /// Time over which the thrust rises linearly after the valve opens, in s.
     pub rise_s: f64,
@@ -51,7 +51,7 @@ impl ValveTiming {
     }
 
     /// Whether decoded times can be some.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         [self.min_on_s, self.rise_s, self.tail_off_s].iter().all(|time_s| (0.0..=1e12).contains(time_s))
     }
 }

@@ -1,4 +1,4 @@
-//! A burn: which thrusters, which train, timed how, toward what; checked before it is flown.
+//! A burn: which thrusters, which train, timed how, toward what; checked before it is simulated.
 
 use core::f64::consts::PI;
 
@@ -76,8 +76,8 @@ pub enum BurnError {
         /// What is allowed.
         allowed: String,
     },
-    /// A train that cannot be flown.
-    #[error("the burn cannot be flown: {0}")]
+    /// A train that cannot be simulated.
+    #[error("the burn cannot be simulated: {0}")]
     Train(#[from] TrainError),
     /// Limits that the plan breaks.
     #[error("the burn does not fit its limits: {what} would be {found}, the limit is {limit}")]
@@ -150,7 +150,7 @@ impl Burn {
     /// Checks a request against hardware, physics and limits.
     ///
     /// # Errors
-    /// A parameter out of its range, a train that cannot be flown, limits or propellant that it does not fit.
+    /// A parameter out of its range, a train that cannot be simulated, limits or propellant that it does not fit.
     pub fn new(
         spinner: &Spinner,
         request: &BurnRequest,
@@ -260,9 +260,9 @@ impl Burn {
     }
 
     /// Whether the vectors of a decoded burn can be some.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let norm = self.target_inertial.norm();
-        self.valves.iter().all(ValveTiming::is_sound) && (norm == 0.0 || (norm - 1.0).abs() < 1e-6)
+        self.valves.iter().all(ValveTiming::is_valid) && (norm == 0.0 || (norm - 1.0).abs() < 1e-6)
     }
 
     /// Propellant of all its pulses, in kg.

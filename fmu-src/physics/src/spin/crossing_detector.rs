@@ -37,7 +37,7 @@ impl CrossingDetector {
     }
 
     /// Whether a decoded detector can be one.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let times = [self.last_s, Some(self.search_from_s), self.next_s.flatten()];
         let periods = [self.period_s, self.period_before_s];
         times.iter().flatten().all(|at_s| at_s.abs() <= LONGEST_PERIOD_S)

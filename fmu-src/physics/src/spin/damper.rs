@@ -41,7 +41,7 @@ impl Damper {
     }
 
     /// Whether a decoded damper can be one.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         (0.0..=SHORTEST_TIME_CONSTANT_S.recip()).contains(&self.rate_1_s)
     }
 

@@ -25,7 +25,7 @@ impl PulseExecution {
     }
 
     /// Whether its numbers can be some.
-    pub fn is_sound(&self) -> bool {
-        self.valve.is_sound() && (0.0..=1.0).contains(&self.scatter)
+    pub fn is_valid(&self) -> bool {
+        self.valve.is_valid() && (0.0..=1.0).contains(&self.scatter)
     }
 }

@@ -138,21 +138,21 @@ impl Motion {
 
     /// Whether the body turns faster than segments can follow, or its numbers are not finite or no body's.
     pub fn diverges(&self) -> bool {
-        self.check().is_err() || !self.inertia.is_sound()
+        self.check().is_err() || !self.inertia.is_valid()
     }
 
     /// Whether a decoded motion can be one: finite, and its path that of its anchor.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let path = match &self.path {
             // What it is made of says all of it.
             Path::Coast(coast) => {
                 let principal = self.inertia.principal_attitude(self.attitude);
                 *coast == Coast::new(&self.inertia, &self.damper, principal, &self.momentum_inertial)
             }
-            Path::Series(segment) => segment.is_sound(),
+            Path::Series(segment) => segment.is_valid(),
         };
         let unit = Quaternion::from_components(self.attitude.0).is_some();
-        path && unit && self.damper.is_sound() && !self.diverges()
+        path && unit && self.damper.is_valid() && !self.diverges()
     }
 
     /// Whether the motion can be followed from the anchor on.

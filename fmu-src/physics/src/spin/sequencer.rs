@@ -64,7 +64,7 @@ pub struct Sequencer {
 }
 
 impl Sequencer {
-    /// A burn about to be flown.
+    /// A burn about to be simulated.
     pub fn new(burn: Burn, sensor_azimuth_rad: f64) -> Self {
         Self {
             burn,
@@ -93,7 +93,7 @@ impl Sequencer {
     }
 
     /// Whether the numbers of a decoded state belong together.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let edges = match self.phase {
             Phase::Waiting { on_s, off_s } => off_s >= on_s,
             _ => true,
@@ -101,10 +101,10 @@ impl Sequencer {
         let (rate, count) = (self.burn.assumed_rate_rad_s, self.burn.train.count());
         let left = matches!(self.phase, Phase::Done) == (self.fired >= count);
         edges
-            && self.burn.is_sound()
+            && self.burn.is_valid()
             && left
             && self.fired <= count
-            && self.burn.train.is_sound()
+            && self.burn.train.is_valid()
             && (0.1 * SLOWEST_RAD_S..=10.0 * FASTEST_RAD_S).contains(&rate)
     }
 

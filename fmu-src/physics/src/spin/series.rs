@@ -150,7 +150,7 @@ impl TaylorSegment {
     /// The segment that starts at `start_s` in `attitude` with body momentum `momentum_body` (N m s), "body" being the principal
     /// axes.
     ///
-    /// `hint_s` is how far the motion will be asked for, if that is known; the segment may be shorter.
+    /// `hint_s` is how far the motion will be requested, if that is known; the segment may be shorter.
     pub fn new(
         inertia: &Inertia,
         damper: &Damper,
@@ -202,7 +202,7 @@ impl TaylorSegment {
     }
 
     /// Whether a decoded segment can be one.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         usize::from(self.order) <= ORDER && (0.0..=LONGEST_S).contains(&self.length_s)
     }
 

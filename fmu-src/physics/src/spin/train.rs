@@ -34,13 +34,13 @@ pub enum Shape {
     Split,
 }
 
-/// Why a train cannot be flown.
+/// Why a train cannot be simulated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TrainError {
     /// Spacing.
     #[error("{turns} turns per pulse: allowed are 0.5, 1, 1.5 and so on")]
     Turns {
-        /// What was asked for.
+        /// What was requested.
         turns: f64,
     },
     /// Half turns with one thruster.
@@ -55,7 +55,7 @@ pub enum TrainError {
     /// Count.
     #[error("{count} pulses; {allowed}")]
     Count {
-        /// What was asked for.
+        /// What was requested.
         count: u32,
         /// What is allowed.
         allowed: String,
@@ -63,7 +63,7 @@ pub enum TrainError {
     /// Width.
     #[error("a pulse of {width_s} s; {allowed}")]
     Width {
-        /// What was asked for.
+        /// What was requested.
         width_s: f64,
         /// What is allowed.
         allowed: String,
@@ -213,7 +213,7 @@ impl Train {
     }
 
     /// Whether the numbers of a decoded train belong together.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         (1..=MOST_PULSES).contains(&self.count)
             && (1..=200).contains(&self.half_turns_per_pulse)
             && self.order <= MOST_ORDER

@@ -39,17 +39,17 @@ impl Cost {
     fn cause(index: usize) -> &'static str {
         match index {
             0 | 1 => {
-                "segments of the motion, a few in each turn: asked for by spin.initialRate, by moments of inertia[1] and \
+                "segments of the motion, a few in each turn: requested by spin.initialRate, by moments of inertia[1] and \
                  inertia[2] that differ, by productsOfInertia, by a short damper.timeConstant and by torques"
             }
-            2 => "crossings of Sun and star, one of each in a turn: asked for by spin.initialRate",
+            2 => "crossings of Sun and star, one of each in a turn: requested by spin.initialRate",
             3 => {
                 "samples of the star tracker, every 8 turns of limit.spinRate: starTracker.sampling 2 (clock) asks for them"
             }
-            4 => "edges of pulses: asked for by burn.count and the thrusters' inputs",
+            4 => "edges of pulses: requested by burn.count and the thrusters' inputs",
             5 => "directions of Sun and Earth: geometry.source 2 (L1 orbit) looks them up every 600 s",
             _ => {
-                "panels of the turning thrust, a few in each turn: asked for by thruster[k].fire, long pulses and spin.initialRate"
+                "panels of the turning thrust, a few in each turn: requested by thruster[k].fire, long pulses and spin.initialRate"
             }
         }
     }

@@ -185,7 +185,7 @@ impl<'d> Checker<'d> {
     ) -> Vector3<f64> {
         let unit = self.unit_vector(at, value);
         if (Vector3::from(value).norm() - 1.0).abs() > UNIT_TOLERANCE {
-            // No direction, which is told.
+            // No direction, which is reported.
             return unit;
         }
         let along = unit.dot(to);

@@ -5,7 +5,7 @@ use core::fmt;
 /// One thing wrong in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// Line from 1, where it could be told.
+    /// Line from 1, where it could be reported.
     pub line: Option<usize>,
     /// The key with its tables, items counted from 1: `sunshade.plates[3].area_m2`.
     pub key: String,

@@ -44,7 +44,7 @@ fn a_surface_takes_the_files_bus_or_its_own() {
 }
 
 #[test]
-fn what_cannot_be_is_told_with_its_key() {
+fn what_cannot_be_is_reported_with_its_key() {
     for (top, plate, panel, expected) in [
         ("thermal.background_k = -1", "", "", "thermal.background_k: found -1, allowed: 0 to 2000 K"),
         (
@@ -85,7 +85,7 @@ fn what_cannot_be_is_told_with_its_key() {
             "panels[1].thermal.bus_temperature_k",
         ),
     ] {
-        let told = refusal(top, plate, panel);
-        assert!(told.contains(expected), "{expected}\n{told}");
+        let reported = refusal(top, plate, panel);
+        assert!(reported.contains(expected), "{expected}\n{reported}");
     }
 }

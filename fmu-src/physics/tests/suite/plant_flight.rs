@@ -258,16 +258,16 @@ fn a_span_ahead_is_asked_of_a_clone() {
         };
         times_s.iter().map(torque).collect()
     };
-    let (mut asked, mut flown) = (Rig::new(), Rig::new());
-    torques(&mut asked, &[0.0, 600.0]);
-    torques(&mut flown, &[0.0, 600.0]);
-    let before = asked.propagator.clone();
+    let (mut requested, mut simulated) = (Rig::new(), Rig::new());
+    torques(&mut requested, &[0.0, 600.0]);
+    torques(&mut simulated, &[0.0, 600.0]);
+    let before = requested.propagator.clone();
     let ahead_s = [1200.0, 5000.0, 9000.0];
-    let foreseen = torques(&mut asked, &ahead_s);
-    asked.propagator = before;
-    assert_eq!(asked.propagator, flown.propagator);
-    assert_eq!(torques(&mut asked, &ahead_s), foreseen);
-    assert_eq!(torques(&mut flown, &ahead_s), foreseen);
+    let foreseen = torques(&mut requested, &ahead_s);
+    requested.propagator = before;
+    assert_eq!(requested.propagator, simulated.propagator);
+    assert_eq!(torques(&mut requested, &ahead_s), foreseen);
+    assert_eq!(torques(&mut simulated, &ahead_s), foreseen);
 }
 
 /// An attitude sampled every 10 s and propagated in between gives the light of the motion it was sampled from.

@@ -15,7 +15,7 @@ fn the_schema_of_the_timeline_is_in_step() {
 
 #[test]
 fn the_schema_of_the_ephemeris_is_in_step() {
-    assert_in_step("ephemeris.schema.json", &physics::environment::flown::schema());
+    assert_in_step("ephemeris.schema.json", &physics::environment::onboard::schema());
 }
 
 #[test]
@@ -23,11 +23,11 @@ fn the_schema_of_the_spinner_is_in_step() {
     assert_in_step("spinner.schema.json", &physics::spin::spinner::schema());
 }
 
-fn assert_in_step(file: &str, wanted: &str) {
+fn assert_in_step(file: &str, expected: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../resources").join(file);
     if std::env::var_os("HELIOTORQUE_BLESS").is_some() {
-        fs::write(&path, wanted).unwrap();
+        fs::write(&path, expected).unwrap();
     }
     let found = fs::read_to_string(&path).unwrap();
-    assert!(found == wanted, "{} is out of step: cargo xtask bless schema", path.display());
+    assert!(found == expected, "{} is out of step: cargo xtask bless schema", path.display());
 }

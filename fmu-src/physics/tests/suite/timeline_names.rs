@@ -80,11 +80,11 @@ fn keys_are_the_inputs() {
         (&limits, "KeepInVariables", "keepIn"),
     ] {
         let found = allowed(&format!("[[command]]\nat = 0\n{table} = {{ zzzzzzzzzzzzzzzz = 1 }}\n"));
-        let mut wanted = inputs(source, group);
+        let mut expected = inputs(source, group);
         if table == "keepIn" {
             // What a command can change.
-            wanted.retain(|name| ["enabled", "azimuth", "elevation"].contains(&name.as_str()));
+            expected.retain(|name| ["enabled", "azimuth", "elevation"].contains(&name.as_str()));
         }
-        assert_eq!(found, wanted, "{table}");
+        assert_eq!(found, expected, "{table}");
     }
 }

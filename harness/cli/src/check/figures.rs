@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn figures_are_told_in_lines_that_a_person_reads() {
+    fn figures_are_reported_in_lines_that_a_person_reads() {
         let text = include_str!("../../../../fmu-src/resources/messenger.toml");
         let spacecraft = Spacecraft::from_toml("messenger.toml", text).unwrap();
         let expected = [
@@ -91,7 +91,7 @@ mod tests {
     fn a_slip_is_warned_of() {
         let text = include_str!("../../../../fmu-src/resources/messenger.toml");
         let text = text.replacen("mass_kg = ", "mass_kg = 1e-5 # ", 1);
-        let told = report(&Spacecraft::from_toml("messenger.toml", &text).unwrap());
-        assert!(told.contains("\nwarning: by its inertia the mass lies "), "{told}");
+        let reported = report(&Spacecraft::from_toml("messenger.toml", &text).unwrap());
+        assert!(reported.contains("\nwarning: by its inertia the mass lies "), "{reported}");
     }
 }

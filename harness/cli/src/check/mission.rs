@@ -1,4 +1,4 @@
-//! `heliotorque check mission.toml`: whether a mission can fly; its first step is flown.
+//! `heliotorque check mission.toml`: whether a mission can fly; its first step is simulated.
 
 use std::{process::ExitCode, sync::atomic::AtomicBool};
 
@@ -32,8 +32,8 @@ pub fn run(arguments: &Check) -> Outcome {
 
 fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let run = Run::of(arguments.subject.clone(), arguments.template.clone());
-    let Prepared { flown, subject, settings, .. } = &Prepared::of(&run)?;
-    let Settings { times, wanted, limits, sets, inputs, positions } = settings;
+    let Prepared { simulated, subject, settings, .. } = &Prepared::of(&run)?;
+    let Settings { times, requested, limits, sets, inputs, positions } = settings;
     let given = Given {
         sets: sets.clone(),
         inputs: inputs.as_ref(),
@@ -43,9 +43,9 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
         cancel: &AtomicBool::new(true),
     };
     let mut rows = Collector::new(subject.description(), positions);
-    subject.simulate_into(&flown.run, given, &mut rows)?;
+    subject.simulate_into(&simulated.run, given, &mut rows)?;
     let short = terminal::short;
-    let begin = flown.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
+    let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
     let warnings = low_orbit::warnings(subject.description(), sets);
     let warnings: String = warnings.iter().map(|warning| format!("\nwarning: {warning}")).collect();
@@ -56,8 +56,8 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
         span(times.stop_s - times.start_s),
         times.steps(),
         short(times.step_s),
-        count(wanted.columns, "variable"),
-        count(wanted.plots.len(), "picture"),
+        count(requested.columns, "variable"),
+        count(requested.plots.len(), "picture"),
         count(limits.len(), "limit"),
     ))
 }

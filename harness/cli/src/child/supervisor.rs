@@ -34,7 +34,7 @@ pub struct Limits {
     pub files: Option<u64>,
 }
 
-/// Enough for every FMU that is looked at and not flown long: memory in bytes, open files.
+/// Enough for every FMU that is looked at and not simulated long: memory in bytes, open files.
 pub const SMALL: Limits = Limits { memory: Some(4 << 30), files: Some(1024) };
 /// For flights of any length, of systems too: what allocates without end ends before the computer does.
 pub const LARGE: Limits = Limits { memory: Some(16 << 30), files: None };

@@ -68,14 +68,14 @@ pub fn png(text: &str) -> Option<Vec<u8>> {
     drawing::png(&sheet::picture(&read("", text, &[]).ok()?, PICTURE)?)
 }
 
-fn is_asked(view: View, asked: &[ViewKind]) -> bool {
+fn is_asked(view: View, requested: &[ViewKind]) -> bool {
     let kind = match view {
         View::Front => ViewKind::Front,
         View::Side => ViewKind::Side,
         View::Top => ViewKind::Top,
         View::Perspective => ViewKind::Perspective,
     };
-    asked.contains(&kind) || asked.contains(&ViewKind::All)
+    requested.contains(&kind) || requested.contains(&ViewKind::All)
 }
 
 /// The scene of a spacecraft's or a spinner's file.

@@ -25,18 +25,18 @@ pub struct Pane<'a> {
     pub middle: Pixel,
     pub pixels_per_m: f64,
     /// How far axes reach.
-    pub reach_m: &'a Reach,
+    pub reach_m: &'a Extent,
 }
 
 /// The box around all that is drawn, body frame.
-pub struct Reach {
+pub struct Extent {
     pub low_m: Vector,
     pub high_m: Vector,
     /// How far arrows stand out of it.
     pub arrow_m: f64,
 }
 
-impl Reach {
+impl Extent {
     /// Of a scene with its axes of rotation, origin and centre of mass.
     pub fn of(scene: &Scene) -> Option<Self> {
         let [mut low_m, mut high_m] = scene.bounds_m()?;

@@ -3,7 +3,7 @@
 use drawing::{BESIDE, Camera, Finish, HEADING, Pen, TEXT, Vector, width_px};
 
 use super::{
-    pane::{Pane, Reach, scale_bar},
+    pane::{Extent, Pane, scale_bar},
     scene::{Axis, Scene},
 };
 
@@ -33,7 +33,7 @@ impl View {
         }
     }
 
-    fn camera(self, scene: &Scene, reach: &Reach) -> Option<Camera> {
+    fn camera(self, scene: &Scene, reach: &Extent) -> Option<Camera> {
         let ([low, high], viewer) = (reach.ends_m(), self.viewer(scene));
         Camera::new(viewer, reach.middle_m(), (high - low).norm(), self == Self::Perspective)
     }
@@ -79,7 +79,7 @@ const MOST_ENTRIES: usize = 60;
 
 /// The sheet with these views; `None` where nothing has an extent.
 pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
-    let reach = Reach::of(scene)?;
+    let reach = Extent::of(scene)?;
     let columns = if views.len() == 1 { 1 } else { 2 };
     let grow = if views.len() == 1 { ALONE } else { 1.0 };
     let (pane_width, most_height) = (grow * PANE_WIDTH, grow * PANE_HEIGHT);
@@ -137,7 +137,7 @@ pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
 
 /// The perspective alone, of this size and without any text.
 pub fn picture(scene: &Scene, (width, height): (f64, f64)) -> Option<String> {
-    let reach = Reach::of(scene)?;
+    let reach = Extent::of(scene)?;
     let camera = View::Perspective.camera(scene, &reach)?;
     let frame = Frame::of(&camera, &drawn_m(scene, &reach));
     let pixels_per_m = ((width - 2.0 * MARGIN) / frame.size.0).min((height - 2.0 * MARGIN) / frame.size.1);
@@ -148,7 +148,7 @@ pub fn picture(scene: &Scene, (width, height): (f64, f64)) -> Option<String> {
 }
 
 /// Corners of surfaces, tips of axes, the Sun.
-fn drawn_m(scene: &Scene, reach: &Reach) -> Vec<Vector> {
+fn drawn_m(scene: &Scene, reach: &Extent) -> Vec<Vector> {
     let [low, high] = reach.ends_m();
     let tips = [0, 1, 2].map(|i| high[i] * Vector::ith(i, 1.0)).into_iter().chain([low.y * Vector::y()]);
     let ends = scene.axes.iter().flat_map(Axis::ends_m);

@@ -5,8 +5,8 @@ use physics::{
     constants::DAY_S,
     environment::{
         CartesianState,
-        flown::{
-            COARSE_SAMPLES, CoarseElements, FitError, FitPlan, FittedBody, FlownTarget, GREATEST_DEGREE,
+        onboard::{
+            COARSE_SAMPLES, CoarseElements, FitError, FitPlan, FittedBody, GREATEST_DEGREE, OnboardTarget,
             SegmentTable,
         },
     },
@@ -31,10 +31,10 @@ const HALVINGS: u32 = 12;
 /// Epochs, evenly spaced, at which coarse elements are checked.
 const COARSE_CHECKS: u32 = 2_000;
 
-/// What is asked of a fit.
-pub struct Asked {
+/// What is requested of a fit.
+pub struct Requested {
     /// What moves.
-    pub target: FlownTarget,
+    pub target: OnboardTarget,
     /// First and last epoch.
     pub span_s: [f64; 2],
     /// Length of the segments, if given.
@@ -48,27 +48,27 @@ pub struct Asked {
 }
 
 /// The precise model of a target.
-pub fn precise(source: &dyn Source, asked: &Asked) -> Result<FittedBody<SegmentTable>, Failure> {
-    let &Asked { target, span_s, .. } = asked;
-    if target == FlownTarget::from(source.center()) {
+pub fn precise(source: &dyn Source, requested: &Requested) -> Result<FittedBody<SegmentTable>, Failure> {
+    let &Requested { target, span_s, .. } = requested;
+    if target == OnboardTarget::from(source.center()) {
         return Err(format!("--bodies: {target} is the center, from where positions count").into());
     }
-    if let Some(degree) = asked.degree {
-        let plan = FitPlan::new(span_s, asked.segment_s.unwrap_or(SEGMENT_S));
-        let states = flown_alone(source, target, &plan.epochs_s(), asked.is_quiet)?;
+    if let Some(degree) = requested.degree {
+        let plan = FitPlan::new(span_s, requested.segment_s.unwrap_or(SEGMENT_S));
+        let states = simulated_alone(source, target, &plan.epochs_s(), requested.is_quiet)?;
         let (motion, error) = plan.fit(&states, degree.min(GREATEST_DEGREE));
         return Ok(FittedBody { target, center: source.center(), motion, error });
     }
-    let is_spacecraft = usize::from(target == FlownTarget::Spacecraft);
-    let mut segment_s = asked.segment_s.unwrap_or(LONGEST_S[is_spacecraft]);
-    let halvings = if asked.segment_s.is_some() { 0 } else { HALVINGS };
+    let is_spacecraft = usize::from(target == OnboardTarget::Spacecraft);
+    let mut segment_s = requested.segment_s.unwrap_or(LONGEST_S[is_spacecraft]);
+    let halvings = if requested.segment_s.is_some() { 0 } else { HALVINGS };
     let mut best: Option<(FitError, f64)> = None;
     for _ in 0..=halvings {
         let plan = FitPlan::new(span_s, segment_s);
-        let states = flown_alone(source, target, &plan.epochs_s(), asked.is_quiet)?;
+        let states = simulated_alone(source, target, &plan.epochs_s(), requested.is_quiet)?;
         for degree in DEGREES {
             let (motion, error) = plan.fit(&states, degree);
-            if error.position_m <= asked.tolerance_m {
+            if error.position_m <= requested.tolerance_m {
                 return Ok(FittedBody { target, center: source.center(), motion, error });
             }
             if best.is_none_or(|(best, _)| error.position_m < best.position_m) {
@@ -85,16 +85,16 @@ pub fn precise(source: &dyn Source, asked: &Asked) -> Result<FittedBody<SegmentT
     Err(format!(
         "--tolerance: no fit of {target} up to degree {} keeps {} m; the best found errs by {} m, with segments of {} d",
         DEGREES.end(),
-        terminal::short(asked.tolerance_m),
+        terminal::short(requested.tolerance_m),
         terminal::short(error.position_m),
         terminal::short(best_s / DAY_S)
     )
     .into())
 }
 
-fn flown(
+fn simulated(
     source: &dyn Source,
-    targets: &[FlownTarget],
+    targets: &[OnboardTarget],
     epochs_s: &[f64],
     is_quiet: bool,
 ) -> Result<Vec<Vec<CartesianState>>, Failure> {
@@ -108,19 +108,19 @@ fn flown(
     states
 }
 
-fn flown_alone(
+fn simulated_alone(
     source: &dyn Source,
-    target: FlownTarget,
+    target: OnboardTarget,
     epochs_s: &[f64],
     is_quiet: bool,
 ) -> Result<Vec<CartesianState>, Failure> {
-    Ok(flown(source, &[target], epochs_s, is_quiet)?.pop().unwrap_or_default())
+    Ok(simulated(source, &[target], epochs_s, is_quiet)?.pop().unwrap_or_default())
 }
 
 /// The coarse models: of the planet in the centre, of the Earth, and of the spacecraft if it is among the targets.
 pub fn coarse(
     source: &dyn Source,
-    targets: &[FlownTarget],
+    targets: &[OnboardTarget],
     span_s: [f64; 2],
     is_quiet: bool,
 ) -> Result<Vec<FittedBody<CoarseElements>>, Failure> {
@@ -134,7 +134,7 @@ pub fn coarse(
     let epochs_s: Vec<f64> = epochs.iter().map(|(at_s, _)| *at_s).collect();
     let center = source.center();
     let mut models = Vec::new();
-    let mut add = |target: FlownTarget, about: Body, states: &[CartesianState]| -> Result<(), Failure> {
+    let mut add = |target: OnboardTarget, about: Body, states: &[CartesianState]| -> Result<(), Failure> {
         let mut samples = [CartesianState::default(); COARSE_SAMPLES];
         for ((_, node), state) in epochs.iter().zip(states) {
             if let Some(node) = node {
@@ -142,7 +142,7 @@ pub fn coarse(
             }
         }
         let motion = CoarseElements::of_states(about, span_s, &samples).ok_or_else(|| {
-            format!("--coarse: {target} is on no ellipse about {}", FlownTarget::from(about))
+            format!("--coarse: {target} is on no ellipse about {}", OnboardTarget::from(about))
         })?;
         let mut error = FitError::default();
         for ((at_s, node), state) in epochs.iter().zip(states) {
@@ -163,19 +163,19 @@ pub fn coarse(
         states.iter().zip(sun).map(difference).collect()
     };
     // One flight for all.
-    let mut wanted = vec![FlownTarget::Sun, FlownTarget::Earth];
-    wanted.extend(targets.contains(&FlownTarget::Spacecraft).then_some(FlownTarget::Spacecraft));
-    let mut states = flown(source, &wanted, &epochs_s, is_quiet)?.into_iter();
+    let mut requested = vec![OnboardTarget::Sun, OnboardTarget::Earth];
+    requested.extend(targets.contains(&OnboardTarget::Spacecraft).then_some(OnboardTarget::Spacecraft));
+    let mut states = simulated(source, &requested, &epochs_s, is_quiet)?.into_iter();
     let [sun, earth] = [(); 2].map(|()| states.next().unwrap_or_default());
     let origin = vec![CartesianState::default(); epochs_s.len()];
     if center != Body::Sun {
         add(center.into(), Body::Sun, &from_sun(&origin, &sun))?;
     }
     if center != Body::Earth {
-        add(FlownTarget::Earth, Body::Sun, &from_sun(&earth, &sun))?;
+        add(OnboardTarget::Earth, Body::Sun, &from_sun(&earth, &sun))?;
     }
     if let Some(spacecraft) = states.next() {
-        add(FlownTarget::Spacecraft, center, &spacecraft)?;
+        add(OnboardTarget::Spacecraft, center, &spacecraft)?;
     }
     Ok(models)
 }

@@ -1,4 +1,4 @@
-//! An FMU as the source of an ephemeris: it is flown, and its outputs say where everything is.
+//! An FMU as the source of an ephemeris: it is simulated, and its outputs say where everything is.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use loader::{Error, Fmu, Instance, InstanceOptions, Value};
 use nalgebra::Vector3;
 use physics::{
     bodies::Body,
-    environment::{CartesianState, flown::FlownTarget},
+    environment::{CartesianState, onboard::OnboardTarget},
 };
 
 use super::source::{Failure, Source};
@@ -57,7 +57,7 @@ impl Flight {
         let center = instance.get(CENTER)?.to_string();
         source.center = Body::ALL
             .into_iter()
-            .find(|body| FlownTarget::from(*body).to_string() == center || code(*body) == center)
+            .find(|body| OnboardTarget::from(*body).to_string() == center || code(*body) == center)
             .ok_or_else(|| format!("{}: {CENTER} is {center}, which no ephemeris names", source.shown))?;
         Ok(source)
     }
@@ -96,15 +96,15 @@ impl Source for Flight {
 
     fn states(
         &self,
-        targets: &[FlownTarget],
+        targets: &[OnboardTarget],
         epochs_s: &[f64],
-        told: &mut dyn FnMut() -> Result<(), Failure>,
+        reported: &mut dyn FnMut() -> Result<(), Failure>,
     ) -> Result<Vec<Vec<CartesianState>>, Failure> {
         let mut outputs: Vec<Outputs> = Vec::with_capacity(targets.len());
         for target in targets {
             let (position, velocity) = match target {
-                FlownTarget::Sun => ("sun.positionInertial", "sun.velocityInertial"),
-                FlownTarget::Earth => ("earth.positionInertial", "earth.velocityInertial"),
+                OnboardTarget::Sun => ("sun.positionInertial", "sun.velocityInertial"),
+                OnboardTarget::Earth => ("earth.positionInertial", "earth.velocityInertial"),
                 _ => ("position", "velocity"),
             };
             let names = [position, velocity].into_iter().flat_map(|name| (1..=3).map(move |i| (name, i)));
@@ -132,7 +132,7 @@ impl Source for Flight {
                     velocity_m_s: Vector3::new(vx, vy, vz),
                 });
             }
-            told()?;
+            reported()?;
         }
         Ok(states)
     }

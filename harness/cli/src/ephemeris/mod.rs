@@ -16,18 +16,18 @@ use std::{
 
 use files::Destination;
 #[cfg(feature = "spk")]
-use physics::environment::flown::FlownTarget;
-use physics::environment::flown::{FlownEphemeris, to_toml};
+use physics::environment::onboard::OnboardTarget;
+use physics::environment::onboard::{OnboardEphemeris, to_toml};
 
 use crate::{interrupt, outcome::Outcome};
-use fit::Asked;
+use fit::Requested;
 use flight::Flight;
 use options::Ephemeris;
 pub use report::{FILE, of, read, summary};
 use source::{Failure, Source};
 
 /// Tells what a file holds, or everything that is wrong with it.
-pub fn run_check(path: &Path, (bytes, read): (usize, Result<FlownEphemeris, String>)) -> Outcome {
+pub fn run_check(path: &Path, (bytes, read): (usize, Result<OnboardEphemeris, String>)) -> Outcome {
     match read {
         Ok(carried) => {
             terminal::print(&format!("{}: ok: {}", path.display(), report::table(&carried, bytes)))?;
@@ -51,9 +51,9 @@ pub fn run(arguments: &Ephemeris) -> Outcome {
     let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
     let destination = Destination::open(&output, "--output", &inputs)?;
     let source = source(arguments, [start_s, stop_s])?;
-    let mut made = FlownEphemeris { source: Some(source.title()), ..FlownEphemeris::default() };
+    let mut made = OnboardEphemeris { source: Some(source.title()), ..OnboardEphemeris::default() };
     for target in arguments.targets() {
-        let asked = Asked {
+        let requested = Requested {
             target,
             span_s: [start_s, stop_s],
             segment_s: arguments.segment,
@@ -61,7 +61,7 @@ pub fn run(arguments: &Ephemeris) -> Outcome {
             tolerance_m: arguments.tolerance,
             is_quiet: arguments.quiet,
         };
-        made.precise.push(fit::precise(source.as_ref(), &asked)?);
+        made.precise.push(fit::precise(source.as_ref(), &requested)?);
         if interrupt::raised() {
             return Ok(ExitCode::from(interrupt::INTERRUPTED));
         }
@@ -72,18 +72,18 @@ pub fn run(arguments: &Ephemeris) -> Outcome {
     }
     let text = terminal::unsigned_zeros(&to_toml(&made)).into_owned();
     // What a spacecraft will read is what was made.
-    if FlownEphemeris::from_toml(FILE, &text).map_err(|error| error.to_string())? != made {
+    if OnboardEphemeris::from_toml(FILE, &text).map_err(|error| error.to_string())? != made {
         return Err("the file does not read back as it was made".into());
     }
     let is_stdout = destination.is_stdout();
     destination.fill(|file| file.write_all(text.as_bytes()))?;
-    let told = format!("{}: {}", output.display(), report::table(&made, text.len()));
+    let reported = format!("{}: {}", output.display(), report::table(&made, text.len()));
     if is_stdout || arguments.quiet {
         if !arguments.quiet {
-            terminal::note(&told);
+            terminal::note(&reported);
         }
     } else {
-        terminal::print(&told)?;
+        terminal::print(&reported)?;
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -94,10 +94,10 @@ fn source(arguments: &Ephemeris, span_s: [f64; 2]) -> Result<Box<dyn Source>, Fa
     if arguments.kernels.is_given() {
         let (mut targets, mut span_s) = (arguments.targets(), span_s);
         if arguments.coarse {
-            targets.extend([FlownTarget::Sun, FlownTarget::Earth]);
+            targets.extend([OnboardTarget::Sun, OnboardTarget::Earth]);
             span_s[1] = arguments.coarse_until_s(span_s[1])?;
         }
         return Ok(Box::new(kernel::Kernels::open(&arguments.kernels, &targets, span_s)?));
     }
-    Ok(Box::new(Flight::open(&arguments.flown(), &arguments.set, span_s[0])?))
+    Ok(Box::new(Flight::open(&arguments.simulated(), &arguments.set, span_s[0])?))
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use physics::environment::{dates, flown::FlownTarget};
+use physics::environment::{dates, onboard::OnboardTarget};
 
 #[cfg(feature = "spk")]
 use super::kernel::KernelOptions;
@@ -52,7 +52,7 @@ pub struct Ephemeris {
     /// Length of the segments, in s or with a unit: 4d; otherwise as --tolerance asks, 8d with --degree
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub segment: Option<f64>,
-    /// Degree of the polynomials, 1 to 24; the error is told, and may be any
+    /// Degree of the polynomials, 1 to 24; the error is reported, and may be any
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=24))]
     pub degree: Option<u8>,
     /// Add the coarse models: polynomials of fourth degree of Keplerian elements, of the planet, the Earth, and of the
@@ -90,8 +90,8 @@ pub enum BodyKind {
 }
 
 impl Ephemeris {
-    /// The FMU that is flown.
-    pub fn flown(&self) -> PathBuf {
+    /// The FMU that is simulated.
+    pub fn simulated(&self) -> PathBuf {
         self.source.clone().unwrap_or_else(|| home::fmu(home::DEFAULT_MODEL))
     }
 
@@ -101,7 +101,7 @@ impl Ephemeris {
         if self.kernels.is_given() {
             return self.kernels.kernel.clone();
         }
-        vec![self.flown()]
+        vec![self.simulated()]
     }
 
     /// First and last epoch, in s past J2000 TDB.
@@ -131,13 +131,13 @@ impl Ephemeris {
     }
 
     /// What is fitted, each once.
-    pub fn targets(&self) -> Vec<FlownTarget> {
+    pub fn targets(&self) -> Vec<OnboardTarget> {
         let mut targets = Vec::new();
         for kind in &self.bodies {
             let target = match kind {
-                BodyKind::Sun => FlownTarget::Sun,
-                BodyKind::Earth => FlownTarget::Earth,
-                BodyKind::Spacecraft => FlownTarget::Spacecraft,
+                BodyKind::Sun => OnboardTarget::Sun,
+                BodyKind::Earth => OnboardTarget::Earth,
+                BodyKind::Spacecraft => OnboardTarget::Spacecraft,
             };
             if !targets.contains(&target) {
                 targets.push(target);

@@ -7,7 +7,7 @@ use physics::{
     constants::DAY_S,
     environment::{
         dates,
-        flown::{FitError, FlownEphemeris, FlownTarget},
+        onboard::{FitError, OnboardEphemeris, OnboardTarget},
     },
 };
 use toml::de::DeTable;
@@ -18,18 +18,18 @@ use crate::home;
 pub const FILE: &str = "ephemeris.toml";
 
 /// The ephemeris of an FMU, or what is wrong with it, a line for each problem; `None` where there is none.
-pub fn of(fmu: &Fmu) -> Option<Result<FlownEphemeris, String>> {
+pub fn of(fmu: &Fmu) -> Option<Result<OnboardEphemeris, String>> {
     // Other exporters' files of this name mean something else.
     let path = fmu.folder().join("resources").join(FILE);
     if !home::is_ours(fmu.description()) || !path.exists() {
         return None;
     }
-    let read = |text: String| FlownEphemeris::from_toml(FILE, &text).map_err(|error| error.to_string());
+    let read = |text: String| OnboardEphemeris::from_toml(FILE, &text).map_err(|error| error.to_string());
     Some(files::read_text(&path).and_then(read))
 }
 
 /// The text of a file and what it holds, or what is wrong with it; `None` where it is another kind of file.
-pub type Read = Option<(usize, Result<FlownEphemeris, String>)>;
+pub type Read = Option<(usize, Result<OnboardEphemeris, String>)>;
 
 /// A file that may be an ephemeris: one whose tables have its names.
 pub fn read(path: &Path) -> Result<Read, String> {
@@ -40,18 +40,18 @@ pub fn read(path: &Path) -> Result<Read, String> {
         return Ok(None);
     }
     let shown = path.display().to_string();
-    let read = FlownEphemeris::from_toml(&shown, &text).map_err(|error| error.to_string());
+    let read = OnboardEphemeris::from_toml(&shown, &text).map_err(|error| error.to_string());
     Ok(Some((text.len(), read)))
 }
 
 /// Which bodies, in a line.
-pub fn summary(ephemeris: &FlownEphemeris) -> String {
+pub fn summary(ephemeris: &OnboardEphemeris) -> String {
     let precise = ephemeris.precise.iter().map(|body| {
         let [start_s, end_s] = body.motion.span_s();
         format!(
             "{} from {}, {} to {}, to {} m",
             body.target,
-            FlownTarget::from(body.center),
+            OnboardTarget::from(body.center),
             dates::utc(start_s),
             dates::utc(end_s),
             terminal::short(body.error.position_m)
@@ -64,7 +64,7 @@ pub fn summary(ephemeris: &FlownEphemeris) -> String {
 }
 
 /// Bodies, spans and errors as a table.
-pub fn table(ephemeris: &FlownEphemeris, bytes: usize) -> String {
+pub fn table(ephemeris: &OnboardEphemeris, bytes: usize) -> String {
     let mut table =
         terminal::table(&["model", "body", "from", "begin", "end", "segments", "degree", "error", ""]);
     let errors = |error: &FitError| {
@@ -81,7 +81,7 @@ pub fn table(ephemeris: &FlownEphemeris, bytes: usize) -> String {
         table.add_row([
             "precise".to_owned(),
             body.target.to_string(),
-            FlownTarget::from(body.center).to_string(),
+            OnboardTarget::from(body.center).to_string(),
             dates::utc(start_s),
             dates::utc(end_s),
             format!("{} of up to {} d", segments.len(), terminal::short(longest_s / DAY_S)),
@@ -96,7 +96,7 @@ pub fn table(ephemeris: &FlownEphemeris, bytes: usize) -> String {
         table.add_row([
             "coarse".to_owned(),
             body.target.to_string(),
-            FlownTarget::from(body.center).to_string(),
+            OnboardTarget::from(body.center).to_string(),
             dates::utc(start_s),
             dates::utc(end_s),
             "1".to_owned(),

@@ -2,7 +2,7 @@
 
 use physics::{
     bodies::Body,
-    environment::{CartesianState, flown::FlownTarget},
+    environment::{CartesianState, onboard::OnboardTarget},
 };
 
 /// Why a source gives no states.
@@ -16,12 +16,12 @@ pub trait Source {
     /// What an ephemeris says of where it comes from.
     fn title(&self) -> String;
 
-    /// Positions and velocities of each target from the centre at epochs that do not fall, in s past J2000 TDB; `told` hears
+    /// Positions and velocities of each target from the centre at epochs that do not fall, in s past J2000 TDB; `reported` hears
     /// of each epoch and may end the work.
     fn states(
         &self,
-        targets: &[FlownTarget],
+        targets: &[OnboardTarget],
         epochs_s: &[f64],
-        told: &mut dyn FnMut() -> Result<(), Failure>,
+        reported: &mut dyn FnMut() -> Result<(), Failure>,
     ) -> Result<Vec<Vec<CartesianState>>, Failure>;
 }

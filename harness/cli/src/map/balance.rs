@@ -1,4 +1,4 @@
-//! Where the craft balances: X and Z of the torque vanish together, by Newton's method on the sphere; where all of it is least.
+//! Where the spacecraft balances: X and Z of the torque vanish together, by Newton's method on the sphere; where all of it is least.
 
 use loader::Error;
 use nalgebra::{Matrix2, Vector2, Vector3};
@@ -25,7 +25,7 @@ const TARGETED: [usize; 2] = [0, 2];
 pub struct Balance {
     pub place_deg: Angles,
     pub torque_n_m: Vector3<f64>,
-    /// Whether a small turn of the craft about any axis across Y is turned back, panels following the Sun.
+    /// Whether a small turn of the spacecraft about any axis across Y is turned back, panels following the Sun.
     pub is_restoring: bool,
 }
 
@@ -110,14 +110,14 @@ fn newton(
             None => break,
         }
     }
-    // As it is told, in angles.
+    // As it is reported, in angles.
     let place_deg = angles_deg(&sun);
     let sun = direction(place_deg);
     let torque_n_m = sunlight.at(&sun)?.torque_n_m;
     if targeted(&torque_n_m).amax() > ZERO * greatest_n_m {
         return Ok(None);
     }
-    // A turn of the craft moves the Sun the other way in its axes.
+    // A turn of the spacecraft moves the Sun the other way in its axes.
     let (_, slopes) = sunlight.slopes(&sun, [Vector3::x(), Vector3::z()].map(|axis| sun.cross(&axis)))?;
     let stiffness = Matrix2::from_columns(&slopes.map(|slope| targeted(&slope)));
     let symmetric = 0.5 * (stiffness + stiffness.transpose());

@@ -1,4 +1,4 @@
-//! Everything that a map tells of a craft, found once for picture, table and files.
+//! Everything that a map tells of a spacecraft, found once for picture, table and files.
 
 use std::{panic::resume_unwind, thread};
 
@@ -8,9 +8,9 @@ use planner::momentum::{Held, Mission, Region};
 
 use super::{
     balance::{self, Balance},
-    craft::Craft,
     grid::{Angles, Grid},
     options::{SourceKind, Steps},
+    spacecraft::MappedSpacecraft,
     sunlight::Sunlight,
     worth::{self, Worth},
     zero_lines::{self, ZeroLine},
@@ -54,16 +54,22 @@ pub struct Found {
 }
 
 impl Mapped {
-    fn new(craft: &Craft, source: SourceKind, limits_deg: Angles, steps: [usize; 2]) -> Result<Self, Error> {
-        let grid = Grid::new(craft, source, limits_deg, steps)?;
-        let asked = &grid;
+    fn new(
+        spacecraft: &MappedSpacecraft,
+        source: SourceKind,
+        limits_deg: Angles,
+        steps: [usize; 2],
+    ) -> Result<Self, Error> {
+        let grid = Grid::new(spacecraft, source, limits_deg, steps)?;
+        let requested = &grid;
         let (lines, balances) = thread::scope(|scope| {
             let of = |axis: usize| {
-                scope.spawn(move || zero_lines::find(&mut Sunlight::new(craft, source)?, asked, axis))
+                scope
+                    .spawn(move || zero_lines::find(&mut Sunlight::new(spacecraft, source)?, requested, axis))
             };
             let workers = [of(0), of(1), of(2)];
-            let balances =
-                Sunlight::new(craft, source).and_then(|mut sunlight| balance::find(&mut sunlight, asked));
+            let balances = Sunlight::new(spacecraft, source)
+                .and_then(|mut sunlight| balance::find(&mut sunlight, requested));
             (workers.map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic))), balances)
         });
         let [x, y, z] = lines;
@@ -74,33 +80,38 @@ impl Mapped {
 impl Found {
     /// Asks the FMU for all of it.
     pub fn new(
-        craft: &Craft,
+        spacecraft: &MappedSpacecraft,
         (source, steps): (SourceKind, Steps),
         mission: Option<Mission>,
     ) -> Result<Self, Error> {
         let quarter = steps.0 as usize;
-        let sphere = Mapped::new(craft, source, SPHERE_DEG, [4 * quarter, 2 * quarter])?;
+        let sphere = Mapped::new(spacecraft, source, SPHERE_DEG, [4 * quarter, 2 * quarter])?;
         let of_zone =
-            |zone_rad: [f64; 2]| Mapped::new(craft, source, zone_rad.map(f64::to_degrees), ZONE_STEPS);
-        let zone = craft.zone_rad.map(of_zone).transpose()?;
+            |zone_rad: [f64; 2]| Mapped::new(spacecraft, source, zone_rad.map(f64::to_degrees), ZONE_STEPS);
+        let zone = spacecraft.zone_rad.map(of_zone).transpose()?;
         let allowed = &zone.as_ref().unwrap_or(&sphere).grid;
-        let mut sunlight = Sunlight::new(craft, source)?;
+        let mut sunlight = Sunlight::new(spacecraft, source)?;
         let least = balance::least(&mut sunlight, allowed)?;
-        let (ahead_n_m, worths) = worth::find(&mut sunlight, &craft.panels)?;
-        let attainable = Attainable::new(craft, allowed, &ahead_n_m, mission);
+        let (ahead_n_m, worths) = worth::find(&mut sunlight, &spacecraft.panels)?;
+        let attainable = Attainable::new(spacecraft, allowed, &ahead_n_m, mission);
         Ok(Self { sphere, zone, least, ahead_n_m, worths, attainable })
     }
 }
 
 impl Attainable {
-    fn new(craft: &Craft, allowed: &Grid, ahead_n_m: &Vector3<f64>, mission: Option<Mission>) -> Self {
-        let share = craft.downlink.share();
+    fn new(
+        spacecraft: &MappedSpacecraft,
+        allowed: &Grid,
+        ahead_n_m: &Vector3<f64>,
+        mission: Option<Mission>,
+    ) -> Self {
+        let share = spacecraft.downlink.share();
         let points = allowed.nodes().map(|(_, load)| TARGETED.map(|axis| load.torque_n_m[axis]));
         let added_n_m = Region::hull(points).scaled(share, TARGETED.map(|axis| -share * ahead_n_m[axis]));
-        let light = mission.as_ref().map_or(1.0, |mission| mission.mean_light(craft.distance_m));
+        let light = mission.as_ref().map_or(1.0, |mission| mission.mean_light(spacecraft.distance_m));
         let mean_added_n_m = added_n_m.scaled(light, [0.0; 2]);
         let mission = mission.map(|mission| {
-            let held = mission.held(&added_n_m, craft.distance_m, craft.threshold_n_m_s);
+            let held = mission.held(&added_n_m, spacecraft.distance_m, spacecraft.threshold_n_m_s);
             (mission, held)
         });
         Self { added_n_m, mean_added_n_m, mission }

@@ -7,8 +7,8 @@ use nalgebra::Vector3;
 use physics::attitude::{SunAngles, direction_from_angles};
 
 use super::{
-    craft::Craft,
     options::SourceKind,
+    spacecraft::MappedSpacecraft,
     sunlight::{Load, Sunlight},
 };
 
@@ -45,7 +45,7 @@ pub fn angles_deg(direction: &Vector3<f64>) -> Angles {
 impl Grid {
     /// Asks for every node, on as many threads as the computer has; what acts depends on the direction alone.
     pub fn new(
-        craft: &Craft,
+        spacecraft: &MappedSpacecraft,
         source: SourceKind,
         limits_deg: Angles,
         steps: [usize; 2],
@@ -54,14 +54,14 @@ impl Grid {
         let threads = thread::available_parallelism().map_or(1, usize::from).min(steps[1]);
         // Rows in turns, as directions differ in what they cost.
         let rows = thread::scope(|scope| {
-            let asked = |first: usize| {
+            let requested = |first: usize| {
                 let empty = &empty;
                 scope.spawn(move || -> Result<Vec<Vec<Load>>, Error> {
-                    let mut sunlight = Sunlight::new(craft, source)?;
+                    let mut sunlight = Sunlight::new(spacecraft, source)?;
                     (first..=steps[1]).step_by(threads).map(|row| empty.row(&mut sunlight, row)).collect()
                 })
             };
-            let workers: Vec<_> = (0..threads).map(asked).collect();
+            let workers: Vec<_> = (0..threads).map(requested).collect();
             let joined =
                 workers.into_iter().map(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic)));
             joined.collect::<Result<Vec<_>, Error>>()

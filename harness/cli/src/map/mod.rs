@@ -4,13 +4,13 @@ mod balance;
 mod bands;
 mod colours;
 mod contour;
-mod craft;
 mod found;
 mod grid;
 pub mod options;
 mod outputs;
 mod panels;
 mod picture;
+mod spacecraft;
 mod sunlight;
 mod table;
 mod verdict;
@@ -22,20 +22,20 @@ use std::process::ExitCode;
 use planner::momentum::Mission;
 
 use crate::outcome::Outcome;
-use craft::Craft;
 use found::Found;
 use options::Map;
 use outputs::Outputs;
+use spacecraft::MappedSpacecraft;
 
 /// Maps a spacecraft.
 pub fn run(arguments: &Map) -> Outcome {
     let outputs = Outputs::open(arguments)?;
     let mission = arguments.mission.as_deref().map(Mission::read).transpose()?;
-    let craft = Craft::open(arguments)?;
-    let found = Found::new(&craft, (arguments.source, arguments.step), mission)?;
-    let written = outputs.write(&craft, &found)?;
+    let spacecraft = MappedSpacecraft::open(arguments)?;
+    let found = Found::new(&spacecraft, (arguments.source, arguments.step), mission)?;
+    let written = outputs.write(&spacecraft, &found)?;
     if !arguments.quiet {
-        let text = table::text(&craft, &found, arguments.source);
+        let text = table::text(&spacecraft, &found, arguments.source);
         if written.takes_stdout {
             terminal::note(&text);
         } else {

@@ -19,15 +19,15 @@ until day N\" means: up to day N some choice of these directions keeps X and Z w
 Example:
   heliotorque map my.toml                                    writes my-map.svg and prints the table
   heliotorque map my.toml --distance 0.3 --panel-offset 70deg --csv torque.csv --lines zero.csv
-  heliotorque run dist/MomentumPlant.fmu --stop 90d --record torque.total,sun.distance --output flown.csv
-  heliotorque map fmu-src/resources/messenger.toml --mission flown.csv";
+  heliotorque run dist/MomentumPlant.fmu --stop 90d --record torque.total,sun.distance --output simulated.csv
+  heliotorque map fmu-src/resources/messenger.toml --mission simulated.csv";
 
 /// `heliotorque map`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub struct Map {
     /// The spacecraft, a TOML file as for `pack`, or an FMU that was packed with one
-    pub craft: PathBuf,
+    pub spacecraft: PathBuf,
     /// For a TOML file only: the FMU whose library reads it, as for `pack`; otherwise the installed program's, or
     /// dist/MomentumPlant.fmu
     #[arg(long, value_name = "FMU")]

@@ -6,11 +6,11 @@ use files::Destination;
 use loader::csv::Real;
 
 use super::{
-    craft::Craft,
     found::Found,
     grid::{Angles, direction},
     options::Map,
     picture,
+    spacecraft::MappedSpacecraft,
 };
 use crate::output::check_svg_path;
 
@@ -33,7 +33,7 @@ impl Outputs {
     /// Looks at every file before anything is computed.
     pub fn open(arguments: &Map) -> Result<Self, String> {
         let inputs: Vec<&Path> =
-            [arguments.craft.as_path()].into_iter().chain(arguments.mission.as_deref()).collect();
+            [arguments.spacecraft.as_path()].into_iter().chain(arguments.mission.as_deref()).collect();
         let open = |path: Option<PathBuf>, option: &'static str| match path {
             Some(path) => Destination::open(&path, option, &inputs).map(|file| Some((path, file))),
             None => Ok(None),
@@ -61,7 +61,7 @@ impl Outputs {
     }
 
     /// Writes all of them.
-    pub fn write(self, craft: &Craft, found: &Found) -> Result<Written, String> {
+    pub fn write(self, spacecraft: &MappedSpacecraft, found: &Found) -> Result<Written, String> {
         let mut written = Written { takes_stdout: false, files: Vec::new() };
         let mut fill = |to: Option<(PathBuf, Destination)>, text: &dyn Fn() -> String| {
             let Some((path, file)) = to else { return Ok(()) };
@@ -71,8 +71,8 @@ impl Outputs {
             }
             file.fill(|file| file.write_all(text().as_bytes()))
         };
-        fill(self.picture, &|| picture::svg(craft, found))?;
-        fill(self.torque, &|| torque(craft, found))?;
+        fill(self.picture, &|| picture::svg(spacecraft, found))?;
+        fill(self.torque, &|| torque(spacecraft, found))?;
         fill(self.lines, &|| lines(found))?;
         Ok(written)
     }
@@ -80,24 +80,24 @@ impl Outputs {
 
 fn picture_path(arguments: &Map) -> PathBuf {
     arguments.output.clone().unwrap_or_else(|| {
-        let stem = arguments.craft.file_stem().unwrap_or_default().to_string_lossy();
+        let stem = arguments.spacecraft.file_stem().unwrap_or_default().to_string_lossy();
         PathBuf::from(format!("{stem}-map.svg"))
     })
 }
 
 /// A row for each direction; 180 deg of azimuth is -180 deg.
-fn torque(craft: &Craft, found: &Found) -> String {
+fn torque(spacecraft: &MappedSpacecraft, found: &Found) -> String {
     let mut text = "sun_azimuth_deg,sun_elevation_deg".to_owned();
     for what in ["torque", "force"] {
         let unit = if what == "torque" { "n_m" } else { "n" };
         text.extend(AXES.map(|axis| format!(",{what}_{axis}_{unit}")));
     }
-    text.extend((1..=craft.panels.len()).map(|number| format!(",panel_{number}_angle_deg")));
+    text.extend((1..=spacecraft.panels.len()).map(|number| format!(",panel_{number}_angle_deg")));
     text.push('\n');
     for (place_deg, load) in found.sphere.grid.nodes().filter(|(place_deg, _)| place_deg[0] < 180.0) {
         let sun = direction(place_deg);
         let loads = load.torque_n_m.iter().chain(load.force_n.iter()).copied();
-        let angles_deg = craft.panels.iter().map(|turned| turned.angle_rad(&sun).to_degrees());
+        let angles_deg = spacecraft.panels.iter().map(|turned| turned.angle_rad(&sun).to_degrees());
         let cells: Vec<String> = place_deg
             .into_iter()
             .chain(loads)

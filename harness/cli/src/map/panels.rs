@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use physics::{numerics::scalar::Dual64, spacecraft::Panel};
 
 /// A panel and what turns it.
-pub struct Turned {
+pub struct TurnedPanels {
     pub panel: Panel,
     pub rule: Rule,
 }
@@ -18,7 +18,7 @@ pub enum Rule {
     Angle(f64),
 }
 
-impl Turned {
+impl TurnedPanels {
     /// With the Sun in this direction.
     pub fn angle_rad(&self, sun: &Vector3<f64>) -> f64 {
         match self.rule {
@@ -63,9 +63,9 @@ mod tests {
     use super::*;
     use physics::spacecraft::{MESSENGER_TOML, Spacecraft};
 
-    fn turned(offset_rad: f64, tilt_sign: f64) -> Turned {
+    fn turned(offset_rad: f64, tilt_sign: f64) -> TurnedPanels {
         let panel = Spacecraft::from_toml("", MESSENGER_TOML).unwrap().panels.swap_remove(0);
-        Turned { panel, rule: Rule::SunOffset { offset_rad, tilt_sign } }
+        TurnedPanels { panel, rule: Rule::SunOffset { offset_rad, tilt_sign } }
     }
 
     #[test]
@@ -86,10 +86,10 @@ mod tests {
             for sign in [1.0, -1.0] {
                 let at = |offset_rad: f64| turned(offset_rad, sign).angle_rad(&sun);
                 let slope = (at(offset_rad + 2.0 * H) - at(offset_rad)) / (2.0 * H);
-                let told = turned(offset_rad + H, sign).angle_per_offset(&sun);
+                let reported = turned(offset_rad + H, sign).angle_per_offset(&sun);
                 assert!(
-                    (told - slope).abs() < 1e-4 * slope.abs() + 1e-9,
-                    "{along} {offset_rad}: {told} {slope}"
+                    (reported - slope).abs() < 1e-4 * slope.abs() + 1e-9,
+                    "{along} {offset_rad}: {reported} {slope}"
                 );
             }
         }

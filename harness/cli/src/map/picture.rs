@@ -6,8 +6,8 @@ use physics::constants::ASTRONOMICAL_UNIT_M as AU_M;
 use super::{
     bands,
     colours::Bands,
-    craft::Craft,
     found::{Found, Mapped},
+    spacecraft::MappedSpacecraft,
     verdict,
 };
 
@@ -36,11 +36,11 @@ const MIDDLE: &str = "stroke=\"#5c6570\" stroke-width=\"0.8\" stroke-dasharray=\
 const LABEL: f64 = 46.0;
 
 /// The sheet.
-pub fn svg(craft: &Craft, found: &Found) -> String {
+pub fn svg(spacecraft: &MappedSpacecraft, found: &Found) -> String {
     let title = format!(
         "{}: torque of sunlight at {} AU",
-        craft.name,
-        terminal::short((craft.distance_m / AU_M * 1e4).round() / 1e4)
+        spacecraft.name,
+        terminal::short((spacecraft.distance_m / AU_M * 1e4).round() / 1e4)
     );
     let height = if found.zone.is_some() { HEIGHT_OF_PLOT } else { HEIGHT_OF_ONLY_PLOT };
     let row = height + AROUND_PLOT;
@@ -58,7 +58,7 @@ pub fn svg(craft: &Craft, found: &Found) -> String {
         );
         let sphere = frame(&found.sphere, (LEFT, top), [2.0 * height, height]);
         torque(&mut pen, &found.sphere, sphere, axis, [60.0, 30.0]);
-        let (Some(limits_rad), Some(zone)) = (craft.zone_rad, &found.zone) else {
+        let (Some(limits_rad), Some(zone)) = (spacecraft.zone_rad, &found.zone) else {
             least(&mut pen, sphere, found);
             continue;
         };
@@ -69,7 +69,7 @@ pub fn svg(craft: &Craft, found: &Found) -> String {
         torque(&mut pen, zone, in_zone, axis, steps);
         least(&mut pen, in_zone, found);
     }
-    downlinks(&mut pen, HEAD + 3.0 * row, craft, found);
+    downlinks(&mut pen, HEAD + 3.0 * row, spacecraft, found);
     pen.finish()
 }
 
@@ -135,7 +135,7 @@ fn legend(pen: &mut Pen, has_zone: bool) {
 }
 
 /// Disturbances that downlinks can undo, the mission's mean among them.
-fn downlinks(pen: &mut Pen, top: f64, craft: &Craft, found: &Found) {
+fn downlinks(pen: &mut Pen, top: f64, spacecraft: &MappedSpacecraft, found: &Found) {
     let attainable = &found.attainable;
     // A disturbance is undone by its opposite.
     let undone = attainable.mean_added_n_m.scaled(-MICRO, [0.0; 2]);
@@ -163,13 +163,13 @@ fn downlinks(pen: &mut Pen, top: f64, craft: &Craft, found: &Found) {
     }
     let left = LEFT + frame.width + 40.0;
     let anywhere = if found.zone.is_some() { "anywhere in the zone" } else { "anywhere" };
-    let mut lines = vec![verdict::share(craft), format!("with the Sun {anywhere} instead of on -Y")];
+    let mut lines = vec![verdict::share(spacecraft), format!("with the Sun {anywhere} instead of on -Y")];
     if mean.is_some() {
         pen.circle((left + 5.0, top + 78.0), 5.0, "fill=\"#b2182b\" stroke=\"#ffffff\" stroke-width=\"1.2\"");
         lines.push(String::new());
         lines.push("    the mission's mean disturbance; inside the area it can be held for ever".to_owned());
         lines.push(String::new());
-        lines.extend(verdict::on_mission(craft, attainable));
+        lines.extend(verdict::on_mission(spacecraft, attainable));
     }
     for (k, line) in lines.iter().enumerate() {
         let indent = if line.starts_with(' ') { 16.0 } else { 0.0 };

@@ -3,7 +3,7 @@
 use loader::{Error, Fmu, Instance, InstanceOptions, Value};
 use nalgebra::Vector3;
 
-use super::{craft::Craft, options::SourceKind, panels::Turned};
+use super::{options::SourceKind, panels::TurnedPanels, spacecraft::MappedSpacecraft};
 
 /// Any step: the model has no memory.
 const STEP_S: f64 = 1.0;
@@ -19,7 +19,7 @@ pub struct Load {
 /// An instance that is asked direction by direction.
 pub struct Sunlight<'a> {
     instance: Instance,
-    panels: &'a [Turned],
+    panels: &'a [TurnedPanels],
     distance_m: f64,
     /// The Sun's position, then every panel's angle.
     inputs: Vec<u32>,
@@ -30,20 +30,20 @@ pub struct Sunlight<'a> {
 }
 
 impl<'a> Sunlight<'a> {
-    /// An instance without a planet, at the craft's distance from the Sun.
-    pub fn new(craft: &'a Craft, source: SourceKind) -> Result<Self, Error> {
-        let fmu = &craft.fmu;
+    /// An instance without a planet, at the spacecraft's distance from the Sun.
+    pub fn new(spacecraft: &'a MappedSpacecraft, source: SourceKind) -> Result<Self, Error> {
+        let fmu = &spacecraft.fmu;
         let references = |names: &[String]| -> Result<Vec<u32>, Error> {
             names.iter().map(|name| Ok(fmu.variable(name)?.value_reference)).collect()
         };
         let mut inputs = vector("sun.positionBody");
-        inputs.extend((1..=craft.panels.len()).map(|number| format!("panel[{number}].angle")));
+        inputs.extend((1..=spacecraft.panels.len()).map(|number| format!("panel[{number}].angle")));
         let outputs = ["torque", "force"].map(|what| vector(&format!("{what}.{}", source.name()))).concat();
         let (inputs, outputs) = (references(&inputs)?, references(&outputs)?);
         let mut sunlight = Self {
             instance: started(fmu)?,
-            panels: &craft.panels,
-            distance_m: craft.distance_m,
+            panels: &spacecraft.panels,
+            distance_m: spacecraft.distance_m,
             values: vec![0.0; inputs.len()],
             inputs,
             outputs,

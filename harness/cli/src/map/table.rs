@@ -4,11 +4,11 @@ use nalgebra::Vector3;
 use physics::constants::{ASTRONOMICAL_UNIT_M, DAY_S};
 
 use super::{
-    craft::Craft,
     found::{Found, Mapped},
     grid::Angles,
     options::SourceKind,
     panels::Rule,
+    spacecraft::MappedSpacecraft,
     verdict,
 };
 
@@ -17,20 +17,20 @@ const MOST_ROWS: usize = 12;
 const NAMES: [&str; 3] = ["X", "Y", "Z"];
 
 /// All of it.
-pub fn text(craft: &Craft, found: &Found, source: SourceKind) -> String {
-    let mut parts = vec![head(craft, found, source)];
+pub fn text(spacecraft: &MappedSpacecraft, found: &Found, source: SourceKind) -> String {
+    let mut parts = vec![head(spacecraft, found, source)];
     let zone = found.zone.iter().map(|zone| (zone, "the keep-in zone"));
     for (mapped, where_) in core::iter::once((&found.sphere, "all directions")).chain(zone) {
         parts.push(lines(mapped, where_));
         parts.push(balances(mapped, where_));
     }
     parts.push(worths(found));
-    parts.push(attainable(craft, found));
+    parts.push(attainable(spacecraft, found));
     parts.join("\n\n")
 }
 
-fn head(craft: &Craft, found: &Found, source: SourceKind) -> String {
-    let panels: Vec<String> = craft
+fn head(spacecraft: &MappedSpacecraft, found: &Found, source: SourceKind) -> String {
+    let panels: Vec<String> = spacecraft
         .panels
         .iter()
         .map(|turned| match turned.rule {
@@ -49,7 +49,7 @@ fn head(craft: &Craft, found: &Found, source: SourceKind) -> String {
         SourceKind::Solar => "sunlight",
         SourceKind::Total => "sunlight and the recoil of its heat",
     };
-    let zone = craft.zone_rad.map(|limits_rad| {
+    let zone = spacecraft.zone_rad.map(|limits_rad| {
         let [azimuth, elevation] = limits_rad.map(|limit_rad| terminal::short(limit_rad.to_degrees()));
         format!("{azimuth} deg of azimuth, {elevation} deg of elevation either way")
     });
@@ -57,13 +57,13 @@ fn head(craft: &Craft, found: &Found, source: SourceKind) -> String {
     let mut text = format!(
         "{}: torque of {what} about the centre of mass at {} AU, body frame; it goes with the inverse square of the distance.\n\
          Sun keep-in zone: {zone}.",
-        craft.name,
-        terminal::short(craft.distance_m / ASTRONOMICAL_UNIT_M)
+        spacecraft.name,
+        terminal::short(spacecraft.distance_m / ASTRONOMICAL_UNIT_M)
     );
     if !panels.is_empty() {
         text += &format!("\nPanels: {}.", panels.join("; "));
     }
-    if craft.panels_left_out {
+    if spacecraft.panels_left_out {
         text += "\nEvery panel is mapped: panel[k].enabled = false counts in MomentumPlant alone.";
     }
     let mut table =
@@ -175,7 +175,7 @@ fn worths(found: &Found) -> String {
     format!("What a degree is worth with the Sun on -Y, panels turning with it\n{table}")
 }
 
-fn attainable(craft: &Craft, found: &Found) -> String {
+fn attainable(spacecraft: &MappedSpacecraft, found: &Found) -> String {
     let attainable = &found.attainable;
     let mut table =
         terminal::table(&["downlinks can add [uN.m]", "least", "greatest", "greatest [N.m.s per day]"]);
@@ -185,7 +185,7 @@ fn attainable(craft: &Craft, found: &Found) -> String {
     }
     let mut text = format!(
         "Against the Sun on -Y, {} with the Sun elsewhere{}\n{table}",
-        verdict::share(craft),
+        verdict::share(spacecraft),
         if found.zone.is_some() { " in the zone" } else { "" }
     );
     if let Some((mission, _)) = &attainable.mission {
@@ -196,7 +196,7 @@ fn attainable(craft: &Craft, found: &Found) -> String {
             verdict::in_the_mean(attainable)
         );
     }
-    for line in verdict::on_mission(craft, attainable) {
+    for line in verdict::on_mission(spacecraft, attainable) {
         text += &format!("\n{line}");
     }
     text

@@ -1,10 +1,10 @@
 //! What downlinks can hold, in words, for table and picture.
 
-use super::{craft::Craft, found::Attainable};
+use super::{found::Attainable, spacecraft::MappedSpacecraft};
 
-/// How a share of the time is told.
-pub fn share(craft: &Craft) -> String {
-    let downlink = &craft.downlink;
+/// How a share of the time is reported.
+pub fn share(spacecraft: &MappedSpacecraft) -> String {
+    let downlink = &spacecraft.downlink;
     if downlink.share() == 0.0 {
         return "no downlinks (guided.*)".to_owned();
     }
@@ -29,18 +29,18 @@ pub fn in_the_mean(attainable: &Attainable) -> &'static str {
 }
 
 /// Sentences on a mission; none without one.
-pub fn on_mission(craft: &Craft, attainable: &Attainable) -> Vec<String> {
+pub fn on_mission(spacecraft: &MappedSpacecraft, attainable: &Attainable) -> Vec<String> {
     let Some((mission, held)) = &attainable.mission else { return Vec::new() };
     let length = format!("{:.1}", mission.length_d());
     let until = |day: Option<f64>| match day {
         Some(day) => format!("until day {day:.1} of {length}"),
         None => format!("through all {length} days"),
     };
-    let [x, y, z] = craft.threshold_n_m_s.map(terminal::short);
-    let flown = mission.dumps.map_or(String::new(), |dumps| format!("; flown with {dumps} dumps"));
+    let [x, y, z] = spacecraft.threshold_n_m_s.map(terminal::short);
+    let simulated = mission.dumps.map_or(String::new(), |dumps| format!("; flown with {dumps} dumps"));
     vec![
         format!("holdable without a dump {} (X, Z within +-{x}, +-{z} N.m.s)", until(held.managed_d)),
-        format!("without targets in downlinks {}{flown}", until(held.unmanaged_d)),
+        format!("without targets in downlinks {}{simulated}", until(held.unmanaged_d)),
         match held.y_d {
             Some(day) => format!("Y, which downlinks do not manage, leaves +-{y} N.m.s on day {day:.1}"),
             None => format!("Y, which downlinks do not manage, stays within +-{y} N.m.s"),

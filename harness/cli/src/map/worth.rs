@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use crate::draw::scene::panel_called;
 
 use super::{
-    panels::{Rule, Turned},
+    panels::{Rule, TurnedPanels},
     sunlight::Sunlight,
 };
 
@@ -18,7 +18,10 @@ pub struct Worth {
 }
 
 /// Torque with the Sun on -Y, as in a downlink without targets, and what a degree changes.
-pub fn find(sunlight: &mut Sunlight<'_>, panels: &[Turned]) -> Result<(Vector3<f64>, Vec<Worth>), Error> {
+pub fn find(
+    sunlight: &mut Sunlight<'_>,
+    panels: &[TurnedPanels],
+) -> Result<(Vector3<f64>, Vec<Worth>), Error> {
     let sun = -Vector3::y();
     // Azimuth turns the Sun toward +X, elevation toward -Z.
     let (load, slopes) = sunlight.slopes(&sun, [Vector3::x(), -Vector3::z()])?;

@@ -96,7 +96,7 @@ impl Judged {
 
 #[cfg(test)]
 mod tests {
-    //! The first row outside is the one that is told; NaN is outside.
+    //! The first row outside is the one that is reported; NaN is outside.
 
     use loader::Column;
 
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_row_outside_is_told() {
+    fn the_first_row_outside_is_reported() {
         let judge_of = |values: &[f64]| judge(values, Some(-1.0), Some(2.0));
         assert!(judge_of(&[-1.0, 0.0, 2.0]).is_kept(), "bounds are kept at themselves");
         let broken = judge_of(&[0.0, 3.0, -5.0, 1.0]);

@@ -46,12 +46,12 @@ mod tests {
 
     #[test]
     fn the_schema_of_the_mission_is_in_step() {
-        let wanted = format!("{:#}", schemars::schema_for!(Description).as_value());
+        let requested = format!("{:#}", schemars::schema_for!(Description).as_value());
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fmu-src/resources/mission.schema.json");
         if std::env::var_os("HELIOTORQUE_BLESS").is_some() {
-            fs::write(&path, &wanted).unwrap();
+            fs::write(&path, &requested).unwrap();
         }
         let found = fs::read_to_string(&path).unwrap();
-        assert!(found == wanted, "{} is out of step: cargo xtask bless schema", path.display());
+        assert!(found == requested, "{} is out of step: cargo xtask bless schema", path.display());
     }
 }

@@ -42,12 +42,12 @@ pub struct Plot {
 
 /// What a run shall write.
 #[derive(Clone, Debug)]
-pub struct Wanted {
+pub struct Requested {
     /// The CSV file.
     pub table: Option<OutputFile>,
     /// Pictures.
     pub plots: Vec<Plot>,
-    /// How many of the recording's columns were asked for, the first ones; more is for the pictures.
+    /// How many of the recording's columns were requested, the first ones; more is for the pictures.
     pub columns: usize,
     /// Whether no summary is wanted.
     pub is_quiet: bool,
@@ -58,17 +58,22 @@ pub struct Outputs {
     exporters: Vec<Box<dyn Exporter>>,
     /// Files that will be written.
     files: Vec<PathBuf>,
-    /// Whether the last values are told: without a file the summary has them.
+    /// Whether the last values are reported: without a file the summary has them.
     says_last: bool,
-    /// How many of the recording's columns were asked for, the first ones; more is for the pictures.
+    /// How many of the recording's columns were requested, the first ones; more is for the pictures.
     columns: usize,
 }
 
 impl Outputs {
     /// Everything wanted, its files opened; without any, a summary on the terminal. `empty` is the recording before its first row;
     /// `inputs` are not written over.
-    pub fn open(wanted: &Wanted, empty: &Recording, known: &Known, inputs: &[&Path]) -> Result<Self, String> {
-        let Wanted { table, plots, columns, is_quiet } = wanted;
+    pub fn open(
+        requested: &Requested,
+        empty: &Recording,
+        known: &Known,
+        inputs: &[&Path],
+    ) -> Result<Self, String> {
+        let Requested { table, plots, columns, is_quiet } = requested;
         let open = |file: &OutputFile, kind: Kind<'_>| {
             let destination = Destination::open(&file.path, file.option, inputs)?;
             standing::check(file, &destination, kind)?;

@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tables_and_pictures_of_runs_are_told_from_other_files() {
+    fn tables_and_pictures_of_runs_are_reported_from_other_files() {
         let table = Kind::Table(b"time,a,b\n");
         for (text, expected) in [
             ("", Standing::Same),

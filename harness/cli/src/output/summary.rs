@@ -123,7 +123,7 @@ mod tests {
 </fmiModelDescription>"#;
 
     /// The last values of these columns.
-    fn told(columns: &[(&str, f64)]) -> String {
+    fn reported(columns: &[(&str, f64)]) -> String {
         let description = model_description::parse(SHIP.as_bytes()).unwrap().description;
         let recording = Recording {
             times_s: vec![0.0],
@@ -136,12 +136,12 @@ mod tests {
 
     #[test]
     fn rounding_is_shown_as_nothing() {
-        assert!(!told(&[("angle", 2.8e-17)]).contains("e-"));
-        assert!(told(&[("angle", 1e-9)]).contains("5.73e-8"));
-        assert!(told(&[("lone", 1.5e-17)]).contains("1.5e-17"));
-        let vector = told(&[("torque[1]", -3e-18), ("torque[2]", 2e-5), ("torque[3]", 4e-16)]);
+        assert!(!reported(&[("angle", 2.8e-17)]).contains("e-"));
+        assert!(reported(&[("angle", 1e-9)]).contains("5.73e-8"));
+        assert!(reported(&[("lone", 1.5e-17)]).contains("1.5e-17"));
+        let vector = reported(&[("torque[1]", -3e-18), ("torque[2]", 2e-5), ("torque[3]", 4e-16)]);
         assert!(vector.contains("0, 2e-5, 4e-16"), "{vector}");
-        let small = told(&[("torque[1]", 3e-18), ("torque[2]", 2e-18)]);
+        let small = reported(&[("torque[1]", 3e-18), ("torque[2]", 2e-18)]);
         assert!(small.contains("3e-18, 2e-18"), "{small}");
     }
 }

@@ -164,9 +164,9 @@ fn nutation(burn: &PlannedBurn) -> Chart {
         let angle_deg = angle_rad.to_degrees();
         Series::dashed(label, vec![(from_min, angle_deg), (end_min, angle_deg)])
     };
-    let flown = samples.iter().map(|sample| (minutes(sample.time_s), sample.nutation_rad.to_degrees()));
+    let simulated = samples.iter().map(|sample| (minutes(sample.time_s), sample.nutation_rad.to_degrees()));
     let mut series = vec![
-        Series::line("as flown", flown.collect()),
+        Series::line("as flown", simulated.collect()),
         level("worst at any time", burn.row.peak_rad, 0.0),
         level("worst after the last pulse", burn.row.final_rad, last_min),
         level("science bears", burn.task.allowed_nutation_rad, 0.0),

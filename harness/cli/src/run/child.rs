@@ -10,8 +10,8 @@ use std::{
 use loader::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status};
 
 use super::{
-    flown::Flown,
     settings::Settings,
+    simulated::Simulated,
     subject::{Given, Subject},
 };
 use crate::{
@@ -31,7 +31,7 @@ const ENDS: [Ended; 3] = [Ended::AtStop, Ended::Cancelled, Ended::ByItself];
 const MESSAGES: usize = 1000;
 
 /// What came of a simulation.
-pub struct Simulated {
+pub struct SimulationResult {
     /// Why it ended.
     pub outcome: Result<Ended, String>,
     /// What the instance logged.
@@ -56,7 +56,7 @@ pub fn simulate(
     points: u64,
     collector: &mut Collector,
     mut tick: impl FnMut(&Recording, Option<f64>) -> Result<(), String>,
-) -> Simulated {
+) -> SimulationResult {
     let InChild { subject, input_copy, timeout_s } = *in_child;
     let option = |name: &str, path: &Path| {
         let mut option = OsString::from(name);
@@ -71,7 +71,7 @@ pub fn simulate(
         Ok(child) => child,
         Err(error) => {
             let outcome = Err(format!("the process of the FMU cannot be started: {error}"));
-            return Simulated { outcome, messages: Vec::new(), fault: None };
+            return SimulationResult { outcome, messages: Vec::new(), fault: None };
         }
     };
     let mut inbox = Inbox::new(collector, points);
@@ -99,7 +99,7 @@ pub fn simulate(
         (None, EndReason::Refused(why)) => Err(why.clone()),
         (None, _) => Err(format!("{name}: {}", supervised.without_result())),
     };
-    Simulated { outcome, messages, fault }
+    SimulationResult { outcome, messages, fault }
 }
 
 /// Takes the frames of a simulation.
@@ -231,8 +231,8 @@ fn simulation(
     link: &mut Link,
 ) -> Result<(Ended, Vec<LogMessage>), Box<dyn std::error::Error>> {
     let subject = Subject::open(&arguments.unpacked_in)?;
-    let flown = Flown::of(&arguments.run)?;
-    let settings = Settings::of(&subject, &flown, arguments.input_copy.as_deref())?;
+    let simulated = Simulated::of(&arguments.run)?;
+    let settings = Settings::of(&subject, &simulated, arguments.input_copy.as_deref())?;
     let (cancel, cancel_word) = (AtomicBool::new(link.is_cancelled()), link.cancel_word());
     let mut check_cancel = |_: f64| {
         if cancel_word.load(Ordering::Relaxed) != 0 {
@@ -246,5 +246,5 @@ fn simulation(
         progress: &mut check_cancel,
         cancel: &cancel,
     };
-    Ok(subject.simulate_into(&flown.run, given, &mut RowSender(link))?)
+    Ok(subject.simulate_into(&simulated.run, given, &mut RowSender(link))?)
 }

@@ -5,11 +5,11 @@ use std::path::Path;
 use loader::{InputTable, Times};
 use model_description::Description;
 
-use super::{flown::Flown, subject::Subject};
+use super::{simulated::Simulated, subject::Subject};
 use crate::{
     epoch,
     mission::{self, Limit, Resolved},
-    output::{self, OutputFile, Plot, Wanted},
+    output::{self, OutputFile, Plot, Requested},
 };
 
 /// What the arguments mean for an FMU or a system.
@@ -23,7 +23,7 @@ pub struct Settings {
     /// What is recorded.
     pub positions: Vec<usize>,
     /// What is written.
-    pub wanted: Wanted,
+    pub requested: Requested,
     /// What the run is judged by.
     pub limits: Vec<Limit>,
 }
@@ -32,10 +32,10 @@ impl Settings {
     /// Of the arguments and the mission; the error names the flag or the line. What `--input` names may stand in a copy.
     pub fn of(
         subject: &Subject,
-        flown: &Flown,
+        simulated: &Simulated,
         input_copy: Option<&Path>,
     ) -> Result<Self, Box<dyn std::error::Error>> {
-        let Flown { run: arguments, mission } = flown;
+        let Simulated { run: arguments, mission } = simulated;
         let described = subject.description();
         let resolved = match mission {
             Some(mission) => mission.resolve(described)?,
@@ -77,9 +77,9 @@ impl Settings {
             .or(resolved.record)
             .unwrap_or_else(|| loader::outputs(described));
         // What is drawn or judged is recorded too.
-        let wanted = plots.iter().flat_map(|plot| plot.names.iter().flatten());
-        let wanted = wanted.chain(resolved.limits.iter().map(|limit| &limit.name));
-        for name in wanted {
+        let requested = plots.iter().flat_map(|plot| plot.names.iter().flatten());
+        let requested = requested.chain(resolved.limits.iter().map(|limit| &limit.name));
+        for name in requested {
             let position = described.variables.iter().position(|variable| variable.name == *name);
             positions.extend(position.filter(|position| !positions.contains(position)));
         }
@@ -102,7 +102,7 @@ impl Settings {
             sets,
             inputs: inputs.or(resolved.inputs),
             positions,
-            wanted: Wanted { table, plots, columns, is_quiet: arguments.quiet },
+            requested: Requested { table, plots, columns, is_quiet: arguments.quiet },
             limits: resolved.limits,
         })
     }

@@ -288,7 +288,7 @@ fn a_spacecraft_is_judged_by_the_model_it_is_for() {
 }
 
 #[test]
-fn a_spacecraft_changed_after_packing_is_the_first_thing_told() {
+fn a_spacecraft_changed_after_packing_is_the_first_thing_reported() {
     for (model, spacecraft, from, to, expected) in [
         ("MomentumPlant", "messenger.toml", "mass_kg = 700", "mass_kg = 701", "MomentumPlant has GUID {"),
         (

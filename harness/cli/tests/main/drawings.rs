@@ -158,7 +158,7 @@ fn panels_turn_about_their_axes() {
 }
 
 #[test]
-fn views_are_those_asked_for() {
+fn views_are_those_requested() {
     let headings = |views: &str| -> Vec<String> {
         let svg = drawn(ORBITER, &["--view", views]);
         let document = Document::parse(&svg).unwrap();

@@ -1,4 +1,4 @@
-//! An ephemeris is fitted from an FMU's flight, told, packed and flown; what is wrong is told by name.
+//! An ephemeris is fitted from an FMU's flight, reported, packed and flown; what is wrong is reported by name.
 
 use std::fs;
 
@@ -12,13 +12,13 @@ const SMALL: &str = "frame = \"EME2000\"\n[[body]]\nbody = \"sun\"\ncenter = \"m
                      error_m_s = 0.1\nsegment = [{ start_s = 0.0, end_s = 864000.0, x_m = [5e10], y_m = [0], z_m = [0] }]\n";
 
 #[test]
-fn a_file_is_told_and_a_torn_one_refused_by_line() {
+fn a_file_is_reported_and_a_torn_one_refused_by_line() {
     let scratch = tempfile::tempdir().unwrap();
     let path = scratch.path().join("mine.toml");
     fs::write(&path, SMALL).unwrap();
     let text = run(&["check", shown(&path)], 0);
-    let told = ["ok", "sun", "mercury", "2000-01-01T11:58:55", "2000-01-11T11:58:55", "1 m", "0.1 m/s"];
-    assert!(told.iter().all(|word| text.contains(word)), "{text}");
+    let reported = ["ok", "sun", "mercury", "2000-01-01T11:58:55", "2000-01-11T11:58:55", "1 m", "0.1 m/s"];
+    assert!(reported.iter().all(|word| text.contains(word)), "{text}");
     for (old, new, said) in [
         ("error_m = 1.0", "error_m = nan", "mine.toml:6: body[1].error_m: found NaN"),
         ("[[body]]", "[[bodies]]", "found the unknown key `bodies`, allowed: frame, source, body, coarse"),
@@ -50,7 +50,7 @@ fn dates_and_sources_that_cannot_be_are_refused_by_name() {
 }
 
 /// Greatest error that a table tells in its row of a body, in m.
-fn told_m(text: &str, body: &str) -> f64 {
+fn reported_m(text: &str, body: &str) -> f64 {
     let row = text.lines().find(|line| line.contains(body) && line.contains(" m/s")).unwrap();
     let words: Vec<&str> = row.split_whitespace().collect();
     let unit = words.iter().position(|word| *word == "m").unwrap();
@@ -58,7 +58,7 @@ fn told_m(text: &str, body: &str) -> f64 {
 }
 
 #[test]
-fn a_flight_is_fitted_to_the_tolerance_and_flown_by_another_fmu() {
+fn a_flight_is_fitted_to_the_tolerance_and_simulated_by_another_fmu() {
     let Some(library) = library() else { return };
     let scratch = tempfile::tempdir().unwrap();
     let path = |name: &str| scratch.path().join(name);
@@ -71,7 +71,7 @@ fn a_flight_is_fitted_to_the_tolerance_and_flown_by_another_fmu() {
         0,
     );
     for body in ["sun", "earth", "spacecraft"] {
-        let error_m = told_m(&text, &format!(" {body} "));
+        let error_m = reported_m(&text, &format!(" {body} "));
         assert!(error_m <= 500.0, "{body}: {text}");
     }
     // The file says the same.

@@ -258,10 +258,11 @@ fn two_runs_with_one_output_do_not_mix() {
         let good: Vec<usize> = (0..2).filter(|index| outputs[*index].status.success()).collect();
         assert!(!good.is_empty(), "{outputs:?}");
         for output in outputs.iter().filter(|output| !output.status.success()) {
-            let told = text(output);
+            let reported = text(output);
             assert!(
-                output.status.code() == Some(1) && told.contains("another run is writing it: see --output"),
-                "{told}"
+                output.status.code() == Some(1)
+                    && reported.contains("another run is writing it: see --output"),
+                "{reported}"
             );
             refusals += 1;
         }

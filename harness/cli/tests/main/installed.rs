@@ -36,13 +36,16 @@ fn a_program_with_its_library_beside_it_works_in_an_empty_folder() {
         fs::copy(resources.join(file), folder.join(file)).unwrap();
     }
     // Alone it says what is missing and what helps.
-    let (status, told) = run_in(&folder, &program, &["check", "ace.toml"]);
-    assert!(status == Some(1) && told.contains("--template") && told.contains("xtask install"), "{told}");
+    let (status, reported) = run_in(&folder, &program, &["check", "ace.toml"]);
+    assert!(
+        status == Some(1) && reported.contains("--template") && reported.contains("xtask install"),
+        "{reported}"
+    );
     let own = at("prefix/lib/heliotorque").join(library.file_name().unwrap());
     fs::copy(&library, &own).unwrap();
     let works = |arguments: &[&str], expected: &str| {
-        let (status, told) = run_in(&folder, &program, arguments);
-        assert!(status == Some(0) && told.contains(expected), "{arguments:?}: {told}");
+        let (status, reported) = run_in(&folder, &program, arguments);
+        assert!(status == Some(0) && reported.contains(expected), "{arguments:?}: {reported}");
     };
     works(&["check", "ace.toml"], "ok for SpinPlant");
     works(&["check", "messenger.toml"], "ok for MomentumPlant");
@@ -62,12 +65,15 @@ fn a_program_with_its_library_beside_it_works_in_an_empty_folder() {
         works(&["wire", name, "--output", "alone.ssp"], "lib/heliotorque");
     }
     for name in ["other/Shipped.fmu", "../dist/Shipped.fmu", "Absent.fmu"] {
-        let (status, told) = run_in(&folder, &program, &["info", name]);
-        assert!(status == Some(1) && told.contains(name) && !told.contains("is not here"), "{told}");
+        let (status, reported) = run_in(&folder, &program, &["info", name]);
+        assert!(
+            status == Some(1) && reported.contains(name) && !reported.contains("is not here"),
+            "{reported}"
+        );
     }
     fs::write(folder.join("Shipped.fmu"), "not an archive").unwrap();
-    let (status, told) = run_in(&folder, &program, &["info", "Shipped.fmu"]);
-    assert!(status == Some(1) && !told.contains("is not here"), "{told}");
+    let (status, reported) = run_in(&folder, &program, &["info", "Shipped.fmu"]);
+    assert!(status == Some(1) && !reported.contains("is not here"), "{reported}");
     // What stands in the folder by chance is not taken.
     fs::create_dir(folder.join("dist")).unwrap();
     fs::write(folder.join("dist/MomentumPlant.fmu"), "not an archive").unwrap();
@@ -75,13 +81,13 @@ fn a_program_with_its_library_beside_it_works_in_an_empty_folder() {
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink(&program, at("links").join(&name)).unwrap();
-        let (status, told) = run_in(&folder, &at("links").join(&name), &["check", "ace.toml"]);
-        assert!(status == Some(0), "{told}");
+        let (status, reported) = run_in(&folder, &at("links").join(&name), &["check", "ace.toml"]);
+        assert!(status == Some(0), "{reported}");
     }
-    let (status, told) = run_in(&folder, &program, &["study", "spin/figure3"]);
+    let (status, reported) = run_in(&folder, &program, &["study", "spin/figure3"]);
     assert!(
-        status == Some(1) && told.contains(shown(own.parent().unwrap())) && told.contains("--dist"),
-        "{told}"
+        status == Some(1) && reported.contains(shown(own.parent().unwrap())) && reported.contains("--dist"),
+        "{reported}"
     );
 }
 
@@ -101,14 +107,14 @@ fn a_file_that_is_wrong_is_judged_as_what_it_is() {
     let output = at("x.fmu");
     let pack =
         ["pack", "--template", shown(&template), "--output", shown(&output), "--spacecraft", shown(&wrong)];
-    let told = crate::run(&pack, 1);
-    assert!(told.contains("thrusters.resolution_s") && !told.contains("unknown"), "{told}");
+    let reported = crate::run(&pack, 1);
+    assert!(reported.contains("thrusters.resolution_s") && !reported.contains("unknown"), "{reported}");
     fs::write(&wrong, ace).unwrap();
     assert!(crate::run(&pack, 0).contains("x.fmu: SpinPlant, "));
     // Start values of another model of the same kind of file do not choose that model.
     let messenger = include_str!("../../../../fmu-src/resources/messenger.toml");
     fs::write(&wrong, format!("{messenger}\n[start.MomentumPlant]\n\"pointing.scenario\" = \"nadir\"\n"))
         .unwrap();
-    let told = crate::run(&pack, 1);
-    assert!(told.contains("pointing.scenario"), "{told}");
+    let reported = crate::run(&pack, 1);
+    assert!(reported.contains("pointing.scenario"), "{reported}");
 }

@@ -1,4 +1,4 @@
-//! SPICE kernels are fitted as SPICE reads them; what is wrong with them is told by name.
+//! SPICE kernels are fitted as SPICE reads them; what is wrong with them is reported by name.
 //!
 //! `tests/kernels/make_kernels.py` wrote them by CSPICE: every body moves on a circle, whose closed form stands here again.
 
@@ -8,7 +8,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use physics::environment::flown::{FlownEphemeris, FlownTarget};
+use physics::environment::onboard::{OnboardEphemeris, OnboardTarget};
 
 use crate::{run, shown};
 
@@ -33,7 +33,7 @@ fn at([radius_km, period_s, phase, inclination]: Circle, epoch_s: f64) -> [f64; 
 }
 
 /// Position of a body from Mercury, in m.
-fn truth_m(target: FlownTarget, epoch_s: f64) -> [f64; 3] {
+fn truth_m(target: OnboardTarget, epoch_s: f64) -> [f64; 3] {
     let sum = |circles: &[(f64, Circle)]| {
         circles.iter().fold([0.0; 3], |sum, (sign, circle)| {
             let position = at(*circle, epoch_s);
@@ -41,8 +41,8 @@ fn truth_m(target: FlownTarget, epoch_s: f64) -> [f64; 3] {
         })
     };
     match target {
-        FlownTarget::Sun => sum(&[(1.0, SUN), (-1.0, MERCURY)]),
-        FlownTarget::Earth => sum(&[(1.0, EARTH_AND_MOON), (1.0, EARTH), (-1.0, MERCURY)]),
+        OnboardTarget::Sun => sum(&[(1.0, SUN), (-1.0, MERCURY)]),
+        OnboardTarget::Earth => sum(&[(1.0, EARTH_AND_MOON), (1.0, EARTH), (-1.0, MERCURY)]),
         _ => sum(&[(1.0, CRAFT)]),
     }
 }
@@ -65,15 +65,15 @@ fn fit(kernels: &[&Path], stop: &str, more: &[&str], status: i32) -> String {
 }
 
 /// What it wrote.
-fn fitted(kernels: &[&Path], stop: &str, more: &[&str]) -> FlownEphemeris {
+fn fitted(kernels: &[&Path], stop: &str, more: &[&str]) -> OnboardEphemeris {
     let scratch = tempfile::tempdir().unwrap();
     let file = scratch.path().join("flown.toml");
     fit(kernels, stop, &[&["--output", shown(&file)], more].concat(), 0);
-    FlownEphemeris::from_toml("flown.toml", &fs::read_to_string(file).unwrap()).unwrap()
+    OnboardEphemeris::from_toml("flown.toml", &fs::read_to_string(file).unwrap()).unwrap()
 }
 
 /// The greatest error of a precise model in a span, in m, at epochs of which the fit knows none.
-fn worst_m(ephemeris: &FlownEphemeris, target: FlownTarget, days: f64) -> f64 {
+fn worst_m(ephemeris: &OnboardEphemeris, target: OnboardTarget, days: f64) -> f64 {
     let model = ephemeris.precise.iter().find(|it| it.target == target).unwrap();
     let error_m = |k: u32| {
         let epoch_s = START_S + days * DAY_S * f64::from(k) / 3001.0;
@@ -90,7 +90,7 @@ fn fits_keep_their_error_against_the_closed_form() {
     let bodies = ["--bodies", "sun,earth,spacecraft", "--tolerance", "20", "--coarse"];
     let made = fitted(&both, "2011-04-04 TDB", &bodies);
     let source = made.source.as_deref().unwrap();
-    assert_eq!(source, "SPK planets.bsp, craft.bsp from Mercury (199), spacecraft -236");
+    assert_eq!(source, "SPK planets.bsp, spacecraft.bsp from Mercury (199), spacecraft -236");
     for model in &made.precise {
         let (stated_m, found_m) = (model.error.position_m, worst_m(&made, model.target, 2.0));
         assert!(stated_m <= 20.0, "{}: {stated_m}", model.target);
@@ -105,7 +105,7 @@ fn fits_keep_their_error_against_the_closed_form() {
     assert_eq!(made.coarse.len(), 3);
     // Over the joints of the kernel's own polynomials, whose degree this is.
     let made = fitted(&both[..1], "2011-04-26 TDB", &["--degree", "14", "--segment", "8d"]);
-    for target in [FlownTarget::Sun, FlownTarget::Earth] {
+    for target in [OnboardTarget::Sun, OnboardTarget::Earth] {
         assert!(worst_m(&made, target, 24.0) < 0.05, "{target}");
     }
 }
@@ -122,27 +122,27 @@ fn bodies_go_by_name_and_by_naif_id() {
     for spacecraft in ["-121", "-122", "-123"] {
         let other = ["--bodies", "spacecraft", "--spacecraft", spacecraft, "--tolerance", "1"];
         let other = fitted(&both[1..], "2011-04-02T12:00 TDB", &other);
-        assert!(worst_m(&other, FlownTarget::Spacecraft, 0.5) <= 1.05, "{spacecraft}");
+        assert!(worst_m(&other, OnboardTarget::Spacecraft, 0.5) <= 1.05, "{spacecraft}");
     }
     // From another center the same places.
     let from_sun = fitted(&both, "2011-04-03 TDB", &["--bodies", "earth", "--center", "sun"]);
     let model = &from_sun.precise[0];
     let epoch_s = START_S + 0.37 * DAY_S;
-    let [sun, earth] = [FlownTarget::Sun, FlownTarget::Earth].map(|target| truth_m(target, epoch_s));
+    let [sun, earth] = [OnboardTarget::Sun, OnboardTarget::Earth].map(|target| truth_m(target, epoch_s));
     let found = model.motion.state(epoch_s).unwrap().position_m;
     let off_m = (0..3).map(|i| (found[i] - (earth[i] - sun[i])).powi(2)).sum::<f64>().sqrt();
     assert!(off_m <= 100.0, "{off_m} m");
 }
 
 #[test]
-fn a_span_that_is_not_covered_is_told_with_the_one_that_is() {
+fn a_span_that_is_not_covered_is_reported_with_the_one_that_is() {
     let (planets, craft) = (kernel("planets.bsp"), kernel("craft.bsp"));
     let both = [planets.as_path(), &craft];
     let text = fit(&both, "2011-05-04 UTC", &[], 1);
     for said in [
         "--start, --stop: found 2011-04-01T23:58:53.814 UTC to 2011-05-04T00:00:00 UTC",
         "allowed: from 2011-04-01T23:58:53.814 UTC to 2011-04-25T23:58:53.814 UTC",
-        "planets.bsp, craft.bsp places Sun (10)",
+        "planets.bsp, spacecraft.bsp places Sun (10)",
     ] {
         assert!(text.contains(said), "{text}");
     }
@@ -164,7 +164,7 @@ fn a_span_that_is_not_covered_is_told_with_the_one_that_is() {
 }
 
 #[test]
-fn a_body_that_no_kernel_holds_is_told_with_those_that_are() {
+fn a_body_that_no_kernel_holds_is_reported_with_those_that_are() {
     let (planets, craft) = (kernel("planets.bsp"), kernel("craft.bsp"));
     let text = fit(&[&planets], "2011-04-03 TDB", &["--bodies", "spacecraft"], 1);
     assert!(
@@ -172,7 +172,7 @@ fn a_body_that_no_kernel_holds_is_told_with_those_that_are() {
         "{text}"
     );
     let text = fit(&[&craft], "2011-04-03 TDB", &[], 1);
-    assert!(text.contains("found no Sun (10) in craft.bsp, allowed: MESSENGER (-236)"), "{text}");
+    assert!(text.contains("found no Sun (10) in spacecraft.bsp, allowed: MESSENGER (-236)"), "{text}");
     let text = fit(&[&planets], "2011-04-03 TDB", &["--center", "jupiter"], 1);
     assert!(text.contains("found no Jupiter (599) in planets.bsp"), "{text}");
     let text = fit(&[&planets], "2011-04-03 TDB", &["--center", "saturn"], 2);

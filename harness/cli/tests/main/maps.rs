@@ -1,4 +1,4 @@
-//! `map`: what it says of a craft is what the FMU itself says, direction by direction; refusals name what is wrong.
+//! `map`: what it says of a spacecraft is what the FMU itself says, direction by direction; refusals name what is wrong.
 
 use std::{collections::HashMap, fs, path::PathBuf};
 
@@ -164,8 +164,8 @@ fn lines_and_balances_are_where_the_torque_vanishes() {
     for center_m in [[0.0; 3], [0.01, 0.02, -0.05]] {
         let set = format!("spacecraft.centerOfMass={}m,{}m,{}m", center_m[0], center_m[1], center_m[2]);
         let csv = |option: &str| {
-            let craft = [MESSENGER, "--template", shown(&fmu_path), "--distance", "0.4", "--set", &set];
-            mapped(&[&craft[..], &["--step", "2deg", "--no-picture", "--quiet", option, "-"]].concat())
+            let spacecraft = [MESSENGER, "--template", shown(&fmu_path), "--distance", "0.4", "--set", &set];
+            mapped(&[&spacecraft[..], &["--step", "2deg", "--no-picture", "--quiet", option, "-"]].concat())
         };
         let mut torque = Torque::of(&fmu);
         for (axis, value) in center_m.into_iter().enumerate() {
@@ -219,7 +219,7 @@ fn a_degree_is_worth_what_differences_say() {
         "--set",
         "spacecraft.centerOfMass=1cm,2cm,-3cm",
     ]);
-    let told = |what: &str| -> Vec<f64> {
+    let reported = |what: &str| -> Vec<f64> {
         let line = printed
             .lines()
             .find(|line| line.trim_start().starts_with(what))
@@ -242,14 +242,17 @@ fn a_degree_is_worth_what_differences_say() {
         ("Sun offset of the panels", at(0.0, 0.0, [65.0 + H; 2]), at(0.0, 0.0, [65.0 - H; 2])),
         ("Sun offset of panel +X", at(0.0, 0.0, [65.0 + H, 65.0]), at(0.0, 0.0, [65.0 - H, 65.0])),
     ] {
-        let told = told(what);
+        let reported = reported(what);
         for axis in 0..3 {
             let slope = (plus[axis] - minus[axis]) / (2.0 * H);
             // To the printed digits and the third derivative over a twentieth of a degree.
-            assert!((told[axis] - slope * 1e6).abs() < 1e-4, "{what} {axis}: {told:?}, {slope:e}");
-            assert!((told[3 + axis] - slope * 86_400.0).abs() < 1e-5, "{what} {axis}: {told:?}, {slope:e}");
+            assert!((reported[axis] - slope * 1e6).abs() < 1e-4, "{what} {axis}: {reported:?}, {slope:e}");
+            assert!(
+                (reported[3 + axis] - slope * 86_400.0).abs() < 1e-5,
+                "{what} {axis}: {reported:?}, {slope:e}"
+            );
         }
-        assert!(told.iter().any(|value| *value != 0.0), "{what}");
+        assert!(reported.iter().any(|value| *value != 0.0), "{what}");
     }
 }
 
@@ -269,12 +272,12 @@ fn a_degree_off_the_sun_is_worth_something_from_the_sun_on() {
             mapped(&[&map[..], &["--no-picture", "--panel-offset", "0deg", "--set", &tilted]].concat());
         let what = "Sun offset of panel +X";
         let line = printed.lines().find_map(|line| line.trim_start().strip_prefix(what)).unwrap();
-        let told: Vec<f64> = line.split_whitespace().map(|cell| cell.parse().unwrap()).collect();
+        let reported: Vec<f64> = line.split_whitespace().map(|cell| cell.parse().unwrap()).collect();
         for axis in 0..3 {
             let slope = sign * (plus[axis] - minus[axis]) / (2.0 * h_deg);
-            assert!((told[axis] - slope * 1e6).abs() < 1e-4, "{tilt} {axis}: {told:?}, {slope:e}");
+            assert!((reported[axis] - slope * 1e6).abs() < 1e-4, "{tilt} {axis}: {reported:?}, {slope:e}");
         }
-        assert!(told.iter().any(|value| value.abs() > 0.01), "{printed}");
+        assert!(reported.iter().any(|value| value.abs() > 0.01), "{printed}");
     }
 }
 
@@ -336,12 +339,12 @@ fn torque_goes_with_the_inverse_square_and_follows_the_options() {
 #[test]
 fn the_picture_shows_lines_and_a_mission() {
     let Some((room, fmu_path)) = packed(MESSENGER) else { return };
-    let flown = room.path().join("flown.csv");
+    let simulated = room.path().join("flown.csv");
     let mut recorded = "time,torque.total[1],torque.total[2],torque.total[3]\n".to_owned();
     for hour in 0..=240 {
         recorded += &format!("{},2e-5,0,0\n", hour * 3600);
     }
-    fs::write(&flown, recorded).unwrap();
+    fs::write(&simulated, recorded).unwrap();
     let svg = room.path().join("my.svg");
     let all = [
         MESSENGER,
@@ -350,7 +353,7 @@ fn the_picture_shows_lines_and_a_mission() {
         "--distance",
         "0.387",
         "--mission",
-        shown(&flown),
+        shown(&simulated),
         "--output",
         shown(&svg),
     ];
@@ -393,7 +396,7 @@ fn what_cannot_be_mapped_is_refused_by_name() {
     let wrong = room.path().join("wrong.csv");
     fs::write(&wrong, "time,mass\n0,1\n600,1\n").unwrap();
     let template = ["--template", shown(&fmu_path), "--step", "10deg", "--no-picture"];
-    for (craft, arguments, expected) in [
+    for (spacecraft, arguments, expected) in [
         (MESSENGER, &["--set", "spacecraft.center=1"][..], "spacecraft.center"),
         (MESSENGER, &["--set", "keepIn.azimuth=0deg"], "keepIn.azimuth"),
         (MESSENGER, &["--mission", shown(&wrong)], "torque.total[1] to [3], nor momentum.body"),
@@ -403,8 +406,8 @@ fn what_cannot_be_mapped_is_refused_by_name() {
         ("no/such.toml", &[], "no/such.toml"),
         ("../../fmu-src/resources/ace.toml", &[], "ace.toml"),
     ] {
-        let printed = run(&[&["map", craft][..], &template, arguments].concat(), 1);
-        assert!(printed.contains(expected), "{craft} {arguments:?}: {printed}");
+        let printed = run(&[&["map", spacecraft][..], &template, arguments].concat(), 1);
+        assert!(printed.contains(expected), "{spacecraft} {arguments:?}: {printed}");
     }
     assert!(
         run(&["map", MESSENGER, "--template", shown(&fmu_path), "--output", "x.png"], 1).contains("--output")
@@ -417,25 +420,25 @@ fn what_cannot_be_mapped_is_refused_by_name() {
                  diffuse = 0.3\n[[plates]]\nname = \"P\"\narea_m2 = 1.0\ncenter_m = [0.0, -1.0, 0.1]\nnormal = [0.0, -1.0, 0.0]\n\
                  optics = \"foil\"\n";
     fs::write(&bare, plate).unwrap();
-    let told = run(&[&["map", shown(&bare)][..], &template].concat(), 0);
-    assert!(told.contains("Sun keep-in zone: none") && told.contains("least of all"), "{told}");
-    assert!(!told.contains("in the zone") && !told.contains("the keep-in zone"), "{told}");
+    let reported = run(&[&["map", shown(&bare)][..], &template].concat(), 0);
+    assert!(reported.contains("Sun keep-in zone: none") && reported.contains("least of all"), "{reported}");
+    assert!(!reported.contains("in the zone") && !reported.contains("the keep-in zone"), "{reported}");
     let (lines, svg) = (room.path().join("lines.csv"), room.path().join("bare.svg"));
     let files = ["--lines", shown(&lines), "--output", shown(&svg)];
     run(&[&["map", shown(&bare)][..], &template[..4], &files].concat(), 0);
     assert!(!fs::read_to_string(lines).unwrap().contains("zone"));
     assert!(!fs::read_to_string(svg).unwrap().contains("keep-in"));
     for zone in [["--zone", "20deg,10deg"], ["--set", "keepIn.azimuth=20deg"]] {
-        let told = run(&[&["map", shown(&bare)][..], &template, &zone].concat(), 0);
+        let reported = run(&[&["map", shown(&bare)][..], &template, &zone].concat(), 0);
         assert!(
-            told.contains("Sun keep-in zone: 20 deg of azimuth") && told.contains("in the zone"),
-            "{told}"
+            reported.contains("Sun keep-in zone: 20 deg of azimuth") && reported.contains("in the zone"),
+            "{reported}"
         );
     }
     // As the flight has it.
     let ignored = ["--zone", "180deg,90deg"];
-    let told = run(&[&["map", MESSENGER][..], &template, &ignored].concat(), 0);
-    assert!(told.contains("Sun keep-in zone: none"), "{told}");
+    let reported = run(&[&["map", MESSENGER][..], &template, &ignored].concat(), 0);
+    assert!(reported.contains("Sun keep-in zone: none"), "{reported}");
     let refused = run(&[&["map", shown(&bare)][..], &template, &["--panel-offset", "50deg"]].concat(), 1);
     assert!(refused.contains("--panel-offset") && refused.contains("no panel"), "{refused}");
 }

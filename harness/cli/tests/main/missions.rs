@@ -1,4 +1,4 @@
-//! Missions: what they name is flown, drawn, judged and packed; options win; the examples fly.
+//! Missions: what they name is simulated, drawn, judged and packed; options win; the examples fly.
 
 use std::{fs, path::Path};
 
@@ -58,11 +58,12 @@ fn a_mission_flies_as_it_is_written_and_options_win() {
     fs::write(folder.join("deep/m.toml"), MISSION).unwrap();
     let fly =
         |more: &[&str]| said(folder, &[&["run", "deep/m.toml", "--template", "template.fmu"], more].concat());
-    let (status, told) = fly(&[]);
-    assert_eq!(status, Some(0), "{told}");
+    let (status, reported) = fly(&[]);
+    assert_eq!(status, Some(0), "{reported}");
     assert!(
-        told.contains("120 steps to 7200 s") && told.contains("kept: sun.elevation from -20 to 20 deg"),
-        "{told}"
+        reported.contains("120 steps to 7200 s")
+            && reported.contains("kept: sun.elevation from -20 to 20 deg"),
+        "{reported}"
     );
     // Beside the mission, not where it was started.
     assert!(folder.join("deep/momentum.svg").exists() && !folder.join("out.csv").exists());
@@ -81,7 +82,7 @@ fn a_mission_flies_as_it_is_written_and_options_win() {
     assert_eq!(offsets, [60.0, 60.0, 60.0, 65.0, 65.0], "a tunable parameter is held");
 
     let csv = folder.join("mine.csv");
-    let (status, told) = fly(&[
+    let (status, reported) = fly(&[
         "--stop",
         "1h",
         "--every",
@@ -93,29 +94,29 @@ fn a_mission_flies_as_it_is_written_and_options_win() {
         "--set",
         "dump.threshold[2]=3",
     ]);
-    assert_eq!(status, Some(1), "{told}");
-    assert!(told.contains("time*"), "{told}");
+    assert_eq!(status, Some(1), "{reported}");
+    assert!(reported.contains("time*"), "{reported}");
     let more = ["--stop", "1h", "--every", "60s", "--record", "dump.threshold", "--output", "mine.csv"];
-    let (status, told) = fly(&[&more[..], &["--set", "dump.threshold[2]=3"]].concat());
-    assert_eq!(status, Some(0), "{told}");
+    let (status, reported) = fly(&[&more[..], &["--set", "dump.threshold[2]=3"]].concat());
+    assert_eq!(status, Some(0), "{reported}");
     let mine = rows(&csv);
     assert_eq!((mine.len(), &mine[0][1..4]), (61, &[4.0, 3.0, 4.0][..]));
 }
 
 #[test]
-fn a_limit_that_breaks_is_told_with_its_time_and_ends_with_one() {
+fn a_limit_that_breaks_is_reported_with_its_time_and_ends_with_one() {
     let Some(scratch) = hangar() else { return };
     let folder = scratch.path();
     let text = MISSION.replace(r#"min = "-20 deg", max = "20 deg""#, "min = 100");
     fs::write(folder.join("m.toml"), text).unwrap();
-    let (status, told) = said(folder, &["run", "m.toml", "--template", "template.fmu", "--quiet"]);
-    assert_eq!(status, Some(1), "{told}");
+    let (status, reported) = said(folder, &["run", "m.toml", "--template", "template.fmu", "--quiet"]);
+    assert_eq!(status, Some(1), "{reported}");
     let expected = "m.toml:18: limits.\"sun.elevation\": found ";
     assert!(
-        told.contains(expected) && told.contains("at 0 s (2011-04-06T00:00:00 UTC), the first time"),
-        "{told}"
+        reported.contains(expected) && reported.contains("at 0 s (2011-04-06T00:00:00 UTC), the first time"),
+        "{reported}"
     );
-    assert!(folder.join("out.csv").exists(), "what was flown is kept");
+    assert!(folder.join("out.csv").exists(), "what was simulated is kept");
 }
 
 #[test]
@@ -125,7 +126,7 @@ fn a_packed_mission_starts_as_the_mission_does() {
     // Inputs over time are no start values.
     let text = MISSION.replace("\"60 deg\"], [\"1 h\", \"65 deg\"]", "\"65 deg\"]");
     fs::write(folder.join("m.toml"), &text).unwrap();
-    let (status, told) = said(
+    let (status, reported) = said(
         folder,
         &[
             "pack",
@@ -139,13 +140,13 @@ fn a_packed_mission_starts_as_the_mission_does() {
             "dump.threshold[3]=5",
         ],
     );
-    assert!(status == Some(0) && told.contains("Mine.fmu: Mine, "), "{told}");
-    let (status, told) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
-    assert_eq!(status, Some(0), "{told}");
+    assert!(status == Some(0) && reported.contains("Mine.fmu: Mine, "), "{reported}");
+    let (status, reported) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
+    assert_eq!(status, Some(0), "{reported}");
     let record = "epoch,panel[1].sunOffset,momentum.body[1],sun.elevation,dump.threshold[3]";
     let more = ["--every", "30min", "--record", record, "--output", "fmu.csv"];
-    let (status, told) = said(folder, &[&["run", "Mine.fmu"], &more[..]].concat());
-    assert_eq!(status, Some(0), "{told}");
+    let (status, reported) = said(folder, &[&["run", "Mine.fmu"], &more[..]].concat());
+    assert_eq!(status, Some(0), "{reported}");
     let (of_mission, of_fmu) = (rows(&folder.join("out.csv")), rows(&folder.join("fmu.csv")));
     assert!(of_fmu.iter().all(|row| row[5] == 5.0));
     let same: Vec<Vec<f64>> = of_fmu.into_iter().map(|row| row[..5].to_vec()).collect();
@@ -153,11 +154,12 @@ fn a_packed_mission_starts_as_the_mission_does() {
     // It flies an FMU too, and then packs nothing.
     let text = text.replace("model = \"MomentumPlant\"", "fmu = \"Mine.fmu\"");
     fs::write(folder.join("of-fmu.toml"), text).unwrap();
-    let (status, told) = said(folder, &["run", "of-fmu.toml", "--output", "again.csv"]);
-    assert_eq!(status, Some(0), "{told}");
+    let (status, reported) = said(folder, &["run", "of-fmu.toml", "--output", "again.csv"]);
+    assert_eq!(status, Some(0), "{reported}");
     assert_eq!(rows(&folder.join("again.csv")), of_mission);
-    let (status, told) = said(folder, &["pack", "--mission", "of-fmu.toml", "--template", "template.fmu"]);
-    assert!(status == Some(1) && told.contains("which is packed already"), "{told}");
+    let (status, reported) =
+        said(folder, &["pack", "--mission", "of-fmu.toml", "--template", "template.fmu"]);
+    assert!(status == Some(1) && reported.contains("which is packed already"), "{reported}");
 }
 
 #[test]
@@ -167,23 +169,23 @@ fn later_wins_file_mission_option() {
     // Its [start.MomentumPlant] has 4, 4, 4.
     fs::create_dir(folder.join("craft")).unwrap();
     assert_eq!(said(folder, &["new", "spacecraft", "craft/s.toml"]).0, Some(0));
-    let mission = "spacecraft = \"craft/s.toml\"\nstop = 60\nstep = 60\nrecord = [\"dump.threshold\"]\noutput = \"out.csv\"\n";
+    let mission = "spacecraft = \"spacecraft/s.toml\"\nstop = 60\nstep = 60\nrecord = [\"dump.threshold\"]\noutput = \"out.csv\"\n";
     fs::write(
         folder.join("m.toml"),
         format!("{mission}[set]\n\"dump.threshold[2]\" = 2\n\"dump.threshold[3]\" = 2\n"),
     )
     .unwrap();
     let options = ["--template", "template.fmu", "--set", "dump.threshold[3]=3"];
-    let (status, told) = said(folder, &[&["run", "m.toml"], &options[..]].concat());
-    assert_eq!(status, Some(0), "{told}");
+    let (status, reported) = said(folder, &[&["run", "m.toml"], &options[..]].concat());
+    assert_eq!(status, Some(0), "{reported}");
     let flown = rows(&folder.join("out.csv"));
     assert_eq!(flown[0][1..], [4.0, 2.0, 3.0]);
-    let (status, told) =
+    let (status, reported) =
         said(folder, &[&["pack", "--mission", "m.toml", "--name", "Mine"], &options[..]].concat());
-    assert_eq!(status, Some(0), "{told}");
+    assert_eq!(status, Some(0), "{reported}");
     let again = ["run", "Mine.fmu", "--record", "dump.threshold", "--output", "again.csv"];
-    let (status, told) = said(folder, &again);
-    assert_eq!(status, Some(0), "{told}");
+    let (status, reported) = said(folder, &again);
+    assert_eq!(status, Some(0), "{reported}");
     // Its default experiment is the mission's too.
     assert_eq!(rows(&folder.join("again.csv")), flown);
 }
@@ -194,23 +196,23 @@ fn the_files_of_a_mission_are_not_written_over() {
     let folder = scratch.path();
     let mission = MISSION.replace("output = \"out.csv\"", "output = \"m.toml\"");
     fs::write(folder.join("m.toml"), &mission).unwrap();
-    let (status, told) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
-    assert!(status == Some(1) && told.contains("m.toml"), "{told}");
+    let (status, reported) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
+    assert!(status == Some(1) && reported.contains("m.toml"), "{reported}");
     assert_eq!(fs::read_to_string(folder.join("m.toml")).unwrap(), mission);
     let two = MISSION.replace("[set]", "[[plot]]\nfile = \"momentum.svg\"\n[set]");
     fs::write(folder.join("m.toml"), two).unwrap();
-    let (status, told) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
-    assert!(status == Some(1) && told.contains("one file cannot take two pictures"), "{told}");
+    let (status, reported) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
+    assert!(status == Some(1) && reported.contains("one file cannot take two pictures"), "{reported}");
 }
 
 #[test]
-fn what_is_no_mission_is_told() {
+fn what_is_no_mission_is_reported() {
     let scratch = tempfile::tempdir().unwrap();
     let spacecraft = format!("{RESOURCES}/messenger.toml");
-    let told = run(&["run", &spacecraft], 1);
+    let reported = run(&["run", &spacecraft], 1);
     assert!(
-        told.contains("without any key of a mission") && told.contains("heliotorque new mission"),
-        "{told}"
+        reported.contains("without any key of a mission") && reported.contains("heliotorque new mission"),
+        "{reported}"
     );
     let fmu = scratch.path().join("no.fmu");
     assert!(run(&["run", shown(&fmu), "--template", "x.fmu"], 1).contains("--template is for a mission"));
@@ -240,14 +242,14 @@ fn the_missions_of_the_examples_fly() {
     let folder = at("examples/missions");
     let template = ["--template", "../../template.fmu"];
     for mission in &missions {
-        let (status, told) = said(&folder, &[&["check", mission], &template[..]].concat());
-        assert!(status == Some(0) && told.contains(".toml: ok: "), "{told}");
+        let (status, reported) = said(&folder, &[&["check", mission], &template[..]].concat());
+        assert!(status == Some(0) && reported.contains(".toml: ok: "), "{reported}");
         // ACE's train is over after half an hour; the others fly for an hour of days.
         let stop: &[&str] = if mission == "ace.toml" { &[] } else { &["--stop", "2h"] };
-        let (status, told) = said(&folder, &[&["run", mission], &template[..], stop].concat());
-        assert_eq!(status, Some(0), "{mission}: {told}");
+        let (status, reported) = said(&folder, &[&["run", mission], &template[..], stop].concat());
+        assert_eq!(status, Some(0), "{mission}: {reported}");
         for kind in ["csv", "svg"] {
-            assert!(folder.join(mission.replace("toml", kind)).exists(), "{mission}: {told}");
+            assert!(folder.join(mission.replace("toml", kind)).exists(), "{mission}: {reported}");
         }
     }
 }
@@ -257,12 +259,12 @@ fn refused(folder: &Path, name: &str) -> String {
     let template = ["--template", "template.fmu"];
     let (status, checked) = said(folder, &[&["check", name], &template[..]].concat());
     assert_eq!(status, Some(1), "{name}: {checked}");
-    let (status, told) = said(folder, &[&["run", name], &template[..]].concat());
-    assert_eq!(status, Some(1), "{name}: {told}");
-    let reason = told.lines().find_map(|line| line.strip_prefix("heliotorque: ")).unwrap();
+    let (status, reported) = said(folder, &[&["run", name], &template[..]].concat());
+    assert_eq!(status, Some(1), "{name}: {reported}");
+    let reason = reported.lines().find_map(|line| line.strip_prefix("heliotorque: ")).unwrap();
     // The call is made at the same place by both.
-    assert!(checked.contains(reason.trim_start_matches("m: ")), "{name}: {checked}\n{told}");
-    told
+    assert!(checked.contains(reason.trim_start_matches("m: ")), "{name}: {checked}\n{reported}");
+    reported
 }
 
 #[test]
@@ -285,8 +287,8 @@ fn a_mission_that_cannot_run_is_refused_by_check_for_the_same_reason() {
             MISSION.replace(change.0, change.1).replace("every = \"30 min\"", ""),
         )
         .unwrap();
-        let told = refused(folder, "m.toml");
-        assert!(told.contains(expected), "{expected}: {told}");
+        let reported = refused(folder, "m.toml");
+        assert!(reported.contains(expected), "{expected}: {reported}");
     }
 }
 
@@ -314,10 +316,10 @@ fn what_a_mission_writes_stays_beside_it_and_replaces_no_file_of_others() {
         ("x.csv", "link/x.svg", "--plot"),
     ] {
         mission(output_to, plot_to);
-        let told = refused(&home, "m.toml");
+        let reported = refused(&home, "m.toml");
         assert!(
-            told.contains("outside the mission's folder") && told.contains(&format!("{option} may")),
-            "{told}"
+            reported.contains("outside the mission's folder") && reported.contains(&format!("{option} may")),
+            "{reported}"
         );
     }
     // Not a mission's word but the user's.
@@ -325,20 +327,21 @@ fn what_a_mission_writes_stays_beside_it_and_replaces_no_file_of_others() {
         said(&home, &[&["run", "m.toml", "--template", "template.fmu", "--quiet"], more].concat())
     };
     mission("../x.csv", "../x.svg");
-    let (status, told) = run(&["--output", "../away/a.csv", "--plot", "../away/a.svg"]);
+    let (status, reported) = run(&["--output", "../away/a.csv", "--plot", "../away/a.svg"]);
     assert!(
         status == Some(0) && folder.join("away/a.csv").exists() && folder.join("away/a.svg").exists(),
-        "{told}"
+        "{reported}"
     );
 
     // A file that no run wrote stays; what a run wrote is replaced without a word, a table of another kind with one.
     mission("deep/x.csv", "x.svg");
     for (name, option) in [("deep/x.csv", "--output"), ("x.svg", "--plot")] {
         fs::write(home.join(name), "precious").unwrap();
-        let told = refused(&home, "m.toml");
+        let reported = refused(&home, "m.toml");
         assert!(
-            told.contains("a file that no run wrote") && told.contains(&format!("{option} replaces any")),
-            "{told}"
+            reported.contains("a file that no run wrote")
+                && reported.contains(&format!("{option} replaces any")),
+            "{reported}"
         );
         assert_eq!(fs::read_to_string(home.join(name)).unwrap(), "precious");
         fs::remove_file(home.join(name)).unwrap();
@@ -347,12 +350,12 @@ fn what_a_mission_writes_stays_beside_it_and_replaces_no_file_of_others() {
         if !expected.is_empty() {
             fs::write(home.join("deep/x.csv"), "time,thrust\n0,1\n").unwrap();
         }
-        let (status, told) = run(&[]);
-        assert_eq!(status, Some(0), "{told}");
-        assert!(told.is_empty() == expected.is_empty() && told.contains(expected), "{told}");
+        let (status, reported) = run(&[]);
+        assert_eq!(status, Some(0), "{reported}");
+        assert!(reported.is_empty() == expected.is_empty() && reported.contains(expected), "{reported}");
         assert_eq!(rows(&home.join("deep/x.csv")).len(), 5);
     }
     fs::write(home.join("deep/x.csv"), "precious").unwrap();
-    let (status, told) = run(&["--output", "deep/x.csv"]);
-    assert_eq!((status, rows(&home.join("deep/x.csv")).len()), (Some(0), 5), "{told}");
+    let (status, reported) = run(&["--output", "deep/x.csv"]);
+    assert_eq!((status, rows(&home.join("deep/x.csv")).len()), (Some(0), 5), "{reported}");
 }

@@ -90,7 +90,7 @@ impl Mistake {
 }
 
 #[test]
-fn every_typical_mistake_is_told_with_file_place_finding_and_remedy() {
+fn every_typical_mistake_is_reported_with_file_place_finding_and_remedy() {
     let Some(library) = library() else { return };
     let scratch = tempfile::tempdir().unwrap();
     let template = scratch.path().join("template.fmu");
@@ -101,7 +101,7 @@ fn every_typical_mistake_is_told_with_file_place_finding_and_remedy() {
 
     let recorded = fs::read_to_string(RECORDED).unwrap();
     let mut found = String::new();
-    let mut told = 0;
+    let mut reported = 0;
     for (k, block) in recorded.split("\n## ").enumerate() {
         if k == 0 {
             found.push_str(block);
@@ -116,14 +116,14 @@ fn every_typical_mistake_is_told_with_file_place_finding_and_remedy() {
         let said = text(&output);
         let is_refused = output.status.code() == Some(1);
         if is_refused {
-            told += 1;
+            reported += 1;
             assert!(said.contains(".toml"), "{block}\n{said}");
             assert!(!said.contains(shown(scratch.path())), "{said}");
         }
         let input = block.lines().filter(|line| !line.starts_with(SAID) && !line.is_empty());
         found.push('\n');
         input.for_each(|line| found.push_str(&format!("{line}\n")));
-        // What a file that is taken comes to is told elsewhere.
+        // What a file that is taken comes to is reported elsewhere.
         let said = said.lines().enumerate();
         let said = said.filter(|(k, line)| is_refused || *k == 0 || line.starts_with("warning"));
         said.for_each(|(_, line)| found.push_str(&format!("{}\n", format!("{SAID}{line}").trim_end())));
@@ -131,6 +131,6 @@ fn every_typical_mistake_is_told_with_file_place_finding_and_remedy() {
     if std::env::var_os("HELIOTORQUE_BLESS").is_some() {
         fs::write(RECORDED, &found).unwrap();
     }
-    assert!(told >= 50, "{told} mistakes");
+    assert!(reported >= 50, "{reported} mistakes");
     assert!(found == fs::read_to_string(RECORDED).unwrap(), "what is said has changed: {found}");
 }

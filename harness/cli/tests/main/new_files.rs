@@ -12,15 +12,15 @@ fn a_file_that_is_there_is_kept() {
     let file = scratch.path().join("mine.toml");
     for kind in KINDS {
         let _ = fs::remove_file(&file);
-        let told = run(&["new", kind, shown(&file)], 0);
-        assert!(told.contains("mine.toml: written; next: heliotorque "), "{told}");
+        let reported = run(&["new", kind, shown(&file)], 0);
+        assert!(reported.contains("mine.toml: written; next: heliotorque "), "{reported}");
         let text = fs::read_to_string(&file).unwrap();
         // Alone it names the file as its kind.
         let alone = text.replace("mine.toml", &format!("{kind}.toml"));
         assert_eq!(run(&["new", kind, "-"], 0), alone, "{kind}");
         fs::write(&file, "# mine\n").unwrap();
-        let told = run(&["new", kind, shown(&file)], 1);
-        assert!(told.contains("mine.toml: found a file") && told.contains("--force"), "{told}");
+        let reported = run(&["new", kind, shown(&file)], 1);
+        assert!(reported.contains("mine.toml: found a file") && reported.contains("--force"), "{reported}");
         assert_eq!(fs::read_to_string(&file).unwrap(), "# mine\n");
         run(&["new", kind, shown(&file), "--force"], 0);
         assert_eq!(fs::read_to_string(&file).unwrap(), text, "{kind}");
@@ -40,9 +40,9 @@ fn every_new_file_works_unchanged() {
     for kind in KINDS {
         let file = at(&format!("{kind}.toml"));
         run(&["new", kind, shown(&file)], 0);
-        let told = with(&["check", shown(&file)]);
-        assert!(told.contains(".toml: ok"), "{told}");
-        assert!(!told.contains("warning"), "{told}");
+        let reported = with(&["check", shown(&file)]);
+        assert!(reported.contains(".toml: ok"), "{reported}");
+        assert!(!reported.contains("warning"), "{reported}");
         let fmu = at(&format!("{kind}.fmu"));
         let pack: &[&str] = match kind {
             "mission" => &["--mission", shown(&file)],
@@ -52,8 +52,8 @@ fn every_new_file_works_unchanged() {
         with(&[&["pack", "--output", shown(&fmu)], pack].concat());
         run(&["run", shown(&fmu), "--stop", "60", "--quiet"], 0);
     }
-    let told = with(&["run", shown(&at("mission.toml"))]);
-    assert!(told.contains("wrote") && !told.contains("found"), "{told}");
+    let reported = with(&["run", shown(&at("mission.toml"))]);
+    assert!(reported.contains("wrote") && !reported.contains("found"), "{reported}");
     let rows = fs::read_to_string(at("mission.csv")).unwrap();
     assert!(
         rows.starts_with(

@@ -346,9 +346,9 @@ fn start_values_that_nothing_takes_are_refused() {
     }
 }
 
-/// A map of the planet has an effect in one model and by one option; elsewhere it is told.
+/// A map of the planet has an effect in one model and by one option; elsewhere it is reported.
 #[test]
-fn a_map_that_nothing_reads_is_told() {
+fn a_map_that_nothing_reads_is_reported() {
     let Some(library) = library() else { return };
     let scratch = tempfile::tempdir().unwrap();
     let (toml, output) = (scratch.path().join("mapped.toml"), scratch.path().join("mapped.fmu"));
@@ -360,13 +360,14 @@ fn a_map_that_nothing_reads_is_told() {
         let arguments = ["pack", "--library", shown(&library), "--model", model];
         run(&[&arguments[..], &files, more].concat(), 0)
     };
-    let told = pack("MomentumPlant", &[]);
+    let reported = pack("MomentumPlant", &[]);
     assert!(
-        told.contains("warning: [planet_map] is without effect in MomentumPlant; DisturbanceTorque takes it"),
-        "{told}"
+        reported
+            .contains("warning: [planet_map] is without effect in MomentumPlant; DisturbanceTorque takes it"),
+        "{reported}"
     );
-    let told = pack("DisturbanceTorque", &[]);
-    assert!(told.contains("warning: [planet_map] has an effect in DisturbanceTorque with"), "{told}");
-    let told = pack("DisturbanceTorque", &["--set", "planetLight.method=map"]);
-    assert!(!told.contains("warning"), "{told}");
+    let reported = pack("DisturbanceTorque", &[]);
+    assert!(reported.contains("warning: [planet_map] has an effect in DisturbanceTorque with"), "{reported}");
+    let reported = pack("DisturbanceTorque", &["--set", "planetLight.method=map"]);
+    assert!(!reported.contains("warning"), "{reported}");
 }

@@ -196,16 +196,19 @@ fn a_plan_that_breaks_a_limit_of_the_file_ends_with_status_1() {
         &["--angle", "10", "--sun-angle", "15"],
         &["--date", "2026-11-22 UTC", "--from", "245,-22", "--target", "240,-18"],
     ] {
-        let told = run(&[&plan[..], turn].concat(), 0);
-        assert!(told.contains("within the limits") && !told.contains("BROKEN"), "{turn:?}: {told}");
+        let reported = run(&[&plan[..], turn].concat(), 0);
+        assert!(
+            reported.contains("within the limits") && !reported.contains("BROKEN"),
+            "{turn:?}: {reported}"
+        );
     }
     let template = std::fs::read_to_string(&file).unwrap();
     let tight = template.replace("period_variation_s = 0.05", "period_variation_s = 0.01");
     assert_ne!(tight, template);
     std::fs::write(&file, tight).unwrap();
-    let told = run(&[&plan[..], &["--angle", "2"]].concat(), 1);
-    assert!(told.contains("limits broken: spin period varies"), "{told}");
-    assert!(!told.contains("limits kept") && !told.contains("within the limits"), "{told}");
+    let reported = run(&[&plan[..], &["--angle", "2"]].concat(), 1);
+    assert!(reported.contains("limits broken: spin period varies"), "{reported}");
+    assert!(!reported.contains("limits kept") && !reported.contains("within the limits"), "{reported}");
     assert!(folder.join("burn.csv").exists());
 }
 

@@ -64,7 +64,7 @@ fn a_simulation_leaves_csv_and_a_picture() {
     }
     let svg = fs::read_to_string(&picture).unwrap();
     assert!(svg.contains("output.integral") && svg.contains("time [s]"));
-    // What stays the same is told instead.
+    // What stays the same is reported instead.
     assert!(
         !svg.contains("output.vector") && text.contains("constant, so not drawn: output.vector"),
         "{text}"
@@ -90,8 +90,8 @@ fn a_picture_shades_eclipses_and_names_limits_that_nobody_recorded() {
         arguments.extend(["--record", "momentum.body,orbit.timeSincePeriapsis"]);
         arguments.extend(sets.iter().chain(&[method]).flat_map(|set| ["--set", *set]));
         arguments.extend(["--output", shown(&table), "--plot", shown(&picture)]);
-        let told = run(&arguments, 0);
-        assert!(!told.contains("litFraction"), "{told}");
+        let reported = run(&arguments, 0);
+        assert!(!reported.contains("litFraction"), "{reported}");
         let (header, _) = csv(&table);
         assert_eq!(header[..2], ["time", "momentum.body[1]"]);
         assert!(header.iter().all(|name| name != "sun.litFraction"), "{header:?}");
@@ -135,7 +135,7 @@ fn without_files_a_summary_is_shown() {
     for part in ["channel[1].gain", "input.choice", "1 (red)", "Like the sky."] {
         assert!(text.contains(part), "{text} lacks {part}");
     }
-    // What was asked for stands alone; all there is comes without --only.
+    // What was requested stands alone; all there is comes without --only.
     for part in ["parameter.real", "canSerializeFMUstate", "GUID"] {
         assert!(!text.contains(part), "{text}");
     }
@@ -236,7 +236,7 @@ fn bad_settings_name_the_variable_and_what_is_allowed() {
 }
 
 #[test]
-fn an_angle_beyond_its_limits_is_told_in_deg() {
+fn an_angle_beyond_its_limits_is_reported_in_deg() {
     let Some(dist) = built("HELIOTORQUE_DIST") else { return };
     let fmu = dist.join("MomentumPlant.fmu");
     for (setting, expected) in [
@@ -322,7 +322,7 @@ fn a_picture_of_another_kind_is_refused_before_the_simulation() {
 }
 
 #[test]
-fn files_that_cannot_be_written_are_told_before_the_simulation() {
+fn files_that_cannot_be_written_are_reported_before_the_simulation() {
     let Some((scratch, fmu)) = packed("AllTypes") else { return };
     let (table, picture) = (scratch.path().join("out.csv"), scratch.path().join("out.svg"));
     let missing = scratch.path().join("none/out.svg");
@@ -382,16 +382,16 @@ fn ctrl_c_does_not_replace_a_complete_file_by_part_of_one() {
     run(&["run", shown(&fmu), "--quiet", "--output", shown(&output)], 0);
     let complete = std::fs::read(&output).unwrap();
     let ended = interrupted(&fmu, &output);
-    let told = crate::text(&ended);
-    assert_eq!(ended.status.code(), Some(130), "{told}");
+    let reported = crate::text(&ended);
+    assert_eq!(ended.status.code(), Some(130), "{reported}");
     assert_eq!(std::fs::read(&output).unwrap(), complete);
     let (_, rows) = csv(&scratch.path().join("out.csv.part"));
     assert!(!rows.is_empty());
     assert!(
-        told.contains(&format!("{} rows so far: ", rows.len())) && told.contains("out.csv.part"),
-        "{told}"
+        reported.contains(&format!("{} rows so far: ", rows.len())) && reported.contains("out.csv.part"),
+        "{reported}"
     );
-    assert!(!told.contains("wrote "), "{told}");
+    assert!(!reported.contains("wrote "), "{reported}");
 }
 
 /// Whether a process catches SIGINT (signal 2), by the mask the kernel shows.

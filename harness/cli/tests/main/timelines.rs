@@ -1,4 +1,4 @@
-//! A timeline is judged before it is packed, and told of where it is.
+//! A timeline is judged before it is packed, and reported of where it is.
 
 use std::fs;
 
@@ -59,7 +59,7 @@ fn a_model_without_timelines_refuses_one_by_name() {
 }
 
 #[test]
-fn the_timeline_in_an_fmu_is_told_and_judged() {
+fn the_timeline_in_an_fmu_is_reported_and_judged() {
     let Some((scratch, fmu)) = packed("Empty") else { return };
     let folder = scratch.path().join("unpacked");
     zip::ZipArchive::new(fs::File::open(fmu).unwrap()).unwrap().extract(&folder).unwrap();
@@ -70,11 +70,11 @@ fn the_timeline_in_an_fmu_is_told_and_judged() {
     fs::write(resources.join("spacecraft.toml"), spacecraft).unwrap();
     let timeline = include_str!("../../../../fmu-src/resources/examples/timeline.toml");
     fs::write(resources.join("timeline.toml"), timeline).unwrap();
-    let told = "7 commands from 2011-04-06T00:00:00 UTC to 2011-04-07T00:00:00 UTC";
+    let reported = "7 commands from 2011-04-06T00:00:00 UTC to 2011-04-07T00:00:00 UTC";
     let text = run(&["info", shown(&folder)], 0);
-    assert!(text.contains(told), "{text}");
+    assert!(text.contains(reported), "{text}");
     let text = run(&["check", shown(&folder), "--static", "--verbose"], 0);
-    assert!(text.contains(told), "{text}");
+    assert!(text.contains(reported), "{text}");
     fs::write(resources.join("timeline.toml"), timeline.replace("\"MLA\"", "\"MAL\"")).unwrap();
     assert!(run(&["info", shown(&folder)], 0).contains("with 2 problems"));
     let text = run(&["check", shown(&folder), "--static"], 1);

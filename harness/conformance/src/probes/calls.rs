@@ -14,14 +14,14 @@ const STATES: [State; 5] =
 /// Calls each function in each state, every time in a fresh instance.
 pub fn probe(fmu: &Fmu) -> Findings {
     let mut findings = Vec::new();
-    let (mut as_told, mut left_out) = (0, 0);
+    let (mut as_reported, mut left_out) = (0, 0);
     for state in STATES {
         for &function in Function::ALL {
             for case in cases(fmu, function, state) {
                 match call(fmu, &case)? {
                     Answer::None => left_out += 1,
                     Answer::Status(status) => match compare(&case, status) {
-                        None => as_told += 1,
+                        None => as_reported += 1,
                         Some(finding) => findings.push(finding),
                     },
                 }
@@ -29,7 +29,7 @@ pub fn probe(fmu: &Fmu) -> Findings {
         }
     }
     findings.push(Finding::good(format!(
-        "{as_told} calls answered as the table requires, {left_out} not possible with this FMU"
+        "{as_reported} calls answered as the table requires, {left_out} not possible with this FMU"
     )));
     Ok(findings)
 }

@@ -22,7 +22,7 @@ pub struct Mission {
     gathered_n_m_s: Vec<[f64; 3]>,
     /// From the Sun, in m, if it was recorded.
     distances_m: Option<Vec<f64>>,
-    /// Dumps that were flown, if they were recorded.
+    /// Dumps that were simulated, if they were recorded.
     pub dumps: Option<f64>,
 }
 
@@ -258,15 +258,15 @@ mod tests {
     fn a_constant_torque_is_held_as_long_as_its_excess_takes() {
         let square = Region::hull([[-1e-6, -1e-6], [1e-6, -1e-6], [1e-6, 1e-6], [-1e-6, 1e-6]]);
         // 0.5e-6 N m too much from the one edge of the band to the other; all of it from 0.
-        let flown = constant([1.5e-6, 0.2e-6, 0.9e-6], 200);
-        let held = flown.held(&square, 1.0, [2.0, 2.0, 3.0]);
+        let simulated = constant([1.5e-6, 0.2e-6, 0.9e-6], 200);
+        let held = simulated.held(&square, 1.0, [2.0, 2.0, 3.0]);
         let managed_d = 2.0 / 0.5e-6 / DAY_S;
         assert!((held.managed_d.unwrap() - managed_d).abs() < 1.0 / 24.0 + 1e-9, "{held:?}");
         assert!((held.unmanaged_d.unwrap() - 2.0 / 1.5e-6 / DAY_S).abs() < 1.0 / 24.0 + 1e-9);
         assert!((held.y_d.unwrap() - 2.0 / 0.2e-6 / DAY_S).abs() < 1.0 / 24.0 + 1e-9);
         // Twice the light holds it.
-        assert_eq!(flown.held(&square.scaled(2.0, [0.0; 2]), 1.0, [2.0, 2.0, 3.0]).managed_d, None);
-        assert!((flown.mean_torque_n_m()[0] - 1.5e-6).abs() < 1e-18);
+        assert_eq!(simulated.held(&square.scaled(2.0, [0.0; 2]), 1.0, [2.0, 2.0, 3.0]).managed_d, None);
+        assert!((simulated.mean_torque_n_m()[0] - 1.5e-6).abs() < 1e-18);
     }
 
     #[test]
@@ -277,10 +277,10 @@ mod tests {
             let x = if hour < 480 { 2e-6 } else { -2e-6 };
             text += &format!("{},{x},0,0\n", hour * 3600);
         }
-        let flown = mission(&text).unwrap();
+        let simulated = mission(&text).unwrap();
         let segment = Region::hull([[-1e-6, 0.0], [1e-6, 0.0]]);
-        assert_eq!(flown.held(&segment, 1.0, [1.74, 9.0, 9.0]).managed_d, None);
-        assert!(flown.held(&segment, 1.0, [1.70, 9.0, 9.0]).managed_d.unwrap() > 19.0);
+        assert_eq!(simulated.held(&segment, 1.0, [1.74, 9.0, 9.0]).managed_d, None);
+        assert!(simulated.held(&segment, 1.0, [1.70, 9.0, 9.0]).managed_d.unwrap() > 19.0);
     }
 
     #[test]
@@ -290,9 +290,9 @@ mod tests {
             let (gathered, dumps) = (f64::from(row) * 0.1, row / 30);
             text += &format!("{},{},0,0,{dumps}\n", row * 600, gathered - 3.05 * f64::from(dumps));
         }
-        let flown = mission(&text).unwrap();
-        assert!((flown.gathered_n_m_s[99][0] - 9.9).abs() < 1e-12);
-        assert_eq!(flown.dumps, Some(3.0));
+        let simulated = mission(&text).unwrap();
+        assert!((simulated.gathered_n_m_s[99][0] - 9.9).abs() < 1e-12);
+        assert_eq!(simulated.dumps, Some(3.0));
     }
 
     #[test]

@@ -13,18 +13,18 @@ use super::{
     timing_label,
 };
 
-/// A plan that was flown and judged.
+/// A plan that was simulated and judged.
 #[derive(Clone, Debug)]
 pub struct PlannedBurn {
     /// Of the spacecraft.
     pub name: String,
     /// Date, in s past J2000 TDB, where it was given.
     pub epoch_s: Option<f64>,
-    /// What was asked for.
+    /// What was requested.
     pub task: Task,
     /// The train.
     pub row: Row,
-    /// How it is flown.
+    /// How it is simulated.
     pub flight: Flight,
     /// Its limits.
     pub judged: Vec<Judged>,

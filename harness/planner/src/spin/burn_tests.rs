@@ -17,7 +17,7 @@ fn text(arguments: &str) -> String {
 }
 
 #[test]
-fn what_is_flown_is_what_was_planned() {
+fn what_is_simulated_is_what_was_planned() {
     for arguments in [
         "--angle 2",
         TURN,
@@ -188,8 +188,8 @@ fn a_plan_that_breaks_a_limit_says_so() {
     ] {
         let answer = plan(&options(arguments)).unwrap();
         assert_eq!(answer.broken, broken, "{arguments}");
-        let told = format!("this one breaks: {}\n", broken.join(", "));
-        assert!(answer.text.contains(&told), "{arguments}: {}", answer.text);
+        let reported = format!("this one breaks: {}\n", broken.join(", "));
+        assert!(answer.text.contains(&reported), "{arguments}: {}", answer.text);
         assert!(!answer.text.contains("within the limits") && !answer.text.contains("limits kept"));
         let table = answer.text.split("\nOf ").next().unwrap();
         assert!(table.contains("broken") && !table.contains(" kept"), "{table}");

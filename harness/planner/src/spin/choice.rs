@@ -8,10 +8,10 @@ use super::{
     judgement::{broken, judge},
 };
 
-/// Limits that a train breaks as it is flown, and over the range where the plan knows it.
+/// Limits that a train breaks as it is simulated, and over the range where the plan knows it.
 ///
 /// # Errors
-/// A train that cannot be flown.
+/// A train that cannot be simulated.
 pub fn broken_limits(spinner: &Spinner, task: &Task, row: &Row) -> Result<Vec<&'static str>, PlanError> {
     let flight = fly(spinner, task, row)?;
     Ok(broken(&judge(spinner, task, row, &flight)))
@@ -21,19 +21,19 @@ pub fn broken_limits(spinner: &Spinner, task: &Task, row: &Row) -> Result<Vec<&'
 /// that break none.
 ///
 /// # Errors
-/// None that can be flown.
+/// None that can be simulated.
 pub fn by_all_limits<'a>(
     spinner: &Spinner,
     task: &Task,
     rows: &'a [Row],
     most: usize,
 ) -> Result<Vec<&'a Row>, PlanError> {
-    let (mut flown, mut failed, mut keeping) = (Vec::new(), None, 0);
+    let (mut simulated, mut failed, mut keeping) = (Vec::new(), None, 0);
     for row in rows.iter().filter(|row| row.fits) {
         match broken_limits(spinner, task, row) {
             Ok(broken) => {
                 keeping += usize::from(broken.is_empty());
-                flown.push((broken.len(), row));
+                simulated.push((broken.len(), row));
             }
             Err(error) => failed = failed.or(Some(error)),
         }
@@ -41,10 +41,10 @@ pub fn by_all_limits<'a>(
             break;
         }
     }
-    let fewest = flown.iter().map(|(broken, _)| *broken).min();
-    flown.retain(|(broken, _)| Some(*broken) == fewest);
+    let fewest = simulated.iter().map(|(broken, _)| *broken).min();
+    simulated.retain(|(broken, _)| Some(*broken) == fewest);
     match failed {
-        Some(error) if flown.is_empty() => Err(error),
-        _ => Ok(flown.into_iter().map(|(_, row)| row).collect()),
+        Some(error) if simulated.is_empty() => Err(error),
+        _ => Ok(simulated.into_iter().map(|(_, row)| row).collect()),
     }
 }

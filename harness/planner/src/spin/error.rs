@@ -94,8 +94,8 @@ pub enum PlanError {
     /// Simulated through the FMU, no plan kept what it promised.
     #[error("no plan keeps its limits when it is simulated through the FMU: {0}")]
     Broken(String),
-    /// The plan cannot be flown.
-    #[error("the plan could not be flown pulse by pulse: {0}")]
+    /// The plan cannot be simulated.
+    #[error("the plan could not be simulated pulse by pulse: {0}")]
     Flight(String),
     /// The plan cannot be written down.
     #[error("the plan could not be written: {0}")]

@@ -23,7 +23,7 @@ const SAME_TURNS: f64 = 1e-9;
 /// Turns that are followed after the last pulse.
 const TURNS_AFTER: f64 = 3.0;
 
-/// One pulse as it is flown.
+/// One pulse as it is simulated.
 #[derive(Clone, Debug)]
 pub struct Pulse {
     /// Opening of the valve, in s.

@@ -21,7 +21,7 @@ pub struct Judged {
     pub allowed: (f64, f64),
     /// Unit.
     pub unit: &'static str,
-    /// Whether it is kept; `None` where that cannot be told.
+    /// Whether it is kept; `None` where that cannot be reported.
     pub kept: Option<bool>,
     /// When it is first broken, in s, or why it is not judged.
     pub remark: String,

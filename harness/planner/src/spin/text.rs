@@ -203,7 +203,8 @@ fn simulated_again<'a>(
     task: &Task,
     rows: &[&'a Row],
 ) -> Result<(&'a Row, Vec<String>), PlanError> {
-    let first = || rows.first().copied().ok_or_else(|| PlanError::Flight("no train was flown".to_owned()));
+    let first =
+        || rows.first().copied().ok_or_else(|| PlanError::Flight("no train was simulated".to_owned()));
     let not_simulated = |why: String| Ok((first()?, vec![format!("Not re-simulated: {why}")]));
     let named = options.fmu.as_deref();
     let path = match named {

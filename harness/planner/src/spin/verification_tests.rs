@@ -53,7 +53,7 @@ fn alternating_trains_fire_the_thrusters_they_were_planned_for() {
 }
 
 #[test]
-fn turns_are_simulated_to_their_end_as_far_as_they_may_be_asked_for() {
+fn turns_are_simulated_to_their_end_as_far_as_they_may_be_requested() {
     let Some(fmu) = shipped() else { return };
     for timing in ["sun", "clock", "phase"] {
         for angle_deg in [89.0, 91.0, 135.0, super::MOST_ANGLE_DEG] {

@@ -1,6 +1,6 @@
 //! Figures 10 and 11 of paper 001: a burn of 10 m/s with each correction of its direction, over seeds.
 
-use super::burn_flight::{Burn, Corrections, DELTA_V_M_S, Flown, START_S, Sample};
+use super::burn_flight::{Burn, Corrections, DELTA_V_M_S, START_S, Sample, Simulated};
 use super::guided_loop::Loop;
 use crate::attitude::{Vector, across, angle_rad};
 use crate::case::{chosen, run_all};
@@ -18,7 +18,7 @@ const BOTH_DEG: f64 = 0.03;
 /// Of the pictures.
 const SHOWN_SEED: i32 = 1;
 
-/// What is flown over all seeds.
+/// What is simulated over all seeds.
 #[derive(Clone, Copy, Debug)]
 struct Kind {
     label: &'static str,
@@ -49,14 +49,14 @@ struct Errors {
 }
 
 impl Errors {
-    fn of(flown: &Flown) -> Self {
-        let last = flown.samples.last();
+    fn of(simulated: &Simulated) -> Self {
+        let last = simulated.samples.last();
         let reached = last.map_or(Vector::zeros(), |sample| sample.delta_v_m_s);
         Self {
-            direction_deg: angle_rad(&reached, &flown.wanted_m_s).to_degrees(),
+            direction_deg: angle_rad(&reached, &simulated.wanted_m_s).to_degrees(),
             magnitude_mm_s: 1e3 * (reached.norm() - DELTA_V_M_S),
             is_unfinished: last.is_none_or(|last| last.is_commanded || last.is_timed_out),
-            is_constrained: flown.samples.iter().any(|sample| sample.is_constrained),
+            is_constrained: simulated.samples.iter().any(|sample| sample.is_constrained),
         }
     }
 }
@@ -72,7 +72,7 @@ pub fn burn(options: &Options) -> Result<Report, StudyError> {
     let both = Loop::open(options)?;
     let cases: Vec<(Kind, i32)> =
         kinds.iter().flat_map(|kind| (1..=SEEDS).map(|seed| (*kind, seed))).collect();
-    let flown = run_all(options, &cases, |(kind, seed)| {
+    let simulated = run_all(options, &cases, |(kind, seed)| {
         let corrections = Corrections { predictive: kind.predictive, reactive: kind.reactive };
         let burn = Burn { corrections, bias_m_s2: kind.bias_m_s2, seed: *seed };
         burn.fly(&both, &format!("{}, seed {seed}", kind.label), options.step_s)
@@ -80,16 +80,17 @@ pub fn burn(options: &Options) -> Result<Report, StudyError> {
     let mut report = Report::default();
     report
         .line("A burn of 10 m/s at 0.088 m/s2 with the thrust 0.75 deg off (paper 001, Figures 10 and 11)\n");
-    let each: Vec<(Kind, &[Flown])> = kinds.iter().copied().zip(flown.chunks(SEEDS as usize)).collect();
-    let rows: Vec<_> = each.iter().map(|(kind, flown)| row(kind, flown)).collect();
+    let each: Vec<(Kind, &[Simulated])> =
+        kinds.iter().copied().zip(simulated.chunks(SEEDS as usize)).collect();
+    let rows: Vec<_> = each.iter().map(|(kind, simulated)| row(kind, simulated)).collect();
     let header = "corrections | direction rms | direction worst | magnitude rms | allowed | verdict";
     report.table(header, &rows);
     report.line(&remark(&each));
     write(&mut report, options, &each)?;
-    let shown: Vec<(Kind, &Flown)> = each
+    let shown: Vec<(Kind, &Simulated)> = each
         .iter()
         .filter(|(kind, _)| kind.bias_m_s2 == BIAS_M_S2)
-        .filter_map(|(kind, flown)| Some((*kind, flown.get(SHOWN_SEED as usize - 1)?)))
+        .filter_map(|(kind, simulated)| Some((*kind, simulated.get(SHOWN_SEED as usize - 1)?)))
         .collect();
     if let Some((_, last)) = shown.last() {
         report.picture(options, "burn-quaternion.svg", &quaternion_chart(last))?;
@@ -98,13 +99,13 @@ pub fn burn(options: &Options) -> Result<Report, StudyError> {
     Ok(report)
 }
 
-fn direction_deg(flown: &[Flown]) -> f64 {
-    rms(flown.iter().map(|flown| Errors::of(flown).direction_deg))
+fn direction_deg(simulated: &[Simulated]) -> f64 {
+    rms(simulated.iter().map(|simulated| Errors::of(simulated).direction_deg))
 }
 
-fn row(kind: &Kind, flown: &[Flown]) -> Vec<String> {
-    let errors: Vec<Errors> = flown.iter().map(Errors::of).collect();
-    let direction_deg = direction_deg(flown);
+fn row(kind: &Kind, simulated: &[Simulated]) -> Vec<String> {
+    let errors: Vec<Errors> = simulated.iter().map(Errors::of).collect();
+    let direction_deg = direction_deg(simulated);
     let worst_deg = errors.iter().map(|it| it.direction_deg).fold(0.0, f64::max);
     let is_judged = kind.predictive && kind.reactive && kind.bias_m_s2 == BIAS_M_S2;
     let verdict = if errors.iter().any(|it| it.is_unfinished) {
@@ -128,9 +129,9 @@ fn row(kind: &Kind, flown: &[Flown]) -> Vec<String> {
     ]
 }
 
-fn remark(each: &[(Kind, &[Flown])]) -> String {
+fn remark(each: &[(Kind, &[Simulated])]) -> String {
     let of = |label: &str| {
-        each.iter().find(|(kind, _)| kind.label == label).map(|(_, flown)| direction_deg(flown))
+        each.iter().find(|(kind, _)| kind.label == label).map(|(_, simulated)| direction_deg(simulated))
     };
     let order = match (of("none"), of("theta"), of("beta"), of("both")) {
         (Some(none), Some(theta), Some(beta), Some(both)) => {
@@ -147,31 +148,32 @@ fn remark(each: &[(Kind, &[Flown])]) -> String {
     )
 }
 
-fn write(report: &mut Report, options: &Options, each: &[(Kind, &[Flown])]) -> Result<(), StudyError> {
-    let rows = each.iter().flat_map(|(kind, flown)| {
-        (1..=SEEDS).zip(flown.iter()).map(|(seed, flown)| {
-            let Errors { direction_deg, magnitude_mm_s, .. } = Errors::of(flown);
-            let thrust = flown.samples.last().map_or(Vector::repeat(f64::NAN), |last| last.thrust_body);
+fn write(report: &mut Report, options: &Options, each: &[(Kind, &[Simulated])]) -> Result<(), StudyError> {
+    let rows = each.iter().flat_map(|(kind, simulated)| {
+        (1..=SEEDS).zip(simulated.iter()).map(|(seed, simulated)| {
+            let Errors { direction_deg, magnitude_mm_s, .. } = Errors::of(simulated);
+            let thrust = simulated.samples.last().map_or(Vector::repeat(f64::NAN), |last| last.thrust_body);
             let numbers = cells(&[&[direction_deg, magnitude_mm_s], thrust.as_slice()]);
             [vec![kind.label.to_owned(), seed.to_string()], numbers].concat()
         })
     });
     let header = "case | seed | direction_deg | magnitude_mm_s | thrust_x | thrust_y | thrust_z";
     report.csv(options, "burn.csv", header, rows)?;
-    let rows =
-        each.iter().filter_map(|(kind, flown)| Some((kind, flown.first()?))).flat_map(|(kind, flown)| {
-            flown.samples.iter().map(|sample| {
+    let rows = each.iter().filter_map(|(kind, simulated)| Some((kind, simulated.first()?))).flat_map(
+        |(kind, simulated)| {
+            simulated.samples.iter().map(|sample| {
                 let Sample { time_s, command_q, estimate_q, delta_v_m_s, .. } = sample;
                 let numbers = cells(&[
                     &[*time_s],
                     command_q.coords.as_slice(),
                     estimate_q.coords.as_slice(),
                     delta_v_m_s.as_slice(),
-                    &[off_path_m_s(flown, sample)],
+                    &[off_path_m_s(simulated, sample)],
                 ]);
                 [vec![kind.label.to_owned()], numbers].concat()
             })
-        });
+        },
+    );
     let header = "\
         case | time_s | command_q1 | command_q2 | command_q3 | command_q4 | \
         estimate_q1 | estimate_q2 | estimate_q3 | estimate_q4 | \
@@ -180,14 +182,14 @@ fn write(report: &mut Report, options: &Options, each: &[(Kind, &[Flown])]) -> R
 }
 
 /// Distance of the true velocity from the straight path, in m/s.
-fn off_path_m_s(flown: &Flown, sample: &Sample) -> f64 {
-    across(&sample.delta_v_m_s, &flown.wanted_m_s.normalize()).norm()
+fn off_path_m_s(simulated: &Simulated, sample: &Sample) -> f64 {
+    across(&sample.delta_v_m_s, &simulated.wanted_m_s.normalize()).norm()
 }
 
-fn quaternion_chart(flown: &Flown) -> Chart {
+fn quaternion_chart(simulated: &Simulated) -> Chart {
     let points = |of: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
         // Before its first sample Guidance holds what it starts with.
-        let commanded = flown.samples.iter().filter(|sample| sample.time_s >= 0.5 * START_S);
+        let commanded = simulated.samples.iter().filter(|sample| sample.time_s >= 0.5 * START_S);
         commanded.map(|sample| (sample.time_s, of(sample))).collect()
     };
     let panel = |i: usize| {
@@ -212,21 +214,21 @@ fn quaternion_chart(flown: &Flown) -> Chart {
     }
 }
 
-fn velocity_chart(shown: &[(Kind, &Flown)]) -> Chart {
-    let from_start = |flown: &Flown, of: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
-        let burning = flown.samples.iter().filter(|sample| sample.time_s >= START_S);
+fn velocity_chart(shown: &[(Kind, &Simulated)]) -> Chart {
+    let from_start = |simulated: &Simulated, of: &dyn Fn(&Sample) -> f64| -> Vec<(f64, f64)> {
+        let burning = simulated.samples.iter().filter(|sample| sample.time_s >= START_S);
         burning.map(|sample| (sample.time_s, 1e3 * of(sample))).collect()
     };
-    let off = shown.iter().map(|(kind, flown)| {
-        Series::line(kind.label, from_start(flown, &|sample| off_path_m_s(flown, sample)))
+    let off = shown.iter().map(|(kind, simulated)| {
+        Series::line(kind.label, from_start(simulated, &|sample| off_path_m_s(simulated, sample)))
     });
     let mut panels =
         vec![Panel { y_label: "off path [mm/s]".to_owned(), series: off.collect(), ..Panel::default() }];
-    if let Some((kind, flown)) = shown.last() {
-        let along = flown.wanted_m_s.normalize();
+    if let Some((kind, simulated)) = shown.last() {
+        let along = simulated.wanted_m_s.normalize();
         let component = |i: usize| {
             let name = ["x", "y", "z"][i];
-            let points = from_start(flown, &|sample| across(&sample.delta_v_m_s, &along)[i]);
+            let points = from_start(simulated, &|sample| across(&sample.delta_v_m_s, &along)[i]);
             Series::line(format!("{}: {name}", kind.label), points)
         };
         panels.push(Panel {
@@ -234,7 +236,7 @@ fn velocity_chart(shown: &[(Kind, &Flown)]) -> Chart {
             series: (0..3).map(component).collect(),
             ..Panel::default()
         });
-        let short = from_start(flown, &|sample| (sample.delta_v_m_s * 1e-3).norm());
+        let short = from_start(simulated, &|sample| (sample.delta_v_m_s * 1e-3).norm());
         panels.push(Panel {
             y_label: "speed gained [m/s]".to_owned(),
             series: vec![Series::line(kind.label, short)],

@@ -86,7 +86,7 @@ pub struct Sample {
 
 /// A burn's samples.
 #[derive(Clone, Debug)]
-pub struct Flown {
+pub struct Simulated {
     /// One a second.
     pub samples: Vec<Sample>,
     /// Velocity to add, EME2000, in m/s.
@@ -113,7 +113,7 @@ impl Sample {
 
 impl Burn {
     /// Flies it from the attitude that is commanded first, in steps of `step_s`, otherwise of a second.
-    pub fn fly(&self, both: &Loop, label: &str, step_s: Option<f64>) -> Result<Flown, StudyError> {
+    pub fn fly(&self, both: &Loop, label: &str, step_s: Option<f64>) -> Result<Simulated, StudyError> {
         let step_s = whole_part_of_a_second(step_s)?;
         let samples = |case: Case, wanted_m_s: &Vector| -> Result<Vec<Sample>, StudyError> {
             let case = self.set(case).elements("guidance.burn.deltaV", wanted_m_s.iter().copied());
@@ -131,7 +131,7 @@ impl Burn {
             start_settings(&last.command_q, &last.command_rate_rad_s, last.time_s)
         });
         let samples = samples(Case::new(label, STOP_S, step_s).with(start), &wanted_m_s)?;
-        Ok(Flown { samples, wanted_m_s })
+        Ok(Simulated { samples, wanted_m_s })
     }
 
     fn set(&self, case: Case) -> Case {

@@ -6,7 +6,7 @@ use crate::case::{Case, Recorded, chosen, run_all};
 use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
 
-/// How long is flown, and in which steps, in s.
+/// How long is simulated, and in which steps, in s.
 const SPAN_S: f64 = 600.0;
 const STEP_S: f64 = 0.25;
 /// Momentum of wheels 1 and 2 at the start, in N m s, assumed.
@@ -36,7 +36,7 @@ fn dumps() -> Vec<Dump> {
 }
 
 /// A dump in controlled flight and as an impulse.
-struct Flown {
+struct Simulated {
     dump: Dump,
     controlled: Recorded,
     ideal: Recorded,
@@ -82,7 +82,7 @@ impl Dump {
     }
 }
 
-fn fly(options: &Options, dump: &Dump) -> Result<Flown, StudyError> {
+fn fly(options: &Options, dump: &Dump) -> Result<Simulated, StudyError> {
     let fmu = options.fmu("MessengerFull.fmu")?;
     let [one, two] = HELD_N_M_S;
     let controlled = dump.case("controlled").real("wheel[1].startMomentum", one);
@@ -90,10 +90,10 @@ fn fly(options: &Options, dump: &Dump) -> Result<Flown, StudyError> {
     let before: Vector = controlled.row(0, MOMENTUM).vector();
     let ideal = dump.case("commanded").elements("start.momentum", before.iter().copied());
     let ideal = ideal.grid(10.0, 1.0).simulate(&fmu, &OUTPUTS)?;
-    Ok(Flown { dump: dump.clone(), controlled, ideal })
+    Ok(Simulated { dump: dump.clone(), controlled, ideal })
 }
 
-impl Flown {
+impl Simulated {
     fn duration_s(&self) -> f64 {
         let active = self.controlled.times_s.iter().zip(&self.controlled.columns[ACTIVE]);
         active.filter(|(_, is_active)| **is_active != 0.0).map(|(time_s, _)| *time_s).fold(0.0, f64::max)
@@ -134,24 +134,24 @@ assumed; the thrusters' layout is assumed too (messenger-full.toml).";
 /// Dumps by pulses beside dumps at once.
 pub fn dump(options: &Options) -> Result<Report, StudyError> {
     let cases = chosen("control/dump", options, dumps(), |dump| dump.label.to_owned())?;
-    let flown = run_all(options, &cases, |dump| fly(options, dump))?;
+    let simulated = run_all(options, &cases, |dump| fly(options, dump))?;
     let mut report = Report::default();
-    report.line("Dumps of the controlled craft by pulses of its 4.4 N thrusters\n");
-    let rows: Vec<_> = flown.iter().map(Flown::row).collect();
+    report.line("Dumps of the controlled spacecraft by pulses of its 4.4 N thrusters\n");
+    let rows: Vec<_> = simulated.iter().map(Simulated::row).collect();
     report.table(HEADER, &rows);
     report.line(REMARK);
     report.csv(options, "dump.csv", HEADER, rows)?;
-    for flown in &flown {
-        let name = flown.dump.label.replace(" %", "").replace(' ', "-");
-        report.picture(options, &format!("dump-{name}.svg"), &figure(flown))?;
+    for simulated in &simulated {
+        let name = simulated.dump.label.replace(" %", "").replace(' ', "-");
+        report.picture(options, &format!("dump-{name}.svg"), &figure(simulated))?;
     }
     Ok(report)
 }
 
 /// The dump over time, until a while after its end.
-fn figure(flown: &Flown) -> Chart {
-    let recorded = &flown.controlled;
-    let end_s = flown.duration_s() + 60.0;
+fn figure(simulated: &Simulated) -> Chart {
+    let recorded = &simulated.controlled;
+    let end_s = simulated.duration_s() + 60.0;
     let line = |label: &str, value: &dyn Fn(usize) -> f64| {
         let rows = recorded.times_s.iter().enumerate().filter(|(_, time_s)| **time_s <= end_s);
         Series::line(label, rows.map(|(row, time_s)| (*time_s, value(row))).collect())
@@ -161,13 +161,13 @@ fn figure(flown: &Flown) -> Chart {
         (0..3).map(component).collect()
     };
     Chart {
-        title: format!("Dump by pulses: {}", flown.dump.label),
+        title: format!("Dump by pulses: {}", simulated.dump.label),
         x_label: "time [s]".to_owned(),
         panels: vec![
             Panel {
                 y_label: "momentum [N m s]".to_owned(),
                 series: components(MOMENTUM, 1.0),
-                marks: flown.dump.target_n_m_s.as_slice().to_vec(),
+                marks: simulated.dump.target_n_m_s.as_slice().to_vec(),
                 mark_label: "target".to_owned(),
                 ..Panel::default()
             },

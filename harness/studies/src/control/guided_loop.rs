@@ -104,7 +104,7 @@ impl Sample {
     }
 }
 
-/// What is flown in the loop.
+/// What is simulated in the loop.
 pub struct Flight<'a> {
     /// For messages and tables.
     pub label: &'a str,

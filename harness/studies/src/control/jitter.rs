@@ -135,7 +135,7 @@ fn spectra(shaken: &[Shaken]) -> Chart {
 }
 
 fn run_up_figure(points: &[(f64, f64)], structure: &Structure) -> Chart {
-    let flown = points.iter().map(|(hz, rad)| (*hz, decibels(*rad))).collect();
+    let simulated = points.iter().map(|(hz, rad)| (*hz, decibels(*rad))).collect();
     let steady = (60..=1000).map(|k| f64::from(k) * 0.01).filter(|hz| *hz <= FASTEST_HZ);
     let steady = steady.map(|hz| (hz, decibels(structure.jitter_rad(hz)))).collect();
     Chart {
@@ -144,7 +144,7 @@ fn run_up_figure(points: &[(f64, f64)], structure: &Structure) -> Chart {
         panels: vec![Panel {
             y_label: "jitter [dB re 1 urad]".to_owned(),
             series: vec![
-                Series::line("run up to 9 Hz in 600 s", flown),
+                Series::line("run up to 9 Hz in 600 s", simulated),
                 Series::dashed("at constant speed, in closed form", steady),
             ],
             ..Panel::default()

@@ -22,7 +22,7 @@ const RUN_UP_S: f64 = 600.0;
 /// Noise of star tracker (rad) and gyros (rad after a second) under control, assumed.
 const NOISE: [f64; 2] = [2e-5, 1e-6];
 
-/// What is flown.
+/// What is simulated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flight {
     /// For tables and pictures.
@@ -35,7 +35,7 @@ pub struct Flight {
 
 /// The attitude's spectrum, in rad.
 pub struct Shaken {
-    /// What was flown.
+    /// What was simulated.
     pub flight: Flight,
     /// All axes together.
     pub spectrum: Spectrum,

@@ -15,10 +15,10 @@ pub fn safe_mode(options: &Options) -> Result<Report, StudyError> {
     let cases = chosen("control/safe-mode", options, chains, |chain| chain.label().to_owned())?;
     let both = Loop::open(options)?;
     let parameters = Parameters::read(&both)?;
-    let flown = run_all(options, &cases, |chain| Ok((*chain, chain.fly(&both, options.step_s)?)))?;
+    let simulated = run_all(options, &cases, |chain| Ok((*chain, chain.fly(&both, options.step_s)?)))?;
     let mut report = Report::default();
     report.line("Safe modes (paper 001), Guidance and the controlled plant in a loop\n");
-    let rows: Vec<_> = flown
+    let rows: Vec<_> = simulated
         .iter()
         .flat_map(|(chain, samples)| {
             let checks = match chain {
@@ -32,8 +32,8 @@ pub fn safe_mode(options: &Options) -> Result<Report, StudyError> {
     report.table(header, &rows);
     report.line(REMARK);
     report.csv(options, "safe-mode.csv", header, rows)?;
-    history(&mut report, options, &flown)?;
-    for (chain, samples) in &flown {
+    history(&mut report, options, &simulated)?;
+    for (chain, samples) in &simulated {
         let file = format!("safe-mode-{}.svg", chain.label().replace(' ', "-"));
         report.picture(options, &file, &figure(*chain, &parameters, samples))?;
     }
@@ -48,12 +48,16 @@ zone is put in force at 300 s, Operational is requested at 2400 s. All times, th
 how long the monitor waits are assumed: the paper prints none.";
 
 /// Everything of every second.
-fn history(report: &mut Report, options: &Options, flown: &[(Chain, Vec<Sample>)]) -> Result<(), StudyError> {
+fn history(
+    report: &mut Report,
+    options: &Options,
+    simulated: &[(Chain, Vec<Sample>)],
+) -> Result<(), StudyError> {
     let header = "\
         case | time_s | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | sun_x | sun_y | \
         sun_z | earth_x | earth_y | earth_z | sun_angle_deg | command_x_rad_s | command_y_rad_s | \
         command_z_rad_s | mode | command_kind | attitude_known | sun_sensed | torque_limited | dumps | link";
-    let rows = flown.iter().flat_map(|(chain, samples)| {
+    let rows = simulated.iter().flat_map(|(chain, samples)| {
         samples.iter().map(|sample| {
             let [sun, earth] = [&sample.to_sun_m, &sample.to_earth_m].map(Vector::normalize);
             let mut row = vec![chain.label().to_owned()];

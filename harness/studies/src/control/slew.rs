@@ -1,13 +1,13 @@
 //! Large slews under the plant's own controller: how they settle, a saturation that a dump ends, a wheel that fails.
 
 use super::slew_figures::figure;
-use super::slew_flight::{Event, Flown, Plant, SLEW_S, Sample, Slew};
+use super::slew_flight::{Event, Plant, SLEW_S, Sample, Simulated, Slew};
 use crate::attitude::Vector;
 use crate::case::{chosen, run_all};
 use crate::settings::cells;
 use crate::{Options, Report, StudyError};
 
-/// Angle of the slews where none is asked for.
+/// Angle of the slews where none is requested.
 const ANGLE_DEG: f64 = 60.0;
 /// Error of the attitude below which a slew is settled.
 const SETTLED_DEG: f64 = 0.01;
@@ -46,7 +46,7 @@ struct Measures {
     momentum: f64,
     /// First and last time at which a wheel was at its capacity, in s.
     full_s: Option<(f64, f64)>,
-    /// Whether the torque asked for was ever more than the wheels could give.
+    /// Whether the torque requested was ever more than the wheels could give.
     is_torque_limited: bool,
     dumps: f64,
 }
@@ -56,8 +56,8 @@ fn greatest(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 impl Measures {
-    fn of(flown: &Flown) -> Self {
-        let Flown { slew, limits, samples } = flown;
+    fn of(simulated: &Simulated) -> Self {
+        let Simulated { slew, limits, samples } = simulated;
         let error_deg = |sample: &Sample| sample.left_rad.norm().to_degrees();
         let after = || samples.iter().filter(|sample| sample.time_s >= SLEW_S);
         let small_from =
@@ -90,14 +90,15 @@ impl Measures {
     }
 
     /// What became of the slew.
-    fn verdict(&self, flown: &Flown) -> String {
+    fn verdict(&self, simulated: &Simulated) -> String {
         let Some(settled_s) = self.settled_s else { return "does not settle".to_owned() };
         let is_full = self.full_s.is_some();
-        let ends_full = flown.samples.last().is_some_and(|last| last.wheels.iter().any(|it| it.is_saturated));
-        let prompt = settled_s <= 1.05 * self.ideal_s + 3.0 / flown.limits.bandwidth_rad_s;
-        let steady = self.overshoot_deg <= OVERSHOOT * flown.slew.angle_rad.abs().to_degrees();
+        let ends_full =
+            simulated.samples.last().is_some_and(|last| last.wheels.iter().any(|it| it.is_saturated));
+        let prompt = settled_s <= 1.05 * self.ideal_s + 3.0 / simulated.limits.bandwidth_rad_s;
+        let steady = self.overshoot_deg <= OVERSHOOT * simulated.slew.angle_rad.abs().to_degrees();
         let free = !is_full && !self.is_torque_limited;
-        match flown.slew.event {
+        match simulated.slew.event {
             Event::None => match (free, steady, prompt) {
                 (false, ..) => "saturates".to_owned(),
                 (_, false, _) => "overshoots".to_owned(),
@@ -115,9 +116,9 @@ impl Measures {
             }
             Event::Failed(wheel, _) => {
                 let stands =
-                    flown.samples.last().is_some_and(|last| last.wheels[wheel - 1].torque_n_m == 0.0);
+                    simulated.samples.last().is_some_and(|last| last.wheels[wheel - 1].torque_n_m == 0.0);
                 match (stands, free) {
-                    (true, true) => format!("survived with {} wheels", flown.limits.axes.len() - 1),
+                    (true, true) => format!("survived with {} wheels", simulated.limits.axes.len() - 1),
                     (true, false) => "saturates".to_owned(),
                     (false, _) => format!("wheel {wheel} still gives torque"),
                 }
@@ -125,11 +126,11 @@ impl Measures {
         }
     }
 
-    fn row(&self, flown: &Flown) -> Vec<String> {
+    fn row(&self, simulated: &Simulated) -> Vec<String> {
         let seconds = |time_s: f64| format!("{time_s:.1}");
         vec![
-            flown.slew.label.to_owned(),
-            format!("{:.1}", flown.slew.angle_rad.to_degrees()),
+            simulated.slew.label.to_owned(),
+            format!("{:.1}", simulated.slew.angle_rad.to_degrees()),
             self.settled_s.map_or_else(|| "-".to_owned(), seconds),
             seconds(self.ideal_s),
             format!("{:.1e}", self.overshoot_deg),
@@ -139,7 +140,7 @@ impl Measures {
             format!("{:.0} %", 100.0 * self.momentum),
             self.full_s
                 .map_or_else(|| "never".to_owned(), |(from_s, to_s)| format!("{from_s:.0} to {to_s:.0}")),
-            self.verdict(flown),
+            self.verdict(simulated),
         ]
     }
 }
@@ -152,12 +153,12 @@ const HEADER: &str = "\
 pub fn slew(options: &Options) -> Result<Report, StudyError> {
     let cases = chosen("control/slew", options, slews(options), |slew| slew.label.to_owned())?;
     let plant = Plant::open(options)?;
-    let flown = run_all(options, &cases, |slew| plant.fly(slew, options.step_s))?;
+    let simulated = run_all(options, &cases, |slew| plant.fly(slew, options.step_s))?;
     let mut report = Report::default();
     report.line("Slews under the plant's own controller; the command jumps at 10 s\n");
-    let rows: Vec<_> = flown.iter().map(|flown| Measures::of(flown).row(flown)).collect();
+    let rows: Vec<_> = simulated.iter().map(|simulated| Measures::of(simulated).row(simulated)).collect();
     report.table(HEADER, &rows);
-    if let Some(Flown { limits, .. }) = flown.first() {
+    if let Some(Simulated { limits, .. }) = simulated.first() {
         report.line(&format!(
             "Limits: {:.4} deg/s and {:.5} deg/s2 (control.slewRate and control.slewAcceleration), wheels of {} N m and {} N m s.",
             limits.slew.rate_rad_s.to_degrees(),
@@ -168,11 +169,11 @@ pub fn slew(options: &Options) -> Result<Report, StudyError> {
     }
     report.line(REMARK);
     report.csv(options, "slew.csv", HEADER, rows)?;
-    history(&mut report, options, &flown)?;
-    for flown in &flown {
+    history(&mut report, options, &simulated)?;
+    for simulated in &simulated {
         let file =
-            format!("slew-{}.svg", flown.slew.label.replace(", ", "-").replace(' ', "-").to_lowercase());
-        report.picture(options, &file, &figure(flown))?;
+            format!("slew-{}.svg", simulated.slew.label.replace(", ", "-").replace(' ', "-").to_lowercase());
+        report.picture(options, &file, &figure(simulated))?;
     }
     Ok(report)
 }
@@ -185,20 +186,20 @@ dump to zero is requested, or dump.threshold is put back. Wheel 2 fails at half 
 no keep-in zone here: the slews about X and Z take the Sun off the shade.";
 
 /// Every sample of every flight.
-fn history(report: &mut Report, options: &Options, flown: &[Flown]) -> Result<(), StudyError> {
+fn history(report: &mut Report, options: &Options, simulated: &[Simulated]) -> Result<(), StudyError> {
     let mut header = "\
         case | time_s | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | \
         left_x_rad | left_y_rad | left_z_rad | momentum_x_n_m_s | momentum_y_n_m_s | momentum_z_n_m_s | \
         torque_limited | dumping | dumps"
         .to_owned();
-    let wheels = flown.first().map_or(0, |flown| flown.limits.axes.len());
+    let wheels = simulated.first().map_or(0, |simulated| simulated.limits.axes.len());
     for k in 1..=wheels {
         header += &format!(" | wheel{k}_torque_n_m | wheel{k}_momentum_n_m_s | wheel{k}_full");
     }
-    let rows = flown.iter().flat_map(|flown| {
-        flown.samples.iter().map(|sample| {
+    let rows = simulated.iter().flat_map(|simulated| {
+        simulated.samples.iter().map(|sample| {
             let Sample { q, rate_rad_s, left_rad, momentum_n_m_s, .. } = sample;
-            let mut row = vec![flown.slew.label.to_owned()];
+            let mut row = vec![simulated.slew.label.to_owned()];
             row.extend(cells(&[&[sample.time_s], q.coords.as_slice()]));
             row.extend(
                 [rate_rad_s, left_rad, momentum_n_m_s].into_iter().flat_map(|v| cells(&[v.as_slice()])),

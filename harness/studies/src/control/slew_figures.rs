@@ -1,11 +1,11 @@
 //! Pictures of slews: error angle, rate, torques and momenta of the wheels over time, with their limits.
 
-use super::slew_flight::{Event, Flown, SLEW_S, Sample};
+use super::slew_flight::{Event, SLEW_S, Sample, Simulated};
 use drawing::{Chart, Panel, Series};
 
 /// A slew over time.
-pub fn figure(flown: &Flown) -> Chart {
-    let Flown { slew, limits, samples } = flown;
+pub fn figure(simulated: &Simulated) -> Chart {
+    let Simulated { slew, limits, samples } = simulated;
     let line = |label: &str, value: &dyn Fn(&Sample) -> f64| {
         Series::line(label, samples.iter().map(|sample| (sample.time_s, value(sample))).collect())
     };

@@ -40,7 +40,7 @@ pub struct Slew {
     pub angle_rad: f64,
     /// What else happens.
     pub event: Event,
-    /// How long is flown, in s; otherwise what a slew takes.
+    /// How long is simulated, in s; otherwise what a slew takes.
     pub stop_s: Option<f64>,
 }
 
@@ -123,8 +123,8 @@ impl Sample {
 }
 
 /// A slew and its samples.
-pub struct Flown {
-    /// What was flown.
+pub struct Simulated {
+    /// What was simulated.
     pub slew: Slew,
     /// By the FMU's parameters.
     pub limits: Limits,
@@ -153,7 +153,7 @@ impl Plant {
     }
 
     /// Flies it.
-    pub fn fly(&self, slew: &Slew, step_s: Option<f64>) -> Result<Flown, StudyError> {
+    pub fn fly(&self, slew: &Slew, step_s: Option<f64>) -> Result<Simulated, StudyError> {
         let target = self.q * Attitude::from_scaled_axis(slew.axis * slew.angle_rad);
         let wheels = self.limits.axes.len();
         let mut outputs = OUTPUTS.map(str::to_owned).to_vec();
@@ -193,7 +193,7 @@ impl Plant {
             }
         };
         let samples = recorded.rows().map(sample).collect();
-        Ok(Flown { slew: slew.clone(), limits: self.limits.clone(), samples })
+        Ok(Simulated { slew: slew.clone(), limits: self.limits.clone(), samples })
     }
 
     /// At rest in the start attitude, which is held until the command jumps.

@@ -50,8 +50,8 @@ mod tests {
             let step_s = 1e-4;
             while angle < angle_rad && (rate > 0.0 || steps == 0) {
                 let stops_in = rate * rate / 0.2;
-                let wanted = if angle + stops_in < angle_rad { 0.3 } else { 0.0 };
-                let next = rate + (wanted - rate).clamp(-0.1 * step_s, 0.1 * step_s);
+                let requested = if angle + stops_in < angle_rad { 0.3 } else { 0.0 };
+                let next = rate + (requested - rate).clamp(-0.1 * step_s, 0.1 * step_s);
                 angle += 0.5 * (rate + next) * step_s;
                 rate = next;
                 steps += 1;

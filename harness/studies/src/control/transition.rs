@@ -26,7 +26,7 @@ const GYRO_RAD_SQRT_S: f64 = 0.005 * core::f64::consts::PI / 180.0 / 60.0;
 const DRIFT_RAD_S_SQRT_S: f64 = 0.1 * core::f64::consts::PI / 180.0 / 3600.0 / 294.0;
 const ARC_SECOND: f64 = core::f64::consts::PI / 648_000.0;
 
-/// What is flown.
+/// What is simulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Case {
     /// Star tracker and gyros with noise.
@@ -115,18 +115,18 @@ pub fn transition(options: &Options) -> Result<Report, StudyError> {
         chosen("control/transition", options, [Case::Noise, Case::NoNoise], |case| case.label().to_owned())?;
     let both = Loop::open(options)?;
     let limits = Limits::read(&both)?;
-    let flown = run_all(options, &cases, |case| Ok((*case, case.fly(&both, options.step_s)?)))?;
+    let simulated = run_all(options, &cases, |case| Ok((*case, case.fly(&both, options.step_s)?)))?;
     let mut report = Report::default();
     report.line(
         "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8), under the plant's own controller\n",
     );
-    let rows: Vec<_> = flown.iter().flat_map(|(case, samples)| rows(*case, &limits, samples)).collect();
+    let rows: Vec<_> = simulated.iter().flat_map(|(case, samples)| rows(*case, &limits, samples)).collect();
     let header = "case | quantity | paper | ours | verdict";
     report.table(header, &rows);
     report.line(REMARK);
     report.csv(options, "transition.csv", header, rows)?;
-    history(&mut report, options, &flown)?;
-    if let Some((case, samples)) = flown.first() {
+    history(&mut report, options, &simulated)?;
+    if let Some((case, samples)) = simulated.first() {
         report.picture(options, "transition-quaternion.svg", &quaternion_chart(*case, samples))?;
         report.picture(options, "transition-angles.svg", &angle_chart(*case, samples))?;
     }
@@ -206,14 +206,18 @@ fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
     ]
 }
 
-fn history(report: &mut Report, options: &Options, flown: &[(Case, Vec<Sample>)]) -> Result<(), StudyError> {
+fn history(
+    report: &mut Report,
+    options: &Options,
+    simulated: &[(Case, Vec<Sample>)],
+) -> Result<(), StudyError> {
     let header = "\
         case | time_s | command_q1 | command_q2 | command_q3 | command_q4 | estimate_q1 | estimate_q2 | \
         estimate_q3 | estimate_q4 | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | \
         command_x_rad_s | command_y_rad_s | command_z_rad_s | sun_x_m | sun_y_m | sun_z_m | earth_x_m | \
         earth_y_m | earth_z_m | planet_x_m | planet_y_m | planet_z_m | mdis_angle_deg | torque_limited | \
         constrained";
-    let rows = flown.iter().flat_map(|(case, samples)| {
+    let rows = simulated.iter().flat_map(|(case, samples)| {
         samples.iter().map(|sample| {
             let Sample { to_sun_m, to_earth_m, to_planet_m, .. } = sample;
             let attitudes = [&sample.command_q, &sample.estimate_q, &sample.q].map(|q| q.coords.as_slice());

@@ -33,7 +33,7 @@ const KNOWN: [&str; 10] = [
 ];
 
 /// Ten days of guided flight.
-struct Flown {
+struct Simulated {
     times_d: Vec<f64>,
     momentum_n_m_s: Vec<Vector>,
     force_n: Vec<Vector>,
@@ -94,10 +94,11 @@ fn over_the_sphere(report: &mut Report, options: &Options, sphere: &[Lit]) -> Re
 fn within_the_zone(
     report: &mut Report,
     options: &Options,
-    few: &Flown,
-    whole: &Flown,
+    few: &Simulated,
+    whole: &Simulated,
 ) -> Result<(), StudyError> {
-    let last = |flown: &Flown| flown.momentum_n_m_s.last().copied().unwrap_or(Vector::repeat(f64::NAN));
+    let last =
+        |simulated: &Simulated| simulated.momentum_n_m_s.last().copied().unwrap_or(Vector::repeat(f64::NAN));
     let row = |what: &str, v: &Vector| {
         let mut cells = vec![what.to_owned()];
         cells.extend(v.iter().map(|x| format!("{x:.6}")));
@@ -152,8 +153,8 @@ fn within_the_zone(
         .zip(few.momentum_n_m_s.iter().zip(&whole.momentum_n_m_s))
         .map(|(time_d, (few, whole))| cells(&[&[*time_d], few.as_slice(), whole.as_slice()]));
     report.csv(options, "off-sun-momentum.csv", header, rows)?;
-    let points = |flown: &Flown, axis: usize| -> Vec<(f64, f64)> {
-        flown.times_d.iter().zip(&flown.momentum_n_m_s).map(|(t, h)| (*t, h[axis])).collect()
+    let points = |simulated: &Simulated, axis: usize| -> Vec<(f64, f64)> {
+        simulated.times_d.iter().zip(&simulated.momentum_n_m_s).map(|(t, h)| (*t, h[axis])).collect()
     };
     let chart = Chart {
         title: "Inertial momentum within the keep-in zone".to_owned(),
@@ -178,7 +179,7 @@ Guidance keeps the Sun at no azimuth, where the shade keeps bus and boom dark: w
 through the slit of 6 mm that the printed heights leave between the shade and its top. A strip of the bus' sides would be lit
 from 10.5 deg of azimuth on.";
 
-fn fly(fmu: &Fmu, label: &str) -> Result<Flown, StudyError> {
+fn fly(fmu: &Fmu, label: &str) -> Result<Simulated, StudyError> {
     let body = ["momentum.inertial", "force.solar", "sun.azimuth", "sun.elevation"];
     let mut names = body.map(str::to_owned).to_vec();
     let surfaces = surfaces(fmu);
@@ -190,7 +191,7 @@ fn fly(fmu: &Fmu, label: &str) -> Result<Flown, StudyError> {
         .elements("dump.threshold", [THRESHOLD_N_M_S; 3])
         .simulate(fmu, &names)?;
     let angles = recorded.columns[6].iter().zip(&recorded.columns[7]);
-    Ok(Flown {
+    Ok(Simulated {
         times_d: recorded.times_s.iter().map(|time_s| time_s / DAY_S).collect(),
         momentum_n_m_s: recorded.vectors(0),
         force_n: recorded.vectors(3),

@@ -78,7 +78,7 @@ impl Sample {
     }
 }
 
-/// What is flown.
+/// What is simulated.
 pub struct Flight<'a> {
     /// For messages and tables.
     pub label: &'a str,
@@ -95,7 +95,7 @@ pub struct Flight<'a> {
 }
 
 /// The samples of a flight, one a second, and the planet it is over.
-pub struct Flown {
+pub struct Simulated {
     /// One a second from 0 on.
     pub samples: Vec<Sample>,
     /// By the parameters of `Guidance`.
@@ -109,7 +109,7 @@ impl Fmus {
     }
 
     /// Flies it. Where the plant is does not hang on what is commanded: it goes first.
-    pub fn fly(&self, flight: &Flight<'_>) -> Result<Flown, StudyError> {
+    pub fn fly(&self, flight: &Flight<'_>) -> Result<Simulated, StudyError> {
         let case = || {
             let case = Case::new(flight.label, f64::from(flight.seconds + 1), 1.0);
             case.real("start.epoch", flight.epoch_s)
@@ -131,7 +131,7 @@ impl Fmus {
         let commanded = case.steer(&self.guidance, &GUIDANCE_OUTPUTS, &mut inputs)?;
         let planet = Planet::of(commanded.row(0, PLANET_COLUMN));
         let samples = places.into_iter().zip(commanded.rows().skip(1));
-        Ok(Flown { samples: samples.map(|(place, row)| Sample::of(place, row)).collect(), planet })
+        Ok(Simulated { samples: samples.map(|(place, row)| Sample::of(place, row)).collect(), planet })
     }
 }
 

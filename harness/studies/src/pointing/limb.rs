@@ -1,7 +1,7 @@
 //! Limb points at azimuths, and the scan of the limb's height, where the Sun stays in its zone.
 
 use super::disc::{View, X_LABEL, Y_LABEL};
-use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place};
+use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, GEOMETRY, Place, Simulated};
 use super::limb_orbit;
 use super::limb_point::{Found, PLUS_Z, triaxial};
 use crate::attitude::Vector;
@@ -37,7 +37,7 @@ impl Case {
         }
     }
 
-    fn fly(&self, fmus: &Fmus) -> Result<Flown, StudyError> {
+    fn fly(&self, fmus: &Fmus) -> Result<Simulated, StudyError> {
         let (azimuth_deg, height_rate_m_s, seconds) = match *self {
             Self::Azimuth(azimuth_deg) => (azimuth_deg, 0.0, 1),
             Self::Scan => (SCAN_AZIMUTH_DEG, HEIGHT_RATE_M_S, SCAN_S),
@@ -66,17 +66,19 @@ pub fn limb(options: &Options) -> Result<Report, StudyError> {
     let all = AZIMUTHS_DEG.map(Case::Azimuth).into_iter().chain([Case::Scan, Case::Terminator]);
     let cases = chosen("pointing/limb", options, all, Case::label)?;
     let fmus = Fmus::open(options)?;
-    let flown = run_all(options, &cases, |case| Ok((*case, case.fly(&fmus)?)))?;
+    let simulated = run_all(options, &cases, |case| Ok((*case, case.fly(&fmus)?)))?;
     let mut report = Report::default();
     report.line("Limb pointing (paper 001, eqs 20 to 22 and Figure 6)\n");
-    let azimuths: Vec<(f64, &Flown)> = flown
+    let azimuths: Vec<(f64, &Simulated)> = simulated
         .iter()
-        .filter_map(|(case, flown)| match case {
-            Case::Azimuth(azimuth_deg) => Some((*azimuth_deg, flown)),
+        .filter_map(|(case, simulated)| match case {
+            Case::Azimuth(azimuth_deg) => Some((*azimuth_deg, simulated)),
             _ => None,
         })
         .collect();
-    let of = |wanted: Case| flown.iter().find(|(case, _)| *case == wanted).map(|(_, flown)| flown);
+    let of = |requested: Case| {
+        simulated.iter().find(|(case, _)| *case == requested).map(|(_, simulated)| simulated)
+    };
     if !azimuths.is_empty() {
         print_azimuths(&mut report, options, &azimuths)?;
     }
@@ -99,7 +101,7 @@ assumption: the paper does not print their sense.";
 fn print_azimuths(
     report: &mut Report,
     options: &Options,
-    azimuths: &[(f64, &Flown)],
+    azimuths: &[(f64, &Simulated)],
 ) -> Result<(), StudyError> {
     let own = "\
         azimuth_deg | found_azimuth_deg | off_nadir_deg | height_m | sun_azimuth_deg | sun_elevation_deg | \
@@ -107,9 +109,9 @@ fn print_azimuths(
     let header = format!("{own} | {GEOMETRY}");
     let (mut rows, mut shown, mut limb_points) = (Vec::new(), Vec::new(), Vec::new());
     let mut disc = None;
-    for (azimuth_deg, flown) in azimuths {
-        let Some(sample) = flown.samples.first() else { continue };
-        let ellipsoid = flown.planet.at(sample.place.epoch_s);
+    for (azimuth_deg, simulated) in azimuths {
+        let Some(sample) = simulated.samples.first() else { continue };
+        let ellipsoid = simulated.planet.at(sample.place.epoch_s);
         let Some(found) = Found::of(sample, &ellipsoid) else { continue };
         let view = View::at(&sample.place);
         let found_deg = found.azimuth_deg.rem_euclid(360.0);
@@ -148,14 +150,14 @@ fn print_azimuths(
     report.picture(options, "limb.svg", &chart)
 }
 
-fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(), StudyError> {
+fn print_scan(report: &mut Report, options: &Options, simulated: &Simulated) -> Result<(), StudyError> {
     let header = format!("commanded_height_m | height_m | sun_azimuth_deg | sun_elevation_deg | {GEOMETRY}");
     let (mut rows, mut shown, mut track) = (Vec::new(), Vec::new(), Vec::new());
     let (mut creep_m, mut last): (f64, Option<Vector>) = (0.0, None);
-    let Some(first) = flown.samples.first() else { return Ok(()) };
+    let Some(first) = simulated.samples.first() else { return Ok(()) };
     // All seen from the place of the first sample, as directions of +Z.
-    for sample in &flown.samples {
-        let ellipsoid = flown.planet.at(sample.place.epoch_s);
+    for sample in &simulated.samples {
+        let ellipsoid = simulated.planet.at(sample.place.epoch_s);
         let Some(found) = Found::of(sample, &ellipsoid) else { continue };
         let commanded_m = HEIGHT_RATE_M_S * sample.place.time_s;
         let fixed = ellipsoid.along_axes(&found.foot_m);
@@ -185,7 +187,7 @@ fn print_scan(report: &mut Report, options: &Options, flown: &Flown) -> Result<(
         &shown,
     );
     report.csv(options, "limb-scan.csv", &header, rows)?;
-    let (view, ellipsoid) = (View::at(&first.place), flown.planet.at(first.place.epoch_s));
+    let (view, ellipsoid) = (View::at(&first.place), simulated.planet.at(first.place.epoch_s));
     let mut whole = view.disc("the disc", &ellipsoid, &first.place.sun_m());
     whole.series.push(Series::line("track of +Z over the scan", track.clone()));
     let ends = (track.first().copied().unwrap_or_default(), track.last().copied().unwrap_or_default());

@@ -1,7 +1,7 @@
 //! The limb point on the terminator once round an orbit over noon and midnight: how many there are, and which is taken.
 
 use super::disc::{View, X_LABEL, Y_LABEL};
-use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample};
+use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, GEOMETRY, Place, Sample, Simulated};
 use super::limb_point::{Found, PLUS_Z, triaxial};
 use crate::attitude::{Vector, across, angle_rad};
 use crate::settings::{cells, flag, item};
@@ -18,7 +18,7 @@ const EVERY: usize = 60;
 const ZONE_DEG: [f64; 2] = [15.0, 13.0];
 
 /// Flies it without constraints: on this orbit the Sun would leave its zone.
-pub(super) fn fly(fmus: &Fmus) -> Result<Flown, StudyError> {
+pub(super) fn fly(fmus: &Fmus) -> Result<Simulated, StudyError> {
     let mut parameters = triaxial();
     parameters.extend([flag("keepIn.enabled", false), flag("hotPole.enabled", false)]);
     parameters.push(flag("monitor.enabled", false));
@@ -43,9 +43,9 @@ struct Point<'a> {
 }
 
 /// Prints and draws it.
-pub(super) fn print(report: &mut Report, options: &Options, flown: &Flown) -> Result<(), StudyError> {
+pub(super) fn print(report: &mut Report, options: &Options, simulated: &Simulated) -> Result<(), StudyError> {
     let points: Vec<Point<'_>> =
-        flown.samples.iter().step_by(EVERY).map(|sample| point(sample, flown)).collect();
+        simulated.samples.iter().step_by(EVERY).map(|sample| point(sample, simulated)).collect();
     report
         .line("\nLimb on the terminator over an orbit that passes over noon and midnight, no constraints:\n");
     let total = points.len();
@@ -55,7 +55,7 @@ pub(super) fn print(report: &mut Report, options: &Options, flown: &Flown) -> Re
     let aim_rad = |(point, aim): (&Point<'_>, Vector)| {
         angle_rad(&point.boresight, &(aim - point.sample.place.position_m))
     };
-    let told = points.iter().filter(|point| point.sample.reachable != point.solutions.is_empty()).count();
+    let reported = points.iter().filter(|point| point.sample.reachable != point.solutions.is_empty()).count();
     let nadir_rad = |point: &Point<'_>| angle_rad(&point.boresight, &point.sample.place.nadir_m());
     let elevations = || points.iter().map(|point| point.sun_deg()[1]);
     let [least, most] = [f64::min, f64::max].map(|pick| elevations().reduce(pick).unwrap_or(f64::NAN));
@@ -65,7 +65,7 @@ pub(super) fn print(report: &mut Report, options: &Options, flown: &Flown) -> Re
     let rows = [
         ("two solutions", share(count(2))),
         ("none: +Z to the planet's centre", share(count(0))),
-        ("target.reachable says which", format!("{told} of {total}")),
+        ("target.reachable says which", format!("{reported} of {total}")),
         (
             "+Z off the solution nearer to downtrack, greatest",
             format!("{:.1e} rad", greatest(&mut two().map(aim_rad))),
@@ -94,11 +94,11 @@ pub(super) fn print(report: &mut Report, options: &Options, flown: &Flown) -> Re
     report.table("terminator limb | ", &rows.map(|(name, value)| vec![name.to_owned(), value]));
     write(report, options, &points)?;
     report.picture(options, "limb-terminator.svg", &chart(&points))?;
-    draw_discs(report, options, flown, &points)
+    draw_discs(report, options, simulated, &points)
 }
 
-fn point<'a>(sample: &'a Sample, flown: &Flown) -> Point<'a> {
-    let (place, ellipsoid) = (&sample.place, flown.planet.at(sample.place.epoch_s));
+fn point<'a>(sample: &'a Sample, simulated: &Simulated) -> Point<'a> {
+    let (place, ellipsoid) = (&sample.place, simulated.planet.at(sample.place.epoch_s));
     let solutions = ellipsoid.terminator_limb_points(&place.position_m, &place.sun_m());
     let up = place.position_m.normalize();
     let along = |x: &Vector| {
@@ -175,14 +175,14 @@ fn chart(points: &[Point<'_>]) -> Chart {
 fn draw_discs(
     report: &mut Report,
     options: &Options,
-    flown: &Flown,
+    simulated: &Simulated,
     points: &[Point<'_>],
 ) -> Result<(), StudyError> {
     // Far out, so that the disc is small, and in the middle of the gap.
     let two = points.iter().find(|point| point.sample.place.time_s >= 10_800.0 && point.nearer.is_some());
     let gap: Vec<&Point<'_>> = points.iter().filter(|point| point.nearer.is_none()).collect();
     let panels: Vec<PlanePanel> =
-        two.into_iter().chain(gap.get(gap.len() / 2).copied()).map(|point| panel(point, flown)).collect();
+        two.into_iter().chain(gap.get(gap.len() / 2).copied()).map(|point| panel(point, simulated)).collect();
     let chart = PlaneChart {
         title: "Limb points on the terminator".to_owned(),
         x_label: X_LABEL.to_owned(),
@@ -192,10 +192,10 @@ fn draw_discs(
     report.picture(options, "limb-discs.svg", &chart)
 }
 
-fn panel(point: &Point<'_>, flown: &Flown) -> PlanePanel {
+fn panel(point: &Point<'_>, simulated: &Simulated) -> PlanePanel {
     let place = &point.sample.place;
     let view = View::at(place);
-    let mut panel = view.disc("", &flown.planet.at(place.epoch_s), &place.sun_m());
+    let mut panel = view.disc("", &simulated.planet.at(place.epoch_s), &place.sun_m());
     let found = if point.solutions.is_empty() { "none, the terminator is hidden" } else { "two" };
     panel.title = format!("{:.2} h after periapsis: {found}", place.time_s / 3600.0);
     panel.series.push(Series::rings(

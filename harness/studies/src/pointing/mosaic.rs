@@ -2,7 +2,7 @@
 
 use super::camera::Frame;
 use super::disc::{View, X_LABEL, Y_LABEL};
-use super::flight::{Flown, Fmus, GEOMETRY};
+use super::flight::{Fmus, GEOMETRY, Simulated};
 use super::scans::{CASES, Case};
 use crate::attitude::{Vector, angle_rad};
 use crate::case::{chosen, run_all};
@@ -11,10 +11,10 @@ use crate::{Options, Report, StudyError};
 use drawing::PlaneChart;
 use drawing::Series;
 
-/// A mosaic that was flown.
+/// A mosaic that was simulated.
 struct Mosaic {
     case: Case,
-    flown: Flown,
+    simulated: Simulated,
     numbers: Numbers,
 }
 
@@ -34,31 +34,32 @@ struct Numbers {
 }
 
 impl Numbers {
-    fn of(case: &Case, flown: &Flown) -> Self {
-        let frames = case.frames(flown);
+    fn of(case: &Case, simulated: &Simulated) -> Self {
+        let frames = case.frames(simulated);
         let overlap = |pair: &[Frame<'_>]| {
             let (surface, _) = pair[0].surface_m();
             surface.iter().filter(|x| pair[1].shows(x)).count() as f64 / surface.len().max(1) as f64
         };
-        let disc = disc_lattice(flown);
+        let disc = disc_lattice(simulated);
         let shown: Vec<usize> =
             disc.iter().map(|x| frames.iter().filter(|frame| frame.shows(x)).count()).collect();
         let at_least = |times: usize| shown.iter().filter(|n| **n >= times).count() as f64;
         let rate = |rate: &Vector| rate.norm().to_degrees();
         let greatest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
-        let sun =
-            |i: usize| greatest(&mut flown.samples.iter().map(|s| s.body_angles_deg(&s.place.to_sun_m)[i]));
+        let sun = |i: usize| {
+            greatest(&mut simulated.samples.iter().map(|s| s.body_angles_deg(&s.place.to_sun_m)[i]))
+        };
         Self {
             frames: frames.len(),
             coverage: at_least(1) / disc.len().max(1) as f64,
             twice: at_least(2) / at_least(1),
             overlaps: frames.windows(2).map(overlap).collect(),
             rates_deg_s: [
-                greatest(&mut flown.samples.iter().map(|s| rate(&s.rate_rad_s))),
+                greatest(&mut simulated.samples.iter().map(|s| rate(&s.rate_rad_s))),
                 greatest(&mut frames.iter().map(|frame| rate(&frame.sample.rate_rad_s))),
             ],
             sun_deg: [sun(0), sun(1)],
-            constrained: flown.samples.iter().filter(|s| s.constrained || !s.scan_active).count(),
+            constrained: simulated.samples.iter().filter(|s| s.constrained || !s.scan_active).count(),
         }
     }
 }
@@ -67,9 +68,9 @@ impl Numbers {
 const DISC: u32 = 240;
 
 /// Points of the surface evenly over the disc seen midway, along the planet's axes.
-fn disc_lattice(flown: &Flown) -> Vec<Vector> {
-    let Some(sample) = flown.samples.get(flown.samples.len() / 2) else { return Vec::new() };
-    let (view, ellipsoid) = (View::at(&sample.place), flown.planet.at(sample.place.epoch_s));
+fn disc_lattice(simulated: &Simulated) -> Vec<Vector> {
+    let Some(sample) = simulated.samples.get(simulated.samples.len() / 2) else { return Vec::new() };
+    let (view, ellipsoid) = (View::at(&sample.place), simulated.planet.at(sample.place.epoch_s));
     let radius = view.radius_deg(&ellipsoid).to_radians().tan();
     let at = |k: u32| radius * ((2.0 * f64::from(k) + 1.0) / f64::from(DISC) - 1.0);
     (0..DISC * DISC)
@@ -83,8 +84,8 @@ pub fn mosaic(options: &Options) -> Result<Report, StudyError> {
     let cases = chosen("pointing/mosaic", options, CASES, |case| case.label.to_owned())?;
     let fmus = Fmus::open(options)?;
     let mosaics = run_all(options, &cases, |case| {
-        let flown = case.fly(&fmus)?;
-        Ok(Mosaic { case: *case, numbers: Numbers::of(case, &flown), flown })
+        let simulated = case.fly(&fmus)?;
+        Ok(Mosaic { case: *case, numbers: Numbers::of(case, &simulated), simulated })
     })?;
     let mut report = Report::default();
     report.line("Mosaics by scans with reversals and pauses (paper 001, \"Scan patterns\")\n");
@@ -94,7 +95,7 @@ pub fn mosaic(options: &Options) -> Result<Report, StudyError> {
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let rows: Vec<Vec<String>> = mosaics
         .iter()
-        .map(|Mosaic { case, numbers, flown }| {
+        .map(|Mosaic { case, numbers, simulated }| {
             let [least, most] = [f64::min, f64::max]
                 .map(|pick| numbers.overlaps.iter().copied().reduce(pick).unwrap_or(f64::NAN));
             vec![
@@ -107,7 +108,7 @@ pub fn mosaic(options: &Options) -> Result<Report, StudyError> {
                 format!("{:.4} deg/s", numbers.rates_deg_s[0]),
                 format!("{:.4} deg/s", numbers.rates_deg_s[1]),
                 format!("{:.1e} / {:.2} deg", numbers.sun_deg[0], numbers.sun_deg[1]),
-                format!("{} of {} s", numbers.constrained, flown.samples.len()),
+                format!("{} of {} s", numbers.constrained, simulated.samples.len()),
             ]
         })
         .collect();
@@ -132,8 +133,8 @@ fn write(report: &mut Report, options: &Options, mosaics: &[Mosaic]) -> Result<(
         scan | frame | field_deg | mdis_angle_deg | latitude_deg | longitude_deg | on_disc | \
         overlap_with_next | rate_deg_s | off_nadir_deg";
     let mut rows = Vec::new();
-    for Mosaic { case, flown, numbers } in mosaics {
-        for (index, frame) in case.frames(flown).iter().enumerate() {
+    for Mosaic { case, simulated, numbers } in mosaics {
+        for (index, frame) in case.frames(simulated).iter().enumerate() {
             let (sample, place) = (frame.sample, &frame.sample.place);
             let [x, y, z] = frame.middle_m().into();
             let mdis_deg = if case.camera.on_platform { sample.mdis_angle_rad.to_degrees() } else { 0.0 };
@@ -159,11 +160,11 @@ fn write(report: &mut Report, options: &Options, mosaics: &[Mosaic]) -> Result<(
 impl Mosaic {
     /// Footprints on the disc as seen midway.
     fn chart(&self) -> PlaneChart {
-        let Self { case, flown, .. } = self;
-        let frames = case.frames(flown);
-        let middle = flown.samples.len() / 2;
-        let place = flown.samples[middle].place;
-        let (view, ellipsoid) = (View::at(&place), flown.planet.at(place.epoch_s));
+        let Self { case, simulated, .. } = self;
+        let frames = case.frames(simulated);
+        let middle = simulated.samples.len() / 2;
+        let place = simulated.samples[middle].place;
+        let (view, ellipsoid) = (View::at(&place), simulated.planet.at(place.epoch_s));
         let seen = |fixed: &Vector| view.point(&ellipsoid.inertial(fixed));
         let mut panel = view.disc("", &ellipsoid, &place.sun_m());
         let outlines = frames.iter().flat_map(|frame| {

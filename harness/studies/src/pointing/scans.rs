@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 
 use super::camera::{Camera, Frame};
-use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, Place};
+use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, Place, Simulated};
 use crate::StudyError;
 use crate::attitude::Vector;
 use crate::settings::{Settings, elements, flag, item, number, real};
@@ -199,7 +199,7 @@ impl Case {
     }
 
     /// Flies it.
-    pub fn fly(&self, fmus: &Fmus) -> Result<Flown, StudyError> {
+    pub fn fly(&self, fmus: &Fmus) -> Result<Simulated, StudyError> {
         // A flight of one second shows where the planet's axes are.
         let flight = Flight {
             label: self.label,
@@ -221,15 +221,15 @@ impl Case {
     }
 
     /// Its frames; none while the axis from row to row moves.
-    pub fn frames<'a>(&self, flown: &'a Flown) -> Vec<Frame<'a>> {
+    pub fn frames<'a>(&self, simulated: &'a Simulated) -> Vec<Frame<'a>> {
         let cycle_s = self.fast.cycle_s();
         let times_s = (0..self.fast.segments).flat_map(|motion| {
             let begin_s = f64::from(motion) * cycle_s + self.first_s;
             (0..self.per_motion).map(move |k| begin_s + f64::from(k) * self.every_s)
         });
         times_s
-            .filter_map(|time_s| flown.samples.get(time_s as usize))
-            .map(|sample| self.camera.frame(sample, &flown.planet))
+            .filter_map(|time_s| simulated.samples.get(time_s as usize))
+            .map(|sample| self.camera.frame(sample, &simulated.planet))
             .collect()
     }
 }

@@ -1,6 +1,6 @@
 //! Figures 7 and 8: from downlink to the camera at nadir, as commanded.
 
-use super::flight::{DEFAULT_EPOCH_S, Flight, Flown, Fmus, GEOMETRY, Place, Sample};
+use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, GEOMETRY, Place, Sample, Simulated};
 use crate::attitude::angle_rad;
 use crate::case::{chosen, run_all};
 use crate::settings::{Settings, cells, item, real};
@@ -34,7 +34,7 @@ impl Angle {
         }
     }
 
-    fn fly(self, fmus: &Fmus) -> Result<Flown, StudyError> {
+    fn fly(self, fmus: &Fmus) -> Result<Simulated, StudyError> {
         let command = |place: &Place| -> Settings {
             let camera = || {
                 // -Y at the Sun and the camera at nadir: the camera stands as far sunward of +Z as nadir does.
@@ -90,18 +90,18 @@ pub fn transition(options: &Options) -> Result<Report, StudyError> {
     let angles = [Angle::Followed, Angle::Held];
     let cases = chosen("pointing/transition", options, angles, |angle| angle.label().to_owned())?;
     let fmus = Fmus::open(options)?;
-    let flown = run_all(options, &cases, |angle| Ok((*angle, angle.fly(&fmus)?)))?;
+    let simulated = run_all(options, &cases, |angle| Ok((*angle, angle.fly(&fmus)?)))?;
     let mut report = Report::default();
     report.line(
         "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8, commanded curves)\n",
     );
-    let rows = flown.iter().flat_map(|(angle, flown)| rows(*angle, flown)).collect::<Vec<_>>();
+    let rows = simulated.iter().flat_map(|(angle, simulated)| rows(*angle, simulated)).collect::<Vec<_>>();
     report.table("case | quantity | paper | ours | verdict", &rows);
     report.line(REMARK);
-    write(&mut report, options, &flown)?;
-    if let Some((_, flown)) = flown.first() {
-        report.picture(options, "transition-quaternion.svg", &quaternion_chart(flown))?;
-        report.picture(options, "transition-angles.svg", &angle_chart(flown))?;
+    write(&mut report, options, &simulated)?;
+    if let Some((_, simulated)) = simulated.first() {
+        report.picture(options, "transition-quaternion.svg", &quaternion_chart(simulated))?;
+        report.picture(options, "transition-angles.svg", &angle_chart(simulated))?;
     }
     Ok(report)
 }
@@ -115,12 +115,13 @@ start, where the paper's eight hours of downlink about apoapsis end; elsewhere o
 estimated curves are those of control/transition. Camera follows: its angle is commanded anew every second, so that
 the Sun stays on -Y; camera held: the angle of 500 s stays, and the Sun's elevation takes up how nadir moves.";
 
-fn rows(angle: Angle, flown: &Flown) -> Vec<Vec<String>> {
-    let at = |second: f64| flown.samples.iter().find(|sample| sample.place.time_s == second);
+fn rows(angle: Angle, simulated: &Simulated) -> Vec<Vec<String>> {
+    let at = |second: f64| simulated.samples.iter().find(|sample| sample.place.time_s == second);
     let (Some(before), Some(after)) = (at(SLEW_S - 1.0), at(SLEW_S)) else { return Vec::new() };
-    let all = || flown.samples.iter().map(Angles::of);
-    let before_slew =
-        || flown.samples.iter().filter(|sample| sample.place.time_s < SLEW_S).map(|s| Angles::of(s).earth);
+    let all = || simulated.samples.iter().map(Angles::of);
+    let before_slew = || {
+        simulated.samples.iter().filter(|sample| sample.place.time_s < SLEW_S).map(|s| Angles::of(s).earth)
+    };
     let greatest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
     let sun = [0, 1].map(|i| greatest(&mut all().map(|angles| angles.sun[i])));
     let elevation = greatest(&mut before_slew().map(|earth| earth[1]));
@@ -128,7 +129,7 @@ fn rows(angle: Angle, flown: &Flown) -> Vec<Vec<String>> {
     // Adding zero takes the sign from a zero.
     let planet = Angles::of(after).planet.map(|x| (100.0 * x).round() / 100.0 + 0.0);
     let mdis_deg = after.mdis_angle_rad.to_degrees();
-    let constrained = flown.samples.iter().filter(|sample| sample.constrained).count();
+    let constrained = simulated.samples.iter().filter(|sample| sample.constrained).count();
     let row = |what: &str, ours: String, verdict: &str| {
         compared(&format!("{} | {what}", angle.label()), ours, verdict)
     };
@@ -160,12 +161,12 @@ fn rows(angle: Angle, flown: &Flown) -> Vec<Vec<String>> {
     ]
 }
 
-fn write(report: &mut Report, options: &Options, flown: &[(Angle, Flown)]) -> Result<(), StudyError> {
+fn write(report: &mut Report, options: &Options, simulated: &[(Angle, Simulated)]) -> Result<(), StudyError> {
     let own = "\
         case | sun_azimuth_deg | sun_elevation_deg | earth_azimuth_deg | earth_elevation_deg | \
         mercury_azimuth_deg | mercury_elevation_deg | mdis_angle_deg";
-    let rows = flown.iter().flat_map(|(angle, flown)| {
-        flown.samples.iter().map(|sample| {
+    let rows = simulated.iter().flat_map(|(angle, simulated)| {
+        simulated.samples.iter().map(|sample| {
             let Angles { sun, earth, planet } = Angles::of(sample);
             let mut row = vec![angle.label().to_owned()];
             row.extend(cells(&[&sun, &earth, &planet, &[sample.mdis_angle_rad.to_degrees()]]));
@@ -177,9 +178,9 @@ fn write(report: &mut Report, options: &Options, flown: &[(Angle, Flown)]) -> Re
 }
 
 /// A line over time, interrupted at the slew.
-fn over_time(label: &str, flown: &Flown, value: impl Fn(&Sample) -> f64) -> Series {
+fn over_time(label: &str, simulated: &Simulated, value: impl Fn(&Sample) -> f64) -> Series {
     let mut points = Vec::new();
-    for sample in &flown.samples {
+    for sample in &simulated.samples {
         if sample.place.time_s == SLEW_S {
             points.push((SLEW_S, f64::NAN));
         }
@@ -188,10 +189,10 @@ fn over_time(label: &str, flown: &Flown, value: impl Fn(&Sample) -> f64) -> Seri
     Series::line(label, points)
 }
 
-fn quaternion_chart(flown: &Flown) -> Chart {
+fn quaternion_chart(simulated: &Simulated) -> Chart {
     let panel = |i: usize| Panel {
         y_label: format!("q{}", i + 1),
-        series: vec![over_time(if i == 0 { "commanded" } else { "" }, flown, |sample| sample.q[i])],
+        series: vec![over_time(if i == 0 { "commanded" } else { "" }, simulated, |sample| sample.q[i])],
         ..Panel::default()
     };
     Chart {
@@ -202,14 +203,14 @@ fn quaternion_chart(flown: &Flown) -> Chart {
     }
 }
 
-fn angle_chart(flown: &Flown) -> Chart {
+fn angle_chart(simulated: &Simulated) -> Chart {
     let panel = |name: &str, i: usize| Panel {
         y_label: format!("{name} [deg]"),
         series: vec![
-            over_time("Mercury", flown, |sample| Angles::of(sample).planet[i]),
-            over_time("Earth", flown, |sample| Angles::of(sample).earth[i]),
+            over_time("Mercury", simulated, |sample| Angles::of(sample).planet[i]),
+            over_time("Earth", simulated, |sample| Angles::of(sample).earth[i]),
             // Dashed, as it lies on one of the others all the time.
-            Series { mark: Mark::Dashed, ..over_time("Sun", flown, |sample| Angles::of(sample).sun[i]) },
+            Series { mark: Mark::Dashed, ..over_time("Sun", simulated, |sample| Angles::of(sample).sun[i]) },
         ],
         ..Panel::default()
     };

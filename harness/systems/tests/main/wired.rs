@@ -104,7 +104,7 @@ fn equal_names_types_and_units_are_connected_and_the_rest_is_left_with_its_reaso
             "duration: no output of that name",
         ]
     );
-    // Connectors are what is connected, and what was asked for.
+    // Connectors are what is connected, and what was requested.
     let of_giver: Vec<&str> =
         wired.structure.components[0].connectors.iter().map(|it| it.name.as_str()).collect();
     assert_eq!(of_giver, ["push", "position[1]", "position[2]", "angle", "count", "flag", "colour"]);

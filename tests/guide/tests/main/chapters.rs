@@ -52,7 +52,7 @@ fn every_command_has_a_section() {
 }
 
 #[test]
-fn every_study_is_told_of() {
+fn every_study_is_reported_of() {
     let page = fs::read_to_string(project().join("docs").join("src").join("studies.md")).unwrap();
     let list = heliotorque(&["study", "list"]);
     let mut studies = 0;
@@ -79,7 +79,7 @@ fn every_picture_is_shown() {
 }
 
 #[test]
-fn every_key_of_every_file_is_told_of() {
+fn every_key_of_every_file_is_reported_of() {
     let book = project().join("docs").join("src").join("files");
     for (schema, chapters) in [
         ("spacecraft", &["spacecraft.md", "start.md"][..]),
@@ -91,7 +91,7 @@ fn every_key_of_every_file_is_told_of() {
         let pages: String =
             chapters.iter().map(|name| fs::read_to_string(book.join(name)).unwrap()).collect();
         let keys = heliotorque(&["schema", schema]);
-        let mut told = 0;
+        let mut reported = 0;
         for block in keys.split("\"properties\": {").skip(1) {
             // Keys of this object stand one level deeper than its brace.
             let indent = block.lines().nth(1).map_or(0, |line| line.len() - line.trim_start().len());
@@ -108,10 +108,10 @@ fn every_key_of_every_file_is_told_of() {
                         .any(|form| pages.contains(form)),
                     "{schema}: no word on {key}"
                 );
-                told += 1;
+                reported += 1;
             }
         }
-        assert!(told > 10, "{schema}: {told}");
+        assert!(reported > 10, "{schema}: {reported}");
     }
 }
 

@@ -55,7 +55,7 @@ pub fn manager<'a>(
             horizon: v.momentum.aim.horizon(values),
             sunshade: spacecraft.sunshade.as_ref().map(|shade| (shade, sunshade)),
         },
-        craft: SunlitCraft {
+        spacecraft: SunlitCraft {
             solar: context.setup.shapes.solar(sunshade, &spacecraft.name)?,
             panels: &spacecraft.panels,
             settings: panels,
@@ -73,7 +73,7 @@ pub fn manager<'a>(
     })
 }
 
-/// When a dump is asked for, and to which momentum.
+/// When a dump is requested, and to which momentum.
 pub fn policy(context: &Plan<'_>, values: &Values) -> DumpPolicy {
     let v = context.variables;
     DumpPolicy {

@@ -10,7 +10,7 @@ use physics::environment::CartesianState;
 use physics::environment::bodies_from_center::BodiesFromCenter;
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
-use physics::environment::flown::FlownTarget;
+use physics::environment::onboard::OnboardTarget;
 use physics::guidance::burn::delta_v::BurnSettings;
 use physics::guidance::burn::nominal_thrust::NominalThrust;
 use physics::guidance::burn::velocity_path::VelocityPath;
@@ -18,8 +18,8 @@ use physics::guidance::constraints::constrained::Constraints;
 use physics::guidance::constraints::hot_pole::HotPole;
 use physics::guidance::constraints::keep_in::KeepIn;
 use physics::guidance::downlink::sun_place::LinkLimits;
+use physics::guidance::modes::body_positions::BodyPositions;
 use physics::guidance::modes::monitor::Monitor;
-use physics::guidance::modes::places::Places;
 use physics::guidance::modes::system::GuidanceSettings;
 use physics::guidance::modes::transitions::{ModeSettings, Sensed};
 use physics::guidance::pointing::boresight::MdisRange;
@@ -29,7 +29,7 @@ use physics::guidance::pointing::command::{
 };
 use physics::guidance::pointing::scan::ScanCompatibility;
 use physics::guidance::pointing::scenario::GuidanceHardware;
-use physics::guidance::{Surroundings, TargetPlanet};
+use physics::guidance::{EphemerisAtTime, TargetPlanet};
 use physics::plant::PanelSetting;
 
 use super::setup::Plan;
@@ -61,7 +61,7 @@ impl Fixed {
         }
         let precise = ephemeris::precise(context.setup.ephemeris.as_ref());
         if let Some(carried) = precise.filter(|_| source == EphemerisSource::Chebyshev) {
-            ephemeris::check_flown(carried, body, "start.epoch", epoch_s)?;
+            ephemeris::check_onboard(carried, body, "start.epoch", epoch_s)?;
         }
         let ellipse = if source == EphemerisSource::Kepler {
             let ellipse = &v.ephemeris.ellipse;
@@ -334,31 +334,31 @@ impl<'a> Reader<'a> {
         command: &PointingCommand,
         (ephemeris, coarse): (&mut Ephemeris, &mut CoarseEphemeris),
         epoch_s: f64,
-    ) -> Places {
+    ) -> BodyPositions {
         let (v, bodies, center) = (self.context.variables, &fixed.bodies, fixed.bodies.center);
         let carried = self.context.setup.ephemeris.as_deref();
         let precise = ephemeris::precise(self.context.setup.ephemeris.as_ref());
         let given = self.state(v.position, v.velocity);
-        let is_flown = fixed.source == EphemerisSource::Chebyshev;
-        let coarse = if is_flown || fixed.source == EphemerisSource::Coarse {
+        let is_onboard = fixed.source == EphemerisSource::Chebyshev;
+        let coarse = if is_onboard || fixed.source == EphemerisSource::Coarse {
             let mut body = |body| coarse.from_center(carried, body, center, epoch_s);
             let sun_and_earth = (body(Body::Sun), body(Body::Earth));
             let spacecraft = carried.and_then(|it| it.coarse_spacecraft(center, epoch_s)).unwrap_or(given);
             let surroundings =
-                Surroundings::new(epoch_s, fixed.planet, &spacecraft, &sun_and_earth.0, &sun_and_earth.1);
+                EphemerisAtTime::new(epoch_s, fixed.planet, &spacecraft, &sun_and_earth.0, &sun_and_earth.1);
             connected(surroundings, command, center, body)
         } else {
             None
         };
         if fixed.source == EphemerisSource::Coarse {
-            return Places::in_every_mode(coarse);
+            return BodyPositions::in_every_mode(coarse);
         }
-        let flown = |target: FlownTarget| precise.and_then(|it| it.state(target, center, epoch_s));
-        let (sun_and_earth, spacecraft) = match precise.filter(|_| is_flown) {
+        let onboard = |target: OnboardTarget| precise.and_then(|it| it.state(target, center, epoch_s));
+        let (sun_and_earth, spacecraft) = match precise.filter(|_| is_onboard) {
             Some(carried) => (
-                flown(FlownTarget::Sun).zip(flown(FlownTarget::Earth)),
-                match carried.span_s(FlownTarget::Spacecraft, center) {
-                    Some(_) => flown(FlownTarget::Spacecraft),
+                onboard(OnboardTarget::Sun).zip(onboard(OnboardTarget::Earth)),
+                match carried.span_s(OnboardTarget::Spacecraft, center) {
+                    Some(_) => onboard(OnboardTarget::Spacecraft),
                     None => Some(given),
                 },
             ),
@@ -369,13 +369,13 @@ impl<'a> Reader<'a> {
             None => (Some(bodies.sun_and_earth(ephemeris, epoch_s)), Some(given)),
         };
         let precise = sun_and_earth.zip(spacecraft).and_then(|((sun, earth), spacecraft)| {
-            let surroundings = Surroundings::new(epoch_s, fixed.planet, &spacecraft, &sun, &earth);
-            let own = |body: Body| flown(body.into()).filter(|_| is_flown);
+            let surroundings = EphemerisAtTime::new(epoch_s, fixed.planet, &spacecraft, &sun, &earth);
+            let own = |body: Body| onboard(body.into()).filter(|_| is_onboard);
             connected(surroundings, command, center, |body| {
                 own(body).unwrap_or_else(|| bodies.body(body, ephemeris, epoch_s))
             })
         });
-        Places { precise, coarse, by_mode: is_flown }
+        BodyPositions { precise, coarse, by_mode: is_onboard }
     }
 
     fn state(&self, position: RealVector<3>, velocity: RealVector<3>) -> CartesianState {
@@ -443,11 +443,11 @@ impl<'a> Reader<'a> {
 
 /// The surroundings with the bodies that a command aims at; `None` while position, Sun or Earth is not connected.
 fn connected(
-    mut surroundings: Surroundings,
+    mut surroundings: EphemerisAtTime,
     command: &PointingCommand,
     center: Body,
     mut place: impl FnMut(Body) -> CartesianState,
-) -> Option<Surroundings> {
+) -> Option<EphemerisAtTime> {
     let aimpoints = [&command.aimpoint, &command.second_aimpoint].into_iter();
     let bodies = aimpoints.filter(|it| it.option == Some(AimpointOption::Body)).filter_map(|it| it.body);
     for body in bodies {

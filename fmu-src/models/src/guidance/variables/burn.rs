@@ -21,7 +21,7 @@ pub struct BurnVariables {
     /// commanded the spacecraft turns to the burn's first direction.
     #[parameter(unit = "s", min = -1e12, max = 1e12, start = 0.0)]
     pub start: Real,
-    /// Thrusters that are asked for.
+    /// Thrusters that are requested.
     #[parameter(start = ThrustRequest(Some(ThrusterSet::C22)))]
     pub thrusters: Choice<ThrustRequest>,
     /// Nominal direction of the thrust in the body frame, of any length. Zero: along the sum of the forces of the thrusters
@@ -63,10 +63,10 @@ pub struct BurnVariables {
     pub timed_out: Boolean,
 }
 
-/// What the thrusters are told.
+/// What the thrusters are reported.
 #[derive(Variables)]
 pub struct ThrustVariables {
-    /// Thrusters that are asked for, from when the scenario burn is commanded until the burn is over.
+    /// Thrusters that are requested, from when the scenario burn is commanded until the burn is over.
     #[output]
     pub request: Choice<ThrustRequest>,
     /// Whether they are to thrust.

@@ -173,7 +173,7 @@ optional_enumeration_of! {
 }
 
 optional_enumeration_of! {
-    /// A mode asked for.
+    /// A mode requested.
     ModeRequest(mode::Mode) {
         /// None: the mode stays.
         none = 0,

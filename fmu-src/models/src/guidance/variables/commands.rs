@@ -199,7 +199,7 @@ pub struct ScanCompatibilityVariables {
 /// The mode.
 #[derive(Variables)]
 pub struct ModeVariables {
-    /// A mode asked for: the only way up.
+    /// A mode requested: the only way up.
     #[input(start = ModeRequest(None))]
     pub request: Choice<ModeRequest>,
     /// The mode in force.

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use fmi_export::{Boolean, Choice, Real, Variables};
-use physics::guidance::modes::places;
+use physics::guidance::modes::body_positions;
 
 use super::super::setup::GuidanceSetup;
 use super::choices::{EphemerisModel, EphemerisSource};
@@ -20,10 +20,10 @@ pub struct EphemerisVariables {
     pub ellipse: EllipseVariables,
     /// When source is chebyshev: how far from the sensed Sun that of the precise models, in the estimated body frame, may
     /// be (assumed; paper 001 names no angle).
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = places::SUN_TOLERANCE_RAD)]
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = body_positions::SUN_TOLERANCE_RAD)]
     pub tolerance: Real,
     /// For how long it may be farther away before the precise models are declared invalid (assumed).
-    #[parameter(tunable, unit = "s", min = 0.0, max = 1e9, start = places::SUN_PERSISTENCE_S)]
+    #[parameter(tunable, unit = "s", min = 0.0, max = 1e9, start = body_positions::SUN_PERSISTENCE_S)]
     pub persistence: Real,
     /// Whether the precise models are trusted; false once they disagreed with the Sun sensors or their span was left, until
     /// mode.request changes to operational.

@@ -106,7 +106,7 @@ pub struct MdisVariables {
     /// orbitPhase with guided.scienceUnload, where it keeps nadir; else 0.
     #[output(discrete, unit = "rad", display = "deg")]
     pub angle: Real,
-    /// Whether that is what was asked for; false: clamped to the nearest bound.
+    /// Whether that is what was requested; false: clamped to the nearest bound.
     #[output]
     pub in_range: Boolean,
 }

@@ -86,7 +86,7 @@ pub struct DumpVariables {
     /// Fraction of the threshold, of opposite sign, after a dump: 1 is paper 000's; 0 dumps to zero.
     #[parameter(tunable, unit = "1", min = 0.0, max = 1.0, start = 0.9)]
     pub reinit_fraction: Real,
-    /// Whether a dump is asked for: from the sample at which a component of momentum.body is first beyond its threshold to the
+    /// Whether a dump is requested: from the sample at which a component of momentum.body is first beyond its threshold to the
     /// next one, a second later. A component asks again after it came back; longer communication steps miss requests.
     #[output]
     pub request: Boolean,

@@ -39,7 +39,7 @@ pub struct ConstraintVariables {
     /// Whether the hot-pole keep-out changed the command.
     #[output]
     pub hot_pole: Boolean,
-    /// Whether something asked for was clamped: an angle out of its range, or a constraint that cannot be met whole.
+    /// Whether something requested was clamped: an angle out of its range, or a constraint that cannot be met whole.
     #[output]
     pub clamped: Boolean,
 }

@@ -158,23 +158,23 @@ pub fn say_followed(context: &Plan<'_>, values: &Values) {
         ("orbit.periapsisArgument", orbit.periapsis_argument, found.periapsis_argument_rad, "rad"),
     ];
     let followed = elements.iter().filter(|(_, parameter, own, _)| values.real(*parameter) != *own);
-    let mut told: Vec<String> =
+    let mut reported: Vec<String> =
         followed.map(|(name, _, own, unit)| format!("{name} = {}", shown(*own, unit).trim_end())).collect();
     let frame = center.frame();
     if values.choice(orbit.frame).0 != frame {
-        told.push(format!(
+        reported.push(format!(
             "orbit.frame = {}",
             if frame == Frame::Ecliptic { "ecliptic" } else { "planetEquator" }
         ));
     }
-    if told.is_empty() {
+    if reported.is_empty() {
         return;
     }
     let [from, to] = [context.setup.center, center.body].map(|body| item_name(OrbitCenter(body)));
     context.log.warning(&format!(
         "orbit.center is {to}, and the start values of this FMU are those about {from}: what was not set is taken as {to}'s \
          own, {}; pack with --set orbit.center={to} for start values that are {to}'s",
-        told.join(", ")
+        reported.join(", ")
     ));
 }
 

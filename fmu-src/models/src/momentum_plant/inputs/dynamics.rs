@@ -1,4 +1,4 @@
-//! From parameters and inputs to the dynamics of body, wheels, sensors and controller; refuses what cannot be flown, by name.
+//! From parameters and inputs to the dynamics of body, wheels, sensors and controller; refuses what cannot be simulated, by name.
 
 use fmi_export::{Failure, InputsOverTime, Real, RealVector, Values};
 use nalgebra::Vector3;

@@ -1,4 +1,4 @@
-//! From parameters and inputs to the physics' configuration; refuses what cannot be flown, by name.
+//! From parameters and inputs to the physics' configuration; refuses what cannot be simulated, by name.
 
 pub mod center;
 pub mod dynamics;
@@ -145,14 +145,14 @@ pub fn check_span(
     end_s: f64,
 ) -> Result<(), Failure> {
     let variables = context.variables;
-    let is_flown = matches!(values.choice(variables.ephemeris.source), EphemerisSource::Chebyshev);
-    let Some(carried) = ephemeris::precise(context.setup.ephemeris.as_ref()).filter(|_| is_flown) else {
+    let is_onboard = matches!(values.choice(variables.ephemeris.source), EphemerisSource::Chebyshev);
+    let Some(carried) = ephemeris::precise(context.setup.ephemeris.as_ref()).filter(|_| is_onboard) else {
         return Ok(());
     };
     let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
     let end_epoch_s = time::epoch_at_s(end_s, epoch_minus_time_s);
     let center = Center::of(context, values).body;
-    ephemeris::check_flown(carried, center, "the epoch at the end of the step", end_epoch_s)
+    ephemeris::check_onboard(carried, center, "the epoch at the end of the step", end_epoch_s)
 }
 
 /// What light and heat need beyond the configuration; `None` where direct sunlight is all there is.
@@ -168,8 +168,8 @@ pub fn light(
     let surface = Center::of(context, values).surface();
     let nodes = usize::try_from(values.integer(variables.planet_light.nodes)).unwrap_or(0);
     let spacecraft = &context.setup.spacecraft;
-    let asked = spacecraft.sunshade.as_ref().map_or(configuration.sunshade, |shade| shade.model);
-    if !variables.plate.is_empty() && asked != configuration.sunshade {
+    let requested = spacecraft.sunshade.as_ref().map_or(configuration.sunshade, |shade| shade.model);
+    if !variables.plate.is_empty() && requested != configuration.sunshade {
         return Err(Failure::new(
             "sunshade.shape: found another than the spacecraft file's, allowed: the file's, whose faces plate[k] are",
         ));
@@ -273,8 +273,8 @@ fn ephemeris_source(
         }
         EphemerisSource::Chebyshev => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
             Some(carried) => {
-                ephemeris::check_flown(carried, center.body, "start.epoch", epoch_s)?;
-                plant::EphemerisSource::Flown(carried.clone())
+                ephemeris::check_onboard(carried, center.body, "start.epoch", epoch_s)?;
+                plant::EphemerisSource::Simulated(carried.clone())
             }
             None => plant::EphemerisSource::Vsop87,
         },

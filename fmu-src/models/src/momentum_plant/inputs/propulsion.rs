@@ -1,4 +1,4 @@
-//! From parameters and inputs to thrusters, tanks and delta-v; refuses what cannot be flown, by name.
+//! From parameters and inputs to thrusters, tanks and delta-v; refuses what cannot be simulated, by name.
 
 use fmi_export::{Failure, Step, Values};
 use nalgebra::Vector3;

@@ -264,7 +264,7 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
 /// Why a flight ends, with the variables to look at.
 pub fn failure(error: PlantError) -> Failure {
     let hint = match &error {
-        PlantError::Nowhere { .. } | PlantError::Light { .. } => {
+        PlantError::WithoutPosition { .. } | PlantError::Light { .. } => {
             "; see orbit.*, sun.position and planet.radius"
         }
         PlantError::Dumps(_) => "; see dump.threshold, dump.reinitTo and torque.applied",

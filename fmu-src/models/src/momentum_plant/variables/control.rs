@@ -55,7 +55,7 @@ pub struct ControlVariables {
     /// Whether the reference that the slew limits make of the command has come to it.
     #[output]
     pub settled: Boolean,
-    /// Whether wheels or thrusters could not give the torque that was asked for at the last sample.
+    /// Whether wheels or thrusters could not give the torque that was requested at the last sample.
     #[output]
     pub saturated: Boolean,
 }

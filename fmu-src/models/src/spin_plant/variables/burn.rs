@@ -99,7 +99,7 @@ fn thruster(setup: &Spinner) -> (i32, i32) {
     pair.map_or((0, 0), |(first, opposite)| (number(first), opposite.map_or(0, number)))
 }
 
-/// The train that can be flown.
+/// The train that can be simulated.
 fn plan(setup: &Spinner) -> BurnPlan {
     if setup.steering_pair().is_some() { BurnPlan::Uniform } else { BurnPlan::Commanded }
 }

@@ -15,14 +15,14 @@ const MASS_KG: f64 = 400.0;
 
 /// A body with one engine and one tank, both anywhere, and couples of small thrusters.
 #[derive(Clone, Copy)]
-struct Craft {
+struct Spacecraft {
     inertia_kg_m2: [f64; 3],
     nozzle_m: [f64; 3],
     force_n: [f64; 3],
     tank_m: [f64; 3],
 }
 
-impl Craft {
+impl Spacecraft {
     fn model(&self) -> NamedModel<MomentumPlant> {
         let [a, b, c] = self.inertia_kg_m2;
         let force = Vector3::from(self.force_n);
@@ -78,17 +78,17 @@ fn gravity_m_s2(r: Vector3<f64>) -> Vector3<f64> {
     flattening - r * (MU_M3_S2 / d.powi(3))
 }
 
-fn rates(craft: &Craft, y: &State, burns: bool) -> State {
+fn rates(spacecraft: &Spacecraft, y: &State, burns: bool) -> State {
     let part = |i: usize| Vector3::new(y[i], y[i + 1], y[i + 2]);
     let (position, velocity, momentum, used_kg) = (part(0), part(3), part(10), y[13]);
     let attitude = Quaternion::new(y[9], y[6], y[7], y[8]);
-    let (center, inertia) = craft.left(used_kg);
+    let (center, inertia) = spacecraft.left(used_kg);
     let rate = inertia.try_inverse().unwrap() * momentum;
     let (mut acceleration, mut torque, mut flow) = (gravity_m_s2(position), Vector3::zeros(), 0.0);
     if burns {
-        let force = Vector3::from(craft.force_n);
-        let arm = Vector3::from(craft.nozzle_m) - center;
-        flow = craft.flow_kg_s();
+        let force = Vector3::from(spacecraft.force_n);
+        let arm = Vector3::from(spacecraft.nozzle_m) - center;
+        flow = spacecraft.flow_kg_s();
         acceleration += UnitQuaternion::from_quaternion(attitude) * force / (MASS_KG - used_kg);
         torque = arm.cross(&force) - arm.cross(&rate.cross(&arm)) * flow;
     }
@@ -105,26 +105,26 @@ fn rates(craft: &Craft, y: &State, burns: bool) -> State {
 }
 
 /// From `start` over `span_s` in steps of at most `step_s`.
-fn integrated(craft: &Craft, start: State, span_s: f64, step_s: f64, burns: bool) -> State {
+fn integrated(spacecraft: &Spacecraft, start: State, span_s: f64, step_s: f64, burns: bool) -> State {
     let count = (span_s / step_s).ceil();
     let h = span_s / count;
     let mut y = start;
     for _ in 0..count as usize {
-        let k1 = rates(craft, &y, burns);
-        let k2 = rates(craft, &(y + k1 * (0.5 * h)), burns);
-        let k3 = rates(craft, &(y + k2 * (0.5 * h)), burns);
-        let k4 = rates(craft, &(y + k3 * h), burns);
+        let k1 = rates(spacecraft, &y, burns);
+        let k2 = rates(spacecraft, &(y + k1 * (0.5 * h)), burns);
+        let k3 = rates(spacecraft, &(y + k2 * (0.5 * h)), burns);
+        let k4 = rates(spacecraft, &(y + k3 * h), burns);
         y += (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0);
     }
     y
 }
 
 /// At 700 km, inclined, turning at `rate`.
-fn start(craft: &Craft, rate_rad_s: [f64; 3]) -> State {
+fn start(spacecraft: &Spacecraft, rate_rad_s: [f64; 3]) -> State {
     let radius_m = 7_071_008.4_f64;
     let (sin, cos) = 0.9_f64.sin_cos();
     let speed_m_s = (MU_M3_S2 / radius_m).sqrt();
-    let momentum = Vector3::from(craft.inertia_kg_m2).component_mul(&Vector3::from(rate_rad_s));
+    let momentum = Vector3::from(spacecraft.inertia_kg_m2).component_mul(&Vector3::from(rate_rad_s));
     State::from([
         radius_m,
         0.0,
@@ -143,7 +143,7 @@ fn start(craft: &Craft, rate_rad_s: [f64; 3]) -> State {
     ])
 }
 
-fn flown<'a>(
+fn simulated<'a>(
     named: &'a NamedModel<MomentumPlant>,
     at: &State,
     rate_rad_s: [f64; 3],
@@ -175,7 +175,7 @@ fn off(flight: &Flight<'_>, y: &State) -> [f64; 2] {
 }
 
 /// Engine and tank at the centre of mass: the body turns about its axis evenly, and the thrust with it.
-const CENTRAL: Craft = Craft {
+const CENTRAL: Spacecraft = Spacecraft {
     inertia_kg_m2: [200.0, 300.0, 400.0],
     nozzle_m: [0.0; 3],
     force_n: [0.0, 160.0, 120.0],
@@ -195,7 +195,7 @@ fn a_long_burn_leaves_the_spacecraft_where_continuous_thrust_does() {
     let end = integrated(&CENTRAL, burnt, 4_000.0, 0.5, false);
     let named = CENTRAL.model();
     for (step_s, tolerance_m) in [(10.0, 1e-2), (1.0, 1e-3), (0.1, 1e-3)] {
-        let mut flight = flown(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", step_s)]);
+        let mut flight = simulated(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", step_s)]);
         flight.set("thrust.stop", burn_s);
         // Within an interval.
         flight.step_to(103.7).unwrap();
@@ -216,7 +216,7 @@ fn pulses_within_an_interval_move_the_spacecraft_when_they_are_given() {
     let rate_rad_s = [0.05, 0.0, 0.0];
     let begin = start(&CENTRAL, rate_rad_s);
     let named = CENTRAL.model();
-    let mut flight = flown(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", 10.0)]);
+    let mut flight = simulated(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", 10.0)]);
     flight.set("thrust.command", 0.0);
     let (mut y, mut now_s) = (begin, 0.0);
     for k in 0..23 {
@@ -238,11 +238,11 @@ fn pulses_within_an_interval_move_the_spacecraft_when_they_are_given() {
 #[test]
 fn cutting_and_saving_change_no_bit_of_a_thrusting_orbit() {
     let rate_rad_s = [0.03, -0.02, 0.01];
-    let craft = Craft { nozzle_m: [0.0, 0.1, -1.0], tank_m: [0.2, -0.1, 0.4], ..CENTRAL };
-    let begin = start(&craft, rate_rad_s);
-    let named = craft.model();
+    let spacecraft = Spacecraft { nozzle_m: [0.0, 0.1, -1.0], tank_m: [0.2, -0.1, 0.4], ..CENTRAL };
+    let begin = start(&spacecraft, rate_rad_s);
+    let named = spacecraft.model();
     let fly_in = |step_s: f64, saves: bool| {
-        let mut flight = flown(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", 10.0)]);
+        let mut flight = simulated(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", 10.0)]);
         flight.set("thrust.stop", 17.321);
         while flight.time_s() < 33.0 {
             let next_s = (flight.time_s() + step_s).min(33.0);
@@ -268,24 +268,24 @@ fn momentum(y: &State) -> Vector3<f64> {
 #[test]
 fn a_tank_off_the_axis_moves_the_centre_of_mass_through_a_burn() {
     // Through the centre of mass at first; then the tank of 150 kg drains, 0.3 m beside it.
-    let craft = Craft {
+    let spacecraft = Spacecraft {
         nozzle_m: [0.02, 0.01, -1.1],
         force_n: [0.0, 3.0, 400.0],
         tank_m: [0.3, -0.1, 0.2],
         ..CENTRAL
     };
     let rate_rad_s = [0.02, 0.03, 0.05];
-    let begin = start(&craft, rate_rad_s);
-    let end = integrated(&craft, begin, 60.0, 0.005, true);
-    let after = integrated(&craft, end, 17.5, 0.005, false);
+    let begin = start(&spacecraft, rate_rad_s);
+    let end = integrated(&spacecraft, begin, 60.0, 0.005, true);
+    let after = integrated(&spacecraft, end, 17.5, 0.005, false);
     let gained = momentum(&after) - momentum(&begin);
     assert!(gained.norm() > 10.0);
-    let named = craft.model();
+    let named = spacecraft.model();
     for step_s in [0.1, 1.0, 10.0] {
-        let mut flight = flown(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", step_s)]);
+        let mut flight = simulated(&named, &begin, rate_rad_s, &[("solver.dynamicsStep", step_s)]);
         flight.set("thrust.stop", 60.0);
         flight.fly_to(60.0, 60.0).unwrap();
-        let (center, _) = craft.left(end[13]);
+        let (center, _) = spacecraft.left(end[13]);
         let off_m = (flight.vector("centerOfMass") - center).norm();
         flight.fly_to(77.5, 17.5).unwrap();
         let found = flight.vector("momentum.inertial");
@@ -306,18 +306,18 @@ fn a_tank_off_the_axis_moves_the_centre_of_mass_through_a_burn() {
 fn the_jet_slows_a_turning_body_as_thomson_says() {
     // Thrust along the axis through nozzle and centre of mass, tank there: no torque, J stays, and across the axis
     // dw/dt = -q l^2 w / J about the two equal axes.
-    let craft = Craft {
+    let spacecraft = Spacecraft {
         inertia_kg_m2: [300.0, 300.0, 400.0],
         nozzle_m: [0.0, 0.0, -1.5],
         force_n: [0.0, 0.0, 400.0],
         tank_m: [0.0; 3],
     };
-    let (begin, named) = (start(&craft, [0.2, 0.0, 0.0]), craft.model());
+    let (begin, named) = (start(&spacecraft, [0.2, 0.0, 0.0]), spacecraft.model());
     let time_s = 100.0;
-    let ratio = (-craft.flow_kg_s() * 1.5 * 1.5 / 300.0 * time_s).exp();
+    let ratio = (-spacecraft.flow_kg_s() * 1.5 * 1.5 / 300.0 * time_s).exp();
     assert!(ratio < 0.9);
     for step_s in [0.1, 1.0, 10.0] {
-        let mut flight = flown(&named, &begin, [0.2, 0.0, 0.0], &[("solver.dynamicsStep", step_s)]);
+        let mut flight = simulated(&named, &begin, [0.2, 0.0, 0.0], &[("solver.dynamicsStep", step_s)]);
         flight.fly_to(time_s, 50.0).unwrap();
         let slowed = 0.2 - flight.vector("attitude.rate").norm();
         let off = slowed / (0.2 * (1.0 - ratio)) - 1.0;
@@ -325,10 +325,10 @@ fn the_jet_slows_a_turning_body_as_thomson_says() {
         assert!(off.abs() < 1e-9, "{off}");
     }
     // A tank on the axis away from the centre of mass: inertia and lever change with it.
-    let craft = Craft { tank_m: [0.0, 0.0, 0.6], ..craft };
-    let (begin, named) = (start(&craft, [0.2, 0.05, 0.1]), craft.model());
-    let end = integrated(&craft, begin, time_s, 0.01, true);
-    let mut flight = flown(&named, &begin, [0.2, 0.05, 0.1], &[("solver.dynamicsStep", 10.0)]);
+    let spacecraft = Spacecraft { tank_m: [0.0, 0.0, 0.6], ..spacecraft };
+    let (begin, named) = (start(&spacecraft, [0.2, 0.05, 0.1]), spacecraft.model());
+    let end = integrated(&spacecraft, begin, time_s, 0.01, true);
+    let mut flight = simulated(&named, &begin, [0.2, 0.05, 0.1], &[("solver.dynamicsStep", 10.0)]);
     flight.fly_to(time_s, 50.0).unwrap();
     let lost = (momentum(&end) - momentum(&begin)).norm();
     let off = (flight.vector("momentum.inertial") - momentum(&end)).norm() / lost;

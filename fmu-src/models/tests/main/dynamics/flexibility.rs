@@ -39,13 +39,13 @@ fn swinging() -> NamedModel<MomentumPlant> {
 }
 
 #[test]
-fn torque_and_force_told_are_what_momentum_and_velocity_change_by() {
+fn torque_and_force_reported_are_what_momentum_and_velocity_change_by() {
     let named = swinging();
     let spinning: Start<'_> = &[("start.rate[1]", 2e-3), ("start.rate[3]", -1e-3)];
     let pushed: Start<'_> =
         &[("force.applied[1]", 4.0), ("force.applied[3]", -60.0), ("torque.applied[2]", 0.2)];
     let mut flight = fly(&named, &[FREE, DARK, UNBALANCED, spinning, pushed]);
-    let told = |flight: &super::Flight<'_>| {
+    let reported = |flight: &super::Flight<'_>| {
         [to_inertial(flight) * flight.vector("torque.total"), flight.vector("acceleration")]
     };
     let reached = |flight: &super::Flight<'_>| [flight.vector("momentum.inertial"), flight.vector("deltaV")];
@@ -55,11 +55,11 @@ fn torque_and_force_told_are_what_momentum_and_velocity_change_by() {
     let step_s = 2e-3;
     for step in 0..2_500 {
         let time_s = step_s * f64::from(step);
-        let begin = told(&flight);
+        let begin = reported(&flight);
         flight.step_to(time_s + 0.5 * step_s).unwrap();
-        let middle = told(&flight);
+        let middle = reported(&flight);
         flight.step_to(time_s + step_s).unwrap();
-        let end = told(&flight);
+        let end = reported(&flight);
         for (k, sum) in sums.iter_mut().enumerate() {
             *sum += (begin[k] + middle[k] * 4.0 + end[k]) * (step_s / 6.0);
         }
@@ -132,11 +132,11 @@ fn what_cannot_swing_is_refused_by_name() {
         (&[("slosh[1].pivot[1]", 3.0)], "slosh[k].pivot"),
     ];
     for (bad, named_in_it) in cases {
-        let told = match named.fly(0.0, &with(&[FREE, bad])) {
+        let reported = match named.fly(0.0, &with(&[FREE, bad])) {
             Ok(_) => panic!("{bad:?} flies"),
             Err(failure) => failure.to_string(),
         };
-        assert!(told.contains(named_in_it) && told.contains("allowed"), "{bad:?}: {told}");
+        assert!(reported.contains(named_in_it) && reported.contains("allowed"), "{bad:?}: {reported}");
         named.fly(0.0, bad).unwrap();
     }
 }

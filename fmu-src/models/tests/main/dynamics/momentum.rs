@@ -23,8 +23,8 @@ fn momentum_is_kept_over_a_day_of_control() {
     let mut worst = 0.0_f64;
     for minute in 1..=1440 {
         flight.step_to(60.0 * f64::from(minute)).unwrap();
-        let [formed, told] = [formed_momentum(&flight), flight.vector("momentum.inertial")];
-        worst = worst.max((formed - told).norm()).max((told - start).norm());
+        let [formed, reported] = [formed_momentum(&flight), flight.vector("momentum.inertial")];
+        worst = worst.max((formed - reported).norm()).max((reported - start).norm());
     }
     assert!(worst < 1e-12 * start.norm(), "{worst:e}");
     // It holds its attitude: the wheels have what the body had.

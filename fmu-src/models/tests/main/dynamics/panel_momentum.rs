@@ -49,13 +49,13 @@ fn about(center: &Vector3<f64>, points: &Points) -> Matrix3<f64> {
 }
 
 /// Two panels on hinges along X and the rest of the body.
-struct Craft {
+struct Spacecraft {
     panels: [(Points, Vector3<f64>); 2],
     /// Inertia about the origin and first moment of everything else.
     rest: (Matrix3<f64>, Vector3<f64>),
 }
 
-impl Craft {
+impl Spacecraft {
     fn new(panels: [Points; 2]) -> Self {
         let whole = Matrix3::from_diagonal(&Vector3::new(199.6, 507.1, 484.9));
         let (mut inertia, mut moment) = (whole, Vector3::zeros());
@@ -145,8 +145,8 @@ impl Craft {
     }
 }
 
-fn hinged() -> Craft {
-    Craft::new([
+fn hinged() -> Spacecraft {
+    Spacecraft::new([
         points(30.0, Vector3::new(2.0, 0.3, 0.5), Vector3::new(4.0, 7.0, 3.5)),
         points(12.0, Vector3::new(-3.0, -0.2, 0.1), Vector3::new(1.0, 1.5, 1.2)),
     ])
@@ -192,8 +192,8 @@ fn a_pair_of_panels_turns_the_body_back() {
 }
 
 /// J w + h from outputs, the panels at these angles and rates.
-fn formed(flight: &Flight<'_>, craft: &Craft, angles: [f64; 2], rates: [f64; 2]) -> Vector3<f64> {
-    let (inertia, momenta) = craft.at(angles);
+fn formed(flight: &Flight<'_>, spacecraft: &Spacecraft, angles: [f64; 2], rates: [f64; 2]) -> Vector3<f64> {
+    let (inertia, momenta) = spacecraft.at(angles);
     let panels = momenta[0] * rates[0] + momenta[1] * rates[1];
     to_inertial(flight) * (inertia * flight.vector("attitude.rate") + panels)
 }
@@ -201,7 +201,7 @@ fn formed(flight: &Flight<'_>, craft: &Craft, angles: [f64; 2], rates: [f64; 2])
 #[test]
 fn a_tumbling_body_gives_way_to_panels_that_move_evenly_and_at_once() {
     let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
-    let craft = hinged();
+    let spacecraft = hinged();
     let mut flight = fly(&named, &[FREE, DARK, LOCKED, BY_ANGLE, TUMBLING]);
     let momentum = flight.vector("momentum.inertial");
     let mut attitude = to_inertial(&flight);
@@ -219,10 +219,10 @@ fn a_tumbling_body_gives_way_to_panels_that_move_evenly_and_at_once() {
         let jump = |at_s: f64, _: &UnitQuaternion<f64>| {
             [0, 1].map(|k| from[k] + (at_once[k] - from[k]) * (at_s - now_s) / quick_s)
         };
-        attitude = craft.integrated(&jump, (now_s, now_s + quick_s, 400), attitude, &momentum);
+        attitude = spacecraft.integrated(&jump, (now_s, now_s + quick_s, 400), attitude, &momentum);
         let ramp =
             |at_s: f64, _: &UnitQuaternion<f64>| [0, 1].map(|k| at_once[k] + rates[k] * (at_s - now_s));
-        attitude = craft.integrated(&ramp, (now_s, until_s, 2000), attitude, &momentum);
+        attitude = spacecraft.integrated(&ramp, (now_s, until_s, 2000), attitude, &momentum);
         flight.set("panel[1].angle", at_once[0]);
         flight.set("panel[2].angle", at_once[1]);
         let moving = [("panel[1].angle", rates[0]), ("panel[2].angle", rates[1])];
@@ -230,7 +230,7 @@ fn a_tumbling_body_gives_way_to_panels_that_move_evenly_and_at_once() {
         flight.step_moving(until_s, moving).unwrap();
         angles = [0, 1].map(|k| at_once[k] + rates[k] * (until_s - now_s));
         worst_deg = worst_deg.max(degrees_between(&to_inertial(&flight), &attitude));
-        worst_momentum = worst_momentum.max((formed(&flight, &craft, angles, rates) - momentum).norm());
+        worst_momentum = worst_momentum.max((formed(&flight, &spacecraft, angles, rates) - momentum).norm());
         assert_eq!(flight.vector("momentum.inertial"), momentum);
         now_s = until_s;
     }
@@ -242,7 +242,7 @@ fn a_tumbling_body_gives_way_to_panels_that_move_evenly_and_at_once() {
 #[test]
 fn panels_that_keep_to_the_sun_turn_a_spinning_body_back() {
     let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
-    let craft = hinged();
+    let spacecraft = hinged();
     let spinning: Start<'_> = &[("start.rate[1]", 0.03), ("start.rate[2]", 0.004), ("start.rate[3]", -0.006)];
     let undumped: Start<'_> =
         &[("dump.threshold[1]", 1e6), ("dump.threshold[2]", 1e6), ("dump.threshold[3]", 1e6)];
@@ -261,7 +261,7 @@ fn panels_that_keep_to_the_sun_turn_a_spinning_body_back() {
     };
     let mine = law(0.0, &start);
     assert!((0..2).all(|k| (mine[k] - first[k]).abs() < 1e-9), "{mine:?} {first:?}");
-    let (rate, turning) = craft.rates(&law, 0.0, &start, &momentum);
+    let (rate, turning) = spacecraft.rates(&law, 0.0, &start, &momentum);
     // The Sun itself moves by 1e-6 rad/s.
     assert!(
         (rate - flight.vector("attitude.rate")).norm() < 3e-7,
@@ -273,7 +273,7 @@ fn panels_that_keep_to_the_sun_turn_a_spinning_body_back() {
     let mut worst_deg = 0.0_f64;
     for k in 0..10 {
         let (from_s, until_s) = (6.0 * f64::from(k), 6.0 * f64::from(k + 1));
-        attitude = craft.integrated(&law, (from_s, until_s, 200), attitude, &momentum);
+        attitude = spacecraft.integrated(&law, (from_s, until_s, 200), attitude, &momentum);
         flight.step_to(until_s).unwrap();
         worst_deg = worst_deg.max(degrees_between(&to_inertial(&flight), &attitude));
         assert_eq!(flight.vector("momentum.inertial"), momentum);
@@ -285,7 +285,7 @@ fn panels_that_keep_to_the_sun_turn_a_spinning_body_back() {
 #[test]
 fn ideal_wheels_hold_what_the_panels_do_not() {
     let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
-    let craft = hinged();
+    let spacecraft = hinged();
     let commanded: Start<'_> = &[("attitude.source", 2.0), ("start.momentum[2]", 1.5)];
     let mut flight = fly(&named, &[commanded, DARK, BY_ANGLE]);
     flight.set("command.q[4]", 1.0);
@@ -298,9 +298,10 @@ fn ideal_wheels_hold_what_the_panels_do_not() {
         .enumerate()
         .map(|(k, axis)| axis * flight.real(&format!("wheel[{}].momentum", k + 1)))
         .sum();
-    let whole = formed(&flight, &craft, rates.map(|rate| 7.0 * rate), rates) + to_inertial(&flight) * held;
-    let told = flight.vector("momentum.inertial");
-    assert!((whole - told).norm() < 1e-12 * told.norm(), "{whole} {told}");
+    let whole =
+        formed(&flight, &spacecraft, rates.map(|rate| 7.0 * rate), rates) + to_inertial(&flight) * held;
+    let reported = flight.vector("momentum.inertial");
+    assert!((whole - reported).norm() < 1e-12 * reported.norm(), "{whole} {reported}");
 }
 
 #[test]

@@ -65,7 +65,7 @@ fn the_body_turns_as_the_panel_moves_its_inertia() {
         flight.step_to(20.0 * (step + 1) as f64).unwrap();
         check(&flight, angle_rad);
     }
-    // Begun at an angle, the rate is the one asked for.
+    // Begun at an angle, the rate is the one requested.
     let turned = fly(&named, &[FREE, DARK, start, &[("panel[1].angle", 0.9)]]);
     assert!((turned.vector("attitude.rate") - Vector3::new(2e-3, 1e-3, -1e-3)).norm() < 1e-17);
     let (_, inertia) = by_hand(0.9, &axis, &hinge);

@@ -1,4 +1,4 @@
-//! What cannot be flown is refused by name.
+//! What cannot be simulated is refused by name.
 
 use models::MomentumPlant;
 
@@ -25,12 +25,12 @@ fn what_cannot_be_controlled_is_refused_by_name() {
         (CONTROLLED, &[("control.rate", 0.1), ("control.bandwidth", 1.0)], "control.bandwidth"),
     ];
     for (source, bad, named_in_it) in cases {
-        let told = match named.fly(0.0, &with(&[source, bad])) {
+        let reported = match named.fly(0.0, &with(&[source, bad])) {
             Ok(_) => panic!("{bad:?} flies"),
             Err(failure) => failure.to_string(),
         };
-        let says_what_is_allowed = told.contains("allowed") || told.contains("stable below");
-        assert!(told.contains(named_in_it) && says_what_is_allowed, "{bad:?}: {told}");
+        let says_what_is_allowed = reported.contains("allowed") || reported.contains("stable below");
+        assert!(reported.contains(named_in_it) && says_what_is_allowed, "{bad:?}: {reported}");
         // Nothing of it matters without dynamics.
         if !bad.iter().any(|(name, _)| name.starts_with("sunSensor")) {
             named.fly(0.0, bad).unwrap();
@@ -65,7 +65,7 @@ fn a_torn_state_is_refused_or_flies_on() {
 }
 
 #[test]
-fn a_place_inside_the_planet_is_refused_before_the_body_is_flown_there() {
+fn a_place_inside_the_planet_is_refused_before_the_body_is_simulated_there() {
     let named = NamedModel::<MomentumPlant>::shipped();
     // Nothing is left for a body that its gravity gradient spins up.
     let sets = [
@@ -78,7 +78,7 @@ fn a_place_inside_the_planet_is_refused_before_the_body_is_flown_there() {
         let mut flight = named.fly(0.0, &with(&[source, &sets, &[("eclipse.method", shadow)]])).unwrap();
         flight.step_to(1.0).unwrap();
         flight.set("orbit.position[2]", 1e-4);
-        let told = flight.step_to(2.0).unwrap_err().to_string();
-        assert!(told.contains("inside the planet") && told.contains("orbit.*"), "{told}");
+        let reported = flight.step_to(2.0).unwrap_err().to_string();
+        assert!(reported.contains("inside the planet") && reported.contains("orbit.*"), "{reported}");
     }
 }

@@ -40,7 +40,7 @@ fn without_noise_everything_is_seen_as_it_is() {
 }
 
 #[test]
-fn noise_spreads_as_told_and_repeats() {
+fn noise_spreads_as_reported_and_repeats() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let fly_with = |seed: f64| {
         let mut flight = fly(&named, &[CONTROLLED, GUIDANCE, NOISE, &[("noise.seed", seed)]]);

@@ -188,27 +188,27 @@ fn a_dump_in_controlled_flight_is_that_of_guided_flight() {
     let exact: Vec<(String, f64)> = (1..=17).map(|k| (format!("thruster[{k}].scatter"), 0.0)).collect();
     let exact: Vec<(&str, f64)> = exact.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     let held: Start<'_> = &[("wheel[1].startMomentum", 3.0), ("wheel[2].startMomentum", -1.5)];
-    let mut flown = fly(&named, &[CONTROLLED, quiet, held, &exact]);
-    flown.step_to(10.0).unwrap();
-    let before = momentum(&flown);
+    let mut simulated = fly(&named, &[CONTROLLED, quiet, held, &exact]);
+    simulated.step_to(10.0).unwrap();
+    let before = momentum(&simulated);
     let ask = |flight: &mut Flight<'_>| {
         for (i, value) in target.iter().enumerate() {
             flight.set(&format!("dump.target[{}]", i + 1), *value);
         }
         flight.set("dump.request", 1.0);
     };
-    ask(&mut flown);
+    ask(&mut simulated);
     let mut greatest_rad = 0.0_f64;
     for second in 11..=400 {
-        flown.step_to(f64::from(second)).unwrap();
-        greatest_rad = greatest_rad.max(to_inertial(&flown).angle_to(&UnitQuaternion::identity()));
+        simulated.step_to(f64::from(second)).unwrap();
+        greatest_rad = greatest_rad.max(to_inertial(&simulated).angle_to(&UnitQuaternion::identity()));
     }
-    let (is_active, count) = (flown.boolean("dump.active"), flown.integer("dump.count"));
-    assert!(!is_active && count == 1, "{is_active} {count} {}", momentum(&flown) - target);
+    let (is_active, count) = (simulated.boolean("dump.active"), simulated.integer("dump.count"));
+    assert!(!is_active && count == 1, "{is_active} {count} {}", momentum(&simulated) - target);
     // The smallest pulse: 4.4 N for 20 ms at 0.9 m or so, as a vector.
     let smallest = 4.4 * 0.021 * 1.0;
-    assert!((momentum(&flown) - target).norm() < smallest, "{}", momentum(&flown) - target);
-    assert!((momentum(&flown) - before - flown.vector("dump.impulse")).norm() < 1e-6);
+    assert!((momentum(&simulated) - target).norm() < smallest, "{}", momentum(&simulated) - target);
+    assert!((momentum(&simulated) - before - simulated.vector("dump.impulse")).norm() < 1e-6);
     assert!(greatest_rad < 0.5_f64.to_radians(), "{}", greatest_rad.to_degrees());
 
     let at: Vec<(String, f64)> = (0..3).map(|i| (format!("start.momentum[{}]", i + 1), before[i])).collect();
@@ -217,9 +217,9 @@ fn a_dump_in_controlled_flight_is_that_of_guided_flight() {
     let mut ideal = fly(&named, &[commanded, quiet, &at]);
     ask(&mut ideal);
     ideal.step_to(10.0).unwrap();
-    let (impulse, ideal_impulse) = (flown.vector("dump.impulse"), ideal.vector("dump.impulse"));
+    let (impulse, ideal_impulse) = (simulated.vector("dump.impulse"), ideal.vector("dump.impulse"));
     assert!((impulse - ideal_impulse).norm() < smallest, "{impulse} {ideal_impulse}");
-    let (used, ideal_used) = (flown.real("propellant.used"), ideal.real("propellant.used"));
+    let (used, ideal_used) = (simulated.real("propellant.used"), ideal.real("propellant.used"));
     assert!((used / ideal_used - 1.0).abs() < 0.1, "{used} {ideal_used}");
     assert!((ideal.real("mass") + ideal_used - 700.0).abs() < 1e-9);
     let pushed = ideal.vector("dump.deltaV");
@@ -374,7 +374,7 @@ fn what_cannot_fire_is_refused_or_flagged() {
     assert!((momentum(&flight).norm() - expected).abs() < 1e-9, "{}", momentum(&flight).norm());
 }
 
-/// A main engine alone can be flown; the dumps there are come by dump.torque, as without thrusters, and that is said.
+/// A main engine alone can be simulated; the dumps there are come by dump.torque, as without thrusters, and that is said.
 #[test]
 fn thrusters_that_cannot_turn_the_body_leave_dumps_to_dump_torque() {
     let engine = thruster([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], 22.0, "");

@@ -1,4 +1,4 @@
-//! Burns through the functions a master calls: what the thrusters are told, cuts, saved states, refusals, the timeline.
+//! Burns through the functions a master calls: what the thrusters are reported, cuts, saved states, refusals, the timeline.
 
 use models::Guidance;
 use nalgebra::Vector3;
@@ -31,7 +31,7 @@ fn exchange(flight: &mut Flight<'_>, on_s: f64) {
     set_vector(flight, "accelerometer.deltaV", &(thrust_body() * (ACCELERATION_M_S2 * on_s)));
 }
 
-/// For how long of the second that begins at `time_s` thrusters obey what they are told at its beginning.
+/// For how long of the second that begins at `time_s` thrusters obey what they are reported at its beginning.
 fn on_s(flight: &Flight<'_>, time_s: f64) -> f64 {
     let until_s = if flight.boolean("thrust.command") { flight.real("thrust.stop") } else { time_s };
     (until_s - time_s).clamp(0.0, 1.0)
@@ -65,7 +65,7 @@ fn fly<'a>(
 }
 
 #[test]
-fn thrusters_are_told_from_the_scenario_to_the_exact_end() {
+fn thrusters_are_reported_from_the_scenario_to_the_exact_end() {
     let named = NamedModel::<Guidance>::shipped();
     let delta_v = Vector3::new(3.0, -1.0, 2.0);
     let mut ended_at = None;
@@ -104,11 +104,11 @@ fn cuts_and_saved_states_change_no_bit_of_a_burn() {
             fly(&named, &sets, cuts, saves, |second, flight| {
                 let expected = &whole[second as usize];
                 assert_same(expected, flight);
-                let told = |it: &Flight<'_>| {
+                let reported = |it: &Flight<'_>| {
                     let vectors = ["burn.velocity", "burn.velocityError", "burn.thrustEstimate"];
                     (it.real("thrust.stop").to_bits(), vectors.map(|name| it.vector(name).map(f64::to_bits)))
                 };
-                assert_eq!(told(expected), told(flight), "{second} s in {cuts}");
+                assert_eq!(reported(expected), reported(flight), "{second} s in {cuts}");
             });
         }
     }
@@ -133,11 +133,11 @@ fn a_timelines_entry_that_names_no_scenario_does_not_burn_again() {
                     [[command]]\nat = 70.0\nscenario = \"burn\"\n";
     let named = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", timeline);
     let burn: Vec<_> = BURN.iter().copied().filter(|(name, _)| *name != "pointing.scenario").collect();
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     fly(&named, &with(&[PLACED, FREE, &burn]), 1, false, |_, flight| {
-        told.push(flight.boolean("thrust.command"))
+        reported.push(flight.boolean("thrust.command"))
     });
-    let edges: Vec<_> = (1..told.len()).filter(|at| told[*at] != told[at - 1]).collect();
+    let edges: Vec<_> = (1..reported.len()).filter(|at| reported[*at] != reported[at - 1]).collect();
     assert_eq!((edges.len(), edges[0], edges[2]), (3, 4, 70), "{edges:?}");
 }
 
@@ -161,10 +161,10 @@ fn a_burn_that_is_refused_or_ends_before_it_began_says_so() {
         assert!(!refused.boolean("thrust.command"));
         assert_eq!(refused.integer("thrust.request") != 0, second < 24, "{second}");
     }
-    let told = |named: &NamedModel<Guidance>, part: &str| {
+    let reported = |named: &NamedModel<Guidance>, part: &str| {
         named.warnings().iter().filter(|it| it.starts_with("burn.timedOut") && it.contains(part)).count()
     };
-    assert_eq!([told(&named, "does not begin"), told(&named, "before it began")], [1, 1]);
+    assert_eq!([reported(&named, "does not begin"), reported(&named, "before it began")], [1, 1]);
 
     let named = NamedModel::<Guidance>::shipped();
     let mut ended = named.fly(0.0, &with(&[PLACED, FREE, BURN, &[("burn.start", 100.0)]])).unwrap();
@@ -173,5 +173,5 @@ fn a_burn_that_is_refused_or_ends_before_it_began_says_so() {
     ended.set("pointing.scenario", 3.0);
     ended.step_to(20.0).unwrap();
     assert!(ended.boolean("burn.timedOut") && ended.integer("thrust.request") == 0);
-    assert_eq!(told(&named, "before it began"), 1);
+    assert_eq!(reported(&named, "before it began"), 1);
 }

@@ -149,7 +149,7 @@ fn a_restored_flight_goes_on_to_the_bit() {
 #[test]
 fn a_forged_number_anywhere_is_refused_or_leaves_finite_outputs() {
     let named = NamedModel::<Guidance>::shipped();
-    let (mut refused, mut flown) = (0, 0);
+    let (mut refused, mut simulated) = (0, 0);
     for case in CASES {
         let mut flight = named.fly(0.0, &with(&[PLACED, case])).unwrap();
         flight.step_to(20.5).unwrap();
@@ -163,11 +163,11 @@ fn a_forged_number_anywhere_is_refused_or_leaves_finite_outputs() {
                     continue;
                 };
                 if other.step_to(23.0).is_ok() {
-                    flown += 1;
+                    simulated += 1;
                     assert_eq!(other.not_finite(), None, "{forged} at {at}");
                 }
             }
         }
     }
-    assert!(refused > 100 && flown > 10, "{refused} {flown}");
+    assert!(refused > 100 && simulated > 10, "{refused} {simulated}");
 }

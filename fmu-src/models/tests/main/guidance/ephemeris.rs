@@ -4,8 +4,8 @@ use models::Guidance;
 use nalgebra::{UnitQuaternion, Vector3};
 use physics::bodies::Body;
 
-use super::super::flown_ephemeris::{FILE, START_S, file, from_mercury};
 use super::super::named_model::{NamedModel, assert_same};
+use super::super::onboard_ephemeris::{FILE, START_S, file, from_mercury};
 use super::{FREE, Flight, quaternion, set_vector, to_inertial, with};
 
 const OPERATIONAL: i32 = 1;
@@ -59,7 +59,7 @@ fn sun_from_minus_y_rad(flight: &Flight<'_>) -> f64 {
 }
 
 #[test]
-fn a_sun_five_degrees_off_is_lost_after_its_persistence_and_the_coarse_one_flown_by() {
+fn a_sun_five_degrees_off_is_lost_after_its_persistence_and_the_coarse_one_simulated_by() {
     let named = with_file(86_400.0, 5.0 * DEG);
     let mut flight = named.fly(0.0, ABOVE).unwrap();
     for second in 1..=40 {
@@ -142,15 +142,15 @@ fn a_span_that_ends_in_flight_ends_operational_and_one_not_begun_is_refused() {
 #[test]
 fn without_a_file_the_precise_models_are_those_of_vsop87_to_the_bit() {
     let named = NamedModel::<Guidance>::shipped();
-    let mut flown = named.fly(0.0, ABOVE).unwrap();
+    let mut simulated = named.fly(0.0, ABOVE).unwrap();
     let mut theory = named.fly(0.0, &with(&[ABOVE, &[("ephemeris.source", 1.0)]])).unwrap();
     for end_s in [1.0, 30.0, 4_000.0] {
-        for flight in [&mut flown, &mut theory] {
+        for flight in [&mut simulated, &mut theory] {
             flight.step_to(end_s).unwrap();
         }
-        assert_same(&flown, &theory);
+        assert_same(&simulated, &theory);
     }
-    assert_eq!(seen(&flown), (OPERATIONAL, true, PRECISE));
+    assert_eq!(seen(&simulated), (OPERATIONAL, true, PRECISE));
 }
 
 #[test]
@@ -164,11 +164,11 @@ fn a_file_points_as_vsop87_does_to_its_error_and_the_coarse_models_to_theirs() {
         let [x, y, z, w] = quaternion(&flight, "command.q");
         UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z))
     };
-    let [theory, flown, coarse] = [1.0, 4.0, 5.0].map(fly);
-    let [flown_rad, coarse_rad] = [flown, coarse].map(|it| it.angle_to(&theory));
+    let [theory, simulated, coarse] = [1.0, 4.0, 5.0].map(fly);
+    let [simulated_rad, coarse_rad] = [simulated, coarse].map(|it| it.angle_to(&theory));
     // The attitude turns by the error's angle, at the Sun and at the Earth, as seen from 4e10 m at least.
-    assert!(flown_rad < 4.0 * error_m / 4e10 + 1e-12, "{flown_rad:e} rad for {error_m} m");
-    assert!(coarse_rad < 1e-3 && coarse_rad > flown_rad, "{coarse_rad:e}");
+    assert!(simulated_rad < 4.0 * error_m / 4e10 + 1e-12, "{simulated_rad:e} rad for {error_m} m");
+    assert!(coarse_rad < 1e-3 && coarse_rad > simulated_rad, "{coarse_rad:e}");
 }
 
 #[test]

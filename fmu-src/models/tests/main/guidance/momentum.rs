@@ -77,13 +77,13 @@ fn a_plant_that_follows_reaches_an_attainable_target() {
         for convention in [1.0, 2.0] {
             for axes in [1.0, 2.0, 3.0] {
                 let place = with(&[&still(separation_deg), &[("momentum.convention", convention)]]);
-                let asked = [
+                let requested = [
                     ("momentum.targetAxes", axes),
                     ("momentum.target[1]", TARGET.x),
                     ("momentum.target[2]", TARGET.y),
                     ("momentum.target[3]", TARGET.z),
                 ];
-                let mut guidance = guidances.fly(0.0, &with(&[&place, QUIET, &asked])).unwrap();
+                let mut guidance = guidances.fly(0.0, &with(&[&place, QUIET, &requested])).unwrap();
                 let mut plant = plants.fly(0.0, &with(&[&place, FOLLOWS])).unwrap();
                 let before = plant.vector("momentum.body");
                 assert!((before - Vector3::from(MOMENTUM)).amax() < 1e-12, "{before:?}");
@@ -97,8 +97,8 @@ fn a_plant_that_follows_reaches_an_attainable_target() {
                 assert_eq!(quaternion(&guidance, "command.q"), held);
                 plant.step_to(SPAN_S).unwrap();
                 let seen = (plant.real("sun.azimuth"), plant.real("sun.elevation"));
-                let told = (guidance.real("sun.azimuth"), guidance.real("sun.elevation"));
-                assert!((seen.0 - told.0).abs() < 1e-12 && (seen.1 - told.1).abs() < 1e-12);
+                let reported = (guidance.real("sun.azimuth"), guidance.real("sun.elevation"));
+                assert!((seen.0 - reported.0).abs() < 1e-12 && (seen.1 - reported.1).abs() < 1e-12);
                 let earth_rad = plant.real("earth.azimuth");
                 assert!(plant.real("earth.elevation").abs() < 1e-12);
                 assert!((guidance.real("antenna.azimuth") - earth_rad).abs() < 1e-9);

@@ -142,12 +142,12 @@ fn camera_and_beam_follow_their_targets_where_the_zone_moved_the_attitude() {
     let named = NamedModel::<Guidance>::shipped();
     let off = [("hotPole.enabled", 0.0)];
     let toward = |flight: &Flight<'_>, place: Vector3<f64>| to_inertial(flight).inverse() * place.normalize();
-    let craft = Vector3::new(3e6, 1e6, 2e6);
+    let spacecraft = Vector3::new(3e6, 1e6, 2e6);
     // The Earth is 157 deg from the Sun: asked at 100 deg it leaves the Sun outside the zone.
     let antenna =
         [("pointing.scenario", 6.0), ("boresight.option", 4.0), ("boresight.azimuth", 100_f64.to_radians())];
     let flight = named.fly(0.0, &with(&[PLACED, &off, &antenna])).unwrap();
-    let earth = toward(&flight, Vector3::new(-9e10, 5e10, -3e9) - craft);
+    let earth = toward(&flight, Vector3::new(-9e10, 5e10, -3e9) - spacecraft);
     assert!(flight.boolean("constraint.sunKeepIn") && flight.boolean("link.available"));
     assert!((flight.real("antenna.azimuth") - earth.x.atan2(-earth.y)).abs() < 1e-12);
     assert!((flight.real("antenna.azimuth").to_degrees() - 100.0).abs() > 20.0, "the zone moved it");
@@ -162,7 +162,7 @@ fn camera_and_beam_follow_their_targets_where_the_zone_moved_the_attitude() {
             ("secondAimpoint.option", 12.0),
         ];
         let flight = named.fly(0.0, &with(&[PLACED, &off, &targets])).unwrap();
-        let nadir = toward(&flight, -craft);
+        let nadir = toward(&flight, -spacecraft);
         let wanted_deg = (-nadir.y).atan2(nadir.z).to_degrees();
         let in_range = (-50.0..=40.0).contains(&wanted_deg);
         assert_eq!(flight.boolean("mdis.inRange"), in_range, "{azimuth_deg}: {wanted_deg}");

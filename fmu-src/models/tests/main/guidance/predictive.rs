@@ -8,7 +8,7 @@ use super::{Flight, quaternion, set_vector, with};
 const HOUR_S: f64 = 3600.0;
 const CYCLE_S: f64 = 24.0 * HOUR_S;
 
-/// What both are told alike: the centre of mass 5 cm off along Z, a shade alone in the light.
+/// What both are reported alike: the centre of mass 5 cm off along Z, a shade alone in the light.
 fn craft(strategy: f64, convention: f64) -> Vec<(&'static str, f64)> {
     vec![
         ("momentum.strategy", strategy),
@@ -63,8 +63,8 @@ fn a_sample_chooses_what_a_plant_chooses() {
     // What is left is the steps of the forecasts, and two-body motion over twenty days.
     let more = [("guided.downlinkEnd", 10.1 * HOUR_S), ("spacecraft.centerOfMass[3]", 0.02)];
     for (convention, bound_rad) in [(1.0, 1e-5), (2.0, 3e-5)] {
-        let told = with(&[&craft(3.0, convention), &more]);
-        let mut plant = plants.fly(0.0, &with(&[&told, PLANT])).unwrap();
+        let reported = with(&[&craft(3.0, convention), &more]);
+        let mut plant = plants.fly(0.0, &with(&[&reported, PLANT])).unwrap();
         let (mut worst_rad, mut reactive_rad) = (0.0_f64, 0.0_f64);
         // The plant forecasts nothing where its flight begins.
         for cycle in 1..12 {
@@ -72,7 +72,7 @@ fn a_sample_chooses_what_a_plant_chooses() {
             let choice = |strategy: f64| {
                 let epoch_s = plant.real("start.epoch") + plant.time_s();
                 let more = [("start.epoch", epoch_s), ("momentum.strategy", strategy)];
-                let mut guidance = guidances.fly(0.0, &with(&[&told, GUIDANCE, &more])).unwrap();
+                let mut guidance = guidances.fly(0.0, &with(&[&reported, GUIDANCE, &more])).unwrap();
                 observe(&mut guidance, &plant);
                 guidance.step_to(1e-3).unwrap();
                 guidance
@@ -96,10 +96,10 @@ fn a_sample_chooses_what_a_plant_chooses() {
 /// Dumps in thirty days of a plant that follows what a sampled guidance commands, ten minutes late at most.
 fn dumps_by_samples(strategy: f64) -> i32 {
     let (guidances, plants) = (NamedModel::<Guidance>::shipped(), NamedModel::<MomentumPlant>::shipped());
-    let told = with(&[&craft(strategy, 2.0), LOW]);
+    let reported = with(&[&craft(strategy, 2.0), LOW]);
     let follows = [("attitude.source", 2.0), ("momentum.strategy", 1.0)];
-    let mut plant = plants.fly(0.0, &with(&[&told, PLANT, &follows])).unwrap();
-    let mut guidance = guidances.fly(0.0, &with(&[&told, GUIDANCE])).unwrap();
+    let mut plant = plants.fly(0.0, &with(&[&reported, PLANT, &follows])).unwrap();
+    let mut guidance = guidances.fly(0.0, &with(&[&reported, GUIDANCE])).unwrap();
     while plant.time_s() < MONTH_S {
         let end_s = plant.time_s() + 600.0;
         observe(&mut guidance, &plant);

@@ -80,8 +80,8 @@ fn any_inputs_within_their_limits_leave_finite_outputs() {
     let mut random = RandomNumbers(3);
     let given = named.given();
     let inputs = named.inputs();
-    let (mut flown, mut refused, mut degenerate) = (0, 0, 0);
-    while flown < 10_000 {
+    let (mut simulated, mut refused, mut degenerate) = (0, 0, 0);
+    while simulated < 10_000 {
         let mut sets = with(&[PLACED]);
         // Left out: what has to go together, and the theory of the planets, which costs most.
         let tied = ["start.", "ephemeris.source", "guided.downlink"];
@@ -116,7 +116,7 @@ fn any_inputs_within_their_limits_leave_finite_outputs() {
             let norm: f64 = quaternion(&flight, "command.q").iter().map(|x| x * x).sum();
             assert!((norm - 1.0).abs() < 1e-9, "{norm}");
             degenerate += flight.boolean("geometry.degenerate") as usize;
-            flown += 1;
+            simulated += 1;
         }
     }
     assert!(refused < 100 && degenerate > 100, "{refused} refused, {degenerate} degenerate");

@@ -1,4 +1,4 @@
-//! SpinPlant refuses by name what cannot be flown, and survives states that belong to no flight.
+//! SpinPlant refuses by name what cannot be simulated, and survives states that belong to no flight.
 
 use fmi_export::{Model, Status};
 use models::SpinPlant;
@@ -15,7 +15,7 @@ use physics::spin::train::Shape;
 use super::driver::{Spinner, assert_names};
 
 #[test]
-fn what_cannot_be_flown_is_refused_by_name() {
+fn what_cannot_be_simulated_is_refused_by_name() {
     assert_names(
         &Spinner::new().set_integer("burn.thruster", 11).refusal(),
         &["burn.thruster", "11", "1 to 10"],
@@ -138,14 +138,14 @@ fn a_direction_too_short_or_too_long_is_refused_where_it_is_used() {
 }
 
 #[test]
-fn states_torn_at_random_are_refused_or_flown_on_without_panic_or_hang() {
+fn states_torn_at_random_are_refused_or_simulated_on_without_panic_or_hang() {
     let spinner = SpinPlant::parse_setup("default", SpinPlant::DEFAULT_SETUP).unwrap();
     let mut seed = 1_u64;
     let mut random = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (seed >> 33) as usize
     };
-    let (mut refused, mut flown) = (0, 0);
+    let (mut refused, mut simulated) = (0, 0);
     for (triaxial, at_s) in [(false, 50.0), (true, 50.0), (true, 10.22)] {
         let start = flight(&spinner, triaxial);
         let (commands, directions) = (Commands::none(), directions());
@@ -163,13 +163,13 @@ fn states_torn_at_random_are_refused_or_flown_on_without_panic_or_hang() {
                 refused += 1;
                 continue;
             }
-            flown += 1;
+            simulated += 1;
             let now_s = other.time_s();
             let _ = other.advance(&spinner, now_s + 30.0);
             let _ = (Outputs::of(&other, &spinner), Rates::of(&other, &spinner), Predictions::of(&other));
         }
     }
-    assert!(refused > 50 && flown > 500, "{refused} {flown}");
+    assert!(refused > 50 && simulated > 500, "{refused} {simulated}");
 }
 
 fn directions() -> Directions {

@@ -16,7 +16,7 @@ fn warnings(spinner: &mut Spinner) -> String {
 }
 
 #[test]
-fn zero_on_every_direction_is_flown_and_warned_of_once() {
+fn zero_on_every_direction_is_simulated_and_warned_of_once() {
     let mut spinner = Spinner::new().set_integer("burn.timing", 2);
     DIRECTIONS.iter().for_each(|name| put(&mut spinner, name, [0.0; 3]));
     let mut spinner = spinner.start();

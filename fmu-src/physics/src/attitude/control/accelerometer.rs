@@ -67,7 +67,7 @@ impl AccelerometerState {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let vectors = [&self.bias_body_m_s2, &self.scale_error, &self.delta_v_body_m_s];
         vectors.into_iter().flatten().all(|x| x.abs() <= GREATEST_IN_STATE)
     }

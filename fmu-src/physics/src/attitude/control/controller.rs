@@ -27,7 +27,7 @@ pub struct ControllerState {
     drift_rad: Vector3<f64>,
     /// Rate error of the last sample with only a rate commanded, in rad/s.
     last_rate_error_rad_s: Vector3<f64>,
-    /// Torque that the last sample asked for, in N m, body frame.
+    /// Torque that the last sample requested, in N m, body frame.
     asked_body_n_m: Vector3<f64>,
     /// What of it could not be given, in N m, body frame.
     missing_body_n_m: Vector3<f64>,
@@ -49,12 +49,13 @@ impl Tracking {
     fn of_attitude(reference: &ReferenceSample, attitude: &Attitude, rate_rad_s: &Vector3<f64>) -> Self {
         let relative = reference.attitude.inverse().then(attitude);
         let [x, y, z, _] = relative.quaternion(None);
-        let wanted = relative.to_body(&reference.rate_body_rad_s);
-        let error = rate_rad_s - wanted;
+        let requested = relative.to_body(&reference.rate_body_rad_s);
+        let error = rate_rad_s - requested;
         Self {
             angle_rad: Vector3::new(x, y, z) * 2.0,
             rate_rad_s: error,
-            acceleration_rad_s2: relative.to_body(&reference.acceleration_body_rad_s2) - error.cross(&wanted),
+            acceleration_rad_s2: relative.to_body(&reference.acceleration_body_rad_s2)
+                - error.cross(&requested),
         }
     }
 }
@@ -77,8 +78,8 @@ impl ControllerState {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
-        self.reference.is_sound()
+    pub fn is_valid(&self) -> bool {
+        self.reference.is_valid()
     }
 
     /// One sample: the torque that the wheels are to exert on the body over the interval that begins now, in N m, body

@@ -118,7 +118,7 @@ impl EstimatorState {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         self.last_truth.iter().chain([&self.attitude]).all(Attitude::is_rotation)
     }
 

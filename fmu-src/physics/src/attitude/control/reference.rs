@@ -84,7 +84,7 @@ impl Reference {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         self.attitude.is_rotation()
     }
 
@@ -93,10 +93,10 @@ impl Reference {
         let (slew_rad_s, acceleration_rad_s2) = limits.or_infinite();
         let change_rad_s = match target {
             ControlTarget::RateOnly { rate_body_rad_s } => {
-                let wanted = rate_body_rad_s - self.rate_body_rad_s;
+                let requested = rate_body_rad_s - self.rate_body_rad_s;
                 let greatest = acceleration_rad_s2 * interval_s;
-                self.is_settled = wanted.norm() <= greatest;
-                if self.is_settled { wanted } else { wanted * (greatest / wanted.norm()) }
+                self.is_settled = requested.norm() <= greatest;
+                if self.is_settled { requested } else { requested * (greatest / requested.norm()) }
             }
             ControlTarget::Attitude { attitude, rate_body_rad_s } => {
                 let from_command = attitude.rotation_vector_to(&self.attitude);
@@ -163,9 +163,9 @@ impl Approach {
         // a (sqrt(T^2 + 2 d/a) - T), which also serves a = infinity.
         let root_s = (approach_s * approach_s + 2.0 * distance / braking_rad_s2).sqrt();
         let stopping = 2.0 * distance / (approach_s + root_s);
-        let wanted =
+        let requested =
             if distance > 0.0 { ahead * (-stopping.min(slew_rad_s) / distance) } else { Vector3::zeros() };
-        let change = (wanted - self.relative_rate) * part;
+        let change = (requested - self.relative_rate) * part;
         // The command's rate, fixed in its own frame, moves in the reference's axes.
         let carried = self.command_rate.cross(&self.relative_rate) * dt;
         limited_sum(&change, &carried, acceleration_rad_s2 * dt)

@@ -29,9 +29,9 @@ fn a_rotor_out_of_balance_shakes_the_body_as_the_closed_form_says() {
         }],
         ..Appendages::default()
     };
-    let craft = Gyrostat::new(Matrix3::from_diagonal_element(inertia), vec![wheel]).unwrap();
-    let craft = craft.with_appendages(appendages, mass_kg, Vector3::new(0.1, 0.2, 0.3)).unwrap();
-    let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &Vector3::zeros(), |_| held);
+    let spacecraft = Gyrostat::new(Matrix3::from_diagonal_element(inertia), vec![wheel]).unwrap();
+    let spacecraft = spacecraft.with_appendages(appendages, mass_kg, Vector3::new(0.1, 0.2, 0.3)).unwrap();
+    let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &Vector3::zeros(), |_| held);
     let load = BodyLoad::none(mass_kg);
     let i = Complex::<f64>::i();
     let precession = held / inertia;
@@ -40,9 +40,9 @@ fn a_rotor_out_of_balance_shakes_the_body_as_the_closed_form_says() {
     let force = |time_s: f64| i * (i * (speed * time_s)).exp() * (imbalance * speed * speed);
     for step in 1..=1_000 {
         let time_s = 0.01 * f64::from(step) + 1e-4;
-        fly(&mut motion, &craft, &[Motor::default()], &load, time_s, 0.02);
-        let at = motion.at(&craft, time_s);
-        let [_, found] = motion.swinging_load(&craft, time_s, &at);
+        fly(&mut motion, &spacecraft, &[Motor::default()], &load, time_s, 0.02);
+        let at = motion.at(&spacecraft, time_s);
+        let [_, found] = motion.swinging_load(&spacecraft, time_s, &at);
         let found = Complex::new(found.x, found.y);
         assert!((found - force(time_s)).norm() < 1e-9 * force(0.0).norm(), "{found} {}", force(time_s));
         let amplitude = imbalance * speed * speed * lever_m / (inertia * (speed - precession));

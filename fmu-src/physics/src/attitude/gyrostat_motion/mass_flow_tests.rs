@@ -17,7 +17,7 @@ fn body(inertia: Vector3<f64>) -> Gyrostat {
     Gyrostat::new(Matrix3::from_diagonal(&inertia), vec![]).unwrap()
 }
 
-fn flown(
+fn simulated(
     gyrostat: &Gyrostat,
     rate: Vector3<f64>,
     load: &BodyLoad,
@@ -36,7 +36,7 @@ fn a_spin_about_an_axis_of_inertia_is_a_power_of_the_inertia() {
     let (inertia, growth, damping, span_s) = (200.0, -1.5, 0.6, 0.5);
     let gyrostat = body(Vector3::new(inertia, 300.0, 400.0));
     let load = flowing(Vector3::new(growth, -0.5, -2.0), Vector3::new(damping, 0.1, 0.2));
-    let (motion, end) = flown(&gyrostat, Vector3::x() * 0.1, &load, span_s);
+    let (motion, end) = simulated(&gyrostat, Vector3::x() * 0.1, &load, span_s);
     let left = inertia + growth * span_s;
     let expected = 0.1 * inertia * libm::pow(left / inertia, -damping / growth);
     assert!(
@@ -53,7 +53,7 @@ fn without_jet_damping_the_momentum_stays_and_the_rate_follows_the_inertia() {
     let gyrostat = body(Vector3::new(200.0, 300.0, 400.0));
     let load = flowing(Vector3::new(-3.0, -2.0, -1.0), Vector3::zeros());
     let rate = Vector3::new(0.02, -0.05, 0.03);
-    let (motion, end) = flown(&gyrostat, rate, &load, 0.5);
+    let (motion, end) = simulated(&gyrostat, rate, &load, 0.5);
     let start = gyrostat.momentum_body_n_m_s(&rate, |_| 0.0);
     assert!((end.momentum_inertial_n_m_s - start).norm() < 1e-15 * start.norm());
     let left = Vector3::new(198.5, 299.0, 399.5);

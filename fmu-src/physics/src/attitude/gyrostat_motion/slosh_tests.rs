@@ -18,7 +18,7 @@ const ACCELERATION_M_S2: f64 = 0.3;
 /// Share of the force across.
 const ASIDE: f64 = 1e-6;
 
-fn craft(pivot_m: f64, damping: f64) -> Gyrostat {
+fn spacecraft(pivot_m: f64, damping: f64) -> Gyrostat {
     let pendulum = SloshPendulum {
         mass_kg: BOB_KG,
         length_m: LENGTH_M,
@@ -51,9 +51,14 @@ fn frequency_rad_s(pivot_m: f64) -> f64 {
 #[test]
 fn body_and_bob_swing_as_the_rod_between_them_says() {
     for pivot_m in PIVOTS_M {
-        let craft = craft(pivot_m, 0.0);
-        let mut motion =
-            GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &Vector3::zeros(), |_| unreachable!());
+        let spacecraft = spacecraft(pivot_m, 0.0);
+        let mut motion = GyrostatMotion::new(
+            &spacecraft,
+            0.0,
+            Quaternion::IDENTITY,
+            &Vector3::zeros(),
+            |_| unreachable!(),
+        );
         // Place of the body's own centre (x, y), its turn, the rod's angle to the body, and their rates; unknowns: their
         // accelerations and the rod's tension.
         let dry_kg = MASS_KG - BOB_KG;
@@ -103,13 +108,13 @@ fn body_and_bob_swing_as_the_rod_between_them_says() {
             let from_s = 0.1 * f64::from(step);
             (_, y) = method.solve(from_s, from_s + 0.1, &y, None, rhs).unwrap();
             let time_s = from_s + 0.1;
-            fly(&mut motion, &craft, &[], &thrust(), time_s, 0.02);
-            let at = motion.at(&craft, time_s);
+            fly(&mut motion, &spacecraft, &[], &thrust(), time_s, 0.02);
+            let at = motion.at(&spacecraft, time_s);
             // Coordinates across -Y.
-            let across = craft.appendages().sloshes[0].across_body();
+            let across = spacecraft.appendages().sloshes[0].across_body();
             let found = (0..2).fold(Vector3::zeros(), |sum, k| {
                 let displacement = motion.oscillator(k, time_s, &at)[0];
-                sum + across[k] * craft.appendages().sloshes[0].angle_rad(displacement)
+                sum + across[k] * spacecraft.appendages().sloshes[0].angle_rad(displacement)
             });
             // To the right of -Y is -X for a turn that is positive about Z.
             let expected = Vector3::x() * y[3].sin();
@@ -127,26 +132,31 @@ fn body_and_bob_swing_as_the_rod_between_them_says() {
 #[test]
 fn the_pendulum_swings_at_its_closed_form_frequency() {
     for pivot_m in PIVOTS_M {
-        let craft = craft(pivot_m, 0.0);
-        let mut motion =
-            GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &Vector3::zeros(), |_| unreachable!());
+        let spacecraft = spacecraft(pivot_m, 0.0);
+        let mut motion = GyrostatMotion::new(
+            &spacecraft,
+            0.0,
+            Quaternion::IDENTITY,
+            &Vector3::zeros(),
+            |_| unreachable!(),
+        );
         let period_s = core::f64::consts::TAU / frequency_rad_s(pivot_m);
         let mut largest = 0.0_f64;
         let mut sizes = [0.0; 2];
         let state = |motion: &GyrostatMotion, time_s: f64| {
-            let at = motion.at(&craft, time_s);
+            let at = motion.at(&spacecraft, time_s);
             [0, 1].map(|k| motion.oscillator(k, time_s, &at))
         };
         for turn in 1..=20 {
             let half_s = (f64::from(turn) - 0.5) * period_s;
-            fly(&mut motion, &craft, &[], &thrust(), half_s, 0.02);
+            fly(&mut motion, &spacecraft, &[], &thrust(), half_s, 0.02);
             for (size, [displacement, _]) in sizes.iter_mut().zip(state(&motion, half_s)) {
                 *size = displacement;
             }
             largest = largest.max(sizes[0].hypot(sizes[1]));
             // A step from rest is back at rest after every period.
             let full_s = f64::from(turn) * period_s;
-            fly(&mut motion, &craft, &[], &thrust(), full_s, 0.02);
+            fly(&mut motion, &spacecraft, &[], &thrust(), full_s, 0.02);
             for [displacement, speed] in state(&motion, full_s) {
                 assert!(displacement.abs() < 1e-9 * largest, "{turn}: {displacement:e} of {largest:e}");
                 assert!(speed.abs() < 1e-9 * largest * frequency_rad_s(pivot_m));
@@ -169,20 +179,20 @@ fn a_pendulum_on_a_heavy_body_is_a_plain_one() {
         damping,
     };
     let rigid = Gyrostat::new(Matrix3::from_diagonal_element(INERTIA), Vec::new()).unwrap();
-    let craft = rigid
+    let spacecraft = rigid
         .with_appendages(Appendages { sloshes: vec![pendulum], ..Appendages::default() }, MASS_KG, CENTER_M)
         .unwrap();
     let mut motion =
-        GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &Vector3::zeros(), |_| unreachable!());
+        GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &Vector3::zeros(), |_| unreachable!());
     let along = ACCELERATION_M_S2 * (1.0 + ASIDE * ASIDE).sqrt();
     let free = (along / LENGTH_M + coast * coast).sqrt();
     let ringing = free * (1.0 - damping * damping).sqrt();
     let rest = -ASIDE * ACCELERATION_M_S2 / (free * free) * 1e-9_f64.sqrt();
     for step in 1..=100 {
         let time_s = 0.3 * f64::from(step);
-        fly(&mut motion, &craft, &[], &thrust(), time_s, 0.02);
-        let at = motion.at(&craft, time_s);
-        let across = craft.appendages().sloshes[0].across_body();
+        fly(&mut motion, &spacecraft, &[], &thrust(), time_s, 0.02);
+        let at = motion.at(&spacecraft, time_s);
+        let across = spacecraft.appendages().sloshes[0].across_body();
         let found: f64 = (0..2).map(|k| across[k].x * motion.oscillator(k, time_s, &at)[0]).sum();
         let (sine, cosine) = (ringing * time_s).sin_cos();
         let decay = (-damping * free * time_s).exp();

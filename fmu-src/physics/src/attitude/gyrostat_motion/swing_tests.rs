@@ -18,21 +18,21 @@ fn mode(frequency_rad_s: f64, damping: f64, coupling: [f64; 3]) -> FlexibleMode 
     FlexibleMode { frequency_hz: frequency_rad_s / TAU, damping, coupling_body_sqrt_kg_m: coupling.into() }
 }
 
-fn craft(wheels: Vec<ReactionWheel>, modes: &[FlexibleMode]) -> Gyrostat {
+fn spacecraft(wheels: Vec<ReactionWheel>, modes: &[FlexibleMode]) -> Gyrostat {
     let appendages = Appendages { modes: modes.to_vec(), ..Appendages::default() };
     let rigid = Gyrostat::new(Matrix3::from_diagonal(&INERTIA.into()), wheels).unwrap();
     rigid.with_appendages(appendages, MASS_KG, Vector3::zeros()).unwrap()
 }
 
-fn start(craft: &Gyrostat, rate: Vector3<f64>) -> GyrostatMotion {
-    GyrostatMotion::new(craft, 0.0, Quaternion::IDENTITY, &rate, |k| k as f64 - 1.0)
+fn start(spacecraft: &Gyrostat, rate: Vector3<f64>) -> GyrostatMotion {
+    GyrostatMotion::new(spacecraft, 0.0, Quaternion::IDENTITY, &rate, |k| k as f64 - 1.0)
 }
 
 #[test]
 fn a_mode_rings_at_its_free_frequency_and_damping() {
     let (frequency, damping, coupling, inertia, torque) = (3.0, 0.02, 15.0, INERTIA[2], 0.4);
-    let craft = craft(Vec::new(), &[mode(frequency, damping, [0.0, 0.0, coupling])]);
-    let mut motion = start(&craft, Vector3::zeros());
+    let spacecraft = spacecraft(Vec::new(), &[mode(frequency, damping, [0.0, 0.0, coupling])]);
+    let mut motion = start(&spacecraft, Vector3::zeros());
     let load =
         BodyLoad { torque_body_n_m: [Vector3::z() * torque, Vector3::zeros()], ..BodyLoad::none(MASS_KG) };
     // e'' (1 - d^2/J) + 2 z w e' + w^2 e = -d T/J: a step from rest.
@@ -43,8 +43,8 @@ fn a_mode_rings_at_its_free_frequency_and_damping() {
     let rest = -coupling * torque / (inertia * frequency * frequency);
     for step in 1..=200 {
         let time_s = 0.1 * f64::from(step);
-        fly(&mut motion, &craft, &[], &load, time_s, 0.02);
-        let at = motion.at(&craft, time_s);
+        fly(&mut motion, &spacecraft, &[], &load, time_s, 0.02);
+        let at = motion.at(&spacecraft, time_s);
         let (sine, cosine) = (ringing * time_s).sin_cos();
         let decay = (-damped * free * time_s).exp();
         let expected = rest * (1.0 - decay * (cosine + damped * free / ringing * sine));
@@ -66,21 +66,22 @@ fn ringing() -> (Gyrostat, [Motor; 4], GyrostatMotion) {
         mode(4.1, 0.01, [-2.0, 9.0, 4.0]),
         mode(11.0, 0.0, [1.0, 1.0, -12.0]),
     ];
-    let craft = craft(wheels, &modes);
-    let motion = start(&craft, Vector3::new(0.02, -0.03, 0.01));
-    (craft, [0.02, -0.05, 0.03, 0.01].map(|torque_n_m| Motor { torque_n_m, failed: false }), motion)
+    let spacecraft = spacecraft(wheels, &modes);
+    let motion = start(&spacecraft, Vector3::new(0.02, -0.03, 0.01));
+    (spacecraft, [0.02, -0.05, 0.03, 0.01].map(|torque_n_m| Motor { torque_n_m, failed: false }), motion)
 }
 
 #[test]
 fn modes_keep_the_momentum() {
-    let (craft, motors, mut motion) = ringing();
+    let (spacecraft, motors, mut motion) = ringing();
     let total = motion.momentum_inertial_n_m_s;
-    fly(&mut motion, &craft, &motors, &BodyLoad::none(MASS_KG), 100.0, 0.02);
-    let at = motion.at(&craft, 100.0);
+    fly(&mut motion, &spacecraft, &motors, &BodyLoad::none(MASS_KG), 100.0, 0.02);
+    let at = motion.at(&spacecraft, 100.0);
     assert_eq!(at.momentum_inertial_n_m_s, total);
     // The inertia holds the modes at rest.
-    let rigid = craft.momentum_body_n_m_s(&at.rate_body_rad_s, |k| motion.rotor_n_m_s(&craft, k, 100.0, &at));
-    let formed = craft.appendages().modes.iter().enumerate().fold(rigid, |sum, (k, mode)| {
+    let rigid = spacecraft
+        .momentum_body_n_m_s(&at.rate_body_rad_s, |k| motion.rotor_n_m_s(&spacecraft, k, 100.0, &at));
+    let formed = spacecraft.appendages().modes.iter().enumerate().fold(rigid, |sum, (k, mode)| {
         let [displacement, speed] = motion.oscillator(k, 100.0, &at);
         assert!(displacement.abs() > 1e-6 && speed.abs() > 1e-6);
         sum + mode.coupling_body_sqrt_kg_m * speed
@@ -90,22 +91,23 @@ fn modes_keep_the_momentum() {
 
 #[test]
 fn only_damping_takes_energy() {
-    let (craft, _, mut motion) = ringing();
+    let (spacecraft, _, mut motion) = ringing();
     // Locked wheels turn with the body.
-    let locked = craft.wheels().iter().map(|wheel| ReactionWheel { locked: true, ..wheel.clone() }).collect();
-    let craft = self::craft(locked, &craft.appendages().modes);
+    let locked =
+        spacecraft.wheels().iter().map(|wheel| ReactionWheel { locked: true, ..wheel.clone() }).collect();
+    let spacecraft = self::spacecraft(locked, &spacecraft.appendages().modes);
     motion.rotors.iter_mut().for_each(|it| it.rotor = Rotor::Held { momentum_n_m_s: 0.0 });
-    let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &motion.rate[0], |_| 0.0);
+    let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &motion.rate[0], |_| 0.0);
     let load = BodyLoad {
         torque_body_n_m: [Vector3::new(0.5, -1.0, 2.0), Vector3::zeros()],
         ..BodyLoad::none(MASS_KG)
     };
-    fly(&mut motion, &craft, &[Motor::default(); 4], &load, 1.0, 0.02);
+    fly(&mut motion, &spacecraft, &[Motor::default(); 4], &load, 1.0, 0.02);
     let state = |motion: &GyrostatMotion, time_s: f64| {
-        let at = motion.at(&craft, time_s);
+        let at = motion.at(&spacecraft, time_s);
         let rate = at.rate_body_rad_s;
-        let rigid = 0.5 * rate.dot(&(craft.inertia_body_kg_m2() * rate));
-        craft.appendages().modes.iter().enumerate().fold([rigid, 0.0], |[energy, loss], (k, mode)| {
+        let rigid = 0.5 * rate.dot(&(spacecraft.inertia_body_kg_m2() * rate));
+        spacecraft.appendages().modes.iter().enumerate().fold([rigid, 0.0], |[energy, loss], (k, mode)| {
             let [displacement, speed] = motion.oscillator(k, time_s, &at);
             let spring = (TAU * mode.frequency_hz) * displacement;
             let coupled = speed * mode.coupling_body_sqrt_kg_m.dot(&rate);
@@ -119,9 +121,16 @@ fn only_damping_takes_energy() {
     for step in 0..6_000 {
         let time_s = 1.0 + 0.01 * f64::from(step);
         let begin = state(&motion, time_s)[1];
-        fly(&mut motion, &craft, &[Motor::default(); 4], &BodyLoad::none(MASS_KG), time_s + 0.005, 0.005);
+        fly(
+            &mut motion,
+            &spacecraft,
+            &[Motor::default(); 4],
+            &BodyLoad::none(MASS_KG),
+            time_s + 0.005,
+            0.005,
+        );
         let middle = state(&motion, time_s + 0.005)[1];
-        fly(&mut motion, &craft, &[Motor::default(); 4], &BodyLoad::none(MASS_KG), time_s + 0.01, 0.005);
+        fly(&mut motion, &spacecraft, &[Motor::default(); 4], &BodyLoad::none(MASS_KG), time_s + 0.01, 0.005);
         lost += (begin + 4.0 * middle + state(&motion, time_s + 0.01)[1]) * (0.01 / 6.0);
     }
     let [last, _] = state(&motion, 61.0);
@@ -136,15 +145,15 @@ fn an_integration_of_order_twelve_agrees() {
     let modes = [mode(1.3, 0.005, [6.0, -1.0, 2.0]), mode(4.1, 0.3, [-2.0, 9.0, 4.0])];
     let inertia = Matrix3::new(200.0, 11.0, -7.0, 11.0, 480.0, 5.0, -7.0, 5.0, 440.0);
     let appendages = Appendages { modes: modes.to_vec(), ..Appendages::default() };
-    let craft = Gyrostat::new(inertia, Vec::new())
+    let spacecraft = Gyrostat::new(inertia, Vec::new())
         .unwrap()
         .with_appendages(appendages, MASS_KG, Vector3::zeros())
         .unwrap();
     let (rate, torque) = (Vector3::new(0.02, -0.03, 0.05), Vector3::new(0.3, 0.1, -0.2));
-    let mut motion = start(&craft, rate);
+    let mut motion = start(&spacecraft, rate);
     let load = BodyLoad { torque_body_n_m: [torque, Vector3::zeros()], ..BodyLoad::none(MASS_KG) };
-    fly(&mut motion, &craft, &[], &load, 50.0, 0.02);
-    let at = motion.at(&craft, 50.0);
+    fly(&mut motion, &spacecraft, &[], &load, 50.0, 0.02);
+    let at = motion.at(&spacecraft, 50.0);
 
     // Attitude (scalar last), rate, displacements, speeds.
     let rhs = |_: f64, y: &SVector<f64, 11>| {
@@ -197,9 +206,9 @@ fn an_integration_of_order_twelve_agrees() {
 #[test]
 fn long_segments_give_what_short_ones_give() {
     let fly_in = |piece_s: f64| {
-        let (craft, motors, mut motion) = ringing();
-        fly(&mut motion, &craft, &motors, &BodyLoad::none(MASS_KG), 20.0, piece_s);
-        let at = motion.at(&craft, 20.0);
+        let (spacecraft, motors, mut motion) = ringing();
+        fly(&mut motion, &spacecraft, &motors, &BodyLoad::none(MASS_KG), 20.0, piece_s);
+        let at = motion.at(&spacecraft, 20.0);
         (at.rate_body_rad_s, motion.oscillator(2, 20.0, &at))
     };
     let (short, long) = (fly_in(0.003), fly_in(10.0));
@@ -215,6 +224,6 @@ fn long_segments_give_what_short_ones_give() {
 fn bodies_with_too_much_that_swings_are_refused() {
     let appendages = Appendages { modes: vec![mode(1.0, 0.0, [14.2, 0.0, 0.0])], ..Appendages::default() };
     let rigid = Gyrostat::new(Matrix3::from_diagonal(&INERTIA.into()), Vec::new()).unwrap();
-    let told = rigid.with_appendages(appendages, MASS_KG, Vector3::zeros()).unwrap_err().to_string();
-    assert!(told.contains("flexibleMode[k].coupling"), "{told}");
+    let reported = rigid.with_appendages(appendages, MASS_KG, Vector3::zeros()).unwrap_err().to_string();
+    assert!(reported.contains("flexibleMode[k].coupling"), "{reported}");
 }

@@ -26,14 +26,14 @@ pub(super) fn pyramid() -> Vec<ReactionWheel> {
     [(c, c), (c, -c), (-c, -c), (-c, c)].iter().map(|&(x, z)| wheel(Vector3::new(x, c, z))).collect()
 }
 
-fn craft(wheels: Vec<ReactionWheel>) -> Gyrostat {
+fn spacecraft(wheels: Vec<ReactionWheel>) -> Gyrostat {
     Gyrostat::new(Matrix3::from_diagonal(&INERTIA.into()), wheels).unwrap()
 }
 
 /// Flies on to `end_s` in pieces of at most `piece_s`.
 pub(super) fn fly(
     motion: &mut GyrostatMotion,
-    craft: &Gyrostat,
+    spacecraft: &Gyrostat,
     motors: &[Motor],
     load: &BodyLoad,
     end_s: f64,
@@ -42,7 +42,7 @@ pub(super) fn fly(
     let mut segments = 0;
     while motion.end_s() < end_s {
         let next_s = ((motion.end_s() / piece_s + 1e-9).floor() + 1.0) * piece_s;
-        motion.advance(craft, motors, load, next_s.min(end_s));
+        motion.advance(spacecraft, motors, load, next_s.min(end_s));
         segments += 1;
         assert!(segments < 10_000_000);
     }
@@ -72,7 +72,7 @@ fn jacobi(u: f64, m: f64) -> [f64; 3] {
 #[test]
 fn a_free_body_turns_as_jacobi_says() {
     // I1 < I3 < I2: about the axes of least and greatest inertia, momentum nearer to the greatest.
-    let craft = craft(Vec::new());
+    let spacecraft = spacecraft(Vec::new());
     let [i1, i2, i3] = INERTIA;
     // Axes ordered a (greatest), b (middle), c (least): y, z, x; starts in the plane of a and c.
     let (a, b, c) = (i2, i3, i1);
@@ -89,12 +89,12 @@ fn a_free_body_turns_as_jacobi_says() {
         ((two_e * a - squared) / (b * (a - b))).sqrt(),
         ((squared - two_e * c) / (a * (a - c))).sqrt(),
     ];
-    let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &rate, |_| unreachable!());
+    let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &rate, |_| unreachable!());
     let mut worst = 0.0_f64;
     for minute in 1..=60 {
         let time_s = 60.0 * f64::from(minute);
-        fly(&mut motion, &craft, &[], &BodyLoad::none(1.0), time_s, 0.02);
-        let found = motion.at(&craft, time_s);
+        fly(&mut motion, &spacecraft, &[], &BodyLoad::none(1.0), time_s, 0.02);
+        let found = motion.at(&spacecraft, time_s);
         let [sn, cn, dn] = jacobi(tau * time_s, m);
         // c = x, b = z, a = y is a left-handed order: the middle axis runs the other way.
         let expected = Vector3::new(sizes[0] * cn, sizes[2] * dn, -sizes[1] * sn);
@@ -127,7 +127,7 @@ fn a_free_body_turns_as_jacobi_says() {
         .sum();
     let turned = sum * step_s / 3.0;
     // Angle of the body's axis a about the momentum.
-    let motion_end = motion.at(&craft, 3600.0);
+    let motion_end = motion.at(&spacecraft, 3600.0);
     let along = motion.momentum_inertial_n_m_s.normalize();
     let angle = |q: &Quaternion| {
         let axis = q.inertial_from_body(&Vector3::y());
@@ -143,18 +143,19 @@ fn a_free_body_turns_as_jacobi_says() {
 fn momentum_and_energy_are_kept_for_a_day() {
     let mut locked = pyramid();
     locked.iter_mut().for_each(|wheel| wheel.locked = true);
-    let craft = craft(locked);
+    let spacecraft = spacecraft(locked);
     let rate = Vector3::new(2e-3, -1e-3, 3e-3);
-    let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &rate, |_| 0.0);
+    let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &rate, |_| 0.0);
     let energy = |motion: &BodyMotion| {
-        0.5 * motion.rate_body_rad_s.dot(&(craft.inertia_body_kg_m2() * motion.rate_body_rad_s))
+        0.5 * motion.rate_body_rad_s.dot(&(spacecraft.inertia_body_kg_m2() * motion.rate_body_rad_s))
     };
-    let first = motion.at(&craft, 0.0);
-    fly(&mut motion, &craft, &[Motor::default(); 4], &BodyLoad::none(1.0), 86_400.0, 0.02);
-    let last = motion.at(&craft, 86_400.0);
+    let first = motion.at(&spacecraft, 0.0);
+    fly(&mut motion, &spacecraft, &[Motor::default(); 4], &BodyLoad::none(1.0), 86_400.0, 0.02);
+    let last = motion.at(&spacecraft, 86_400.0);
     assert_eq!(last.momentum_inertial_n_m_s, first.momentum_inertial_n_m_s);
     assert_relative_eq!(energy(&last), energy(&first), max_relative = 1e-10);
-    let formed = last.attitude.inertial_from_body(&craft.momentum_body_n_m_s(&last.rate_body_rad_s, |_| 0.0));
+    let formed =
+        last.attitude.inertial_from_body(&spacecraft.momentum_body_n_m_s(&last.rate_body_rad_s, |_| 0.0));
     assert_relative_eq!(formed, first.momentum_inertial_n_m_s, max_relative = 1e-12);
 }
 
@@ -164,26 +165,27 @@ fn a_rotor_runs_up_and_down_as_the_exponential_says() {
     let mut one = wheel(Vector3::z());
     (one.coulomb_friction_n_m, one.viscous_friction_n_m_s) = (2e-3, 3e-5);
     let (friction, damping) = (one.coulomb_friction_n_m, one.viscous_friction_n_m_s / one.inertia_kg_m2);
-    let craft = Gyrostat::new(Matrix3::from_diagonal_element(1e9), vec![one]).unwrap();
+    let spacecraft = Gyrostat::new(Matrix3::from_diagonal_element(1e9), vec![one]).unwrap();
     let still = Vector3::zeros();
-    let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &still, |_| 0.0);
+    let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &still, |_| 0.0);
     let free = BodyLoad::none(1.0);
     let torque = 0.02;
     let up = [Motor { torque_n_m: torque, failed: false }];
-    let momentum =
-        |motion: &GyrostatMotion, time_s| motion.rotor_n_m_s(&craft, 0, time_s, &motion.at(&craft, time_s));
-    fly(&mut motion, &craft, &up, &free, 120.0, 1.0);
+    let momentum = |motion: &GyrostatMotion, time_s| {
+        motion.rotor_n_m_s(&spacecraft, 0, time_s, &motion.at(&spacecraft, time_s))
+    };
+    fly(&mut motion, &spacecraft, &up, &free, 120.0, 1.0);
     let top = (torque - friction) / damping * (1.0 - (-damping * 120.0_f64).exp());
     assert_relative_eq!(momentum(&motion, 120.0), top, max_relative = 1e-7);
     // Down without motor: h + c / k decays, to rest at k t = ln(1 + k h / c), and stays there.
     let off = [Motor { torque_n_m: 0.0, failed: true }];
     let rest_s = 120.0 + (1.0 + damping * top / friction).ln() / damping;
-    fly(&mut motion, &craft, &off, &free, 200.0, 1.0);
+    fly(&mut motion, &spacecraft, &off, &free, 200.0, 1.0);
     let expected = (top + friction / damping) * (-damping * 80.0_f64).exp() - friction / damping;
     assert_relative_eq!(momentum(&motion, 200.0), expected, max_relative = 1e-7);
     while motion.end_s() < rest_s + 10.0 {
         let (start_s, before) = (motion.end_s(), momentum(&motion, motion.end_s()));
-        motion.advance(&craft, &off, &free, (start_s + 1e-9).floor() + 1.0);
+        motion.advance(&spacecraft, &off, &free, (start_s + 1e-9).floor() + 1.0);
         if before > 1e-9 && momentum(&motion, motion.end_s()).abs() < 1e-9 {
             assert!((motion.end_s() - rest_s).abs() < 1e-4, "{} {rest_s}", motion.end_s());
         }
@@ -192,46 +194,53 @@ fn a_rotor_runs_up_and_down_as_the_exponential_says() {
     // Friction holds less than itself, and lets go above.
     let weak = [Motor { torque_n_m: 0.9 * friction, failed: false }];
     let end_s = motion.end_s() + 10.0;
-    fly(&mut motion, &craft, &weak, &free, end_s, 1.0);
+    fly(&mut motion, &spacecraft, &weak, &free, end_s, 1.0);
     assert_eq!(momentum(&motion, end_s), 0.0);
     let strong = [Motor { torque_n_m: -1.1 * friction, failed: false }];
-    fly(&mut motion, &craft, &strong, &free, end_s + 10.0, 1.0);
+    fly(&mut motion, &spacecraft, &strong, &free, end_s + 10.0, 1.0);
     let expected = -0.1 * friction / damping * (1.0 - (-damping * 10.0_f64).exp());
     assert_relative_eq!(momentum(&motion, end_s + 10.0), expected, max_relative = 1e-6);
 }
 
 #[test]
 fn a_rotor_stops_at_its_capacity_and_leaves_it() {
-    let craft = craft(pyramid());
+    let spacecraft = spacecraft(pyramid());
     let still = Vector3::zeros();
     let mut motion =
-        GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &still, |k| if k == 0 { 7.0 } else { 0.0 });
+        GyrostatMotion::new(
+            &spacecraft,
+            0.0,
+            Quaternion::IDENTITY,
+            &still,
+            |k| if k == 0 { 7.0 } else { 0.0 },
+        );
     let total = motion.momentum_inertial_n_m_s;
     let free = BodyLoad::none(1.0);
     let mut motors = [Motor::default(); 4];
     motors[0].torque_n_m = 0.075;
-    fly(&mut motion, &craft, &motors, &free, 60.0, 0.02);
-    let at = motion.at(&craft, 60.0);
-    assert_eq!(motion.rotor_n_m_s(&craft, 0, 60.0, &at), 8.0);
-    assert!(craft.wheels()[0].is_saturated(8.0));
+    fly(&mut motion, &spacecraft, &motors, &free, 60.0, 0.02);
+    let at = motion.at(&spacecraft, 60.0);
+    assert_eq!(motion.rotor_n_m_s(&spacecraft, 0, 60.0, &at), 8.0);
+    assert!(spacecraft.wheels()[0].is_saturated(8.0));
     // The body took what the wheel took, and turns on freely once the wheel is full.
     let relative = at.attitude.inertial_from_body(
-        &craft.momentum_body_n_m_s(&at.rate_body_rad_s, |k| motion.rotor_n_m_s(&craft, k, 60.0, &at)),
+        &spacecraft
+            .momentum_body_n_m_s(&at.rate_body_rad_s, |k| motion.rotor_n_m_s(&spacecraft, k, 60.0, &at)),
     );
     assert_relative_eq!(relative, total, max_relative = 1e-12);
     motors[0].torque_n_m = -0.075;
-    fly(&mut motion, &craft, &motors, &free, 61.0, 0.02);
-    let at = motion.at(&craft, 61.0);
-    let left = motion.rotor_n_m_s(&craft, 0, 61.0, &at);
-    assert!((left - (8.0 - 0.075)).abs() < 1e-4 && !craft.wheels()[0].is_saturated(left), "{left}");
+    fly(&mut motion, &spacecraft, &motors, &free, 61.0, 0.02);
+    let at = motion.at(&spacecraft, 61.0);
+    let left = motion.rotor_n_m_s(&spacecraft, 0, 61.0, &at);
+    assert!((left - (8.0 - 0.075)).abs() < 1e-4 && !spacecraft.wheels()[0].is_saturated(left), "{left}");
 }
 
 #[test]
 fn torque_and_force_add_up() {
     // About one axis the angle under constant torque is known; force turns with the body.
-    let craft = craft(pyramid());
+    let spacecraft = spacecraft(pyramid());
     let still = Vector3::zeros();
-    let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &still, |_| 0.0);
+    let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &still, |_| 0.0);
     let (torque, slope) = (0.05, 1e-4);
     // The rotors' own axial momentum stays: the body turns as if they had no inertia along it.
     let inertia = INERTIA[1] - 4.0 * 0.0127 / 3.0;
@@ -244,10 +253,10 @@ fn torque_and_force_add_up() {
             force_body_n: [Vector3::z() * 0.5, Vector3::zeros()],
             ..BodyLoad::none(500.0)
         };
-        motion.advance(&craft, &[Motor::default(); 4], &load, time_s + 0.5);
+        motion.advance(&spacecraft, &[Motor::default(); 4], &load, time_s + 0.5);
         time_s = motion.end_s();
     }
-    let at = motion.at(&craft, time_s);
+    let at = motion.at(&spacecraft, time_s);
     assert_relative_eq!(at.rate_body_rad_s, Vector3::y() * rate(time_s), max_relative = 1e-12);
     assert_relative_eq!(
         Vector3::from_row_slice(&at.attitude.0[..3]),
@@ -275,13 +284,14 @@ fn torque_and_force_add_up() {
 fn long_segments_give_what_short_ones_give() {
     let mut wheels = pyramid();
     wheels.iter_mut().for_each(|wheel| wheel.viscous_friction_n_m_s = 1e-4);
-    let craft = craft(wheels);
+    let spacecraft = spacecraft(wheels);
     let rate = Vector3::new(0.02, -0.03, 0.05);
     let motors = [0.01, -0.02, 0.03, 0.005].map(|torque_n_m| Motor { torque_n_m, failed: false });
     let fly_in = |piece_s: f64| {
-        let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &rate, |k| k as f64 - 1.0);
-        fly(&mut motion, &craft, &motors, &BodyLoad::none(1.0), 50.0, piece_s);
-        motion.at(&craft, 50.0)
+        let mut motion =
+            GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &rate, |k| k as f64 - 1.0);
+        fly(&mut motion, &spacecraft, &motors, &BodyLoad::none(1.0), 50.0, piece_s);
+        motion.at(&spacecraft, 50.0)
     };
     let (short, long) = (fly_in(0.01), fly_in(10.0));
     assert_relative_eq!(short.rate_body_rad_s, long.rate_body_rad_s, max_relative = 1e-12);
@@ -294,15 +304,15 @@ fn long_segments_give_what_short_ones_give() {
 fn impossible_bodies_are_refused() {
     let mut heavy = pyramid();
     heavy[0].inertia_kg_m2 = 1e4;
-    let told =
+    let reported =
         |wheels| Gyrostat::new(Matrix3::from_diagonal(&INERTIA.into()), wheels).unwrap_err().to_string();
-    assert!(told(heavy).contains("principal moment"));
+    assert!(reported(heavy).contains("principal moment"));
     let mut none = pyramid();
     none[2].axis_body = Vector3::zeros();
-    assert!(told(none).contains("wheel[3].axis"));
+    assert!(reported(none).contains("wheel[3].axis"));
     let mut light = pyramid();
     light[1].inertia_kg_m2 = 0.0;
-    assert!(told(light).contains("wheel[2].inertia"));
+    assert!(reported(light).contains("wheel[2].inertia"));
 }
 
 #[test]
@@ -329,14 +339,14 @@ fn no_wheels_make_the_motion_stand_still() {
             })
             .collect();
         let inertia = if random() < 0.3 { [1.0, 1.5, 1.2] } else { INERTIA };
-        let craft = Gyrostat::new(Matrix3::from_diagonal(&inertia.into()), wheels).unwrap();
+        let spacecraft = Gyrostat::new(Matrix3::from_diagonal(&inertia.into()), wheels).unwrap();
         let shares: Vec<f64> = (0..count).map(|_| [1.0, 0.0, -1.0, 0.3][(4.0 * random()) as usize]).collect();
         let held = |k: usize| {
-            let wheel = &craft.wheels()[k];
+            let wheel = &spacecraft.wheels()[k];
             if wheel.locked { 0.0 } else { shares[k] * wheel.capacity_n_m_s }
         };
         let rate = Vector3::new(random() - 0.5, random() - 0.5, random() - 0.5) * 0.02;
-        let mut motion = GyrostatMotion::new(&craft, 0.0, Quaternion::IDENTITY, &rate, held);
+        let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &rate, held);
         let mut momenta: Vec<f64> = (0..count).map(held).collect();
         for second in 1..=20 {
             let motors: Vec<_> = (0..count)
@@ -350,13 +360,13 @@ fn no_wheels_make_the_motion_stand_still() {
             let load = BodyLoad { torque_body_n_m: [torque, torque * 0.1], ..BodyLoad::none(1.0) };
             let (end_s, mut segments) = (f64::from(second), 0);
             while motion.end_s() < end_s {
-                motion.advance(&craft, &motors, &load, end_s);
+                motion.advance(&spacecraft, &motors, &load, end_s);
                 segments += 1;
-                assert!(segments < 2_000, "case {case}, at {}: {motors:?} {craft:?}", motion.end_s());
+                assert!(segments < 2_000, "case {case}, at {}: {motors:?} {spacecraft:?}", motion.end_s());
             }
-            let at = motion.at(&craft, end_s);
-            for (k, wheel) in craft.wheels().iter().enumerate() {
-                let found = motion.rotor_n_m_s(&craft, k, end_s, &at);
+            let at = motion.at(&spacecraft, end_s);
+            for (k, wheel) in spacecraft.wheels().iter().enumerate() {
+                let found = motion.rotor_n_m_s(&spacecraft, k, end_s, &at);
                 // No motor drives a rotor beyond; a body that turns may.
                 let driven = motors[k].torque_n_m * found > 0.0 && momenta[k].abs() <= wheel.capacity_n_m_s;
                 let most = wheel.capacity_n_m_s * (1.0 + 1e-9);

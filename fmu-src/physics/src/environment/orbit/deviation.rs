@@ -58,7 +58,7 @@ impl Deviation {
     }
 
     /// Whether it can come from an integration; bytes from elsewhere may hold anything.
-    pub(super) fn is_sound(&self) -> bool {
-        self.segment.is_sound() && self.segment.spans(self.start_s, self.end_s)
+    pub(super) fn is_valid(&self) -> bool {
+        self.segment.is_valid() && self.segment.spans(self.start_s, self.end_s)
     }
 }

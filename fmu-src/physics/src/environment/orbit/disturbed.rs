@@ -170,10 +170,10 @@ impl DisturbedOrbit {
     }
 
     /// Whether it can come from an integration; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
-        self.chain.is_sound()
+    pub fn is_valid(&self) -> bool {
+        self.chain.is_valid()
             && self.radius_m >= 0.0
-            && self.deviation.as_ref().is_none_or(Deviation::is_sound)
+            && self.deviation.as_ref().is_none_or(Deviation::is_valid)
     }
 
     /// How far the integration has come, s.

@@ -152,7 +152,7 @@ impl BurnState {
         self.phase
     }
 
-    /// Whether thrusters are asked for.
+    /// Whether thrusters are requested.
     pub fn is_requested(&self) -> bool {
         matches!(self.phase, BurnPhase::Waiting { .. } | BurnPhase::Burning { .. })
     }
@@ -182,7 +182,7 @@ impl BurnState {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         self.last.as_ref().is_none_or(|last| last.attitude.is_rotation())
             && self.thrust_body.is_none_or(|thrust| (thrust.norm() - 1.0).abs() < 1e-9)
     }

@@ -1,6 +1,6 @@
 //! The velocity that a burn is to add, as a path: a straight line, or a cubic in the progress from 0 to 1.
 //!
-//! Equation: v(s) = c1 s + c2 s^2 + c3 s^3, 0 <= s <= 1, without gravity (paper 001, "Delta-V guidance"). A point is told
+//! Equation: v(s) = c1 s + c2 s^2 + c3 s^3, 0 <= s <= 1, without gravity (paper 001, "Delta-V guidance"). A point is reported
 //! by the length of path up to it, which is the magnitude of delta-v spent there; beyond the end the path goes on straight.
 //! Method: the length is a Gauss-Legendre integral of |v'| over [`PANELS`] panels, its inverse Newton's iteration kept
 //! within a bracket.
@@ -13,7 +13,7 @@ use crate::numerics::quadrature::Rule;
 /// Nodes of the rule on a panel.
 const NODES: usize = 8;
 
-/// Panels from the beginning to the point asked for.
+/// Panels from the beginning to the point requested.
 const PANELS: u8 = 4;
 
 /// Bisection alone would need so many steps.

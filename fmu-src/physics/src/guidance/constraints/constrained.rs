@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::hot_pole::{HotPole, TurnSide};
 use super::keep_in::KeepIn;
-use crate::guidance::geometry::surroundings::Surroundings;
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::pointing::law::{Pointing, PointingVectors};
 
 /// What holds in a mode.
@@ -35,7 +35,7 @@ impl Constraints {
     pub fn applied(
         &self,
         vectors: &PointingVectors,
-        surroundings: &Surroundings,
+        surroundings: &EphemerisAtTime,
         last_turn: Option<TurnSide>,
     ) -> Option<ConstrainedPointing> {
         let (pointing, sun_keep_in) = match &self.keep_in {

@@ -12,7 +12,7 @@ use crate::guidance::pointing::scenario::{PointingProgress, aim};
 use crate::guidance::pointing::scenario_tests::{
     FLOOR_RAD_S, SCENARIOS, STEP_S, aimpoint, command, hardware,
 };
-use crate::guidance::{Pointing, PointingVectors, Surroundings};
+use crate::guidance::{EphemerisAtTime, Pointing, PointingVectors};
 use nalgebra::Vector3;
 
 /// Steps over which the constrained law has to keep its form, in both directions.
@@ -38,7 +38,7 @@ fn hot_pole() -> Constraints {
 fn form(
     constraints: &Constraints,
     vectors: &PointingVectors,
-    surroundings: &Surroundings,
+    surroundings: &EphemerisAtTime,
 ) -> Option<(Pointing, [i8; 4])> {
     let found = constraints.applied(vectors, surroundings, None)?;
     let sun_body = found.pointing.to_body(&unit(&surroundings.to_sun())?);
@@ -65,7 +65,7 @@ fn form(
 /// force.
 fn worst(
     constraints: &Constraints,
-    vectors: impl Fn(&Surroundings, f64) -> Option<PointingVectors>,
+    vectors: impl Fn(&EphemerisAtTime, f64) -> Option<PointingVectors>,
     orbit: &TestOrbit,
 ) -> (f64, usize) {
     let (mut worst, mut compared) = (0.0_f64, 0);
@@ -97,7 +97,7 @@ fn worst(
 /// The vectors of a command, its limb scan `elapsed_s` after an instant.
 fn vectors_of(
     command: &PointingCommand,
-    surroundings: &Surroundings,
+    surroundings: &EphemerisAtTime,
     elapsed_s: f64,
 ) -> Option<PointingVectors> {
     let progress = PointingProgress { limb_elapsed_s: 30.0 + elapsed_s, ..PointingProgress::default() };

@@ -11,8 +11,8 @@ use nalgebra::{ComplexField, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::angle_between_rad;
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{Moving, PARALLEL_RAD, fixed, unit, value};
-use crate::guidance::geometry::surroundings::Surroundings;
 use crate::guidance::pointing::law::Pointing;
 use crate::numerics::scalar::Scalar;
 
@@ -59,7 +59,7 @@ pub struct KeptOut {
 
 impl HotPole {
     /// Whether the spacecraft is where the constraint counts.
-    pub fn in_region(&self, surroundings: &Surroundings) -> bool {
+    pub fn in_region(&self, surroundings: &EphemerisAtTime) -> bool {
         let position_m = value(&surroundings.position);
         let over_the_pole = angle_between_rad(&position_m, &value(&surroundings.sun)) < self.angle_rad;
         if !over_the_pole {
@@ -83,7 +83,7 @@ impl HotPole {
     pub fn constrained(
         &self,
         pointing: &Pointing,
-        surroundings: &Surroundings,
+        surroundings: &EphemerisAtTime,
         last: Option<TurnSide>,
     ) -> KeptOut {
         let free = KeptOut { pointing: *pointing, side: None, reached: true };
@@ -134,14 +134,14 @@ mod tests {
 
     use super::*;
     use crate::bodies::Body;
+    use crate::guidance::geometry::ephemeris_at_time::TargetPlanet;
     use crate::guidance::geometry::moving::{MovingMatrix, MovingVector, moving};
-    use crate::guidance::geometry::surroundings::TargetPlanet;
     use crate::guidance::geometry::test_geometry::{Motion, Random, difference_rad_s};
     use crate::guidance::pointing::law::PointingVectors;
 
-    fn surroundings(position: MovingVector, sun: MovingVector) -> Surroundings {
+    fn surroundings(position: MovingVector, sun: MovingVector) -> EphemerisAtTime {
         let far = Moving::constant(1e7);
-        Surroundings {
+        EphemerisAtTime {
             epoch_s: 0.0,
             planet: TargetPlanet::of(Body::Mercury.data()),
             position: position * far,
@@ -304,11 +304,11 @@ mod tests {
         let around = |height_m: f64, angle_rad: f64| {
             let radius_m = Body::Mercury.data().radius_m + height_m;
             let position = Vector3::new(angle_rad.cos(), angle_rad.sin(), 0.0) * radius_m;
-            Surroundings { position: fixed(position), ..surroundings(sun, sun) }
+            EphemerisAtTime { position: fixed(position), ..surroundings(sun, sun) }
         };
         let cone = HotPole { altitude_m: 1e6, angle_rad: 0.5, cone_rad: 1.0 };
         // -Z at the planet, -Y toward the Sun as far as possible.
-        let pointing = |around: &Surroundings| {
+        let pointing = |around: &EphemerisAtTime| {
             PointingVectors {
                 boresight_body: fixed(-Vector3::z()),
                 aimpoint: around.to_planet(),

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::sun_place::{ChosenPlace, SunPlace};
 use crate::attitude::{Attitude, SunAngles};
-use crate::guidance::geometry::surroundings::Surroundings;
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::orbit_phase::guided::Guided;
 use crate::guidance::orbit_phase::schedule::Activity;
 use crate::guidance::pointing::command::Scenario;
@@ -19,7 +19,7 @@ pub struct WindowStart<'a> {
     /// Which of both.
     pub activity: Activity,
     /// Where everything is.
-    pub surroundings: &'a Surroundings,
+    pub surroundings: &'a EphemerisAtTime,
     /// The attitude as it is estimated.
     pub attitude: Attitude,
     /// How long it lasts, in s.
@@ -61,8 +61,8 @@ pub struct DownlinkSun {
 
 impl DownlinkSun {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
-        [self.chosen, self.science].into_iter().flatten().all(|chosen| chosen.place.is_sound())
+    pub fn is_valid(&self) -> bool {
+        [self.chosen, self.science].into_iter().flatten().all(|chosen| chosen.place.is_valid())
     }
 
     /// The Sun's place; the slew after a window starts from it.

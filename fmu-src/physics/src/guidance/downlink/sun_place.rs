@@ -17,13 +17,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::{SunAngles, angle_between_rad, direction_from_angles};
 use crate::constants::DEG_RAD;
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{Moving, MovingVector, PARALLEL_RAD, direction, fixed, unit, value};
-use crate::guidance::geometry::surroundings::Surroundings;
 use crate::guidance::pointing::antenna::{Antenna, AntennaAzimuth, BOUND_RAD};
 use crate::guidance::pointing::law::PointingVectors;
 use crate::numerics::scalar::Scalar;
 
-/// What a downlink attitude is asked for.
+/// What a downlink attitude is requested.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DownlinkRequest {
     /// Azimuth of the antenna's boresight, with -Y rolled toward the Sun; `None`: as the Sun's place needs it.
@@ -45,7 +45,7 @@ pub struct SunPlace {
 
 impl SunPlace {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         [self.angles.azimuth_rad, self.angles.elevation_rad].iter().all(|angle_rad| angle_rad.abs() <= TAU)
     }
 }
@@ -99,8 +99,8 @@ pub fn downlink(
         }
         None => {
             let [minus, plus] = solutions.azimuths;
-            let asked = request.earth_ahead.map(|ahead| if ahead { plus } else { minus });
-            (asked.unwrap_or_else(|| solutions.preferred()), solutions.sun_body, solutions.clamped)
+            let requested = request.earth_ahead.map(|ahead| if ahead { plus } else { minus });
+            (requested.unwrap_or_else(|| solutions.preferred()), solutions.sun_body, solutions.clamped)
         }
     };
     let AntennaAzimuth { antenna, azimuth_rad: antenna_azimuth_rad, outside_rad } =
@@ -196,7 +196,7 @@ pub struct Link {
 
 /// The link of a beam, the Earth being at `earth_body` in the body frame; `None` where Sun or Earth has no direction.
 pub fn link(
-    surroundings: &Surroundings,
+    surroundings: &EphemerisAtTime,
     earth_body: &Vector3<f64>,
     beam: Option<&AntennaAzimuth>,
     limits: &LinkLimits,
@@ -219,7 +219,7 @@ pub fn link(
 }
 
 /// Whether the line to the Earth meets the sphere of the planet's greatest radius on its way.
-fn behind_planet(surroundings: &Surroundings, earth: &MovingVector) -> bool {
+fn behind_planet(surroundings: &EphemerisAtTime, earth: &MovingVector) -> bool {
     let to_planet_m = value(&surroundings.to_planet());
     let earth = value(earth);
     let nearest_m = to_planet_m.dot(&earth);

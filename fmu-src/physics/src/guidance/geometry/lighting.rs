@@ -12,9 +12,9 @@
 use nalgebra::ComplexField;
 use serde::{Deserialize, Serialize};
 
+use super::ephemeris_at_time::EphemerisAtTime;
 use super::moving::{Moving, MovingVector, unit, unit_normal};
 use super::planet_point::radius_m;
-use super::surroundings::Surroundings;
 use crate::numerics::scalar::Scalar;
 
 /// What the subsolar point of an ellipsoid is.
@@ -28,7 +28,7 @@ pub enum SubsolarMethod {
 }
 
 /// Subsolar point from the planet's centre, EME2000, in m.
-pub fn subsolar_m(surroundings: &Surroundings, method: SubsolarMethod) -> Option<MovingVector> {
+pub fn subsolar_m(surroundings: &EphemerisAtTime, method: SubsolarMethod) -> Option<MovingVector> {
     let planet_from_inertial = surroundings.planet.planet_from_inertial(surroundings.epoch_s);
     let radii_m = &surroundings.planet.radii_m;
     let sun = unit(&(planet_from_inertial * surroundings.sun))?;
@@ -43,7 +43,7 @@ pub fn subsolar_m(surroundings: &Surroundings, method: SubsolarMethod) -> Option
 }
 
 /// Surface point of optimal lighting from the planet's centre, EME2000, in m; `None` inside the planet.
-pub fn optimal_lighting_m(surroundings: &Surroundings) -> Option<MovingVector> {
+pub fn optimal_lighting_m(surroundings: &EphemerisAtTime) -> Option<MovingVector> {
     let sphere_m = surroundings.planet.radii_m.x;
     let (up, sun) = (unit(&surroundings.position)?, unit(&surroundings.sun)?);
     let distance_m = surroundings.position.dot(&up);
@@ -148,8 +148,8 @@ mod tests {
     use core::f64::consts::{FRAC_PI_2, PI};
     use nalgebra::Vector3;
 
-    fn above(distance: f64, alpha_rad: f64) -> Surroundings {
-        static SOME: std::sync::OnceLock<Surroundings> = std::sync::OnceLock::new();
+    fn above(distance: f64, alpha_rad: f64) -> EphemerisAtTime {
+        static SOME: std::sync::OnceLock<EphemerisAtTime> = std::sync::OnceLock::new();
         let mut surroundings = *SOME.get_or_init(|| TestOrbit::new(12.0).surroundings(0.0));
         surroundings.planet.radii_m = Vector3::repeat(2.44e6);
         surroundings.position = fixed(Vector3::new(0.6, -0.48, 0.64) * (2.44e6 * distance));
@@ -160,15 +160,15 @@ mod tests {
     }
 
     /// F of a point by its normal: cosines of incidence and emission by dot products, nothing hidden below the horizon.
-    fn lighting(surroundings: &Surroundings, normal: &Vector3<f64>) -> f64 {
-        let to_craft = now(&surroundings.position) - normal * surroundings.planet.radii_m.x;
-        let emission = normal.dot(&to_craft.normalize());
+    fn lighting(surroundings: &EphemerisAtTime, normal: &Vector3<f64>) -> f64 {
+        let to_spacecraft = now(&surroundings.position) - normal * surroundings.planet.radii_m.x;
+        let emission = normal.dot(&to_spacecraft.normalize());
         let incidence = normal.dot(&now(&surroundings.sun).normalize());
         if emission < 0.0 || incidence < 0.0 { 0.0 } else { emission * incidence }
     }
 
     /// The best normal over the whole sphere: a grid in two angles, refined about its best point again and again.
-    fn search(surroundings: &Surroundings) -> Vector3<f64> {
+    fn search(surroundings: &EphemerisAtTime) -> Vector3<f64> {
         let normal = |a: f64, b: f64| Vector3::new(a.cos() * b.cos(), a.sin() * b.cos(), b.sin());
         let (mut centre, mut half) = ((0.0, 0.0), (PI, FRAC_PI_2));
         for round in 0..40 {
@@ -256,7 +256,7 @@ mod tests {
     #[test]
     fn the_points_move_at_the_rate_of_their_differences() {
         let orbit = TestOrbit::new(12.0);
-        type Law = fn(&Surroundings) -> Option<MovingVector>;
+        type Law = fn(&EphemerisAtTime) -> Option<MovingVector>;
         let laws: [Law; 3] = [
             optimal_lighting_m,
             |s| subsolar_m(s, SubsolarMethod::Line),
@@ -277,9 +277,9 @@ mod tests {
     fn inside_the_planet_or_without_a_sun_there_is_no_point() {
         assert!(optimal_lighting_m(&above(0.9, 1.0)).is_none());
         assert!(
-            optimal_lighting_m(&Surroundings { sun: MovingVector::zeros(), ..above(2.0, 1.0) }).is_none()
+            optimal_lighting_m(&EphemerisAtTime { sun: MovingVector::zeros(), ..above(2.0, 1.0) }).is_none()
         );
-        let dark = Surroundings { sun: MovingVector::zeros(), ..above(2.0, 1.0) };
+        let dark = EphemerisAtTime { sun: MovingVector::zeros(), ..above(2.0, 1.0) };
         assert!(subsolar_m(&dark, SubsolarMethod::Line).is_none());
     }
 }

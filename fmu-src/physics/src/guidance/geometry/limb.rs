@@ -9,9 +9,9 @@
 
 use nalgebra::{ComplexField, Vector3};
 
+use super::ephemeris_at_time::EphemerisAtTime;
 use super::lvlh::{lvlh_axes, lvlh_direction};
 use super::moving::{Moving, MovingVector, fixed, unit, unit_normal, value};
-use super::surroundings::Surroundings;
 use crate::guidance::pointing::command::{AzimuthReference, LimbCommand};
 use crate::numerics::scalar::Scalar;
 
@@ -25,7 +25,11 @@ pub struct LimbPoint {
 }
 
 /// The limb point at the azimuth of the command, `elapsed_s` into its scan; `None` where the azimuth has no reference.
-pub fn generic_limb(surroundings: &Surroundings, command: &LimbCommand, elapsed_s: f64) -> Option<LimbPoint> {
+pub fn generic_limb(
+    surroundings: &EphemerisAtTime,
+    command: &LimbCommand,
+    elapsed_s: f64,
+) -> Option<LimbPoint> {
     let side = lvlh_direction(surroundings, command.reference.unwrap_or_default(), command.azimuth_rad, 0.0)?;
     let normal = unit_normal(&surroundings.position, &side)?;
     let solutions = limb_points(surroundings, &normal);
@@ -35,7 +39,7 @@ pub fn generic_limb(surroundings: &Surroundings, command: &LimbCommand, elapsed_
 
 /// The limb point on the terminator, `elapsed_s` into its scan; `None` without a Sun.
 pub fn terminator_limb(
-    surroundings: &Surroundings,
+    surroundings: &EphemerisAtTime,
     command: &LimbCommand,
     elapsed_s: f64,
 ) -> Option<LimbPoint> {
@@ -48,7 +52,7 @@ pub fn terminator_limb(
 }
 
 /// Both limb points in the plane through the centre that `normal` (EME2000) is normal to.
-fn limb_points(surroundings: &Surroundings, normal: &MovingVector) -> Option<[MovingVector; 2]> {
+fn limb_points(surroundings: &EphemerisAtTime, normal: &MovingVector) -> Option<[MovingVector; 2]> {
     let planet_from_inertial = surroundings.planet.planet_from_inertial(surroundings.epoch_s);
     let radii = fixed(surroundings.planet.radii_m);
     let rho = (planet_from_inertial * surroundings.position).component_div(&radii);
@@ -87,7 +91,7 @@ mod tests {
     use core::f64::consts::TAU;
 
     /// Relative residuals of eqs 20, 21 and of the plane normal to `normal`.
-    fn residuals(s: &Surroundings, point: &MovingVector, normal: &Vector3<f64>) -> [f64; 3] {
+    fn residuals(s: &EphemerisAtTime, point: &MovingVector, normal: &Vector3<f64>) -> [f64; 3] {
         let to_planet = s.planet.planet_from_inertial(s.epoch_s).map(|x| x.re);
         let (x, r) = (to_planet * value(point), to_planet * value(&s.position));
         let squares = s.planet.radii_m.component_mul(&s.planet.radii_m);
@@ -96,7 +100,7 @@ mod tests {
         [on, cone, value(point).normalize().dot(&normal.normalize())]
     }
 
-    fn assert_solves(s: &Surroundings, point: &LimbPoint, normal: &Vector3<f64>) {
+    fn assert_solves(s: &EphemerisAtTime, point: &LimbPoint, normal: &Vector3<f64>) {
         assert!(point.exists);
         let residuals = residuals(s, &point.position, normal);
         assert!(residuals.iter().all(|x| x.abs() < 1e-12), "{residuals:?}");
@@ -188,7 +192,7 @@ mod tests {
             }
             found += 1;
             assert_solves(&s, &point, &sun);
-            // The other solution is the first one mirrored on a sphere: both stand off the plane of craft and Sun.
+            // The other solution is the first one mirrored on a sphere: both stand off the plane of spacecraft and Sun.
             let both = limb_points(&s, &unit(&s.sun).unwrap()).unwrap();
             let ahead = |p: &MovingVector| {
                 let velocity = value(&s.velocity);
@@ -242,12 +246,16 @@ mod tests {
     #[test]
     fn inside_the_planet_there_is_no_limb() {
         let s = TestOrbit::new(12.0).surroundings(2000.0);
-        let inside = Surroundings { position: s.position * Moving::from_re(0.01), ..s };
+        let inside = EphemerisAtTime { position: s.position * Moving::from_re(0.01), ..s };
         assert!(!generic_limb(&inside, &LimbCommand::default(), 0.0).unwrap().exists);
         assert!(!terminator_limb(&inside, &LimbCommand::default(), 0.0).unwrap().exists);
         assert!(
-            terminator_limb(&Surroundings { sun: MovingVector::zeros(), ..s }, &LimbCommand::default(), 0.0)
-                .is_none()
+            terminator_limb(
+                &EphemerisAtTime { sun: MovingVector::zeros(), ..s },
+                &LimbCommand::default(),
+                0.0
+            )
+            .is_none()
         );
     }
 }

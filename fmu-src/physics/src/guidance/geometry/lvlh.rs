@@ -6,12 +6,12 @@
 
 use nalgebra::Vector3;
 
+use super::ephemeris_at_time::EphemerisAtTime;
 use super::moving::{MovingMatrix, MovingVector, fixed, unit, unit_normal};
-use super::surroundings::Surroundings;
 use crate::guidance::pointing::command::AzimuthReference;
 
 /// Axes of the local frame as columns in EME2000; `None` where the reference has no horizontal part.
-pub fn lvlh_axes(surroundings: &Surroundings, reference: AzimuthReference) -> Option<MovingMatrix> {
+pub fn lvlh_axes(surroundings: &EphemerisAtTime, reference: AzimuthReference) -> Option<MovingMatrix> {
     let toward = match reference {
         AzimuthReference::Downtrack => surroundings.velocity,
         AzimuthReference::Sun => surroundings.sun,
@@ -23,7 +23,7 @@ pub fn lvlh_axes(surroundings: &Surroundings, reference: AzimuthReference) -> Op
 
 /// EME2000 direction of an azimuth and elevation in the local frame.
 pub fn lvlh_direction(
-    surroundings: &Surroundings,
+    surroundings: &EphemerisAtTime,
     reference: AzimuthReference,
     azimuth_rad: f64,
     elevation_rad: f64,
@@ -44,8 +44,8 @@ mod tests {
     use core::f64::consts::FRAC_PI_2;
 
     /// Above +X, flying toward +Y and upward; the Sun in the X-Z plane.
-    fn above_x() -> Surroundings {
-        Surroundings {
+    fn above_x() -> EphemerisAtTime {
+        EphemerisAtTime {
             position: moving(Vector3::x() * 5e6, Vector3::new(100.0, 2000.0, 0.0)),
             velocity: moving(Vector3::new(100.0, 2000.0, 0.0), Vector3::x() * -0.8),
             sun: fixed(Vector3::new(-1e10, 0.0, 5e10)),
@@ -79,11 +79,11 @@ mod tests {
     #[test]
     fn a_vertical_reference_gives_no_frame() {
         let above = above_x();
-        let falling = Surroundings { velocity: fixed(Vector3::x() * -10.0), ..above };
+        let falling = EphemerisAtTime { velocity: fixed(Vector3::x() * -10.0), ..above };
         assert!(lvlh_axes(&falling, AzimuthReference::Downtrack).is_none());
-        let noon = Surroundings { sun: fixed(Vector3::x() * 5e10), ..above };
+        let noon = EphemerisAtTime { sun: fixed(Vector3::x() * 5e10), ..above };
         assert!(lvlh_axes(&noon, AzimuthReference::Sun).is_none());
-        let nowhere = Surroundings { position: fixed(Vector3::zeros()), ..above };
-        assert!(lvlh_direction(&nowhere, AzimuthReference::Sun, 0.0, 0.0).is_none());
+        let without_position = EphemerisAtTime { position: fixed(Vector3::zeros()), ..above };
+        assert!(lvlh_direction(&without_position, AzimuthReference::Sun, 0.0, 0.0).is_none());
     }
 }

@@ -5,8 +5,8 @@
 
 use nalgebra::Vector3;
 
+use super::ephemeris_at_time::EphemerisAtTime;
 use super::moving::MovingVector;
-use super::surroundings::Surroundings;
 use crate::numerics::scalar::Scalar;
 
 /// Distance from the centre to the ellipsoid in a direction of unit length along the planet's axes, in m.
@@ -29,7 +29,7 @@ pub fn geographic_m(
 }
 
 /// EME2000 position from the planet's centre of a point given along the planet's axes, in m.
-pub fn planet_fixed(surroundings: &Surroundings, position_planet: &MovingVector) -> MovingVector {
+pub fn planet_fixed(surroundings: &EphemerisAtTime, position_planet: &MovingVector) -> MovingVector {
     let planet_from_inertial = surroundings.planet.planet_from_inertial(surroundings.epoch_s);
     planet_from_inertial.tr_mul(position_planet)
 }

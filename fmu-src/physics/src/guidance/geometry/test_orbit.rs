@@ -4,8 +4,8 @@ use core::cell::RefCell;
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 use super::moving::{MovingMatrix, matrix_value, moving};
-use super::surroundings::{Surroundings, TargetPlanet};
 use crate::bodies::Body;
 use crate::constants::DEG_RAD;
 use crate::environment::CartesianState;
@@ -44,7 +44,7 @@ impl TestOrbit {
     }
 
     /// At a time after periapsis.
-    pub fn surroundings(&self, time_s: f64) -> Surroundings {
+    pub fn surroundings(&self, time_s: f64) -> EphemerisAtTime {
         let epoch_s = EPOCH_S + time_s;
         let mut ephemeris = self.ephemeris.borrow_mut();
         let mercury = ephemeris.state(Body::Mercury, epoch_s);
@@ -57,7 +57,7 @@ impl TestOrbit {
         };
         let (sun, earth) = (from_planet(Body::Sun), from_planet(Body::Earth));
         let spacecraft = self.orbit.state_at(epoch_s);
-        let mut surroundings = Surroundings::new(epoch_s, self.planet, &spacecraft, &sun, &earth);
+        let mut surroundings = EphemerisAtTime::new(epoch_s, self.planet, &spacecraft, &sun, &earth);
         for body in [Body::Venus, Body::Mars, Body::Jupiter] {
             let state = from_planet(body);
             surroundings.bodies[body as usize] = Some(moving(state.position_m, state.velocity_m_s));

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::places::Places;
-use super::system::{GuidanceSettings, GuidanceState, Judgement, SampleInputs};
+use super::body_positions::BodyPositions;
+use super::system::{CommandStatus, GuidanceSettings, GuidanceState, SampleInputs};
 use super::test_burn::{guidance_settings, sample_inputs, settings};
 use crate::attitude::{Attitude, SunAngles};
 use crate::constants::DEG_RAD;
@@ -12,9 +12,9 @@ use crate::guidance::constraints::hot_pole::{CONE_RAD, HotPole};
 use crate::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
 use crate::guidance::downlink::downlink_sun::SunOnMinusY;
 use crate::guidance::downlink::sun_place::SunPlace;
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::limb::terminator_limb;
 use crate::guidance::geometry::moving::value;
-use crate::guidance::geometry::surroundings::Surroundings;
 use crate::guidance::geometry::test_geometry::Random;
 use crate::guidance::geometry::test_orbit::TestOrbit;
 use crate::guidance::orbit_phase::schedule::Schedule;
@@ -66,7 +66,7 @@ fn flight_settings(orbit_phase: Guided) -> GuidanceSettings<'static> {
 }
 
 /// What says something of the geometry.
-fn flags(judged: &Judgement) -> [bool; 7] {
+fn flags(judged: &CommandStatus) -> [bool; 7] {
     [
         judged.sun_keep_in,
         judged.hot_pole,
@@ -79,46 +79,46 @@ fn flags(judged: &Judgement) -> [bool; 7] {
 }
 
 /// A flight under one command: flags at each second, and each second before which the command is not where its rate led.
-struct Flown {
+struct Simulated {
     flags: Vec<[bool; 7]>,
     jumps: Vec<(u32, f64)>,
 }
 
-fn fly(all: &GuidanceSettings<'_>, command: PointingCommand, places: &[Surroundings]) -> Flown {
+fn fly(all: &GuidanceSettings<'_>, command: PointingCommand, places: &[EphemerisAtTime]) -> Simulated {
     let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
-    let mut flown = Flown { flags: Vec::with_capacity(places.len()), jumps: Vec::new() };
+    let mut simulated = Simulated { flags: Vec::with_capacity(places.len()), jumps: Vec::new() };
     for (second, surroundings) in (0_u32..).zip(places) {
         let time_s = f64::from(second);
         let led_to = guidance.command().attitude_at(time_s);
         let rate_before = guidance.command().rate_body_rad_s;
         let inputs = SampleInputs {
             command,
-            places: Places::in_every_mode(Some(*surroundings)),
+            places: BodyPositions::in_every_mode(Some(*surroundings)),
             ..sample_inputs(led_to, Vector3::zeros())
         };
         guidance.sample(all, &inputs, &SunOnMinusY);
-        flown.flags.push(flags(guidance.judgement()));
+        simulated.flags.push(flags(guidance.judgement()));
         let now = guidance.command();
         let jump_rad = led_to.rotation_vector_to(&now.attitude_at(time_s)).norm();
         // What both rates explain, also where the rate changes much between two samples, is no jump.
         let steady_rad = now.rate_body_rad_s.norm() + rate_before.norm() + 1e-4;
         if second > 0 && jump_rad > steady_rad {
-            flown.jumps.push((second, jump_rad));
+            simulated.jumps.push((second, jump_rad));
         }
     }
-    flown
+    simulated
 }
 
 /// How often a flag changes, seen every `every` samples.
-fn changes(flown: &Flown, flag: usize, every: usize) -> usize {
-    let seen: Vec<bool> = flown.flags.iter().step_by(every).map(|flags| flags[flag]).collect();
+fn changes(simulated: &Simulated, flag: usize, every: usize) -> usize {
+    let seen: Vec<bool> = simulated.flags.iter().step_by(every).map(|flags| flags[flag]).collect();
     seen.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
 /// Seconds at which a flag changes.
-fn changed_at(flown: &Flown, flag: usize, second: u32) -> bool {
+fn changed_at(simulated: &Simulated, flag: usize, second: u32) -> bool {
     let at = second as usize;
-    flown.flags[at][flag] != flown.flags[at - 1][flag]
+    simulated.flags[at][flag] != simulated.flags[at - 1][flag]
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn no_flag_flickers_and_no_command_jumps_over_half_a_day_of_every_scenario() {
     let mut greatest = [0; 7];
     let mut unexplained = Vec::new();
     for day in [0.0, 40.0] {
-        let places: Vec<Surroundings> =
+        let places: Vec<EphemerisAtTime> =
             (0..HALF_DAY_S).map(|second| orbit.surroundings(day * 86_400.0 + f64::from(second))).collect();
         let orbit_phases = [
             (ScienceRule::Scaled { gain: 0.25 }, 0.0),
@@ -144,16 +144,16 @@ fn no_flag_flickers_and_no_command_jumps_over_half_a_day_of_every_scenario() {
                 (command, law(science, slew_rate_rad_s))
             }));
         for (command, orbit_phase) in commands {
-            let flown = fly(&flight_settings(orbit_phase), command, &places);
+            let simulated = fly(&flight_settings(orbit_phase), command, &places);
             for (flag, most) in greatest.iter_mut().enumerate() {
-                let count = changes(&flown, flag, 1);
+                let count = changes(&simulated, flag, 1);
                 *most = count.max(*most);
                 // What the geometry does lasts longer than twenty seconds.
-                assert_eq!(count, changes(&flown, flag, 20), "{:?} flag {flag}", command.scenario);
+                assert_eq!(count, changes(&simulated, flag, 20), "{:?} flag {flag}", command.scenario);
             }
-            for (second, jump_rad) in &flown.jumps {
+            for (second, jump_rad) in &simulated.jumps {
                 // The edge of the hot pole's region, and of a window where turns take no time.
-                let at_region = changed_at(&flown, 1, *second);
+                let at_region = changed_at(&simulated, 1, *second);
                 let at_window = command.scenario == Some(Scenario::OrbitPhase)
                     && orbit_phase.slew_rate_rad_s == 0.0
                     && [7_200, 36_000].iter().any(|edge| second.abs_diff(*edge) <= 1);
@@ -257,7 +257,7 @@ fn a_downlink_of_the_orbit_phase_reaches_the_earth_beyond_a_right_angle_from_the
         let command = PointingCommand { scenario: Some(Scenario::OrbitPhase), ..PointingCommand::default() };
         let inputs = SampleInputs {
             command,
-            places: Places::in_every_mode(Some(surroundings)),
+            places: BodyPositions::in_every_mode(Some(surroundings)),
             ..sample_inputs(Attitude::default(), Vector3::zeros())
         };
         let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
@@ -287,7 +287,7 @@ fn a_scan_that_changes_begins_anew() {
     faster.scan.rate_rad_s[0] = 2e-3;
     let sample = |guidance: &mut GuidanceState, second: u32, command: PointingCommand| {
         let surroundings = orbit.surroundings(20_000.0 + f64::from(second));
-        let places = Places::in_every_mode(Some(surroundings));
+        let places = BodyPositions::in_every_mode(Some(surroundings));
         let inputs = SampleInputs { command, places, ..sample_inputs(Attitude::default(), Vector3::zeros()) };
         guidance.sample(&all, &inputs, &SunOnMinusY);
         guidance.command().attitude_at(f64::from(second))

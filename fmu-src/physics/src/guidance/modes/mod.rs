@@ -1,12 +1,12 @@
 //! Modes, monitors, trust in ephemerides, and the guidance system that samples it all.
 
+pub mod body_positions;
 #[cfg(test)]
 pub(crate) mod burn_tests;
 #[cfg(test)]
 pub(crate) mod flight_tests;
 pub mod mode;
 pub mod monitor;
-pub mod places;
 pub mod system;
 #[cfg(test)]
 pub(crate) mod test_burn;

@@ -28,7 +28,7 @@ impl Mode {
     }
 
     /// The command as this mode takes it: Safe Hold replaces all but downlink by the default downlink, and scans never.
-    pub fn admitted(self, command: &PointingCommand) -> PointingCommand {
+    pub fn allowed(self, command: &PointingCommand) -> PointingCommand {
         match self {
             Self::Operational => *command,
             Self::SafeHold | Self::EarthAcquisition if command.scenario == Some(Scenario::Downlink) => {

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::Attitude;
 use crate::guidance::constraints::constrained::Constraints;
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
-use crate::guidance::geometry::surroundings::Surroundings;
 
 /// How far beyond a boundary counts as a violation, assumed: a degree.
 pub const MARGIN_RAD: f64 = crate::constants::DEG_RAD;
@@ -64,7 +64,7 @@ impl Monitor {
 }
 
 /// By how much an estimated attitude exceeds the constraints, in rad; negative where it keeps them.
-pub fn excess_rad(constraints: &Constraints, estimate: &Attitude, surroundings: &Surroundings) -> f64 {
+pub fn excess_rad(constraints: &Constraints, estimate: &Attitude, surroundings: &EphemerisAtTime) -> f64 {
     let body_from_inertial = estimate.inertial_from_body().inverse();
     let in_region = constraints.hot_pole.is_some_and(|cone| cone.in_region(surroundings));
     let body = |vector| body_from_inertial * value(&vector);
@@ -80,8 +80,8 @@ mod tests {
     use crate::bodies::Body;
     use crate::guidance::constraints::hot_pole::HotPole;
     use crate::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
+    use crate::guidance::geometry::ephemeris_at_time::TargetPlanet;
     use crate::guidance::geometry::moving::fixed;
-    use crate::guidance::geometry::surroundings::TargetPlanet;
 
     const MONITOR: Monitor = Monitor { margin_rad: 0.1, persistence_s: 3.0 };
 
@@ -124,7 +124,7 @@ mod tests {
         };
         let cone = HotPole { altitude_m: 1e6, angle_rad: 0.5, cone_rad: 1.0 };
         let planet = TargetPlanet::of(Body::Mercury.data());
-        let around = |height_m: f64| Surroundings {
+        let around = |height_m: f64| EphemerisAtTime {
             epoch_s: 0.0,
             planet,
             position: fixed(Vector3::x() * (planet.radii_m.x + height_m)),

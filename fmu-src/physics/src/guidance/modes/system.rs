@@ -9,8 +9,8 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::body_positions::BodyPositions;
 use super::mode::Mode;
-use super::places::Places;
 use super::transitions::{ModeSettings, ModeState, Sensed, Steering};
 use crate::attitude::{Attitude, SunAngles};
 use crate::guidance::burn::delta_v::{BurnSettings, BurnState, MeasuredMotion};
@@ -19,8 +19,8 @@ use crate::guidance::constraints::hot_pole::TurnSide;
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::downlink::downlink_sun::{DownlinkSun, SunChooser, WindowStart};
 use crate::guidance::downlink::sun_place::{LinkLimits, SunPlace, link};
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{MovingVector, rate, value};
-use crate::guidance::geometry::surroundings::Surroundings;
 use crate::guidance::orbit_phase::guided::Guided;
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
 use crate::guidance::orbit_phase::schedule::Activity;
@@ -68,7 +68,7 @@ pub struct SampleInputs {
     /// The timeline's entries that say scan, limb and mode, where they and no input do: each begins with its entry.
     pub entries: TimedEntries,
     /// Where everything is.
-    pub places: Places,
+    pub places: BodyPositions,
     /// Mode request, estimate and Sun sensors at the sample's time.
     pub sensed: Sensed,
     /// Sum of the accelerometers' increments along the body axes, in m/s.
@@ -82,7 +82,7 @@ pub struct TimedEntries {
     pub scan: Option<usize>,
     /// The scenario: the entry that names one.
     pub scenario: Option<usize>,
-    /// The mode that is asked for.
+    /// The mode that is requested.
     pub mode: Option<usize>,
 }
 
@@ -119,8 +119,8 @@ pub struct GuidanceCommand {
 
 /// What is said of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Judgement {
-    /// The camera's angle, and whether it is the one asked for.
+pub struct CommandStatus {
+    /// The camera's angle, and whether it is the one requested.
     pub mdis: DeviceAngle,
     /// The antenna in use.
     pub antenna: Antenna,
@@ -142,7 +142,7 @@ pub struct Judgement {
     pub hot_pole: bool,
     /// Whether its cone is kept, in force or not.
     pub hot_pole_reached: bool,
-    /// Whether something that was asked for was clamped.
+    /// Whether something that was requested was clamped.
     pub clamped: bool,
 }
 
@@ -150,7 +150,7 @@ pub struct Judgement {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GuidanceState {
     command: GuidanceCommand,
-    judgement: Judgement,
+    judgement: CommandStatus,
     /// From the spacecraft to the Sun and its rate, EME2000, and when; zero while it is not known.
     to_sun: [Vector3<f64>; 2],
     to_sun_since_s: f64,
@@ -172,10 +172,10 @@ pub struct GuidanceState {
 }
 
 /// What a sample works with.
-struct Now<'a> {
+struct SampleContext<'a> {
     settings: &'a GuidanceSettings<'a>,
     constraints: Constraints,
-    surroundings: &'a Surroundings,
+    surroundings: &'a EphemerisAtTime,
     time_s: f64,
 }
 
@@ -191,7 +191,7 @@ impl GuidanceState {
                 rate_body_rad_s: Vector3::zeros(),
                 error: [0.0, 0.0, 0.0, 1.0],
             },
-            judgement: Judgement::NOTHING,
+            judgement: CommandStatus::NOTHING,
             to_sun: [Vector3::zeros(); 2],
             to_sun_since_s: start_s,
             modes: ModeState::default(),
@@ -213,7 +213,7 @@ impl GuidanceState {
     }
 
     /// What is said of it.
-    pub fn judgement(&self) -> &Judgement {
+    pub fn judgement(&self) -> &CommandStatus {
         &self.judgement
     }
 
@@ -265,12 +265,12 @@ impl GuidanceState {
         self.next_sample_s = next_whole_s(time_s);
         let sensed = Sensed { time_s, ..inputs.sensed };
         let mut modes = settings.modes;
-        let before = self.modes.surroundings(&inputs.places).map(Surroundings::to_sun);
+        let before = self.modes.surroundings(&inputs.places).map(EphemerisAtTime::to_sun);
         if before.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in_distance_m) {
             modes.operational.keep_in = None;
         }
         modes.watches_hot_pole &= self.judgement.hot_pole_reached;
-        self.keep_clocks(&inputs.command, inputs.entries, time_s);
+        self.update_timers(&inputs.command, inputs.entries, time_s);
         self.burn.measure(
             &settings.burn,
             sensed.estimate.map(|attitude| MeasuredMotion {
@@ -281,18 +281,18 @@ impl GuidanceState {
         );
         let steering = self.modes.sample(&modes, &sensed, &inputs.places);
         let surroundings = self.modes.surroundings(&inputs.places);
-        if let Some(to_sun) = surroundings.map(Surroundings::to_sun) {
+        if let Some(to_sun) = surroundings.map(EphemerisAtTime::to_sun) {
             (self.to_sun, self.to_sun_since_s) = ([value(&to_sun), rate(&to_sun)], time_s);
         }
         match steering {
             Some(Steering::Pointing(constraints)) => {
-                let command = self.modes.mode.admitted(&inputs.command);
+                let command = self.modes.mode.allowed(&inputs.command);
                 let orbit_phase = Guided { keep_in: constraints.keep_in, ..settings.orbit_phase };
                 let settings = &GuidanceSettings { orbit_phase, ..*settings };
                 if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
                     let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
                     is_asked = self.place_sun(settings, &command, surroundings, attitude, chooser);
-                    self.point(&Now { settings, constraints, surroundings, time_s }, &command);
+                    self.point(&SampleContext { settings, constraints, surroundings, time_s }, &command);
                     let is_law = self.law.is_some_and(|law| law.scenario == Some(Scenario::Burn));
                     if self.modes.mode == Mode::Operational {
                         self.burn.begin(&settings.burn, time_s, is_law && self.judgement.reachable);
@@ -300,12 +300,12 @@ impl GuidanceState {
                 }
             }
             Some(Steering::ErrorQuaternion { error, rate_body_rad_s }) => {
-                self.steer(CommandKind::ErrorQuaternion, error.0, rate_body_rad_s, time_s);
+                self.set_rate_command(CommandKind::ErrorQuaternion, error.0, rate_body_rad_s, time_s);
             }
             Some(Steering::RateOnly(rate_body_rad_s)) => {
-                self.steer(CommandKind::RateOnly, [0.0, 0.0, 0.0, 1.0], rate_body_rad_s, time_s);
+                self.set_rate_command(CommandKind::RateOnly, [0.0, 0.0, 0.0, 1.0], rate_body_rad_s, time_s);
             }
-            None => self.judgement = Judgement { degenerate: true, ..Judgement::NOTHING },
+            None => self.judgement = CommandStatus { degenerate: true, ..CommandStatus::NOTHING },
         }
         if !self.judgement.hot_pole {
             self.hot_pole_turn = None;
@@ -322,7 +322,7 @@ impl GuidanceState {
         &mut self,
         settings: &GuidanceSettings<'_>,
         command: &PointingCommand,
-        surroundings: &Surroundings,
+        surroundings: &EphemerisAtTime,
         attitude: Attitude,
         chooser: &impl SunChooser,
     ) -> bool {
@@ -393,8 +393,8 @@ impl GuidanceState {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
-        self.command.attitude.is_rotation() && self.burn.is_sound() && self.downlink_sun.is_sound()
+    pub fn is_valid(&self) -> bool {
+        self.command.attitude.is_rotation() && self.burn.is_valid() && self.downlink_sun.is_valid()
     }
 
     /// Whether a step could begin at `time_s`.
@@ -418,7 +418,7 @@ impl GuidanceState {
 
     /// A scan begins where it is first commanded or changes, a limb scenario and a burn where they are, in whatever mode; one of
     /// a timeline with its entry.
-    fn keep_clocks(&mut self, command: &PointingCommand, entries: TimedEntries, time_s: f64) {
+    fn update_timers(&mut self, command: &PointingCommand, entries: TimedEntries, time_s: f64) {
         if entries.scan != self.entries.scan {
             self.scan = None;
         }
@@ -444,16 +444,16 @@ impl GuidanceState {
     }
 
     /// Computes an attitude; without a direction the last law stays that gave one.
-    fn point(&mut self, now: &Now<'_>, command: &PointingCommand) {
+    fn point(&mut self, now: &SampleContext<'_>, command: &PointingCommand) {
         let mut found = self.constrained(now, command);
         let is_given = found.is_some();
-        if !is_given && let Some(law) = self.law.map(|law| self.modes.mode.admitted(&without_scans(&law))) {
+        if !is_given && let Some(law) = self.law.map(|law| self.modes.mode.allowed(&without_scans(&law))) {
             found = self.constrained(now, &law);
         } else if is_given && self.modes.mode == Mode::Operational {
             self.law = Some(*command);
         }
         let Some((aimed, constrained)) = found else {
-            self.judgement = Judgement { degenerate: true, ..Judgement::NOTHING };
+            self.judgement = CommandStatus { degenerate: true, ..CommandStatus::NOTHING };
             return;
         };
         let ConstrainedPointing { pointing, sun_keep_in, hot_pole: turn, hot_pole_reached } = constrained;
@@ -472,14 +472,15 @@ impl GuidanceState {
         };
         let earth_body = value(&pointing.to_body(&now.surroundings.to_earth()));
         let is_moved = sun_keep_in || hot_pole;
-        let beam = aimed.antenna.map(|asked| match asked {
+        let beam = aimed.antenna.map(|requested| match requested {
             // The beam follows the Earth where a constraint moved the antenna off it.
             Beam::AtTheEarth(_) if is_moved => AntennaAzimuth::toward(&earth_body),
             Beam::AtTheEarth(azimuth) | Beam::Commanded(azimuth) => azimuth,
         });
         let link = link(now.surroundings, &earth_body, beam.as_ref(), &now.settings.link);
-        let mdis = aimed.camera(&pointing, &now.settings.hardware.mdis).unwrap_or(Judgement::NOTHING.mdis);
-        self.judgement = Judgement {
+        let mdis =
+            aimed.camera(&pointing, &now.settings.hardware.mdis).unwrap_or(CommandStatus::NOTHING.mdis);
+        self.judgement = CommandStatus {
             mdis,
             antenna: beam.map_or(Antenna::None, |beam| beam.antenna),
             antenna_azimuth_rad: beam.map_or(0.0, |beam| beam.azimuth_rad),
@@ -501,7 +502,7 @@ impl GuidanceState {
     /// The vectors of a command and the attitude within the constraints; `None` where something has no direction.
     fn constrained(
         &mut self,
-        now: &Now<'_>,
+        now: &SampleContext<'_>,
         command: &PointingCommand,
     ) -> Option<(Aimed, ConstrainedPointing)> {
         let aimed = self.aimed(now, command)?;
@@ -510,7 +511,7 @@ impl GuidanceState {
     }
 
     /// The vectors that the command asks for.
-    fn aimed(&mut self, now: &Now<'_>, command: &PointingCommand) -> Option<Aimed> {
+    fn aimed(&mut self, now: &SampleContext<'_>, command: &PointingCommand) -> Option<Aimed> {
         if command.scenario == Some(Scenario::OrbitPhase) {
             let science = self.downlink_sun.in_science().filter(|_| self.modes.mode == Mode::Operational);
             let law = now.settings.orbit_phase.with_sun_places(self.sun_place(), science);
@@ -529,7 +530,7 @@ impl GuidanceState {
     }
 
     /// The orbit phase's attitude as vectors: +Z at where it looks, -Y rolled to where it is.
-    fn orbit_phase(&mut self, law: &Guided, surroundings: &Surroundings) -> Aimed {
+    fn orbit_phase(&mut self, law: &Guided, surroundings: &EphemerisAtTime) -> Aimed {
         let attitude = self.periapses.attitude(law, surroundings);
         let pointing = Pointing::of(&attitude.frame);
         let is_downlink = attitude.window.activity == Activity::Downlink && !attitude.slewing;
@@ -547,12 +548,18 @@ impl GuidanceState {
     }
 
     /// A command without an attitude of its own: the attitude reached is held by the rate.
-    fn steer(&mut self, kind: CommandKind, error: [f64; 4], rate_body_rad_s: Vector3<f64>, time_s: f64) {
+    fn set_rate_command(
+        &mut self,
+        kind: CommandKind,
+        error: [f64; 4],
+        rate_body_rad_s: Vector3<f64>,
+        time_s: f64,
+    ) {
         let attitude = self.command.attitude_at(time_s);
         let quaternion = self.command.quaternion_of(&attitude);
         self.command =
             GuidanceCommand { kind, since_s: time_s, attitude, quaternion, rate_body_rad_s, error };
-        self.judgement = Judgement::NOTHING;
+        self.judgement = CommandStatus::NOTHING;
     }
 }
 
@@ -581,7 +588,7 @@ impl GuidanceCommand {
     }
 }
 
-impl Judgement {
+impl CommandStatus {
     /// Of no attitude.
     const NOTHING: Self = Self {
         mdis: DeviceAngle { angle_rad: 0.0, in_range: true },

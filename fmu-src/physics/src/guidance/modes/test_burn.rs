@@ -4,7 +4,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::places::Places;
+use super::body_positions::BodyPositions;
 use super::system::{GuidanceSettings, GuidanceState, SampleInputs, TimedEntries};
 use super::transitions::{ModeSettings, Sensed};
 use crate::attitude::Attitude;
@@ -17,8 +17,8 @@ use crate::guidance::constraints::constrained::Constraints;
 use crate::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
 use crate::guidance::downlink::downlink_sun::SunOnMinusY;
 use crate::guidance::downlink::sun_place::LinkLimits;
+use crate::guidance::geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 use crate::guidance::geometry::moving::fixed;
-use crate::guidance::geometry::surroundings::{Surroundings, TargetPlanet};
 use crate::guidance::orbit_phase::attitudes::ScienceRule;
 use crate::guidance::orbit_phase::guided::Guided;
 use crate::guidance::orbit_phase::schedule::Schedule;
@@ -63,7 +63,7 @@ pub struct BurnFlight {
 
 /// What a flight came to.
 #[derive(Clone, Copy, Debug)]
-pub struct Flown {
+pub struct Simulated {
     /// True velocity added, EME2000, in m/s.
     pub velocity_m_s: Vector3<f64>,
     /// True thrust direction at the end, body frame.
@@ -77,9 +77,9 @@ pub struct Flown {
 }
 
 /// The Sun to the side of burns along x.
-pub fn surroundings() -> Surroundings {
+pub fn surroundings() -> EphemerisAtTime {
     let planet = TargetPlanet::of(Body::Mercury.data());
-    Surroundings {
+    EphemerisAtTime {
         epoch_s: 0.0,
         planet,
         position: fixed(Vector3::x() * planet.radii_m.x * 2.0),
@@ -154,7 +154,7 @@ pub fn sample_inputs(attitude: Attitude, delta_v_body_m_s: Vector3<f64>) -> Samp
     SampleInputs {
         command: PointingCommand { scenario: Some(Scenario::Burn), ..PointingCommand::default() },
         entries: TimedEntries::default(),
-        places: Places::in_every_mode(Some(surroundings())),
+        places: BodyPositions::in_every_mode(Some(surroundings())),
         sensed: Sensed { time_s: 0.0, request: None, estimate: Some(attitude), sun_body: None },
         delta_v_body_m_s,
     }
@@ -201,7 +201,7 @@ impl BurnFlight {
     }
 
     /// Flies it for `duration_s`.
-    pub fn fly(&self, duration_s: u32) -> Flown {
+    pub fn fly(&self, duration_s: u32) -> Simulated {
         let settings = guidance_settings(self.settings);
         let path = self.settings.path.unwrap();
         let dt = 1.0 / f64::from(RATE_HZ);
@@ -251,7 +251,7 @@ impl BurnFlight {
             farthest_m_s = farthest_m_s.max((velocity_m_s - path.point(magnitude_m_s).velocity_m_s).norm());
         }
         assert!(matches!(guidance.burn().phase(), BurnPhase::Ended { .. }), "{:?}", guidance.burn());
-        Flown {
+        Simulated {
             velocity_m_s,
             thrust_body: self.thrust_body(ended_s - began_s.unwrap_or(0.0)),
             guidance,

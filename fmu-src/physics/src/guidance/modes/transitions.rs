@@ -13,13 +13,13 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::body_positions::{BodyPositions, EphemerisTrust};
 use super::mode::Mode;
 use super::monitor::{Monitor, MonitorState, Violation, excess_rad};
-use super::places::{EphemerisTrust, Places};
 use crate::attitude::{Attitude, Quaternion};
 use crate::guidance::constraints::constrained::Constraints;
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
-use crate::guidance::geometry::surroundings::Surroundings;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// Two unit vectors whose cross product is as small as this are opposite within rounding.
@@ -62,7 +62,7 @@ pub struct ModeSettings {
 pub struct Sensed {
     /// Time of the sample, in s.
     pub time_s: f64,
-    /// The mode that is asked for.
+    /// The mode that is requested.
     pub request: Option<Mode>,
     /// Estimated attitude; `None` where it is not valid.
     pub estimate: Option<Attitude>,
@@ -109,7 +109,12 @@ impl ModeState {
 
     /// Takes a sample: changes the mode, and says how to steer in it. `None` where no boresight has a direction.
     /// While no place is known nothing is judged.
-    pub fn sample(&mut self, settings: &ModeSettings, sensed: &Sensed, places: &Places) -> Option<Steering> {
+    pub fn sample(
+        &mut self,
+        settings: &ModeSettings,
+        sensed: &Sensed,
+        places: &BodyPositions,
+    ) -> Option<Steering> {
         self.change_mode(settings, sensed, places);
         if self.mode != Mode::EarthAcquisition {
             self.search_since_s = None;
@@ -128,11 +133,11 @@ impl ModeState {
     }
 
     /// Where everything is by the ephemerides that the mode goes by.
-    pub fn surroundings<'p>(&self, places: &'p Places) -> Option<&'p Surroundings> {
+    pub fn surroundings<'p>(&self, places: &'p BodyPositions) -> Option<&'p EphemerisAtTime> {
         places.in_mode(self.mode, &self.ephemeris)
     }
 
-    fn change_mode(&mut self, settings: &ModeSettings, sensed: &Sensed, places: &Places) {
+    fn change_mode(&mut self, settings: &ModeSettings, sensed: &Sensed, places: &BodyPositions) {
         let requested = sensed.request.filter(|_| sensed.request != self.last_request);
         self.last_request = sensed.request;
         if let Some(mode) = requested {
@@ -195,7 +200,7 @@ impl ModeSettings {
 }
 
 /// Unit vector to the Sun in the body frame: sensed, or else of the ephemeris in the estimated attitude.
-pub fn sun_body(sensed: &Sensed, surroundings: Option<&Surroundings>) -> Option<Vector3<f64>> {
+pub fn sun_body(sensed: &Sensed, surroundings: Option<&EphemerisAtTime>) -> Option<Vector3<f64>> {
     let computed = || {
         let to_sun = value(&surroundings?.to_sun());
         Some(sensed.estimate?.inertial_from_body().inverse() * to_sun)

@@ -240,12 +240,12 @@ mod tests {
         })
     }
 
-    fn in_body(wanted: &AttitudeCommand, unit: &MovingUnit) -> Vector3<f64> {
-        wanted.frame.inertial_from_body.inverse() * unit.direction
+    fn in_body(requested: &AttitudeCommand, unit: &MovingUnit) -> Vector3<f64> {
+        requested.frame.inertial_from_body.inverse() * unit.direction
     }
 
     #[test]
-    fn a_downlink_off_the_sun_has_sun_and_earth_where_they_are_asked_for() {
+    fn a_downlink_off_the_sun_has_sun_and_earth_where_they_are_requested() {
         let mut checked = 0;
         for (i, lines) in many().enumerate() {
             let k = i as f64;
@@ -276,14 +276,14 @@ mod tests {
     fn nadir_rule_points_z_at_the_planet_inside_the_zone() {
         let mut free = 0;
         for lines in many() {
-            let wanted = science(&lines, ScienceRule::Nadir, LIMIT_RAD);
-            let sun = SunAngles::of(&in_body(&wanted, &lines.sun));
-            let planet = in_body(&wanted, lines.planet.as_ref().unwrap());
+            let requested = science(&lines, ScienceRule::Nadir, LIMIT_RAD);
+            let sun = SunAngles::of(&in_body(&requested, &lines.sun));
+            let planet = in_body(&requested, lines.planet.as_ref().unwrap());
             assert_relative_eq!(sun.azimuth_rad, 0.0, epsilon = 1e-12);
             assert!(sun.elevation_rad.abs() <= LIMIT_RAD + 1e-12);
             assert!(planet.z > 0.0, "the instruments are on the planet's side");
             assert_relative_eq!(planet.x, 0.0, epsilon = 1e-12);
-            if wanted.margins.iter().all(|margin| *margin >= 0.0) {
+            if requested.margins.iter().all(|margin| *margin >= 0.0) {
                 free += 1;
                 assert_relative_eq!(planet.z, 1.0, epsilon = 1e-12);
             }
@@ -294,10 +294,10 @@ mod tests {
     #[test]
     fn scaled_rule_shows_the_sun_at_a_quarter_of_the_angle() {
         for lines in many() {
-            let wanted = science(&lines, ScienceRule::Scaled { gain: 0.25 }, LIMIT_RAD);
+            let requested = science(&lines, ScienceRule::Scaled { gain: 0.25 }, LIMIT_RAD);
             let angle_rad = lines.sun.direction.angle(&lines.planet.unwrap().direction);
             let expected = (0.25 * (angle_rad - std::f64::consts::FRAC_PI_2)).clamp(-LIMIT_RAD, LIMIT_RAD);
-            let sun = SunAngles::of(&in_body(&wanted, &lines.sun));
+            let sun = SunAngles::of(&in_body(&requested, &lines.sun));
             assert_relative_eq!(sun.elevation_rad, expected, epsilon = 1e-12);
         }
     }
@@ -310,14 +310,14 @@ mod tests {
             let k = i as f64;
             let sun =
                 SunAngles { azimuth_rad: 0.26 * (0.7 * k).sin(), elevation_rad: 0.22 * (1.3 * k).cos() };
-            let wanted = science(&lines, ScienceRule::Unloading { sun, camera }, 0.0);
-            let found = SunAngles::of(&in_body(&wanted, &lines.sun));
+            let requested = science(&lines, ScienceRule::Unloading { sun, camera }, 0.0);
+            let found = SunAngles::of(&in_body(&requested, &lines.sun));
             assert_relative_eq!(found.azimuth_rad, sun.azimuth_rad, epsilon = 1e-12);
             assert_relative_eq!(found.elevation_rad, sun.elevation_rad, epsilon = 1e-12);
-            let planet = in_body(&wanted, lines.planet.as_ref().unwrap());
+            let planet = in_body(&requested, lines.planet.as_ref().unwrap());
             let angle = camera.toward(&planet);
             let off_rad = angle_between_rad(&mdis_boresight(angle.angle_rad), &planet);
-            assert_eq!(angle.in_range, wanted.margins.iter().all(|margin| *margin > 0.0));
+            assert_eq!(angle.in_range, requested.margins.iter().all(|margin| *margin > 0.0));
             if angle.in_range {
                 kept += 1;
                 assert_relative_eq!(planet.x, 0.0, epsilon = 1e-12);
@@ -326,7 +326,7 @@ mod tests {
             }
             at_bound += 1;
             // No turn about the Sun line and no angle of the camera comes nearer.
-            let axis = nalgebra::Unit::new_normalize(in_body(&wanted, &lines.sun));
+            let axis = nalgebra::Unit::new_normalize(in_body(&requested, &lines.sun));
             for turn in -90..90 {
                 let turned = nalgebra::Rotation3::from_axis_angle(&axis, 0.035 * f64::from(turn)) * planet;
                 for degree in -50..=40 {
@@ -353,9 +353,9 @@ mod tests {
     #[test]
     fn downlink_puts_the_earth_in_an_antenna_quadrant() {
         for lines in many() {
-            let wanted = downlink(&lines);
-            assert_relative_eq!(in_body(&wanted, &lines.sun), -Vector3::y(), epsilon = 1e-12);
-            let earth = in_body(&wanted, &lines.earth);
+            let requested = downlink(&lines);
+            assert_relative_eq!(in_body(&requested, &lines.sun), -Vector3::y(), epsilon = 1e-12);
+            let earth = in_body(&requested, &lines.earth);
             assert_relative_eq!(earth.z, 0.0, epsilon = 1e-12);
             let behind = lines.sun.direction.dot(&lines.earth.direction) <= 0.0;
             if behind {
@@ -388,8 +388,8 @@ mod tests {
         }
         let pole = MovingUnit { direction: Vector3::z(), rate_1_s: Vector3::zeros() };
         all.push(sun_pointing(&LinesOfSight { sun: pole, planet: None, earth: pole, sun_from_planet: None }));
-        for wanted in all {
-            let matrix = wanted.frame.inertial_from_body.matrix();
+        for requested in all {
+            let matrix = requested.frame.inertial_from_body.matrix();
             assert_relative_eq!(matrix.determinant(), 1.0, epsilon = 1e-12);
             assert_relative_eq!(matrix * matrix.transpose(), nalgebra::Matrix3::identity(), epsilon = 1e-12);
         }

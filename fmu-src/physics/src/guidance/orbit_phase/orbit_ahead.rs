@@ -13,13 +13,13 @@ use crate::attitude::MovingUnit;
 use crate::constants::GM_SUN_M3_S2;
 use crate::environment::CartesianState;
 use crate::environment::orbit::TwoBodyOrbit;
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{MovingVector, rate, value};
-use crate::guidance::geometry::surroundings::Surroundings;
 
 /// Everything about the planet at other epochs than the sample's.
 #[derive(Clone, Copy, Debug)]
 pub struct OrbitAhead<'a> {
-    now: &'a Surroundings,
+    now: &'a EphemerisAtTime,
     spacecraft: TwoBodyOrbit,
     planet_from_sun: BodyAhead,
     earth_from_sun: BodyAhead,
@@ -35,7 +35,7 @@ struct BodyAhead {
 
 impl<'a> OrbitAhead<'a> {
     /// From where everything is now; `None` where the spacecraft is on no ellipse about the planet.
-    pub fn of(now: &'a Surroundings) -> Option<Self> {
+    pub fn of(now: &'a EphemerisAtTime) -> Option<Self> {
         let state = |position: MovingVector| CartesianState {
             position_m: value(&position),
             velocity_m_s: rate(&position),
@@ -54,7 +54,7 @@ impl<'a> OrbitAhead<'a> {
     }
 
     /// Spacecraft, Sun and Earth at an epoch.
-    pub fn at(&self, epoch_s: f64) -> Surroundings {
+    pub fn at(&self, epoch_s: f64) -> EphemerisAtTime {
         let spacecraft = self.spacecraft.state_at(epoch_s);
         let planet = self.planet_from_sun.at(epoch_s);
         let earth = self.earth_from_sun.at(epoch_s);
@@ -63,7 +63,7 @@ impl<'a> OrbitAhead<'a> {
             position_m: earth.position_m - planet.position_m,
             velocity_m_s: earth.velocity_m_s - planet.velocity_m_s,
         };
-        Surroundings::new(epoch_s, self.now.planet, &spacecraft, &sun, &earth)
+        EphemerisAtTime::new(epoch_s, self.now.planet, &spacecraft, &sun, &earth)
     }
 }
 
@@ -83,7 +83,7 @@ impl BodyAhead {
 }
 
 /// The present orbit about the planet, if it is an ellipse.
-pub fn ellipse_of(surroundings: &Surroundings) -> Option<TwoBodyOrbit> {
+pub fn ellipse_of(surroundings: &EphemerisAtTime) -> Option<TwoBodyOrbit> {
     let state = CartesianState {
         position_m: value(&surroundings.position),
         velocity_m_s: value(&surroundings.velocity),
@@ -93,7 +93,7 @@ pub fn ellipse_of(surroundings: &Surroundings) -> Option<TwoBodyOrbit> {
 }
 
 /// Directions from the spacecraft with their rates; a body at zero distance counts as lying toward +X.
-pub fn lines_of_sight(surroundings: &Surroundings) -> LinesOfSight {
+pub fn lines_of_sight(surroundings: &EphemerisAtTime) -> LinesOfSight {
     let unit = |vector: &MovingVector| {
         MovingUnit::of(value(vector), rate(vector))
             .unwrap_or(MovingUnit { direction: Vector3::x(), rate_1_s: Vector3::zeros() })
@@ -129,8 +129,8 @@ mod tests {
         }
     }
 
-    fn surroundings(center: Body, sun: &CartesianState, earth: &CartesianState) -> Surroundings {
-        Surroundings::new(EPOCH_S, TargetPlanet::of(center.data()), &start(), sun, earth)
+    fn surroundings(center: Body, sun: &CartesianState, earth: &CartesianState) -> EphemerisAtTime {
+        EphemerisAtTime::new(EPOCH_S, TargetPlanet::of(center.data()), &start(), sun, earth)
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::guided::{Guided, GuidedAttitude};
 use super::orbit_ahead::{ellipse_of, lines_of_sight};
 use super::schedule::Schedule;
 use crate::environment::orbit::TwoBodyOrbit;
-use crate::guidance::geometry::surroundings::Surroundings;
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 
 /// The periapsis from which downlinks are counted; that of the orbit on which counting began.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -18,7 +18,7 @@ impl PeriapsisCount {
     /// The attitude of the orbit phase. Periapsis and period of `law` are replaced by those of the orbit that position and
     /// velocity give; between disturbed orbits the count goes on. Where a slew begins the spacecraft stood on that orbit, and
     /// Sun and Earth moved evenly since.
-    pub fn attitude(&mut self, law: &Guided, surroundings: &Surroundings) -> GuidedAttitude {
+    pub fn attitude(&mut self, law: &Guided, surroundings: &EphemerisAtTime) -> GuidedAttitude {
         let (orbit, schedule) = self.counted(&law.schedule, surroundings);
         let (epoch_s, now) = (surroundings.epoch_s, lines_of_sight(surroundings));
         Guided { schedule, ..*law }.at(epoch_s, |at_s| match orbit {
@@ -30,7 +30,7 @@ impl PeriapsisCount {
     }
 
     /// The windows after the periapses that were counted, in s past J2000 TDB.
-    pub fn windows(&mut self, windows: &Schedule, surroundings: &Surroundings) -> Schedule {
+    pub fn windows(&mut self, windows: &Schedule, surroundings: &EphemerisAtTime) -> Schedule {
         self.counted(windows, surroundings).1
     }
 
@@ -38,7 +38,7 @@ impl PeriapsisCount {
     fn counted(
         &mut self,
         windows: &Schedule,
-        surroundings: &Surroundings,
+        surroundings: &EphemerisAtTime,
     ) -> (Option<TwoBodyOrbit>, Schedule) {
         let orbit = ellipse_of(surroundings).filter(|_| !windows.once);
         let schedule = orbit

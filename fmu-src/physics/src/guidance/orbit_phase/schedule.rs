@@ -112,7 +112,7 @@ impl Schedule {
     }
 
     /// The same for periapses that were met instead of computed: every `every`-th one, the latest first. A window is
-    /// as long as asked for; the next one ends it. Before the first window all is science.
+    /// as long as requested; the next one ends it. Before the first window all is science.
     pub fn window_after(&self, periapses_s: &[f64], time_s: f64) -> Window {
         let length_s = self.downlink_end_s - self.downlink_start_s;
         if self.every == 0 || length_s.is_nan() || length_s <= 0.0 {

@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::command::{AimpointCommand, AimpointOption, AzimuthReference};
 use crate::bodies::Body;
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::{SubsolarMethod, optimal_lighting_m, subsolar_m};
 use crate::guidance::geometry::lvlh::lvlh_direction;
 use crate::guidance::geometry::moving::{MovingVector, fixed, moving, value};
 use crate::guidance::geometry::planet_point::{geographic_m, planet_fixed};
-use crate::guidance::geometry::surroundings::Surroundings;
 
 /// What an aim is, which decides how it can be scanned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ pub struct Aim {
     pub toward: MovingVector,
     /// What it is.
     pub kind: AimKind,
-    /// Whether it is what was asked for, and no substitute.
+    /// Whether it is what was requested, and no substitute.
     pub reachable: bool,
 }
 
@@ -49,7 +49,7 @@ impl Aim {
 }
 
 /// The vector of an option from the spacecraft; `None` where it has none.
-type AimpointLaw = fn(&AimpointCommand, &Surroundings, SubsolarMethod) -> Option<MovingVector>;
+type AimpointLaw = fn(&AimpointCommand, &EphemerisAtTime, SubsolarMethod) -> Option<MovingVector>;
 
 /// One option, its law, and what its aim is.
 pub struct Aimpoint {
@@ -95,7 +95,7 @@ pub const AIMPOINTS: [Aimpoint; 15] = {
 /// is not known.
 pub fn aimpoint(
     command: &AimpointCommand,
-    surroundings: &Surroundings,
+    surroundings: &EphemerisAtTime,
     method: SubsolarMethod,
 ) -> Option<Aim> {
     let option = command.option?;
@@ -117,7 +117,7 @@ fn given(command: &AimpointCommand) -> MovingVector {
 
 fn latitude_longitude(
     command: &AimpointCommand,
-    surroundings: &Surroundings,
+    surroundings: &EphemerisAtTime,
     _: SubsolarMethod,
 ) -> Option<MovingVector> {
     let radii_m = &surroundings.planet.radii_m;
@@ -127,13 +127,13 @@ fn latitude_longitude(
 
 fn lvlh(
     command: &AimpointCommand,
-    surroundings: &Surroundings,
+    surroundings: &EphemerisAtTime,
     reference: AzimuthReference,
 ) -> Option<MovingVector> {
     lvlh_direction(surroundings, reference, command.azimuth_rad, command.elevation_rad)
 }
 
-fn to_body(surroundings: &Surroundings, body: Body) -> MovingVector {
+fn to_body(surroundings: &EphemerisAtTime, body: Body) -> MovingVector {
     match body {
         Body::Sun => surroundings.to_sun(),
         Body::Earth => surroundings.to_earth(),
@@ -161,14 +161,14 @@ mod tests {
     fn every_option_has_a_direction_and_the_points_are_where_they_are_said_to_be() {
         use AimpointOption as Option;
         let s = TestOrbit::new(12.0).surroundings(700.0);
-        let craft = value(&s.position);
+        let spacecraft = value(&s.position);
         let toward = |option| {
             let aim = aimpoint(&command(option), &s, SubsolarMethod::Line).unwrap();
             assert!(aim.reachable);
             value(&aim.toward)
         };
         let c = command(Option::Vector);
-        let place = |option| toward(option) + craft;
+        let place = |option| toward(option) + spacecraft;
         let near = |found: Vector3<f64>, expected: Vector3<f64>| {
             assert_relative_eq!(found, expected, max_relative = 1e-13, epsilon = 1e-13);
         };
@@ -199,7 +199,7 @@ mod tests {
         let ground = to_planet * place(Option::LatitudeLongitude);
         assert_relative_eq!(ground.z.atan2(ground.x.hypot(ground.y)), 0.3, epsilon = 1e-14);
         assert_relative_eq!(ground.y.atan2(ground.x), -2.0, epsilon = 1e-14);
-        let up = craft.normalize();
+        let up = spacecraft.normalize();
         for option in [Option::LvlhDowntrack, Option::LvlhSun] {
             assert_relative_eq!(toward(option).dot(&up), (-0.6_f64).sin(), epsilon = 1e-14);
         }
@@ -218,14 +218,14 @@ mod tests {
     #[test]
     fn an_aim_without_direction_is_none() {
         let s = TestOrbit::new(12.0).surroundings(700.0);
-        let none = |command: AimpointCommand, s: &Surroundings| {
+        let none = |command: AimpointCommand, s: &EphemerisAtTime| {
             assert!(aimpoint(&command, s, SubsolarMethod::Normal).is_none(), "{:?}", command.option);
         };
         none(AimpointCommand::default(), &s);
         none(AimpointCommand { option: Some(AimpointOption::Vector), ..AimpointCommand::default() }, &s);
         none(
             AimpointCommand { body: Some(Body::Mars), ..command(AimpointOption::Body) },
-            &Surroundings { bodies: [None; 6], ..s },
+            &EphemerisAtTime { bodies: [None; 6], ..s },
         );
         none(AimpointCommand { vector: Vector3::repeat(f64::NAN), ..command(AimpointOption::Vector) }, &s);
         let mut flat = s;
@@ -233,9 +233,9 @@ mod tests {
         for option in [AimpointOption::Subsolar, AimpointOption::OptimalLighting] {
             none(command(option), &flat);
         }
-        let nowhere = Surroundings { position: MovingVector::zeros(), ..s };
+        let without_position = EphemerisAtTime { position: MovingVector::zeros(), ..s };
         for option in [AimpointOption::Nadir, AimpointOption::LvlhSun, AimpointOption::OptimalLighting] {
-            none(command(option), &nowhere);
+            none(command(option), &without_position);
         }
     }
 }

@@ -29,7 +29,7 @@ pub struct AntennaAzimuth {
     pub antenna: Antenna,
     /// Azimuth in its quadrant, in rad.
     pub azimuth_rad: f64,
-    /// How far off the azimuth that was asked for lies, in rad.
+    /// How far off the azimuth that was requested lies, in rad.
     pub outside_rad: f64,
 }
 
@@ -94,7 +94,7 @@ impl AntennaAzimuth {
         ((azimuth_rad - self.azimuth_rad + PI).rem_euclid(TAU) - PI).abs()
     }
 
-    /// Whether it is the azimuth that was asked for.
+    /// Whether it is the azimuth that was requested.
     pub fn is_in_range(&self) -> bool {
         self.outside_rad <= BOUND_RAD
     }

@@ -44,7 +44,7 @@ impl Default for MdisRange {
 pub struct DeviceAngle {
     /// The angle it takes, in rad.
     pub angle_rad: f64,
-    /// Whether that is the one asked for; else it is the nearest bound.
+    /// Whether that is the one requested; else it is the nearest bound.
     pub in_range: bool,
 }
 
@@ -167,15 +167,15 @@ mod tests {
         let half = 0.5_f64.sqrt();
         assert_relative_eq!(value(&camera(-45.0).body), Vector3::new(0.0, half, half), epsilon = 1e-15);
         assert!(value(&camera(30.0).body).y < 0.0, "toward the sunshade");
-        for (asked, taken, in_range) in [
+        for (requested, taken, in_range) in [
             (39.0, 39.0, true),
             (41.0, 40.0, false),
             (-51.0, -50.0, false),
             (-50.0, -50.0, true),
             (180.0, -50.0, false),
         ] {
-            let angle = camera(asked).mdis.unwrap();
-            assert_eq!(angle.in_range, in_range, "{asked}");
+            let angle = camera(requested).mdis.unwrap();
+            assert_eq!(angle.in_range, in_range, "{requested}");
             assert_relative_eq!(angle.angle_rad, taken * DEG_RAD, epsilon = 1e-15);
         }
     }
@@ -201,7 +201,7 @@ mod tests {
         assert!(front.x < 0.0 && front.y < 0.0, "the -X,-Y quadrant");
         let back = value(&antenna(147.0).body);
         assert!(back.x > 0.0 && back.y > 0.0, "the +X,+Y quadrant");
-        for (asked, taken, in_range) in [
+        for (requested, taken, in_range) in [
             (-33.0, -33.0, true),
             (0.0, 0.0, true),
             (30.0, 0.0, false),
@@ -213,9 +213,9 @@ mod tests {
             (240.0, -90.0, false),
             (-180.0, 180.0, true),
         ] {
-            let antenna = antenna(asked).antenna.unwrap();
+            let antenna = antenna(requested).antenna.unwrap();
             let angle = DeviceAngle { angle_rad: antenna.azimuth_rad, in_range: antenna.is_in_range() };
-            assert_eq!(angle.in_range, in_range, "{asked}");
+            assert_eq!(angle.in_range, in_range, "{requested}");
             assert_relative_eq!(angle.angle_rad, taken * DEG_RAD, epsilon = 1e-14);
         }
     }

@@ -7,14 +7,14 @@ use nalgebra::Vector3;
 use super::aimpoint::celestial;
 use super::command::{BodyRollCommand, BodyRollOption, ExternalRollCommand, ExternalRollOption};
 use crate::attitude::{SunAngles, direction_from_angles};
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{MovingVector, fixed};
-use crate::guidance::geometry::surroundings::Surroundings;
 
 /// The body roll vector of an option, body frame.
 type BodyRollLaw = fn(&BodyRollCommand) -> Vector3<f64>;
 
 /// The external roll reference of an option, from the spacecraft, EME2000.
-type ExternalRollLaw = fn(&ExternalRollCommand, &Surroundings) -> MovingVector;
+type ExternalRollLaw = fn(&ExternalRollCommand, &EphemerisAtTime) -> MovingVector;
 
 /// Every body roll option and its law, in the order of [`BodyRollOption`].
 pub const BODY_ROLLS: [(BodyRollOption, BodyRollLaw); 2] = [
@@ -42,7 +42,7 @@ pub fn body_roll(command: &BodyRollCommand) -> MovingVector {
 }
 
 /// The commanded external roll reference, EME2000, of any length.
-pub fn external_roll(command: &ExternalRollCommand, surroundings: &Surroundings) -> MovingVector {
+pub fn external_roll(command: &ExternalRollCommand, surroundings: &EphemerisAtTime) -> MovingVector {
     let law = EXTERNAL_ROLLS.iter().find(|(option, _)| Some(*option) == command.option);
     law.map_or_else(|| surroundings.to_sun(), |(_, law)| law(command, surroundings))
 }

@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 
 use super::aimpoint::{Aim, AimKind};
 use super::command::{ScanCommand, ScanFrame};
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lvlh::lvlh_axes;
 use crate::guidance::geometry::moving::{Moving, MovingMatrix, MovingVector, rotation_about};
-use crate::guidance::geometry::surroundings::Surroundings;
 use crate::numerics::spacing::spacing;
 
 /// Which scan frames go with which kind of aim. The paper prints no matrix; the default is an assumption.
@@ -67,7 +67,7 @@ pub struct ScanTime {
 }
 
 /// The moved vectors at a time of a scan; `None` where its frame does not exist.
-type ScanLaw = fn(&Scanned, &ScanCommand, &Surroundings, ScanTime) -> Option<Scanned>;
+type ScanLaw = fn(&Scanned, &ScanCommand, &EphemerisAtTime, ScanTime) -> Option<Scanned>;
 
 /// Every frame and its law, in the order of [`ScanFrame`].
 pub const SCANS: [(ScanFrame, ScanLaw); 5] = [
@@ -100,7 +100,7 @@ pub fn scanned(
     boresight_body: &MovingVector,
     aim: &Aim,
     command: &ScanCommand,
-    surroundings: &Surroundings,
+    surroundings: &EphemerisAtTime,
     compatibility: &ScanCompatibility,
     time: ScanTime,
 ) -> Option<Scanned> {
@@ -302,7 +302,7 @@ mod tests {
         axis: usize,
         amount: f64,
         aim: &Aim,
-        surroundings: &Surroundings,
+        surroundings: &EphemerisAtTime,
     ) -> Option<Scanned> {
         let mut command = ScanCommand { frame: Some(frame), ..pattern(1.0, 0.0, 1, false) };
         command.reference = Some(AzimuthReference::Sun);
@@ -364,7 +364,7 @@ mod tests {
         assert!(moved(ScanFrame::PlanetTranslation, 0, 1.0, &sun, &s).is_none());
         assert!(moved(ScanFrame::InertialTranslation, 0, 1.0, &sun, &s).is_some());
         // The Sun overhead leaves its local frame without a reference.
-        let noon = Surroundings { sun: s.position * Moving::from_re(1e4), ..s };
+        let noon = EphemerisAtTime { sun: s.position * Moving::from_re(1e4), ..s };
         let down = Aim::new(s.to_planet(), AimKind::PlanetPoint).unwrap();
         assert!(moved(ScanFrame::LvlhRotation, 0, 1.0, &down, &noon).is_none());
     }

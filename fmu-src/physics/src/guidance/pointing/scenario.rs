@@ -14,10 +14,10 @@ use super::scan::{ScanCompatibility, ScanTime, scanned};
 use crate::attitude::SunAngles;
 use crate::guidance::burn::delta_v::BurnAim;
 use crate::guidance::downlink::sun_place::{Downlink, DownlinkRequest, SunPlace, downlink};
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::SubsolarMethod;
 use crate::guidance::geometry::limb::{LimbPoint, generic_limb, terminator_limb};
 use crate::guidance::geometry::moving::{MovingVector, fixed, value};
-use crate::guidance::geometry::surroundings::Surroundings;
 use crate::spacecraft::Instrument;
 
 /// What the spacecraft has, and how the options are read.
@@ -57,9 +57,9 @@ pub struct Aimed {
     pub second: Option<MovingVector>,
     /// The antenna's azimuth, where the command sets it; out of range it is the nearest bound.
     pub antenna: Option<Beam>,
-    /// Whether the boresight is on the aimpoint that was asked for.
+    /// Whether the boresight is on the aimpoint that was requested.
     pub reachable: bool,
-    /// Whether an angle that was asked for is out of its range.
+    /// Whether an angle that was requested is out of its range.
     pub clamped: bool,
     /// Whether a scan moves boresight or aim.
     pub scan_active: bool,
@@ -69,7 +69,7 @@ pub struct Aimed {
 struct Reading<'a> {
     command: &'a PointingCommand,
     hardware: &'a GuidanceHardware<'a>,
-    surroundings: &'a Surroundings,
+    surroundings: &'a EphemerisAtTime,
     progress: &'a PointingProgress,
 }
 
@@ -127,7 +127,7 @@ const SCENARIOS: [(Scenario, ScenarioLaw); 9] = [
 pub fn aim(
     command: &PointingCommand,
     hardware: &GuidanceHardware<'_>,
-    surroundings: &Surroundings,
+    surroundings: &EphemerisAtTime,
     progress: &PointingProgress,
 ) -> Option<Aimed> {
     let (_, law) = SCENARIOS.iter().find(|(scenario, _)| Some(*scenario) == command.scenario)?;

@@ -15,8 +15,8 @@ use super::scan::{SCANS, ScanTime};
 use super::scenario::{Aimed, GuidanceHardware, PointingProgress, aim};
 use crate::attitude::angle_between_rad;
 use crate::bodies::Body;
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{fixed, value};
-use crate::guidance::geometry::surroundings::Surroundings;
 use crate::guidance::geometry::test_orbit::{TestOrbit, rate_error};
 use crate::spacecraft::Instrument;
 
@@ -122,7 +122,7 @@ const SCAN_TIMES_S: [f64; 6] = [10.0, 22.0, 38.5, 54.0, 117.0, 160.0];
 /// Largest ratio of rate error to what is allowed, over an orbit; the boresight is on the aimpoint throughout.
 fn worst(command: &PointingCommand, scan_s: Option<f64>, orbit: &TestOrbit) -> f64 {
     let hardware = hardware();
-    let at = |started_s: f64, time_s: f64| -> Option<(Surroundings, Aimed)> {
+    let at = |started_s: f64, time_s: f64| -> Option<(EphemerisAtTime, Aimed)> {
         let elapsed_s = time_s - started_s;
         let progress = PointingProgress {
             scan: scan_s.map(|scan_s| scan_at(scan_s + elapsed_s)),
@@ -229,7 +229,11 @@ fn the_rate_is_the_derivative_for_every_aimpoint_with_every_scan() {
     assert_eq!(active, 15 + 15 + 11 + 6 + 8);
 }
 
-fn at(command: &PointingCommand, time_s: f64, progress: &PointingProgress) -> (Surroundings, Option<Aimed>) {
+fn at(
+    command: &PointingCommand,
+    time_s: f64,
+    progress: &PointingProgress,
+) -> (EphemerisAtTime, Option<Aimed>) {
     let surroundings = TestOrbit::new(12.0).surroundings(time_s);
     let aimed = aim(command, &hardware(), &surroundings, progress);
     (surroundings, aimed)

@@ -41,7 +41,7 @@ pub(super) struct CommandDescription {
     pub limb: Option<LimbDescription>,
     pub scan: Option<ScanDescription>,
     pub keep_in: Option<KeepInDescription>,
-    /// A mode asked for when the command begins; Safe Hold follows downlink alone.
+    /// A mode requested when the command begins; Safe Hold follows downlink alone.
     pub mode: Option<Mode>,
 }
 

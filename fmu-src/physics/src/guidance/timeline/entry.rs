@@ -26,7 +26,7 @@ pub struct TimelineEntry {
     pub command: PointingCommand,
     /// Changes of the Sun keep-in zone while it lasts.
     pub keep_in: KeepInOverride,
-    /// A mode asked for when it begins.
+    /// A mode requested when it begins.
     pub mode: Option<Mode>,
 }
 

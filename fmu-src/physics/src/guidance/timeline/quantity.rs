@@ -149,7 +149,7 @@ mod tests {
     #[test]
     fn units_are_converted() {
         let si = |text: &str, kind: &Kind| Quantity::Text(text.to_owned()).si(kind);
-        for (text, kind, wanted) in [
+        for (text, kind, requested) in [
             ("90 deg", &ANGLE, FRAC_PI_2),
             ("-360deg", &ANGLE, -TAU),
             ("1e-3 rad", &ANGLE, 1e-3),
@@ -161,7 +161,7 @@ mod tests {
             (" 1.5  d ", &TIME, 129_600.0),
             ("2. km/s", &SPEED, 2000.0),
         ] {
-            assert_eq!(si(text, kind), Some(wanted), "{text}");
+            assert_eq!(si(text, kind), Some(requested), "{text}");
         }
         for (text, kind) in
             [("10 km", &ANGLE), ("deg", &ANGLE), ("ten deg", &ANGLE), ("", &TIME), ("5 m", &TIME)]

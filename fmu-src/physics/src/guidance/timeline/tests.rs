@@ -49,7 +49,7 @@ fn the_example_is_a_day_at_mercury() {
 
 #[test]
 fn every_key_of_a_generic_command_is_read() {
-    for (boresight, wanted) in [
+    for (boresight, expected) in [
         (
             "option = \"vector\", vector = [1, 2.5, -3]",
             BoresightCommand {
@@ -89,9 +89,9 @@ fn every_key_of_a_generic_command_is_read() {
              bodyRoll = {{ option = \"azEl\", azimuth = 1, elevation = \"-45 deg\" }}\n\
              externalRoll = {{ option = \"raDec\", rightAscension = \"180 deg\", declination = 0.5 }}"
         );
-        let wanted = PointingCommand {
+        let expected = PointingCommand {
             scenario: Some(Scenario::Generic),
-            boresight: wanted,
+            boresight: expected,
             aimpoint: AimpointCommand { option: Some(AimpointOption::Sun), ..AimpointCommand::default() },
             body_roll: BodyRollCommand {
                 option: Some(BodyRollOption::AzimuthElevation),
@@ -107,7 +107,7 @@ fn every_key_of_a_generic_command_is_read() {
             },
             ..PointingCommand::default()
         };
-        assert_eq!(command(&text).command, wanted, "{boresight}");
+        assert_eq!(command(&text).command, expected, "{boresight}");
     }
     let text = "scenario = \"generic\"\nboresight = { option = \"vector\", vector = [0, 0, 1] }\n\
                 aimpoint = { option = \"sun\" }\nbodyRoll = { option = \"vector\", vector = [0, -2, 0] }\n\
@@ -137,7 +137,7 @@ fn every_aimpoint_is_read_for_both_keys() {
     let alone = |option| AimpointCommand { option: Some(option), ..none };
     let (p, l) = (", position = [\"1 km\", 2, \"-1 AU\"]", ", azimuth = 6, elevation = -1.5");
     let body = |body| AimpointCommand { option: Some(Option::Body), body: Some(body), ..none };
-    for (text, wanted) in [
+    for (text, expected) in [
         (
             "vector\", vector = [0, 3, 0]".to_owned(),
             AimpointCommand { option: Some(Option::Vector), vector: Vector3::y() * 3.0, ..none },
@@ -182,8 +182,8 @@ fn every_aimpoint_is_read_for_both_keys() {
         let found = command(&format!(
             "scenario = \"doubleTarget\"\naimpoint = {{ option = \"{text} }}\nsecondAimpoint = {{ option = \"{text} }}"
         ));
-        assert_eq!(found.command.aimpoint, wanted, "{text}");
-        assert_eq!(found.command.second_aimpoint, wanted, "{text}");
+        assert_eq!(found.command.aimpoint, expected, "{text}");
+        assert_eq!(found.command.second_aimpoint, expected, "{text}");
     }
 }
 
@@ -207,13 +207,13 @@ fn every_scenario_takes_what_it_reads() {
     }
     let limb = "scenario = \"limbGeneric\"\nlimb = { azimuth = \"90 deg\", reference = \"sun\", height = \"25 km\", \
                 heightRate = \"-0.3 km/s\" }";
-    let wanted = LimbCommand {
+    let expected = LimbCommand {
         azimuth_rad: PI / 2.0,
         reference: Some(AzimuthReference::Sun),
         height_m: 25e3,
         height_rate_m_s: -300.0,
     };
-    assert_eq!(command(limb).command.limb, wanted);
+    assert_eq!(command(limb).command.limb, expected);
     for (instrument, number) in [("0", 0), ("1", 1), ("2.0", 2), ("\"MASCS\"", 1), ("\"MLA\"", 2)] {
         let text = format!("scenario = \"nadir\"\nboresight = {{ instrument = {instrument} }}");
         assert_eq!(command(&text).command.boresight.instrument, number, "{instrument}");
@@ -235,7 +235,7 @@ fn every_scan_is_read() {
     let turned =
         |frame| ScanCommand { frame: Some(frame), rate_rad_s: [0.1 * DEG_RAD, -2e-3, 0.0], ..motion };
     let moved = |frame| ScanCommand { frame: Some(frame), speed_m_s: [1e3, -5.0, 0.0], ..motion };
-    for (text, wanted) in [
+    for (text, expected) in [
         (format!("\"body\", {rates}"), turned(ScanFrame::Body)),
         (format!("\"inertialRotation\", {rates}"), turned(ScanFrame::InertialRotation)),
         (format!("\"inertialTranslation\", {speeds}"), moved(ScanFrame::InertialTranslation)),
@@ -246,7 +246,7 @@ fn every_scan_is_read() {
         ),
     ] {
         let found = command(&format!("scenario = \"nadir\"\nscan = {{ frame = {text}, {rest} }}"));
-        assert_eq!(found.command.scan, wanted, "{text}");
+        assert_eq!(found.command.scan, expected, "{text}");
     }
 }
 
@@ -257,9 +257,9 @@ fn modes_and_zones_stand_alone() {
     assert_eq!(command("mode = \"operational\"").mode, Some(Mode::Operational));
     assert_eq!(command("mode = \"safeHold\"").mode, Some(Mode::SafeHold));
     let zone = command("keepIn = { enabled = false, azimuth = \"90 deg\", elevation = 0 }").keep_in;
-    let wanted =
+    let expected =
         KeepInOverride { enabled: Some(false), azimuth_rad: Some(PI / 2.0), elevation_rad: Some(0.0) };
-    assert_eq!(zone, wanted);
+    assert_eq!(zone, expected);
     let one = KeepInOverride { enabled: Some(true), ..KeepInOverride::default() };
     assert_eq!(command("keepIn = { enabled = true }").keep_in, one);
 }
@@ -303,9 +303,9 @@ proptest! {
         let timeline = read(&text);
         for half_seconds in -110..110 {
             let now_s = f64::from(half_seconds) * 0.5;
-            let wanted = spans.iter().position(|(start, end)| (start..end).contains(&&now_s));
+            let expected = spans.iter().position(|(start, end)| (start..end).contains(&&now_s));
             let found = timeline.entry_at(now_s, f64::NAN).map(|entry| entry.at_s);
-            prop_assert_eq!(found, wanted.map(|index| spans[index].0));
+            prop_assert_eq!(found, expected.map(|index| spans[index].0));
         }
     }
 
@@ -322,26 +322,26 @@ proptest! {
     }
 }
 
-/// `bad_timelines.txt`: files with something wrong, each followed by what is told of it, indented.
+/// `bad_timelines.txt`: files with something wrong, each followed by what is reported of it, indented.
 #[test]
-fn bad_timelines_are_told() {
+fn bad_timelines_are_reported() {
     let path =
         std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/guidance/timeline/bad_timelines.txt");
-    let wanted = std::fs::read_to_string(&path).unwrap();
-    let cases: Vec<String> = wanted
+    let expected = std::fs::read_to_string(&path).unwrap();
+    let cases: Vec<String> = expected
         .split("----\n")
         .map(|case| {
             case.lines().filter(|line| !line.starts_with("    ")).map(|line| format!("{line}\n")).collect()
         })
         .collect();
     assert!(cases.len() > 50);
-    let told = |text: &String| {
+    let reported = |text: &String| {
         let error = Timeline::from_toml("t.toml", text, &instruments()).map(|_| text).unwrap_err();
-        error.to_string().lines().fold(text.clone(), |told, line| format!("{told}    {line}\n"))
+        error.to_string().lines().fold(text.clone(), |reported, line| format!("{reported}    {line}\n"))
     };
-    let found = cases.iter().map(told).collect::<Vec<_>>().join("----\n");
+    let found = cases.iter().map(reported).collect::<Vec<_>>().join("----\n");
     if std::env::var_os("UPDATE_SNAPSHOT").is_some() {
         std::fs::write(&path, &found).unwrap();
     }
-    assert!(found == wanted, "{} is out of step: see UPDATE_SNAPSHOT=1\n{found}", path.display());
+    assert!(found == expected, "{} is out of step: see UPDATE_SNAPSHOT=1\n{found}", path.display());
 }

@@ -90,7 +90,7 @@ fn an_attainable_target_is_hit_to_rounding() {
         for (degrees, momentum) in aims() {
             let (to_sun, to_earth) = (Vector3::y(), earth(degrees));
             let linear = Some(craft.linear());
-            let aim = Aim {
+            let aim = DownlinkState {
                 to_sun,
                 to_earth,
                 momentum,
@@ -116,8 +116,8 @@ fn an_attainable_target_is_hit_to_rounding() {
                     StartMomentum::Body(momentum) => momentum,
                 };
                 let end = start + craft.torque(&(body * to_sun)) * SPAN_S;
-                for (component, asked) in [(0, axes.asked()[0]), (2, axes.asked()[1])] {
-                    if asked {
+                for (component, requested) in [(0, axes.requested()[0]), (2, axes.requested()[1])] {
+                    if requested {
                         assert_relative_eq!(end[component], target[component], epsilon = 1e-11);
                     }
                 }
@@ -141,7 +141,7 @@ fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
     let mut clamped = 0;
     for (degrees, momentum) in aims() {
         let (to_sun, to_earth) = (Vector3::y(), earth(degrees));
-        let aim = Aim {
+        let aim = DownlinkState {
             to_sun,
             to_earth,
             momentum,
@@ -185,7 +185,7 @@ fn the_linear_formula_falls_short_by_a_few_per_cent() {
     let (to_sun, to_earth) = (Vector3::y(), earth(60.0));
     let linear = Some(craft.linear());
     let momentum = StartMomentum::Body(Vector3::zeros());
-    let aim = Aim {
+    let aim = DownlinkState {
         to_sun,
         to_earth,
         momentum,
@@ -213,7 +213,7 @@ fn without_a_plane_of_sun_and_earth_there_is_no_place() {
     let none = |_: &Vector3<f64>| Vector3::zeros();
     for to_earth in [Vector3::y(), -Vector3::y()] {
         let momentum = StartMomentum::Body(Vector3::x());
-        let aim = Aim {
+        let aim = DownlinkState {
             to_sun: Vector3::y(),
             to_earth,
             momentum,

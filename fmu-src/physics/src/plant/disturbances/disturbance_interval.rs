@@ -134,7 +134,7 @@ impl DisturbanceInterval {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let lines = self.loads.iter().chain([&self.to_sun]).flatten();
         let is_before = self.start_s == f64::NEG_INFINITY && self.end_s == f64::NEG_INFINITY;

@@ -56,9 +56,9 @@ pub struct Evaluation {
 
 impl Evaluation {
     /// Of a spacecraft of which nothing is known but how it stands: no Sun, no planet, no force.
-    pub fn nowhere(frame: MovingFrame, mass: MassProperties) -> Self {
+    pub fn without_position(frame: MovingFrame, mass: MassProperties) -> Self {
         Self {
-            instant: Instant::nowhere(frame),
+            instant: Instant::without_position(frame),
             loads: Loads::zero(),
             mass,
             panels_body_n_m_s: Vector3::zeros(),
@@ -80,7 +80,11 @@ impl Evaluation {
             && self.instant.lit_fraction.is_finite()
             && total.torque_body_n_m.iter().chain(&total.force_body_n).all(|x| x.is_finite());
         let position_m = geometry.spacecraft.position_m;
-        if is_somewhere { Ok(()) } else { Err(PlantError::Nowhere { time_s, position_m: position_m.into() }) }
+        if is_somewhere {
+            Ok(())
+        } else {
+            Err(PlantError::WithoutPosition { time_s, position_m: position_m.into() })
+        }
     }
 
     /// Force of all effects, EME2000, in N.

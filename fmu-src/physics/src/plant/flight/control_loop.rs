@@ -11,8 +11,8 @@ use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::spacing::spacing;
 
-use super::craft::Craft;
-use super::outlook::StartMomentum;
+use super::configured::ConfiguredFlight;
+use super::downlink_forecast::StartMomentum;
 use super::wheel_control::WheelControl;
 use crate::plant::settings::configuration::Command;
 use crate::plant::settings::dynamics_settings::{Control, Tracked};
@@ -34,7 +34,7 @@ pub(crate) struct ControlLoop {
     guidance: Option<Command>,
     /// When guidance is sampled next, in s.
     next_guidance_s: f64,
-    /// Whether thrusters control the attitude, and whether they could not give the torque asked for.
+    /// Whether thrusters control the attitude, and whether they could not give the torque requested.
     pub by_thrusters: bool,
     thrusters_limited: bool,
 }
@@ -65,14 +65,14 @@ impl ControlLoop {
     }
 
     /// Whether its numbers can come from a flight with so many wheels; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self, wheels: usize) -> bool {
-        self.controller.is_sound()
-            && self.wheels.is_sound(wheels)
-            && self.guidance.as_ref().is_none_or(Command::is_sound)
+    pub fn is_valid(&self, wheels: usize) -> bool {
+        self.controller.is_valid()
+            && self.wheels.is_valid(wheels)
+            && self.guidance.as_ref().is_none_or(Command::is_valid)
             && self.next_guidance_s.abs() <= GREATEST_IN_STATE
     }
 
-    /// Whether wheels or thrusters could not give the torque asked for at the last sample.
+    /// Whether wheels or thrusters could not give the torque requested at the last sample.
     pub fn is_limited(&self) -> bool {
         if self.by_thrusters { self.thrusters_limited } else { self.wheels.is_limited() }
     }
@@ -80,7 +80,7 @@ impl ControlLoop {
     /// What the controller is to bring the body to at the end of the motion.
     pub fn target(
         &mut self,
-        craft: &mut Craft<'_>,
+        craft: &mut ConfiguredFlight<'_>,
         tracked: Tracked,
         sampled: &Sampled<'_>,
     ) -> Result<ControlTarget, PlantError> {
@@ -97,7 +97,11 @@ impl ControlLoop {
     }
 
     /// The command of internal guidance, sampled anew where that is due.
-    fn guided(&mut self, craft: &mut Craft<'_>, sampled: &Sampled<'_>) -> Result<Command, PlantError> {
+    fn guided(
+        &mut self,
+        craft: &mut ConfiguredFlight<'_>,
+        sampled: &Sampled<'_>,
+    ) -> Result<Command, PlantError> {
         let (time_s, body) = (sampled.motion.end_s(), sampled.body);
         let tolerance_s = 4.0 * spacing(time_s);
         if let Some(command) = self.guidance

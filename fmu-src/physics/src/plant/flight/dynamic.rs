@@ -14,8 +14,8 @@ use crate::numerics::spacing::spacing;
 use crate::radiation::{Effect, ForceTorque};
 use crate::spacecraft::MassProperties;
 
+use super::configured::ConfiguredFlight;
 use super::control_loop::{ControlLoop, Sampled};
-use super::craft::Craft;
 use super::momentum_dumps::MomentumDumps;
 use super::sensing::Sensing;
 use crate::plant::disturbances::disturbance_interval::{DisturbanceInterval, Linear};
@@ -59,7 +59,7 @@ impl AttitudeDynamics {
     /// At the start of a flight, the wheels holding these momenta, in N m s.
     pub fn begin(
         settings: &mut DynamicsSettings,
-        craft: &mut Craft<'_>,
+        craft: &mut ConfiguredFlight<'_>,
         start: &StartMotion,
         wheels_n_m_s: impl Fn(usize) -> f64,
         time_s: f64,
@@ -105,14 +105,14 @@ impl AttitudeDynamics {
 
     /// Whether its numbers can come from a flight of a body with so many wheels, modal coordinates and panels; bytes from
     /// elsewhere may hold anything.
-    pub fn is_sound(&self, wheels: usize, oscillators: usize, panels: usize) -> bool {
-        self.motion.is_sound(wheels, oscillators)
-            && self.mass.is_sound()
-            && self.panels.is_sound(panels)
-            && self.disturbance.is_sound()
-            && self.sensing.is_sound()
-            && self.control.is_sound(wheels)
-            && self.dumps.is_sound()
+    pub fn is_valid(&self, wheels: usize, oscillators: usize, panels: usize) -> bool {
+        self.motion.is_valid(wheels, oscillators)
+            && self.mass.is_valid()
+            && self.panels.is_valid(panels)
+            && self.disturbance.is_valid()
+            && self.sensing.is_valid()
+            && self.control.is_valid(wheels)
+            && self.dumps.is_valid()
     }
 
     /// Whether it has come to `time_s` and not beyond the segment there.
@@ -135,7 +135,7 @@ impl AttitudeDynamics {
     pub fn advance(
         &mut self,
         settings: &mut DynamicsSettings,
-        craft: &mut Craft<'_>,
+        craft: &mut ConfiguredFlight<'_>,
         inputs: &DynamicsInputs,
         end_s: f64,
     ) -> Result<(), PlantError> {
@@ -146,7 +146,7 @@ impl AttitudeDynamics {
             let time_s = self.motion.end_s();
             let evaluations = craft.world.ephemeris.evaluations();
             craft.world.work.spend(Cost::Segment, units, evaluations, time_s)?;
-            self.take_due(settings, craft, inputs)?;
+            self.process_events(settings, craft, inputs)?;
             let edge_s = craft.thrusters.next_edge_s();
             let limit_s = self.sensing.next_s().min(self.disturbance.end_s()).min(edge_s);
             let limit_s = limit_s.min(self.dumps.until_s());
@@ -160,28 +160,28 @@ impl AttitudeDynamics {
     }
 
     /// The body has the mass properties of the present segment, and what flies those of the last edge of the grid.
-    pub fn resume(&self, settings: &mut DynamicsSettings, craft: &mut Craft<'_>) {
+    pub fn resume(&self, settings: &mut DynamicsSettings, craft: &mut ConfiguredFlight<'_>) {
         settings.set_mass_properties(&self.mass.now);
         let world = &mut *craft.world;
         world.mass_at_zero = self.mass.left.unwrap_or_else(|| world.configuration.loaded());
     }
 
     /// At the present end of the motion: edges of thrusters, disturbances anew, a dump's end, the sample, where they are due.
-    pub fn take_due(
+    pub fn process_events(
         &mut self,
         settings: &mut DynamicsSettings,
-        craft: &mut Craft<'_>,
+        craft: &mut ConfiguredFlight<'_>,
         inputs: &DynamicsInputs,
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
         let due_s = time_s + tolerance_s(time_s);
-        self.dumps.settle(&self.motion, self.dumps.is_dumping(craft.thrusters, time_s));
+        self.dumps.accumulate(&self.motion, self.dumps.is_dumping(craft.thrusters, time_s));
         if !craft.thrusters.load().law.is_none() {
             let Thrusters { propellant, settings: known, .. } = &*craft.thrusters;
             self.set_mass(settings, propellant.mass_properties_since(&self.mass.now, &known.tanks, time_s));
         }
-        craft.thrusters.settle(&self.motion, time_s);
-        craft.thrusters.take_edges(time_s);
+        craft.thrusters.accumulate(&self.motion, time_s);
+        craft.thrusters.process_valve_events(time_s);
         self.dumps.end(due_s);
         self.control.wheels.fail(&inputs.wheel_failed);
         if settings.control.is_none() {
@@ -193,7 +193,7 @@ impl AttitudeDynamics {
         }
         if sample_due {
             self.sample(settings, craft, inputs)?;
-            craft.thrusters.take_edges(time_s);
+            craft.thrusters.process_valve_events(time_s);
         }
         self.turn_mass(settings, craft);
         let used_kg = craft.thrusters.propellant.total_used_kg(time_s);
@@ -206,7 +206,7 @@ impl AttitudeDynamics {
     fn begin_interval(
         &mut self,
         settings: &mut DynamicsSettings,
-        craft: &mut Craft<'_>,
+        craft: &mut ConfiguredFlight<'_>,
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
         let body = self.motion.at(&settings.gyrostat, time_s);
@@ -267,7 +267,7 @@ impl AttitudeDynamics {
     }
 
     /// Panels that turn have the body with the mass properties of the end of the motion.
-    fn turn_mass(&mut self, settings: &mut DynamicsSettings, craft: &Craft<'_>) {
+    fn turn_mass(&mut self, settings: &mut DynamicsSettings, craft: &ConfiguredFlight<'_>) {
         if !self.panels.is_turning() {
             return;
         }
@@ -291,7 +291,7 @@ impl AttitudeDynamics {
     fn sample(
         &mut self,
         settings: &DynamicsSettings,
-        craft: &mut Craft<'_>,
+        craft: &mut ConfiguredFlight<'_>,
         inputs: &DynamicsInputs,
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
@@ -323,7 +323,7 @@ impl AttitudeDynamics {
     pub fn dump_to(
         &mut self,
         settings: &DynamicsSettings,
-        craft: &mut Craft<'_>,
+        craft: &mut ConfiguredFlight<'_>,
         target_body_n_m_s: Vector3<f64>,
     ) {
         let body = self.motion.at(&settings.gyrostat, self.motion.end_s());
@@ -331,7 +331,7 @@ impl AttitudeDynamics {
         self.begin_dump(craft, &momentum_body, target_body_n_m_s);
     }
 
-    fn begin_dump(&mut self, craft: &mut Craft<'_>, before: &Vector3<f64>, after: Vector3<f64>) {
+    fn begin_dump(&mut self, craft: &mut ConfiguredFlight<'_>, before: &Vector3<f64>, after: Vector3<f64>) {
         let time_s = self.motion.end_s();
         let event = DumpEvent { time_s, before_body_n_m_s: *before, after_body_n_m_s: after };
         self.dumps.begin(event, craft.thrusters, &self.motion, &self.mass.known);
@@ -374,7 +374,7 @@ impl AttitudeDynamics {
     pub fn evaluation(
         &self,
         settings: &DynamicsSettings,
-        craft: &mut Craft<'_>,
+        craft: &mut ConfiguredFlight<'_>,
         body: &BodyMotion,
         time_s: f64,
     ) -> Evaluation {

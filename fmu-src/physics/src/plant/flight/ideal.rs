@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use crate::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, Stop, TorqueModel, Totals};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
-use super::craft::Craft;
-use super::outlook::StartMomentum;
+use super::configured::ConfiguredFlight;
+use super::downlink_forecast::StartMomentum;
 use crate::plant::settings::error::PlantError;
 
 /// Momentum and dumps of a flight in an attitude that is followed ideally.
@@ -36,76 +36,82 @@ impl IdealFlight {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
-        self.integrator.is_sound()
-            && self.spacing.is_sound()
+    pub fn is_valid(&self) -> bool {
+        self.integrator.is_valid()
+            && self.spacing.is_valid()
             && self.dump_delta_v_inertial_m_s.iter().all(|x| x.abs() <= GREATEST_IN_STATE)
     }
 
     /// At the start of a flight, where the system has this momentum, body frame, in N m s.
     pub fn begin(
-        craft: &mut Craft<'_>,
+        spacecraft: &mut ConfiguredFlight<'_>,
         time_s: f64,
         momentum_body_n_m_s: Vector3<f64>,
     ) -> Result<Self, PlantError> {
-        craft.world.begin_work(craft.given.work_limit);
-        let frame = craft.plant().instant(time_s).frame;
+        spacecraft.world.begin_work(spacecraft.given.work_limit);
+        let frame = spacecraft.plant().instant(time_s).frame;
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-        craft.choose_sun_place(time_s, &totals, StartMomentum::Body(momentum_body_n_m_s), true)?;
-        craft.world.begin_work(craft.given.work_limit);
-        let mut plant = craft.plant();
+        spacecraft.choose_sun_place(time_s, &totals, StartMomentum::Body(momentum_body_n_m_s), true)?;
+        spacecraft.world.begin_work(spacecraft.given.work_limit);
+        let mut plant = spacecraft.plant();
         plant.prepare(time_s, time_s)?;
         let frame = plant.instant(time_s).frame;
         let mut begun = Self::new(time_s, Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body));
-        begun.advance(craft, time_s)?;
+        begun.advance(spacecraft, time_s)?;
         Ok(begun)
     }
 
     /// Dumps to this momentum, body frame, in N m s, at `time_s` on request.
-    pub fn dump_to(&mut self, craft: &mut Craft<'_>, time_s: f64, target_body_n_m_s: Vector3<f64>) {
-        let settings = craft.world.configuration.momentum;
-        let event = self.integrator.dump_to(&mut craft.plant(), &settings, time_s, target_body_n_m_s);
-        self.dumped(craft, &event);
+    pub fn dump_to(
+        &mut self,
+        spacecraft: &mut ConfiguredFlight<'_>,
+        time_s: f64,
+        target_body_n_m_s: Vector3<f64>,
+    ) {
+        let settings = spacecraft.world.configuration.momentum;
+        let event = self.integrator.dump_to(&mut spacecraft.plant(), &settings, time_s, target_body_n_m_s);
+        self.dumped(spacecraft, &event);
     }
 
     /// Advances until the momentum is known at `time_s`.
-    pub fn advance(&mut self, craft: &mut Craft<'_>, time_s: f64) -> Result<(), PlantError> {
-        let settings = craft.world.configuration.momentum;
+    pub fn advance(&mut self, spacecraft: &mut ConfiguredFlight<'_>, time_s: f64) -> Result<(), PlantError> {
+        let settings = spacecraft.world.configuration.momentum;
         let mut dumped_s = None;
-        craft.world.begin_work(craft.given.work_limit);
+        spacecraft.world.begin_work(spacecraft.given.work_limit);
         loop {
-            let stop = self.integrator.advance_to_stop(&mut craft.plant(), &settings, time_s, dumped_s)?;
+            let stop =
+                self.integrator.advance_to_stop(&mut spacecraft.plant(), &settings, time_s, dumped_s)?;
             let at_s = match stop {
                 Stop::Reached => return Ok(()),
                 Stop::Choice { at_s } => at_s,
                 Stop::Dump(event) => {
-                    self.dumped(craft, &event);
+                    self.dumped(spacecraft, &event);
                     dumped_s = Some(event.time_s);
                     event.time_s
                 }
             };
             let totals = self.integrator.totals(at_s);
             let momentum = StartMomentum::of(&totals, settings.convention);
-            craft.choose_sun_place(at_s, &totals, momentum, false)?;
+            spacecraft.choose_sun_place(at_s, &totals, momentum, false)?;
         }
     }
 
     /// Counts a dump; propellant, push and mass properties after it.
-    fn dumped(&mut self, craft: &mut Craft<'_>, event: &DumpEvent) {
+    fn dumped(&mut self, spacecraft: &mut ConfiguredFlight<'_>, event: &DumpEvent) {
         self.spacing.dumped(event);
-        if !craft.thrusters.settings.thrusters.is_empty() {
-            self.push(craft, event);
+        if !spacecraft.thrusters.settings.thrusters.is_empty() {
+            self.push(spacecraft, event);
         }
-        (craft.log)(event);
+        (spacecraft.log)(event);
     }
 
-    fn push(&mut self, craft: &mut Craft<'_>, event: &DumpEvent) {
+    fn push(&mut self, spacecraft: &mut ConfiguredFlight<'_>, event: &DumpEvent) {
         let time_s = event.time_s;
-        let mut plant = craft.plant();
+        let mut plant = spacecraft.plant();
         let sample = plant.sample(time_s);
         let instant = plant.instant(time_s);
         let mass = plant.mass_properties(&instant, time_s);
-        let push_body_n_s = craft.thrusters.dump_at_once(event, &mass.center_of_mass_body_m);
+        let push_body_n_s = spacecraft.thrusters.dump_at_once(event, &mass.center_of_mass_body_m);
         let Some(push_body_n_s) = push_body_n_s else {
             self.dump_delta_v_inertial_m_s = Vector3::zeros();
             return;
@@ -113,8 +119,13 @@ impl IdealFlight {
         let delta_v_inertial_m_s = sample.inertial_from_body * push_body_n_s / mass.mass_kg;
         self.dump_delta_v_inertial_m_s = delta_v_inertial_m_s;
         self.integrator.push(&delta_v_inertial_m_s);
-        let loaded = craft.world.configuration.loaded();
-        craft.world.mass_at_zero = craft.thrusters.left(&loaded, time_s).unwrap_or(loaded);
-        craft.propagator.cut_with_jump(&craft.world.configuration, time_s, true, &delta_v_inertial_m_s);
+        let loaded = spacecraft.world.configuration.loaded();
+        spacecraft.world.mass_at_zero = spacecraft.thrusters.left(&loaded, time_s).unwrap_or(loaded);
+        spacecraft.propagator.cut_with_jump(
+            &spacecraft.world.configuration,
+            time_s,
+            true,
+            &delta_v_inertial_m_s,
+        );
     }
 }

@@ -1,18 +1,418 @@
-//! The spacecraft in flight: one flight in two modes, an attitude that is followed ideally and one by dynamics; forecasts.
+//! The spacecraft in flight: world, thrusters, state and mode (attitude followed ideally, or by dynamics) in one.
+//!
+//! Parameters and inputs are no state: a restored flight is configured anew before it advances.
 
+mod configured;
 mod control_loop;
-mod craft;
 mod dynamic;
 mod ideal;
 mod momentum_dumps;
 mod sensing;
 
-pub mod outlook;
+pub mod downlink_forecast;
 pub mod propagator_state;
 pub mod report;
 pub mod sun_choice;
 pub mod wheel_control;
-pub mod whole;
 
-pub use craft::Given;
+pub use configured::StepContext;
 pub use dynamic::StartMotion;
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::control::{Estimate, sample_number, sensed_sun};
+use crate::momentum::{DumpEvent, Totals};
+
+use crate::plant::disturbances::evaluation::{Evaluation, ExternalLoad, Plant, PreparedSpacecraft, World};
+use crate::plant::motion::instant::Instant;
+use crate::plant::settings::configuration::{Command, Configuration, Motion};
+use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
+use crate::plant::settings::error::PlantError;
+use crate::plant::settings::ideal_settings::IdealSettings;
+use crate::plant::settings::panel_setting::PanelSetting;
+use crate::plant::thrusters::reaction_control::Thrusters;
+use crate::spacecraft::Spacecraft;
+use configured::ConfiguredFlight;
+use dynamic::AttitudeDynamics;
+use ideal::IdealFlight;
+use propagator_state::PropagatorState;
+use report::{Report, dynamic, ideal};
+use sun_choice::SunChoice;
+
+/// A flight.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Flight {
+    propagator: PropagatorState,
+    /// Thrusters and tanks.
+    pub thrusters: Thrusters,
+    mode: Mode,
+    #[serde(skip)]
+    setup: Option<Box<FlightSetup>>,
+}
+
+/// How the attitude comes about.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+enum Mode {
+    /// Nothing acts yet, and the attitude is held.
+    Waiting,
+    Ideal(Box<IdealFlight>),
+    Dynamic(Box<AttitudeDynamics>),
+}
+
+/// What parameters and inputs say.
+#[derive(Clone, Debug)]
+struct FlightSetup {
+    world: World,
+    settings: ModeSettings,
+}
+
+/// What parameters say beside the configuration.
+#[derive(Clone, Debug)]
+pub enum ModeSettings {
+    /// Of a flight whose attitude is followed ideally, and of one that waits.
+    Ideal(IdealSettings),
+    /// Of a flight by torque.
+    Dynamic(Box<DynamicsSettings>),
+}
+
+/// How a flight begins.
+pub enum Start<W> {
+    /// With this momentum, body frame, in N m s, in an attitude that is followed ideally.
+    Ideal(Vector3<f64>),
+    /// With this motion, the wheels holding these momenta, in N m s.
+    Dynamic(StartMotion, W),
+}
+
+/// What changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Changes {
+    /// Position and velocity are given anew.
+    pub orbit: bool,
+    /// Light and heat are no longer what they were going to be.
+    pub light: bool,
+    /// The mass is another.
+    pub mass: bool,
+    /// The force from outside is another.
+    pub force: bool,
+    /// Mass, thresholds or target of dumps are others.
+    pub tunables: bool,
+}
+
+impl Flight {
+    /// That waits.
+    pub fn waiting(thrusters: Thrusters) -> Self {
+        Self { propagator: PropagatorState::default(), thrusters, mode: Mode::Waiting, setup: None }
+    }
+
+    /// Rejects decoded states that no flight of this spacecraft can produce.
+    pub fn is_valid(&self, spacecraft: &Spacecraft) -> bool {
+        // Panels without mass have no motion of their own.
+        let has_mass = spacecraft.panels.iter().any(|panel| panel.mass.is_some());
+        let panels = if has_mass { spacecraft.panels.len() } else { 0 };
+        let (wheels, oscillators) = (spacecraft.wheels.len(), spacecraft.oscillator_count());
+        self.propagator.is_valid()
+            && self.thrusters.is_valid(spacecraft.thrusters.len(), spacecraft.tanks.len())
+            && match &self.mode {
+                Mode::Waiting => true,
+                Mode::Ideal(ideal) => ideal.is_valid(),
+                Mode::Dynamic(dynamics) => dynamics.is_valid(wheels, oscillators, panels),
+            }
+    }
+
+    /// What was computed elsewhere than at `time_s`, if anything.
+    pub fn uncovered(&self, time_s: f64) -> Option<&'static str> {
+        let PropagatorState { light, trajectory, .. } = &self.propagator;
+        let (is_covered, what) = match &self.mode {
+            _ if !light.as_ref().is_none_or(|light| light.covers(time_s)) => {
+                (false, "light and heat were computed")
+            }
+            _ if !trajectory.covers(time_s) => (false, "the orbit was integrated"),
+            Mode::Waiting => (true, ""),
+            Mode::Ideal(ideal) => (ideal.integrator.covers(time_s), "the momentum was accumulated"),
+            Mode::Dynamic(dynamics) => (dynamics.covers(time_s), "the attitude was computed"),
+        };
+        (!is_covered).then_some(what)
+    }
+
+    /// Whether parameters and inputs have been read since the start or a restore.
+    pub fn is_configured(&self) -> bool {
+        self.setup.is_some()
+    }
+
+    /// The configuration that is simulated.
+    pub fn configuration(&self) -> Option<&Configuration> {
+        self.setup.as_ref().map(|setup| &setup.world.configuration)
+    }
+
+    /// Whether it waits.
+    pub fn is_waiting(&self) -> bool {
+        matches!(self.mode, Mode::Waiting)
+    }
+
+    /// The estimate of the attitude at `time_s`, where sensors sample it.
+    pub fn estimate_at(&self, time_s: f64) -> Option<Estimate> {
+        match &self.mode {
+            Mode::Dynamic(dynamics) => Some(dynamics.sensing.estimate_at(time_s)),
+            Mode::Waiting | Mode::Ideal(_) => None,
+        }
+    }
+
+    /// The torque with `others_body_n_m` of everything else, in N m, where a dump is a constant torque.
+    pub fn with_dump_body_n_m(&self, others_body_n_m: &Vector3<f64>) -> Vector3<f64> {
+        match &self.mode {
+            Mode::Dynamic(dynamics) => others_body_n_m + dynamics.dumps.torque_body_n_m(),
+            Mode::Waiting | Mode::Ideal(_) => *others_body_n_m,
+        }
+    }
+
+    /// Where the Sun stands during downlinks.
+    pub fn sun_choice(&self) -> &SunChoice {
+        &self.propagator.sun_choice
+    }
+
+    /// Takes what parameters and inputs say.
+    pub fn configure(&mut self, world: World, settings: ModeSettings) {
+        self.setup = Some(Box::new(FlightSetup { world, settings }));
+        self.set_left();
+    }
+
+    /// Takes the memory of the panels' settings for the next configuration.
+    pub fn take_panels(&mut self) -> Vec<PanelSetting> {
+        self.setup.as_mut().map_or_else(Vec::new, |it| core::mem::take(&mut it.world.configuration.panels))
+    }
+
+    /// In flight that is followed ideally nothing flows between dumps.
+    fn set_left(&mut self) {
+        if let Some(FlightSetup { world, .. }) = self.setup.as_deref_mut() {
+            let loaded = world.configuration.loaded();
+            world.mass_at_zero = self.thrusters.left(&loaded, 0.0).unwrap_or(loaded);
+        }
+    }
+
+    /// Something changes at `time_s`: what was computed beyond it is void, and from there on the
+    /// configuration and settings are these, where they are others.
+    ///
+    /// # Errors
+    /// A place that is given below the surface.
+    pub fn apply(
+        &mut self,
+        changes: Changes,
+        configuration: Option<Configuration>,
+        settings: Option<ModeSettings>,
+        time_s: f64,
+    ) -> Result<(), PlantError> {
+        let Some(setup) = self.setup.as_deref_mut() else { return Err(PlantError::OtherMode) };
+        let so_far = &setup.world.configuration;
+        // On a disturbed orbit the mass tells where the spacecraft goes.
+        let pushed = changes.force && matches!(so_far.motion, Motion::Disturbed { feedback: true, .. });
+        match &mut self.mode {
+            Mode::Waiting => {}
+            Mode::Ideal(ideal) => {
+                ideal.integrator.cut(time_s);
+                self.propagator.cut(so_far, time_s, changes.light);
+            }
+            Mode::Dynamic(dynamics) => {
+                let loads_change = changes.light || changes.mass || pushed;
+                dynamics.cut(time_s, loads_change);
+                if loads_change {
+                    self.propagator.cut(so_far, time_s, true);
+                }
+            }
+        }
+        if let Some(configuration) = configuration {
+            setup.world.configuration = configuration;
+        }
+        if let Some(settings) = settings {
+            setup.settings = settings;
+        }
+        if changes.orbit {
+            self.propagator.move_to(&setup.world.configuration, time_s)?;
+        }
+        self.set_left();
+        Ok(())
+    }
+
+    /// The flight in one step, its settings and its mode.
+    fn parts<'a>(
+        &'a mut self,
+        given: StepContext<'a>,
+        log: &'a mut dyn FnMut(&DumpEvent),
+    ) -> Result<(ConfiguredFlight<'a>, &'a mut ModeSettings, &'a mut Mode), PlantError> {
+        let Self { propagator, thrusters, setup: Some(setup), mode } = self else {
+            return Err(PlantError::OtherMode);
+        };
+        let FlightSetup { world, settings } = &mut **setup;
+        Ok((ConfiguredFlight { given, world, propagator, thrusters, log }, settings, mode))
+    }
+
+    /// Begins at `time_s`.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub fn begin<W: Fn(usize) -> f64>(
+        &mut self,
+        given: StepContext<'_>,
+        start: Start<W>,
+        time_s: f64,
+        log: &mut dyn FnMut(&DumpEvent),
+    ) -> Result<(), PlantError> {
+        let (mut flight, settings, mode) = self.parts(given, log)?;
+        *flight.propagator = PropagatorState::new(&flight.world.configuration, time_s)?;
+        *mode = match (start, settings) {
+            (Start::Ideal(momentum_body_n_m_s), ModeSettings::Ideal(_)) => {
+                Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, momentum_body_n_m_s)?))
+            }
+            (Start::Dynamic(start, wheels_n_m_s), ModeSettings::Dynamic(settings)) => Mode::Dynamic(
+                Box::new(AttitudeDynamics::begin(settings, &mut flight, &start, wheels_n_m_s, time_s)?),
+            ),
+            _ => return Err(PlantError::OtherMode),
+        };
+        Ok(())
+    }
+
+    /// Advances until everything is known at the end of the step.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub fn advance(
+        &mut self,
+        given: StepContext<'_>,
+        inputs: &DynamicsInputs,
+        [start_s, end_s]: [f64; 2],
+        log: &mut dyn FnMut(&DumpEvent),
+    ) -> Result<(), PlantError> {
+        let (mut flight, settings, mode) = self.parts(given, log)?;
+        match (mode, settings) {
+            (Mode::Waiting, _) => Ok(()),
+            (Mode::Ideal(ideal), ModeSettings::Ideal(_)) => {
+                if let Some(target_body_n_m_s) = inputs.dump_to_body_n_m_s {
+                    ideal.dump_to(&mut flight, start_s, target_body_n_m_s);
+                }
+                ideal.advance(&mut flight, end_s)
+            }
+            (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
+                if let Some(target_body_n_m_s) = inputs.dump_to_body_n_m_s {
+                    dynamics.cut(start_s, false);
+                    dynamics.dump_to(settings, &mut flight, target_body_n_m_s);
+                }
+                let pulses = flight.thrusters.command_pulses(&inputs.pulses, [start_s, end_s]);
+                if flight.thrusters.command_thrust(&inputs.thrust, start_s) || pulses {
+                    dynamics.cut(start_s, false);
+                }
+                dynamics.advance(settings, &mut flight, inputs, end_s)
+            }
+            _ => Err(PlantError::OtherMode),
+        }
+    }
+
+    /// What samples at the start with these inputs would do: to be shown there, and to be undone, as the first step takes them with
+    /// its own.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub fn sample_at_start(
+        &mut self,
+        given: StepContext<'_>,
+        inputs: &DynamicsInputs,
+    ) -> Result<Undo, PlantError> {
+        let undo = Undo(self.mode.clone(), self.thrusters.clone());
+        let ignored = &mut |_: &DumpEvent| {};
+        let (mut flight, settings, mode) = self.parts(given, ignored)?;
+        if let (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) = (mode, settings) {
+            flight.world.begin_work(given.work_limit);
+            dynamics.process_events(settings, &mut flight, inputs)?;
+        }
+        Ok(undo)
+    }
+
+    /// Undoes samples at the start.
+    pub fn undo(&mut self, Undo(mode, thrusters): Undo) {
+        (self.mode, self.thrusters) = (mode, thrusters);
+    }
+
+    /// Everything at `time_s`, where the flight has come; a flight that waits holds the attitude of `command`, its system the
+    /// momentum of `start`, body frame, in N m s.
+    ///
+    /// # Errors
+    /// A state that belongs to another mode than the settings.
+    pub fn report(
+        &mut self,
+        given: StepContext<'_>,
+        inputs: &DynamicsInputs,
+        held: (Command, Vector3<f64>),
+        time_s: f64,
+    ) -> Result<Report<'_>, PlantError> {
+        let frame = held.0.frame_at(time_s);
+        let Self { propagator, thrusters, setup: Some(setup), mode } = self else {
+            return Err(PlantError::OtherMode);
+        };
+        let FlightSetup { world, settings } = &mut **setup;
+        let mut flight = ConfiguredFlight { given, world, propagator, thrusters, log: &mut |_| {} };
+        let (evaluation, body) = match (&*mode, &mut *settings) {
+            (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
+                dynamics.resume(settings, &mut flight);
+                let body = dynamics.motion.at(&settings.gyrostat, time_s);
+                (dynamics.evaluation(settings, &mut flight, &body, time_s), Some(body))
+            }
+            (Mode::Waiting, _) => (Evaluation::without_position(frame, flight.world.mass_at_zero), None),
+            _ => (flight.plant().evaluate(time_s), None),
+        };
+        let (configuration, thrusters) = (&world.configuration, &*thrusters);
+        let shown = match (&*mode, &*settings, body) {
+            (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings), Some(body)) => {
+                dynamic(dynamics, settings, thrusters, body, time_s)
+            }
+            (Mode::Ideal(simulated), ModeSettings::Ideal(settings), _) => {
+                let mut shown = ideal(simulated, settings, &evaluation, inputs, time_s);
+                let Instant { sun_body, lit_fraction, .. } = &evaluation.instant;
+                shown.sun_sensed_body = sensed_sun(
+                    &settings.sun_sensors,
+                    |k| inputs.sun_sensor_failed.get(k).is_some_and(|failed| *failed),
+                    sun_body,
+                    *lit_fraction,
+                    settings.seed,
+                    sample_number(time_s, settings.rate_hz),
+                );
+                shown
+            }
+            (Mode::Waiting, ModeSettings::Ideal(settings), _) => {
+                let totals = Totals::at_start(held.1, &frame.inertial_from_body);
+                ideal(&IdealFlight::new(time_s, totals), settings, &evaluation, inputs, time_s)
+            }
+            _ => return Err(PlantError::OtherMode),
+        };
+        let since_periapsis_s = match mode {
+            Mode::Waiting => 0.0,
+            _ => propagator.trajectory.time_since_periapsis_s(configuration, time_s),
+        };
+        let target_is_clamped = propagator.sun_choice.is_clamped();
+        Ok(Report {
+            time_s,
+            configuration,
+            thrusters,
+            since_periapsis_s,
+            target_is_clamped,
+            evaluation,
+            shown,
+        })
+    }
+
+    /// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order.
+    ///
+    /// # Errors
+    /// A geometry without meaning.
+    pub fn faces(
+        &mut self,
+        prepared: PreparedSpacecraft<'_>,
+        time_s: f64,
+        report: impl FnMut(f64, Vector3<f64>),
+    ) -> Result<(), PlantError> {
+        let Self { propagator, setup: Some(setup), .. } = self else { return Err(PlantError::OtherMode) };
+        let external = |_: f64| [ExternalLoad::default(); 2];
+        Plant::new(prepared, &mut setup.world, propagator, &external).faces(time_s, report)
+    }
+}
+
+/// A flight before samples at its start.
+pub struct Undo(Mode, Thrusters);

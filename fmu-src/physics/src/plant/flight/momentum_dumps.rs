@@ -34,12 +34,12 @@ pub(crate) struct MomentumDumps {
 
 impl MomentumDumps {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         self.constant.is_none_or(|it| it.torque_body_n_m.iter().all(sound) && sound(&it.until_s))
-            && self.dumps.is_sound()
-            && self.spacing.is_sound()
-            && self.by_source.is_sound()
+            && self.dumps.is_valid()
+            && self.spacing.is_valid()
+            && self.by_source.is_valid()
             && self.torques.iter().flatten().flatten().all(sound)
     }
 
@@ -59,7 +59,7 @@ impl MomentumDumps {
     }
 
     /// Adds what the effects did in the segment that ends; nothing of a dump's time counts.
-    pub fn settle(&mut self, motion: &GyrostatMotion, is_dumping: bool) {
+    pub fn accumulate(&mut self, motion: &GyrostatMotion, is_dumping: bool) {
         self.by_source =
             if is_dumping { SourceMomenta::default() } else { self.by_source(motion, motion.end_s()) };
         self.torques = Default::default();

@@ -23,10 +23,10 @@ pub struct PropagatorState {
 
 impl PropagatorState {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
-        self.trajectory.is_sound()
-            && self.sun_choice.is_sound()
-            && self.light.as_ref().is_none_or(RadiationSegment::is_sound)
+    pub fn is_valid(&self) -> bool {
+        self.trajectory.is_valid()
+            && self.sun_choice.is_valid()
+            && self.light.as_ref().is_none_or(RadiationSegment::is_valid)
     }
 
     /// At the start of a flight.

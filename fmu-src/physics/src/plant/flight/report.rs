@@ -67,7 +67,7 @@ pub struct ControlReport {
     pub error_rad: f64,
     /// Whether the reference has come to the command.
     pub is_settled: bool,
-    /// Whether wheels or thrusters could not give the torque asked for at the last sample.
+    /// Whether wheels or thrusters could not give the torque requested at the last sample.
     pub is_limited: bool,
 }
 
@@ -147,26 +147,26 @@ impl Shown<'_> {
 /// Ideal wheels hold the system's momentum less what the body's own rotation and panels that turn take; sensors see the true
 /// attitude.
 pub(super) fn ideal<'a>(
-    flown: &IdealFlight,
+    simulated: &IdealFlight,
     settings: &'a IdealSettings,
     evaluation: &Evaluation,
     inputs: &DynamicsInputs,
     time_s: f64,
 ) -> Shown<'a> {
-    let (totals, dumps) = (flown.integrator.totals(time_s), *flown.integrator.dumps());
-    let acceleration = flown.integrator.acceleration_body_rad_s2(time_s);
+    let (totals, dumps) = (simulated.integrator.totals(time_s), *simulated.integrator.dumps());
+    let acceleration = simulated.integrator.acceleration_body_rad_s2(time_s);
     let Evaluation { instant, loads, mass, panels_body_n_m_s } = evaluation;
     let (frame, inertia) = (&instant.frame, &mass.inertia_body_kg_m2);
     let torque_body_n_m = loads.total().torque_body_n_m;
     Shown {
         time_s,
         totals,
-        by_source: flown.integrator.by_source(time_s),
+        by_source: simulated.integrator.by_source(time_s),
         dumps,
-        spacing: flown.spacing,
+        spacing: simulated.spacing,
         is_dumping: false,
         dump_impulse_body_n_m_s: impulse_body_n_m_s(&dumps),
-        dump_delta_v_inertial_m_s: flown.dump_delta_v_inertial_m_s,
+        dump_delta_v_inertial_m_s: simulated.dump_delta_v_inertial_m_s,
         estimate: Estimate {
             attitude: Attitude::from_rotation(&frame.inertial_from_body),
             is_valid: inputs.health.star_tracker,

@@ -45,7 +45,7 @@ impl Sensing {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let vector = |vector: &Vector3<f64>| vector.iter().all(sound);
         let norm: f64 = self.sampled.0.0.iter().map(|x| x * x).sum();
@@ -53,11 +53,11 @@ impl Sensing {
             && [self.next.1, self.sampled_s].iter().all(sound)
             && (norm - 1.0).abs() < 1e-9
             && vector(&self.sampled.1)
-            && self.estimator.is_sound()
+            && self.estimator.is_valid()
             && self.estimate.attitude.is_rotation()
             && self.estimate.rate_body_rad_s.as_ref().is_none_or(vector)
             && self.sun_sensed_body.as_ref().is_none_or(vector)
-            && self.accelerometer.is_sound()
+            && self.accelerometer.is_valid()
     }
 
     /// When the next sample is due, in s.

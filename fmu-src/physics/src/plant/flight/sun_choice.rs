@@ -21,8 +21,8 @@ pub struct SunChoice {
 
 impl SunChoice {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
-        [self.chosen, self.science].into_iter().flatten().all(|chosen| chosen.place.is_sound())
+    pub fn is_valid(&self) -> bool {
+        [self.chosen, self.science].into_iter().flatten().all(|chosen| chosen.place.is_valid())
             && self.chosen_s.is_none_or(|at_s| at_s.abs() <= GREATEST_IN_STATE)
     }
 

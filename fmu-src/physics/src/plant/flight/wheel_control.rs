@@ -25,7 +25,7 @@ pub struct WheelControlSettings {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct WheelControl {
     motors: Vec<Motor>,
-    /// Whether the wheels could not give the torque that was asked for.
+    /// Whether the wheels could not give the torque that was requested.
     is_limited: bool,
     #[serde(skip)]
     allocator: Option<CachedAllocator>,
@@ -47,7 +47,7 @@ impl WheelControl {
     }
 
     /// Whether its numbers can come from a flight with so many wheels; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self, wheels: usize) -> bool {
+    pub fn is_valid(&self, wheels: usize) -> bool {
         self.motors.len() == wheels
             && self.motors.iter().all(|motor| motor.torque_n_m.abs() <= GREATEST_IN_STATE)
     }
@@ -57,7 +57,7 @@ impl WheelControl {
         &self.motors
     }
 
-    /// Whether the wheels could not give the torque asked for last.
+    /// Whether the wheels could not give the torque requested last.
     pub fn is_limited(&self) -> bool {
         self.is_limited
     }
@@ -131,7 +131,7 @@ impl WheelControl {
         for (k, wheel) in gyrostat.wheels().iter().enumerate() {
             let friction =
                 if settings.compensates_friction { wheel.friction_n_m(momentum_n_m_s(k)) } else { 0.0 };
-            // Motor torque without the share that is asked for: friction and balance.
+            // Motor torque without the share that is requested: friction and balance.
             balance[k] = if turns(k) {
                 friction + (balance[k] - momentum_n_m_s(k)) / settings.balance_time_s
             } else {

@@ -55,7 +55,7 @@ impl RadiationSegment {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let hot = |kelvin: &f64| (0.0..=HOTTEST_K).contains(kelvin);
         let ordered = self.loads.is_none() || (self.start_s.abs().max(self.end_s.abs()) <= GREATEST_IN_STATE);
         ordered
@@ -65,10 +65,10 @@ impl RadiationSegment {
             && self
                 .loads
                 .as_ref()
-                .is_none_or(|it| it.is_sound() && it.spans(self.start_s, self.end_s.max(self.start_s)))
+                .is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s.max(self.start_s)))
             && self.temperatures_k.iter().all(|it| {
                 let most_k: f64 = it.coefficients().iter().map(|c| c.abs()).sum();
-                it.is_sound()
+                it.is_valid()
                     && it.spans(self.start_s, self.end_s.max(self.start_s))
                     && most_k <= 10.0 * HOTTEST_K
             })

@@ -34,8 +34,8 @@ impl RadiationSolver {
     ) -> Result<Self, ModelError> {
         let takes_part = |index: &usize| configuration.panels.get(*index) != Some(&PanelSetting::Disabled);
         let panels: Vec<usize> = (0..spacecraft.panels.len()).filter(takes_part).collect();
-        let mut flown = spacecraft.clone();
-        flown.panels = panels.iter().map(|&index| spacecraft.panels[index].clone()).collect();
+        let mut simulated = spacecraft.clone();
+        simulated.panels = panels.iter().map(|&index| spacecraft.panels[index].clone()).collect();
         let effects = &configuration.light_and_heat;
         let over_planet = effects.planet_light && configuration.center.is_planet();
         let options = Options {
@@ -45,7 +45,7 @@ impl RadiationSolver {
             sun_disc: effects.sun_disc,
             sunshade_model: spacecraft.sunshade.as_ref().map(|_| configuration.sunshade),
         };
-        let model = DisturbanceModel::new(&flown, &options)?;
+        let model = DisturbanceModel::new(&simulated, &options)?;
         let node = RadiationNode::new(panels.len(), model.face_count());
         Ok(Self { nodes: vec![node; NODES], heat_rule: HeatRule::new(), panels, model })
     }

@@ -81,7 +81,7 @@ pub(crate) fn sun_and_earth(
 ) -> (CartesianState, CartesianState) {
     let ellipse = match &configuration.ephemeris {
         EphemerisSource::Given { sun, earth } => return (*sun, *earth),
-        EphemerisSource::Flown(carried) => {
+        EphemerisSource::Simulated(carried) => {
             let state = |body: Body| {
                 let found = carried.state_carried_on(body.into(), configuration.center, epoch_s);
                 found.unwrap_or_else(|| fixed(Vector3::repeat(f64::NAN)))

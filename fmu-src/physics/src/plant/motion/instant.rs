@@ -34,7 +34,7 @@ pub struct Instant {
 
 impl Instant {
     /// Of a spacecraft of which nothing is known but how it stands.
-    pub fn nowhere(frame: MovingFrame) -> Self {
+    pub fn without_position(frame: MovingFrame) -> Self {
         let geometry = Geometry {
             spacecraft: CartesianState::default(),
             to_sun: CartesianState::default(),

@@ -82,7 +82,7 @@ impl PanelMotion {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub(crate) fn is_sound(&self, panels: usize) -> bool {
+    pub(crate) fn is_valid(&self, panels: usize) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         self.turns.len() == panels
             && sound(&self.since_s)

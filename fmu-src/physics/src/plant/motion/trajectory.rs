@@ -78,11 +78,11 @@ impl Trajectory {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let state = |state: &CartesianState| state.position_m.iter().chain(&state.velocity_m_s).all(sound);
         let Periapses { last_s, number, scheduled_s } = &self.periapses;
-        self.orbit.as_ref().is_none_or(DisturbedOrbit::is_sound)
+        self.orbit.as_ref().is_none_or(DisturbedOrbit::is_valid)
             && last_s.iter().all(sound)
             && number.unsigned_abs() < 1 << 60
             && scheduled_s.iter().all(sound)
@@ -234,7 +234,7 @@ impl Trajectory {
             geometry::sun_and_earth(configuration, ephemeris, epoch_s).0.position_m
         };
         orbit.advance_to(limit_s, method, gravity, sun_m, |at_s, _| extra_m_s2(at_s))?;
-        self.periapses.look_in(&orbit, configuration);
+        self.periapses.detect_periapsis(&orbit, configuration);
         self.orbit = Some(orbit);
         Ok(())
     }
@@ -260,7 +260,7 @@ impl Periapses {
     }
 
     /// Takes note of a periapsis in the present segment.
-    fn look_in(&mut self, orbit: &DisturbedOrbit, configuration: &Configuration) {
+    fn detect_periapsis(&mut self, orbit: &DisturbedOrbit, configuration: &Configuration) {
         let period_s = configuration.orbit.period_s();
         let (from_s, to_s) = (orbit.start_s(), orbit.end_s());
         let radial_at = |at_s: f64| radial(&orbit.state_at(at_s));

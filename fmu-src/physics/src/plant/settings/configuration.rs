@@ -9,9 +9,9 @@ use crate::attitude::{Attitude, MovingFrame, SunAngles};
 use crate::bodies::{Body, BodyData};
 use crate::environment::CartesianState;
 use crate::environment::eclipse::Shadow;
-use crate::environment::flown::FlownEphemeris;
 use crate::environment::frames::Frame;
 use crate::environment::kepler_planet::KeplerPlanet;
+use crate::environment::onboard::OnboardEphemeris;
 use crate::environment::orbit::{Elements, Gravity, OrbitError, TwoBodyOrbit};
 use crate::environment::sun::pressure_n_m2;
 use crate::guidance::{Guided, SunPlace};
@@ -101,7 +101,7 @@ pub struct Command {
 
 impl Command {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_valid(&self) -> bool {
         let numbers = self.rate_body_rad_s.iter().chain([&self.since_s]);
         self.attitude.is_rotation() && numbers.into_iter().all(|x| x.abs() <= GREATEST_IN_STATE)
     }
@@ -128,7 +128,7 @@ pub enum EphemerisSource {
     /// The planet on an ellipse about the Sun; the Earth by VSOP87.
     Kepler(KeplerPlanet),
     /// As the spacecraft carries them; beyond their span they move on evenly.
-    Flown(Arc<FlownEphemeris>),
+    Simulated(Arc<OnboardEphemeris>),
     /// Where they stand until they are given anew, and their velocities, from the orbit's centre.
     Given {
         /// Sun, EME2000.

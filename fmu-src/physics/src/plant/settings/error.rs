@@ -18,7 +18,7 @@ pub enum PlantError {
         "at {time_s} s the spacecraft at {position_m:?} m about the orbit's centre is inside the planet or the Sun, or the \
          planet inside the Sun, or its position is no number"
     )]
-    Nowhere {
+    WithoutPosition {
         /// When, in s.
         time_s: f64,
         /// Position about the orbit's centre, EME2000, in m.

@@ -32,7 +32,7 @@ pub(crate) struct PulsedDump {
     /// When pulses are next decided, in s.
     pub(crate) next_s: f64,
     /// What each thruster still has to give of what was decided, in s of full thrust: less than its shortest pulse.
-    pub(crate) owed_s: [f64; MOST_THRUSTERS],
+    pub(crate) residual_s: [f64; MOST_THRUSTERS],
     /// How often the end was corrected.
     pub(crate) corrections: u8,
     /// Whether the pulses at hand are the last.
@@ -55,7 +55,7 @@ impl PulsedDump {
             before,
             after: None,
             next_s: time_s,
-            owed_s: [0.0; MOST_THRUSTERS],
+            residual_s: [0.0; MOST_THRUSTERS],
             corrections: 0,
             is_last: false,
             mean_torque_body_n_m: Vector3::zeros(),
@@ -63,17 +63,17 @@ impl PulsedDump {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub(crate) fn is_sound(&self) -> bool {
+    pub(crate) fn is_valid(&self) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let vector = |it: &Vector3<f64>| it.iter().all(sound);
         let norm: f64 = self.attitude_at_start.0.iter().map(|x| x * x).sum();
         vector(&self.target_inertial_n_m_s)
             && vector(&self.mean_torque_body_n_m)
             && (norm - 1.0).abs() < 1e-9
-            && self.before.is_sound()
-            && self.after.as_ref().is_none_or(ThrusterTotals::is_sound)
+            && self.before.is_valid()
+            && self.after.as_ref().is_none_or(ThrusterTotals::is_valid)
             && sound(&self.next_s)
-            && self.owed_s.iter().all(|owed_s| *owed_s >= 0.0 && sound(owed_s))
+            && self.residual_s.iter().all(|residual_s| *residual_s >= 0.0 && sound(residual_s))
     }
 
     /// Decides the pulses now: for how long each thruster opens, where this is left to give, body frame, in N m s.
@@ -88,19 +88,19 @@ impl PulsedDump {
         let torque = |k: usize| settings.thrusters[k].torque_about_n_m(center_of_mass_body_m);
         let shortest_s = |k: usize| settings.thrusters[k].valve.min_on_s;
         let most_n_m_s = settings.dump_torque_n_m * settings.dump_period_s;
-        let owed = |owed_s: &[f64; MOST_THRUSTERS]| -> Vector3<f64> {
-            (0..settings.thrusters.len()).map(|k| torque(k) * owed_s[k]).sum()
+        let owed = |residual_s: &[f64; MOST_THRUSTERS]| -> Vector3<f64> {
+            (0..settings.thrusters.len()).map(|k| torque(k) * residual_s[k]).sum()
         };
-        let new_body_n_m_s = left_body_n_m_s - owed(&self.owed_s);
+        let new_body_n_m_s = left_body_n_m_s - owed(&self.residual_s);
         let part = (most_n_m_s / new_body_n_m_s.amax()).min(1.0);
         let mut opened_s = [0.0; MOST_THRUSTERS];
         let mut given_body_n_m_s = Vector3::zeros();
         for (k, full_s) in selection.on_times_s(&new_body_n_m_s).enumerate() {
-            self.owed_s[k] += full_s * part;
-            let on_s = feed.opens_for_s(k, self.owed_s[k]);
+            self.residual_s[k] += full_s * part;
+            let on_s = feed.opens_for_s(k, self.residual_s[k]);
             if on_s > 0.0 && on_s >= shortest_s(k) {
-                given_body_n_m_s += torque(k) * self.owed_s[k];
-                (opened_s[k], self.owed_s[k]) = (on_s, 0.0);
+                given_body_n_m_s += torque(k) * self.residual_s[k];
+                (opened_s[k], self.residual_s[k]) = (on_s, 0.0);
             }
         }
         if part == 1.0 {
@@ -109,7 +109,7 @@ impl PulsedDump {
                 let full_s = settings.thrusters[k].valve.full_thrust_s(shortest_s(k));
                 torque(k) * (full_s * feed.pressure_ratio(k))
             };
-            let mut left = owed(&self.owed_s);
+            let mut left = owed(&self.residual_s);
             let pulses = (0..settings.thrusters.len()).filter(|k| selection.uses(*k) && shortest_s(*k) > 0.0);
             loop {
                 let free = pulses.clone().filter(|k| opened_s[*k] == 0.0);
@@ -123,7 +123,7 @@ impl PulsedDump {
                 left -= shortest(k);
                 given_body_n_m_s += shortest(k);
             }
-            self.owed_s = [0.0; MOST_THRUSTERS];
+            self.residual_s = [0.0; MOST_THRUSTERS];
             self.corrections += 1;
             // Valves without a shortest pulse leave nothing over, others what no pulse brings nearer.
             let is_exact = pulses.count() == 0;

@@ -73,18 +73,18 @@ impl Thrusters {
     }
 
     /// Whether its numbers can come from a flight with so many thrusters and tanks; bytes from elsewhere may hold anything.
-    pub fn is_sound(&self, thrusters: usize, tanks: usize) -> bool {
+    pub fn is_valid(&self, thrusters: usize, tanks: usize) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
         let later = |x: &f64| sound(x) || *x == f64::INFINITY;
         self.valves.len() == thrusters
             && self.schedule.len() == thrusters
-            && self.propellant.is_sound(tanks)
-            && self.valves.iter().all(Valve::is_sound)
-            && self.schedule.iter().all(PulseSchedule::is_sound)
+            && self.propellant.is_valid(tanks)
+            && self.valves.iter().all(Valve::is_valid)
+            && self.schedule.iter().all(PulseSchedule::is_valid)
             && self.burn.is_none_or(|it| sound(&it.since_s) && later(&it.stop_s))
-            && self.dump.as_ref().is_none_or(PulsedDump::is_sound)
-            && self.load.is_sound()
-            && self.totals.is_sound()
+            && self.dump.as_ref().is_none_or(PulsedDump::is_valid)
+            && self.load.is_valid()
+            && self.totals.is_valid()
     }
 
     /// Takes the pulses commanded for the step over `span_s`, by the law of [`PulseSchedule`]. Whether there are any.
@@ -103,21 +103,21 @@ impl Thrusters {
     pub fn command_thrust(&mut self, command: &ThrustCommand, time_s: f64) -> bool {
         // A set without thrusters gives no delta-v.
         let has_thrusters = |set| self.settings.thrusters.iter().any(|it| it.set == Some(set));
-        let wanted = command.set.filter(|set| command.stop_s > due_s(time_s) && has_thrusters(*set));
+        let requested = command.set.filter(|set| command.stop_s > due_s(time_s) && has_thrusters(*set));
         let before = self.burn.map(|burn| (burn.set, burn.stop_s));
-        if wanted.map(|set| (set, command.stop_s)) == before {
+        if requested.map(|set| (set, command.stop_s)) == before {
             return false;
         }
         for (k, thruster) in self.settings.thrusters.iter().enumerate() {
             if self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) {
                 self.schedule[k].end(time_s);
             }
-            if wanted.is_some() && thruster.set == wanted {
+            if requested.is_some() && thruster.set == requested {
                 self.schedule[k].plan(&thruster.valve, time_s, command.stop_s);
             }
         }
-        let goes_on = self.burn.filter(|burn| Some(burn.set) == wanted);
-        self.burn = wanted.map(|set| Burn {
+        let goes_on = self.burn.filter(|burn| Some(burn.set) == requested);
+        self.burn = requested.map(|set| Burn {
             set,
             since_s: goes_on.map_or(time_s, |burn| burn.since_s),
             stop_s: command.stop_s,
@@ -135,18 +135,18 @@ impl Thrusters {
         }
         if !self.load.law.is_none() {
             for (k, tank) in self.settings.tanks.iter().enumerate() {
-                next_s = next_s.min(self.propellant.dry_s(k, tank));
+                next_s = next_s.min(self.propellant.depletion_time_s(k, tank));
             }
         }
         next_s
     }
 
     /// Opens and closes the valves whose time has come.
-    pub fn take_edges(&mut self, time_s: f64) {
+    pub fn process_valve_events(&mut self, time_s: f64) {
         let due_s = due_s(time_s);
         let Self { settings, propellant, .. } = self;
         for (index, tank) in settings.tanks.iter().enumerate() {
-            if propellant.dry_s(index, tank) <= due_s {
+            if propellant.depletion_time_s(index, tank) <= due_s {
                 propellant.empty(index, tank);
             }
         }
@@ -180,10 +180,10 @@ impl Thrusters {
     }
 
     /// Counts what thrusters did up to `time_s`, the end of the motion's present segment.
-    pub fn settle(&mut self, motion: &GyrostatMotion, time_s: f64) {
+    pub fn accumulate(&mut self, motion: &GyrostatMotion, time_s: f64) {
         if !self.load.law.is_none() {
             self.totals = self.totals_at(motion, time_s);
-            self.propellant.settle(time_s);
+            self.propellant.accumulate(time_s);
         }
     }
 
@@ -195,7 +195,7 @@ impl Thrusters {
         if (0..thrusters.len()).all(|k| thrust(k) == [0.0; 2]) {
             return;
         }
-        self.propellant.settle(time_s);
+        self.propellant.accumulate(time_s);
         let mut nozzles_kg_m_s = Vector3::zeros();
         for (index, tank) in self.settings.tanks.iter().enumerate() {
             let fed = || thrusters.iter().enumerate().filter(|(_, thruster)| thruster.tank == index);

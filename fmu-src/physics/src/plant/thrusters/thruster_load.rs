@@ -57,9 +57,9 @@ impl ThrusterLoad {
     }
 
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub(crate) fn is_sound(&self) -> bool {
-        self.law.is_sound()
-            && self.mass_flow.is_sound()
+    pub(crate) fn is_valid(&self) -> bool {
+        self.law.is_valid()
+            && self.mass_flow.is_valid()
             && self.mass_kg > 0.0
             && self.mass_kg <= GREATEST_IN_STATE
     }
@@ -87,7 +87,7 @@ pub struct ThrusterTotals {
 
 impl ThrusterTotals {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub(crate) fn is_sound(&self) -> bool {
+    pub(crate) fn is_valid(&self) -> bool {
         let numbers = self.impulse_inertial_n_m_s.iter().chain(&self.delta_v_inertial_m_s);
         numbers.into_iter().all(|x| x.abs() <= GREATEST_IN_STATE)
     }

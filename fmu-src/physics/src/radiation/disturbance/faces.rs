@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::radiation::shadow::{Hinge, Outline};
-use crate::radiation::thermal::balance::FaceSurroundings;
+use crate::radiation::thermal::balance::FaceEnvironment;
 use crate::radiation::thermal::transient::HeatStore;
 use crate::spacecraft::{
     BusLink, Cylinder, Emission, FaceThermal, Optics, Panel, Plate, Spacecraft, SunshadeModel, Thermal,
@@ -47,10 +47,10 @@ pub(super) struct Surface {
 
 impl Surface {
     /// What front and rear give off heat to; a face there is not gives off none.
-    pub fn surroundings(&self) -> [FaceSurroundings; 2] {
+    pub fn surroundings(&self) -> [FaceEnvironment; 2] {
         let Thermal { front, rear, bus, .. } = &self.thermal;
         let rear = rear.map_or(Emission::constant(0.0), |rear| rear.emission);
-        let face = |emission, bus| FaceSurroundings { emission, background_k: self.background_k, bus };
+        let face = |emission, bus| FaceEnvironment { emission, background_k: self.background_k, bus };
         let rear_bus = if self.two_sided { bus[1] } else { BusLink::NONE };
         [face(front.emission, bus[0]), face(rear, rear_bus)]
     }

@@ -11,7 +11,7 @@ use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::ring::{PlanetView, RingRule};
 use crate::spacecraft::PlanetMap;
 
-/// What is asked for.
+/// What is requested.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlanetLightMethod {
     /// Rings about the nadir with so many quadrature nodes a segment: 6 for 1e-4, 16 for 1e-5.

@@ -44,7 +44,7 @@ pub struct RingRule {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{found} quadrature nodes a segment, allowed: 1 to 64 (6 for 1e-4, 16 for 1e-5)")]
 pub struct NodesError {
-    /// The number asked for.
+    /// The number requested.
     pub found: usize,
 }
 

@@ -15,7 +15,7 @@ use crate::numerics::scalar::{Scalar, constant_vector};
 /// How many directions stand for the disc.
 pub const DIRECTIONS: usize = 7;
 
-/// Right-handed axes from which those across the disc are turned; the first is a direction no craft's axis has.
+/// Right-handed axes from which those across the disc are turned; the first is a direction no spacecraft's axis has.
 const AXES: [[f64; 3]; 3] = [[0.48, -0.64, 0.6], [0.8, 0.6, 0.0], [-0.36, 0.48, 0.8]];
 
 /// The Sun's disc as seen from the spacecraft.

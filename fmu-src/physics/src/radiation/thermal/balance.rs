@@ -21,7 +21,7 @@ pub fn exitance_w_m2<T: Scalar>(emission: &Emission, temperature_k: T) -> (T, T)
 
 /// What a face gives off heat to: space all around, and the bus behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FaceSurroundings {
+pub struct FaceEnvironment {
     /// Emission of the face.
     pub emission: Emission,
     /// Temperature of the space it sees, in K.
@@ -30,7 +30,7 @@ pub struct FaceSurroundings {
     pub bus: BusLink,
 }
 
-impl FaceSurroundings {
+impl FaceEnvironment {
     /// Power per area that the face radiates more than it takes in from space, in W/m2, and its derivative by temperature.
     #[inline]
     pub fn radiated_w_m2<T: Scalar>(&self, temperature_k: T) -> (T, T) {
@@ -61,7 +61,7 @@ fn fourth(temperature_k: f64) -> f64 {
 
 /// Temperature of a face that takes in `heat_w_m2` and is insulated but for its surroundings (eq 43 where they are cold). No
 /// heat gives the temperature of space.
-pub fn face_temperature_k<T: Scalar>(face: &FaceSurroundings, heat_w_m2: T) -> T {
+pub fn face_temperature_k<T: Scalar>(face: &FaceEnvironment, heat_w_m2: T) -> T {
     let heat = heat_w_m2.value();
     let emission = &face.emission;
     if heat <= 0.0 && !face.bus.conducts() {
@@ -93,7 +93,7 @@ pub fn face_temperature_k<T: Scalar>(face: &FaceSurroundings, heat_w_m2: T) -> T
 /// 1e-12 of the heat. No heat gives the temperature of space, of which both faces see the same. Heat must not be negative;
 /// radiative exchange or conductance may be 0, not both.
 pub fn conducting_temperatures_k<T: Scalar>(
-    faces: &[FaceSurroundings; 2],
+    faces: &[FaceEnvironment; 2],
     conduction: &Conduction,
     heat_w_m2: [T; 2],
 ) -> [T; 2] {
@@ -147,7 +147,7 @@ struct Balance {
 
 impl Balance {
     #[inline]
-    fn at(faces: &[FaceSurroundings; 2], conduction: &Conduction, temperatures_k: [f64; 2]) -> Self {
+    fn at(faces: &[FaceEnvironment; 2], conduction: &Conduction, temperatures_k: [f64; 2]) -> Self {
         let [front, rear] = temperatures_k;
         let (front_outflow, front_slope) = faces[0].outflow_w_m2(front);
         let (rear_outflow, rear_slope) = faces[1].outflow_w_m2(rear);
@@ -199,8 +199,8 @@ mod tests {
     }
 
     /// In space without a temperature, insulated from the bus: as in the paper.
-    fn in_the_cold(emission: Emission) -> FaceSurroundings {
-        FaceSurroundings { emission, background_k: 0.0, bus: BusLink::NONE }
+    fn in_the_cold(emission: Emission) -> FaceEnvironment {
+        FaceEnvironment { emission, background_k: 0.0, bus: BusLink::NONE }
     }
 
     fn emissions() -> impl Strategy<Value = Emission> {
@@ -318,7 +318,7 @@ mod tests {
         let radiated = emissivity * SIGMA * (wanted_k.powi(4) - background_k.powi(4));
         let conductance_w_m2_k = (heat - radiated) / (wanted_k - bus_k);
         assert!(conductance_w_m2_k > 10.0);
-        let face = FaceSurroundings {
+        let face = FaceEnvironment {
             emission: Emission::constant(emissivity),
             background_k,
             bus: BusLink { conductance_w_m2_k, temperature_k: bus_k },
@@ -334,7 +334,7 @@ mod tests {
 
     #[test]
     fn without_light_a_face_has_the_temperature_of_space_or_between_it_and_the_bus() {
-        let face = |conductance_w_m2_k, temperature_k| FaceSurroundings {
+        let face = |conductance_w_m2_k, temperature_k| FaceEnvironment {
             emission: Emission::constant(0.8),
             background_k: 2.725,
             bus: BusLink { conductance_w_m2_k, temperature_k },
@@ -347,7 +347,7 @@ mod tests {
         assert_relative_eq!(front, 290.0, max_relative = 1e-5);
         assert_relative_eq!(rear, 290.0, max_relative = 1e-3);
         // A bus as cold as space takes no part in what is absolutely cold.
-        let cold = FaceSurroundings { background_k: 0.0, ..face(5.0, 0.0) };
+        let cold = FaceEnvironment { background_k: 0.0, ..face(5.0, 0.0) };
         assert_eq!(face_temperature_k(&cold, 0.0), 0.0);
         assert_eq!(conducting_temperatures_k(&[cold; 2], &link(18.0, 0.11), [0.0; 2]), [0.0; 2]);
     }
@@ -360,7 +360,7 @@ mod tests {
             heats in prop::array::uniform2(0.0..15000.0_f64), background_k in 0.0..200.0_f64,
             conductances in prop::array::uniform2(1e-3..500.0_f64), buses_k in prop::array::uniform2(50.0..500.0_f64),
         ) {
-            let faces = [0, 1].map(|i| FaceSurroundings {
+            let faces = [0, 1].map(|i| FaceEnvironment {
                 emission: emissions[i],
                 background_k,
                 bus: BusLink { conductance_w_m2_k: conductances[i], temperature_k: buses_k[i] },

@@ -7,7 +7,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::balance::{FaceSurroundings, exchange_w_m2};
+use super::balance::{FaceEnvironment, exchange_w_m2};
 use crate::spacecraft::Conduction;
 
 /// Allowed error of one step relative to the temperature.
@@ -30,7 +30,7 @@ const MOST_STEPS: u32 = 10_000;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeatStore {
     /// What front and rear give off heat to; the rear of a one-sided surface is not used.
-    pub faces: [FaceSurroundings; 2],
+    pub faces: [FaceEnvironment; 2],
     /// Heat flow between the faces.
     pub conduction: Option<Conduction>,
     /// Heat capacity of each face in J/m2/K, above 0.
@@ -157,8 +157,8 @@ mod tests {
     use crate::radiation::thermal::balance::{conducting_temperatures_k, exitance_w_m2};
     use crate::spacecraft::{BusLink, Emission};
 
-    fn in_the_cold(emissivity: f64) -> FaceSurroundings {
-        FaceSurroundings { emission: Emission::constant(emissivity), background_k: 0.0, bus: BusLink::NONE }
+    fn in_the_cold(emissivity: f64) -> FaceEnvironment {
+        FaceEnvironment { emission: Emission::constant(emissivity), background_k: 0.0, bus: BusLink::NONE }
     }
 
     fn panel() -> HeatStore {

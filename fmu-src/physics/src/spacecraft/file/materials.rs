@@ -27,13 +27,13 @@ impl Material {
 
 /// What every surface exchanges heat with.
 #[derive(Clone, Copy)]
-pub(crate) struct Surroundings {
+pub(crate) struct ThermalEnvironment {
     pub background_k: f64,
     /// Of the bus, if the file gives one for all surfaces.
     pub bus_temperature_k: Option<f64>,
 }
 
-impl Surroundings {
+impl ThermalEnvironment {
     pub fn of(check: &mut Checker<'_>, description: Option<&SurroundingsDescription>) -> Self {
         let at = Place::root().key("thermal");
         let mut kelvin = |key: &str, value: f64| {
@@ -50,13 +50,13 @@ impl Surroundings {
 /// The file's materials by name, and what their surfaces exchange heat with.
 pub(crate) struct Materials {
     by_name: BTreeMap<String, Material>,
-    pub surroundings: Surroundings,
+    pub surroundings: ThermalEnvironment,
 }
 
 impl Materials {
     /// Those of a file.
     pub fn read(check: &mut Checker<'_>, description: &Description) -> Self {
-        let surroundings = Surroundings::of(check, description.thermal.as_ref());
+        let surroundings = ThermalEnvironment::of(check, description.thermal.as_ref());
         let materials = description.optics.iter().map(|(name, description)| {
             let at = Place::root().key("optics").key(name);
             let optics = optics(check, &at, description);

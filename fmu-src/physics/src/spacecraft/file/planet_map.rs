@@ -19,14 +19,14 @@ pub(crate) fn planet_map(
     .map(|(key, rows, most, allowed)| {
         let place = at.key(key);
         if rows.len() != belts || !(1..=MOST_BELTS).contains(&belts) {
-            let wanted = format!("as many as `temperature_k` has, 1 to {MOST_BELTS}");
-            check.report(&place, format_args!("{} belts", rows.len()), wanted);
+            let requested = format!("as many as `temperature_k` has, 1 to {MOST_BELTS}");
+            check.report(&place, format_args!("{} belts", rows.len()), requested);
         }
         for (belt, row) in rows.iter().enumerate() {
             let place = place.item(belt);
             if row.len() != 2 * rows.len() {
-                let wanted = format!("{}, twice as many as there are belts", 2 * rows.len());
-                check.report(&place, format_args!("{} cells", row.len()), wanted);
+                let requested = format!("{}, twice as many as there are belts", 2 * rows.len());
+                check.report(&place, format_args!("{} cells", row.len()), requested);
             }
             for (cell, value) in row.iter().enumerate() {
                 check.within(&place.item(cell), *value, 0.0, most, allowed);

@@ -1,14 +1,14 @@
 //! Heat of a surface, from its description.
 
 use super::describe_thermal::{ConductionDescription, ThermalDescription};
-use super::materials::{Material, Surroundings};
+use super::materials::{Material, ThermalEnvironment};
 use crate::spacecraft::thermal::{BusLink, Conduction, HIGHEST_TEMPERATURE_K, Honeycomb, Thermal};
 use crate::toml::{Checker, Place};
 
 /// Heat of a surface whose faces are of these materials.
 pub(crate) fn thermal(
     check: &mut Checker<'_>,
-    surroundings: Surroundings,
+    surroundings: ThermalEnvironment,
     at: &Place,
     description: Option<&ThermalDescription>,
     front: Material,
@@ -48,7 +48,7 @@ pub(crate) fn thermal(
 /// Heat flow from front and rear to the bus.
 fn bus(
     check: &mut Checker<'_>,
-    surroundings: Surroundings,
+    surroundings: ThermalEnvironment,
     at: &Place,
     description: &ThermalDescription,
 ) -> [BusLink; 2] {

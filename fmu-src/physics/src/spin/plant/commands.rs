@@ -42,7 +42,7 @@ impl Commands {
     }
 
     /// Whether decoded commands can be some.
-    pub(super) fn is_sound(&self) -> bool {
-        self.pulses.iter().all(PulseCommand::is_sound)
+    pub(super) fn is_valid(&self) -> bool {
+        self.pulses.iter().all(PulseCommand::is_valid)
     }
 }

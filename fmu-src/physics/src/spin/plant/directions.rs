@@ -111,7 +111,7 @@ impl DirectionSource {
     }
 
     /// Whether a decoded source can be one at `time_s`.
-    pub fn is_sound(&self, time_s: f64) -> bool {
+    pub fn is_valid(&self, time_s: f64) -> bool {
         let refreshes = match &self.l1 {
             None => self.refresh_s == f64::INFINITY,
             Some(l1) => {

@@ -122,7 +122,13 @@ impl Propulsion {
     }
 
     /// Books what the thrusters used and did since they were last booked; whether they did anything.
-    pub(super) fn settle(&mut self, spinner: &Spinner, motion: &Motion, theory: &Spin, now_s: f64) -> bool {
+    pub(super) fn accumulate(
+        &mut self,
+        spinner: &Spinner,
+        motion: &Motion,
+        theory: &Spin,
+        now_s: f64,
+    ) -> bool {
         if self.valves.law().is_none() {
             return false;
         }
@@ -142,7 +148,7 @@ impl Propulsion {
     }
 
     /// When the thrusters that are on empty the tank, in s; infinite while none is.
-    pub(super) fn dry_s(&self) -> f64 {
+    pub(super) fn depletion_time_s(&self) -> f64 {
         let law = self.valves.law();
         if law.is_none() {
             return f64::INFINITY;
@@ -253,12 +259,12 @@ impl Propulsion {
     }
 
     /// Whether decoded thrusters and tank can be some by `latest_s`.
-    pub(super) fn is_sound(&self, spinner: &Spinner, latest_s: f64) -> bool {
+    pub(super) fn is_valid(&self, spinner: &Spinner, latest_s: f64) -> bool {
         // A tank that is never empty and has nothing left would be emptied without end.
         (0.0..=spinner.mass_properties.most_propellant_kg()).contains(&self.initial_propellant_kg)
             && (0.0..=self.initial_propellant_kg).contains(&self.used_kg)
             && self.delta_v_until_s <= latest_s
-            && self.valves.is_sound(spinner, latest_s)
+            && self.valves.is_valid(spinner, latest_s)
             && are_moderate(&self.delta_v_inertial_m_s)
     }
 }

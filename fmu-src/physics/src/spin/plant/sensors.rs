@@ -243,18 +243,18 @@ impl Sensors {
     }
 
     /// Whether decoded sensors can be some at `time_s`.
-    pub(super) fn is_sound(&self, time_s: f64) -> bool {
+    pub(super) fn is_valid(&self, time_s: f64) -> bool {
         let tick_s = self.clock_start_s + self.clock_count as f64 * self.clock_period_s;
         let times = [self.clock_start_s, self.sample.time_s, self.estimator_since_s];
-        self.sun.is_sound()
-            && self.star.is_sound()
+        self.sun.is_valid()
+            && self.star.is_valid()
             && are_moderate(&times)
             && is_moderate(self.clock_period_s)
             && self.clock_period_s > 0.0
             && (self.sampling == Sampling::Spins || tick_s > time_s - self.clock_period_s)
             && self.every > 0
             && are_moderate([&self.sun_sample_rad, &self.sample.declination_rad])
-            && self.estimator.is_sound()
+            && self.estimator.is_valid()
             && is_unit(&self.azimuths.sun)
             && is_unit(&self.azimuths.star)
     }

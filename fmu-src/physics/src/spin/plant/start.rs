@@ -100,7 +100,7 @@ pub struct InitialConditions {
 
 impl InitialConditions {
     /// Whether decoded conditions can be some.
-    pub(super) fn is_sound(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         let theory = self.theory;
         are_moderate(&self.momentum_inertial)
             && is_unit(&self.spin_axis_inertial)
@@ -125,7 +125,7 @@ impl Start {
         if !(0.0..1.5).contains(&nutation) || !self.nutation_phase_rad.is_finite() {
             return refuse("start.nutation", format!("{nutation} rad"), "allowed is 0 to below 1.5 rad");
         }
-        if let Some(k) = self.execution.iter().position(|it| !it.is_sound()) {
+        if let Some(k) = self.execution.iter().position(|it| !it.is_valid()) {
             let PulseExecution { valve, scatter } = self.execution[k];
             return refuse(
                 "thruster[k].minOnTime, riseTime, tailOffTime, scatter",

@@ -230,9 +230,10 @@ impl Plant {
             work.check(reached_s)?;
             let plan_s = self.sequencer.as_ref().map_or(f64::INFINITY, |s| s.next_edge_s().max(now_s));
             let command_s = self.propulsion.valves().edge_before_s(end_s);
-            let dry_s = self.propulsion.dry_s().max(now_s);
+            let depletion_time_s = self.propulsion.depletion_time_s().max(now_s);
             let ramp_s = self.propulsion.valves().ramp_end_s().max(now_s);
-            let edge_s = plan_s.min(command_s).min(self.directions.refresh_s()).min(dry_s).min(ramp_s);
+            let edge_s =
+                plan_s.min(command_s).min(self.directions.refresh_s()).min(depletion_time_s).min(ramp_s);
             let (until_s, segment_end_s) = (edge_s.min(end_s), self.motion.segment_end_s());
             // What is seen may move the plan's edge.
             if let Some(seen_s) = self.observe(spinner, until_s.min(segment_end_s), work)? {
@@ -263,7 +264,7 @@ impl Plant {
                 // A little longer than the pulse, so that rounding needs no second segment.
                 hint_s = sequencer.pass_edge(now_s).map_or(f64::INFINITY, |width_s| 1.001 * width_s);
             }
-            if dry_s <= edge_s {
+            if depletion_time_s <= edge_s {
                 self.run_dry(spinner, now_s, work)?;
             }
             self.switch(spinner, now_s, hint_s, work)?;
@@ -286,8 +287,8 @@ impl Plant {
         work: &mut Work,
     ) -> Result<(), SpinPlantError> {
         let plan = self.sequencer.as_ref().map_or(0, Sequencer::mask);
-        let asked = plan | self.propulsion.pulsing_mask(now_s);
-        let mask = if self.propulsion.is_dry() { 0 } else { asked };
+        let requested = plan | self.propulsion.pulsing_mask(now_s);
+        let mask = if self.propulsion.is_dry() { 0 } else { requested };
         let turns_valves = mask != self.propulsion.mask() || self.propulsion.valves().ramp_end_s() <= now_s;
         let applied = self.commands.torque;
         if turns_valves || self.propulsion.with_thrusters(&applied) != *self.motion.torque() {
@@ -310,7 +311,7 @@ impl Plant {
 
     /// Books what the thrusters that were on used and did.
     fn settle_pulse(&mut self, spinner: &Spinner, now_s: f64) {
-        if self.propulsion.settle(spinner, &self.motion, &self.initial.theory, now_s) {
+        if self.propulsion.accumulate(spinner, &self.motion, &self.initial.theory, now_s) {
             self.sensors.restart_estimate(now_s);
         }
     }
@@ -399,18 +400,18 @@ impl Plant {
         let slack_s = OUT_OF_ORDER * self.initial.theory.period_s();
         masks.iter().all(|&mask| u64::from(mask) & !known == 0)
             && (LEAST_WORK..=MOST_WORK).contains(&self.work_limit)
-            && self.initial.is_sound()
+            && self.initial.is_valid()
             && self.motion_is_sound(slack_s)
-            && self.propulsion.is_sound(spinner, self.time_s + slack_s)
-            && self.commands.is_sound()
-            && self.sensors.is_sound(self.time_s)
-            && self.directions.is_sound(self.time_s)
-            && self.sequencer().is_none_or(Sequencer::is_sound)
+            && self.propulsion.is_valid(spinner, self.time_s + slack_s)
+            && self.commands.is_valid()
+            && self.sensors.is_valid(self.time_s)
+            && self.directions.is_valid(self.time_s)
+            && self.sequencer().is_none_or(Sequencer::is_valid)
     }
 
     fn motion_is_sound(&self, slack_s: f64) -> bool {
         let (now_s, anchor_s, end_s) = (self.time_s, self.motion.anchor_s(), self.motion.segment_end_s());
-        self.motion.is_sound()
+        self.motion.is_valid()
             && anchor_s <= now_s + slack_s
             && now_s <= end_s + slack_s
             && self.motion.check_at(now_s).is_ok()

@@ -126,13 +126,13 @@ impl Valves {
     }
 
     /// Whether decoded valves can be some by `latest_s`.
-    pub(super) fn is_sound(&self, spinner: &Spinner, latest_s: f64) -> bool {
+    pub(super) fn is_valid(&self, spinner: &Spinner, latest_s: f64) -> bool {
         let since_s = self.law.since_s;
-        self.execution.iter().all(PulseExecution::is_sound)
-            && self.valves.iter().all(Valve::is_sound)
-            && self.schedule.iter().all(PulseSchedule::is_sound)
+        self.execution.iter().all(PulseExecution::is_valid)
+            && self.valves.iter().all(Valve::is_valid)
+            && self.schedule.iter().all(PulseSchedule::is_valid)
             && since_s <= latest_s
-            && self.law.is_sound()
+            && self.law.is_valid()
             && self.law == self.law_from(spinner, since_s)
     }
 }

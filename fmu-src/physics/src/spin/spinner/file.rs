@@ -1,4 +1,4 @@
-//! The spinner, from its file; every problem is told by file, line, key, what was found and what is
+//! The spinner, from its file; every problem is reported by file, line, key, what was found and what is
 //! allowed.
 
 use nalgebra::Vector3;

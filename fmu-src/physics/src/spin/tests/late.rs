@@ -12,7 +12,7 @@ use crate::spin::{
 };
 
 /// A flight of 1600 s from `start_s` with 114 pulses, and what it shows.
-fn flown(inertia_kg_m2: [f64; 3], timing: Timing, start_s: f64) -> crate::spin::outputs::Outputs {
+fn simulated(inertia_kg_m2: [f64; 3], timing: Timing, start_s: f64) -> crate::spin::outputs::Outputs {
     let spinner = ace();
     let burn = Some(BurnRequest { timing, start_s, ..request() });
     let start = Start { inertia_kg_m2, burn, damper_time_constant_s: 0.0, ..paper_start(1.483) };
@@ -28,10 +28,10 @@ fn a_manoeuvre_begun_late_fires_every_pulse_and_turns_the_axis_as_at_0() {
     let axisymmetric = [353.82 / 1.483, 353.82 / 1.483, 353.82];
     for inertia_kg_m2 in [axisymmetric, [230.0, 245.0, 353.82]] {
         for timing in [Timing::Clock, Timing::SunCrossing, Timing::TruePhase] {
-            let at_0 = flown(inertia_kg_m2, timing, 0.0);
+            let at_0 = simulated(inertia_kg_m2, timing, 0.0);
             assert!(at_0.burn_done && at_0.pulses_fired == 114, "{timing:?}");
             for start_s in [-800.0, 1e6, 3e6, 1e8, 1e9] {
-                let late = flown(inertia_kg_m2, timing, start_s);
+                let late = simulated(inertia_kg_m2, timing, start_s);
                 assert_eq!((late.pulses_fired, late.burn_done), (114, true), "{timing:?} {start_s}");
                 let apart_rad =
                     angle_between_rad(&late.state.momentum_inertial, &at_0.state.momentum_inertial);

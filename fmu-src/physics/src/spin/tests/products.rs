@@ -193,7 +193,7 @@ fn a_start_without_nutation_turns_about_the_principal_axis() {
     plant.advance(&spinner, 100.0).unwrap();
     let later = Outputs::of(&plant, &spinner);
     assert!((later.rate_rad_s - w).norm() < 1e-13 && later.nutation_rad < 1e-13);
-    // With nutation: the angle and the azimuth asked for.
+    // With nutation: the angle and the azimuth requested.
     (start.nutation_rad, start.nutation_phase_rad) = (0.1, 2.0);
     let plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
     let seen = Outputs::of(&plant, &spinner);

@@ -1,4 +1,4 @@
-//! What cannot be flown is refused with the name of what is wrong.
+//! What cannot be simulated is refused with the name of what is wrong.
 
 use nalgebra::Vector3;
 
@@ -25,7 +25,7 @@ fn assert_names(text: &str, parts: &[&str]) {
 }
 
 #[test]
-fn burns_that_cannot_be_flown_say_why() {
+fn burns_that_cannot_be_simulated_say_why() {
     assert_names(&refusal(BurnRequest { thruster: 11, ..request() }), &["burn.thruster", "11", "1 to 10"]);
     assert_names(&refusal(BurnRequest { thruster: 0, ..request() }), &["burn.thruster", "1 to 10"]);
     assert_names(
@@ -271,20 +271,20 @@ fn a_setup_that_cannot_be_used_names_line_key_found_and_allowed() {
 }
 
 #[test]
-fn all_that_is_wrong_with_a_setup_is_told_at_once() {
+fn all_that_is_wrong_with_a_setup_is_reported_at_once() {
     let text =
         changed("force_n = 4.448", "force_n = -1.0").replace("pickets = 900", "pickets = 902\nzoom = 3");
     let text =
         text.replace("dry_mass_kg = 562.0", "dry_mass_kg = 0").replace("spin_rate_tolerance_rpm = 0.1", "");
     let keys: Vec<String> = problems(&text).into_iter().map(|problem| problem.key).collect();
-    let wanted = [
+    let expected = [
         "mass_properties.dry_mass_kg",
         "thruster[1].force_n",
         "star_tracker.pickets",
         "star_tracker.zoom",
         "limits",
     ];
-    assert_eq!(keys, wanted);
+    assert_eq!(keys, expected);
     // Groups are not judged by thrusters that nobody could read.
     let text = ACE.replace("[[thruster]]", "[[thrustr]]");
     assert!(problems(&text).iter().all(|problem| problem.key == "thrustr"), "{:?}", problems(&text));

@@ -25,13 +25,13 @@ fn firing(spinner: &Spinner, start: &Start, thrusters: &[u32]) -> Plant {
 fn axial_thrust_follows_the_rocket_equation_at_every_reading() {
     let spinner = ace();
     let flow_kg_s = 2.0 * FORCE_N / EXHAUST_M_S;
-    let dry_s = 97.5 / flow_kg_s;
+    let depletion_time_s = 97.5 / flow_kg_s;
     // With a rate so slow that a panel is limited by the mass it loses, too.
     for rate_rad_s in [std::f64::consts::PI / 6.0, 1e-4] {
         let mut plant =
             firing(&spinner, &Start { spin_rate_rad_s: rate_rad_s, ..paper_start(1.483) }, &[7, 9]);
         for share in [1e-9, 1e-6, 1e-4, 0.01, 0.1, 0.123, 0.5, 0.87, 0.99, 0.999_999, 1.01, 1.1] {
-            let time_s = share * dry_s;
+            let time_s = share * depletion_time_s;
             plant.advance(&spinner, time_s).unwrap();
             let outputs = Outputs::of(&plant, &spinner);
             let burnt_kg = (flow_kg_s * time_s).min(97.5);

@@ -11,7 +11,7 @@ use crate::spin::{
 };
 
 /// Planned and flown move of a train for 2 deg, in rad, and the nutation it leaves.
-fn flown(ratio: f64, turns_per_pulse: f64) -> (f64, f64, f64) {
+fn simulated(ratio: f64, turns_per_pulse: f64) -> (f64, f64, f64) {
     let spinner = ace();
     let mut start = paper_start(ratio);
     start.damper_time_constant_s = 0.0;
@@ -39,7 +39,7 @@ fn a_split_train_turns_by_what_it_plans() {
         (0.5, [1.45, 1.46, 1.471, 1.483, 1.494, 1.53, 1.55]),
     ] {
         for ratio in ratios {
-            let (planned, moved, nutation) = flown(ratio, turns);
+            let (planned, moved, nutation) = simulated(ratio, turns);
             assert!((moved / planned - 1.0).abs() < 1e-3, "{ratio}: {planned} planned, {moved} flown");
             assert!((moved.to_degrees() - 2.0).abs() < 0.02, "{ratio}: {} deg", moved.to_degrees());
             // What one pulse leaves is 0.017 deg.

@@ -1,4 +1,4 @@
-//! Which thruster a burn fires unless it is told.
+//! Which thruster a burn fires unless it is reported.
 
 use crate::spin::spinner::Spinner;
 

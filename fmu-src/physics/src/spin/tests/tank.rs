@@ -28,14 +28,14 @@ fn firing(thrusters: &[u32]) -> Commands {
 #[test]
 fn a_held_thruster_goes_off_when_the_last_drop_is_gone() {
     let spinner = ace();
-    let dry_s = 0.01 / FLOW_KG_S;
+    let depletion_time_s = 0.01 / FLOW_KG_S;
     let mut ends = Vec::new();
     for step_s in [0.001, 0.032, 0.7, 20.0] {
         let mut plant = launch(&spinner, &start(0.01), firing(&[8]));
         for i in 1..=(20.0_f64 / step_s).floor() as u32 {
             plant.advance(&spinner, f64::from(i) * step_s).unwrap();
             let outputs = Outputs::of(&plant, &spinner);
-            assert_eq!(outputs.thrusters_on == 0, plant.time_s() >= dry_s);
+            assert_eq!(outputs.thrusters_on == 0, plant.time_s() >= depletion_time_s);
             assert_relative_eq!(
                 outputs.propellant_used_kg,
                 (FLOW_KG_S * plant.time_s()).min(0.01),
@@ -51,7 +51,7 @@ fn a_held_thruster_goes_off_when_the_last_drop_is_gone() {
     assert_eq!((end.propellant_used_kg, end.propellant_left_kg), (0.01, 0.0));
     // A pulse of that length does the same to a spinner that has enough.
     let mut commands = Commands::none();
-    commands.pulses[7] = PulseCommand { delay_s: 0.0, on_s: dry_s };
+    commands.pulses[7] = PulseCommand { delay_s: 0.0, on_s: depletion_time_s };
     commands.any_pulse = true;
     let mut rich = launch(&spinner, &start(97.5), commands);
     rich.advance(&spinner, 20.0).unwrap();
@@ -73,7 +73,7 @@ fn nothing_fires_from_an_empty_tank() {
 }
 
 #[test]
-fn a_burn_is_refused_what_is_not_on_board_and_flown_with_the_last_drop() {
+fn a_burn_is_refused_what_is_not_on_board_and_simulated_with_the_last_drop() {
     let spinner = ace();
     let needed_kg = 114.0 * 0.032 * FLOW_KG_S;
     let mut start = start(0.999 * needed_kg);

@@ -1,4 +1,4 @@
-//! A step costs no more than it may, and says what asked for more.
+//! A step costs no more than it may, and says what requested more.
 
 use std::time::Instant;
 

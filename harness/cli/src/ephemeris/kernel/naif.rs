@@ -1,7 +1,7 @@
 //! NAIF ids of bodies and spacecraft, and their names.
 
 use anise::constants::celestial_objects::celestial_name_from_id;
-use physics::{bodies::Body, environment::flown::FlownTarget};
+use physics::{bodies::Body, environment::onboard::OnboardTarget};
 
 /// MESSENGER.
 pub const MESSENGER: i32 = -236;
@@ -46,14 +46,14 @@ pub fn center(text: &str) -> Result<Center, String> {
         .find_map(|body| {
             let id = id(body);
             let barycentre = (!matches!(body, Body::Sun | Body::Earth)).then_some(id / 100);
-            if FlownTarget::from(body).to_string() == text {
+            if OnboardTarget::from(body).to_string() == text {
                 return Some(Center { body, id });
             }
             let given = text.parse().ok()?;
             (given == id || Some(given) == barycentre).then_some(Center { body, id: given })
         })
         .ok_or_else(|| {
-            let names: Vec<String> = Body::ALL.map(|body| FlownTarget::from(body).to_string()).into();
+            let names: Vec<String> = Body::ALL.map(|body| OnboardTarget::from(body).to_string()).into();
             format!("allowed is one of {}, or its NAIF id", names.join(", "))
         })
 }

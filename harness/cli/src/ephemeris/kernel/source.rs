@@ -2,7 +2,7 @@
 
 use physics::{
     bodies::Body,
-    environment::{CartesianState, flown::FlownTarget},
+    environment::{CartesianState, onboard::OnboardTarget},
 };
 
 use super::{
@@ -27,14 +27,18 @@ impl Kernels {
     /// # Errors
     ///
     /// A file that is no SPK, a body that none holds, a span that they do not cover.
-    pub fn open(options: &KernelOptions, targets: &[FlownTarget], span_s: [f64; 2]) -> Result<Self, Failure> {
+    pub fn open(
+        options: &KernelOptions,
+        targets: &[OnboardTarget],
+        span_s: [f64; 2],
+    ) -> Result<Self, Failure> {
         let files: Vec<SpkFile> =
             options.kernel.iter().map(|path| SpkFile::open(path)).collect::<Result<_, _>>()?;
         let center = options.center.unwrap_or(Center { body: Body::Mercury, id: naif::id(Body::Mercury) });
         let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
         let mut title = format!("SPK {} from {}", names.join(", "), naif::named(center.id));
         let spacecraft = options.spacecraft.unwrap_or(naif::MESSENGER);
-        if targets.contains(&FlownTarget::Spacecraft) {
+        if targets.contains(&OnboardTarget::Spacecraft) {
             title += &format!(", spacecraft {spacecraft}");
         } else if options.spacecraft.is_some() {
             return Err("--spacecraft: allowed where --bodies names the spacecraft".into());
@@ -46,7 +50,7 @@ impl Kernels {
         Ok(kernels)
     }
 
-    fn id(&self, target: FlownTarget) -> i32 {
+    fn id(&self, target: OnboardTarget) -> i32 {
         match target.body() {
             Some(body) if body == self.center.body => self.center.id,
             Some(body) => naif::id(body),
@@ -54,7 +58,7 @@ impl Kernels {
         }
     }
 
-    fn state(&self, target: FlownTarget, at_s: f64) -> Result<CartesianState, String> {
+    fn state(&self, target: OnboardTarget, at_s: f64) -> Result<CartesianState, String> {
         let (files, ids) = (&self.files[..], [self.id(target), self.center.id]);
         let [up, down] = ids.map(|id| chain::ancestors(files, id, at_s));
         let common = chain::common(&up, &down).ok_or_else(|| format!("--kernel: {target} is not placed"))?;
@@ -78,16 +82,16 @@ impl Source for Kernels {
 
     fn states(
         &self,
-        targets: &[FlownTarget],
+        targets: &[OnboardTarget],
         epochs_s: &[f64],
-        told: &mut dyn FnMut() -> Result<(), Failure>,
+        reported: &mut dyn FnMut() -> Result<(), Failure>,
     ) -> Result<Vec<Vec<CartesianState>>, Failure> {
         let mut states = vec![Vec::with_capacity(epochs_s.len()); targets.len()];
         for at_s in epochs_s {
             for (target, states) in targets.iter().zip(&mut states) {
                 states.push(self.state(*target, *at_s)?);
             }
-            told()?;
+            reported()?;
         }
         Ok(states)
     }

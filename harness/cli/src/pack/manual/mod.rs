@@ -1,9 +1,9 @@
 //! `documentation/index.html`: what the FMU is, how it is used, and all that its description says, as a readable page.
 
-mod craft;
 mod opening;
 mod reference_flight;
 mod section;
+mod spacecraft;
 mod standard;
 mod variables;
 
@@ -15,7 +15,7 @@ const STYLE: &str = include_str!("manual.css");
 /// The page of an FMU of this description, with the setup it is packed with and a picture of that, an SVG.
 pub fn html(description: &Description, described: &Described, setup: &str, drawing: Option<&str>) -> String {
     let mut sections = opening::sections(description, described);
-    sections.extend(craft::section(setup, drawing));
+    sections.extend(spacecraft::section(setup, drawing));
     sections.extend(variables::sections(description));
     sections.extend(standard::sources(&described.sources));
     sections.push(standard::stepping(description));

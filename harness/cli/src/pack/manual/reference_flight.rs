@@ -1,4 +1,4 @@
-//! How the FMU's reference flight is flown again.
+//! How the FMU's reference flight is simulated again.
 
 use model_description::{Description, escape};
 

@@ -17,7 +17,7 @@ fn a_slew_of_60_deg_settles_without_overshoot() {
     for sample in 0..20_000_u32 {
         let torque = flight.sample();
         torque_n_m = torque_n_m.max(torque.norm());
-        flight.body.go_on(&torque);
+        flight.body.advance(&torque);
         overshoot = overshoot.max(end.rotation_vector_to(&flight.body.attitude()).dot(&axis));
         if flight.state.is_settled() && settled_s.is_none() {
             settled_s = Some(f64::from(sample) * DT_S);
@@ -111,7 +111,7 @@ fn a_known_torque_is_fed_forward() {
     flight.body.external = Vector3::new(0.05, -0.02, 0.03);
     for _ in 0..5000 {
         let torque = flight.sample_with(&flight.body.estimate(), &flight.body.external.clone());
-        flight.body.go_on(&torque);
+        flight.body.advance(&torque);
     }
     assert!(flight.error_to(&attitude) < 1e-10, "{}", flight.error_to(&attitude));
 }
@@ -162,7 +162,7 @@ fn the_signs_of_quaternions_do_not_matter() {
                 estimate.attitude = minus(&estimate.attitude);
             }
             let torque = flight.sample_with(&estimate, &Vector3::zeros());
-            flight.body.go_on(&torque);
+            flight.body.advance(&torque);
             torques.push(torque);
         }
         torques
@@ -187,6 +187,6 @@ fn a_restored_controller_goes_on_to_the_bit() {
         let settings = settings();
         let other = restored.sample(&settings, &inertia, &hold(end), &estimate, &wheels, &Vector3::zeros());
         assert_eq!(torque, other);
-        flight.body.go_on(&torque);
+        flight.body.advance(&torque);
     }
 }

@@ -24,7 +24,7 @@ fn torque_that_is_missing_winds_nothing_up() {
             torque *= greatest_n_m / torque.norm();
             flight.state.limited(&torque);
         }
-        flight.body.go_on(&torque);
+        flight.body.advance(&torque);
         let along = attitude.rotation_vector_to(&flight.body.attitude()).dot(&direction);
         overshoot = overshoot.max(-along);
         most = most.max(along);
@@ -45,7 +45,7 @@ fn the_integral_does_not_grow_toward_torque_that_is_missing() {
         ..settings()
     };
     let (attitude, direction) = (random_attitude(20), random_unit(21));
-    let overshoot = |is_told: bool| {
+    let overshoot = |is_configured: bool| {
         let mut flight = Loop::new(unlimited, attitude, hold(attitude));
         flight.body.wheels = Vector3::zeros();
         let mut overshoot: f64 = 0.0;
@@ -54,18 +54,18 @@ fn the_integral_does_not_grow_toward_torque_that_is_missing() {
             let mut torque = flight.sample();
             if torque.norm() > 0.03 {
                 torque *= 0.03 / torque.norm();
-                if is_told {
+                if is_configured {
                     flight.state.limited(&torque);
                 }
             }
-            flight.body.go_on(&torque);
+            flight.body.advance(&torque);
             let along = attitude.rotation_vector_to(&flight.body.attitude()).dot(&direction);
             overshoot = overshoot.max(-along);
         }
         overshoot
     };
-    let (told, untold) = (overshoot(true), overshoot(false));
-    assert!(told < 0.5 * untold, "{told} {untold}");
+    let (reported, untold) = (overshoot(true), overshoot(false));
+    assert!(reported < 0.5 * untold, "{reported} {untold}");
 }
 
 #[test]
@@ -86,7 +86,7 @@ fn a_rate_alone_is_reached_and_held_against_a_disturbance() {
         };
         let torque = flight.sample_with(&estimate, &Vector3::zeros());
         assert!(torque.norm() < 0.12, "{torque}");
-        flight.body.go_on(&torque);
+        flight.body.advance(&torque);
     }
     assert!((flight.body.rate - rate).norm() < 1e-8, "{}", flight.body.rate - rate);
     assert!(flight.state.is_settled());
@@ -97,7 +97,7 @@ fn a_rate_alone_is_reached_and_held_against_a_disturbance() {
     for _ in 0..60_000 {
         let torque = flight.sample();
         assert!(torque.norm() < 0.15, "{torque}");
-        flight.body.go_on(&torque);
+        flight.body.advance(&torque);
     }
     assert!(flight.error_to(&end) < 1e-6);
 }
@@ -112,7 +112,7 @@ fn without_a_rate_there_is_no_torque_and_control_is_taken_up_again() {
         let estimate = Estimate { rate_body_rad_s: None, is_valid: false, ..flight.body.estimate() };
         let torque = flight.sample_with(&estimate, &Vector3::zeros());
         assert_eq!(torque, Vector3::zeros());
-        flight.body.go_on(&torque);
+        flight.body.advance(&torque);
     }
     assert!(flight.error_to(&attitude) > 1e-3);
     // It begins from rest relative to where the body is: no more than the slew acceleration and the held disturbance.
@@ -120,7 +120,7 @@ fn without_a_rate_there_is_no_torque_and_control_is_taken_up_again() {
     for _ in 0..60_000 {
         let torque = flight.sample();
         assert!(torque.norm() < 0.1, "{torque}");
-        flight.body.go_on(&torque);
+        flight.body.advance(&torque);
     }
     assert!(flight.error_to(&attitude) < 1e-7, "{}", flight.error_to(&attitude));
 }
@@ -138,7 +138,7 @@ fn a_regained_attitude_that_jumps_is_slewed_to_within_the_limits() {
         }
         let torque = flight.sample_with(&estimate, &Vector3::zeros());
         assert!(torque.norm() < 0.15, "{sample} {torque}");
-        flight.body.go_on(&torque);
+        flight.body.advance(&torque);
     }
     assert!(flight.error_to(&attitude) < 1e-7);
 }

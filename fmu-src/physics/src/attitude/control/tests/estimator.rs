@@ -54,11 +54,11 @@ impl Motion {
         health: SensorHealth,
     ) -> Estimate {
         let estimate = state.sample(settings, health, &self.attitude, &self.rate, self.sample);
-        assert!(state.is_sound());
+        assert!(state.is_valid());
         estimate
     }
 
-    fn go_on(&mut self, interval_s: f64) {
+    fn advance(&mut self, interval_s: f64) {
         let change = random(self.sample / 50) * 1e-6;
         self.attitude = self.attitude.propagated(self.rate + change * 0.5, interval_s).normalized();
         self.rate += change;
@@ -87,7 +87,7 @@ fn without_noise_the_estimate_is_the_truth() {
             }
             assert_eq!(estimate.rate_body_rad_s, Some(motion.rate));
             assert!(estimate.is_valid);
-            motion.go_on(settings.interval_s);
+            motion.advance(settings.interval_s);
         }
     }
 }
@@ -193,7 +193,7 @@ fn a_constant_bias_is_found() {
     for _ in 0..100_000 {
         let estimate = motion.sample(&mut state, &settings, ALL);
         last = estimate.rate_body_rad_s.unwrap() - motion.rate;
-        motion.go_on(settings.interval_s);
+        motion.advance(settings.interval_s);
     }
     assert!(last.norm() < 1e-8, "{last}");
 }
@@ -258,7 +258,7 @@ fn without_the_tracker_the_attitude_is_known_for_a_while() {
         assert_eq!(estimate.is_valid, !(600..1500).contains(&sample), "{sample}");
         assert_eq!(estimate.rate_body_rad_s, Some(motion.rate));
         assert!(error(&estimate, &motion).norm() < 1e-12);
-        motion.go_on(settings.interval_s);
+        motion.advance(settings.interval_s);
     }
 }
 
@@ -277,7 +277,7 @@ fn without_gyros_the_rate_comes_from_the_tracker() {
             let lag = 4e-6 * per_fix as f64;
             assert!((estimate.rate_body_rad_s.unwrap() - motion.rate).norm() < lag * 2.0);
             assert!(error(&estimate, &motion).norm() < lag * 2.0 * settings.star_tracker.interval_s);
-            motion.go_on(settings.interval_s);
+            motion.advance(settings.interval_s);
         }
     }
 }
@@ -359,7 +359,7 @@ fn without_both_nothing_is_known_until_a_fix() {
         if estimate.is_valid {
             assert!(error(&estimate, &motion).norm() < 1e-13);
         }
-        motion.go_on(settings.interval_s);
+        motion.advance(settings.interval_s);
     }
 }
 
@@ -389,13 +389,13 @@ fn a_restored_state_goes_on_to_the_bit() {
     let mut state = EstimatorState::new(&settings, motion.attitude);
     for _ in 0..333 {
         motion.sample(&mut state, &settings, ALL);
-        motion.go_on(settings.interval_s);
+        motion.advance(settings.interval_s);
     }
     let mut restored: EstimatorState = toml::from_str(&toml::to_string(&state).unwrap()).unwrap();
     for _ in 0..333 {
         let (first, second) =
             (motion.sample(&mut state, &settings, ALL), motion.sample(&mut restored, &settings, ALL));
         assert_eq!(first, second);
-        motion.go_on(settings.interval_s);
+        motion.advance(settings.interval_s);
     }
 }

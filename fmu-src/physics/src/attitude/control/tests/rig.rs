@@ -63,7 +63,7 @@ impl Body {
         (q_slope, self.inertia.try_inverse().unwrap() * sum, -torque)
     }
 
-    pub(super) fn go_on(&mut self, torque: &Vector3<f64>) {
+    pub(super) fn advance(&mut self, torque: &Vector3<f64>) {
         let h = DT_S;
         let (q, w, m) = (self.q, self.rate, self.wheels);
         let k1 = self.slopes(&q, &w, &m, torque);
@@ -100,14 +100,14 @@ impl Loop {
         let (body, settings) = (&self.body, &self.settings);
         let torque =
             self.state.sample(settings, &body.inertia, &self.target, estimate, &body.wheels, external);
-        assert!(self.state.is_sound());
+        assert!(self.state.is_valid());
         torque
     }
 
     pub(super) fn fly(&mut self, duration_s: f64) {
         for _ in 0..(duration_s / DT_S).round() as u64 {
             let torque = self.sample();
-            self.body.go_on(&torque);
+            self.body.advance(&torque);
         }
     }
 

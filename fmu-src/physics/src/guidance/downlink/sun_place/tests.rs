@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 
 use super::*;
 use crate::bodies::Body;
+use crate::guidance::geometry::ephemeris_at_time::TargetPlanet;
 use crate::guidance::geometry::moving::moving;
-use crate::guidance::geometry::surroundings::TargetPlanet;
 use crate::guidance::geometry::test_geometry::{Motion, Random, difference_rad_s};
 
 /// Azimuth in -90..0 or 90..180 deg, typed anew, -180 counting as 180.
@@ -53,11 +53,11 @@ fn sun_at_its_angles_and_earth_in_the_plane() {
         assert!(in_quadrant(found.antenna, earth_azimuth_rad), "{found:?} {earth_azimuth_rad}");
         assert!((found.antenna_azimuth_rad - earth_azimuth_rad).sin().abs() < 1e-12);
         let cut_rad = sun_body.elevation_rad.clamp(-most_rad, most_rad);
-        let asked = direction_from_angles(SunAngles { elevation_rad: cut_rad, ..sun_body });
-        let off_rad = angle_between_rad(&sun, &asked);
+        let requested = direction_from_angles(SunAngles { elevation_rad: cut_rad, ..sun_body });
+        let off_rad = angle_between_rad(&sun, &requested);
         if found.clamped && (2.0 * earth_azimuth_rad).sin().abs() < 1e-12 {
             // The Earth at a bound, the Sun as near as its distance allows, and neither azimuth in a quadrant.
-            let least_rad = (angle_between_rad(&earth, &asked) - theta_rad).abs();
+            let least_rad = (angle_between_rad(&earth, &requested) - theta_rad).abs();
             assert!((off_rad - least_rad).abs() < 1e-12, "{off_rad} {least_rad}");
             let delta_rad = (theta_rad.cos() / cut_rad.cos()).clamp(-1.0, 1.0).acos();
             for azimuth_rad in [sun_body.azimuth_rad - delta_rad, sun_body.azimuth_rad + delta_rad] {
@@ -199,7 +199,7 @@ fn the_link_needs_antenna_distance_from_the_sun_and_a_free_line() {
     let radius_m = planet.radii_m.x;
     let degrees = f64::to_radians;
     let limits = LinkLimits { sun_separation_rad: degrees(3.0), coverage_rad: degrees(2.0) };
-    let around = |position: Vector3<f64>, theta_deg: f64| Surroundings {
+    let around = |position: Vector3<f64>, theta_deg: f64| EphemerisAtTime {
         epoch_s: 0.0,
         planet,
         position: fixed(position * radius_m),

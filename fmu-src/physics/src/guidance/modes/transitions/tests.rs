@@ -10,8 +10,8 @@ use crate::bodies::Body;
 use crate::guidance::constraints::hot_pole::HotPole;
 use crate::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
 use crate::guidance::downlink::sun_place::{DownlinkRequest, downlink};
+use crate::guidance::geometry::ephemeris_at_time::TargetPlanet;
 use crate::guidance::geometry::moving::{fixed, unit};
-use crate::guidance::geometry::surroundings::TargetPlanet;
 use crate::guidance::geometry::test_geometry::{Random, cube_directions};
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use Mode::{EarthAcquisition, Operational, SafeHold};
@@ -39,9 +39,9 @@ fn settings() -> ModeSettings {
     }
 }
 
-fn surroundings() -> Surroundings {
+fn surroundings() -> EphemerisAtTime {
     let planet = TargetPlanet::of(Body::Mercury.data());
-    Surroundings {
+    EphemerisAtTime {
         epoch_s: 0.0,
         planet,
         position: fixed(Vector3::x() * planet.radii_m.x * 2.0),
@@ -95,8 +95,9 @@ fn the_modes_change_by_the_table() {
         for sun_body in [None, Some(Vector3::x())] {
             let mut state = ModeState { mode, last_request, ..ModeState::default() };
             let sensed = Sensed { sun_body, ..sensed(request, estimate) };
-            let steering =
-                state.sample(&settings(), &sensed, &Places::in_every_mode(Some(surroundings()))).unwrap();
+            let steering = state
+                .sample(&settings(), &sensed, &BodyPositions::in_every_mode(Some(surroundings())))
+                .unwrap();
             assert_eq!(state.mode, expected, "row {row}");
             let lost = estimate.is_none() && sun_body.is_none();
             match steering {
@@ -117,10 +118,10 @@ fn the_modes_change_by_the_table() {
 fn without_ephemeris_or_monitor_nothing_is_judged() {
     let far_off = sensed(None, Some(estimate(2.0)));
     let mut state = ModeState::default();
-    state.sample(&settings(), &far_off, &Places::in_every_mode(None)).unwrap();
+    state.sample(&settings(), &far_off, &BodyPositions::in_every_mode(None)).unwrap();
     assert_eq!(state.mode, Operational);
     let unwatched = ModeSettings { monitor: None, ..settings() };
-    state.sample(&unwatched, &far_off, &Places::in_every_mode(Some(surroundings()))).unwrap();
+    state.sample(&unwatched, &far_off, &BodyPositions::in_every_mode(Some(surroundings()))).unwrap();
     assert_eq!(state.mode, Operational);
 }
 
@@ -141,7 +142,7 @@ fn after_a_promotion_a_violation_counts_in_full() {
         (8.0, 1.3, Some(Operational), SafeHold),
     ] {
         let sensed = Sensed { time_s, ..sensed(request, Some(estimate(angle_rad))) };
-        state.sample(&settings, &sensed, &Places::in_every_mode(Some(surroundings()))).unwrap();
+        state.sample(&settings, &sensed, &BodyPositions::in_every_mode(Some(surroundings()))).unwrap();
         assert_eq!(state.mode, expected, "{time_s}");
     }
 }
@@ -154,7 +155,11 @@ fn a_demoted_mode_commands_a_safe_attitude_at_once() {
     settings.safe_hold.hot_pole = Some(cone);
     let mut state = ModeState::default();
     let sample = state
-        .sample(&settings, &sensed(None, Some(estimate(2.0))), &Places::in_every_mode(Some(surroundings)))
+        .sample(
+            &settings,
+            &sensed(None, Some(estimate(2.0))),
+            &BodyPositions::in_every_mode(Some(surroundings)),
+        )
         .unwrap();
     let Steering::Pointing(constraints) = sample else { panic!("{sample:?}") };
     assert_eq!(state.mode, SafeHold);
@@ -172,15 +177,15 @@ fn a_demoted_mode_commands_a_safe_attitude_at_once() {
 
 #[test]
 fn safe_hold_takes_downlink_without_scan_and_nothing_else() {
-    let mut asked = PointingCommand { scenario: Some(Scenario::Mdis), ..PointingCommand::default() };
-    asked.boresight.azimuth_rad = -0.5;
-    asked.scan.rate_rad_s = [1e-3, 0.0, 0.0];
-    assert_eq!(Operational.admitted(&asked), asked);
+    let mut requested = PointingCommand { scenario: Some(Scenario::Mdis), ..PointingCommand::default() };
+    requested.boresight.azimuth_rad = -0.5;
+    requested.scan.rate_rad_s = [1e-3, 0.0, 0.0];
+    assert_eq!(Operational.allowed(&requested), requested);
     let default = PointingCommand { scenario: Some(Scenario::Downlink), ..PointingCommand::default() };
-    assert_eq!(SafeHold.admitted(&asked), default);
-    asked.scenario = Some(Scenario::Downlink);
-    let admitted = SafeHold.admitted(&asked);
-    assert_eq!((admitted.boresight, admitted.scan), (asked.boresight, default.scan));
+    assert_eq!(SafeHold.allowed(&requested), default);
+    requested.scenario = Some(Scenario::Downlink);
+    let allowed = SafeHold.allowed(&requested);
+    assert_eq!((allowed.boresight, allowed.scan), (requested.boresight, default.scan));
 }
 
 #[test]
@@ -191,7 +196,7 @@ fn losing_the_sun_sensors_alone_demotes_nothing() {
             .sample(
                 &settings(),
                 &sensed(request, Some(estimate(0.0))),
-                &Places::in_every_mode(Some(surroundings())),
+                &BodyPositions::in_every_mode(Some(surroundings())),
             )
             .unwrap();
         assert_eq!(state.mode, request.unwrap_or(Operational));
@@ -204,7 +209,7 @@ fn the_search_turns_about_x_y_and_z_until_the_sun_is_back() {
     let mut at = |time_s: f64, estimate, sun_body| {
         let sensed = Sensed { time_s, request: None, estimate, sun_body };
         let steering =
-            state.sample(&settings(), &sensed, &Places::in_every_mode(Some(surroundings()))).unwrap();
+            state.sample(&settings(), &sensed, &BodyPositions::in_every_mode(Some(surroundings()))).unwrap();
         assert_eq!(state.mode, EarthAcquisition);
         (steering, state.search_since_s)
     };

@@ -56,7 +56,7 @@ impl TargetPlanet {
 
 /// Everything an option may look at, in EME2000 from the target planet's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Surroundings {
+pub struct EphemerisAtTime {
     /// Time, in s past J2000 TDB.
     pub epoch_s: f64,
     /// The planet at the origin.
@@ -73,7 +73,7 @@ pub struct Surroundings {
     pub bodies: [Option<MovingVector>; Body::ALL.len()],
 }
 
-impl Surroundings {
+impl EphemerisAtTime {
     /// Of a spacecraft, the Sun and the Earth about the planet.
     pub fn new(
         epoch_s: f64,

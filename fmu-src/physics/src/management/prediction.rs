@@ -7,8 +7,8 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::profile::{Cycle, Reach, Swing};
-use super::turning::{SquareSum, Turned};
+use super::profile::{ControlAuthority, Cycle, Excursion};
+use super::rotated_momentum::{RotatedMomentum, SquareSum};
 use crate::attitude::angle_between_rad;
 use crate::momentum::{Convention, DumpPolicy};
 use crate::plant::ForecastMomentum;
@@ -64,14 +64,14 @@ pub trait Forecast {
 /// What was forecast.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::large_enum_variant, reason = "a step allocates nothing")]
-pub enum Ahead {
+pub enum Prediction {
     /// By components, where each is integrated on its own.
     Components(Components),
     /// Of the physical momentum.
-    Science(ScienceAhead),
+    Science(PredictedScience),
 }
 
-impl Ahead {
+impl Prediction {
     /// What `horizon` cycles bring, or the next science where the body turns under the momentum; `None` without a cycle.
     ///
     /// # Errors
@@ -85,14 +85,14 @@ impl Ahead {
         Ok(match forecast.convention() {
             Convention::BodyIntegral => Some(Self::Components(Components::of(forecast, science_s, horizon)?)),
             Convention::Inertial if forecast.begins_in_science() => None,
-            Convention::Inertial => ScienceAhead::of(forecast, cycle_s)?.map(Self::Science),
+            Convention::Inertial => PredictedScience::of(forecast, cycle_s)?.map(Self::Science),
         })
     }
 }
 
 /// A downlink to come, or the one that begins.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct DownlinkAhead {
+pub struct PredictedDownlink {
     /// How long it lasts, in s.
     pub span_s: f64,
     /// Angles between Sun and Earth where it begins and where it ends, in rad; `None` where one has no direction.
@@ -103,7 +103,7 @@ pub struct DownlinkAhead {
     pub added: [f64; 2],
 }
 
-impl DownlinkAhead {
+impl PredictedDownlink {
     /// How long sunlight of this pressure, in Pa, takes to do what its own does in all of it, in s; 0 without pressure.
     pub fn equivalent_s(&self, pressure_pa: f64) -> f64 {
         if pressure_pa > 0.0 { self.span_s * (self.pressure_pa / pressure_pa) } else { 0.0 }
@@ -114,8 +114,8 @@ impl DownlinkAhead {
 #[derive(Clone, Copy, Debug)]
 pub struct Components {
     count: usize,
-    swings: [[Swing; LONGEST_HORIZON]; 2],
-    downlinks: [DownlinkAhead; LONGEST_HORIZON],
+    swings: [[Excursion; LONGEST_HORIZON]; 2],
+    downlinks: [PredictedDownlink; LONGEST_HORIZON],
     path: [[f64; NEXT_SAMPLES]; 2],
     /// When thrusters dump, and what they leave.
     pub policy: DumpPolicy,
@@ -127,8 +127,8 @@ impl Components {
         let count = (horizon as usize).min(LONGEST_HORIZON);
         let mut components = Self {
             count,
-            swings: [[Swing::default(); LONGEST_HORIZON]; 2],
-            downlinks: [DownlinkAhead::default(); LONGEST_HORIZON],
+            swings: [[Excursion::default(); LONGEST_HORIZON]; 2],
+            downlinks: [PredictedDownlink::default(); LONGEST_HORIZON],
             path: [[0.0; NEXT_SAMPLES]; 2],
             policy: forecast.dump_policy(),
         };
@@ -158,7 +158,7 @@ impl Components {
                         components.note(ended, samples_of(ended) - 1, since);
                     }
                     if let Some(downlink) = components.downlinks.get_mut(cycle) {
-                        *downlink = DownlinkAhead {
+                        *downlink = PredictedDownlink {
                             span_s: spans_s[cycle.min(1)],
                             separations_rad: separation_rad.map(|it| [it; 2]),
                             pressure_pa: at.pressure_pa,
@@ -197,12 +197,15 @@ impl Components {
     }
 
     /// The downlink that begins.
-    pub fn present(&self) -> &DownlinkAhead {
+    pub fn present(&self) -> &PredictedDownlink {
         &self.downlinks[0]
     }
 
     /// Cycles to come of X and of Z, `reach` being what a coming downlink can add to each.
-    pub fn cycles(&self, reach: impl Fn(&DownlinkAhead) -> [Reach; 2]) -> [[Cycle; LONGEST_HORIZON]; 2] {
+    pub fn cycles(
+        &self,
+        reach: impl Fn(&PredictedDownlink) -> [ControlAuthority; 2],
+    ) -> [[Cycle; LONGEST_HORIZON]; 2] {
         let mut cycles = [[Cycle::default(); LONGEST_HORIZON]; 2];
         for cycle in 0..self.count {
             // The last science has no downlink after it within the horizon.
@@ -247,7 +250,7 @@ fn cycle_and_sample(visit: usize) -> (usize, usize) {
 
 /// The science after a downlink in its default attitude.
 #[derive(Clone, Copy, Debug)]
-pub struct ScienceAhead {
+pub struct PredictedScience {
     /// Momentum at the downlink's end, body frame, in N m s.
     pub end_body_n_m_s: Vector3<f64>,
     /// Attitude at the downlink's end.
@@ -256,7 +259,7 @@ pub struct ScienceAhead {
     pub squares: SquareSum,
 }
 
-impl ScienceAhead {
+impl PredictedScience {
     /// The next science; `None` where none follows.
     fn of<F: Forecast>(forecast: &mut F, cycle_s: f64) -> Result<Option<Self>, F::Error> {
         let (begin_s, step_s) = (forecast.begin_s(), cycle_s / SAMPLES as f64);
@@ -276,7 +279,7 @@ impl ScienceAhead {
                 let turn = at.body_from_inertial * left.body_from_inertial.inverse();
                 let added = at.momentum_inertial_n_m_s - left.momentum_inertial_n_m_s;
                 let added_body_n_m_s = at.body_from_inertial * added;
-                squares.add(&Turned { turn: turn.into_inner(), added_body_n_m_s }, &threshold);
+                squares.add(&RotatedMomentum { turn: turn.into_inner(), added_body_n_m_s }, &threshold);
                 has_begun = true;
             }
         })?;

@@ -1,4 +1,4 @@
-//! The flown ephemeris, from its file; every problem is told by file, line, key, what was found and what is allowed.
+//! The flown ephemeris, from its file; every problem is reported by file, line, key, what was found and what is allowed.
 
 use nalgebra::SMatrix;
 
@@ -6,7 +6,7 @@ use super::coarse::{COARSE_TERMS, CoarseElements};
 use super::description::{BodyDescription, CoarseDescription, Description, Frame, SegmentDescription};
 use super::fit::{FitError, GREATEST_DEGREE};
 use super::table::{EphemerisSegment, SegmentTable};
-use super::target::FlownTarget;
+use super::target::OnboardTarget;
 use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::VALID_EPOCH_S;
@@ -17,7 +17,7 @@ use crate::toml::{Checker, Document, FileError, Place};
 #[derive(Clone, Debug, PartialEq)]
 pub struct FittedBody<M> {
     /// What moves.
-    pub target: FlownTarget,
+    pub target: OnboardTarget,
     /// About what.
     pub center: Body,
     /// Its motion.
@@ -28,7 +28,7 @@ pub struct FittedBody<M> {
 
 /// What a spacecraft carries. No body stands in it twice, and no body is, by way of others, its own centre.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct FlownEphemeris {
+pub struct OnboardEphemeris {
     /// Where the positions come from, for people.
     pub source: Option<String>,
     /// The precise models.
@@ -37,7 +37,7 @@ pub struct FlownEphemeris {
     pub coarse: Vec<FittedBody<CoarseElements>>,
 }
 
-impl FlownEphemeris {
+impl OnboardEphemeris {
     /// Reads an ephemeris from TOML text; `file` only names it in errors.
     ///
     /// # Errors
@@ -60,9 +60,11 @@ impl FlownEphemeris {
             let at = root.key("body").item(index);
             let is_new = found.precise.iter().all(|other| other.target != body.body);
             check_target(&mut check, &at, body.body, body.center, is_new);
-            if is_new && body.body != FlownTarget::from(body.center) && found.leads_to(body.center, body.body)
+            if is_new
+                && body.body != OnboardTarget::from(body.center)
+                && found.leads_to(body.center, body.body)
             {
-                let center = FlownTarget::from(body.center);
+                let center = OnboardTarget::from(body.center);
                 let text = format!("{center}, whose own position counts from {}", body.body);
                 check.report(&at.key("center"), text, "a body that does not count from this one");
             }
@@ -75,9 +77,9 @@ impl FlownEphemeris {
             let at = root.key("coarse").item(index);
             let is_new = found.coarse.iter().all(|other| other.target != body.body);
             check_target(&mut check, &at, body.body, body.center, is_new);
-            let is_planet = body.body != FlownTarget::Spacecraft;
-            if is_planet && body.center != Body::Sun && body.body != FlownTarget::from(body.center) {
-                let center = FlownTarget::from(body.center);
+            let is_planet = body.body != OnboardTarget::Spacecraft;
+            if is_planet && body.center != Body::Sun && body.body != OnboardTarget::from(body.center) {
+                let center = OnboardTarget::from(body.center);
                 check.report(&at.key("center"), center, "sun, which planets move about");
             }
             let error = error(&mut check, &at, body.error_m, body.error_m_s);
@@ -88,8 +90,8 @@ impl FlownEphemeris {
     }
 
     /// Whether a chain of centres leads from a body to a target.
-    fn leads_to(&self, from: Body, target: FlownTarget) -> bool {
-        let mut at = FlownTarget::from(from);
+    fn leads_to(&self, from: Body, target: OnboardTarget) -> bool {
+        let mut at = OnboardTarget::from(from);
         for _ in 0..=self.precise.len() {
             if at == target {
                 return true;
@@ -100,12 +102,12 @@ impl FlownEphemeris {
         false
     }
 
-    fn entry(&self, target: FlownTarget) -> Option<&FittedBody<SegmentTable>> {
+    fn entry(&self, target: OnboardTarget) -> Option<&FittedBody<SegmentTable>> {
         self.precise.iter().find(|body| body.target == target)
     }
 
     /// Epochs at which the precise models place `target` from `center`; `None` where nothing joins them.
-    pub fn span_s(&self, target: FlownTarget, center: Body) -> Option<[f64; 2]> {
+    pub fn span_s(&self, target: OnboardTarget, center: Body) -> Option<[f64; 2]> {
         let mut span_s = [f64::NEG_INFINITY, f64::INFINITY];
         let center = center.into();
         for (from, other) in [(target, center), (center, target)] {
@@ -120,7 +122,7 @@ impl FlownEphemeris {
 
     /// Position and velocity of `target` from `center` by the precise models, in EME2000; `None` outside their span and
     /// where nothing joins them.
-    pub fn state(&self, target: FlownTarget, center: Body, epoch_s: f64) -> Option<CartesianState> {
+    pub fn state(&self, target: OnboardTarget, center: Body, epoch_s: f64) -> Option<CartesianState> {
         let [mut up, mut down] = [CartesianState::default(); 2];
         let center = center.into();
         for (from, other, sum) in [(target, center, &mut up), (center, target, &mut down)] {
@@ -138,10 +140,10 @@ impl FlownEphemeris {
     }
 
     /// The same, beyond the span of the models as their last state would move on evenly: for integrators, which look
-    /// ahead of the time they are asked for. `None` where nothing joins both.
+    /// ahead of the time they are requested. `None` where nothing joins both.
     pub fn state_carried_on(
         &self,
-        target: FlownTarget,
+        target: OnboardTarget,
         center: Body,
         epoch_s: f64,
     ) -> Option<CartesianState> {
@@ -153,13 +155,13 @@ impl FlownEphemeris {
     }
 
     /// Position and velocity by the coarse model of a target about its own centre; `None` without one or outside its span.
-    pub fn coarse_state(&self, target: FlownTarget, epoch_s: f64) -> Option<CartesianState> {
+    pub fn coarse_state(&self, target: OnboardTarget, epoch_s: f64) -> Option<CartesianState> {
         self.coarse.iter().find(|body| body.target == target)?.motion.state(epoch_s)
     }
 
     /// The same of the spacecraft, if its model is about `center`.
     pub fn coarse_spacecraft(&self, center: Body, epoch_s: f64) -> Option<CartesianState> {
-        let spacecraft = self.coarse.iter().find(|body| body.target == FlownTarget::Spacecraft)?;
+        let spacecraft = self.coarse.iter().find(|body| body.target == OnboardTarget::Spacecraft)?;
         if spacecraft.center == center { spacecraft.motion.state(epoch_s) } else { None }
     }
 
@@ -167,8 +169,8 @@ impl FlownEphemeris {
     /// ends before, or the visit does.
     fn climb<'a>(
         &'a self,
-        from: FlownTarget,
-        other: FlownTarget,
+        from: OnboardTarget,
+        other: OnboardTarget,
         mut visit: impl FnMut(&'a FittedBody<SegmentTable>) -> Option<()>,
     ) -> Option<()> {
         let mut at = from;
@@ -181,7 +183,7 @@ impl FlownEphemeris {
     }
 
     /// Whether `other` is `at` or counts from it, by way of others or not.
-    fn is_above(&self, at: FlownTarget, other: FlownTarget) -> bool {
+    fn is_above(&self, at: OnboardTarget, other: OnboardTarget) -> bool {
         let mut below = other;
         while below != at {
             let Some(body) = self.entry(below) else { return false };
@@ -192,8 +194,8 @@ impl FlownEphemeris {
 }
 
 /// A target that is not its own centre and stands here for the first time.
-fn check_target(check: &mut Checker<'_>, at: &Place, target: FlownTarget, center: Body, is_new: bool) {
-    if target == FlownTarget::from(center) {
+fn check_target(check: &mut Checker<'_>, at: &Place, target: OnboardTarget, center: Body, is_new: bool) {
+    if target == OnboardTarget::from(center) {
         check.report_across(at, &at.key("center"), target, "another body than the one that is placed");
     }
     if !is_new {

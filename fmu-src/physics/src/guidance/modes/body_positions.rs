@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use super::mode::Mode;
 use super::monitor::{Monitor, MonitorState};
 use crate::attitude::{Attitude, angle_between_rad};
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
-use crate::guidance::geometry::surroundings::Surroundings;
 
 /// How far the Sun of the precise models may be from the sensed one, assumed: two degrees, a few times what Sun sensors err.
 pub const SUN_TOLERANCE_RAD: f64 = 2.0 * crate::constants::DEG_RAD;
@@ -23,23 +23,23 @@ pub const SUN_PERSISTENCE_S: f64 = 10.0;
 
 /// Where everything is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Places {
+pub struct BodyPositions {
     /// By the precise models, or by the only ones; `None` while a place is not known, or outside their span.
-    pub precise: Option<Surroundings>,
+    pub precise: Option<EphemerisAtTime>,
     /// By the coarse models; `None` while a place is not known.
-    pub coarse: Option<Surroundings>,
+    pub coarse: Option<EphemerisAtTime>,
     /// Whether modes choose between both; otherwise the precise ones hold in every mode.
     pub by_mode: bool,
 }
 
-impl Places {
+impl BodyPositions {
     /// The same in every mode.
-    pub fn in_every_mode(surroundings: Option<Surroundings>) -> Self {
+    pub fn in_every_mode(surroundings: Option<EphemerisAtTime>) -> Self {
         Self { precise: surroundings, coarse: None, by_mode: false }
     }
 
     /// What a mode goes by.
-    pub fn in_mode(&self, mode: Mode, trust: &EphemerisTrust) -> Option<&Surroundings> {
+    pub fn in_mode(&self, mode: Mode, trust: &EphemerisTrust) -> Option<&EphemerisAtTime> {
         let chosen = if self.by_mode && trust.uses_coarse(mode) { &self.coarse } else { &self.precise };
         chosen.as_ref()
     }
@@ -82,7 +82,7 @@ impl EphemerisTrust {
         &mut self,
         check: Option<&Monitor>,
         time_s: f64,
-        places: &Places,
+        places: &BodyPositions,
         sensed: Option<(Attitude, Vector3<f64>)>,
     ) {
         if !places.by_mode || self.is_lost {
@@ -112,19 +112,19 @@ mod tests {
     use crate::bodies::Body;
     use crate::environment::CartesianState;
     use crate::environment::bodies_from_center::fixed;
-    use crate::guidance::geometry::surroundings::TargetPlanet;
+    use crate::guidance::geometry::ephemeris_at_time::TargetPlanet;
 
     const CHECK: Monitor = Monitor { margin_rad: SUN_TOLERANCE_RAD, persistence_s: 3.0 };
 
-    fn surroundings(sun_m: Vector3<f64>) -> Surroundings {
+    fn surroundings(sun_m: Vector3<f64>) -> EphemerisAtTime {
         let spacecraft = CartesianState { position_m: Vector3::x(), velocity_m_s: Vector3::y() };
         let planet = TargetPlanet::of(Body::Mercury.data());
-        Surroundings::new(0.0, planet, &spacecraft, &fixed(sun_m), &fixed(Vector3::z() * 1e11))
+        EphemerisAtTime::new(0.0, planet, &spacecraft, &fixed(sun_m), &fixed(Vector3::z() * 1e11))
     }
 
-    fn places() -> Places {
+    fn places() -> BodyPositions {
         let (precise, coarse) = (surroundings(Vector3::x() * 5e10), surroundings(Vector3::y() * 5e10));
-        Places { precise: Some(precise), coarse: Some(coarse), by_mode: true }
+        BodyPositions { precise: Some(precise), coarse: Some(coarse), by_mode: true }
     }
 
     /// An attitude turned about Z, and the Sun sensed in its frame while it stands along X or `off_rad` from there.
@@ -156,11 +156,11 @@ mod tests {
     #[test]
     fn a_span_that_is_left_ends_them_at_once_and_lack_of_places_does_not() {
         let mut trust = EphemerisTrust::default();
-        trust.judge(None, 0.0, &Places { precise: None, coarse: None, ..places() }, None);
+        trust.judge(None, 0.0, &BodyPositions { precise: None, coarse: None, ..places() }, None);
         assert!(trust.is_valid());
-        trust.judge(None, 0.0, &Places { precise: None, by_mode: false, ..places() }, None);
+        trust.judge(None, 0.0, &BodyPositions { precise: None, by_mode: false, ..places() }, None);
         assert!(trust.is_valid());
-        trust.judge(None, 0.0, &Places { precise: None, ..places() }, None);
+        trust.judge(None, 0.0, &BodyPositions { precise: None, ..places() }, None);
         assert!(!trust.is_valid());
         trust.renew();
         assert!(trust.is_valid());
@@ -172,9 +172,9 @@ mod tests {
         let [precise, coarse] = [places.precise.as_ref(), places.coarse.as_ref()];
         let modes = [Mode::Operational, Mode::SafeHold, Mode::EarthAcquisition];
         assert_eq!(modes.map(|mode| places.in_mode(mode, &trust)), [precise, precise, coarse]);
-        trust.judge(None, 0.0, &Places { precise: None, ..places }, None);
+        trust.judge(None, 0.0, &BodyPositions { precise: None, ..places }, None);
         assert_eq!(modes.map(|mode| places.in_mode(mode, &trust)), [precise, coarse, coarse]);
-        let alone = Places { by_mode: false, ..places };
+        let alone = BodyPositions { by_mode: false, ..places };
         assert_eq!(modes.map(|mode| alone.in_mode(mode, &trust)), [precise; 3]);
     }
 }

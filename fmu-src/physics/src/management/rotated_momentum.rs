@@ -9,12 +9,12 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::profile::Reach;
+use super::profile::ControlAuthority;
 use super::targeting::golden;
 
 /// Momentum in the body frame at one time of the science to come: R h + d.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turned {
+pub struct RotatedMomentum {
     /// R.
     pub turn: Matrix3<f64>,
     /// d, in N m s.
@@ -34,7 +34,7 @@ pub struct SquareSum {
 
 impl SquareSum {
     /// Adds a time.
-    pub fn add(&mut self, at: &Turned, threshold_body_n_m_s: &Vector3<f64>) {
+    pub fn add(&mut self, at: &RotatedMomentum, threshold_body_n_m_s: &Vector3<f64>) {
         for axis in [0, 2] {
             let part = 1.0 / threshold_body_n_m_s[axis];
             let turn = at.turn.row(axis).transpose() * part;
@@ -52,7 +52,7 @@ impl SquareSum {
 }
 
 /// The momentum to leave a downlink with, body frame, in N m s: X and Z within these ranges, Y as given.
-pub fn best_turned(squares: &SquareSum, [x, z]: [Reach; 2], y: f64) -> Vector3<f64> {
+pub fn best_turned(squares: &SquareSum, [x, z]: [ControlAuthority; 2], y: f64) -> Vector3<f64> {
     let along_z = |x_n_m_s: f64| golden(z[0], z[1], |z_n_m_s| squares.of(&Vector3::new(x_n_m_s, y, z_n_m_s)));
     let (best_x, _) = golden(x[0], x[1], |x_n_m_s| along_z(x_n_m_s).1);
     Vector3::new(best_x, y, along_z(best_x).0)
@@ -66,7 +66,12 @@ mod tests {
     use nalgebra::Rotation3;
     use proptest::prelude::*;
 
-    fn best(along: &[Turned], ranges: [Reach; 2], y: f64, threshold: &Vector3<f64>) -> Vector3<f64> {
+    fn best(
+        along: &[RotatedMomentum],
+        ranges: [ControlAuthority; 2],
+        y: f64,
+        threshold: &Vector3<f64>,
+    ) -> Vector3<f64> {
         let mut squares = SquareSum::default();
         along.iter().for_each(|at| squares.add(at, threshold));
         best_turned(&squares, ranges, y)
@@ -74,8 +79,8 @@ mod tests {
 
     #[test]
     fn a_turn_about_the_sun_line_alone_asks_for_none() {
-        let along: Vec<Turned> = (0..36)
-            .map(|k| Turned {
+        let along: Vec<RotatedMomentum> = (0..36)
+            .map(|k| RotatedMomentum {
                 turn: *Rotation3::from_axis_angle(&Vector3::y_axis(), f64::from(k) * 0.175).matrix(),
                 added_body_n_m_s: Vector3::zeros(),
             })
@@ -86,8 +91,10 @@ mod tests {
 
     #[test]
     fn a_drift_without_a_turn_is_met_half_way() {
-        let at =
-            |x: f64, z: f64| Turned { turn: Matrix3::identity(), added_body_n_m_s: Vector3::new(x, 0.0, z) };
+        let at = |x: f64, z: f64| RotatedMomentum {
+            turn: Matrix3::identity(),
+            added_body_n_m_s: Vector3::new(x, 0.0, z),
+        };
         // Both components start a drift at zero; equal parts of the thresholds weigh the same.
         let along = [at(0.0, 0.0), at(2.0, -1.0)];
         let found = best(&along, [[-5.0, 5.0]; 2], 0.0, &Vector3::new(4.0, 1.0, 2.0));
@@ -105,9 +112,9 @@ mod tests {
             y in -2.0..2.0_f64,
             width in 0.1..4.0_f64,
         ) {
-            let along: Vec<Turned> = path
+            let along: Vec<RotatedMomentum> = path
                 .iter()
-                .map(|(angle, x, z)| Turned {
+                .map(|(angle, x, z)| RotatedMomentum {
                     turn: Rotation3::from_euler_angles(0.1 * x, *angle, 0.1 * z).into_inner(),
                     added_body_n_m_s: Vector3::new(*x, 0.5, *z),
                 })

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::target::FlownTarget;
+use super::target::OnboardTarget;
 use crate::bodies::Body;
 
 /// Positions of bodies over time, as a spacecraft carries them.
@@ -36,7 +36,7 @@ pub(super) enum Frame {
 #[serde(deny_unknown_fields)]
 pub(super) struct BodyDescription {
     /// What is placed.
-    pub body: FlownTarget,
+    pub body: OnboardTarget,
     /// From where its position counts.
     pub center: Body,
     /// Degree of every polynomial.
@@ -74,7 +74,7 @@ pub(super) struct SegmentDescription {
 #[serde(deny_unknown_fields)]
 pub(super) struct CoarseDescription {
     /// What is placed: a planet about the Sun, or the spacecraft.
-    pub body: FlownTarget,
+    pub body: OnboardTarget,
     /// What it moves about.
     pub center: Body,
     /// Where the span begins, in s past J2000 TDB.

@@ -14,7 +14,7 @@ use physics::{
 
 use super::{
     options::Map,
-    panels::{Rule, Turned},
+    panels::{Rule, TurnedPanels},
 };
 use crate::{
     pack::{
@@ -29,7 +29,7 @@ type Failure = Box<dyn std::error::Error>;
 
 /// The model whose torque is mapped.
 const MODEL: &str = "DisturbanceTorque";
-/// The model whose parameters say how it is flown.
+/// The model whose parameters say how it is simulated.
 const FLOWN: &str = "MomentumPlant";
 
 /// How downlinks share the time.
@@ -49,10 +49,10 @@ impl Downlink {
 }
 
 /// A spacecraft ready to be mapped.
-pub struct Craft {
+pub struct MappedSpacecraft {
     pub name: String,
     pub fmu: Fmu,
-    pub panels: Vec<Turned>,
+    pub panels: Vec<TurnedPanels>,
     pub distance_m: f64,
     /// Greatest azimuth and elevation of the Sun keep-in zone; `None` without one.
     pub zone_rad: Option<[f64; 2]>,
@@ -64,18 +64,18 @@ pub struct Craft {
     _folder: Scratch,
 }
 
-/// A file's text, the name that problems are told by, and the FMU whose library reads it.
+/// A file's text, the name that problems are reported by, and the FMU whose library reads it.
 fn given(arguments: &Map) -> Result<(String, String, Fmu), Failure> {
-    let file = arguments.craft.display().to_string();
-    let is_toml = arguments.craft.extension().is_some_and(|it| it.eq_ignore_ascii_case("toml"));
+    let file = arguments.spacecraft.display().to_string();
+    let is_toml = arguments.spacecraft.extension().is_some_and(|it| it.eq_ignore_ascii_case("toml"));
     if is_toml {
-        let text = files::read_text(&arguments.craft)?;
+        let text = files::read_text(&arguments.spacecraft)?;
         return Ok((file, text, source::open_template(&arguments.template())?));
     }
     if arguments.template.is_some() {
         return Err(format!("{file}: found no TOML file, allowed: one: see --template").into());
     }
-    let fmu = Fmu::open(&arguments.craft)?;
+    let fmu = Fmu::open(&arguments.spacecraft)?;
     let model = source::model_of(&fmu, fmu.binary()?.as_ref())?;
     let setup = fmu.binary()?.models()?.into_iter().find(|it| it.model == model).and_then(|it| it.setup_file);
     let setup = setup.ok_or_else(|| format!("{file}: {model} holds no spacecraft"))?;
@@ -84,7 +84,7 @@ fn given(arguments: &Map) -> Result<(String, String, Fmu), Failure> {
     Ok((format!("{file}: {setup}"), text, fmu))
 }
 
-impl Craft {
+impl MappedSpacecraft {
     /// Reads the file and makes an FMU of it in a temporary folder.
     pub fn open(arguments: &Map) -> Result<Self, Failure> {
         let (file, mut text, template) = given(arguments)?;
@@ -94,39 +94,42 @@ impl Craft {
             Ok(model_description::parse(described.xml.as_bytes())?.description)
         };
         for set in &arguments.set {
-            let (torque, flown) = (describe(MODEL, &text)?, describe(FLOWN, &text)?);
-            // A name that neither has is told as one of DisturbanceTorque.
+            let (torque, simulated) = (describe(MODEL, &text)?, describe(FLOWN, &text)?);
+            // A name that neither has is reported as one of DisturbanceTorque.
             let name = set.split_once('=').map_or(set.as_str(), |(name, _)| name);
             let is_known = |description| loader::select(description, name).is_ok();
-            let (model, description) =
-                if !is_known(&torque) && is_known(&flown) { (FLOWN, &flown) } else { (MODEL, &torque) };
+            let (model, description) = if !is_known(&torque) && is_known(&simulated) {
+                (FLOWN, &simulated)
+            } else {
+                (MODEL, &torque)
+            };
             text = with_values(&text, START, model, description, &[(format!("--set {set}"), set.clone())])?;
         }
         let described = binary.describe(MODEL, Some(&file), Some(&text))?;
-        let flown = describe(FLOWN, &text)?;
+        let simulated = describe(FLOWN, &text)?;
         let folder = Scratch::new()?;
         write_fmu(folder.path(), &template, &described, &text)?;
         let fmu = Fmu::open(folder.path())?;
         let spacecraft = Spacecraft::from_toml(&file, &text).map_err(|error| error.to_string())?;
-        let panels = turned(spacecraft.panels, &fmu, &flown, arguments.panel_offset);
+        let panels = turned(spacecraft.panels, &fmu, &simulated, arguments.panel_offset);
         if arguments.panel_offset.is_some()
             && !panels.iter().any(|it| matches!(it.rule, Rule::SunOffset { .. }))
         {
             return Err(format!("--panel-offset: {file} has no panel held by Sun offset").into());
         }
-        let [default, default_flown] =
+        let [default, default_simulated] =
             [default_description(&binary, MODEL)?, default_description(&binary, FLOWN)?];
         let distance_m = match arguments.distance {
             Some(distance_au) => distance_au * AU_M,
-            None => distance_m(fmu.description(), &flown, [&default, &default_flown]),
+            None => distance_m(fmu.description(), &simulated, [&default, &default_simulated]),
         };
         let [azimuth_rad, elevation_rad] =
-            ["keepIn.azimuth", "keepIn.elevation"].map(|name| real(&flown, name));
-        let flown_zone_rad =
+            ["keepIn.azimuth", "keepIn.elevation"].map(|name| real(&simulated, name));
+        let simulated_zone_rad =
             azimuth_rad.zip(elevation_rad).map(|(azimuth_rad, elevation_rad)| [azimuth_rad, elevation_rad]);
         // Everywhere is what the plant makes of a file without a zone.
         let everywhere_rad = [core::f64::consts::PI, core::f64::consts::FRAC_PI_2];
-        let zone_rad = arguments.zone.or(flown_zone_rad).filter(|zone_rad| *zone_rad != everywhere_rad);
+        let zone_rad = arguments.zone.or(simulated_zone_rad).filter(|zone_rad| *zone_rad != everywhere_rad);
         if zone_rad.is_some_and(|zone_rad| zone_rad.contains(&0.0)) {
             let what = "keepIn.azimuth, keepIn.elevation: found 0 deg, allowed: more";
             return Err(format!("{file}: {what}: see --set and --zone").into());
@@ -137,10 +140,10 @@ impl Craft {
             panels,
             distance_m,
             zone_rad,
-            downlink: downlink(&default_flown, &flown),
-            panels_left_out: panels_left_out(&flown),
+            downlink: downlink(&default_simulated, &simulated),
+            panels_left_out: panels_left_out(&simulated),
             threshold_n_m_s: [1, 2, 3]
-                .map(|axis| real(&flown, &format!("dump.threshold[{axis}]")).unwrap_or(f64::INFINITY)),
+                .map(|axis| real(&simulated, &format!("dump.threshold[{axis}]")).unwrap_or(f64::INFINITY)),
             _folder: folder,
         })
     }
@@ -173,55 +176,60 @@ fn default_description(binary: &Binary, model: &str) -> Result<Description, Fail
 }
 
 /// The panels with the angles that MomentumPlant would give them.
-fn turned(panels: Vec<Panel>, fmu: &Fmu, flown: &Description, offset_rad: Option<f64>) -> Vec<Turned> {
+fn turned(
+    panels: Vec<Panel>,
+    fmu: &Fmu,
+    simulated: &Description,
+    offset_rad: Option<f64>,
+) -> Vec<TurnedPanels> {
     let rule = |number: usize, panel: &Panel| {
         let name = |last: &str| format!("panel[{number}].{last}");
-        let is_offset = match item(flown, &name("control")) {
+        let is_offset = match item(simulated, &name("control")) {
             Some(item) => item == "sunOffset",
             None => panel.control == PanelControl::SunOffset,
         };
         if !is_offset {
             return Rule::Angle(real(fmu.description(), &name("angle")).unwrap_or(panel.angle_rad));
         }
-        let tilt_sign = match item(flown, &name("tilt")) {
+        let tilt_sign = match item(simulated, &name("tilt")) {
             Some("positive") => 1.0,
             Some("negative") => -1.0,
             _ => panel.tilt_sign,
         };
-        let own_rad = real(flown, &name("sunOffset")).unwrap_or(panel.sun_offset_rad);
+        let own_rad = real(simulated, &name("sunOffset")).unwrap_or(panel.sun_offset_rad);
         Rule::SunOffset { offset_rad: offset_rad.unwrap_or(own_rad), tilt_sign }
     };
     let numbered = panels.into_iter().enumerate();
-    numbered.map(|(index, panel)| Turned { rule: rule(index + 1, &panel), panel }).collect()
+    numbered.map(|(index, panel)| TurnedPanels { rule: rule(index + 1, &panel), panel }).collect()
 }
 
-fn panels_left_out(flown: &Description) -> bool {
-    let enabled = |number: usize| start_of(flown, &format!("panel[{number}].enabled"));
+fn panels_left_out(simulated: &Description) -> bool {
+    let enabled = |number: usize| start_of(simulated, &format!("panel[{number}].enabled"));
     (1..).map_while(enabled).any(|enabled| enabled == Value::Boolean(false))
 }
 
 /// Where the file puts the Sun, otherwise the mean distance of the body it flies around.
-fn distance_m(described: &Description, flown: &Description, default: [&Description; 2]) -> f64 {
+fn distance_m(described: &Description, simulated: &Description, default: [&Description; 2]) -> f64 {
     let sun_m = |description: &Description| {
         Vector3::from(
             [1, 2, 3].map(|axis| real(description, &format!("sun.positionBody[{axis}]")).unwrap_or(0.0)),
         )
     };
     let given_m = sun_m(described);
-    let [default, default_flown] = default;
+    let [default, default_simulated] = default;
     if given_m != sun_m(default) && given_m.norm() > 0.0 {
         return given_m.norm();
     }
-    match center(flown) {
-        Body::Sun => semi_major_axis_m(default_flown, flown),
+    match center(simulated) {
+        Body::Sun => semi_major_axis_m(default_simulated, simulated),
         planet => planet.data().orbit_semi_major_axis_m,
     }
 }
 
 /// Of the orbit; left at its default it follows the centre, as MomentumPlant says of orbit.semiMajorAxis.
-fn semi_major_axis_m(default: &Description, flown: &Description) -> f64 {
-    let [axis_m, default_m] = [flown, default].map(|it| real(it, "orbit.semiMajorAxis").unwrap_or(0.0));
-    match center(flown) {
+fn semi_major_axis_m(default: &Description, simulated: &Description) -> f64 {
+    let [axis_m, default_m] = [simulated, default].map(|it| real(it, "orbit.semiMajorAxis").unwrap_or(0.0));
+    match center(simulated) {
         Body::Sun if axis_m == default_m => AU_M,
         Body::Mercury => axis_m,
         planet if axis_m == default_m => 3.0 * planet.data().radius_m,
@@ -229,18 +237,18 @@ fn semi_major_axis_m(default: &Description, flown: &Description) -> f64 {
     }
 }
 
-fn center(flown: &Description) -> Body {
-    let named = item(flown, "orbit.center").unwrap_or("mercury");
+fn center(simulated: &Description) -> Body {
+    let named = item(simulated, "orbit.center").unwrap_or("mercury");
     let is_named = |body: &&Body| format!("{body:?}").eq_ignore_ascii_case(named);
     Body::ALL.iter().find(is_named).copied().unwrap_or(Body::Mercury)
 }
 
-fn downlink(default: &Description, flown: &Description) -> Downlink {
+fn downlink(default: &Description, simulated: &Description) -> Downlink {
     let [start_s, end_s] =
-        ["guided.downlinkStart", "guided.downlinkEnd"].map(|name| real(flown, name).unwrap_or(0.0));
-    let every = start_of(flown, "guided.downlinkEvery").map_or(0.0, |value| value.to_f64());
-    let axis_m = semi_major_axis_m(default, flown);
-    let period_s = core::f64::consts::TAU * (axis_m.powi(3) / center(flown).data().gm_m3_s2).sqrt();
+        ["guided.downlinkStart", "guided.downlinkEnd"].map(|name| real(simulated, name).unwrap_or(0.0));
+    let every = start_of(simulated, "guided.downlinkEvery").map_or(0.0, |value| value.to_f64());
+    let axis_m = semi_major_axis_m(default, simulated);
+    let period_s = core::f64::consts::TAU * (axis_m.powi(3) / center(simulated).data().gm_m3_s2).sqrt();
     Downlink { length_h: (end_s - start_s).max(0.0) / 3600.0, every_h: every * period_s / 3600.0 }
 }
 

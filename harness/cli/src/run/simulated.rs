@@ -22,14 +22,14 @@ use super::subject::Subject;
 const PACKING_S: f64 = 60.0;
 
 /// A run as it is meant.
-pub struct Flown {
+pub struct Simulated {
     /// The arguments, a mission's where none are given.
     pub run: Run,
     /// The mission, if the arguments name one.
     pub mission: Option<Mission>,
 }
 
-impl Flown {
+impl Simulated {
     /// Reads the mission if the arguments name one.
     pub fn of(arguments: &Run) -> Result<Self, String> {
         let is_toml = |path: &Path| path.extension().is_some_and(|extension| extension == "toml");

@@ -1,7 +1,7 @@
 //! Ephemerides as a spacecraft carries them (paper 001): Chebyshev segments made on the ground, and coarse polynomials of
 //! Keplerian elements.
 //!
-//! One TOML file holds both ([`FlownEphemeris::from_toml`]). The precise model of a body are its segments: polynomials of its
+//! One TOML file holds both ([`OnboardEphemeris::from_toml`]). The precise model of a body are its segments: polynomials of its
 //! position about a centre, whose derivative is its velocity. The coarse model are polynomials of fourth degree of its
 //! classical elements. Both carry the greatest error that was found where nothing was fitted.
 
@@ -19,10 +19,10 @@ mod text;
 mod tests;
 
 pub use coarse::{COARSE_SAMPLES, COARSE_TERMS, CoarseElements, KeplerianElements};
-pub use ephemeris::{FittedBody, FlownEphemeris};
+pub use ephemeris::{FittedBody, OnboardEphemeris};
 pub use fit::{FitError, FitPlan, GREATEST_DEGREE};
 #[cfg(feature = "schema")]
 pub use schema::schema;
 pub use table::{EphemerisSegment, SegmentTable};
-pub use target::FlownTarget;
+pub use target::OnboardTarget;
 pub use text::to_toml;

@@ -1,4 +1,4 @@
-//! Fits keep the error they state, files are read back to the bit, and what is wrong in one is told by name.
+//! Fits keep the error they state, files are read back to the bit, and what is wrong in one is reported by name.
 
 use nalgebra::Vector3;
 
@@ -20,30 +20,30 @@ fn negative(state: CartesianState) -> CartesianState {
 }
 
 /// The Sun from Mercury and the Earth from the Sun by VSOP87, and the spacecraft on its printed orbit.
-fn motion(target: FlownTarget) -> impl FnMut(f64) -> CartesianState {
+fn motion(target: OnboardTarget) -> impl FnMut(f64) -> CartesianState {
     let mut ephemeris = Ephemeris::default();
     let orbit = TwoBodyOrbit::from_elements(MESSENGER_AS_PRINTED, GM_MERCURY_M3_S2, START_S).unwrap();
     move |epoch_s| match target {
-        FlownTarget::Sun => negative(ephemeris.state(Body::Mercury, epoch_s)),
-        FlownTarget::Earth => ephemeris.state(Body::Earth, epoch_s),
+        OnboardTarget::Sun => negative(ephemeris.state(Body::Mercury, epoch_s)),
+        OnboardTarget::Earth => ephemeris.state(Body::Earth, epoch_s),
         _ => orbit.state_at(epoch_s),
     }
 }
 
-fn fitted(target: FlownTarget, center: Body, segment_s: f64, degree: usize) -> FittedBody<SegmentTable> {
+fn fitted(target: OnboardTarget, center: Body, segment_s: f64, degree: usize) -> FittedBody<SegmentTable> {
     let plan = FitPlan::new(SPAN_S, segment_s);
     let states: Vec<_> = plan.epochs_s().into_iter().map(motion(target)).collect();
     let (motion, error) = plan.fit(&states, degree);
     FittedBody { target, center, motion, error }
 }
 
-fn mission() -> FlownEphemeris {
-    FlownEphemeris {
+fn mission() -> OnboardEphemeris {
+    OnboardEphemeris {
         source: Some("VSOP87 \"as tested\"".to_owned()),
         precise: vec![
-            fitted(FlownTarget::Sun, Body::Mercury, 4.0 * DAY_S, 7),
-            fitted(FlownTarget::Earth, Body::Sun, 8.0 * DAY_S, 7),
-            fitted(FlownTarget::Spacecraft, Body::Mercury, 1800.0, 12),
+            fitted(OnboardTarget::Sun, Body::Mercury, 4.0 * DAY_S, 7),
+            fitted(OnboardTarget::Earth, Body::Sun, 8.0 * DAY_S, 7),
+            fitted(OnboardTarget::Spacecraft, Body::Mercury, 1800.0, 12),
         ],
         // A span whose ends the middle and half its length do not give back.
         coarse: vec![coarse_mercury([START_S + 0.1, START_S + 4.0 * 365.25 * DAY_S + 0.7])],
@@ -55,7 +55,7 @@ fn coarse_mercury(span_s: [f64; 2]) -> FittedBody<CoarseElements> {
     let nodes = Segment::<6, COARSE_SAMPLES>::nodes(span_s[0], span_s[1]);
     let states = nodes.map(|epoch_s| ephemeris.state(Body::Mercury, epoch_s));
     let motion = CoarseElements::of_states(Body::Sun, span_s, &states).unwrap();
-    FittedBody { target: FlownTarget::Mercury, center: Body::Sun, motion, error: FitError::default() }
+    FittedBody { target: OnboardTarget::Mercury, center: Body::Sun, motion, error: FitError::default() }
 }
 
 #[test]
@@ -78,7 +78,7 @@ fn stated_errors_bound_the_fit_and_are_nearly_reached() {
 
 #[test]
 fn velocity_is_the_derivative_of_position() {
-    let body = fitted(FlownTarget::Spacecraft, Body::Mercury, 1800.0, 12);
+    let body = fitted(OnboardTarget::Spacecraft, Body::Mercury, 1800.0, 12);
     for i in 0..500 {
         let epoch_s = SPAN_S[0] + 1.0 + 1000.0 * f64::from(i);
         let [before, after] = [-0.5, 0.5].map(|step_s| body.motion.state(epoch_s + step_s).unwrap());
@@ -92,7 +92,7 @@ fn velocity_is_the_derivative_of_position() {
 #[test]
 fn what_lies_outside_the_span_is_refused() {
     let carried = mission();
-    for (target, center) in [(FlownTarget::Sun, Body::Mercury), (FlownTarget::Earth, Body::Mercury)] {
+    for (target, center) in [(OnboardTarget::Sun, Body::Mercury), (OnboardTarget::Earth, Body::Mercury)] {
         assert_eq!(carried.span_s(target, center), Some(SPAN_S));
         for inside_s in SPAN_S {
             assert!(carried.state(target, center, inside_s).is_some());
@@ -106,9 +106,9 @@ fn what_lies_outside_the_span_is_refused() {
         assert_eq!(ahead.velocity_m_s, last.velocity_m_s);
         assert!((ahead.position_m - last.position_m - last.velocity_m_s * 64.0).norm() < 1e-3);
     }
-    assert!(carried.coarse_state(FlownTarget::Mercury, START_S).is_none());
-    assert_eq!(carried.span_s(FlownTarget::Venus, Body::Mercury), None);
-    assert!(carried.state_carried_on(FlownTarget::Venus, Body::Mercury, SPAN_S[0]).is_none());
+    assert!(carried.coarse_state(OnboardTarget::Mercury, START_S).is_none());
+    assert_eq!(carried.span_s(OnboardTarget::Venus, Body::Mercury), None);
+    assert!(carried.state_carried_on(OnboardTarget::Venus, Body::Mercury, SPAN_S[0]).is_none());
 }
 
 #[test]
@@ -118,22 +118,22 @@ fn positions_from_any_center_are_the_differences_of_those_given() {
     let given = |index: usize| carried.precise[index].motion.state(epoch_s).unwrap();
     let [sun_from_mercury, earth_from_sun, spacecraft] = [0, 1, 2].map(given);
     let from = |target, center| carried.state(target, center, epoch_s).unwrap();
-    assert_eq!(from(FlownTarget::Sun, Body::Mercury), sun_from_mercury);
-    assert_eq!(from(FlownTarget::Earth, Body::Sun), earth_from_sun);
-    assert_eq!(from(FlownTarget::Mercury, Body::Sun), negative(sun_from_mercury));
-    assert_eq!(from(FlownTarget::Spacecraft, Body::Mercury), spacecraft);
+    assert_eq!(from(OnboardTarget::Sun, Body::Mercury), sun_from_mercury);
+    assert_eq!(from(OnboardTarget::Earth, Body::Sun), earth_from_sun);
+    assert_eq!(from(OnboardTarget::Mercury, Body::Sun), negative(sun_from_mercury));
+    assert_eq!(from(OnboardTarget::Spacecraft, Body::Mercury), spacecraft);
     let earth_m = sun_from_mercury.position_m + earth_from_sun.position_m;
-    assert!((from(FlownTarget::Earth, Body::Mercury).position_m - earth_m).norm() < 1e-4);
+    assert!((from(OnboardTarget::Earth, Body::Mercury).position_m - earth_m).norm() < 1e-4);
     let back_m = spacecraft.position_m - earth_m;
-    assert!((from(FlownTarget::Spacecraft, Body::Earth).position_m - back_m).norm() < 1e-4);
-    assert_eq!(from(FlownTarget::Mercury, Body::Mercury), CartesianState::default());
+    assert!((from(OnboardTarget::Spacecraft, Body::Earth).position_m - back_m).norm() < 1e-4);
+    assert_eq!(from(OnboardTarget::Mercury, Body::Mercury), CartesianState::default());
 }
 
 #[test]
 fn a_file_is_read_back_to_the_bit() {
     let carried = mission();
     let text = to_toml(&carried);
-    assert_eq!(FlownEphemeris::from_toml("", &text).unwrap(), carried);
+    assert_eq!(OnboardEphemeris::from_toml("", &text).unwrap(), carried);
 }
 
 #[test]
@@ -253,15 +253,15 @@ mean_anomaly_rad = [0.0, 0.1, 0.0, 0.0, 0.0]
 
 #[test]
 fn the_small_file_is_right_and_a_straight_line() {
-    let carried = FlownEphemeris::from_toml("", SMALL).unwrap();
-    let state = carried.state(FlownTarget::Sun, Body::Mercury, 15.0).unwrap();
+    let carried = OnboardEphemeris::from_toml("", SMALL).unwrap();
+    let state = carried.state(OnboardTarget::Sun, Body::Mercury, 15.0).unwrap();
     // T_1 rises by 2 m over 10 s.
     assert_eq!(state.position_m, Vector3::new(5e10, 0.0, 0.0));
     assert_eq!(state.velocity_m_s, Vector3::new(0.2, 0.0, 0.0));
 }
 
 #[test]
-fn what_is_wrong_is_told_by_line_and_key() {
+fn what_is_wrong_is_reported_by_line_and_key() {
     let second = "{ start_s = 10.0, end_s = 20.0";
     for (old, new, said) in [
         (
@@ -295,13 +295,13 @@ fn what_is_wrong_is_told_by_line_and_key() {
     ] {
         assert!(SMALL.contains(old), "{old}");
         let error =
-            FlownEphemeris::from_toml("e.toml", &SMALL.replacen(old, new, 1)).unwrap_err().to_string();
+            OnboardEphemeris::from_toml("e.toml", &SMALL.replacen(old, new, 1)).unwrap_err().to_string();
         assert!(error.contains(said), "{new}: {error}");
     }
     let cut = SMALL.find("center = \"sun\"").unwrap() - 3;
-    let torn = FlownEphemeris::from_toml("e.toml", &SMALL[..cut]).unwrap_err().to_string();
+    let torn = OnboardEphemeris::from_toml("e.toml", &SMALL[..cut]).unwrap_err().to_string();
     assert!(torn.contains("e.toml:15") && torn.contains("not TOML"), "{torn}");
-    let empty = FlownEphemeris::from_toml("e.toml", "frame = \"EME2000\"").unwrap_err().to_string();
+    let empty = OnboardEphemeris::from_toml("e.toml", "frame = \"EME2000\"").unwrap_err().to_string();
     assert!(empty.contains("found no body"), "{empty}");
     let entry = &SMALL[SMALL.find("[[body]]").unwrap()..SMALL.find("[[coarse]]").unwrap()];
     for (other, said) in [
@@ -315,7 +315,7 @@ fn what_is_wrong_is_told_by_line_and_key() {
         ),
     ] {
         let error =
-            FlownEphemeris::from_toml("e.toml", &format!("{SMALL}\n{other}")).unwrap_err().to_string();
+            OnboardEphemeris::from_toml("e.toml", &format!("{SMALL}\n{other}")).unwrap_err().to_string();
         assert!(error.contains(said), "{error}");
     }
 }

@@ -2,11 +2,11 @@
 
 use core::fmt::Write;
 
-use super::ephemeris::FlownEphemeris;
-use super::target::FlownTarget;
+use super::ephemeris::OnboardEphemeris;
+use super::target::OnboardTarget;
 
 /// The file of an ephemeris.
-pub fn to_toml(ephemeris: &FlownEphemeris) -> String {
+pub fn to_toml(ephemeris: &OnboardEphemeris) -> String {
     let mut text = String::from("frame = \"EME2000\"\n");
     if let Some(source) = &ephemeris.source {
         let _ = writeln!(text, "source = {}", quoted(source));
@@ -18,7 +18,7 @@ pub fn to_toml(ephemeris: &FlownEphemeris) -> String {
             text,
             "\n[[body]]\nbody = \"{}\"\ncenter = \"{}\"",
             body.target,
-            FlownTarget::from(body.center)
+            OnboardTarget::from(body.center)
         );
         let _ = writeln!(text, "degree = {degree}");
         let _ = writeln!(text, "error_m = {:e}", body.error.position_m);
@@ -38,7 +38,7 @@ pub fn to_toml(ephemeris: &FlownEphemeris) -> String {
             text,
             "\n[[coarse]]\nbody = \"{}\"\ncenter = \"{}\"",
             body.target,
-            FlownTarget::from(body.center)
+            OnboardTarget::from(body.center)
         );
         let _ = writeln!(text, "start_s = {start_s:e}\nend_s = {end_s:e}");
         let _ = writeln!(text, "error_m = {:e}", body.error.position_m);

@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Vector3};
 use physics::bodies::Body;
 use physics::environment::CartesianState;
 use physics::environment::ephemeris::Ephemeris;
-use physics::environment::flown::{FitPlan, FittedBody, FlownEphemeris, FlownTarget, to_toml};
+use physics::environment::onboard::{FitPlan, FittedBody, OnboardEphemeris, OnboardTarget, to_toml};
 use physics::environment::time::MOMENTUM_STUDY_START_S;
 
 /// The file's name in the resources.
@@ -28,7 +28,7 @@ pub fn file(span_s: f64, turned_rad: f64) -> (String, f64) {
     let plan = FitPlan::new([START_S, START_S + span_s], 2.0 * 86_400.0);
     let mut ephemeris = Ephemeris::default();
     let mut precise = Vec::new();
-    for (target, body) in [(FlownTarget::Sun, Body::Sun), (FlownTarget::Earth, Body::Earth)] {
+    for (target, body) in [(OnboardTarget::Sun, Body::Sun), (OnboardTarget::Earth, Body::Earth)] {
         let angle_rad = if body == Body::Sun { turned_rad } else { 0.0 };
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), angle_rad);
         let state = |epoch_s: f64| {
@@ -43,5 +43,5 @@ pub fn file(span_s: f64, turned_rad: f64) -> (String, f64) {
         precise.push(FittedBody { target, center: Body::Mercury, motion, error });
     }
     let worst_m = precise.iter().map(|body| body.error.position_m).fold(0.0, f64::max);
-    (to_toml(&FlownEphemeris { source: None, precise, coarse: Vec::new() }), worst_m)
+    (to_toml(&OnboardEphemeris { source: None, precise, coarse: Vec::new() }), worst_m)
 }

@@ -10,7 +10,7 @@ use crate::bodies::Body;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "camelCase")]
-pub enum FlownTarget {
+pub enum OnboardTarget {
     /// The Sun.
     Sun,
     /// Mercury.
@@ -27,7 +27,7 @@ pub enum FlownTarget {
     Spacecraft,
 }
 
-impl FlownTarget {
+impl OnboardTarget {
     /// The body; `None` for the spacecraft.
     pub fn body(self) -> Option<Body> {
         Some(match self {
@@ -42,7 +42,7 @@ impl FlownTarget {
     }
 }
 
-impl From<Body> for FlownTarget {
+impl From<Body> for OnboardTarget {
     fn from(body: Body) -> Self {
         match body {
             Body::Sun => Self::Sun,
@@ -56,7 +56,7 @@ impl From<Body> for FlownTarget {
 }
 
 /// As it is written in the file.
-impl fmt::Display for FlownTarget {
+impl fmt::Display for OnboardTarget {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Sun => "sun",

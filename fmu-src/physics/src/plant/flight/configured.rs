@@ -6,7 +6,7 @@ use crate::attitude::{Attitude, BodyMotion, GyrostatMotion, MovingFrame};
 use crate::guidance::{Activity, Schedule, ScienceRule, Window};
 use crate::momentum::{DumpEvent, TorqueModel, Totals};
 
-use super::outlook::{Outlook, StartMomentum, SunPlanner};
+use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 use super::propagator_state::PropagatorState;
 use crate::plant::disturbances::evaluation::{External, Plant, PreparedSpacecraft, World};
 use crate::plant::settings::configuration::{AttitudeSource, Command, DynamicAttitude};
@@ -35,7 +35,7 @@ fn end_epoch_s(schedule: &Schedule, window: &Window, now_epoch_s: f64) -> f64 {
 
 /// What a step is given from outside.
 #[derive(Clone, Copy)]
-pub struct Given<'a> {
+pub struct StepContext<'a> {
     /// The spacecraft.
     pub prepared: PreparedSpacecraft<'a>,
     /// Force and torque from outside.
@@ -47,8 +47,8 @@ pub struct Given<'a> {
 }
 
 /// A flight in one step: everything that its loads follow from.
-pub(crate) struct Craft<'a> {
-    pub given: Given<'a>,
+pub(crate) struct ConfiguredFlight<'a> {
+    pub given: StepContext<'a>,
     pub world: &'a mut World,
     pub propagator: &'a mut PropagatorState,
     pub thrusters: &'a mut Thrusters,
@@ -56,7 +56,7 @@ pub(crate) struct Craft<'a> {
     pub log: &'a mut dyn FnMut(&DumpEvent),
 }
 
-impl Craft<'_> {
+impl ConfiguredFlight<'_> {
     /// Frame and rate that the orbit phase's own guidance commands where the flight begins; `None` without it.
     pub fn guided_start(&mut self, time_s: f64) -> Result<Option<MovingFrame>, PlantError> {
         self.world.begin_work(self.given.work_limit);
@@ -112,7 +112,7 @@ impl Craft<'_> {
                 self.world.work.spend(Cost::Search, SCIENCE_UNITS, evaluations, time_s)?;
             }
             let [applied, _] = (self.given.external)(time_s);
-            let mut outlook = Outlook {
+            let mut downlink_forecast = DownlinkForecast {
                 prepared: self.given.prepared,
                 world: self.world,
                 propagator: self.propagator,
@@ -129,7 +129,7 @@ impl Craft<'_> {
                 separations_rad,
                 science,
             };
-            self.given.planner.choose(&mut outlook)?
+            self.given.planner.choose(&mut downlink_forecast)?
         } else {
             None
         };

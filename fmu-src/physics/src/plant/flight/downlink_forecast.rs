@@ -66,15 +66,16 @@ pub struct ForecastMomentum {
 
 /// Who chooses the Sun's place; asked once a downlink or science that unloads, and again after a dump at its very beginning.
 pub trait SunPlanner {
-    /// The place, and whether limits keep the momentum from its target; no place where the default attitude is to be flown.
+    /// The place, and whether limits keep the momentum from its target; no place where the default attitude is to be simulated.
     ///
     /// # Errors
     /// What ends a flight.
-    fn choose(&self, outlook: &mut Outlook<'_>) -> Result<Option<ChosenPlace>, PlantError>;
+    fn choose(&self, downlink_forecast: &mut DownlinkForecast<'_>)
+    -> Result<Option<ChosenPlace>, PlantError>;
 }
 
 /// Where a downlink begins, or science that unloads.
-pub struct Outlook<'o> {
+pub struct DownlinkForecast<'o> {
     pub(crate) prepared: PreparedSpacecraft<'o>,
     pub(crate) world: &'o mut World,
     pub(crate) propagator: &'o PropagatorState,
@@ -100,7 +101,7 @@ pub struct Outlook<'o> {
     pub science: Option<ScienceCourse>,
 }
 
-impl Outlook<'_> {
+impl DownlinkForecast<'_> {
     fn sunlit(&self) -> SunlitCraft<'_> {
         let World { configuration, mass_at_zero, .. } = &*self.world;
         self.prepared.sunlit(configuration, mass_at_zero, self.time_s)
@@ -152,11 +153,11 @@ impl Outlook<'_> {
         let applied = [*applied, ExternalLoad::default()];
         let external = |_: f64| applied;
         let mut integrator = MomentumIntegrator::new(*time_s, *totals);
-        let mut flown = Ok(());
+        let mut simulated = Ok(());
         for at_s in times_s {
             let mut plant = Plant::new(self.prepared, world, &mut propagator, &external);
-            flown = integrator.advance(&mut plant, &settings, at_s, |_| {});
-            if flown.is_err() {
+            simulated = integrator.advance(&mut plant, &settings, at_s, |_| {});
+            if simulated.is_err() {
                 break;
             }
             let instant = plant.instant(at_s);
@@ -175,7 +176,7 @@ impl Outlook<'_> {
         let configuration = &mut world.configuration;
         configuration.attitude = attitude;
         (configuration.momentum, configuration.light_and_heat) = (momentum, light_and_heat);
-        flown
+        simulated
     }
 
     /// Which momentum the flight's convention watches.
