@@ -23,9 +23,10 @@ pub fn write(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
 
 /// Time, motion, light, loads.
 fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
-    let Report { time_s, configuration, evaluation, .. } = *report;
+    let Report { time_s, configuration, evaluation, .. } = report;
+    let time_s = *time_s;
     let variables = context.variables;
-    let Evaluation { instant, loads, mass, .. } = &evaluation;
+    let Evaluation { instant, loads, mass, .. } = evaluation;
     let rotation = &instant.frame.inertial_from_body;
     values.set_real(variables.epoch, time::epoch_at_s(time_s, configuration.epoch_minus_time_s));
     values.set_vector(variables.attitude.q, Attitude::from_rotation(rotation).quaternion(None));
