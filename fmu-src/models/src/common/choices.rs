@@ -3,7 +3,7 @@
 use fmi_export::Enumeration;
 use physics::bodies::{Body, surface};
 use physics::environment::eclipse::ShadowModel;
-use physics::guidance::modes::system;
+use physics::guidance::modes::guidance_command;
 use physics::momentum::Convention;
 use physics::spacecraft::{Panel, Spacecraft, SunshadeModel, ThrusterSet};
 
@@ -174,7 +174,7 @@ enumeration_of! {
 
 enumeration_of! {
     /// What a command gives.
-    CommandKind(system::CommandKind) {
+    CommandKind(guidance_command::CommandKind) {
         /// No command yet: the attitude is held.
         none = 0 => None,
         /// Attitude command.q and rate command.rate.

@@ -44,7 +44,7 @@ pub fn write(
     let sun = state.sun_angles_at(&attitude, time_s);
     values.set_real(v.sun.azimuth, sun.azimuth_rad);
     values.set_real(v.sun.elevation, sun.elevation_rad);
-    let judged = state.judgement();
+    let judged = state.status();
     values.set_real(v.mdis.angle, judged.mdis.angle_rad);
     values.set_boolean(v.mdis.in_range, judged.mdis.in_range);
     values.set_choice(v.antenna.select, AntennaSelect(judged.antenna));

@@ -4,13 +4,13 @@ use fmi_export::{Enumeration, Failure, InputsOverTime, Values};
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::bodies::Body;
-use physics::guidance::modes::system::CommandKind as Kind;
+use physics::guidance::modes::guidance_command::CommandKind as Kind;
 use physics::plant::{Changes, Command, DynamicsInputs, Flight, Thrusters};
 use physics::spacecraft::Spacecraft;
 use serde::{Deserialize, Serialize};
 
 use super::inputs::dynamics::guides_itself;
-use super::inputs::propulsion::{SaidOfThrusters, reaction_control};
+use super::inputs::propulsion::{ThrusterWarnings, reaction_control};
 use super::inputs::{is_given, panels_move};
 use super::setup::Plan;
 use super::variables::choices::{AttitudeSource, EphemerisSource, OrbitSource};
@@ -27,28 +27,35 @@ pub struct PlantState {
     pub waiting: bool,
     /// The command in effect.
     pub command: Command,
-    /// Whether the present command.error was turned out.
-    consumed: bool,
     /// Inputs and tunables at the last change.
     last: LastInputs,
-    /// When the orbit's position and velocity inputs last changed, in s.
-    pub orbit_since_s: f64,
     /// `dump.request` at the last step.
     pub request: Request,
-    /// Which warnings about thrusters were given.
-    pub said_of_thrusters: SaidOfThrusters,
-    /// Whether the warning was given which inputs are not set yet.
-    said_unset: bool,
+    /// Which warnings were given.
+    pub warned: Warned,
     /// Memory for what the inputs of a step say.
     #[serde(skip)]
     pub inputs: Option<DynamicsInputs>,
+}
+
+/// Warnings that are given once.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Warned {
+    /// About thrusters.
+    pub thrusters: ThrusterWarnings,
+    /// Which inputs are not set yet.
+    unset_inputs: bool,
 }
 
 /// What was set at the last change.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct LastInputs {
     command: CommandInputs,
+    /// Whether the attitude error of the command was applied.
+    error_is_applied: bool,
     orbit: [[f64; 3]; 2],
+    /// When they changed, in s.
+    orbit_since_s: f64,
     /// On which light and heat depend, beside command and orbit.
     light: Vec<f64>,
     /// Whether a panel's angle moved as an input.
@@ -103,25 +110,29 @@ impl PlantState {
             flight: Flight::waiting(Thrusters::new(reaction_control(context, values)?, start_s)),
             waiting: !unset_places(context, values).is_empty(),
             command: Command { attitude, rate_body_rad_s, since_s: start_s },
-            consumed: false,
             last: LastInputs {
                 command: CommandInputs::read(context, values),
+                error_is_applied: false,
                 orbit: orbit_inputs(context, values),
+                orbit_since_s: start_s,
                 light: light_inputs(context, values).collect(),
                 panels_moved: false,
                 tunables: tunables(context, values),
                 force: values.vector(context.variables.force.applied),
             },
-            orbit_since_s: start_s,
             request: Request::default(),
-            said_of_thrusters: SaidOfThrusters::default(),
-            said_unset: false,
+            warned: Warned::default(),
             inputs: None,
         };
         if is_commanded(context, values) {
             state.take_command(context, values, start_s)?;
         }
         Ok(state)
+    }
+
+    /// When the orbit's position and velocity inputs last changed, in s.
+    pub fn orbit_since_s(&self) -> f64 {
+        self.last.orbit_since_s
     }
 
     /// Takes over inputs and tunables that differ from the last ones.
@@ -134,10 +145,10 @@ impl PlantState {
     ) -> Result<Changes, Failure> {
         let command = CommandInputs::read(context, values);
         let before = core::mem::replace(&mut self.last.command, command);
-        let commanded =
-            is_commanded(context, values) && command.given(self.consumed) != before.given(self.consumed);
+        let commanded = is_commanded(context, values)
+            && command.given(self.last.error_is_applied) != before.given(self.last.error_is_applied);
         if command.kind != before.kind {
-            self.consumed = false;
+            self.last.error_is_applied = false;
         }
         if commanded {
             self.take_command(context, values, time_s)?;
@@ -146,7 +157,7 @@ impl PlantState {
         let orbit = orbit_inputs(context, values);
         let moved = core::mem::replace(&mut last.orbit, orbit) != orbit;
         if moved {
-            self.orbit_since_s = time_s;
+            last.orbit_since_s = time_s;
         }
         // Panels that move in this step or did in the last are elsewhere than was computed.
         let panels_move = panels_move(context, over_time);
@@ -180,8 +191,8 @@ impl PlantState {
         time_s: f64,
     ) -> Result<(), Failure> {
         self.command = Command { attitude, rate_body_rad_s: Vector3::from([0.0; 3]), since_s: time_s };
-        // What was turned out while there was no body to turn counts for nothing.
-        self.consumed = false;
+        // An error applied before there was a body to turn counts for nothing.
+        self.last.error_is_applied = false;
         if is_commanded(context, values) { self.take_command(context, values, time_s) } else { Ok(()) }
     }
 
@@ -195,10 +206,10 @@ impl PlantState {
         let (attitude, rate) = match values.choice(context.variables.command.kind).0 {
             Kind::None => (held, [0.0; 3]),
             Kind::RateOnly => (held, rate),
-            Kind::ErrorQuaternion if self.consumed => (held, rate),
+            Kind::ErrorQuaternion if self.last.error_is_applied => (held, rate),
             Kind::ErrorQuaternion if is_zero(&error) => (held, [0.0; 3]),
             Kind::ErrorQuaternion => {
-                self.consumed = estimate.is_none();
+                self.last.error_is_applied = estimate.is_none();
                 (held.then(&quaternion("command.error", error)?.inverse()), rate)
             }
             Kind::Attitude if is_zero(&q) => (held, [0.0; 3]),
@@ -208,9 +219,9 @@ impl PlantState {
         Ok(())
     }
 
-    /// Says once which inputs are not set yet, if any.
-    pub fn say_unset(&mut self, context: &Plan<'_>, values: &Values) {
-        if self.said_unset {
+    /// Warns once which inputs are not set yet, if any.
+    pub fn warn_unset_inputs(&mut self, context: &Plan<'_>, values: &Values) {
+        if self.warned.unset_inputs {
             return;
         }
         let mut unset = unset_places(context, values);
@@ -224,7 +235,7 @@ impl PlantState {
             match values.choice(context.variables.command.kind).0 {
                 Kind::None => unset.push("command.kind"),
                 Kind::Attitude if is_zero(q) => unset.push("command.q"),
-                Kind::ErrorQuaternion if !self.consumed && is_zero(error) => {
+                Kind::ErrorQuaternion if !self.last.error_is_applied && is_zero(error) => {
                     unset.push("command.error");
                 }
                 _ => {}
@@ -233,7 +244,7 @@ impl PlantState {
         if unset.is_empty() {
             return;
         }
-        self.said_unset = true;
+        self.warned.unset_inputs = true;
         let until = if self.waiting {
             "the attitude is held and nothing acts until then"
         } else {
@@ -285,13 +296,13 @@ impl CommandInputs {
         }
     }
 
-    /// With everything that the kind of command does not give left out; an error that was turned out gives no more.
-    fn given(self, consumed: bool) -> Self {
+    /// With everything that the kind of command does not give left out; an error that was applied gives no more.
+    fn given(self, error_is_applied: bool) -> Self {
         let (no_q, no_rate) = ([0.0; 4], [0.0; 3]);
         match CommandKind::from_value(self.kind).unwrap_or(CommandKind::FIRST).0 {
             Kind::None => Self { q: no_q, rate: no_rate, error: no_q, ..self },
             Kind::RateOnly => Self { q: no_q, error: no_q, ..self },
-            Kind::ErrorQuaternion if consumed => Self { q: no_q, error: no_q, ..self },
+            Kind::ErrorQuaternion if error_is_applied => Self { q: no_q, error: no_q, ..self },
             Kind::ErrorQuaternion => Self { q: no_q, ..self },
             Kind::Attitude => Self { error: no_q, ..self },
         }

@@ -48,7 +48,7 @@ pub fn begin(
     let undo = sampled?;
     show(context, values, state, held, time_s)?;
     state.flight.undo(undo);
-    propulsion::warn_unserved(context, values, &state.flight.thrusters, &mut state.said_of_thrusters, 0);
+    propulsion::warn_unserved(context, values, &state.flight.thrusters, &mut state.warned.thrusters, 0);
     Ok(())
 }
 
@@ -68,7 +68,7 @@ pub fn step(
         begin(context, values, state, step.start_s)?;
         changes = None;
     }
-    state.say_unset(context, values);
+    state.warn_unset_inputs(context, values);
     if state.waiting {
         return wait(context, values, state, step.end_s);
     }
@@ -79,7 +79,7 @@ pub fn step(
         apply(context, values, state, step, changes)?;
     }
     let mut inputs = dynamics::step_inputs(context, values, state.command, state.inputs.take());
-    propulsion::warn(context, &inputs, &state.flight.thrusters.settings, &mut state.said_of_thrusters, step);
+    propulsion::warn(context, &inputs, &state.flight.thrusters.settings, &mut state.warned.thrusters, step);
     if state.request.rises(values.boolean(context.variables.dump.request)) {
         inputs.dump_to_body_n_m_s = Some(Vector3::from(values.vector(context.variables.dump.target)));
     }
@@ -96,7 +96,7 @@ pub fn step(
         context,
         values,
         &state.flight.thrusters,
-        &mut state.said_of_thrusters,
+        &mut state.warned.thrusters,
         unserved,
     );
     Ok(())

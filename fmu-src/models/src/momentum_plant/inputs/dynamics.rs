@@ -7,7 +7,7 @@ use physics::attitude::control::{
     WheelAllocator,
 };
 use physics::attitude::{Attitude, Gyrostat, ReactionWheel};
-use physics::guidance::modes::system::CommandKind as Kind;
+use physics::guidance::modes::guidance_command::CommandKind as Kind;
 use physics::momentum::{Convention, WheelArray};
 use physics::plant::{
     Command, Configuration, Control, DynamicsInputs, DynamicsSettings, ExternalLoad, IdealSettings,

@@ -85,7 +85,7 @@ pub fn configuration(
         center: body,
         attitude: attitude(context, values, state, body, &orbit)?,
         orbit,
-        motion: motion(variables, values, &data, time::epoch_at_s(state.orbit_since_s, epoch_minus_time_s)),
+        motion: motion(variables, values, &data, time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s)),
         ephemeris: ephemeris_source(&center, context, values, state)?,
         light: variables.solar.read(values),
         shadow: variables.eclipse.read(values, data.radius_m, values.real(variables.sun.radius))?,
@@ -194,7 +194,7 @@ fn orbit(
         }
         source @ (OrbitSource::Inputs | OrbitSource::Held) => {
             let start = given_state(variables, values);
-            let epoch_s = time::epoch_at_s(state.orbit_since_s, epoch_minus_time_s);
+            let epoch_s = time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s);
             let found = TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_s);
             if source == OrbitSource::Held && found.is_err() {
                 // It counts the downlinks alone.

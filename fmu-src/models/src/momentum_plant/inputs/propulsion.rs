@@ -69,7 +69,7 @@ pub fn warn_unserved(
     context: &Plan<'_>,
     values: &Values,
     thrusters: &Thrusters,
-    said: &mut SaidOfThrusters,
+    said: &mut ThrusterWarnings,
     before: u32,
 ) {
     let center_of_mass_body_m = Vector3::from(values.vector(context.variables.center_of_mass));
@@ -102,7 +102,7 @@ pub fn warn(
     context: &Plan<'_>,
     inputs: &DynamicsInputs,
     settings: &ReactionControlSettings,
-    said: &mut SaidOfThrusters,
+    said: &mut ThrusterWarnings,
     step: &Step<'_>,
 ) {
     if !said.cut {
@@ -132,7 +132,7 @@ pub fn warn(
 
 /// Which warnings were given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct SaidOfThrusters {
+pub struct ThrusterWarnings {
     cut: bool,
     no_set: bool,
     unserved: bool,

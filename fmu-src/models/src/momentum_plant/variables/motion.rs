@@ -3,7 +3,7 @@
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
-use physics::guidance::modes::system;
+use physics::guidance::modes::guidance_command;
 
 use super::choices::{AttitudeSource, CommandSource, OrbitDynamics, OrbitFrame, OrbitSource};
 use super::defaults;
@@ -34,7 +34,7 @@ pub struct CommandVariables {
     pub source: Choice<CommandSource>,
     /// What the command gives. A command takes effect when any of the inputs it gives changes, and is propagated from then
     /// on. The attitude is held without rate while this is none, or while the quaternion it gives is all zero.
-    #[input(start = CommandKind(system::CommandKind::Attitude))]
+    #[input(start = CommandKind(guidance_command::CommandKind::Attitude))]
     pub kind: Choice<CommandKind>,
     /// Commanded attitude quaternion, scalar last, from EME2000 to the body frame; a norm of 0.1 to 10 is restored to 1.
     #[input(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]

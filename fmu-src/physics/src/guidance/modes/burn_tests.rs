@@ -225,7 +225,7 @@ fn no_thrust_without_direction_or_off_the_aim() {
     let none = BurnSettings { path: None, ..settings(Vector3::x()) };
     let (guidance, _) = under_way(&none, 20);
     assert_eq!(guidance.burn().stop_s(), None);
-    assert!(guidance.judgement().degenerate);
+    assert!(guidance.status().degenerate);
     // A keep-in zone that the burn's direction leaves no room in.
     let toward_sun = crate::guidance::geometry::moving::value(&surroundings().to_sun()).normalize() * 10.0;
     let burn = settings(toward_sun);
@@ -235,7 +235,7 @@ fn no_thrust_without_direction_or_off_the_aim() {
     for _ in 0..20 {
         guidance.sample(&all, &sample_inputs(Attitude::default(), Vector3::zeros()), &SunOnMinusY);
     }
-    assert!(guidance.judgement().sun_keep_in && !guidance.judgement().reachable);
+    assert!(guidance.status().sun_keep_in && !guidance.status().reachable);
     assert_eq!(guidance.burn().phase(), BurnPhase::Waiting { since_s: 0.0, refused: true });
 }
 

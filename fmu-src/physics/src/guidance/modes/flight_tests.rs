@@ -3,7 +3,8 @@
 use nalgebra::Vector3;
 
 use super::body_positions::BodyPositions;
-use super::system::{CommandStatus, GuidanceSettings, GuidanceState, SampleInputs};
+use super::guidance_command::CommandStatus;
+use super::system::{GuidanceSettings, GuidanceState, SampleInputs};
 use super::test_burn::{guidance_settings, sample_inputs, settings};
 use crate::attitude::{Attitude, SunAngles};
 use crate::constants::DEG_RAD;
@@ -97,7 +98,7 @@ fn fly(all: &GuidanceSettings<'_>, command: PointingCommand, places: &[Ephemeris
             ..sample_inputs(led_to, Vector3::zeros())
         };
         guidance.sample(all, &inputs, &SunOnMinusY);
-        simulated.flags.push(flags(guidance.judgement()));
+        simulated.flags.push(flags(guidance.status()));
         let now = guidance.command();
         let jump_rad = led_to.rotation_vector_to(&now.attitude_at(time_s)).norm();
         // What both rates explain, also where the rate changes much between two samples, is no jump.
@@ -264,7 +265,7 @@ fn a_downlink_of_the_orbit_phase_reaches_the_earth_beyond_a_right_angle_from_the
         guidance.sample(&all, &inputs, &SunOnMinusY);
         let earth = guidance.command().attitude_at(0.0).to_body(&value(&surroundings.to_earth()).normalize());
         assert!(earth.z.abs() < 1e-9);
-        assert!(guidance.judgement().reachable, "{day}");
+        assert!(guidance.status().reachable, "{day}");
         let is_near = value(&surroundings.to_sun()).dot(&value(&surroundings.to_earth())) > 0.0;
         if is_near { near += 1 } else { far += 1 }
     }

@@ -5,6 +5,7 @@ pub mod body_positions;
 pub(crate) mod burn_tests;
 #[cfg(test)]
 pub(crate) mod flight_tests;
+pub mod guidance_command;
 pub mod mode;
 pub mod monitor;
 pub mod system;

@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::body_positions::BodyPositions;
+use super::guidance_command::{CommandKind, CommandStatus, GuidanceCommand};
 use super::mode::Mode;
 use super::transitions::{ModeSettings, ModeState, Sensed, Steering};
 use crate::attitude::{Attitude, SunAngles};
@@ -25,7 +26,6 @@ use crate::guidance::orbit_phase::guided::Guided;
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
 use crate::guidance::orbit_phase::schedule::Activity;
 use crate::guidance::pointing::antenna::{Antenna, AntennaAzimuth, Beam};
-use crate::guidance::pointing::boresight::DeviceAngle;
 use crate::guidance::pointing::command::{
     BoresightOption, LimbCommand, PointingCommand, ScanCommand, Scenario,
 };
@@ -86,71 +86,11 @@ pub struct TimedEntries {
     pub mode: Option<usize>,
 }
 
-/// What a command gives.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum CommandKind {
-    /// Nothing was commanded yet: the start attitude is held.
-    #[default]
-    None,
-    /// Attitude and rate.
-    Attitude,
-    /// Error quaternion and rate.
-    ErrorQuaternion,
-    /// Rate alone.
-    RateOnly,
-}
-
-/// A command, propagated by its rate from its sample on.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct GuidanceCommand {
-    /// What it gives.
-    pub kind: CommandKind,
-    /// When it was computed, in s.
-    pub since_s: f64,
-    /// Attitude then; without [`CommandKind::Attitude`] the one held before.
-    attitude: Attitude,
-    /// Its quaternion with continuous sign.
-    quaternion: [f64; 4],
-    /// Body rate, in rad/s.
-    pub rate_body_rad_s: Vector3<f64>,
-    /// From the commanded to the actual body frame, scalar last (paper 001 eq 25).
-    pub error: [f64; 4],
-}
-
-/// What is said of a command.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CommandStatus {
-    /// The camera's angle, and whether it is the one requested.
-    pub mdis: DeviceAngle,
-    /// The antenna in use.
-    pub antenna: Antenna,
-    /// Where it looks, in rad.
-    pub antenna_azimuth_rad: f64,
-    /// Angle between Sun and Earth, in rad.
-    pub sun_separation_rad: f64,
-    /// Whether there is a link with the Earth.
-    pub link_available: bool,
-    /// Whether the boresight is on the aimpoint.
-    pub reachable: bool,
-    /// Whether a fallback stands in for a roll vector, or there is no direction at all.
-    pub degenerate: bool,
-    /// Whether a scan moves boresight or aim.
-    pub scan_active: bool,
-    /// Whether the keep-in zone changed the attitude.
-    pub sun_keep_in: bool,
-    /// Whether the hot-pole keep-out did.
-    pub hot_pole: bool,
-    /// Whether its cone is kept, in force or not.
-    pub hot_pole_reached: bool,
-    /// Whether something that was requested was clamped.
-    pub clamped: bool,
-}
-
 /// State of the sampled system.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GuidanceState {
     command: GuidanceCommand,
-    judgement: CommandStatus,
+    status: CommandStatus,
     /// From the spacecraft to the Sun and its rate, EME2000, and when; zero while it is not known.
     to_sun: [Vector3<f64>; 2],
     to_sun_since_s: f64,
@@ -183,15 +123,8 @@ impl GuidanceState {
     /// Before the first sample, which is due at `start_s`.
     pub fn new(attitude: Attitude, start_s: f64) -> Self {
         Self {
-            command: GuidanceCommand {
-                kind: CommandKind::None,
-                since_s: start_s,
-                attitude,
-                quaternion: attitude.quaternion(None),
-                rate_body_rad_s: Vector3::zeros(),
-                error: [0.0, 0.0, 0.0, 1.0],
-            },
-            judgement: CommandStatus::NOTHING,
+            command: GuidanceCommand::held(attitude, start_s),
+            status: CommandStatus::NOTHING,
             to_sun: [Vector3::zeros(); 2],
             to_sun_since_s: start_s,
             modes: ModeState::default(),
@@ -212,9 +145,9 @@ impl GuidanceState {
         &self.command
     }
 
-    /// What is said of it.
-    pub fn judgement(&self) -> &CommandStatus {
-        &self.judgement
+    /// Its status.
+    pub fn status(&self) -> &CommandStatus {
+        &self.status
     }
 
     /// The mode in force.
@@ -269,7 +202,7 @@ impl GuidanceState {
         if before.is_some_and(|to_sun| value(&to_sun).norm() > settings.keep_in_distance_m) {
             modes.operational.keep_in = None;
         }
-        modes.watches_hot_pole &= self.judgement.hot_pole_reached;
+        modes.watches_hot_pole &= self.status.hot_pole_reached;
         self.update_timers(&inputs.command, inputs.entries, time_s);
         self.burn.measure(
             &settings.burn,
@@ -292,10 +225,13 @@ impl GuidanceState {
                 if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
                     let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
                     is_asked = self.place_sun(settings, &command, surroundings, attitude, chooser);
-                    self.point(&SampleContext { settings, constraints, surroundings, time_s }, &command);
+                    self.compute_attitude(
+                        &SampleContext { settings, constraints, surroundings, time_s },
+                        &command,
+                    );
                     let is_law = self.law.is_some_and(|law| law.scenario == Some(Scenario::Burn));
                     if self.modes.mode == Mode::Operational {
-                        self.burn.begin(&settings.burn, time_s, is_law && self.judgement.reachable);
+                        self.burn.begin(&settings.burn, time_s, is_law && self.status.reachable);
                     }
                 }
             }
@@ -305,9 +241,9 @@ impl GuidanceState {
             Some(Steering::RateOnly(rate_body_rad_s)) => {
                 self.set_rate_command(CommandKind::RateOnly, [0.0, 0.0, 0.0, 1.0], rate_body_rad_s, time_s);
             }
-            None => self.judgement = CommandStatus { degenerate: true, ..CommandStatus::NOTHING },
+            None => self.status = CommandStatus { degenerate: true, ..CommandStatus::NOTHING },
         }
-        if !self.judgement.hot_pole {
+        if !self.status.hot_pole {
             self.hot_pole_turn = None;
         }
         if self.modes.mode != Mode::Operational {
@@ -392,9 +328,9 @@ impl GuidanceState {
         [Dual64::polar_angle(x, -y).eps, Dual64::polar_angle(-z, across).eps]
     }
 
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
-        self.command.attitude.is_rotation() && self.burn.is_valid() && self.downlink_sun.is_valid()
+        self.command.is_valid() && self.burn.is_valid() && self.downlink_sun.is_valid()
     }
 
     /// Whether a step could begin at `time_s`.
@@ -444,7 +380,7 @@ impl GuidanceState {
     }
 
     /// Computes an attitude; without a direction the last law stays that gave one.
-    fn point(&mut self, now: &SampleContext<'_>, command: &PointingCommand) {
+    fn compute_attitude(&mut self, now: &SampleContext<'_>, command: &PointingCommand) {
         let mut found = self.constrained(now, command);
         let is_given = found.is_some();
         if !is_given && let Some(law) = self.law.map(|law| self.modes.mode.allowed(&without_scans(&law))) {
@@ -453,23 +389,13 @@ impl GuidanceState {
             self.law = Some(*command);
         }
         let Some((aimed, constrained)) = found else {
-            self.judgement = CommandStatus { degenerate: true, ..CommandStatus::NOTHING };
+            self.status = CommandStatus { degenerate: true, ..CommandStatus::NOTHING };
             return;
         };
         let ConstrainedPointing { pointing, sun_keep_in, hot_pole: turn, hot_pole_reached } = constrained;
         let hot_pole = turn.is_some();
         self.hot_pole_turn = turn;
-        let frame = pointing.frame();
-        let attitude = Attitude::from_rotation(&frame.inertial_from_body);
-        let quaternion = attitude.quaternion(Some(self.command.quaternion_at(now.time_s)));
-        self.command = GuidanceCommand {
-            kind: CommandKind::Attitude,
-            since_s: now.time_s,
-            attitude,
-            quaternion,
-            rate_body_rad_s: frame.rate_body_rad_s,
-            error: [0.0, 0.0, 0.0, 1.0],
-        };
+        self.command = self.command.followed_by(&pointing.frame(), now.time_s);
         let earth_body = value(&pointing.to_body(&now.surroundings.to_earth()));
         let is_moved = sun_keep_in || hot_pole;
         let beam = aimed.antenna.map(|requested| match requested {
@@ -480,7 +406,7 @@ impl GuidanceState {
         let link = link(now.surroundings, &earth_body, beam.as_ref(), &now.settings.link);
         let mdis =
             aimed.camera(&pointing, &now.settings.hardware.mdis).unwrap_or(CommandStatus::NOTHING.mdis);
-        self.judgement = CommandStatus {
+        self.status = CommandStatus {
             mdis,
             antenna: beam.map_or(Antenna::None, |beam| beam.antenna),
             antenna_azimuth_rad: beam.map_or(0.0, |beam| beam.azimuth_rad),
@@ -555,55 +481,9 @@ impl GuidanceState {
         rate_body_rad_s: Vector3<f64>,
         time_s: f64,
     ) {
-        let attitude = self.command.attitude_at(time_s);
-        let quaternion = self.command.quaternion_of(&attitude);
-        self.command =
-            GuidanceCommand { kind, since_s: time_s, attitude, quaternion, rate_body_rad_s, error };
-        self.judgement = CommandStatus::NOTHING;
+        self.command = self.command.followed_by_rate(kind, error, rate_body_rad_s, time_s);
+        self.status = CommandStatus::NOTHING;
     }
-}
-
-impl GuidanceCommand {
-    /// Attitude at `time_s`.
-    pub fn attitude_at(&self, time_s: f64) -> Attitude {
-        self.attitude.propagated(self.rate_body_rad_s, time_s - self.since_s)
-    }
-
-    /// Its quaternion, scalar last, EME2000 to body; the sign goes on from sample to sample.
-    pub fn quaternion_at(&self, time_s: f64) -> [f64; 4] {
-        self.quaternion_of(&self.attitude_at(time_s))
-    }
-
-    /// The same of the attitude then.
-    pub fn quaternion_of(&self, attitude: &Attitude) -> [f64; 4] {
-        attitude.quaternion(Some(self.quaternion))
-    }
-
-    /// Its rate, in 1/s: half the product with the body rate.
-    pub fn quaternion_rate_at(&self, time_s: f64) -> [f64; 4] {
-        let [x, y, z, w] = self.quaternion_at(time_s);
-        let rate = self.rate_body_rad_s * 0.5;
-        let vector = rate * w + Vector3::new(x, y, z).cross(&rate);
-        [vector.x, vector.y, vector.z, -Vector3::new(x, y, z).dot(&rate)]
-    }
-}
-
-impl CommandStatus {
-    /// Of no attitude.
-    const NOTHING: Self = Self {
-        mdis: DeviceAngle { angle_rad: 0.0, in_range: true },
-        antenna: Antenna::None,
-        antenna_azimuth_rad: 0.0,
-        sun_separation_rad: 0.0,
-        link_available: false,
-        reachable: false,
-        degenerate: false,
-        scan_active: false,
-        sun_keep_in: false,
-        hot_pole: false,
-        hot_pole_reached: true,
-        clamped: false,
-    };
 }
 
 /// A command that goes on after its end: its scans do not.
