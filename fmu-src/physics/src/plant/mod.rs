@@ -23,13 +23,12 @@ mod settings;
 mod thrusters;
 
 pub use disturbances::evaluation::{Evaluation, External, ExternalLoad, Plant, PreparedSpacecraft, World};
-pub use flight::downlink_forecast::{DownlinkForecast, ForecastMomentum, StartMomentum, SunPlanner};
+pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 pub use flight::propagator_state::PropagatorState;
 pub use flight::report::{ControlReport, Report, Shown, WheelReport};
 pub use flight::sun_choice::SunChoice;
 pub use flight::wheel_control::{WheelControl, WheelControlSettings};
-pub use flight::{Changes, Flight, ModeSettings, Start, Undo};
-pub use flight::{StartMotion, StepContext};
+pub use flight::{Changes, Flight, ForecastMomentum, ModeSettings, Start, StartMotion, StepContext, Undo};
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;
 pub use light::sunlit::SunlitCraft;

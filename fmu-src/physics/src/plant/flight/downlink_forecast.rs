@@ -1,21 +1,17 @@
 //! What can be known where a downlink begins, or science that unloads: Sun and Earth, torque by the Sun's place, and momentum ahead.
 //!
-//! A forecast flies the same spacecraft on a copy of its state, guided ideally in default attitudes (the Sun on -Y in downlinks and in
-//! science that unloads), without dumps,
-//! what is applied from outside being held: nothing of the flight itself changes.
+//! A forecast is a fork of the flight in default attitudes (the Sun on -Y in downlinks and in science that unloads), without
+//! dumps, what is applied from outside being held.
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::Vector3;
 
+use super::fork::{ForecastMomentum, Fork};
 use super::propagator_state::PropagatorState;
 use crate::guidance::{ChosenPlace, Guided, ScienceCourse};
-use crate::momentum::{Convention, DumpPolicy, MomentumIntegrator, Totals};
-use crate::plant::disturbances::evaluation::{ExternalLoad, Plant, PreparedSpacecraft, World};
+use crate::momentum::{Convention, DumpPolicy, Totals};
+use crate::plant::disturbances::evaluation::{ExternalLoad, PreparedSpacecraft, World};
 use crate::plant::light::sunlit::SunlitCraft;
-use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
-
-/// Greatest last Chebyshev term of a forecast's totals, in N m s and m/s: far below any threshold.
-const FORECAST_TOLERANCE: f64 = 1e-6;
 
 /// Momentum where a downlink begins, in N m s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,27 +37,6 @@ impl StartMomentum {
             Self::Inertial(momentum) | Self::Body(momentum) => momentum.norm(),
         }
     }
-}
-
-/// Momentum at a time ahead.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ForecastMomentum {
-    /// When, in s.
-    pub time_s: f64,
-    /// Whether a downlink lasts then.
-    pub downlink: bool,
-    /// Unit vector to the Sun, EME2000.
-    pub to_sun: Vector3<f64>,
-    /// Unit vector to the Earth, EME2000; `None` where its place is not known.
-    pub to_earth: Option<Vector3<f64>>,
-    /// Pressure of sunlight, in Pa, without a shadow.
-    pub pressure_pa: f64,
-    /// By the flight's convention, body frame, in N m s.
-    pub momentum_body_n_m_s: Vector3<f64>,
-    /// The whole, EME2000, in N m s.
-    pub momentum_inertial_n_m_s: Vector3<f64>,
-    /// Components in the body frame of a vector in EME2000.
-    pub body_from_inertial: Rotation3<f64>,
 }
 
 /// Who chooses the Sun's place; asked once a downlink or science that unloads, and again after a dump at its very beginning.
@@ -133,50 +108,19 @@ impl DownlinkForecast<'_> {
     /// What ends a flight.
     pub fn forecast(
         &mut self,
-        times_s: impl Iterator<Item = f64>,
+        mut times_s: impl Iterator<Item = f64>,
         step_s: f64,
         mut visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), PlantError> {
-        let Self { world, law, totals, time_s, applied, .. } = self;
-        let configuration = &mut world.configuration;
-        let guided = Guided { managed: false, ..law.with_sun_places(None, None) };
-        let attitude = core::mem::replace(&mut configuration.attitude, AttitudeSource::Guided(guided));
-        let (momentum, light_and_heat) = (configuration.momentum, configuration.light_and_heat);
-        // Tolerances shorten what is too coarse.
-        configuration.momentum.grid_s = momentum.grid_s.max(step_s);
-        configuration.light_and_heat.grid_s = light_and_heat.grid_s.max(step_s);
-        configuration.momentum.tolerance = momentum.tolerance.max(FORECAST_TOLERANCE);
-        configuration.momentum.policy.threshold_body_n_m_s = Vector3::repeat(f64::INFINITY);
-        let settings = configuration.momentum;
-        let mut propagator = self.propagator.clone();
-        propagator.cut(configuration, *time_s, true);
-        let applied = [*applied, ExternalLoad::default()];
-        let external = |_: f64| applied;
-        let mut integrator = MomentumIntegrator::new(*time_s, *totals);
-        let mut simulated = Ok(());
-        for at_s in times_s {
-            let mut plant = Plant::new(self.prepared, world, &mut propagator, &external);
-            simulated = integrator.advance(&mut plant, &settings, at_s, |_| {});
-            if simulated.is_err() {
-                break;
-            }
-            let instant = plant.instant(at_s);
-            let (totals, inertial_from_body) = (integrator.totals(at_s), instant.frame.inertial_from_body);
-            visit(ForecastMomentum {
-                time_s: at_s,
-                downlink: instant.regime.downlink,
-                to_sun: instant.geometry.to_sun.position_m.normalize(),
-                to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
-                pressure_pa: plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m),
-                momentum_body_n_m_s: totals.momentum_body_n_m_s(settings.convention, &inertial_from_body),
-                momentum_inertial_n_m_s: totals.momentum_inertial_n_m_s,
-                body_from_inertial: inertial_from_body.inverse(),
-            });
-        }
-        let configuration = &mut world.configuration;
-        configuration.attitude = attitude;
-        (configuration.momentum, configuration.light_and_heat) = (momentum, light_and_heat);
-        simulated
+        let begin = (self.time_s, self.totals);
+        let held = [self.applied, ExternalLoad::default()];
+        let mut fork =
+            Fork::guided(self.prepared, self.world, self.propagator, &self.law, held, begin, step_s);
+        times_s.try_for_each(|at_s| {
+            fork.advance(at_s)?;
+            visit(fork.momentum_at(at_s));
+            Ok(())
+        })
     }
 
     /// Which momentum the flight's convention watches.

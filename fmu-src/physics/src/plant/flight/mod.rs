@@ -5,6 +5,7 @@
 mod configured;
 mod control_loop;
 mod dynamic;
+mod fork;
 mod ideal;
 mod momentum_dumps;
 mod sensing;
@@ -17,6 +18,7 @@ pub mod wheel_control;
 
 pub use configured::StepContext;
 pub use dynamic::StartMotion;
+pub use fork::ForecastMomentum;
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

@@ -1,0 +1,154 @@
+//! A command of the sampled guidance, propagated by its rate, and its status.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::attitude::{Attitude, MovingFrame};
+use crate::guidance::pointing::antenna::Antenna;
+use crate::guidance::pointing::boresight::DeviceAngle;
+
+/// What a command gives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum CommandKind {
+    /// Nothing was commanded yet: the start attitude is held.
+    #[default]
+    None,
+    /// Attitude and rate.
+    Attitude,
+    /// Error quaternion and rate.
+    ErrorQuaternion,
+    /// Rate alone.
+    RateOnly,
+}
+
+/// A command, propagated by its rate from its sample on.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GuidanceCommand {
+    /// What it gives.
+    pub kind: CommandKind,
+    /// When it was computed, in s.
+    pub since_s: f64,
+    /// Attitude then; without [`CommandKind::Attitude`] the one held before.
+    attitude: Attitude,
+    /// Its quaternion with continuous sign.
+    quaternion: [f64; 4],
+    /// Body rate, in rad/s.
+    pub rate_body_rad_s: Vector3<f64>,
+    /// From the commanded to the actual body frame, scalar last (paper 001 eq 25).
+    pub error: [f64; 4],
+}
+
+/// Status of a command.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CommandStatus {
+    /// The camera's angle, and whether it is the one requested.
+    pub mdis: DeviceAngle,
+    /// The antenna in use.
+    pub antenna: Antenna,
+    /// Where it looks, in rad.
+    pub antenna_azimuth_rad: f64,
+    /// Angle between Sun and Earth, in rad.
+    pub sun_separation_rad: f64,
+    /// Whether there is a link with the Earth.
+    pub link_available: bool,
+    /// Whether the boresight is on the aimpoint.
+    pub reachable: bool,
+    /// Whether a fallback stands in for a roll vector, or there is no direction at all.
+    pub degenerate: bool,
+    /// Whether a scan moves boresight or aim.
+    pub scan_active: bool,
+    /// Whether the keep-in zone changed the attitude.
+    pub sun_keep_in: bool,
+    /// Whether the hot-pole keep-out did.
+    pub hot_pole: bool,
+    /// Whether its cone is kept, in force or not.
+    pub hot_pole_reached: bool,
+    /// Whether something that was requested was clamped.
+    pub clamped: bool,
+}
+
+impl GuidanceCommand {
+    /// The attitude held from `since_s` on, before anything is commanded.
+    pub(super) fn held(attitude: Attitude, since_s: f64) -> Self {
+        Self {
+            kind: CommandKind::None,
+            since_s,
+            attitude,
+            quaternion: attitude.quaternion(None),
+            rate_body_rad_s: Vector3::zeros(),
+            error: [0.0, 0.0, 0.0, 1.0],
+        }
+    }
+
+    /// Whether decoded numbers are a rotation.
+    pub(super) fn is_valid(&self) -> bool {
+        self.attitude.is_rotation()
+    }
+
+    /// A command without an attitude of its own: the attitude reached at `time_s` is propagated by the rate.
+    pub(super) fn followed_by_rate(
+        &self,
+        kind: CommandKind,
+        error: [f64; 4],
+        rate_body_rad_s: Vector3<f64>,
+        time_s: f64,
+    ) -> Self {
+        let attitude = self.attitude_at(time_s);
+        let quaternion = self.quaternion_of(&attitude);
+        Self { kind, since_s: time_s, attitude, quaternion, rate_body_rad_s, error }
+    }
+
+    /// An attitude and rate at `time_s`, the quaternion's sign going on.
+    pub(super) fn followed_by(&self, frame: &MovingFrame, time_s: f64) -> Self {
+        let attitude = Attitude::from_rotation(&frame.inertial_from_body);
+        Self {
+            kind: CommandKind::Attitude,
+            since_s: time_s,
+            attitude,
+            quaternion: attitude.quaternion(Some(self.quaternion_at(time_s))),
+            rate_body_rad_s: frame.rate_body_rad_s,
+            error: [0.0, 0.0, 0.0, 1.0],
+        }
+    }
+
+    /// Attitude at `time_s`.
+    pub fn attitude_at(&self, time_s: f64) -> Attitude {
+        self.attitude.propagated(self.rate_body_rad_s, time_s - self.since_s)
+    }
+
+    /// Its quaternion, scalar last, EME2000 to body; the sign goes on from sample to sample.
+    pub fn quaternion_at(&self, time_s: f64) -> [f64; 4] {
+        self.quaternion_of(&self.attitude_at(time_s))
+    }
+
+    /// The same of the attitude then.
+    pub fn quaternion_of(&self, attitude: &Attitude) -> [f64; 4] {
+        attitude.quaternion(Some(self.quaternion))
+    }
+
+    /// Its rate, in 1/s: half the product with the body rate.
+    pub fn quaternion_rate_at(&self, time_s: f64) -> [f64; 4] {
+        let [x, y, z, w] = self.quaternion_at(time_s);
+        let rate = self.rate_body_rad_s * 0.5;
+        let vector = rate * w + Vector3::new(x, y, z).cross(&rate);
+        [vector.x, vector.y, vector.z, -Vector3::new(x, y, z).dot(&rate)]
+    }
+}
+
+impl CommandStatus {
+    /// Of no attitude.
+    pub(super) const NOTHING: Self = Self {
+        mdis: DeviceAngle { angle_rad: 0.0, in_range: true },
+        antenna: Antenna::None,
+        antenna_azimuth_rad: 0.0,
+        sun_separation_rad: 0.0,
+        link_available: false,
+        reachable: false,
+        degenerate: false,
+        scan_active: false,
+        sun_keep_in: false,
+        hot_pole: false,
+        hot_pole_reached: true,
+        clamped: false,
+    };
+}

@@ -1,0 +1,111 @@
+//! A fork of a flight: the same spacecraft simulated on from a copy of its state, guided ideally, nothing of the flight changing.
+
+use nalgebra::{Rotation3, Vector3};
+
+use super::propagator_state::PropagatorState;
+use crate::guidance::Guided;
+use crate::momentum::{MomentumIntegrator, Settings, Totals};
+use crate::plant::disturbances::evaluation::{ExternalLoad, Plant, PreparedSpacecraft, World};
+use crate::plant::settings::configuration::AttitudeSource;
+use crate::plant::settings::error::PlantError;
+use crate::plant::settings::radiation_settings::RadiationSettings;
+
+/// Greatest last Chebyshev term of a forecast's totals, in N m s and m/s: far below any threshold.
+const FORECAST_TOLERANCE: f64 = 1e-6;
+
+/// Momentum at a time ahead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForecastMomentum {
+    /// When, in s.
+    pub time_s: f64,
+    /// Whether a downlink lasts then.
+    pub downlink: bool,
+    /// Unit vector to the Sun, EME2000.
+    pub to_sun: Vector3<f64>,
+    /// Unit vector to the Earth, EME2000; `None` where its place is not known.
+    pub to_earth: Option<Vector3<f64>>,
+    /// Pressure of sunlight, in Pa, without a shadow.
+    pub pressure_pa: f64,
+    /// By the flight's convention, body frame, in N m s.
+    pub momentum_body_n_m_s: Vector3<f64>,
+    /// The whole, EME2000, in N m s.
+    pub momentum_inertial_n_m_s: Vector3<f64>,
+    /// Components in the body frame of a vector in EME2000.
+    pub body_from_inertial: Rotation3<f64>,
+}
+
+/// A fork. It borrows the configuration, which it changes for itself and restores when it is dropped: a step allocates nothing.
+pub(crate) struct Fork<'f> {
+    prepared: PreparedSpacecraft<'f>,
+    world: &'f mut World,
+    propagator: PropagatorState,
+    integrator: MomentumIntegrator,
+    /// Applied from outside, with its rate.
+    applied: [ExternalLoad; 2],
+    flight: (AttitudeSource, Settings, RadiationSettings),
+}
+
+impl<'f> Fork<'f> {
+    /// Begins at a time in s with these totals, in default attitudes of the law and without dumps, evaluated about every `step_s`;
+    /// tolerances shorten what is too coarse.
+    pub fn guided(
+        prepared: PreparedSpacecraft<'f>,
+        world: &'f mut World,
+        propagator: &PropagatorState,
+        law: &Guided,
+        applied: [ExternalLoad; 2],
+        (time_s, totals): (f64, Totals),
+        step_s: f64,
+    ) -> Self {
+        let configuration = &mut world.configuration;
+        let law = Guided { managed: false, ..law.with_sun_places(None, None) };
+        let attitude = core::mem::replace(&mut configuration.attitude, AttitudeSource::Guided(law));
+        let flight = (attitude, configuration.momentum, configuration.light_and_heat);
+        configuration.momentum.grid_s = configuration.momentum.grid_s.max(step_s);
+        configuration.light_and_heat.grid_s = configuration.light_and_heat.grid_s.max(step_s);
+        configuration.momentum.tolerance = configuration.momentum.tolerance.max(FORECAST_TOLERANCE);
+        configuration.momentum.policy.threshold_body_n_m_s = Vector3::repeat(f64::INFINITY);
+        let mut propagator = propagator.clone();
+        propagator.cut(configuration, time_s, true);
+        let integrator = MomentumIntegrator::new(time_s, totals);
+        Self { prepared, world, propagator, integrator, applied, flight }
+    }
+
+    /// Advances until everything is known at `time_s`.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub fn advance(&mut self, time_s: f64) -> Result<(), PlantError> {
+        let settings = self.world.configuration.momentum;
+        let external = |_: f64| self.applied;
+        let mut plant = Plant::new(self.prepared, self.world, &mut self.propagator, &external);
+        self.integrator.advance(&mut plant, &settings, time_s, |_| {})
+    }
+
+    /// Momentum and geometry at `time_s`, where the fork has come.
+    pub fn momentum_at(&mut self, time_s: f64) -> ForecastMomentum {
+        let external = |_: f64| self.applied;
+        let mut plant = Plant::new(self.prepared, self.world, &mut self.propagator, &external);
+        let instant = plant.instant(time_s);
+        let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
+        let convention = plant.kinematics.configuration.momentum.convention;
+        let (totals, inertial_from_body) = (self.integrator.totals(time_s), instant.frame.inertial_from_body);
+        ForecastMomentum {
+            time_s,
+            downlink: instant.regime.downlink,
+            to_sun: instant.geometry.to_sun.position_m.normalize(),
+            to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
+            pressure_pa,
+            momentum_body_n_m_s: totals.momentum_body_n_m_s(convention, &inertial_from_body),
+            momentum_inertial_n_m_s: totals.momentum_inertial_n_m_s,
+            body_from_inertial: inertial_from_body.inverse(),
+        }
+    }
+}
+
+impl Drop for Fork<'_> {
+    fn drop(&mut self) {
+        let configuration = &mut self.world.configuration;
+        (configuration.attitude, configuration.momentum, configuration.light_and_heat) = self.flight;
+    }
+}
