@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (name, model) in
         [("8_plates_2_panels", SunshadeModel::Plates), ("cylinder_2_panels", SunshadeModel::Cylinder)]
     {
-        let model = SolarModel::with_sunshade_model(&messenger, model)?;
+        let model = SolarModel::new(&messenger, Some(model))?;
         report(&format!("solar_{name}"), 10, |i| total::<f64>(&model, i));
         report(&format!("solar_{name}_dual"), 10, |i| total::<Dual64>(&model, i));
     }
@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         });
     }
     for plates in [10, 65, 100, 1000, 10_000] {
-        let model = SolarModel::new(&hedgehog(plates)?);
+        let model = SolarModel::new(&hedgehog(plates)?, None)?;
         report(&format!("solar_{plates}_plates"), plates, |i| total::<f64>(&model, i));
     }
     Ok(())
@@ -48,9 +48,7 @@ fn sun(i: usize) -> Vector3<f64> {
 
 fn total<T: Scalar>(model: &SolarModel, i: usize) -> f64 {
     let beam = Beam { source_body: constant_vector::<T>(&sun(i)), pressure_pa: T::constant(5e-5) };
-    let angles = [T::constant(1.1); 2];
-    let panels = angles.get(..model.panel_count()).unwrap_or_default();
-    let result = model.total(&beam, panels, &Vector3::zeros());
+    let result = model.load(&beam, |_| Some(T::constant(1.1)), &Vector3::zeros());
     result.torque_body_n_m.x.value() + result.force_body_n.y.value()
 }
 

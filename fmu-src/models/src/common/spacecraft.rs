@@ -32,7 +32,7 @@ pub struct PreparedShapes {
 impl PreparedShapes {
     /// Of one spacecraft.
     pub fn of(spacecraft: &Spacecraft) -> Self {
-        let prepared = |model| SolarModel::with_sunshade_model(spacecraft, model).ok();
+        let prepared = |model| SolarModel::new(spacecraft, Some(model)).ok();
         Self { plates: prepared(SunshadeModel::Plates), cylinder: prepared(SunshadeModel::Cylinder) }
     }
 

@@ -1,7 +1,7 @@
 //! Motion of a body with reaction wheels and modal coordinates, as a Taylor series in time that is exact to rounding within a segment.
 //!
-//! Equations: dH/dt = T in inertial components, T with jet damping ([`super::mass_flow`]); in the body dm/dt = T - w x m,
-//! m = A(q) H; (J + J' t) w = m less the rotors' share; dq/dt = q w / 2; for every rotor
+//! Equations: dH/dt = T in inertial components, T with jet damping ([`super::mass_flow`]); in the body those of
+//! [`super::series`], with m = A(q) H and (J + J' t) w = m less the rotors' share; for every rotor
 //! that turns dp/dt = u - f ([`super::wheel`]); flexible modes and propellant ([`super::oscillator`]); w from m and all p
 //! ([`super::gyrostat`]). Rotors out of balance add force and torque ([`super::imbalance`]).
 //! Method: all of it is quadratic, so the coefficients follow from one another by Cauchy products. The total momentum is a
@@ -24,14 +24,12 @@ use super::internal_motion::InternalMotion;
 use super::oscillator::OscillatorMotion;
 use super::quaternion::Quaternion;
 use super::rotor_motion::RotorMotion;
-use super::series::{ORDER, TERMS, polynomial};
+use super::series::{ORDER, ROUNDING, RotationSeries, TERMS, exact_length_s, polynomial, slope};
 use super::wheel::{Motor, Rotor};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::quadrature::GAUSS_3;
 
-/// Terms below this share of the whole are rounding.
-const ROUNDING: f64 = 1e-17;
-/// The same of cosine and sine of a rotor's phase, which act on the body through a small imbalance alone.
+/// [`ROUNDING`] of cosine and sine of a rotor's phase, which act on the body through a small imbalance alone.
 const PHASE_ROUNDING: f64 = 1e-14;
 /// How often each rotor may be set free or held at one time until all agree.
 const ROUNDS_A_ROTOR: usize = 3;
@@ -41,10 +39,7 @@ const ROUNDS_A_ROTOR: usize = 3;
 pub struct GyrostatMotion {
     start_s: f64,
     end_s: f64,
-    order: usize,
-    attitude: [[f64; 4]; TERMS],
-    rate: [Vector3<f64>; TERMS],
-    momentum_body: [Vector3<f64>; TERMS],
+    series: RotationSeries<TERMS>,
     rotors: Vec<RotorMotion>,
     oscillators: Vec<OscillatorMotion>,
     imbalances: Vec<ImbalanceMotion>,
@@ -67,10 +62,7 @@ impl GyrostatMotion {
         let mut motion = Self {
             start_s: time_s,
             end_s: time_s,
-            order: 0,
-            attitude: [[0.0; 4]; TERMS],
-            rate: [Vector3::zeros(); TERMS],
-            momentum_body: [Vector3::zeros(); TERMS],
+            series: RotationSeries::new(attitude, *rate_body_rad_s, momentum_body),
             rotors: Vec::with_capacity(gyrostat.wheels().len()),
             oscillators: vec![OscillatorMotion::at_rest(); gyrostat.oscillator_count()],
             imbalances: Vec::with_capacity(gyrostat.appendages().imbalances.len()),
@@ -79,8 +71,6 @@ impl GyrostatMotion {
             momentum_inertial_n_m_s: attitude.inertial_from_body(&momentum_body),
             delta_v_inertial_m_s: Vector3::zeros(),
         };
-        motion.attitude[0] = attitude.0;
-        motion.rate[0] = *rate_body_rad_s;
         motion.rotors.extend(gyrostat.wheels().iter().enumerate().map(|(k, wheel)| {
             let held_n_m_s = rotors_n_m_s(k);
             let mut axial = [0.0; TERMS];
@@ -99,20 +89,16 @@ impl GyrostatMotion {
     /// Whether its numbers can come from a flight of a body with so many wheels and modal coordinates; bytes from elsewhere may hold anything.
     pub fn is_valid(&self, wheels: usize, oscillators: usize) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
-        let vectors = self.rate.iter().chain(&self.momentum_body);
         let totals = [&self.momentum_inertial_n_m_s, &self.delta_v_inertial_m_s];
-        let norm: f64 = self.attitude[0].iter().map(|x| x * x).sum();
         self.rotors.len() == wheels
             && self.oscillators.len() == oscillators
             && self.imbalances.len() <= wheels
             && self.oscillators.iter().all(OscillatorMotion::is_valid)
             && self.imbalances.iter().all(ImbalanceMotion::is_valid)
-            && self.order < TERMS
+            && self.series.is_valid()
             && [self.start_s, self.end_s].iter().all(sound)
             && self.start_s <= self.end_s
-            && (norm - 1.0).abs() < 1e-9
-            && self.attitude.iter().flatten().all(sound)
-            && vectors.chain(totals).flatten_all().all(sound)
+            && totals.into_iter().flatten_all().all(sound)
             && self.inverse_inertia.iter().all(sound)
             && self.load.is_valid()
             && self.rotors.iter().all(RotorMotion::is_valid)
@@ -122,7 +108,7 @@ impl GyrostatMotion {
     pub fn add_hinges(&mut self, internal: Option<InternalMotion>) {
         if let Some(internal) = &internal {
             let added_body = internal.momentum_after(0.0);
-            self.momentum_inertial_n_m_s += Quaternion(self.attitude[0]).inertial_from_body(&added_body);
+            self.momentum_inertial_n_m_s += self.attitude_after(0.0).inertial_from_body(&added_body);
         }
         self.load.internal = internal;
     }
@@ -133,18 +119,18 @@ impl GyrostatMotion {
         let elapsed_s = self.end_s - self.start_s;
         [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s] = self.totals_after(elapsed_s);
         for it in &mut self.rotors {
-            it.axial[0] = polynomial(&it.axial[..=self.order], elapsed_s);
+            it.axial[0] = polynomial(&it.axial[..=self.series.order], elapsed_s);
         }
         for it in &mut self.oscillators {
-            it.stand(self.order, elapsed_s);
+            it.stand(self.series.order, elapsed_s);
         }
         for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
-            it.begin(imbalance, gyrostat.center_of_mass_body_m(), self.order, elapsed_s);
+            it.begin(imbalance, gyrostat.center_of_mass_body_m(), self.series.order, elapsed_s);
         }
         self.load.mass_kg = self.load.mass_after_kg(elapsed_s);
         self.load.internal = internal;
-        self.attitude[0] = attitude.0;
-        (self.start_s, self.order) = (self.end_s, 0);
+        (self.start_s, self.series.order) = (self.end_s, 0);
+        self.series.attitude[0] = attitude.0.into();
         self.set_inverse_inertia(gyrostat);
     }
 
@@ -181,10 +167,10 @@ impl GyrostatMotion {
         let momentum_body = attitude.body_from_inertial(&momentum_inertial_n_m_s);
         let rest = momentum_body
             - gyrostat.along_axes(|k| match self.rotors[k].rotor {
-                Rotor::Turning { .. } => polynomial(&self.rotors[k].axial[..=self.order], elapsed_s),
+                Rotor::Turning { .. } => polynomial(&self.rotors[k].axial[..=self.series.order], elapsed_s),
                 Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
             });
-        let swinging = self.oscillators.iter().map(|it| it.carried_after(self.order, elapsed_s));
+        let swinging = self.oscillators.iter().map(|it| it.carried_after(self.series.order, elapsed_s));
         let rest = swinging.fold(rest, |rest, carried| rest - carried);
         let rest = self.load.internal.iter().fold(rest, |rest, it| rest - it.momentum_after(elapsed_s));
         BodyMotion {
@@ -232,7 +218,7 @@ impl GyrostatMotion {
         match it.rotor {
             Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
             Rotor::Turning { .. } => {
-                let axial = polynomial(&it.axial[..=self.order], time_s - self.start_s);
+                let axial = polynomial(&it.axial[..=self.series.order], time_s - self.start_s);
                 axial - wheel.carried_n_m_s(&motion.rate_body_rad_s)
             }
         }
@@ -245,10 +231,7 @@ impl GyrostatMotion {
         match self.rotors[k].rotor {
             _ if motor.failed || wheel.locked => 0.0,
             Rotor::Held { momentum_n_m_s } if wheel.is_saturated(momentum_n_m_s) => {
-                let terms = self.rate[..=self.order].iter().enumerate().skip(1).rev();
-                let elapsed_s = time_s - self.start_s;
-                let acceleration =
-                    terms.fold(Vector3::zeros(), |sum, (j, rate)| sum * elapsed_s + rate * j as f64);
+                let acceleration = slope(&self.series.rate[..=self.series.order], time_s - self.start_s);
                 wheel.carried_n_m_s(&acceleration) + wheel.friction_n_m(momentum_n_m_s)
             }
             Rotor::Held { .. } | Rotor::Turning { .. } => motor.torque_n_m,
@@ -258,7 +241,7 @@ impl GyrostatMotion {
     /// Displacement in sqrt(kg) m and speed in sqrt(kg) m/s of modal coordinate `k` (0-based) at `time_s`, where the body moves
     /// like this.
     pub fn oscillator(&self, k: usize, time_s: f64, motion: &BodyMotion) -> [f64; 2] {
-        self.oscillators[k].after(self.order, time_s - self.start_s, &motion.rate_body_rad_s)
+        self.oscillators[k].after(self.series.order, time_s - self.start_s, &motion.rate_body_rad_s)
     }
 
     /// Torque about the centre of mass in N m and force in N by rotors out of balance and by what swings under the load, body
@@ -270,11 +253,14 @@ impl GyrostatMotion {
         for (it, imbalance) in unbalanced {
             let held_n_m_s = self.rotor_n_m_s(gyrostat, imbalance.wheel, time_s, motion);
             let speed_rad_s = gyrostat.wheels()[imbalance.wheel].speed_rad_s(held_n_m_s);
-            let load = it.at_speed(self.order, elapsed_s, speed_rad_s);
+            let load = it.at_speed(self.series.order, elapsed_s, speed_rad_s);
             sum.iter_mut().zip(load).for_each(|(sum, it)| *sum += it);
         }
-        sum[0] +=
-            self.oscillators.iter().map(|it| it.torque_after(self.order, elapsed_s)).sum::<Vector3<f64>>();
+        sum[0] += self
+            .oscillators
+            .iter()
+            .map(|it| it.torque_after(self.series.order, elapsed_s))
+            .sum::<Vector3<f64>>();
         sum
     }
 
@@ -297,11 +283,11 @@ impl GyrostatMotion {
         }
         let elapsed_s = start_s - self.start_s;
         for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
-            it.begin(imbalance, gyrostat.center_of_mass_body_m(), self.order, elapsed_s);
+            it.begin(imbalance, gyrostat.center_of_mass_body_m(), self.series.order, elapsed_s);
         }
         if !self.oscillators.is_empty() {
             let acceleration = load.acceleration_body_m_s2();
-            let order = self.order;
+            let order = self.series.order;
             for (it, oscillator) in
                 self.oscillators.iter_mut().zip(gyrostat.oscillators(load.mass_kg, &acceleration))
             {
@@ -312,8 +298,8 @@ impl GyrostatMotion {
         (self.start_s, self.load) = (start_s, *load);
         self.momentum_inertial_n_m_s = motion.momentum_inertial_n_m_s;
         self.delta_v_inertial_m_s = motion.delta_v_inertial_m_s;
-        self.attitude[0] = motion.attitude.0;
-        self.momentum_body[0] = motion.attitude.body_from_inertial(&motion.momentum_inertial_n_m_s);
+        self.series.attitude[0] = motion.attitude.0.into();
+        self.series.momentum[0] = motion.attitude.body_from_inertial(&motion.momentum_inertial_n_m_s);
         let longest_s = limit_s - start_s;
         self.build(gyrostat, motors, longest_s);
         // One rotor after another, as each that is set free or held changes what drives the others.
@@ -333,79 +319,59 @@ impl GyrostatMotion {
         self.set_inverse_inertia(gyrostat);
         let scale = self.momentum_scale_n_m_s(gyrostat);
         let (mut power, mut small) = (1.0, 0);
-        self.order = 0;
+        self.series.order = 0;
         loop {
-            let j = self.order;
-            self.rate[j] = self.rate_term(gyrostat, j);
+            let j = self.series.order;
+            self.series.rate[j] = self.rate_term(gyrostat, j);
             if j == ORDER || small == 2 {
                 break;
             }
             power *= longest_s;
-            let divisor = (j + 1) as f64;
-            let mut momentum_rate = self.load.torque_body_n_m.get(j).copied().unwrap_or_default();
+            let rates = &self.series.rate;
+            let mut torque = self.load.torque_body_n_m.get(j).copied().unwrap_or_default();
             if let Some(flow) = &self.load.mass_flow {
-                momentum_rate += flow.jet_term(&self.rate, j);
+                torque += flow.jet_term(rates, j);
             }
             for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
                 let wheel = &gyrostat.wheels()[imbalance.wheel];
                 let relative = match &self.rotors[imbalance.wheel] {
                     RotorMotion { rotor: Rotor::Held { momentum_n_m_s }, .. } if j == 0 => *momentum_n_m_s,
                     RotorMotion { rotor: Rotor::Held { .. }, .. } => 0.0,
-                    RotorMotion { axial, .. } => axial[j] - wheel.carried_n_m_s(&self.rate[j]),
+                    RotorMotion { axial, .. } => axial[j] - wheel.carried_n_m_s(&rates[j]),
                 };
-                momentum_rate += it.extend(j, wheel.speed_rad_s(relative));
+                torque += it.extend(j, wheel.speed_rad_s(relative));
             }
             for it in &mut self.oscillators {
-                momentum_rate += it.torque_term(j);
-                it.extend(j, &self.rate[j]);
+                torque += it.torque_term(j);
+                it.extend(j, &rates[j]);
             }
-            let mut attitude_rate = [0.0; 4];
-            for i in 0..=j {
-                let rate = &self.rate[j - i];
-                momentum_rate += self.momentum_body[i].cross(rate);
-                let [x, y, z, w] = self.attitude[i];
-                attitude_rate[0] += w * rate.x + y * rate.z - z * rate.y;
-                attitude_rate[1] += w * rate.y + z * rate.x - x * rate.z;
-                attitude_rate[2] += w * rate.z + x * rate.y - y * rate.x;
-                attitude_rate[3] -= x * rate.x + y * rate.y + z * rate.z;
-            }
-            self.momentum_body[j + 1] = momentum_rate / divisor;
-            self.attitude[j + 1] = attitude_rate.map(|x| 0.5 * x / divisor);
-            let mut axial_largest = 0.0_f64;
-            let rates = &self.rate;
             for ((it, wheel), motor) in self.rotors.iter_mut().zip(gyrostat.wheels()).zip(motors) {
                 let Rotor::Turning { direction } = it.rotor else { continue };
                 let relative = it.axial[j] - wheel.carried_n_m_s(&rates[j]);
                 let constant =
                     if j == 0 { motor.torque_n_m - wheel.coulomb_friction_n_m * direction } else { 0.0 };
-                it.axial[j + 1] = (constant - wheel.viscous_rate_1_s() * relative) / divisor;
-                axial_largest = axial_largest.max(it.axial[j + 1].abs());
+                it.axial[j + 1] = (constant - wheel.viscous_rate_1_s() * relative) / (j + 1) as f64;
             }
-            let attitude_largest = self.attitude[j + 1].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            let momentum_largest =
-                self.momentum_body[j + 1].amax().max(axial_largest).max(self.swing_n_m_s(gyrostat, j + 1));
-            let is_small = attitude_largest * power < ROUNDING
-                && momentum_largest * power < ROUNDING * scale
-                && self.phase(j + 1) * power < PHASE_ROUNDING;
-            small = if is_small { small + 1 } else { 0 };
-            self.order += 1;
+            self.series.extend(torque);
+            small = if self.size(gyrostat, scale, j + 1) * power < ROUNDING { small + 1 } else { 0 };
         }
     }
 
     /// Coefficient of the rate from those of momentum and rotors.
     fn rate_term(&self, gyrostat: &Gyrostat, j: usize) -> Vector3<f64> {
         let wheels = gyrostat.wheels().iter().zip(&self.rotors);
-        let rest = wheels.fold(self.momentum_body[j], |rest, (wheel, it)| match it.rotor {
+        let rest = wheels.fold(self.series.momentum[j], |rest, (wheel, it)| match it.rotor {
             Rotor::Turning { .. } => rest - wheel.axis_body * it.axial[j],
             Rotor::Held { momentum_n_m_s } if j == 0 => rest - wheel.axis_body * momentum_n_m_s,
             Rotor::Held { .. } => rest,
         });
         let rest = self.oscillators.iter().fold(rest, |rest, it| rest - it.carried_term(j));
         let rest = match &self.load.mass_flow {
-            Some(flow) if j > 0 => rest - flow.inertia_rate_kg_m2_s * self.rate[j - 1],
+            Some(flow) if j > 0 => rest - flow.inertia_rate_kg_m2_s * self.series.rate[j - 1],
             _ => rest,
         };
-        let rest = self.load.internal.iter().fold(rest, |rest, it| rest - it.carried_term(&self.rate, j));
+        let rest =
+            self.load.internal.iter().fold(rest, |rest, it| rest - it.carried_term(&self.series.rate, j));
         self.inverse_inertia * rest
     }
 
@@ -422,36 +388,32 @@ impl GyrostatMotion {
         most * gyrostat.inertia_body_kg_m2().trace().sqrt()
     }
 
-    /// Greatest coefficient `j` of the phases of rotors out of balance.
-    fn phase(&self, j: usize) -> f64 {
-        self.imbalances.iter().map(|it| it.size(j)).fold(0.0, f64::max)
+    /// Greatest coefficient `j` relative to the whole.
+    fn size(&self, gyrostat: &Gyrostat, scale_n_m_s: f64, j: usize) -> f64 {
+        let turning = self.rotors.iter().filter(|it| matches!(it.rotor, Rotor::Turning { .. }));
+        let axial = turning.map(|it| it.axial[j].abs()).fold(0.0, f64::max);
+        let momentum = self.series.momentum[j].amax().max(axial).max(self.swing_n_m_s(gyrostat, j));
+        let phase = self.imbalances.iter().map(|it| it.size(j)).fold(0.0, f64::max);
+        self.series.attitude[j].amax().max(momentum / scale_n_m_s).max(phase * (ROUNDING / PHASE_ROUNDING))
     }
 
     /// What momenta are compared with, in N m s.
     fn momentum_scale_n_m_s(&self, gyrostat: &Gyrostat) -> f64 {
         let rotors = self.rotors.iter().map(|it| it.axial[0].abs()).fold(0.0, f64::max);
         // Of a body at rest every change counts.
-        self.momentum_body[0].amax().max(rotors).max(self.swing_n_m_s(gyrostat, 0)).max(1e-6)
+        self.series.momentum[0].amax().max(rotors).max(self.swing_n_m_s(gyrostat, 0)).max(1e-6)
     }
 
     /// How long the series is exact to rounding, at most `longest_s`, in s.
     fn converged_s(&self, gyrostat: &Gyrostat, longest_s: f64) -> f64 {
-        if self.order < ORDER {
+        if self.series.order < ORDER {
             return longest_s;
         }
-        let scale = self.momentum_scale_n_m_s(gyrostat);
-        let mut shortest_s = longest_s;
-        for j in [ORDER - 1, ORDER] {
-            let attitude = self.attitude[j].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            let axial = self.rotors.iter().map(|it| it.axial[j].abs()).fold(0.0, f64::max);
-            let momentum = self.momentum_body[j].amax().max(axial).max(self.swing_n_m_s(gyrostat, j));
-            let phase = self.phase(j) * (ROUNDING / PHASE_ROUNDING);
-            let share = attitude.max(momentum / scale).max(phase);
-            if share * shortest_s.powi(j as i32) > ROUNDING {
-                shortest_s = (ROUNDING / share).powf(1.0 / j as f64);
-            }
-        }
-        shortest_s
+        let scale_n_m_s = self.momentum_scale_n_m_s(gyrostat);
+        exact_length_s(
+            longest_s,
+            [ORDER - 1, ORDER].map(|j| (j, self.size(gyrostat, scale_n_m_s, j))).into_iter(),
+        )
     }
 
     #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
@@ -461,7 +423,7 @@ impl GyrostatMotion {
         let mut worst: Option<(usize, f64, Rotor)> = None;
         for k in 0..self.rotors.len() {
             let (wheel, motor, it) = (&gyrostat.wheels()[k], &motors[k], &self.rotors[k]);
-            let found = it.change_at_start(wheel, motor, &self.rate[..=self.order]);
+            let found = it.change_at_start(wheel, motor, &self.series.rate[..=self.series.order]);
             if let Some((excess, rotor)) = found
                 && worst.is_none_or(|(_, most, _)| excess > most)
             {
@@ -479,7 +441,7 @@ impl GyrostatMotion {
         let mut first: Option<(usize, f64, Rotor)> = None;
         for k in 0..self.rotors.len() {
             let until_s = first.map_or(longest_s, |(_, at_s, _)| at_s);
-            let rate = &self.rate[..=self.order];
+            let rate = &self.series.rate[..=self.series.order];
             if let Some((at_s, rotor)) =
                 self.rotors[k].event(&gyrostat.wheels()[k], &motors[k], rate, until_s)
             {
@@ -503,18 +465,11 @@ impl GyrostatMotion {
     }
 
     fn rate_after(&self, elapsed_s: f64) -> Vector3<f64> {
-        let terms = self.rate[..=self.order].iter().rev();
-        terms.fold(Vector3::zeros(), |sum, term| sum * elapsed_s + term)
+        polynomial(&self.series.rate[..=self.series.order], elapsed_s)
     }
 
     fn attitude_after(&self, elapsed_s: f64) -> Quaternion {
-        let mut sum = self.attitude[self.order];
-        for terms in self.attitude[..self.order].iter().rev() {
-            for (x, term) in sum.iter_mut().zip(terms) {
-                *x = *x * elapsed_s + term;
-            }
-        }
-        Quaternion(sum).normalized()
+        self.series.attitude_after(elapsed_s)
     }
 
     /// Torque and acceleration by the load, rotors out of balance and what swings under the acceleration, body frame.
@@ -524,12 +479,12 @@ impl GyrostatMotion {
             torque += flow.jet_torque_n_m(elapsed_s, &self.rate_after(elapsed_s));
         }
         for it in &self.imbalances {
-            let [imbalance, force] = it.after(self.order, elapsed_s);
+            let [imbalance, force] = it.after(self.series.order, elapsed_s);
             torque += imbalance;
             acceleration += force / self.load.mass_after_kg(elapsed_s);
         }
         for it in &self.oscillators {
-            torque += it.torque_after(self.order, elapsed_s);
+            torque += it.torque_after(self.series.order, elapsed_s);
         }
         [torque, acceleration]
     }

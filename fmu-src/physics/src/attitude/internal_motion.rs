@@ -11,7 +11,7 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::series::TERMS;
+use super::series::{TERMS, polynomial};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// A mass that turns on a hinge.
@@ -147,14 +147,12 @@ impl InternalMotion {
 
     /// Momentum relative to the body after `elapsed_s`, in N m s.
     pub(super) fn momentum_after(&self, elapsed_s: f64) -> Vector3<f64> {
-        let terms = self.momentum.iter().rev();
-        terms.fold(Vector3::zeros(), |sum, term| sum * elapsed_s + term)
+        polynomial(&self.momentum, elapsed_s)
     }
 
     /// By how much the inertia is another after `elapsed_s`, in kg m2.
     pub(super) fn inertia_change_after(&self, elapsed_s: f64) -> Matrix3<f64> {
-        let terms = self.inertia[1..].iter().rev();
-        terms.fold(Matrix3::zeros(), |sum, term| sum * elapsed_s + term) * elapsed_s
+        polynomial(&self.inertia[1..], elapsed_s) * elapsed_s
     }
 
     pub(super) fn is_valid(&self) -> bool {

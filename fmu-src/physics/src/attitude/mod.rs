@@ -21,7 +21,7 @@ mod quaternion;
 mod rigid_body;
 mod rotation;
 mod rotor_motion;
-mod series;
+pub(crate) mod series;
 mod slosh;
 mod wheel;
 

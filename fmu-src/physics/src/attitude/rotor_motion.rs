@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::series::{TERMS, polynomial};
+use super::series::{TERMS, polynomial, slope};
 use super::wheel::{Motor, ReactionWheel, Rotor};
 use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
 
@@ -153,11 +153,6 @@ fn held_back(
         return Some((backward_n_m, Rotor::Held { momentum_n_m_s: 0.0 }));
     }
     None
-}
-
-fn slope(terms: &[f64], at: f64) -> f64 {
-    let terms = terms.iter().enumerate().skip(1).rev();
-    terms.fold(0.0, |sum, (j, term)| sum * at + term * j as f64)
 }
 
 /// `sign * terms + constant`.

@@ -142,15 +142,6 @@ impl<const D: usize, const N: usize> Segment<D, N> {
         }
         Segment { center: self.center, half_length: self.half_length, coefficients }
     }
-
-    /// The scalar function `direction . f + offset` on the same interval: a component, a projection, a threshold.
-    pub fn project(&self, direction: &SVector<f64, D>, offset: f64) -> Segment<1, N> {
-        let mut coefficients = direction.transpose() * self.coefficients;
-        if N > 0 {
-            coefficients[0] += offset;
-        }
-        Segment { center: self.center, half_length: self.half_length, coefficients }
-    }
 }
 
 impl<const N: usize> Segment<1, N> {

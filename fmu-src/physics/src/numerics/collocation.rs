@@ -17,7 +17,10 @@ use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{chebyshev::Segment, quadrature::Rule};
+use super::{
+    chebyshev::Segment,
+    quadrature::{Rule, lagrange},
+};
 
 /// Why a segment could not be integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -69,12 +72,7 @@ impl<const S: usize, const M: usize> Collocation<S, M> {
         const { assert!(M == S + 1 && S > 0, "dense output has one coefficient more than there are nodes") }
         let rule = Rule::<S>::gauss_legendre();
         // Each Lagrange basis polynomial of the nodes, integrated from -1.
-        let basis = Segment::<S, S>::fit(-1.0, 1.0, |x| {
-            SVector::from_fn(|i, _| {
-                let others = rule.nodes.iter().enumerate().filter(|(j, _)| *j != i);
-                others.map(|(_, node)| (x - node) / (rule.nodes[i] - node)).product()
-            })
-        });
+        let basis = Segment::<S, S>::fit(-1.0, 1.0, |x| SVector::from(lagrange(&rule.nodes, x)));
         let integral: Segment<S, M> = basis.integral(SVector::zeros());
         let mut to_node = SMatrix::<f64, S, S>::zeros();
         for (i, &node) in rule.nodes.iter().enumerate() {

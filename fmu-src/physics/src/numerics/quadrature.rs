@@ -1,20 +1,46 @@
-//! Gauss-Legendre and Gauss-Lobatto quadrature of any size, nodes computed to the last bits.
+//! Gauss-Legendre quadrature of any size, nodes computed to the last bits, and polynomials through nodes.
 //!
 //! Equation: int f(x) dx over [-1, 1] = sum of w_j f(x_j).
-//! Method: the nodes are roots of Legendre's polynomial P_n (or of P'_(n-1) and the ends), by Newton's iteration from
-//! Tricomi's estimate; the weights follow from the polynomial or its derivative there.
-//! Order: exact for polynomials of degree 2 n - 1 (2 n - 3 with the ends).
+//! Method: the nodes are roots of Legendre's polynomial P_n, by Newton's iteration from Tricomi's estimate; the weights follow
+//! from its derivative there.
+//! Order: exact for polynomials of degree 2 n - 1.
 //! Error measure: below 4e-16 for a node or weight, up to 64 points.
-//! Reference: Davis and Rabinowitz, Methods of Numerical Integration, 2.7; Abramowitz and Stegun 25.4.29 and 25.4.32.
+//! Reference: Davis and Rabinowitz, Methods of Numerical Integration, 2.7; Abramowitz and Stegun 25.4.29.
 
 use core::f64::consts::PI;
 
-/// Nodes and weights of Gauss-Legendre quadrature of order 6 on [0, 1].
-pub const GAUSS_3: [(f64, f64); 3] = [
-    (0.112_701_665_379_258_31, 0.277_777_777_777_777_8),
-    (0.5, 0.444_444_444_444_444_4),
-    (0.887_298_334_620_741_7, 0.277_777_777_777_777_8),
-];
+/// Nodes and weights of Gauss-Legendre quadrature of order 4 on [0, 1].
+pub const GAUSS_2: [(f64, f64); 2] = {
+    let [first, last] = pair(1.0 / 3.0);
+    [(first, 0.5), (last, 0.5)]
+};
+
+/// The same of order 6.
+pub const GAUSS_3: [(f64, f64); 3] = {
+    let [first, last] = pair(0.6);
+    [(first, 5.0 / 18.0), (0.5, 8.0 / 18.0), (last, 5.0 / 18.0)]
+};
+
+/// The numbers on [0, 1] whose places on [-1, 1] have this square.
+const fn pair(square: f64) -> [f64; 2] {
+    // Newton's iteration for the square root.
+    let (mut root, mut round) = (1.0, 0);
+    while round < 8 {
+        root = 0.5 * (root + square / root);
+        round += 1;
+    }
+    // (1 - root) / 2 without cancellation.
+    let first = (1.0 - square) / (2.0 * (1.0 + root));
+    [first, 1.0 - first]
+}
+
+/// Shares of values at different `nodes` in the value at `at` of the polynomial through them: Lagrange's polynomials.
+pub fn lagrange<const N: usize>(nodes: &[f64; N], at: f64) -> [f64; N] {
+    core::array::from_fn(|j| {
+        let others = nodes.iter().enumerate().filter(|(k, _)| *k != j);
+        others.map(|(_, node)| (at - node) / (nodes[j] - node)).product()
+    })
+}
 
 /// An `N`-point rule on `[-1, 1]`, nodes rising.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,14 +56,6 @@ impl<const N: usize> Rule<N> {
     pub fn gauss_legendre() -> Self {
         let mut rule = Self { nodes: [0.0; N], weights: [0.0; N] };
         gauss_legendre(&mut rule.nodes, &mut rule.weights);
-        rule
-    }
-
-    /// Gauss-Lobatto (both ends are nodes), exact up to degree `2N - 3`; needs `N >= 2`.
-    pub fn gauss_lobatto() -> Self {
-        const { assert!(N >= 2, "Gauss-Lobatto has both ends as nodes") }
-        let mut rule = Self { nodes: [0.0; N], weights: [0.0; N] };
-        gauss_lobatto(&mut rule.nodes, &mut rule.weights);
         rule
     }
 
@@ -74,48 +92,9 @@ pub fn gauss_legendre(nodes: &mut [f64], weights: &mut [f64]) {
         }
         let (_, derivative) = legendre(n, x);
         let weight = 2.0 / ((1.0 - x * x) * derivative * derivative);
-        set_pair(nodes, weights, i, n, x, weight);
+        (nodes[i], nodes[n - 1 - i]) = (x, -x);
+        (weights[i], weights[n - 1 - i]) = (weight, weight);
     }
-}
-
-/// Fills `nodes` (rising, both ends included) and `weights` with the Gauss-Lobatto rule on `[-1, 1]`; fewer than two
-/// points leave the slices as they are.
-///
-/// Newton's method on `(1 - x^2) P'(x)` of degree `n - 1`; error below 4e-16 up to 64 points.
-pub fn gauss_lobatto(nodes: &mut [f64], weights: &mut [f64]) {
-    let n = nodes.len().min(weights.len());
-    if n < 2 {
-        return;
-    }
-    let degree = n - 1;
-    let scale = (degree * n) as f64;
-    for i in 0..n.div_ceil(2) {
-        let mut x = -(PI * i as f64 / degree as f64).cos();
-        if i > 0 {
-            for _ in 0..50 {
-                let (p, derivative) = legendre(degree, x);
-                // (1 - x^2) P'' = 2 x P' - n (n + 1) P: Newton on P'.
-                let second = (2.0 * x * derivative - scale * p) / (1.0 - x * x);
-                let change = derivative / second;
-                x -= change;
-                if change.abs() < 1e-16 {
-                    break;
-                }
-            }
-        }
-        if 2 * i + 1 == n {
-            x = 0.0;
-        }
-        let (p, _) = legendre(degree, x);
-        set_pair(nodes, weights, i, n, x, 2.0 / (scale * p * p));
-    }
-}
-
-fn set_pair(nodes: &mut [f64], weights: &mut [f64], i: usize, n: usize, x: f64, weight: f64) {
-    nodes[i] = x;
-    nodes[n - 1 - i] = -x;
-    weights[i] = weight;
-    weights[n - 1 - i] = weight;
 }
 
 /// The Legendre polynomial of degree `n` and its derivative at `|x| < 1` (the derivative at the ends is not finite).
@@ -152,26 +131,20 @@ mod tests {
             if n < 12 {
                 assert!(monomial_error(&nodes, &weights, 2 * n) > 1e-8);
             }
-            if n >= 2 {
-                gauss_lobatto(&mut nodes, &mut weights);
-                assert!(nodes[0] == -1.0 && nodes[n - 1] == 1.0 && nodes.windows(2).all(|w| w[0] < w[1]));
-                for power in 0..2 * n - 2 {
-                    assert!(monomial_error(&nodes, &weights, power) < 3e-15, "Lobatto n {n} power {power}");
-                }
-            }
         }
     }
 
     #[test]
     fn closed_forms() {
-        // Two points at 1/sqrt 3; Lobatto's five at sqrt(3/7) with weights 1/10, 49/90, 32/45.
+        // Two points at 1/sqrt 3, three at sqrt(3/5) with weights 5/9 and 8/9.
         let two = Rule::<2>::gauss_legendre();
         assert!((two.nodes[1] - 1.0 / 3.0_f64.sqrt()).abs() < 2e-16 && (two.weights[0] - 1.0).abs() < 4e-16);
-        let five = Rule::<5>::gauss_lobatto();
-        assert!((five.nodes[3] - (3.0_f64 / 7.0).sqrt()).abs() < 3e-16);
-        assert!(
-            (five.weights[1] - 49.0 / 90.0).abs() < 4e-16 && (five.weights[2] - 32.0 / 45.0).abs() < 4e-16
-        );
+        let three = Rule::<3>::gauss_legendre();
+        assert!((three.nodes[2] - 0.6_f64.sqrt()).abs() < 3e-16);
+        assert!((three.weights[0] - 5.0 / 9.0).abs() < 4e-16 && (three.weights[1] - 8.0 / 9.0).abs() < 4e-16);
+        let same = |(a, b): (&(f64, f64), (f64, f64))| (a.0 - b.0).abs() < 2e-16 && (a.1 - b.1).abs() < 2e-16;
+        assert!(GAUSS_2.iter().zip(two.on(0.0, 1.0)).all(same));
+        assert!(GAUSS_3.iter().zip(three.on(0.0, 1.0)).all(same));
     }
 
     #[test]

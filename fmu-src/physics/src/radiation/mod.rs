@@ -7,6 +7,7 @@
 pub mod cylinder;
 pub mod disturbance;
 pub mod effect;
+mod faces;
 pub mod flat_plate;
 pub mod force_torque;
 pub mod grid;
@@ -27,8 +28,9 @@ mod polynomial_tests;
 mod solar_tests;
 
 pub use effect::{Effect, Loads};
+pub use faces::NoSuchSunshade;
 pub use flat_plate::Beam;
 pub use force_torque::ForceTorque;
 pub use planet_light::PlanetLight;
 pub use polynomial::{TorquePolynomial, polynomial_valid};
-pub use solar::{NoSuchSunshade, SolarModel};
+pub use solar::SolarModel;

@@ -11,8 +11,8 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::cylinder::{Lit, lit};
+use super::faces::NoSuchSunshade;
 use super::flat_plate::Beam;
-use super::solar::NoSuchSunshade;
 use crate::numerics::scalar::Scalar;
 use crate::spacecraft::{Cylinder, Optics, Plate, Sunshade, SunshadeModel};
 

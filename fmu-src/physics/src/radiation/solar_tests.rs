@@ -62,7 +62,17 @@ fn beam(source_body: Vector3<f64>) -> Beam<f64> {
 
 fn models(spacecraft: &Spacecraft) -> [SolarModel; 2] {
     [SunshadeModel::Plates, SunshadeModel::Cylinder]
-        .map(|model| SolarModel::with_sunshade_model(spacecraft, model).unwrap())
+        .map(|model| SolarModel::new(spacecraft, Some(model)).unwrap())
+}
+
+/// With both panels at these angles.
+fn load<T: Scalar>(
+    model: &SolarModel,
+    beam: &Beam<T>,
+    angles_rad: [T; 2],
+    center_of_mass_body_m: &Vector3<T>,
+) -> ForceTorque<T> {
+    model.load(beam, |k| Some(angles_rad[k]), center_of_mass_body_m)
 }
 
 fn assert_close(found: &ForceTorque<f64>, expected: &ForceTorque<f64>, tolerance: f64) {
@@ -112,10 +122,10 @@ fn a_black_box_is_pushed_by_the_light_its_shadow_lacks() {
             }
         })
         .collect();
-    let model = SolarModel::new(&spacecraft);
+    let model = SolarModel::new(&spacecraft, None).unwrap();
     for sun in [direction(0.3, 0.2), direction(-2.0, -0.9), direction(1.6, 0.0)] {
         let shadow = sun.x.abs() * 6.0 + sun.y.abs() * 3.0 + sun.z.abs() * 2.0;
-        let found = model.total(&beam(sun), &[], &Vector3::zeros());
+        let found = model.load(&beam(sun), |_| None, &Vector3::zeros());
         assert_relative_eq!(found.force_body_n, -sun * shadow, epsilon = 1e-14);
         // By symmetry about its middle a uniform box feels no torque there.
         assert_relative_eq!(found.torque_body_n_m, Vector3::zeros(), epsilon = 1e-14);
@@ -124,10 +134,13 @@ fn a_black_box_is_pushed_by_the_light_its_shadow_lacks() {
 
 #[test]
 fn a_panel_facing_the_sun_is_a_plate() {
-    let spacecraft = messenger();
-    let model = SolarModel::new(&spacecraft);
+    let spacecraft = Spacecraft { sunshade: None, ..messenger() };
+    let model = SolarModel::new(&spacecraft, None).unwrap();
     let center_of_mass = Vector3::new(0.1, 0.2, -0.3);
-    let found = model.panel(0, &beam(-Vector3::y()), 0.0, &center_of_mass);
+    let at = |panel: usize, angle_rad: f64| {
+        model.load(&beam(-Vector3::y()), |k| (k == panel).then_some(angle_rad), &center_of_mass)
+    };
+    let found = at(0, 0.0);
     // P A (1 + C_s + 2/3 C_d) along +Y, 2.18 m outboard and 0.3 m above.
     let force = 2.5 * (1.0 + 0.52 + 2.0 / 3.0 * 0.07);
     assert_relative_eq!(found.force_body_n, Vector3::y() * force, epsilon = 1e-14);
@@ -137,17 +150,17 @@ fn a_panel_facing_the_sun_is_a_plate() {
         epsilon = 1e-14
     );
     // Its back is declared to receive no light.
-    assert_eq!(model.panel(0, &beam(-Vector3::y()), PI, &center_of_mass), ForceTorque::zero());
-    assert_eq!(model.panel(2, &beam(-Vector3::y()), 0.0, &center_of_mass), ForceTorque::zero());
+    assert_eq!(at(0, PI), ForceTorque::zero());
+    assert_eq!(at(2, 0.0), ForceTorque::zero());
 }
 
 #[test]
 fn torque_goes_to_nothing_as_a_plate_goes_dark() {
-    let model = SolarModel::new(&crooked());
+    let model = SolarModel::new(&crooked(), None).unwrap();
     // The side plates go dark at azimuth +-45 deg, the front at +-90.
     for edge_deg in [-90.0, -47.0, 45.0, 90.0, 135.0_f64] {
         let at = |angle: f64| {
-            model.total(&beam(Vector3::new(angle.sin(), -angle.cos(), 0.0)), &[0.2, 0.4], &Vector3::zeros())
+            load(&model, &beam(Vector3::new(angle.sin(), -angle.cos(), 0.0)), [0.2, 0.4], &Vector3::zeros())
         };
         let step = 1e-9;
         let (before, after) = (at(edge_deg.to_radians() - step), at(edge_deg.to_radians() + step));
@@ -159,10 +172,10 @@ fn torque_goes_to_nothing_as_a_plate_goes_dark() {
 fn a_sunshade_in_a_form_the_file_does_not_give_is_refused() {
     let mut spacecraft = messenger();
     spacecraft.sunshade.as_mut().unwrap().cylinder = None;
-    let error = SolarModel::with_sunshade_model(&spacecraft, SunshadeModel::Cylinder).unwrap_err();
+    let error = SolarModel::new(&spacecraft, Some(SunshadeModel::Cylinder)).unwrap_err();
     assert!(error.to_string().contains("Cylinder"));
     spacecraft.sunshade = None;
-    assert!(SolarModel::with_sunshade_model(&spacecraft, SunshadeModel::Cylinder).is_ok());
+    assert!(SolarModel::new(&spacecraft, Some(SunshadeModel::Cylinder)).is_ok());
 }
 
 /// Derivatives with respect to Sun direction, panel angle and centre of mass at once.
@@ -170,7 +183,7 @@ fn along_seed<T: Scalar>(model: &SolarModel, sun: &Vector3<f64>, seed: T) -> For
     let turned = constant_vector::<T>(sun) + Vector3::new(seed * 0.3, seed * -0.2, seed * 0.1);
     let beam = Beam { source_body: turned / turned.norm(), pressure_pa: seed * 0.5 + 1.0 };
     let center_of_mass = Vector3::new(seed * 0.1, T::constant(0.2), seed * -0.7);
-    model.total(&beam, &[seed + 0.3, seed * -2.0 + 0.1], &center_of_mass)
+    load(model, &beam, [seed + 0.3, seed * -2.0 + 0.1], &center_of_mass)
 }
 
 proptest! {
@@ -181,15 +194,15 @@ proptest! {
         let expected = face_by_face(&spacecraft.plates_body(SunshadeModel::Plates), &beam);
         let [model, _] = models(&spacecraft);
         let origin = Vector3::zeros();
-        assert_close(&(model.sunshade(&beam, &origin) + model.body(&beam, &origin)), &expected, 1e-14);
+        assert_close(&model.load(&beam, |_| None, &origin), &expected, 1e-14);
     }
 
     #[test]
     fn a_mirrored_sun_mirrors_the_force(a in -PI..PI, z in -1.0..1.0_f64) {
         for model in models(&messenger()) {
             let sun = direction(a, z);
-            let shade = model.sunshade(&beam(sun), &Vector3::zeros());
-            let mirrored = model.sunshade(&beam(Vector3::new(-sun.x, sun.y, sun.z)), &Vector3::zeros());
+            let on_shade = |sun| model.load(&beam(sun), |_| None, &Vector3::zeros());
+            let (shade, mirrored) = (on_shade(sun), on_shade(Vector3::new(-sun.x, sun.y, sun.z)));
             let (f, t) = (shade.force_body_n, shade.torque_body_n_m);
             let expected = ForceTorque {
                 force_body_n: Vector3::new(-f.x, f.y, f.z),
@@ -207,8 +220,8 @@ proptest! {
         let rotation = Rotation3::from_euler_angles(turn[0], turn[1], turn[2]).into_inner();
         let center_of_mass = Vector3::new(0.3, -0.1, 0.2);
         for (model, turned) in models(&spacecraft).iter().zip(&models(&rotate(&spacecraft, &rotation))) {
-            let still = model.total(&beam(direction(a, z)), &[0.3, -1.0], &center_of_mass);
-            let moved = turned.total(&beam(rotation * direction(a, z)), &[0.3, -1.0], &(rotation * center_of_mass));
+            let still = load(model, &beam(direction(a, z)), [0.3, -1.0], &center_of_mass);
+            let moved = load(turned, &beam(rotation * direction(a, z)), [0.3, -1.0], &(rotation * center_of_mass));
             let expected = ForceTorque {
                 force_body_n: rotation * still.force_body_n,
                 torque_body_n_m: rotation * still.torque_body_n_m,
@@ -224,8 +237,8 @@ proptest! {
         for model in models(&crooked()) {
             let beam = beam(direction(a, z));
             let center_of_mass = Vector3::from(c);
-            let at_origin = model.total(&beam, &[0.3, -1.0], &Vector3::zeros());
-            let moved = model.total(&beam, &[0.3, -1.0], &center_of_mass);
+            let at_origin = load(&model, &beam, [0.3, -1.0], &Vector3::zeros());
+            let moved = load(&model, &beam, [0.3, -1.0], &center_of_mass);
             let expected = at_origin.torque_body_n_m - center_of_mass.cross(&at_origin.force_body_n);
             prop_assert!((moved.torque_body_n_m - expected).norm() < 1e-13);
             prop_assert_eq!(moved.force_body_n, at_origin.force_body_n);

@@ -65,8 +65,7 @@ impl Rates {
         // See `damper`: the body turns at J^-1 h and a little about the line of nodes.
         let turning_principal = rate + Vector3::new(-h.y, h.x, 0.0) * gain;
         let turning = inertia.body_from_principal(&turning_principal);
-        let braking = Vector3::new(-h.x * h.z, -h.y * h.z, h.x * h.x + h.y * h.y) * gain;
-        let h_dot = h.cross(&rate) + torque + braking;
+        let h_dot = h.cross(&turning_principal) + torque;
         let rate_dot = Vector3::new(h_dot.x / i1, h_dot.y / i2, h_dot.z / i3);
         let [x, y, z, w] = q.0;
         let v_dot = turning * w + Vector3::new(x, y, z).cross(&turning);

@@ -107,7 +107,7 @@ impl Rig {
     pub(crate) fn new() -> Self {
         let spacecraft = spacecraft();
         Self {
-            solar: SolarModel::new(&spacecraft),
+            solar: SolarModel::new(&spacecraft, None).unwrap(),
             spacecraft,
             method: OrbitMethod::default(),
             propagator: PropagatorState::default(),

@@ -97,7 +97,8 @@ fn only_damping_takes_energy() {
         spacecraft.wheels().iter().map(|wheel| ReactionWheel { locked: true, ..wheel.clone() }).collect();
     let spacecraft = self::spacecraft(locked, &spacecraft.appendages().modes);
     motion.rotors.iter_mut().for_each(|it| it.rotor = Rotor::Held { momentum_n_m_s: 0.0 });
-    let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &motion.rate[0], |_| 0.0);
+    let mut motion =
+        GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &motion.series.rate[0], |_| 0.0);
     let load = BodyLoad {
         torque_body_n_m: [Vector3::new(0.5, -1.0, 2.0), Vector3::zeros()],
         ..BodyLoad::none(MASS_KG)

@@ -12,7 +12,6 @@
 //! Reference: Montenbruck and Gill, Satellite Orbits, 3.4.2 (the flat formula); l'Huilier's theorem for the triangles.
 
 mod discs;
-mod edges;
 #[cfg(test)]
 mod tests;
 
@@ -24,14 +23,10 @@ use thiserror::Error;
 
 use crate::{
     constants::RADIUS_SUN_M,
-    numerics::{
-        events,
-        scalar::{Scalar, vector_value},
-    },
+    numerics::scalar::{Scalar, vector_value},
 };
 
 pub use discs::Discs;
-pub use edges::{Edge, EdgeKind, Edges, MOST_EDGES};
 
 /// How a planet's shadow dims the Sun.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -126,29 +121,13 @@ impl Shadow {
         self.model
     }
 
-    /// What the spacecraft sees; positions relative to the planet's centre in any common frame, m.
-    ///
-    /// # Errors
-    /// [`EclipseError`] if the spacecraft is inside the planet or the Sun, or a position is not finite.
-    pub fn discs<T: Scalar>(
-        &self,
-        spacecraft_m: &Vector3<T>,
-        sun_m: &Vector3<T>,
-    ) -> Result<Discs<T>, EclipseError> {
-        self.discs_of(self.radii_m(), spacecraft_m, sun_m)
-    }
-
-    /// Radii of planet and Sun, in m, as numbers that depend on no seed.
-    fn radii_m<T: Scalar>(&self) -> [T; 2] {
-        [self.planet_radius_m, self.sun_radius_m].map(T::constant)
-    }
-
     /// Radius of the Sun, in m.
     pub fn sun_radius_m(&self) -> f64 {
         self.sun_radius_m
     }
 
-    fn discs_of<T: Scalar>(
+    /// What the spacecraft sees.
+    fn discs<T: Scalar>(
         &self,
         [planet_radius_m, sun_radius_m]: [T; 2],
         spacecraft_m: &Vector3<T>,
@@ -189,23 +168,11 @@ impl Shadow {
         })
     }
 
-    /// The share of sunlight that arrives, 0 to 1; positions relative to the planet's centre, m.
+    /// The share of sunlight that arrives, 0 to 1; positions relative to the planet's centre, m, and the radii of planet and Sun,
+    /// m, as numbers that may depend on the seed; the radii's values are the shadow's own.
     ///
     /// # Errors
-    /// See [`Shadow::discs`].
-    pub fn lit_fraction<T: Scalar>(
-        &self,
-        spacecraft_m: &Vector3<T>,
-        sun_m: &Vector3<T>,
-    ) -> Result<T, EclipseError> {
-        self.lit_fraction_of(self.radii_m(), spacecraft_m, sun_m)
-    }
-
-    /// As [`Shadow::lit_fraction`], with the radii of planet and Sun, m, as numbers that may depend on the seed; their values are
-    /// the shadow's own.
-    ///
-    /// # Errors
-    /// See [`Shadow::discs`].
+    /// [`EclipseError`] if the spacecraft is inside the planet or the Sun, or a position is not finite.
     pub fn lit_fraction_of<T: Scalar>(
         &self,
         radii_m: [T; 2],
@@ -215,7 +182,7 @@ impl Shadow {
         if self.model == ShadowModel::Off {
             return Ok(T::constant(1.0));
         }
-        let discs = self.discs_of(radii_m, spacecraft_m, sun_m)?;
+        let discs = self.discs(radii_m, spacecraft_m, sun_m)?;
         let all_or_nothing = |gap_rad: f64| T::constant(f64::from(gap_rad >= 0.0));
         Ok(match self.model {
             ShadowModel::DiscOverlap => discs.lit_fraction(),
@@ -227,14 +194,18 @@ impl Shadow {
         })
     }
 
-    /// The share of sunlight that arrives, and [`Shadow::gaps_rad`], from one evaluation of the discs; NaN where there is none.
+    /// The share of sunlight that arrives, and the functions of the geometry whose roots are this model's edges, in rad, positive
+    /// in full light: outer edge of the shadow, and inner edge where there is a penumbra (infinity where there is none). NaN where
+    /// there is no such geometry.
     pub fn fraction_and_gaps(&self, spacecraft_m: &Vector3<f64>, sun_m: &Vector3<f64>) -> (f64, [f64; 2]) {
         let none = f64::INFINITY;
+        let nowhere = (f64::NAN, [f64::NAN; 2]);
         if self.model == ShadowModel::Off {
             let outside = spacecraft_m.norm() >= self.planet_radius_m;
-            return if outside { (1.0, [none; 2]) } else { (f64::NAN, [f64::NAN; 2]) };
+            return if outside { (1.0, [none; 2]) } else { nowhere };
         }
-        let Ok(discs) = self.discs(spacecraft_m, sun_m) else { return (f64::NAN, [f64::NAN; 2]) };
+        let radii_m = [self.planet_radius_m, self.sun_radius_m];
+        let Ok(discs) = self.discs(radii_m, spacecraft_m, sun_m) else { return nowhere };
         let all_or_nothing = |gap_rad: f64| (f64::from(gap_rad >= 0.0), [gap_rad, none]);
         match self.model {
             ShadowModel::DiscOverlap => {
@@ -246,79 +217,6 @@ impl Shadow {
             ShadowModel::AllOrNothingCylinder => all_or_nothing(self.cylinder_gap_rad(spacecraft_m, sun_m)),
             ShadowModel::Off => (1.0, [none; 2]),
         }
-    }
-
-    /// The functions of the geometry whose roots are this model's edges, in rad, positive in full light: outer edge
-    /// of the shadow, and inner edge where there is a penumbra (infinity where there is none).
-    ///
-    /// # Errors
-    /// See [`Shadow::discs`].
-    pub fn gaps_rad(
-        &self,
-        spacecraft_m: &Vector3<f64>,
-        sun_m: &Vector3<f64>,
-    ) -> Result<[f64; 2], EclipseError> {
-        let none = f64::INFINITY;
-        Ok(match self.model {
-            ShadowModel::DiscOverlap => {
-                let discs = self.discs(spacecraft_m, sun_m)?;
-                [discs.outer_gap_rad(), discs.inner_gap_rad()]
-            }
-            ShadowModel::AllOrNothingCone => [self.discs(spacecraft_m, sun_m)?.outer_gap_rad(), none],
-            ShadowModel::AllOrNothingCylinder => {
-                self.discs(spacecraft_m, sun_m)?;
-                [self.cylinder_gap_rad(spacecraft_m, sun_m), none]
-            }
-            ShadowModel::Off => [none, none],
-        })
-    }
-
-    /// Every edge of the shadow in `(from_s, to_s]`, in order of time, of more than [`MOST_EDGES`] the first ones.
-    /// `geometry` gives the positions of spacecraft and Sun relative to the planet's centre, m, at a time: usually a
-    /// segment's dense output. An interval that starts on an edge may report that edge again, by rounding. Located to 1e-12 of the angle's range, far below a microsecond for an orbit.
-    ///
-    /// # Errors
-    /// See [`Shadow::discs`].
-    pub fn edges(
-        &self,
-        from_s: f64,
-        to_s: f64,
-        mut geometry: impl FnMut(f64) -> (Vector3<f64>, Vector3<f64>),
-    ) -> Result<Edges, EclipseError> {
-        let mut edges = Edges::default();
-        if self.model == ShadowModel::Off {
-            return Ok(edges);
-        }
-        let kinds = if self.model == ShadowModel::DiscOverlap { 2 } else { 1 };
-        for (kind, edge_kind) in [EdgeKind::Outer, EdgeKind::Inner].into_iter().enumerate().take(kinds) {
-            let mut failure = None;
-            let mut gap_rad = |at_s: f64| {
-                let (spacecraft_m, sun_m) = geometry(at_s);
-                match self.gaps_rad(&spacecraft_m, &sun_m) {
-                    Ok(gaps) => gaps[kind],
-                    Err(error) => {
-                        failure.get_or_insert(error);
-                        f64::NAN
-                    }
-                }
-            };
-            let roots = events::sign_changes::<MOST_EDGES>(from_s, to_s, &mut gap_rad);
-            let roots = roots.unwrap_or_default();
-            // In full light all along: the inner edge lies within the outer one.
-            let stays_bright = kind == 0 && roots.is_empty() && gap_rad(to_s) > 0.0;
-            for (i, &at_s) in roots.as_slice().iter().enumerate() {
-                let next_s = roots.as_slice().get(i + 1).copied().unwrap_or(to_s);
-                let into_shadow = gap_rad(0.5 * (at_s + next_s)) < 0.0;
-                edges.insert(Edge { at_s, kind: edge_kind, into_shadow });
-            }
-            if let Some(error) = failure {
-                return Err(error);
-            }
-            if stays_bright {
-                break;
-            }
-        }
-        Ok(edges)
     }
 
     /// Angle between the antisolar direction and the spacecraft, seen from the planet's centre, beyond the shadow

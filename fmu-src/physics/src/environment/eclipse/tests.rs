@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::{
     constants::{ASTRONOMICAL_UNIT_M, RADIUS_MERCURY_M, RADIUS_SUN_M},
-    numerics::{quadrature::Rule, scalar::Dual64},
+    numerics::{quadrature::Rule, roots::bracketed, scalar::Dual64},
 };
 
 /// Integrates over the Sun's disc ring by ring: of a ring at angle x from the Sun's centre the planet covers the arc
@@ -49,6 +49,14 @@ fn by_rings(discs: &Discs) -> f64 {
     lit / (2.0 * (0.5 * a).sin().powi(2))
 }
 
+fn lit_fraction<T: Scalar>(
+    shadow: &Shadow,
+    spacecraft_m: &Vector3<T>,
+    sun_m: &Vector3<T>,
+) -> Result<T, EclipseError> {
+    shadow.lit_fraction_of([RADIUS_MERCURY_M, RADIUS_SUN_M].map(T::constant), spacecraft_m, sun_m)
+}
+
 fn discs(sun: f64, planet: f64, separation: f64) -> Discs {
     Discs {
         sun_radius_rad: sun,
@@ -80,11 +88,11 @@ fn known_geometry_at_mercury() {
     let shadow = Shadow::new(ShadowModel::DiscOverlap, RADIUS_MERCURY_M).unwrap();
     let sun = Vector3::new(0.3075 * ASTRONOMICAL_UNIT_M, 0.0, 0.0);
     let tip_m = RADIUS_MERCURY_M * sun.x / (RADIUS_SUN_M - RADIUS_MERCURY_M);
-    let behind = |d: f64| shadow.lit_fraction(&Vector3::new(-d, 0.0, 0.0), &sun).unwrap();
+    let behind = |d: f64| lit_fraction(&shadow, &Vector3::new(-d, 0.0, 0.0), &sun).unwrap();
     assert_eq!(behind(0.999_999 * tip_m), 0.0);
     let ring = behind(1.000_001 * tip_m);
     assert!(ring > 0.0 && ring < 1e-5, "{ring}");
-    assert_eq!(shadow.lit_fraction(&Vector3::new(3e6, 0.0, 0.0), &sun).unwrap(), 1.0);
+    assert_eq!(lit_fraction(&shadow, &Vector3::new(3e6, 0.0, 0.0), &sun).unwrap(), 1.0);
 }
 
 #[test]
@@ -92,7 +100,7 @@ fn all_or_nothing_models() {
     let sun = Vector3::new(6e10, 0.0, 0.0);
     let cone = Shadow::new(ShadowModel::AllOrNothingCone, RADIUS_MERCURY_M).unwrap();
     let cylinder = Shadow::new(ShadowModel::AllOrNothingCylinder, RADIUS_MERCURY_M).unwrap();
-    let at = |shadow: &Shadow, x: f64, y: f64| shadow.lit_fraction(&Vector3::new(x, y, 0.0), &sun).unwrap();
+    let at = |shadow: &Shadow, x: f64, y: f64| lit_fraction(shadow, &Vector3::new(x, y, 0.0), &sun).unwrap();
     // The cylinder's edge is the planet's radius, whatever the distance behind.
     for x in [-3e6, -3e7, -3e9] {
         assert_eq!(at(&cylinder, x, 0.999_999 * RADIUS_MERCURY_M), 0.0);
@@ -116,7 +124,7 @@ fn impossible_geometries_are_named() {
     let shadow = Shadow::new(ShadowModel::DiscOverlap, RADIUS_MERCURY_M).unwrap();
     let sun = Vector3::new(6e10, 0.0, 0.0);
     let say = |position: Vector3<f64>, sun: Vector3<f64>| {
-        shadow.lit_fraction(&position, &sun).unwrap_err().to_string()
+        lit_fraction(&shadow, &position, &sun).unwrap_err().to_string()
     };
     assert!(say(Vector3::new(1e6, 0.0, 0.0), sun).contains("inside the planet of radius 2439400 m"));
     assert!(say(Vector3::zeros(), sun).contains("inside the planet"));
@@ -124,7 +132,7 @@ fn impossible_geometries_are_named() {
     assert!(say(Vector3::new(f64::NAN, 0.0, 0.0), sun).contains("spacecraft is not finite"));
     assert!(say(Vector3::new(3e6, 0.0, 0.0), sun * f64::INFINITY).contains("not finite"));
     let surface = Vector3::new(0.0, RADIUS_MERCURY_M, 0.0);
-    assert!((shadow.lit_fraction(&surface, &sun).unwrap() - 0.5).abs() < 1e-2);
+    assert!((lit_fraction(&shadow, &surface, &sun).unwrap() - 0.5).abs() < 1e-2);
     assert!(Shadow::new(ShadowModel::DiscOverlap, -1.0).unwrap_err().to_string().contains("-1 m"));
 }
 
@@ -139,35 +147,42 @@ fn edges_on_an_orbit() {
     };
     let revolution_s = 2.0 * PI / rate_rad_s;
     let shadow = Shadow::new(ShadowModel::DiscOverlap, RADIUS_MERCURY_M).unwrap();
-    let edges: Vec<Edge> = shadow.edges(0.0, revolution_s, geometry).unwrap().iter().collect();
-    let kinds: Vec<_> = edges.iter().map(|e| (e.kind, e.into_shadow)).collect();
-    let (outer, inner) = (EdgeKind::Outer, EdgeKind::Inner);
-    assert_eq!(kinds, [(outer, true), (inner, true), (inner, false), (outer, false)]);
-    for (first, second) in [(0, 3), (1, 2)] {
-        assert!((edges[first].at_s + edges[second].at_s - revolution_s).abs() < 1e-7);
-    }
-    for edge in &edges {
-        let lit = |dt: f64| {
-            let (spacecraft, sun) = geometry(edge.at_s + dt);
-            shadow.lit_fraction(&spacecraft, &sun).unwrap()
-        };
-        // A microsecond on the bright side shows light, on the dark side less.
-        let (brighter, darker) =
-            if edge.into_shadow { (lit(-1e-5), lit(1e-5)) } else { (lit(1e-5), lit(-1e-5)) };
-        match edge.kind {
-            EdgeKind::Outer => assert!(brighter == 1.0 && darker < 1.0),
-            EdgeKind::Inner => assert!(brighter > 0.0 && darker == 0.0),
+    let gap_rad = |shadow: &Shadow, edge: usize, t: f64| {
+        let (spacecraft, sun) = geometry(t);
+        shadow.fraction_and_gaps(&spacecraft, &sun).1[edge]
+    };
+    // Into the shadow in the second quarter of the revolution, out of it in the third.
+    let edges_s = |edge: usize| {
+        [[0.25, 0.5], [0.5, 0.75]].map(|quarter| {
+            let [from_s, to_s] = quarter.map(|share| share * revolution_s);
+            bracketed(from_s, to_s, 0.0, |t| gap_rad(&shadow, edge, t)).unwrap()
+        })
+    };
+    let [outer_s, inner_s] = [0, 1].map(edges_s);
+    assert!(outer_s[0] < inner_s[0] && inner_s[1] < outer_s[1]);
+    for (edge, [into_s, out_s]) in [outer_s, inner_s].into_iter().enumerate() {
+        assert!((into_s + out_s - revolution_s).abs() < 1e-7);
+        for (at_s, later) in [(into_s, 1e-5), (out_s, -1e-5)] {
+            let lit = |dt: f64| {
+                let (spacecraft, sun) = geometry(at_s + dt);
+                lit_fraction(&shadow, &spacecraft, &sun).unwrap()
+            };
+            // A microsecond on the bright side shows light, on the dark side less.
+            let (brighter, darker) = (lit(-later), lit(later));
+            match edge {
+                0 => assert!(brighter == 1.0 && darker < 1.0),
+                _ => assert!(brighter > 0.0 && darker == 0.0),
+            }
         }
     }
     // The cylinder's edges by hand: sin(angle) = R / r.
     let cylinder = Shadow::new(ShadowModel::AllOrNothingCylinder, RADIUS_MERCURY_M).unwrap();
-    let first = cylinder.edges(0.0, revolution_s, geometry).unwrap().first().unwrap();
     let expected_s = (PI - (RADIUS_MERCURY_M / radius_m).asin()) / rate_rad_s;
-    assert!((first.at_s - expected_s).abs() < 1e-8 && first.into_shadow);
+    assert!(gap_rad(&cylinder, 0, expected_s - 1e-8) > 0.0 && gap_rad(&cylinder, 0, expected_s + 1e-8) < 0.0);
     let off = Shadow::new(ShadowModel::Off, RADIUS_MERCURY_M).unwrap();
-    assert_eq!(off.edges(0.0, revolution_s, geometry).unwrap().first(), None);
-    let inside = shadow.edges(0.0, 1.0, |t| (geometry(t).0 * 0.1, sun)).unwrap_err();
-    assert!(matches!(inside, EclipseError::InsidePlanet { .. }));
+    assert_eq!([0, 1].map(|edge| gap_rad(&off, edge, expected_s)), [f64::INFINITY; 2]);
+    let inside = geometry(0.0).0 * 0.1;
+    assert!([&shadow, &off].iter().all(|shadow| shadow.fraction_and_gaps(&inside, &sun).0.is_nan()));
 }
 
 proptest! {
@@ -219,9 +234,9 @@ proptest! {
         let edge = (1.0 / altitude).asin() + (2.0 * depth - 1.0) * sun_radius;
         let place = Vector3::new(-edge.cos(), edge.sin(), 0.0) * distance;
         let along = |seed: f64| place + Vector3::from(by) * seed;
-        let at = |seed: f64| shadow.lit_fraction(&along(seed), &sun).unwrap();
+        let at = |seed: f64| lit_fraction(&shadow, &along(seed), &sun).unwrap();
         let seeded = place.zip_map(&Vector3::from(by), Dual64::new);
-        let exact = shadow.lit_fraction(&seeded, &sun.map(Dual64::constant)).unwrap();
+        let exact = lit_fraction(&shadow, &seeded, &sun.map(Dual64::constant)).unwrap();
         let h = 1e-5 * distance * sun_radius;
         let slope = (at(h) - at(-h)) / (2.0 * h);
         prop_assert!(exact.re > 0.0 && exact.re < 1.0);

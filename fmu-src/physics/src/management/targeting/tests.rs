@@ -29,19 +29,14 @@ impl Craft {
             let turn = Rotation3::from_euler_angles(0.3 * shade_turn_rad, shade_turn_rad, 0.0);
             shade.dcm_body_from_shade = *turn.matrix();
         }
-        let solar = SolarModel::new(&spacecraft);
+        let solar = SolarModel::new(&spacecraft, None).unwrap();
         Self { spacecraft, solar, center_of_mass_m }
     }
 
     fn torque(&self, sun_body: &Vector3<f64>) -> Vector3<f64> {
         let beam = Beam { source_body: *sun_body, pressure_pa: PRESSURE_PA };
-        let angles: Vec<f64> = self
-            .spacecraft
-            .panels
-            .iter()
-            .map(|panel| panel.angle_for_sun_offset(sun_body, 1.1, 1.0))
-            .collect();
-        self.solar.total(&beam, &angles, &self.center_of_mass_m).torque_body_n_m
+        let angle_rad = |k: usize| Some(self.spacecraft.panels[k].angle_for_sun_offset(sun_body, 1.1, 1.0));
+        self.solar.load(&beam, angle_rad, &self.center_of_mass_m).torque_body_n_m
     }
 
     fn linear(&self) -> LinearTorque {
@@ -180,7 +175,7 @@ fn the_linear_formula_falls_short_by_a_few_per_cent() {
     let craft = Craft::new(Vector3::new(0.0, 0.0, 0.0), 0.0);
     let shade = |sun: &Vector3<f64>| {
         let beam = Beam { source_body: *sun, pressure_pa: PRESSURE_PA };
-        craft.solar.sunshade(&beam, &craft.center_of_mass_m).torque_body_n_m
+        craft.solar.load(&beam, |_| None, &craft.center_of_mass_m).torque_body_n_m
     };
     let (to_sun, to_earth) = (Vector3::y(), earth(60.0));
     let linear = Some(craft.linear());

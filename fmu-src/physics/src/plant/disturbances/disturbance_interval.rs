@@ -24,6 +24,7 @@ use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::or_infinite;
+use crate::numerics::quadrature::GAUSS_2;
 use crate::radiation::{Effect, ForceTorque, Loads};
 
 use super::evaluation::{Evaluation, Plant};
@@ -31,7 +32,7 @@ use crate::plant::light::light_and_heat::LEAST_ARM_M;
 use crate::plant::settings::error::PlantError;
 
 /// Nodes of Gauss-Legendre quadrature of order 4 on [0, 1].
-const NODES: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
+const NODES: [f64; 2] = [GAUSS_2[0].0, GAUSS_2[1].0];
 /// By how much the body turns within an interval at most, in rad: so far apart the nodes see every side of it.
 const LONGEST_TURN_RAD: f64 = 0.5;
 /// An interval in which body and orbit turn by less, in rad, is not shortened for the fit: where light falls on another side of

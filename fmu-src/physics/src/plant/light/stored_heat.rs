@@ -1,6 +1,7 @@
 //! Temperatures of surfaces that store heat, along one segment of light and heat.
 
 use crate::numerics::chebyshev::Segment;
+use crate::numerics::quadrature::lagrange;
 use crate::radiation::disturbance::DisturbanceModel;
 
 use super::radiation_node::RadiationNode;
@@ -33,7 +34,7 @@ struct Point {
 impl HeatRule {
     pub fn new() -> Self {
         let nodes = Segment::<1, NODES>::nodes(-1.0, 1.0);
-        let point = |at: f64, node| Point { at, shares: shares(&nodes, at), node };
+        let point = |at: f64, node| Point { at, shares: lagrange(&nodes, at), node };
         let mut points = vec![point(-1.0, None)];
         let rising = (0..NODES).rev().map(|j| (nodes[j], Some(j)));
         let mut from = -1.0;
@@ -79,12 +80,4 @@ impl HeatRule {
     pub fn end_k(&self) -> &[f64] {
         &self.temperatures_k
     }
-}
-
-/// Lagrange's polynomials through `nodes` at `at`.
-fn shares(nodes: &[f64; NODES], at: f64) -> [f64; NODES] {
-    core::array::from_fn(|j| {
-        let others = nodes.iter().enumerate().filter(|(k, _)| *k != j);
-        others.map(|(_, node)| (at - node) / (nodes[j] - node)).product()
-    })
 }

@@ -24,22 +24,18 @@ pub struct SunlitCraft<'a> {
 impl SunlitCraft<'_> {
     /// Mass, centre of mass and inertia as the panels stand, the Sun being there (unit vector, body frame).
     pub fn mass_properties(&self, sun_body: &Vector3<f64>) -> MassProperties {
-        with_panels(&self.mass_at_zero, self.panels, |index| {
-            let set = self.settings.get(index).zip(self.panels.get(index));
-            set.and_then(|(setting, panel)| setting.angle_rad(panel, sun_body, self.time_s)).unwrap_or(0.0)
-        })
+        with_panels(&self.mass_at_zero, self.panels, |index| self.angle_rad(index, sun_body).unwrap_or(0.0))
     }
 
     /// Direct sunlight without self-shadows, about the centre of mass.
     pub fn load(&self, beam: &Beam<f64>, center_of_mass_body_m: &Vector3<f64>) -> ForceTorque<f64> {
-        let (solar, center_of_mass) = (self.solar, center_of_mass_body_m);
-        let mut sum = solar.sunshade(beam, center_of_mass) + solar.body(beam, center_of_mass);
-        for (index, (panel, setting)) in self.panels.iter().zip(self.settings).enumerate() {
-            if let Some(angle_rad) = setting.angle_rad(panel, &beam.source_body, self.time_s) {
-                sum += solar.panel(index, beam, angle_rad, center_of_mass);
-            }
-        }
-        sum
+        self.solar.load(beam, |index| self.angle_rad(index, &beam.source_body), center_of_mass_body_m)
+    }
+
+    /// How a panel that takes part stands to the Sun.
+    fn angle_rad(&self, index: usize, sun_body: &Vector3<f64>) -> Option<f64> {
+        let (panel, setting) = self.panels.get(index).zip(self.settings.get(index))?;
+        setting.angle_rad(panel, sun_body, self.time_s)
     }
 
     /// Its torque in N m, body frame, at this pressure in Pa, the Sun being there.

@@ -1,9 +1,9 @@
 //! Why a spacecraft and a planet cannot be prepared for light.
 
 use crate::bodies::surface::SurfaceError;
+use crate::radiation::faces::NoSuchSunshade;
 use crate::radiation::grid::GridError;
 use crate::radiation::ring::NodesError;
-use crate::radiation::solar::NoSuchSunshade;
 
 /// Options that cannot be.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,10 +1,10 @@
 //! Light and heat on every face at one geometry: forces, absorbed power, temperatures, recoil.
 
-use super::faces::{Face, Faces, Surface};
 use super::geometry::{Geometry, Recoil};
 use super::workspace::{Disturbance, FaceResult, Workspace};
 use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::numerics::scalar::{Scalar, constant_vector};
+use crate::radiation::faces::{Face, Faces, Surface};
 use crate::radiation::flat_plate::force_per_area_pa;
 use crate::radiation::force_torque::ForceTorque;
 use crate::radiation::thermal::balance::{conducting_temperatures_k, face_temperature_k};

@@ -6,7 +6,6 @@
 mod by_source;
 mod error;
 mod face_loads;
-mod faces;
 mod geometry;
 mod model;
 mod planet_rule;

@@ -4,16 +4,15 @@ use nalgebra::Vector3;
 
 use super::error::ModelError;
 use super::face_loads::FaceLoads;
-use super::faces::{Faces, Normal, outlines};
 use super::geometry::{Geometry, GeometryError, Recoil};
 use super::planet_rule::{PlanetLightMethod, PlanetRule};
 use super::workspace::{Disturbance, Workspace};
 use crate::bodies::surface::PlanetSurface;
 use crate::numerics::scalar::{Scalar, constant_vector};
+use crate::radiation::faces::{Faces, Normal};
 use crate::radiation::force_torque::ForceTorque;
 use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::shadow::{DIRECTIONS, ShadowScene, SunDisc};
-use crate::radiation::solar::SolarModel;
 use crate::spacecraft::{Panel, Spacecraft, SunshadeModel};
 
 /// What an evaluation takes into account.
@@ -48,8 +47,6 @@ impl Default for Options {
 pub struct DisturbanceModel {
     faces: Faces,
     panels: Vec<Panel>,
-    /// Sunlight on a cylindrical shade in closed form.
-    cylinder: Option<SolarModel>,
     planet_light: PlanetRule,
     planet: Option<PlanetSurface>,
     /// Present only where some surface can shadow another.
@@ -66,36 +63,17 @@ impl DisturbanceModel {
         if let Some(planet) = &options.planet {
             planet.validate()?;
         }
-        let form = options.sunshade_model.or(spacecraft.sunshade.as_ref().map(|shade| shade.model));
-        let cylinder = match form {
-            Some(SunshadeModel::Cylinder) => {
-                Some(SolarModel::with_sunshade_model(spacecraft, SunshadeModel::Cylinder)?)
-            }
-            Some(SunshadeModel::Plates) => {
-                SolarModel::with_sunshade_model(spacecraft, SunshadeModel::Plates)?;
-                None
-            }
-            None => None,
-        };
-        let faces = Faces::new(spacecraft, form);
-        let scene = options
-            .self_shadowing
-            .then(|| ShadowScene::new(outlines(&faces, spacecraft, form)))
-            .filter(ShadowScene::has_pairs);
+        let mut faces = Faces::new(spacecraft, options.sunshade_model)?;
+        let outlines = core::mem::take(&mut faces.outlines);
+        let scene = options.self_shadowing.then(|| ShadowScene::new(outlines)).filter(ShadowScene::has_pairs);
         Ok(Self {
             faces,
             panels: spacecraft.panels.clone(),
-            cylinder,
             planet_light: PlanetRule::new(&options.planet_light)?,
             planet: options.planet,
             scene,
             sun_disc: options.sun_disc,
         })
-    }
-
-    /// Number of panels, hence of angles a geometry has.
-    pub fn panel_count(&self) -> usize {
-        self.panels.len()
     }
 
     /// Number of faces, hence of temperatures a thermal state has.
@@ -195,8 +173,9 @@ impl DisturbanceModel {
         let loads = self.loads(geometry);
         let mut sum = loads.receive(workspace);
         sum.thermal = loads.radiate(recoil, workspace);
-        if let Some(cylinder) = &self.cylinder {
-            sum.solar += cylinder.sunshade(&geometry.beam(), &geometry.center_of_mass_body_m);
+        if let Some(cylinder) = &self.faces.cylinder {
+            let sunlight = cylinder.force_torque_about_origin(&geometry.beam());
+            sum.solar += sunlight.about(&geometry.center_of_mass_body_m);
         }
         Ok(sum)
     }

@@ -42,7 +42,7 @@ fn around_orbit_by(
         let elements = Elements { true_anomaly_rad, ..MESSENGER_AS_PRINTED };
         let position_mci_m = elements.state(GM_MERCURY_M3_S2).unwrap().position_m;
         let position_body_m = frames.dcm_sc_from_mci() * position_mci_m;
-        let lit_fraction = shadow.lit_fraction(&position_body_m, &(sun_body * sun_distance_m)).unwrap();
+        let (lit_fraction, _) = shadow.fraction_and_gaps(&position_body_m, &(sun_body * sun_distance_m));
         let geometry = Geometry {
             sun_direction_body: sun_body,
             sun_sine: 0.0,

@@ -176,8 +176,8 @@ fn a_torque_polynomial_in_time_agrees_with_runge_kutta() {
     let rate = Vector3::new(0.0, 0.01, OMEGA_RAD_S);
     let mut torque = BodyTorque::constant(Vector3::new(0.2, 0.0, -0.1));
     torque.origin_s = -3.0;
-    torque.coefficients_n_m[1] = [0.05, -0.02, 0.01];
-    torque.coefficients_n_m[3] = [1e-4, 2e-4, -1e-4];
+    torque.coefficients_n_m[1] = [0.05, -0.02, 0.01].into();
+    torque.coefficients_n_m[3] = [1e-4, 2e-4, -1e-4].into();
     let law = |t: f64| {
         let x = t + 3.0;
         Vector3::new(

@@ -2,11 +2,12 @@
 
 use nalgebra::Vector3;
 
-use crate::radiation::shadow::{Hinge, Outline};
-use crate::radiation::thermal::balance::FaceEnvironment;
-use crate::radiation::thermal::transient::HeatStore;
+use super::cylinder::CylinderFace;
+use super::shadow::{Hinge, Outline};
+use super::thermal::balance::FaceEnvironment;
+use super::thermal::transient::HeatStore;
 use crate::spacecraft::{
-    BusLink, Cylinder, Emission, FaceThermal, Optics, Panel, Plate, Spacecraft, SunshadeModel, Thermal,
+    BusLink, Cylinder, Emission, FaceThermal, Optics, Plate, Spacecraft, SunshadeModel, Thermal,
 };
 
 /// Strips a cylindrical shade is cut into for planet light and heat; sunlight on it has a closed form.
@@ -94,6 +95,11 @@ pub(super) enum Normal {
     Rear(usize),
 }
 
+/// A sunshade was asked for in a form its file does not describe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the spacecraft's file does not describe its sunshade as {0:?}")]
+pub struct NoSuchSunshade(pub SunshadeModel);
+
 /// Surfaces, faces and distinct normals of a spacecraft: plates, sunshade, panels, in this order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Faces {
@@ -102,91 +108,89 @@ pub(super) struct Faces {
     pub normals: Vec<Normal>,
     /// Temperature of the space that all of them see, in K.
     pub background_k: f64,
-    /// Outlines: surface and, for panels, which.
-    pub outlines: Vec<(usize, Option<usize>)>,
+    pub outlines: Vec<Outline>,
+    /// A cylindrical shade, on which sunlight has a closed form.
+    pub cylinder: Option<CylinderFace>,
 }
 
 impl Faces {
-    pub fn new(spacecraft: &Spacecraft, sunshade_model: Option<SunshadeModel>) -> Self {
+    /// With the sunshade in this form, or in the one its file chooses; a spacecraft without a sunshade takes any.
+    ///
+    /// # Errors
+    /// The file has a sunshade but not in this form.
+    pub fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, NoSuchSunshade> {
         let mut faces = Self { background_k: spacecraft.background_k, ..Self::default() };
         for plate in &spacecraft.plates {
-            faces.add_plate(plate, false);
+            faces.add_plate(plate);
         }
         if let Some(shade) = &spacecraft.sunshade {
-            match (sunshade_model.unwrap_or(shade.model), &shade.cylinder) {
-                (SunshadeModel::Cylinder, Some(cylinder)) => {
-                    for strip in strips(cylinder) {
-                        faces.add_plate(&strip.rotated(&shade.dcm_body_from_shade), true);
-                    }
-                }
-                _ => {
-                    for plate in &shade.plates {
-                        faces.add_plate(&plate.rotated(&shade.dcm_body_from_shade), false);
-                    }
-                }
+            let form = form.unwrap_or(shade.model);
+            if !shade.has(form) {
+                return Err(NoSuchSunshade(form));
+            }
+            let dcm_body_from_shade = shade.dcm_body_from_shade;
+            let cylinder = shade.cylinder.filter(|_| form == SunshadeModel::Cylinder);
+            faces.cylinder = cylinder.map(|cylinder| CylinderFace { cylinder, dcm_body_from_shade });
+            let plates = cylinder.map_or(shade.plates.clone(), |cylinder| strips(&cylinder).collect());
+            for plate in plates {
+                faces.add_plate(&plate.rotated(&dcm_body_from_shade));
+            }
+            let first_of_shade = spacecraft.plates.len();
+            for surface in &mut faces.surfaces[first_of_shade..] {
+                surface.closed_form_sun = cylinder.is_some();
             }
         }
         for (index, panel) in spacecraft.panels.iter().enumerate() {
-            faces.add_panel(index, panel);
-        }
-        faces
-    }
-
-    fn add_plate(&mut self, plate: &Plate, closed_form_sun: bool) {
-        self.add(
-            Surface {
-                name: plate.name.clone(),
-                area_m2: plate.area_m2,
-                center_body_m: plate.center_m,
-                first_face: self.faces.len(),
-                two_sided: plate.rear_optics.is_some(),
-                thermal: plate.thermal,
-                background_k: self.background_k,
-                closed_form_sun,
-                outline: plate.polygon.as_ref().map(|_| self.outlines.len()),
-            },
-            [plate.optics, plate.rear_optics.unwrap_or(plate.optics)],
-            [Normal::Fixed(plate.normal), Normal::Fixed(-plate.normal)],
-            None,
-        );
-    }
-
-    fn add_panel(&mut self, index: usize, panel: &Panel) {
-        self.add(
-            Surface {
+            let plate = Plate {
                 name: panel.name.clone(),
                 area_m2: panel.area_m2,
-                center_body_m: panel.center_body_m,
-                first_face: self.faces.len(),
-                two_sided: panel.rear_optics.is_some(),
+                center_m: panel.center_body_m,
+                normal: panel.zero_normal_body,
+                optics: panel.optics,
+                rear_optics: panel.rear_optics,
                 thermal: panel.thermal,
-                background_k: self.background_k,
-                closed_form_sun: false,
-                outline: panel.polygon.as_ref().map(|_| self.outlines.len()),
-            },
-            [panel.optics, panel.rear_optics.unwrap_or(panel.optics)],
-            [Normal::Front(index), Normal::Rear(index)],
-            Some(index),
-        );
+                polygon: panel.polygon.clone(),
+            };
+            let hinge = Hinge { panel: index, point_body_m: panel.center_body_m, axis_body: panel.axis_body };
+            faces.add(&plate, [Normal::Front(index), Normal::Rear(index)], Some(hinge));
+        }
+        Ok(faces)
     }
 
-    fn add(&mut self, surface: Surface, optics: [Optics; 2], normals: [Normal; 2], panel: Option<usize>) {
-        let index = self.surfaces.len();
-        let thermals = [surface.thermal.front, surface.thermal.rear.unwrap_or(surface.thermal.front)];
-        for side in 0..if surface.two_sided { 2 } else { 1 } {
+    fn add_plate(&mut self, plate: &Plate) {
+        self.add(plate, [Normal::Fixed(plate.normal), Normal::Fixed(-plate.normal)], None);
+    }
+
+    fn add(&mut self, plate: &Plate, normals: [Normal; 2], hinge: Option<Hinge>) {
+        let Thermal { front, rear, internal_heat_w, .. } = plate.thermal;
+        let sides =
+            [Some((plate.optics, front)), plate.rear_optics.map(|optics| (optics, rear.unwrap_or(front)))];
+        let first_face = self.faces.len();
+        for (side, (optics, thermal)) in sides.into_iter().flatten().enumerate() {
             let normal = self.normal(normals[side]);
+            let surface = self.surfaces.len();
             self.faces.push(Face {
                 normal,
-                surface: index,
-                optics: optics[side],
-                thermal: thermals[side],
-                internal_heat_w: surface.thermal.internal_heat_w[side],
+                surface,
+                optics,
+                thermal,
+                internal_heat_w: internal_heat_w[side],
             });
         }
-        if surface.outline.is_some() {
-            self.outlines.push((index, panel));
-        }
-        self.surfaces.push(surface);
+        let two_sided = plate.rear_optics.is_some();
+        let outline = plate.polygon.clone().map(|polygon| Outline { polygon, hinge, two_sided });
+        self.surfaces.push(Surface {
+            name: plate.name.clone(),
+            area_m2: plate.area_m2,
+            center_body_m: plate.center_m,
+            first_face,
+            two_sided,
+            thermal: plate.thermal,
+            background_k: self.background_k,
+            closed_form_sun: false,
+            outline: outline.is_some().then_some(self.outlines.len()),
+        });
+        self.outlines.extend(outline);
     }
 
     fn normal(&mut self, normal: Normal) -> usize {
@@ -214,27 +218,4 @@ fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
             polygon: None,
         }
     })
-}
-
-/// Outlines of plates and panels in the order of the faces' outlines.
-pub(super) fn outlines(faces: &Faces, spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Vec<Outline> {
-    let plates = spacecraft.plates_body(form.unwrap_or(SunshadeModel::Plates));
-    let fixed = plates.iter().filter_map(|plate| {
-        let two_sided = plate.rear_optics.is_some();
-        plate.polygon.as_ref().map(|polygon| Outline { polygon: polygon.clone(), hinge: None, two_sided })
-    });
-    let turning = spacecraft.panels.iter().enumerate().filter_map(|(index, panel)| {
-        panel.polygon.as_ref().map(|polygon| Outline {
-            polygon: polygon.clone(),
-            two_sided: panel.rear_optics.is_some(),
-            hinge: Some(Hinge {
-                panel: index,
-                point_body_m: panel.center_body_m,
-                axis_body: panel.axis_body,
-            }),
-        })
-    });
-    let outlines: Vec<Outline> = fixed.chain(turning).collect();
-    debug_assert_eq!(outlines.len(), faces.outlines.len());
-    outlines
 }
