@@ -6,10 +6,8 @@
 
 pub mod cylinder;
 pub mod disturbance;
-pub mod effect;
 mod faces;
 pub mod flat_plate;
-pub mod force_torque;
 pub mod grid;
 pub mod planet_light;
 pub mod polynomial;
@@ -27,10 +25,8 @@ mod polynomial_tests;
 #[cfg(test)]
 mod solar_tests;
 
-pub use effect::{Effect, Loads};
 pub use faces::NoSuchSunshade;
 pub use flat_plate::Beam;
-pub use force_torque::ForceTorque;
 pub use planet_light::PlanetLight;
 pub use polynomial::{TorquePolynomial, polynomial_valid};
 pub use solar::SolarModel;

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::cylinder::CylinderFace;
 use super::faces::{Faces, NoSuchSunshade, Normal, Surface};
 use super::flat_plate::{Beam, force_per_area_pa};
-use super::force_torque::ForceTorque;
+use crate::loads::ForceTorque;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::spacecraft::{Optics, Panel, Spacecraft, SunshadeModel};
 

@@ -8,8 +8,9 @@ use nalgebra::Vector3;
 use super::fork::{ForecastMomentum, Fork};
 use super::propagator_state::PropagatorState;
 use crate::guidance::{ChosenPlace, Guided, ScienceCourse};
+use crate::loads::ForceTorque;
 use crate::momentum::{Convention, DumpPolicy, Totals};
-use crate::plant::disturbances::evaluation::{ExternalLoad, PreparedSpacecraft, World};
+use crate::plant::disturbances::evaluation::{PreparedSpacecraft, World};
 use crate::plant::light::sunlit::SunlitCraft;
 use crate::plant::settings::error::PlantError;
 
@@ -54,7 +55,7 @@ pub struct DownlinkForecast<'o> {
     pub(crate) prepared: PreparedSpacecraft<'o>,
     pub(crate) world: &'o mut World,
     pub(crate) propagator: &'o PropagatorState,
-    pub(crate) applied: ExternalLoad,
+    pub(crate) applied: ForceTorque,
     pub(crate) law: Guided,
     pub(crate) totals: Totals,
     pub(crate) forecasts: bool,
@@ -113,7 +114,7 @@ impl DownlinkForecast<'_> {
         mut visit: impl FnMut(ForecastMomentum),
     ) -> Result<(), PlantError> {
         let begin = (self.time_s, self.totals);
-        let held = [self.applied, ExternalLoad::default()];
+        let held = [self.applied, ForceTorque::zero()];
         let mut fork =
             Fork::guided(self.prepared, self.world, self.propagator, &self.law, held, begin, step_s);
         times_s.try_for_each(|at_s| {

@@ -5,7 +5,8 @@ use nalgebra::{Rotation3, Vector3};
 use super::propagator_state::PropagatorState;
 use crate::guidance::Guided;
 use crate::momentum::{MomentumIntegrator, Settings, Totals};
-use crate::plant::disturbances::evaluation::{ExternalLoad, Plant, PreparedSpacecraft, World};
+use crate::loads::ForceTorque;
+use crate::plant::disturbances::evaluation::{Plant, PreparedSpacecraft, World};
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::radiation_settings::RadiationSettings;
@@ -41,7 +42,7 @@ pub(crate) struct Fork<'f> {
     propagator: PropagatorState,
     integrator: MomentumIntegrator,
     /// Applied from outside, with its rate.
-    applied: [ExternalLoad; 2],
+    applied: [ForceTorque<f64>; 2],
     flight: (AttitudeSource, Settings, RadiationSettings),
 }
 
@@ -53,7 +54,7 @@ impl<'f> Fork<'f> {
         world: &'f mut World,
         propagator: &PropagatorState,
         law: &Guided,
-        applied: [ExternalLoad; 2],
+        applied: [ForceTorque<f64>; 2],
         (time_s, totals): (f64, Totals),
         step_s: f64,
     ) -> Self {

@@ -6,11 +6,11 @@ use super::error::ModelError;
 use super::face_loads::FaceLoads;
 use super::geometry::{Geometry, GeometryError, Recoil};
 use super::planet_rule::{PlanetLightMethod, PlanetRule};
-use super::workspace::{Disturbance, Workspace};
+use super::workspace::Workspace;
 use crate::bodies::surface::PlanetSurface;
+use crate::loads::{Effect, ForceTorque, Loads};
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::radiation::faces::{Faces, Normal};
-use crate::radiation::force_torque::ForceTorque;
 use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::shadow::{DIRECTIONS, ShadowScene, SunDisc};
 use crate::spacecraft::{Panel, Spacecraft, SunshadeModel};
@@ -139,7 +139,7 @@ impl DisturbanceModel {
         geometry: &Geometry<'_, T>,
         recoil: Recoil<'_>,
         workspace: &mut Workspace<T>,
-    ) -> Result<Disturbance<T>, GeometryError> {
+    ) -> Result<Loads<T>, GeometryError> {
         let surface = self.planet.map(|surface| surface.constant());
         self.evaluate_on(surface.as_ref(), geometry, recoil, workspace)
     }
@@ -155,7 +155,7 @@ impl DisturbanceModel {
         geometry: &Geometry<'_, T>,
         recoil: Recoil<'_>,
         workspace: &mut Workspace<T>,
-    ) -> Result<Disturbance<T>, GeometryError> {
+    ) -> Result<Loads<T>, GeometryError> {
         geometry.check(self.panels.len())?;
         self.check_temperatures(recoil)?;
         workspace.prepare(self.faces.normals.len(), self.faces.faces.len());
@@ -172,10 +172,10 @@ impl DisturbanceModel {
         }
         let loads = self.loads(geometry);
         let mut sum = loads.receive(workspace);
-        sum.thermal = loads.radiate(recoil, workspace);
+        sum[Effect::Thermal] = loads.radiate(recoil, workspace);
         if let Some(cylinder) = &self.faces.cylinder {
             let sunlight = cylinder.force_torque_about_origin(&geometry.beam());
-            sum.solar += sunlight.about(&geometry.center_of_mass_body_m);
+            sum[Effect::Solar] += sunlight.about(&geometry.center_of_mass_body_m);
         }
         Ok(sum)
     }
