@@ -13,6 +13,7 @@ use super::body_positions::BodyPositions;
 use super::mode::Mode;
 use super::transitions::{ModeSettings, ModeState, Sensed, Steering};
 use crate::attitude::{Attitude, SunAngles};
+use crate::enumeration::enumeration;
 use crate::guidance::burn::delta_v::{BurnSettings, BurnState, MeasuredMotion};
 use crate::guidance::constraints::constrained::{ConstrainedPointing, Constraints};
 use crate::guidance::constraints::hot_pole::TurnSide;
@@ -86,18 +87,21 @@ pub struct TimedEntries {
     pub mode: Option<usize>,
 }
 
-/// What a command gives.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum CommandKind {
-    /// Nothing was commanded yet: the start attitude is held.
-    #[default]
-    None,
-    /// Attitude and rate.
-    Attitude,
-    /// Error quaternion and rate.
-    ErrorQuaternion,
-    /// Rate alone.
-    RateOnly,
+enumeration! {
+    /// What a command gives.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum CommandKind {
+        /// No command yet: the attitude is held.
+        #[default]
+        0 => None,
+        /// Attitude command.q and rate command.rate.
+        1 => Attitude,
+        /// The attitude held turns at once, when this item is chosen, by the conjugate of command.error; then with
+        /// command.rate.
+        2 => ErrorQuaternion,
+        /// The attitude held turns on with command.rate.
+        3 => RateOnly,
+    }
 }
 
 /// A command, propagated by its rate from its sample on.
