@@ -19,7 +19,6 @@ PAPER = {
 }
 
 # Its Table 2, rows "thruster dumps only", for the cylinder: dumps in 90 days by threshold in N.m.s, one for each offset.
-OFFSETS_M = (0.0, -0.0254, -0.0508)
 PAPER_COUNTS = {4.0: (4, 9, 14), 7.0: (2, 6, 8)}
 
 # Ours, by where a dump leaves a component: at the opposite threshold as the paper's, and at 0.9 of it, the default.

@@ -4,7 +4,6 @@ The histories carry the true attitude (EME2000 to body) and rate of every sample
 """
 
 import math
-import re
 import subprocess
 
 import numpy as np

@@ -84,23 +84,6 @@ def test_sources_add_up_to_the_total(disturbance_torque, quantity, extra):
     assert np.abs(parts.sum(axis=0) - total).max() <= 1e-12 * np.abs(parts).max()
 
 
-def test_without_a_planet_only_sun_and_own_heat_act(disturbance_torque):
-    _, parts = total_and_parts(disturbance_torque, "force", [], {"planet.present": False})
-    solar, albedo, infrared, thermal = parts
-    assert np.abs(solar).max() > 1e-6 and np.abs(thermal).max() > 1e-8
-    assert not albedo.any() and not infrared.any()
-
-
-def test_sunlight_falls_with_the_square_of_the_distance(disturbance_torque):
-    near, _ = total_and_parts(disturbance_torque, "force", [], {"planet.present": False})
-    solar = []
-    for metres in (-5.0e10, -1.0e11):
-        start = {"planet.present": False, "sun.positionBody[2]": metres}
-        solar.append(total_and_parts(disturbance_torque, "force", [], start)[1][0])
-    assert np.allclose(solar[0], 4.0 * solar[1], rtol=1e-12)
-    assert np.abs(near).max() > 0.0
-
-
 def test_plates_reported_one_by_one_add_up_to_the_force(heliotorque, dist, tmp_path):
     fmu = tmp_path / "Plates.fmu"
     template, file = (dist / "DisturbanceTorque.fmu").resolve(), RESOURCES / "messenger-thermal.toml"

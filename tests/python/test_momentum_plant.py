@@ -41,16 +41,6 @@ def test_halving_the_internal_step_changes_nothing_that_matters(momentum_plant, 
     assert difference.max() < 1e-6
 
 
-def test_centre_of_mass_and_threshold_matter(momentum_plant):
-    def dumps(**changes):
-        return simulate(momentum_plant, start=PAPER | changes)["dump.count"][-1]
-
-    near, far = dumps(), dumps(**{"spacecraft.centerOfMass[3]": -0.0508})
-    assert far > near
-    loose = dumps(**{"spacecraft.centerOfMass[3]": -0.0508, "dump.threshold[1]": 1e6, "dump.threshold[3]": 1e6})
-    assert loose < far
-
-
 def test_momentum_without_dumps_is_the_quadrature_of_torque(momentum_plant):
     """Simpson's rule over the torque output, which knows nothing of the plant's own integration."""
     start = PAPER | {f"dump.threshold[{i}]": 1e9 for i in (1, 2, 3)}

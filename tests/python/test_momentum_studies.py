@@ -137,6 +137,15 @@ def test_table_4_is_near_the_papers(simulated):
         assert int(row["paper"]) == PAPER_PANELS[row["offset"]] and row["verdict"] == "within 2", row
 
 
+def test_plates_alone_dump_about_as_often_as_the_cylinder(studied):
+    """The paper says of them that "the number and spacing of thruster dumps was comparable"."""
+    found = {}
+    for row in table(studied("momentum/dump-targets")[1], "dump-targets.csv"):
+        if (row["shade"], row["strategy"], row["dumps to"], row["momentum"]) == ("plates", "dumps only", "0.9", PAPERS):
+            found.setdefault(row["threshold"], []).append(int(row["ours"]))
+    assert found == {"4 N.m.s": [6, 7, 14], "7 N.m.s": [2, 4, 8]}
+
+
 @pytest.mark.parametrize("name", ["table2", "table4"])
 def test_strategies_save_dumps_in_every_row_and_column(simulated, name):
     """In the paper's convention, dumps to 0.9: those to 1.0 dump again where the drift turns."""

@@ -5,7 +5,7 @@ import pytest
 from fmpy import read_model_description
 
 from simulation import simulate
-from spacecraft import RESOURCES, call, pack
+from spacecraft import RESOURCES, call
 
 # As the command line writes them, and as FMPy would set them.
 SET = {
@@ -47,36 +47,3 @@ def test_fmpy_reads_what_was_packed_and_runs_it_as_if_it_had_set_it(with_start_v
     from_file, unset = simulate(with_start_values, days=20.0), simulate(momentum_plant, days=20.0)
     assert from_file.tobytes() == by_master.tobytes()
     assert from_file.tobytes() != unset.tobytes()
-
-
-def test_the_table_in_the_file_is_the_same(with_start_values, heliotorque, dist, tmp_path):
-    # Into the file's own [start], its last table.
-    table = """
-"eclipse.method" = "off"
-"panel[1].enabled" = false
-"panel[2].sunOffset" = "10 deg"
-"dump.threshold" = [5.5, 3.0, 5.5]
-"planetLight.belts" = 30 # of DisturbanceTorque
-
-[start.MomentumPlant]
-"momentum.convention" = "bodyIntegral"
-"guided.downlinkEvery" = 3
-"torque.applied" = ["2 uN.m", 0, 0]
-"""
-    text = MESSENGER.read_text(encoding="utf-8") + table
-    fmu = pack(heliotorque, dist, tmp_path, text, "Told")
-    assert read_model_description(fmu).guid == read_model_description(with_start_values).guid
-    assert starts(fmu) == starts(with_start_values)
-    checked = call(heliotorque, "check", tmp_path / "Told.toml", "--template", dist / "MomentumPlant.fmu")
-    assert checked.returncode == 0, checked.stdout
-
-
-def test_check_tells_a_start_value_that_one_model_does_not_take(heliotorque, dist, tmp_path):
-    text = MESSENGER.read_text(encoding="utf-8")
-    bad = tmp_path / "bad.toml"
-    bad.write_text(text + '"orbit.center" = "pluto"\n', encoding="utf-8")
-    checked = call(heliotorque, "check", bad, "--template", dist / "MomentumPlant.fmu")
-    line = len(text.splitlines()) + 1
-    assert checked.returncode == 1
-    assert f'bad.toml:{line}: start."orbit.center": found "pluto", allowed: mercury (1), sun (2)' in checked.stdout
-    assert "1 problem" in checked.stderr

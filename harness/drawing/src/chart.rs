@@ -32,6 +32,17 @@ pub struct Chart {
 }
 
 impl Chart {
+    /// A chart without panels.
+    pub fn new(title: impl Into<String>, x_label: impl Into<String>) -> Self {
+        Self { title: title.into(), x_label: x_label.into(), ..Self::default() }
+    }
+
+    /// With these panels, top to bottom.
+    #[must_use]
+    pub fn with(self, panels: impl IntoIterator<Item = Panel>) -> Self {
+        Self { panels: panels.into_iter().collect(), ..self }
+    }
+
     /// Horizontal range of the finite points of all panels.
     fn x_range(&self) -> Option<[f64; 2]> {
         let points = self.panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points);

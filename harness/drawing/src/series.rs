@@ -60,6 +60,12 @@ impl Series {
         Self { label: label.into(), points, mark: Mark::Steps }
     }
 
+    /// The series drawn otherwise.
+    #[must_use]
+    pub fn drawn(self, mark: Mark) -> Self {
+        Self { mark, ..self }
+    }
+
     /// The corners of the staircase.
     pub(super) fn corners(&self) -> Vec<(f64, f64)> {
         let mut corners: Vec<(f64, f64)> = Vec::with_capacity(2 * self.points.len());
@@ -95,4 +101,35 @@ pub struct Panel {
     pub shade_label: String,
     /// Whether only whole numbers are ticks.
     pub is_whole: bool,
+}
+
+impl Panel {
+    /// An empty panel.
+    pub fn new(y_label: impl Into<String>) -> Self {
+        Self { y_label: y_label.into(), ..Self::default() }
+    }
+
+    /// With these lines.
+    #[must_use]
+    pub fn with(self, series: impl IntoIterator<Item = Series>) -> Self {
+        Self { series: series.into_iter().collect(), ..self }
+    }
+
+    /// Over a vertical range.
+    #[must_use]
+    pub fn range(self, low: f64, high: f64) -> Self {
+        Self { y_range: Some((low, high)), ..self }
+    }
+
+    /// With marked values, and what the legend says of them.
+    #[must_use]
+    pub fn marks(self, mark_label: impl Into<String>, marks: Vec<f64>) -> Self {
+        Self { mark_label: mark_label.into(), marks, ..self }
+    }
+
+    /// With whole numbers as ticks only.
+    #[must_use]
+    pub fn whole(self) -> Self {
+        Self { is_whole: true, ..self }
+    }
 }

@@ -12,36 +12,17 @@ fn sample() -> Chart {
             })
             .collect::<Vec<_>>()
     };
-    Chart {
-        title: "System momentum, thruster dumps only".to_owned(),
-        x_label: "time [d]".to_owned(),
-        panels: vec![
-            Panel {
-                y_label: "momentum.body [N.m.s]".to_owned(),
-                series: vec![
-                    Series::line("momentum.body[1]", line(0.0, 1.0)),
-                    Series::line("momentum.body[2]", line(0.4, 0.3)),
-                    Series::line("momentum.body[3]", line(0.7, -0.6)),
-                ],
-                marks: vec![4.0, -4.0],
-                mark_label: "dump.threshold".to_owned(),
-                shades: vec![(10.0, 12.0)],
-                shade_label: "eclipse".to_owned(),
-                ..Panel::default()
-            },
-            Panel {
-                y_label: "torque.solar [uN.m]".to_owned(),
-                series: vec![Series::line("torque.solar[1]", line(0.1, 20.0))],
-                ..Panel::default()
-            },
-            Panel {
-                y_label: "dump.count".to_owned(),
-                series: vec![Series::dots("", (0..12).map(|k| (f64::from(k) * 7.5, f64::from(k))).collect())],
-                ..Panel::default()
-            },
-        ],
-        ..Chart::default()
-    }
+    let momentum = Panel::new("momentum.body [N.m.s]").marks("dump.threshold", vec![4.0, -4.0]).with([
+        Series::line("momentum.body[1]", line(0.0, 1.0)),
+        Series::line("momentum.body[2]", line(0.4, 0.3)),
+        Series::line("momentum.body[3]", line(0.7, -0.6)),
+    ]);
+    Chart::new("System momentum, thruster dumps only", "time [d]").with([
+        Panel { shades: vec![(10.0, 12.0)], shade_label: "eclipse".to_owned(), ..momentum },
+        Panel::new("torque.solar [uN.m]").with([Series::line("torque.solar[1]", line(0.1, 20.0))]),
+        Panel::new("dump.count")
+            .with([Series::dots("", (0..12).map(|k| (f64::from(k) * 7.5, f64::from(k))).collect())]),
+    ])
 }
 
 #[test]
@@ -79,7 +60,7 @@ fn thinning_keeps_every_spike() {
 #[test]
 fn odd_data_is_drawn_or_refused_but_never_panics() {
     let chart = |points: Vec<(f64, f64)>| Chart {
-        panels: vec![Panel { series: vec![Series::line("x", points)], ..Panel::default() }],
+        panels: vec![Panel::new("").with([Series::line("x", points)])],
         ..Chart::default()
     };
     assert!(svg(&[&chart(vec![])]).is_err());
@@ -109,8 +90,7 @@ fn drawn_line(svg: &str) -> Vec<(f64, f64)> {
 fn a_smooth_curve_is_no_staircase() {
     // A ramp that rises by 20 pixels over the width of the picture.
     let points = (0..=400).map(|k| (f64::from(k), f64::from(k))).collect();
-    let panel =
-        Panel { series: vec![Series::line("x", points)], y_range: Some((0.0, 6000.0)), ..Panel::default() };
+    let panel = Panel::new("").range(0.0, 6000.0).with([Series::line("x", points)]);
     let svg = svg(&[&Chart { panels: vec![panel.clone(), panel], ..Chart::default() }]).unwrap();
     assert!(svg.contains(" width=\"960\" ") && svg.contains(" viewBox=\"0 0 960 "));
     let line = drawn_line(&svg);
@@ -170,8 +150,7 @@ fn dashes_and_rings_are_reported_from_lines_and_dots() {
 fn flags_and_counts_have_whole_ticks() {
     for greatest in [1.0, 2.0, 3.0, 40.0] {
         let steps = Series::steps("", vec![(0.0, 0.0), (1.0, greatest), (2.0, greatest)]);
-        let panel =
-            Panel { y_label: "count".to_owned(), series: vec![steps], is_whole: true, ..Panel::default() };
+        let panel = Panel::new("count").whole().with([steps]);
         let svg = svg(&[&Chart { panels: vec![panel; 2], ..Chart::default() }]).unwrap();
         let texts: Vec<&str> = svg
             .split("</text>")

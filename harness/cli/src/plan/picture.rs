@@ -178,11 +178,6 @@ fn nutation(burn: &PlannedBurn) -> Chart {
         .iter()
         .flat_map(|series| &series.points)
         .fold(0.0_f64, |highest, (_, angle_deg)| highest.max(*angle_deg));
-    let panel = Panel {
-        y_label: "nutation [deg]".to_owned(),
-        series,
-        y_range: Some((0.0, 1.08 * highest.max(1e-9))),
-        ..Panel::default()
-    };
-    Chart { title: String::new(), x_label: "time [min]".to_owned(), panels: vec![panel], ..Chart::default() }
+    let panel = Panel::new("nutation [deg]").range(0.0, 1.08 * highest.max(1e-9)).with(series);
+    Chart::new(String::new(), "time [min]").with([panel])
 }

@@ -194,24 +194,13 @@ fn quaternion_chart(simulated: &Simulated) -> Chart {
     };
     let panel = |i: usize| {
         let label = |text: &str| if i == 0 { text.to_owned() } else { String::new() };
-        Panel {
-            y_label: format!("q{}", i + 1),
-            series: vec![
-                Series::line(label("estimated"), points(&|sample| sample.estimate_q[i])),
-                Series {
-                    mark: Mark::Dashed,
-                    ..Series::line(label("commanded"), points(&|sample| sample.command_q[i]))
-                },
-            ],
-            ..Panel::default()
-        }
+        Panel::new(format!("q{}", i + 1)).with([
+            Series::line(label("estimated"), points(&|sample| sample.estimate_q[i])),
+            Series::line(label("commanded"), points(&|sample| sample.command_q[i])).drawn(Mark::Dashed),
+        ])
     };
-    Chart {
-        title: "Commanded and estimated quaternion of a burn, both corrections".to_owned(),
-        x_label: "time [s]".to_owned(),
-        panels: (0..4).map(panel).collect(),
-        ..Chart::default()
-    }
+    Chart::new("Commanded and estimated quaternion of a burn, both corrections", "time [s]")
+        .with((0..4).map(panel))
 }
 
 fn velocity_chart(shown: &[(Kind, &Simulated)]) -> Chart {
@@ -222,8 +211,7 @@ fn velocity_chart(shown: &[(Kind, &Simulated)]) -> Chart {
     let off = shown.iter().map(|(kind, simulated)| {
         Series::line(kind.label, from_start(simulated, &|sample| off_path_m_s(simulated, sample)))
     });
-    let mut panels =
-        vec![Panel { y_label: "off path [mm/s]".to_owned(), series: off.collect(), ..Panel::default() }];
+    let mut panels = vec![Panel::new("off path [mm/s]").with(off)];
     if let Some((kind, simulated)) = shown.last() {
         let along = simulated.wanted_m_s.normalize();
         let component = |i: usize| {
@@ -231,22 +219,9 @@ fn velocity_chart(shown: &[(Kind, &Simulated)]) -> Chart {
             let points = from_start(simulated, &|sample| across(&sample.delta_v_m_s, &along)[i]);
             Series::line(format!("{}: {name}", kind.label), points)
         };
-        panels.push(Panel {
-            y_label: "off path [mm/s]".to_owned(),
-            series: (0..3).map(component).collect(),
-            ..Panel::default()
-        });
+        panels.push(Panel::new("off path [mm/s]").with((0..3).map(component)));
         let short = from_start(simulated, &|sample| (sample.delta_v_m_s * 1e-3).norm());
-        panels.push(Panel {
-            y_label: "speed gained [m/s]".to_owned(),
-            series: vec![Series::line(kind.label, short)],
-            ..Panel::default()
-        });
+        panels.push(Panel::new("speed gained [m/s]").with([Series::line(kind.label, short)]));
     }
-    Chart {
-        title: "True velocity off the path of a burn".to_owned(),
-        x_label: "time [s]".to_owned(),
-        panels,
-        ..Chart::default()
-    }
+    Chart::new("True velocity off the path of a burn", "time [s]").with(panels)
 }

@@ -160,39 +160,16 @@ fn figure(simulated: &Simulated) -> Chart {
         let component = |i: usize| line(["x", "y", "z"][i], &|row| scale * recorded.columns[first + i][row]);
         (0..3).map(component).collect()
     };
-    Chart {
-        title: format!("Dump by pulses: {}", simulated.dump.label),
-        x_label: "time [s]".to_owned(),
-        panels: vec![
-            Panel {
-                y_label: "momentum [N m s]".to_owned(),
-                series: components(MOMENTUM, 1.0),
-                marks: simulated.dump.target_n_m_s.as_slice().to_vec(),
-                mark_label: "target".to_owned(),
-                ..Panel::default()
-            },
-            Panel {
-                y_label: "wheel torque [N m]".to_owned(),
-                series: WHEELS
-                    .map(|k| {
-                        line(&format!("wheel {}", k - WHEELS.start + 1), &|row| recorded.columns[k][row])
-                    })
-                    .collect(),
-                ..Panel::default()
-            },
-            Panel {
-                y_label: "error [deg]".to_owned(),
-                series: vec![line("attitude from the one commanded", &|row| {
-                    recorded.columns[ERROR][row].to_degrees()
-                })],
-                ..Panel::default()
-            },
-            Panel {
-                y_label: "delta-v [mm/s]".to_owned(),
-                series: components(DELTA_V, 1e3),
-                ..Panel::default()
-            },
-        ],
-        ..Chart::default()
-    }
+    Chart::new(format!("Dump by pulses: {}", simulated.dump.label), "time [s]").with([
+        Panel::new("momentum [N m s]")
+            .marks("target", simulated.dump.target_n_m_s.as_slice().to_vec())
+            .with(components(MOMENTUM, 1.0)),
+        Panel::new("wheel torque [N m]").with(
+            WHEELS.map(|k| line(&format!("wheel {}", k - WHEELS.start + 1), &|row| recorded.columns[k][row])),
+        ),
+        Panel::new("error [deg]").with([line("attitude from the one commanded", &|row| {
+            recorded.columns[ERROR][row].to_degrees()
+        })]),
+        Panel::new("delta-v [mm/s]").with(components(DELTA_V, 1e3)),
+    ])
 }

@@ -123,32 +123,22 @@ fn spectra(shaken: &[Shaken]) -> Chart {
             let points = points.map(|(hz, amplitude)| (hz, decibels(amplitude).max(LEAST_DB)));
             Series::line(flight.label.clone(), points.collect())
         });
-        Panel { y_label: y_label.to_owned(), series: series.collect(), ..Panel::default() }
+        Panel::new(y_label).with(series)
     };
     let panels = [panel(false, "free [dB re 1 urad]"), panel(true, "controlled [dB re 1 urad]")];
-    Chart {
-        title: "Attitude jitter by a wheel out of balance".to_owned(),
-        x_label: "frequency [Hz]".to_owned(),
-        panels: panels.into_iter().filter(|panel| !panel.series.is_empty()).collect(),
-        ..Chart::default()
-    }
+    Chart::new("Attitude jitter by a wheel out of balance", "frequency [Hz]")
+        .with(panels.into_iter().filter(|panel| !panel.series.is_empty()))
 }
 
 fn run_up_figure(points: &[(f64, f64)], structure: &Structure) -> Chart {
     let simulated = points.iter().map(|(hz, rad)| (*hz, decibels(*rad))).collect();
     let steady = (60..=1000).map(|k| f64::from(k) * 0.01).filter(|hz| *hz <= FASTEST_HZ);
     let steady = steady.map(|hz| (hz, decibels(structure.jitter_rad(hz)))).collect();
-    Chart {
-        title: "A wheel run up through the modes".to_owned(),
-        x_label: "speed of the wheel [Hz]".to_owned(),
-        panels: vec![Panel {
-            y_label: "jitter [dB re 1 urad]".to_owned(),
-            series: vec![
-                Series::line("run up to 9 Hz in 600 s", simulated),
-                Series::dashed("at constant speed, in closed form", steady),
-            ],
-            ..Panel::default()
-        }],
-        ..Chart::default()
-    }
+    Chart::new("A wheel run up through the modes", "speed of the wheel [Hz]").with([Panel::new(
+        "jitter [dB re 1 urad]",
+    )
+    .with([
+        Series::line("run up to 9 Hz in 600 s", simulated),
+        Series::dashed("at constant speed, in closed form", steady),
+    ])])
 }

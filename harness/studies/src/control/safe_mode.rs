@@ -95,46 +95,23 @@ fn figure(chain: Chain, parameters: &Parameters, samples: &[Sample]) -> Chart {
         rates.extend(parameters.commanded_rates());
     }
     let dashed = |series: Series| Series { mark: Mark::Dashed, ..series };
-    Chart {
-        title: format!("Safe modes: {}", chain.label()),
-        x_label: "time [s]".to_owned(),
-        panels: vec![
-            Panel {
-                y_label: "mode".to_owned(),
-                series: vec![line("1 Operational, 2 Safe Hold, 3 Earth Acquisition", &|it| {
-                    f64::from(it.mode)
-                })],
-                y_range: Some((0.5, 3.5)),
-                is_whole: true,
-                ..Panel::default()
-            },
-            Panel {
-                y_label: "command".to_owned(),
-                series: vec![line("1 attitude, 2 error quaternion, 3 rate only", &|sample| {
-                    f64::from(sample.command_kind)
-                })],
-                y_range: Some((0.5, 3.5)),
-                is_whole: true,
-                ..Panel::default()
-            },
-            Panel {
-                y_label: "Sun [deg]".to_owned(),
-                series: vec![line("from -Y", &sun_angle_deg)],
-                ..Panel::default()
-            },
-            Panel { y_label: "rate [deg/s]".to_owned(), series: rates, ..Panel::default() },
-            Panel {
-                y_label: "valid".to_owned(),
-                series: vec![
-                    line("estimated attitude", &|sample| flag(sample.is_attitude_known)),
-                    dashed(line("sensed Sun", &|sample| flag(sample.is_sun_sensed))),
-                    line("link with the Earth", &|sample| flag(sample.has_link)),
-                ],
-                y_range: Some((-0.15, 1.15)),
-                is_whole: true,
-                ..Panel::default()
-            },
-        ],
-        ..Chart::default()
-    }
+    Chart::new(format!("Safe modes: {}", chain.label()), "time [s]").with([
+        Panel::new("mode")
+            .range(0.5, 3.5)
+            .whole()
+            .with([line("1 Operational, 2 Safe Hold, 3 Earth Acquisition", &|it| f64::from(it.mode))]),
+        Panel::new("command")
+            .range(0.5, 3.5)
+            .whole()
+            .with([line("1 attitude, 2 error quaternion, 3 rate only", &|sample| {
+                f64::from(sample.command_kind)
+            })]),
+        Panel::new("Sun [deg]").with([line("from -Y", &sun_angle_deg)]),
+        Panel::new("rate [deg/s]").with(rates),
+        Panel::new("valid").range(-0.15, 1.15).whole().with([
+            line("estimated attitude", &|sample| flag(sample.is_attitude_known)),
+            dashed(line("sensed Sun", &|sample| flag(sample.is_sun_sensed))),
+            line("link with the Earth", &|sample| flag(sample.has_link)),
+        ]),
+    ])
 }

@@ -20,57 +20,31 @@ pub fn figure(simulated: &Simulated) -> Chart {
     let torque_n_m = limits.torque_n_m.iter().copied().fold(f64::INFINITY, f64::min);
     let capacity_n_m_s = limits.capacity_n_m_s.iter().copied().fold(f64::INFINITY, f64::min);
     let mut panels = vec![
-        Panel {
-            y_label: "error [deg]".to_owned(),
-            series: vec![line("angle from the attitude commanded at 10 s", &|sample| {
-                sample.left_rad.norm().to_degrees()
-            })],
-            ..Panel::default()
-        },
-        Panel {
-            y_label: "rate [deg/s]".to_owned(),
-            series: vec![
-                line("about the slew's axis", &|sample| sample.rate_rad_s.dot(&slew.axis).to_degrees()),
-                dashed("control.slewRate", limit, samples),
-            ],
-            ..Panel::default()
-        },
-        Panel {
-            y_label: "torque [N m]".to_owned(),
-            series: wheels(&|sample, k| sample.wheels[k].torque_n_m),
-            y_range: Some((-1.15 * torque_n_m, 1.15 * torque_n_m)),
-            marks: either_way(torque_n_m),
-            mark_label: "largest".to_owned(),
-            ..Panel::default()
-        },
-        Panel {
-            y_label: "momentum [N m s]".to_owned(),
-            series: wheels(&|sample, k| sample.wheels[k].momentum_n_m_s),
-            y_range: Some((-1.15 * capacity_n_m_s, 1.15 * capacity_n_m_s)),
-            marks: either_way(capacity_n_m_s),
-            mark_label: "capacity".to_owned(),
-            ..Panel::default()
-        },
+        Panel::new("error [deg]").with([line("angle from the attitude commanded at 10 s", &|sample| {
+            sample.left_rad.norm().to_degrees()
+        })]),
+        Panel::new("rate [deg/s]").with([
+            line("about the slew's axis", &|sample| sample.rate_rad_s.dot(&slew.axis).to_degrees()),
+            dashed("control.slewRate", limit, samples),
+        ]),
+        Panel::new("torque [N m]")
+            .range(-1.15 * torque_n_m, 1.15 * torque_n_m)
+            .marks("largest", either_way(torque_n_m))
+            .with(wheels(&|sample, k| sample.wheels[k].torque_n_m)),
+        Panel::new("momentum [N m s]")
+            .range(-1.15 * capacity_n_m_s, 1.15 * capacity_n_m_s)
+            .marks("capacity", either_way(capacity_n_m_s))
+            .with(wheels(&|sample, k| sample.wheels[k].momentum_n_m_s)),
     ];
     if matches!(slew.event, Event::Dumped(..) | Event::Threshold(..)) {
         let full = |sample: &Sample| sample.wheels.iter().filter(|wheel| wheel.is_saturated).count() as f64;
-        panels.push(Panel {
-            y_label: "number".to_owned(),
-            series: vec![
-                line("wheels at capacity", &full),
-                line("dump active", &|sample| f64::from(u8::from(sample.is_dumping))),
-            ],
-            y_range: Some((-0.3, limits.axes.len() as f64 + 0.3)),
-            is_whole: true,
-            ..Panel::default()
-        });
+        panels.push(Panel::new("number").range(-0.3, limits.axes.len() as f64 + 0.3).whole().with([
+            line("wheels at capacity", &full),
+            line("dump active", &|sample| f64::from(u8::from(sample.is_dumping))),
+        ]));
     }
-    Chart {
-        title: format!("Slew by {:.0} deg: {}", slew.angle_rad.to_degrees(), slew.label),
-        x_label: "time [s]".to_owned(),
-        panels,
-        ..Chart::default()
-    }
+    Chart::new(format!("Slew by {:.0} deg: {}", slew.angle_rad.to_degrees(), slew.label), "time [s]")
+        .with(panels)
 }
 
 /// A limit from the slew's begin on.

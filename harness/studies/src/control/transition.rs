@@ -255,52 +255,39 @@ fn sign(samples: &[Sample], q: &Attitude) -> f64 {
 fn quaternion_chart(case: Case, samples: &[Sample]) -> Chart {
     let signed = |q: &Attitude, i: usize| sign(samples, q) * q[i];
     let mut panels: Vec<Panel> = (0..4)
-        .map(|i| Panel {
-            y_label: format!("q{}", i + 1),
-            series: vec![
+        .map(|i| {
+            Panel::new(format!("q{}", i + 1)).with([
                 over_time("commanded", samples, true, |sample| signed(&sample.command_q, i)),
-                Series {
-                    mark: Mark::Dashed,
-                    ..over_time("estimated", samples, false, |sample| signed(&sample.estimate_q, i))
-                },
-            ],
-            ..Panel::default()
+                over_time("estimated", samples, false, |sample| signed(&sample.estimate_q, i))
+                    .drawn(Mark::Dashed),
+            ])
         })
         .collect();
     for panel in panels.iter_mut().skip(1) {
         panel.series.iter_mut().for_each(|series| series.label.clear());
     }
-    panels.push(Panel {
-        y_label: "error [deg]".to_owned(),
-        series: vec![over_time("estimated to commanded", samples, false, error_deg)],
-        ..Panel::default()
-    });
-    Chart {
-        title: format!("Commanded and estimated quaternion over the transition, {}", case.label()),
-        x_label: "time [s]".to_owned(),
-        panels,
-        ..Chart::default()
-    }
+    panels.push(Panel::new("error [deg]").with([over_time(
+        "estimated to commanded",
+        samples,
+        false,
+        error_deg,
+    )]));
+    Chart::new(
+        format!("Commanded and estimated quaternion over the transition, {}", case.label()),
+        "time [s]",
+    )
+    .with(panels)
 }
 
 fn angle_chart(case: Case, samples: &[Sample]) -> Chart {
-    let panel = |name: &str, i: usize| Panel {
-        y_label: format!("{name} [deg]"),
-        series: vec![
+    let panel = |name: &str, i: usize| {
+        Panel::new(format!("{name} [deg]")).with([
             over_time("Mercury", samples, false, |it| estimated_deg(it, &it.to_planet_m)[i]),
             over_time("Earth", samples, false, |it| estimated_deg(it, &it.to_earth_m)[i]),
             // Dashed, as it lies on one of the others all the time.
-            Series {
-                mark: Mark::Dashed,
-                ..over_time("Sun", samples, false, |it| estimated_deg(it, &it.to_sun_m)[i])
-            },
-        ],
-        ..Panel::default()
+            over_time("Sun", samples, false, |it| estimated_deg(it, &it.to_sun_m)[i]).drawn(Mark::Dashed),
+        ])
     };
-    Chart {
-        title: format!("Sun, Earth and Mercury in the estimated body frame, {}", case.label()),
-        x_label: "time [s]".to_owned(),
-        panels: vec![panel("azimuth", 0), panel("elevation", 1)],
-        ..Chart::default()
-    }
+    Chart::new(format!("Sun, Earth and Mercury in the estimated body frame, {}", case.label()), "time [s]")
+        .with([panel("azimuth", 0), panel("elevation", 1)])
 }

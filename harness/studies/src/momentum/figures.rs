@@ -75,25 +75,22 @@ pub fn draw(
     };
     let threshold_n_m_s = first.case.threshold_n_m_s;
     let limit = threshold_n_m_s * 1.25;
-    let panel = |offset_in: &[i8; 3]| Panel {
-        y_label: "H_x [N.m.s]".to_owned(),
-        series: chosen.iter().filter(|it| it.case.offset_in == *offset_in).map(|it| line(&it)).collect(),
-        y_range: Some((-limit, limit)),
-        marks: vec![-threshold_n_m_s, threshold_n_m_s],
-        mark_label: "threshold".to_owned(),
-        ..Panel::default()
+    let panel = |offset_in: &[i8; 3]| {
+        Panel::new("H_x [N.m.s]")
+            .range(-limit, limit)
+            .marks("threshold", vec![-threshold_n_m_s, threshold_n_m_s])
+            .with(chosen.iter().filter(|it| it.case.offset_in == *offset_in).map(|it| line(&it)))
     };
-    let chart = Chart {
-        title: format!(
+    let chart = Chart::new(
+        format!(
             "X momentum with {}: {} shade, {threshold_n_m_s} N.m.s, dumps to {} of it",
             figure.title,
             first.case.shade.label(),
             first.case.dumps_to.label()
         ),
-        x_label: "time [d]".to_owned(),
-        panels: offsets.iter().map(panel).collect(),
-        ..Chart::default()
-    };
+        "time [d]",
+    )
+    .with(offsets.iter().map(panel));
     report.picture(options, &format!("{}.svg", figure.name), &chart)?;
     let rows = chosen.iter().flat_map(|simulation| {
         let label = simulation.case.label();

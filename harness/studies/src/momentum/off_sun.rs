@@ -156,21 +156,13 @@ fn within_the_zone(
     let points = |simulated: &Simulated, axis: usize| -> Vec<(f64, f64)> {
         simulated.times_d.iter().zip(&simulated.momentum_n_m_s).map(|(t, h)| (*t, h[axis])).collect()
     };
-    let chart = Chart {
-        title: "Inertial momentum within the keep-in zone".to_owned(),
-        x_label: "time [d]".to_owned(),
-        panels: (0..3)
-            .map(|axis| Panel {
-                y_label: format!("H_{} [N.m.s]", ["x", "y", "z"][axis]),
-                series: vec![
-                    Series::line("shade and panels", points(few, axis)),
-                    Series::line("whole", points(whole, axis)),
-                ],
-                ..Panel::default()
-            })
-            .collect(),
-        ..Chart::default()
-    };
+    let chart =
+        Chart::new("Inertial momentum within the keep-in zone", "time [d]").with((0..3).map(|axis| {
+            Panel::new(format!("H_{} [N.m.s]", ["x", "y", "z"][axis])).with([
+                Series::line("shade and panels", points(few, axis)),
+                Series::line("whole", points(whole, axis)),
+            ])
+        }));
     report.picture(options, "off-sun-momentum.svg", &chart)
 }
 

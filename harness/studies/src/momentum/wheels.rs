@@ -124,24 +124,20 @@ fn draw(
             series.retain(|series| !series.points.is_empty());
             let most = series.iter().flat_map(|it| &it.points).map(|(_, count)| *count).fold(1.0, f64::max);
             let centimetres = 2.54 * f64::from(offset_in[2]);
-            Panel {
-                y_label: format!("{}, Z {centimetres:.2} cm", convention.label()),
-                series,
-                y_range: Some((-0.5, 1.15 * most)),
-                ..Panel::default()
-            }
+            Panel::new(format!("{}, Z {centimetres:.2} cm", convention.label()))
+                .range(-0.5, 1.15 * most)
+                .with(series)
         })
         .filter(|panel| !panel.series.is_empty())
         .collect();
     if panels.is_empty() {
         return Ok(());
     }
-    let chart = Chart {
-        title: "Thruster dumps in 90 days over the mass of four wheels, by momentum and offset".to_owned(),
-        x_label: "mass of four wheels [kg]: 12 kg store 4 N.m.s a wheel, 17 kg 8, 20 kg 12".to_owned(),
-        panels,
-        ..Chart::default()
-    };
+    let chart = Chart::new(
+        "Thruster dumps in 90 days over the mass of four wheels, by momentum and offset",
+        "mass of four wheels [kg]: 12 kg store 4 N.m.s a wheel, 17 kg 8, 20 kg 12",
+    )
+    .with(panels);
     report.picture(options, "wheels.svg", &chart)
 }
 

@@ -140,35 +140,16 @@ fn chart(points: &[Point<'_>]) -> Chart {
         points.iter().map(|point| (point.sample.place.time_s / 3600.0, value(point))).collect::<Vec<_>>()
     };
     let line = |value: &dyn Fn(&Point<'_>) -> f64| vec![Series::line("", over(value))];
-    Chart {
-        title: "Limb on the terminator over one orbit".to_owned(),
-        x_label: "time since periapsis [h]".to_owned(),
-        panels: vec![
-            Panel {
-                y_label: "solutions".to_owned(),
-                series: line(&|point| point.solutions.len() as f64),
-                y_range: Some((-0.2, 2.2)),
-                is_whole: true,
-                ..Panel::default()
-            },
-            Panel {
-                y_label: "azimuth [deg]".to_owned(),
-                series: vec![Series::dots(
-                    "of the commanded limb point, from downtrack",
-                    over(&|point| point.azimuth_deg()),
-                )],
-                ..Panel::default()
-            },
-            Panel {
-                y_label: "Sun elevation [deg]".to_owned(),
-                series: vec![Series::line("in the body frame", over(&|p| p.sun_deg()[1]))],
-                marks: vec![-ZONE_DEG[1], ZONE_DEG[1]],
-                mark_label: "keep-in zone".to_owned(),
-                ..Panel::default()
-            },
-        ],
-        ..Chart::default()
-    }
+    Chart::new("Limb on the terminator over one orbit", "time since periapsis [h]").with([
+        Panel::new("solutions").range(-0.2, 2.2).whole().with(line(&|point| point.solutions.len() as f64)),
+        Panel::new("azimuth [deg]").with([Series::dots(
+            "of the commanded limb point, from downtrack",
+            over(&|point| point.azimuth_deg()),
+        )]),
+        Panel::new("Sun elevation [deg]")
+            .marks("keep-in zone", vec![-ZONE_DEG[1], ZONE_DEG[1]])
+            .with([Series::line("in the body frame", over(&|p| p.sun_deg()[1]))]),
+    ])
 }
 
 /// The disc where the solutions are two, and where there is none.

@@ -190,34 +190,25 @@ fn over_time(label: &str, simulated: &Simulated, value: impl Fn(&Sample) -> f64)
 }
 
 fn quaternion_chart(simulated: &Simulated) -> Chart {
-    let panel = |i: usize| Panel {
-        y_label: format!("q{}", i + 1),
-        series: vec![over_time(if i == 0 { "commanded" } else { "" }, simulated, |sample| sample.q[i])],
-        ..Panel::default()
+    let panel = |i: usize| {
+        Panel::new(format!("q{}", i + 1)).with([over_time(
+            if i == 0 { "commanded" } else { "" },
+            simulated,
+            |sample| sample.q[i],
+        )])
     };
-    Chart {
-        title: "Commanded quaternion over the transition".to_owned(),
-        x_label: "time [s]".to_owned(),
-        panels: (0..4).map(panel).collect(),
-        ..Chart::default()
-    }
+    Chart::new("Commanded quaternion over the transition", "time [s]").with((0..4).map(panel))
 }
 
 fn angle_chart(simulated: &Simulated) -> Chart {
-    let panel = |name: &str, i: usize| Panel {
-        y_label: format!("{name} [deg]"),
-        series: vec![
+    let panel = |name: &str, i: usize| {
+        Panel::new(format!("{name} [deg]")).with([
             over_time("Mercury", simulated, |sample| Angles::of(sample).planet[i]),
             over_time("Earth", simulated, |sample| Angles::of(sample).earth[i]),
             // Dashed, as it lies on one of the others all the time.
-            Series { mark: Mark::Dashed, ..over_time("Sun", simulated, |sample| Angles::of(sample).sun[i]) },
-        ],
-        ..Panel::default()
+            over_time("Sun", simulated, |sample| Angles::of(sample).sun[i]).drawn(Mark::Dashed),
+        ])
     };
-    Chart {
-        title: "Sun, Earth and Mercury in the commanded body frame".to_owned(),
-        x_label: "time [s]".to_owned(),
-        panels: vec![panel("azimuth", 0), panel("elevation", 1)],
-        ..Chart::default()
-    }
+    Chart::new("Sun, Earth and Mercury in the commanded body frame", "time [s]")
+        .with([panel("azimuth", 0), panel("elevation", 1)])
 }

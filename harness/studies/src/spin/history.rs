@@ -92,22 +92,14 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
                 vec![case.label.clone(), format!("{time_s}"), format!("{angle:.9}"), format!("{foreseen:.9}")]
             },
         ));
-        panels.push(Panel {
-            y_label: "nutation [deg]".to_owned(),
-            series: vec![
-                Series::curve(
-                    case.label.clone(),
-                    simulated.times_s.iter().copied().zip(degrees(0)).collect(),
-                ),
-                Series::dashed("linear theory", simulated.times_s.iter().copied().zip(degrees(1)).collect()),
-                Series::dashed(
-                    format!("envelope {:.4} deg", found.envelope_deg),
-                    vec![(0.0, found.envelope_deg), (STOP_S, found.envelope_deg)],
-                ),
-            ],
-            y_range: Some((0.0, 0.05)),
-            ..Panel::default()
-        });
+        panels.push(Panel::new("nutation [deg]").range(0.0, 0.05).with([
+            Series::curve(case.label.clone(), simulated.times_s.iter().copied().zip(degrees(0)).collect()),
+            Series::dashed("linear theory", simulated.times_s.iter().copied().zip(degrees(1)).collect()),
+            Series::dashed(
+                format!("envelope {:.4} deg", found.envelope_deg),
+                vec![(0.0, found.envelope_deg), (STOP_S, found.envelope_deg)],
+            ),
+        ]));
     }
     report.table("body | paper [deg] | ours [deg] | verdict", &rows);
     report.line(
@@ -117,12 +109,7 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
          no confirmation.",
     );
     report.csv(options, "figure4.csv", "case | time_s | nutation_deg | foreseen_deg", csv)?;
-    let chart = Chart {
-        title: "Nutation during the 2 deg manoeuvre".to_owned(),
-        x_label: "time [s]".to_owned(),
-        panels,
-        ..Chart::default()
-    };
+    let chart = Chart::new("Nutation during the 2 deg manoeuvre", "time [s]").with(panels);
     report.picture(options, "figure4.svg", &chart)?;
     Ok(report)
 }

@@ -72,9 +72,8 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
         }));
         // The wave of 8 s is drawn from a simulation of its own, finer than the picture.
         let wave = case.clone().grid(SHOWN_S, 0.05).simulate(&fmu, &names[..1])?;
-        panels.push(Panel {
-            y_label: "declination - mean [deg]".to_owned(),
-            series: vec![
+        panels.push(
+            Panel::new("declination - mean [deg]").range(-0.03, 0.03).with([
                 Series::line(
                     format!("{label}: true"),
                     wave.times_s
@@ -91,10 +90,8 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
                         .map(|s| (s.0, (s.1 - mean).to_degrees()))
                         .collect(),
                 ),
-            ],
-            y_range: Some((-0.03, 0.03)),
-            ..Panel::default()
-        });
+            ]),
+        );
     }
     report.table("sampling | paper | ours | verdict", &rows);
     report.line(
@@ -102,12 +99,8 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
          peak to peak.",
     );
     report.csv(options, "figure6.csv", "sampling | time_s | true_deg | measured_deg", csv)?;
-    let chart = Chart {
-        title: format!("Star declination, 0.02 deg nutation, ratio {RATIO}, 5 rpm"),
-        x_label: "time [s]".to_owned(),
-        panels,
-        ..Chart::default()
-    };
+    let chart = Chart::new(format!("Star declination, 0.02 deg nutation, ratio {RATIO}, 5 rpm"), "time [s]")
+        .with(panels);
     report.picture(options, "figure6.svg", &chart)?;
     Ok(report)
 }
@@ -209,17 +202,12 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
             })
             .collect();
         series.push(Series::dashed("30 min", vec![(4.9, LONG_MIN), (5.1, LONG_MIN)]));
-        Panel { y_label: y_label.to_owned(), series, y_range: Some((0.0, TALLEST_MIN)), ..Panel::default() }
+        Panel::new(y_label).range(0.0, TALLEST_MIN).with(series)
     };
-    let chart = Chart {
-        title: "Nutation observation time".to_owned(),
-        x_label: "spin rate [rpm]".to_owned(),
-        panels: vec![
-            panel("by approximation [min]", |p| p.eq20_min),
-            panel("sampled every 8 spins [min]", |p| p.spins_min),
-        ],
-        ..Chart::default()
-    };
+    let chart = Chart::new("Nutation observation time", "spin rate [rpm]").with([
+        panel("by approximation [min]", |p| p.eq20_min),
+        panel("sampled every 8 spins [min]", |p| p.spins_min),
+    ]);
     report.picture(options, "figure7.svg", &chart)?;
     Ok(report)
 }

@@ -138,23 +138,19 @@ fn chart(rows: &[Row], turns: f64, phase: f64) -> Chart {
     let at_counts =
         |value: fn(&Row) -> f64| shown().map(|row| (f64::from(row.count), value(row).to_degrees())).collect();
     let envelope = (FEWEST_SHOWN..=MOST).map(f64::from).map(|n| (n, envelope_deg(n, phase))).collect();
-    Chart {
-        title: format!(
+    Chart::new(
+        format!(
             "Nutation left by a 2 deg manoeuvre, one pulse {}",
             if turns == 1.0 { "a turn".to_owned() } else { format!("every {turns} turns") }
         ),
-        x_label: "number of pulses".to_owned(),
-        panels: vec![Panel {
-            y_label: "nutation [deg]".to_owned(),
-            series: vec![
-                // Eq 8 holds only at whole numbers of pulses.
-                Series::rings("linear theory", at_counts(|row| row.printed_rad)),
-                Series::line("exact envelope", envelope),
-                Series::dots("SpinPlant", at_counts(|row| row.simulated_rad)),
-            ],
-            y_range: Some((0.0, 1.05 * envelope_deg(f64::from(FEWEST_SHOWN), phase))),
-            ..Panel::default()
-        }],
-        ..Chart::default()
-    }
+        "number of pulses",
+    )
+    .with([Panel::new("nutation [deg]")
+        .range(0.0, 1.05 * envelope_deg(f64::from(FEWEST_SHOWN), phase))
+        .with([
+            // Eq 8 holds only at whole numbers of pulses.
+            Series::rings("linear theory", at_counts(|row| row.printed_rad)),
+            Series::line("exact envelope", envelope),
+            Series::dots("SpinPlant", at_counts(|row| row.simulated_rad)),
+        ])])
 }

@@ -59,19 +59,12 @@ pub fn table8(options: &Options) -> Result<Report, StudyError> {
 /// Figure 12: the accelerations around one orbit.
 pub fn figure12(options: &Options) -> Result<Report, StudyError> {
     let simulated = simulate_rows("thermal/figure12", options, &TABLE_8, Planet::Moving, None)?;
-    let chart = Chart {
-        title: "Accelerations around one orbit".to_owned(),
-        x_label: "time [h]".to_owned(),
-        panels: simulated
-            .iter()
-            .map(|Simulated { row, samples, .. }| Panel {
-                y_label: "a [1e-7 m/s2]".to_owned(),
-                series: (0..4).map(|k| series(k, &format!(", case {}", row.case), samples)).collect(),
-                ..Panel::default()
-            })
-            .collect(),
-        ..Chart::default()
-    };
+    let chart = Chart::new("Accelerations around one orbit", "time [h]").with(simulated.iter().map(
+        |Simulated { row, samples, .. }| {
+            Panel::new("a [1e-7 m/s2]")
+                .with((0..4).map(|k| series(k, &format!(", case {}", row.case), samples)))
+        },
+    ));
     let mut report = Report::default();
     report.line("Solar, albedo, infrared and recoil around one orbit (paper 004, Figure 12)\n");
     let rows: Vec<Vec<String>> = simulated

@@ -121,24 +121,15 @@ pub fn figure13(options: &Options) -> Result<Report, StudyError> {
 }
 
 fn chart(orbits: &[Orbit]) -> Chart {
-    let panel = |name: &str, pick: fn(&Range) -> f64| Panel {
-        y_label: format!("{name} a [1e-7 m/s2]"),
-        series: (0..4)
-            .map(|k| {
-                let point = |orbit: &Orbit| (orbit.true_anomaly_deg, pick(&orbit.effects[k]) * 1e7);
-                Series::line(EFFECTS[k], orbits.iter().map(point).collect())
-            })
-            .collect(),
-        ..Panel::default()
+    let panel = |name: &str, pick: fn(&Range) -> f64| {
+        Panel::new(format!("{name} a [1e-7 m/s2]")).with((0..4).map(|k| {
+            let point = |orbit: &Orbit| (orbit.true_anomaly_deg, pick(&orbit.effects[k]) * 1e7);
+            Series::line(EFFECTS[k], orbits.iter().map(point).collect())
+        }))
     };
-    Chart {
-        title: "Accelerations over a Mercury year, by orbit".to_owned(),
-        x_label: "true anomaly of Mercury [deg]".to_owned(),
-        panels: vec![
-            panel("greatest", |range| range.greatest),
-            panel("mean", |range| range.mean),
-            panel("least", |range| range.least),
-        ],
-        ..Chart::default()
-    }
+    Chart::new("Accelerations over a Mercury year, by orbit", "true anomaly of Mercury [deg]").with([
+        panel("greatest", |range| range.greatest),
+        panel("mean", |range| range.mean),
+        panel("least", |range| range.least),
+    ])
 }
