@@ -4,8 +4,8 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::propagator_state::PropagatorState;
 use crate::guidance::Guided;
-use crate::momentum::{MomentumIntegrator, Settings, Totals};
 use crate::loads::ForceTorque;
+use crate::momentum::{MomentumIntegrator, Settings, Totals};
 use crate::plant::disturbances::evaluation::{Plant, PreparedSpacecraft, World};
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
