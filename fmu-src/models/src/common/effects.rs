@@ -63,17 +63,12 @@ impl LawVariables {
         Laws { gm_m3_s2: read(gravitational_parameter) }
     }
 
-    /// The effects that act, by the switches here and these.
-    pub fn active(
-        &self,
-        values: &Values,
-        planet_light: &PlanetLightVariables,
-        recoil: &RecoilVariables,
-    ) -> Active {
+    /// The effects that act, by the switches here and those of planet light and recoil.
+    pub fn active(&self, values: &Values, [planet_light, recoil]: [Boolean; 2]) -> Active {
         Active::by(|switch| {
             values.boolean(match switch {
-                Switch::PlanetLight => planet_light.enabled,
-                Switch::Recoil => recoil.enabled,
+                Switch::PlanetLight => planet_light,
+                Switch::Recoil => recoil,
                 Switch::GravityGradient => self.gravity_gradient.enabled,
             })
         })

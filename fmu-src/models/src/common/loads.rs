@@ -24,8 +24,7 @@ pub const TORQUE: Quantity = Quantity {
     unit: "N.m",
     display_unit: Some("uN.m"),
     has: Effect::is_disturbance,
-    // Momentum is gathered over hours.
-    nominal: |row| row.usual_momentum_n_m_s / 1e4,
+    nominal: Row::usual_torque_n_m,
 };
 
 /// Force.
@@ -33,8 +32,7 @@ pub const FORCE: Quantity = Quantity {
     unit: "N",
     display_unit: Some("uN"),
     has: |effect| effect.is_disturbance() && effect.row().exerts_force,
-    // The same at an arm of 0.1 m.
-    nominal: |row| row.usual_momentum_n_m_s / 1e3,
+    nominal: Row::usual_force_n,
 };
 
 /// What an effect did to the momentum since the last dump, by momentum.convention. All of them add up to what the momentum

@@ -18,13 +18,12 @@ pub fn table(_setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencie
     let mut table = Dependencies::new();
     table.output(v.sun.lit_fraction, places, eclipse);
     table.output(&v.plate, lit, light);
-    for (by_source, total, of_light) in
-        [(&torque.by_source, torque.total, on_torque), (&force.by_source, force.total, (lit, light))]
-    {
-        table.output(total, of_light.0, of_light.1);
+    let quantities =
+        [(&torque.by_source, torque.total, on_torque), (&force.by_source, force.total, (lit, light))];
+    for (by_source, total, of_light) in quantities {
         for (effect, output) in by_source.iter() {
             let (at_steps, at_start) = if effect.is_light() { of_light } else { (places, laws) };
-            table.output(output, at_steps, at_start);
+            table.output(knowns![output, total], at_steps, at_start);
         }
     }
     table

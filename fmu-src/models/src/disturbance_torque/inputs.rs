@@ -80,14 +80,14 @@ impl Prepared {
     pub fn new(context: &Plan<'_>, values: &Values) -> Result<Self, Failure> {
         let variables = context.variables;
         let spacecraft = &context.setup.spacecraft;
-        let planet = &variables.planet;
+        let (planet, light) = (&variables.planet, &variables.planet_light);
         let present = values.boolean(planet.present);
         let parameters = variables.parameters(values, |parameter| values.real(parameter));
         let surface = parameters.planet;
         let sunshade_model = values.choice(variables.sunshade.shape).0;
         let options = Options {
             planet: present.then_some(surface),
-            planet_light: method(values, &variables.planet_light, spacecraft)?,
+            planet_light: method(values, light, spacecraft)?,
             self_shadowing: values.boolean(variables.shadowing.enabled),
             sun_disc: values.boolean(variables.shadowing.sun_disc),
             sunshade_model: spacecraft.sunshade.is_some().then_some(sunshade_model),
@@ -108,7 +108,7 @@ impl Prepared {
             shadow: present.then_some(shadow),
             parameters,
             inputs: variables.positions(),
-            active: variables.laws.active(values, &variables.planet_light.rings, &variables.thermal),
+            active: variables.laws.active(values, [light.rings.enabled, variables.thermal.enabled]),
         })
     }
 

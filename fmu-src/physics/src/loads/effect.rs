@@ -41,6 +41,18 @@ pub struct Row {
     pub usual_momentum_n_m_s: f64,
 }
 
+impl Row {
+    /// Its usual torque in N m: momentum is gathered over hours.
+    pub fn usual_torque_n_m(&self) -> f64 {
+        self.usual_momentum_n_m_s / 1e4
+    }
+
+    /// Its usual force in N, at an arm of 0.1 m.
+    pub fn usual_force_n(&self) -> f64 {
+        self.usual_momentum_n_m_s / 1e3
+    }
+}
+
 macro_rules! effects {
     ($($effect:ident: $name:literal, $about:literal, $switch:expr, $grid:ident, $force:literal, $apart:literal, $usual:literal;)+) => {
         /// An effect that exerts force or torque: a row of the table.

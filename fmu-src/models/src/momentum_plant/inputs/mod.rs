@@ -48,6 +48,7 @@ pub fn configuration(
     let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
     let center = Center::of(context, values);
     let (body, data) = (center.body, center.data());
+    let switches = [variables.planet_light.enabled, variables.thermal.recoil.enabled];
     let orbit = orbit(&center, variables, values, state, epoch_minus_time_s)?;
     let limit_m = data.radius_m;
     let lowest_m = orbit.elements().periapsis_distance_m();
@@ -102,7 +103,7 @@ pub fn configuration(
         center_of_mass_body_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass)),
         mass_kg: values.real(variables.spacecraft.mass),
         inertia_body_kg_m2,
-        effects: variables.laws.active(values, &variables.planet_light, &variables.thermal.recoil),
+        effects: variables.laws.active(values, switches),
         momentum: settings(context, values),
     })
 }

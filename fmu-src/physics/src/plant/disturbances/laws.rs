@@ -35,8 +35,7 @@ impl NearPlanet<f64> {
 impl<T: Scalar> Laws<T> {
     /// Writes the loads of those effects in closed form that act.
     pub fn exert(&self, active: Active, at: &NearPlanet<T>, loads: &mut Loads<T>) {
-        let in_closed_form = |effect: &Effect| effect.row().grid == Grid::Disturbance;
-        for effect in active.disturbances().filter(in_closed_form) {
+        for effect in active.disturbances().filter(|effect| effect.row().grid == Grid::Disturbance) {
             loads[effect] = self.load(effect, at);
         }
     }
