@@ -122,9 +122,9 @@ impl Spacecraft {
             check.push(&root, "no surface", format_args!("at least one of {keys}"));
         }
         check_names(check, description);
-        panels_fit(check, description.panels.as_deref(), description.mass_properties.mass_kg);
+        panels_fit(check, description.panels.as_deref(), description.mass_properties.mass_kg.0);
         let tanks = list(check, &root.key("tanks"), description.tanks.as_deref(), tank);
-        tanks_fit(check, &tanks, description.mass_properties.mass_kg);
+        tanks_fit(check, &tanks, description.mass_properties.mass_kg.0);
         let thrusters =
             list(check, &root.key("thrusters"), description.thrusters.as_deref(), |check, at, index, it| {
                 thruster(check, &tanks, at, index, it)
@@ -134,7 +134,6 @@ impl Spacecraft {
             list(check, &root.key("flexible_modes"), description.flexible_modes.as_deref(), mode);
         let sloshes = list(check, &root.key("slosh"), description.slosh.as_deref(), slosh);
         swinging_fits(check, &flexible_modes, &sloshes, &mass_properties);
-        let keep_in = root.key("sun_keep_in");
         let threshold = root.key("momentum").key("dump_threshold_n_m_s");
         Self {
             name: description.name.clone(),
@@ -180,8 +179,8 @@ impl Spacecraft {
                 .and_then(|map| planet_map(check, &root.key("planet_map"), map)),
             start: start_entries(check, description.start.as_ref(), description.fixed.as_ref()),
             sun_keep_in: description.sun_keep_in.as_ref().map(|limits| SunKeepIn {
-                azimuth_rad: check.angle(&keep_in.key("azimuth_deg"), limits.azimuth_deg, 0.0, 180.0),
-                elevation_rad: check.angle(&keep_in.key("elevation_deg"), limits.elevation_deg, 0.0, 90.0),
+                azimuth_rad: limits.azimuth_deg.0.to_radians(),
+                elevation_rad: limits.elevation_deg.0.to_radians(),
             }),
         }
     }

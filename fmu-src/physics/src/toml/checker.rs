@@ -8,10 +8,8 @@ use nalgebra::{Matrix3, Vector3};
 use super::document::Document;
 use super::error::{FileError, Problem};
 use super::place::Place;
+use super::ranges::{GREATEST, short};
 use super::reader::{Findings, MOST_KEPT};
-
-/// Greatest magnitude of any number in a file: keeps products of several numbers far from overflow.
-const GREATEST: f64 = 1e12;
 
 /// How far a direction's length, or a matrix's orthonormality, may be off before it is refused.
 ///
@@ -123,11 +121,6 @@ impl<'d> Checker<'d> {
     /// A finite number from zero.
     pub fn not_negative(&mut self, at: &Place, value: f64) -> f64 {
         self.within(at, value, 0.0, GREATEST, "a number from 0 to 1e12")
-    }
-
-    /// A number from 0 to 1.
-    pub fn fraction(&mut self, at: &Place, value: f64) -> f64 {
-        self.within(at, value, 0.0, 1.0, "a number from 0 to 1")
     }
 
     /// A number between two bounds, both included; NaN is outside.
@@ -264,9 +257,4 @@ fn has_inside(places: &BTreeSet<Place>, at: &Place) -> bool {
 /// To twelve significant digits: without the noise of a sum.
 pub(crate) fn rounded(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
-}
-
-/// A number without a row of zeros.
-fn short(value: f64) -> String {
-    if value == 0.0 || (1e-5..1e16).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
 }

@@ -8,6 +8,7 @@ mod document;
 mod error;
 mod limits;
 mod place;
+mod ranges;
 mod reader;
 mod spelling;
 
@@ -17,5 +18,9 @@ pub use document::Document;
 pub use error::{FileError, Problem};
 pub use limits::{LIMITS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUSTERS};
 pub use place::Place;
+pub use ranges::{
+    AtLeastOne, Copies, Corners, Deviation, Distance, Emissivity, FieldOfView, Finite, Fraction, Frequency,
+    HalfTurn, Kelvin, NotNegative, Positive, QuarterTurn, Rings, SpecificImpulse, SubtendedAngle, TurnEither,
+};
 pub use reader::Findings;
 pub use spelling::nearest;

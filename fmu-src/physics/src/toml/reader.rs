@@ -10,6 +10,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::limits::{MOST_PROBLEMS, most_items};
 use super::place::Place;
+use super::ranges::{Range, short};
 use super::spelling::nearest;
 
 /// Problems that are kept, of which the first by line are listed.
@@ -31,6 +32,8 @@ pub(super) struct Reader<'r> {
     value: Option<&'r DeValue<'r>>,
     /// Whether a lack is a problem of its own; inside of what is missing it is not.
     is_expected: bool,
+    /// Where a number must lie.
+    range: Option<&'static Range>,
     place: Place,
     findings: &'r RefCell<Findings>,
 }
@@ -38,7 +41,7 @@ pub(super) struct Reader<'r> {
 impl<'r> Reader<'r> {
     /// Of a whole file.
     pub fn new(root: &'r DeValue<'r>, findings: &'r RefCell<Findings>) -> Self {
-        Self { value: Some(root), is_expected: true, place: Place::root(), findings }
+        Self { value: Some(root), is_expected: true, range: None, place: Place::root(), findings }
     }
 
     /// The value if it is what is allowed; otherwise the problem is noted and something else will stand in.
@@ -87,7 +90,7 @@ impl<'r> Reader<'r> {
     }
 
     fn inside(&self, place: Place, value: Option<&'r DeValue<'r>>, is_expected: bool) -> Self {
-        Self { value, is_expected, place, findings: self.findings }
+        Self { value, is_expected, range: None, place, findings: self.findings }
     }
 
     /// The values of the known keys; unknown ones are noted, with the key that was meant standing in.
@@ -117,12 +120,19 @@ impl<'r> Reader<'r> {
             .collect()
     }
 
-    fn integer<T: TryFrom<i64>>(&self, allowed: &str, stand_in: T) -> T {
+    /// Notes a number outside of its range.
+    fn check_range(&self, number: f64) {
+        if let Some(range) = self.range.filter(|range| !(range.low..=range.high).contains(&number)) {
+            self.note(|| (self.place.clone(), short(number), range.allowed.to_owned()));
+        }
+    }
+
+    fn integer<T: TryFrom<i64>>(&self, allowed: &str) -> Option<T> {
         let whole = |value: &DeValue<'_>| {
             let integer = value.as_integer()?;
             T::try_from(i64::from_str_radix(integer.as_str(), integer.radix()).ok()?).ok()
         };
-        self.given(whole, allowed).unwrap_or(stand_in)
+        self.given(whole, allowed)
     }
 }
 
@@ -192,15 +202,30 @@ impl<'de> Deserializer<'de> for Reader<'_> {
     }
 
     fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        visitor.visit_f64(self.given(real, "a number").unwrap_or(0.0))
+        let number = self.given(real, "a number");
+        number.into_iter().for_each(|number| self.check_range(number));
+        visitor.visit_f64(number.unwrap_or(0.0))
     }
 
     fn deserialize_i64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        visitor.visit_i64(self.integer("a whole number", 0))
+        visitor.visit_i64(self.integer("a whole number").unwrap_or(0))
     }
 
     fn deserialize_u32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        visitor.visit_u32(self.integer("a whole number from 0 to 4294967295", 0))
+        let number: Option<u32> = self.integer("a whole number from 0 to 4294967295");
+        number.into_iter().for_each(|number| self.check_range(number.into()));
+        // Something is computed so many times.
+        let [least, most] =
+            self.range.map_or([0, u32::MAX], |it| [it.low, it.high].map(|bound| bound as u32));
+        visitor.visit_u32(number.unwrap_or(0).clamp(least, most))
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        visitor.visit_newtype_struct(Self { range: Range::of(name), ..self })
     }
 
     fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
@@ -277,7 +302,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
     }
 
     forward_to_deserialize_any! {
-        i8 i16 i32 i128 u8 u16 u64 u128 f32 char str bytes byte_buf unit unit_struct newtype_struct tuple_struct
+        i8 i16 i32 i128 u8 u16 u64 u128 f32 char str bytes byte_buf unit unit_struct tuple_struct
         identifier ignored_any
     }
 }

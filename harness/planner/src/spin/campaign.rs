@@ -122,7 +122,7 @@ pub fn campaign(
             let mut sized = task.with_angle(size_rad);
             let sun_angle_rad = angle_between_rad(&-antenna, &pointing.sun_at_start_inertial);
             sized.allowed_nutation_rad = allowed_nutation_rad(
-                spinner.limits.period_variation_s,
+                spinner.limits.period_variation_s.0,
                 sized.case.spin.rate_rad_s,
                 sun_angle_rad,
             );
@@ -140,8 +140,8 @@ pub fn campaign(
     if seen.count > 0 {
         seen.mean_rad /= f64::from(seen.count);
     }
-    seen.holds = seen.earth_angle_rad <= spinner.limits.earth_angle_deg.to_radians()
-        && seen.sun_angle_rad <= spinner.limits.sun_angle_deg.to_radians();
+    seen.holds = seen.earth_angle_rad <= spinner.limits.earth_angle_rad()
+        && seen.sun_angle_rad <= spinner.limits.sun_angle_rad();
     Ok(seen)
 }
 
@@ -159,7 +159,7 @@ fn least_nutation(task: &Task, uniform: &Row) -> Result<Row, PlanError> {
 /// Longest interval, to a hundredth of a day and no longer than `duration_s`, at which the Earth stays in the deadband;
 /// `None` if a tenth of a day does not do.
 pub fn longest_interval_s(spinner: &Spinner, phases: &L1Phases, duration_s: f64) -> Option<f64> {
-    let deadband_rad = spinner.limits.earth_angle_deg.to_radians();
+    let deadband_rad = spinner.limits.earth_angle_rad();
     let holds = |interval_s: f64| {
         pointings(spinner, phases, duration_s, interval_s).all(|seen| seen.earth_angle_rad <= deadband_rad)
     };

@@ -47,21 +47,21 @@ pub fn judge(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) -> Vec<
         over_time(
             flight,
             ("Sun angle", "limits.sun_angle_deg", "deg"),
-            (0.0, limits.sun_angle_deg),
+            (0.0, limits.sun_angle_deg.0),
             |axis, _| angle_between_rad(axis, &sun).to_degrees(),
         ),
         match task.aim.earth_inertial {
             Some(earth) => over_time(
                 flight,
                 ("Earth angle", "limits.earth_angle_deg", "deg"),
-                (0.0, limits.earth_angle_deg),
+                (0.0, limits.earth_angle_deg.0),
                 |axis, _| angle_between_rad(&-axis, &earth).to_degrees(),
             ),
             None => Judged {
                 limit: "Earth angle",
                 given_by: "limits.earth_angle_deg",
                 found: f64::NAN,
-                allowed: (0.0, limits.earth_angle_deg),
+                allowed: (0.0, limits.earth_angle_deg.0),
                 unit: "deg",
                 kept: None,
                 remark: "no --date, no --earth".to_owned(),
@@ -71,15 +71,15 @@ pub fn judge(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) -> Vec<
             flight,
             ("spin rate", "limits.spin_rate_rpm", "rpm"),
             (
-                limits.spin_rate_rpm - limits.spin_rate_tolerance_rpm,
-                limits.spin_rate_rpm + limits.spin_rate_tolerance_rpm,
+                limits.spin_rate_rpm.0 - limits.spin_rate_tolerance_rpm.0,
+                limits.spin_rate_rpm.0 + limits.spin_rate_tolerance_rpm.0,
             ),
             |_, sample| sample.spin_rate_rad_s / RPM_RAD_S,
         ),
         over_time(
             flight,
             ("spin period varies", "limits.period_variation_s", "ms"),
-            (0.0, 1e3 * limits.period_variation_s),
+            (0.0, 1e3 * limits.period_variation_s.0),
             |axis, sample| {
                 let sun_angle_rad = angle_between_rad(axis, &sun);
                 1e3 * period_variation_s(sample.nutation_rad, sample.spin_rate_rad_s, sun_angle_rad).abs()

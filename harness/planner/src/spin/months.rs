@@ -50,7 +50,7 @@ pub fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanE
     let _ = writeln!(
         text,
         "Antenna pointing for {days} days: Earth within {} deg, Sun within {} deg; each turn with the train that costs science the least",
-        spinner.limits.earth_angle_deg, spinner.limits.sun_angle_deg
+        spinner.limits.earth_angle_deg.0, spinner.limits.sun_angle_deg.0
     );
     let _ = writeln!(text, "{table}");
     let _ = writeln!(

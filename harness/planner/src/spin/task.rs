@@ -200,7 +200,7 @@ impl Task {
             resolution_s: spinner.resolution_s,
             damper_time_constant_s: spinner.damper_time_constant_s,
             allowed_nutation_rad: allowed_nutation_rad(
-                spinner.limits.period_variation_s,
+                spinner.limits.period_variation_s.0,
                 rate_rad_s,
                 sun_angle_rad,
             ),

@@ -92,7 +92,7 @@ pub struct LimitVariables {
     )]
     pub spin_rate_tolerance: Real,
     /// Greatest variation of the spin period, eq 1.
-    #[parameter(tunable, unit = "s", display = "ms", min = 0.0, start = setup.limits.period_variation_s)]
+    #[parameter(tunable, unit = "s", display = "ms", min = 0.0, start = setup.limits.period_variation_s.0)]
     pub period_variation: Real,
     /// The Sun angle is beyond its limit.
     #[output]

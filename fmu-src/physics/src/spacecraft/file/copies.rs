@@ -6,10 +6,7 @@ use super::describe_shapes::{MirrorPlane, RepeatDescription};
 use super::facets::sincos_deg;
 use crate::spacecraft::polygon::Polygon;
 use crate::spacecraft::surface::Plate;
-use crate::toml::{Checker, Place};
-
-/// Most copies in a row or around an axis.
-const MOST_COPIES: u32 = 100;
+use crate::toml::{Checker, Copies, Place};
 
 /// Most plates that one shape and its copies may come to.
 pub(crate) const MOST_PLATES: usize = 2000;
@@ -111,14 +108,12 @@ pub(crate) fn plate_copies(plate: &Plate, motions: &[Motion]) -> Vec<Plate> {
 }
 
 fn repeated(check: &mut Checker<'_>, at: &Place, repeat: &RepeatDescription) -> Option<Vec<Motion>> {
-    let count = f64::from(repeat.count);
-    let most = f64::from(MOST_COPIES);
-    check.within(&at.key("count"), count, 2.0, most, &format!("a whole number from 2 to {MOST_COPIES}"));
+    let Copies(count) = repeat.count;
     let turning = [("angle_deg", repeat.angle_deg.is_some()), ("point_m", repeat.point_m.is_some())];
     for (key, _) in turning.into_iter().filter(|(_, is_given)| *is_given && repeat.axis.is_none()) {
         check.report_across(at, &at.key(key), "no `axis` beside it", "with `axis` alone");
     }
-    let numbers = 0..repeat.count.clamp(1, MOST_COPIES);
+    let numbers = 0..count;
     match (repeat.step_m, repeat.axis) {
         (Some(step_m), None) => {
             let step_m = check.vector(&at.key("step_m"), step_m);
@@ -128,8 +123,7 @@ fn repeated(check: &mut Checker<'_>, at: &Place, repeat: &RepeatDescription) -> 
         (None, Some(axis)) => {
             let axis = check.unit_vector(&at.key("axis"), axis);
             let point_m = check.vector(&at.key("point_m"), repeat.point_m.unwrap_or_default());
-            let angle_deg = repeat.angle_deg.unwrap_or(360.0 / count.max(1.0));
-            check.angle(&at.key("angle_deg"), angle_deg, -360.0, 360.0);
+            let angle_deg = repeat.angle_deg.map_or(360.0 / f64::from(count), f64::from);
             let turned = |k: u32| {
                 let matrix = turn(&axis, angle_deg * f64::from(k));
                 Motion { matrix, shift_m: point_m - matrix * point_m }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::describe_thermal::ThermalDescription;
+use crate::toml::{Copies, Corners, Positive, Rings, TurnEither};
 
 /// A plane of the body frame, through its origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -25,15 +26,13 @@ pub(crate) enum MirrorPlane {
 #[serde(deny_unknown_fields)]
 pub(crate) struct RepeatDescription {
     /// How many there are, the one that is written among them.
-    #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 100)))]
-    pub count: u32,
+    pub count: Copies,
     /// From each to the next, in m.
     pub step_m: Option<[f64; 3]>,
     /// Unit vector of the axis that each is turned about from the one before.
     pub axis: Option<[f64; 3]>,
     /// Angle from each to the next, right-handed about `axis`, in deg; 360 over the count unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = -360, max = 360)))]
-    pub angle_deg: Option<f64>,
+    pub angle_deg: Option<TurnEither>,
     /// A point of the axis, in m; the origin unless given.
     pub point_m: Option<[f64; 3]>,
 }
@@ -112,14 +111,11 @@ pub(crate) struct FacetedCylinderDescription {
     /// Unit vector of its axis; +Z unless given.
     pub axis: Option<[f64; 3]>,
     /// Radius, in m.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub radius_m: f64,
+    pub radius_m: Positive,
     /// Length along the axis, in m.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub height_m: f64,
+    pub height_m: Positive,
     /// How many flat facets the side has; 16 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 3, max = 128)))]
-    pub facets: Option<u32>,
+    pub facets: Option<Corners>,
     /// Material of the outside.
     pub optics: String,
     /// Material of both ends, outside; that of the side unless given.
@@ -147,11 +143,9 @@ pub(crate) struct DiscDescription {
     /// Unit vector out of the front face.
     pub normal: [f64; 3],
     /// Radius, in m.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub radius_m: f64,
+    pub radius_m: Positive,
     /// How many corners its outline has; 24 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 3, max = 128)))]
-    pub corners: Option<u32>,
+    pub corners: Option<Corners>,
     /// Material of the front face.
     pub optics: String,
     /// Material of the rear face, if light can reach it.
@@ -180,17 +174,13 @@ pub(crate) struct DishDescription {
     /// Unit vector of its axis, from the vertex out of the hollow.
     pub axis: [f64; 3],
     /// Radius of the rim, in m.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub radius_m: f64,
+    pub radius_m: Positive,
     /// From the vertex to the plane of the rim, in m.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub depth_m: f64,
+    pub depth_m: Positive,
     /// How many facets each ring has; 12 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 3, max = 128)))]
-    pub facets: Option<u32>,
+    pub facets: Option<Corners>,
     /// How many rings; 3 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 32)))]
-    pub rings: Option<u32>,
+    pub rings: Option<Rings>,
     /// Material of the hollow side.
     pub optics: String,
     /// Material of the back, if light can reach it.

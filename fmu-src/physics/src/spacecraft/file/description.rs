@@ -14,6 +14,10 @@ use crate::spacecraft::panel::PanelControl;
 use crate::spacecraft::start::StartTable;
 use crate::spacecraft::surface::SunshadeModel;
 use crate::spacecraft::thruster::ThrusterSet;
+use crate::toml::{
+    Emissivity, Finite, Fraction, HalfTurn, Kelvin, NotNegative, Positive, QuarterTurn, SpecificImpulse,
+    SubtendedAngle,
+};
 
 /// A spacecraft: what light falls on, what it weighs, what stores its momentum.
 #[derive(Debug, Deserialize)]
@@ -54,7 +58,7 @@ pub(crate) struct Description {
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub tanks: Option<Vec<TankDescription>>,
     /// Thrusters; they need a tank.
-    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 24)))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = crate::toml::MOST_THRUSTERS)))]
     pub thrusters: Option<Vec<ThrusterDescription>>,
     /// Flexible modes.
     #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
@@ -83,13 +87,13 @@ pub(crate) struct Description {
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlanetMapDescription {
     /// Diffusely reflected fraction of sunlight.
-    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 180)))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = crate::spacecraft::planet_map::MOST_BELTS)))]
     pub diffuse_reflectivity: Vec<Vec<f64>>,
     /// Infrared emissivity.
-    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 180)))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = crate::spacecraft::planet_map::MOST_BELTS)))]
     pub emissivity: Vec<Vec<f64>>,
     /// Temperature, in K.
-    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 180)))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = crate::spacecraft::planet_map::MOST_BELTS)))]
     pub temperature_k: Vec<Vec<f64>>,
 }
 
@@ -99,8 +103,7 @@ pub(crate) struct PlanetMapDescription {
 #[serde(deny_unknown_fields)]
 pub(crate) struct MassDescription {
     /// Mass, in kg.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub mass_kg: f64,
+    pub mass_kg: Positive,
     /// Centre of mass from the body frame's origin, in m.
     pub center_of_mass_m: [f64; 3],
     /// Inertia about the centre of mass, body axes, row by row, in kg m2.
@@ -113,25 +116,19 @@ pub(crate) struct MassDescription {
 #[serde(deny_unknown_fields)]
 pub(crate) struct OpticsDescription {
     /// Mirrored fraction.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
-    pub specular: f64,
+    pub specular: Fraction,
     /// Fraction scattered by Lambert's law.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
-    pub diffuse: f64,
+    pub diffuse: Fraction,
     /// Absorbed fraction; whatever is not reflected unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
-    pub absorptivity: Option<f64>,
+    pub absorptivity: Option<Fraction>,
     /// Infrared emissivity; the absorptivity unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
-    pub emissivity: Option<f64>,
+    pub emissivity: Option<Emissivity>,
     /// Change of the emissivity with temperature, per K; 0 unless given.
-    pub emissivity_per_k: Option<f64>,
+    pub emissivity_per_k: Option<Finite>,
     /// Temperature at which `emissivity` holds, in K; 300 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 2000)))]
-    pub emissivity_temperature_k: Option<f64>,
+    pub emissivity_temperature_k: Option<Kelvin>,
     /// Absorbed fraction of the planet's infrared light; the absorptivity unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
-    pub infrared_absorptivity: Option<f64>,
+    pub infrared_absorptivity: Option<Fraction>,
 }
 
 /// A flat surface.
@@ -142,8 +139,7 @@ pub(crate) struct PlateDescription {
     /// Name for messages and pictures; numbered unless given.
     pub name: Option<String>,
     /// Area, in m2; may be left out where a polygon is given.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub area_m2: Option<f64>,
+    pub area_m2: Option<Positive>,
     /// Centre of area, in m; may be left out where a polygon is given.
     pub center_m: Option<[f64; 3]>,
     /// Unit vector out of the front face; lengths off by at most 1e-3 are renormalised. Where a polygon is given it may be
@@ -187,14 +183,11 @@ pub(crate) struct SunshadeDescription {
 #[serde(deny_unknown_fields)]
 pub(crate) struct CylinderDescription {
     /// Radius, in m.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub radius_m: f64,
+    pub radius_m: Positive,
     /// Total height, in m.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub height_m: f64,
+    pub height_m: Positive,
     /// Total angle subtended at the axis, in deg; up to 360.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "maximum" = 360)))]
-    pub subtended_angle_deg: f64,
+    pub subtended_angle_deg: SubtendedAngle,
     /// Material of the outside.
     pub optics: String,
 }
@@ -207,8 +200,7 @@ pub(crate) struct PanelDescription {
     /// Name for messages and pictures; numbered unless given.
     pub name: Option<String>,
     /// Area of one side, in m2; may be left out where a polygon is given.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub area_m2: Option<f64>,
+    pub area_m2: Option<Positive>,
     /// Centre in the panel frame, in m; may be left out where a polygon is given.
     pub center_m: Option<[f64; 3]>,
     /// Outline at angle 0 in the panel frame, in m, for self-shadowing; perpendicular to `zero_normal`.
@@ -225,8 +217,7 @@ pub(crate) struct PanelDescription {
     pub thermal: Option<ThermalDescription>,
     /// Its part of the spacecraft's mass, in kg: centre of mass and inertia then follow its angle; `[mass_properties]` are those
     /// with every panel at angle 0.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub mass_kg: Option<f64>,
+    pub mass_kg: Option<Positive>,
     /// Centre of that mass at angle 0 in the panel frame, in m; the panel's centre unless given.
     pub mass_center_m: Option<[f64; 3]>,
     /// Inertia about that centre at angle 0, axes of the panel frame, row by row, in kg m2; that of a thin square plate unless
@@ -235,8 +226,7 @@ pub(crate) struct PanelDescription {
     /// How the angle comes about; `sun_offset` unless given.
     pub control: Option<PanelControl>,
     /// Angle between cell normal and Sun for `sun_offset`, in deg; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 180)))]
-    pub sun_offset_deg: Option<f64>,
+    pub sun_offset_deg: Option<HalfTurn>,
     /// Which way the panel tilts off the Sun about its axis: 1 or -1; 1 unless given.
     #[cfg_attr(feature = "schema", schemars(extend("enum" = [1, -1])))]
     pub tilt_sign: Option<i64>,
@@ -258,23 +248,17 @@ pub(crate) struct WheelDescription {
     /// Unit vector of the spin axis, body frame.
     pub axis: [f64; 3],
     /// Greatest momentum of the rotor, in N m s.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub capacity_n_m_s: f64,
+    pub capacity_n_m_s: Positive,
     /// Moment of inertia of the rotor about its axis, in kg m2; left out, that which reaches the capacity at 6000 rpm.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub inertia_kg_m2: Option<f64>,
+    pub inertia_kg_m2: Option<Positive>,
     /// Greatest torque of the motor, in N m; left out, that which reaches the capacity from rest in 100 s.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub max_torque_n_m: Option<f64>,
+    pub max_torque_n_m: Option<Positive>,
     /// Coulomb friction, in N m; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub coulomb_friction_n_m: Option<f64>,
+    pub coulomb_friction_n_m: Option<NotNegative>,
     /// Viscous friction, in N m per rad/s; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub viscous_friction_n_m_s: Option<f64>,
+    pub viscous_friction_n_m_s: Option<NotNegative>,
     /// Static imbalance of the rotor, in kg m; 0 unless given, and needs position_m.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub static_imbalance_kg_m: Option<f64>,
+    pub static_imbalance_kg_m: Option<NotNegative>,
     /// Place of the rotor, body frame, in m.
     pub position_m: Option<[f64; 3]>,
 }
@@ -289,20 +273,16 @@ pub(crate) struct TankDescription {
     /// Where its propellant is, taken as a point, body frame, in m.
     pub position_m: [f64; 3],
     /// Propellant loaded, in kg; a part of mass_properties.mass_kg.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub propellant_kg: f64,
+    pub propellant_kg: Positive,
     /// Pressure when loaded, in Pa; 2e6 unless given.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub pressure_pa: Option<f64>,
+    pub pressure_pa: Option<Positive>,
     /// Least and greatest pressure at which thrusters may be fed, in Pa; any unless given.
     pub allowed_pressure_pa: Option<[f64; 2]>,
     /// Volume of the gas that drives the propellant out, in m3: the pressure falls as it expands (blowdown). Left out, the
     /// pressure is regulated.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub ullage_m3: Option<f64>,
+    pub ullage_m3: Option<Positive>,
     /// Density of the propellant in blowdown, in kg/m3; hydrazine's unless given.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub density_kg_m3: Option<f64>,
+    pub density_kg_m3: Option<Positive>,
 }
 
 /// A thruster.
@@ -317,35 +297,27 @@ pub(crate) struct ThrusterDescription {
     /// Unit vector of its force on the spacecraft, body frame; the plume goes the other way.
     pub direction: [f64; 3],
     /// Full thrust, in N.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub force_n: f64,
+    pub force_n: Positive,
     /// Pressure at which it has that thrust, in Pa; its tank's when loaded unless given. Thrust and flow are proportional to
     /// the pressure.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub at_pressure_pa: Option<f64>,
+    pub at_pressure_pa: Option<Positive>,
     /// Specific impulse, in s.
-    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1e8)))]
-    pub specific_impulse_s: f64,
+    pub specific_impulse_s: SpecificImpulse,
     /// Name of the tank that feeds it; the first unless given.
     pub tank: Option<String>,
     /// The delta-v that it takes part in: `lva`, `c22` or `mono4`; none unless given. Those of `lva` never control the
     /// attitude.
     pub set: Option<ThrusterSet>,
     /// Shortest time for which its valve opens, in s; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
-    pub min_on_time_s: Option<f64>,
+    pub min_on_time_s: Option<NotNegative>,
     /// Time over which the thrust rises linearly, in s; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
-    pub rise_time_s: Option<f64>,
+    pub rise_time_s: Option<NotNegative>,
     /// Time over which the full thrust falls linearly to nothing, in s; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
-    pub tail_off_time_s: Option<f64>,
+    pub tail_off_time_s: Option<NotNegative>,
     /// Standard deviation of the thrust from pulse to pulse, as a share of it; 0 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 1)))]
-    pub scatter: Option<f64>,
+    pub scatter: Option<Fraction>,
     /// Half angle of the plume, in deg: surfaces within it are flagged while it fires; 0, which is none, unless given.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 90)))]
-    pub plume_half_angle_deg: Option<f64>,
+    pub plume_half_angle_deg: Option<QuarterTurn>,
 }
 
 /// A Sun sensor.
@@ -358,8 +330,7 @@ pub(crate) struct SunSensorDescription {
     /// Unit vector of its axis, body frame.
     pub axis: [f64; 3],
     /// Half the field of view, from the axis, in deg; 60 unless given.
-    #[cfg_attr(feature = "schema", schemars(range(max = 180.0), extend("exclusiveMinimum" = 0)))]
-    pub half_field_of_view_deg: Option<f64>,
+    pub half_field_of_view_deg: Option<HalfTurn>,
 }
 
 /// An instrument.
@@ -388,9 +359,7 @@ pub(crate) struct MomentumDescription {
 #[serde(deny_unknown_fields)]
 pub(crate) struct SunKeepInDescription {
     /// Greatest azimuth in the XY plane from -Y toward +X, in deg.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 180)))]
-    pub azimuth_deg: f64,
+    pub azimuth_deg: HalfTurn,
     /// Greatest elevation from the XY plane toward -Z, in deg.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 90)))]
-    pub elevation_deg: f64,
+    pub elevation_deg: QuarterTurn,
 }

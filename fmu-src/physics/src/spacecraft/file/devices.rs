@@ -15,19 +15,8 @@ pub(crate) fn wheel(
     index: usize,
     description: &WheelDescription,
 ) -> Wheel {
-    let capacity_n_m_s = check.positive(&at.key("capacity_n_m_s"), description.capacity_n_m_s);
-    let mut positive = |key: &str, value: Option<f64>, otherwise: f64| {
-        value.map_or(otherwise, |value| check.positive(&at.key(key), value))
-    };
-    let inertia_kg_m2 =
-        positive("inertia_kg_m2", description.inertia_kg_m2, capacity_n_m_s / SPEED_AT_CAPACITY_RAD_S);
-    let max_torque_n_m =
-        positive("max_torque_n_m", description.max_torque_n_m, capacity_n_m_s / TIME_TO_CAPACITY_S);
-    let mut or_zero =
-        |key: &str, value: Option<f64>| value.map_or(0.0, |value| check.not_negative(&at.key(key), value));
-    let coulomb_friction_n_m = or_zero("coulomb_friction_n_m", description.coulomb_friction_n_m);
-    let viscous_friction_n_m_s = or_zero("viscous_friction_n_m_s", description.viscous_friction_n_m_s);
-    let static_imbalance_kg_m = or_zero("static_imbalance_kg_m", description.static_imbalance_kg_m);
+    let capacity_n_m_s = description.capacity_n_m_s.0;
+    let static_imbalance_kg_m = description.static_imbalance_kg_m.map_or(0.0, f64::from);
     if static_imbalance_kg_m > 0.0 && description.position_m.is_none() {
         check.report(
             &at.key("static_imbalance_kg_m"),
@@ -41,12 +30,12 @@ pub(crate) fn wheel(
             .position_m
             .map_or(Vector3::zeros(), |place| check.vector(&at.key("position_m"), place)),
         name: description.called(index),
-        coulomb_friction_n_m,
-        viscous_friction_n_m_s,
+        coulomb_friction_n_m: description.coulomb_friction_n_m.map_or(0.0, f64::from),
+        viscous_friction_n_m_s: description.viscous_friction_n_m_s.map_or(0.0, f64::from),
         axis_body: check.unit_vector(&at.key("axis"), description.axis),
         capacity_n_m_s,
-        inertia_kg_m2,
-        max_torque_n_m,
+        inertia_kg_m2: description.inertia_kg_m2.map_or(capacity_n_m_s / SPEED_AT_CAPACITY_RAD_S, f64::from),
+        max_torque_n_m: description.max_torque_n_m.map_or(capacity_n_m_s / TIME_TO_CAPACITY_S, f64::from),
     }
 }
 
@@ -56,11 +45,11 @@ pub(crate) fn sun_sensor(
     index: usize,
     description: &SunSensorDescription,
 ) -> MountedSunSensor {
-    let half_deg = description.half_field_of_view_deg.unwrap_or(HALF_FIELD_OF_VIEW_DEG);
+    let half_deg = description.half_field_of_view_deg.map_or(HALF_FIELD_OF_VIEW_DEG, f64::from);
     MountedSunSensor {
         name: description.called(index),
         axis_body: check.unit_vector(&at.key("axis"), description.axis),
-        half_field_of_view_rad: check.angle(&at.key("half_field_of_view_deg"), half_deg, 0.0, 180.0),
+        half_field_of_view_rad: half_deg.to_radians(),
     }
 }
 

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::description::{MassDescription, PanelDescription};
 use crate::spacecraft::mass::{MassProperties, PanelMass, check_inertia};
-use crate::toml::{Checker, Place};
+use crate::toml::{Checker, Place, Positive};
 
 pub(crate) fn mass(check: &mut Checker<'_>, at: &Place, description: &MassDescription) -> MassProperties {
     let [x, y, z] = description.inertia_kg_m2.map(|row| Vector3::from(row).transpose());
@@ -14,7 +14,7 @@ pub(crate) fn mass(check: &mut Checker<'_>, at: &Place, description: &MassDescri
         check.report(&at.key("inertia_kg_m2"), found, allowed);
     }
     MassProperties {
-        mass_kg: check.positive(&at.key("mass_kg"), description.mass_kg),
+        mass_kg: description.mass_kg.0,
         center_of_mass_body_m: check.vector(&at.key("center_of_mass_m"), description.center_of_mass_m),
         inertia_body_kg_m2,
     }
@@ -24,7 +24,7 @@ pub(crate) fn mass(check: &mut Checker<'_>, at: &Place, description: &MassDescri
 pub(crate) fn panels_fit(check: &mut Checker<'_>, panels: Option<&[PanelDescription]>, whole_kg: f64) {
     let mut sum_kg = 0.0;
     for (index, panel) in panels.unwrap_or_default().iter().enumerate() {
-        let Some(mass_kg) = panel.mass_kg else { continue };
+        let Some(Positive(mass_kg)) = panel.mass_kg else { continue };
         sum_kg += mass_kg;
         if sum_kg >= whole_kg {
             let at = Place::root().key("panels").item(index).key("mass_kg");
@@ -45,7 +45,7 @@ pub(crate) fn panel_mass(
     center_m: Vector3<f64>,
     normal: &Vector3<f64>,
 ) -> Option<PanelMass> {
-    let Some(mass_kg) = description.mass_kg else {
+    let Some(Positive(mass_kg)) = description.mass_kg else {
         for (key, is_given) in [
             ("mass_center_m", description.mass_center_m.is_some()),
             ("inertia_kg_m2", description.inertia_kg_m2.is_some()),
@@ -56,7 +56,6 @@ pub(crate) fn panel_mass(
         }
         return None;
     };
-    let mass_kg = check.positive(&at.key("mass_kg"), mass_kg);
     let place = description.mass_center_m.map(|place| check.vector(&at.key("mass_center_m"), place));
     let mut mass = PanelMass::square_plate(mass_kg, area_m2, place.unwrap_or(center_m), normal);
     if let Some(rows) = description.inertia_kg_m2 {

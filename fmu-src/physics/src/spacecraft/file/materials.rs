@@ -2,13 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::describe_thermal::SurroundingsDescription;
 use super::description::{Description, OpticsDescription};
 use crate::spacecraft::optics::Optics;
-use crate::spacecraft::thermal::{
-    BACKGROUND_K, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal, HIGHEST_TEMPERATURE_K,
-};
-use crate::toml::{Checker, Place, nearest, rounded};
+use crate::spacecraft::thermal::{BACKGROUND_K, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal};
+use crate::toml::{Checker, Fraction, Place, nearest, rounded};
 
 /// What a file says of a material.
 #[derive(Clone, Copy)]
@@ -33,20 +30,6 @@ pub(crate) struct ThermalEnvironment {
     pub bus_temperature_k: Option<f64>,
 }
 
-impl ThermalEnvironment {
-    pub fn of(check: &mut Checker<'_>, description: Option<&SurroundingsDescription>) -> Self {
-        let at = Place::root().key("thermal");
-        let mut kelvin = |key: &str, value: f64| {
-            check.within(&at.key(key), value, 0.0, HIGHEST_TEMPERATURE_K, "0 to 2000 K")
-        };
-        let given = |of: fn(&SurroundingsDescription) -> Option<f64>| description.and_then(of);
-        Self {
-            background_k: given(|it| it.background_k).map_or(BACKGROUND_K, |it| kelvin("background_k", it)),
-            bus_temperature_k: given(|it| it.bus_temperature_k).map(|it| kelvin("bus_temperature_k", it)),
-        }
-    }
-}
-
 /// The file's materials by name, and what their surfaces exchange heat with.
 pub(crate) struct Materials {
     by_name: BTreeMap<String, Material>,
@@ -56,7 +39,11 @@ pub(crate) struct Materials {
 impl Materials {
     /// Those of a file.
     pub fn read(check: &mut Checker<'_>, description: &Description) -> Self {
-        let surroundings = ThermalEnvironment::of(check, description.thermal.as_ref());
+        let thermal = description.thermal.as_ref();
+        let surroundings = ThermalEnvironment {
+            background_k: thermal.and_then(|it| it.background_k).map_or(BACKGROUND_K, f64::from),
+            bus_temperature_k: thermal.and_then(|it| it.bus_temperature_k).map(f64::from),
+        };
         let materials = description.optics.iter().map(|(name, description)| {
             let at = Place::root().key("optics").key(name);
             let optics = optics(check, &at, description);
@@ -86,10 +73,9 @@ impl Materials {
 const OPTICS_SUM_TOLERANCE: f64 = 1e-9;
 
 fn optics(check: &mut Checker<'_>, at: &Place, description: &OpticsDescription) -> Optics {
-    let specular = check.fraction(&at.key("specular"), description.specular);
-    let diffuse = check.fraction(&at.key("diffuse"), description.diffuse);
+    let (specular, diffuse) = (description.specular.0, description.diffuse.0);
     let reflected = specular + diffuse;
-    let Some(absorptivity) = description.absorptivity else {
+    let Some(Fraction(absorptivity)) = description.absorptivity else {
         if reflected > 1.0 + OPTICS_SUM_TOLERANCE && !check.has_reported(at) {
             let found = format!("specular + diffuse = {}", rounded(reflected));
             check.report_across(at, &at.key("specular"), found, "a sum of at most 1");
@@ -97,7 +83,6 @@ fn optics(check: &mut Checker<'_>, at: &Place, description: &OpticsDescription) 
         let absorptivity = (1.0 - reflected).max(0.0);
         return Optics { absorptivity, specular, diffuse };
     };
-    check.fraction(&at.key("absorptivity"), absorptivity);
     let sum = absorptivity + reflected;
     if (sum - 1.0).abs() > OPTICS_SUM_TOLERANCE {
         let found = format!("absorptivity + specular + diffuse = {}", rounded(sum));
@@ -112,29 +97,21 @@ fn face_thermal(
     description: &OpticsDescription,
     sunlight: &Optics,
 ) -> FaceThermal {
-    let infrared_optics = description.infrared_absorptivity.map_or(*sunlight, |absorptivity| {
-        sunlight.with_absorptivity(check.fraction(&at.key("infrared_absorptivity"), absorptivity))
-    });
+    let infrared_optics = description
+        .infrared_absorptivity
+        .map_or(*sunlight, |Fraction(absorptivity)| sunlight.with_absorptivity(absorptivity));
     let like_sunlight = FaceThermal::like_sunlight(sunlight).emission.emissivity;
-    let emissivity = description.emissivity.map_or(like_sunlight, |emissivity| {
-        check.within(&at.key("emissivity"), emissivity, 1e-3, 1.0, "a number from 0.001 to 1")
-    });
-    let slope = at.key("emissivity_per_k");
     let emission = Emission {
-        emissivity,
-        slope_per_k: check.finite(&slope, description.emissivity_per_k.unwrap_or(0.0)),
-        reference_temperature_k: check.within(
-            &at.key("emissivity_temperature_k"),
-            description.emissivity_temperature_k.unwrap_or(EMISSIVITY_REFERENCE_TEMPERATURE_K),
-            0.0,
-            HIGHEST_TEMPERATURE_K,
-            "0 to 2000 K",
-        ),
+        emissivity: description.emissivity.map_or(like_sunlight, f64::from),
+        slope_per_k: description.emissivity_per_k.map_or(0.0, f64::from),
+        reference_temperature_k: description
+            .emissivity_temperature_k
+            .map_or(EMISSIVITY_REFERENCE_TEMPERATURE_K, f64::from),
     };
     if !emission.grows() {
         check.report_across(
             at,
-            &slope,
+            &at.key("emissivity_per_k"),
             emission.slope_per_k,
             "a slope so small that up to 2000 K a hotter face emits more power",
         );

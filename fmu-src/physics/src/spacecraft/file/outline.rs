@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::spacecraft::polygon::Polygon;
-use crate::toml::{Checker, Place};
+use crate::toml::{Checker, Place, Positive};
 
 /// How far area, centre and normal may be off the polygon's, relative to its size: printed tables are rounded ...
 const OUTLINE_TOLERANCE: f64 = 1e-3;
@@ -65,12 +65,11 @@ pub(crate) fn checked_outline(
 pub(crate) fn checked_area(
     check: &mut Checker<'_>,
     at: &Place,
-    given_m2: Option<f64>,
+    given_m2: Option<Positive>,
     outline: Option<&Polygon>,
 ) -> f64 {
     let place = at.key("area_m2");
-    let given_m2 = given_m2.map(|area_m2| check.positive(&place, area_m2));
-    match (given_m2, outline) {
+    match (given_m2.map(f64::from), outline) {
         (Some(area_m2), None) => area_m2,
         (None, None) => missing(check, at, "area_m2", 1.0),
         (given_m2, Some(outline)) => {

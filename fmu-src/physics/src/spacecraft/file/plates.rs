@@ -135,12 +135,10 @@ fn cylinder(
     at: &Place,
     description: &CylinderDescription,
 ) -> Cylinder {
-    let angle = at.key("subtended_angle_deg");
-    let angle_deg = check.positive(&angle, description.subtended_angle_deg);
     Cylinder {
-        radius_m: check.positive(&at.key("radius_m"), description.radius_m),
-        height_m: check.positive(&at.key("height_m"), description.height_m),
-        half_angle_rad: check.angle(&angle, angle_deg.max(0.0), 0.0, 360.0) / 2.0,
+        radius_m: description.radius_m.0,
+        height_m: description.height_m.0,
+        half_angle_rad: description.subtended_angle_deg.0.to_radians() / 2.0,
         optics: materials.find(check, &at.key("optics"), &description.optics).optics,
     }
 }
@@ -187,12 +185,7 @@ pub(crate) fn panel(
         thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
         polygon: outline.as_ref().map(|polygon| polygon.moved(|v| dcm_body_from_panel * v)),
         control: description.control.unwrap_or(PanelControl::SunOffset),
-        sun_offset_rad: check.angle(
-            &at.key("sun_offset_deg"),
-            description.sun_offset_deg.unwrap_or(0.0),
-            0.0,
-            180.0,
-        ),
+        sun_offset_rad: description.sun_offset_deg.map_or(0.0, f64::from).to_radians(),
         tilt_sign: if tilt_sign < 0 { -1.0 } else { 1.0 },
         angle_rad: check.angle(&at.key("angle_deg"), description.angle_deg.unwrap_or(0.0), -360.0, 360.0),
     }

@@ -14,12 +14,10 @@ const PRESSURE_PA: f64 = 2e6;
 
 /// A tank that holds a part of `mass_kg`.
 pub(crate) fn tank(check: &mut Checker<'_>, at: &Place, index: usize, description: &TankDescription) -> Tank {
-    let mut positive = |key: &str, value: f64| check.positive(&at.key(key), value);
-    let propellant_kg = positive("propellant_kg", description.propellant_kg);
-    let pressure_pa = description.pressure_pa.map_or(PRESSURE_PA, |value| positive("pressure_pa", value));
+    let pressure_pa = description.pressure_pa.map_or(PRESSURE_PA, f64::from);
     let blowdown = description.ullage_m3.map(|ullage_m3| Blowdown {
-        ullage_m3: positive("ullage_m3", ullage_m3),
-        density_kg_m3: description.density_kg_m3.map_or(HYDRAZINE_KG_M3, |it| positive("density_kg_m3", it)),
+        ullage_m3: ullage_m3.0,
+        density_kg_m3: description.density_kg_m3.map_or(HYDRAZINE_KG_M3, f64::from),
     });
     if blowdown.is_none() && description.density_kg_m3.is_some() {
         check.report(&at.key("density_kg_m3"), "no ullage_m3 beside it", "with ullage_m3 alone (blowdown)");
@@ -36,7 +34,7 @@ pub(crate) fn tank(check: &mut Checker<'_>, at: &Place, index: usize, descriptio
     Tank {
         name: description.called(index),
         position_body_m: check.vector(&at.key("position_m"), description.position_m),
-        propellant_kg,
+        propellant_kg: description.propellant_kg.0,
         pressure_pa,
         allowed_pa,
         blowdown,
@@ -66,21 +64,12 @@ pub(crate) fn thruster(
     index: usize,
     description: &ThrusterDescription,
 ) -> Thruster {
-    let mut positive = |key: &str, value: f64| check.positive(&at.key(key), value);
-    let force_n = positive("force_n", description.force_n);
-    let at_pressure_pa = description.at_pressure_pa.map(|value| positive("at_pressure_pa", value));
-    let impulse_s = description.specific_impulse_s;
-    check.within(&at.key("specific_impulse_s"), impulse_s, 1.0, 1e8, "a number from 1 to 1e8 s");
-    let mut not_negative =
-        |key: &str, value: Option<f64>| value.map_or(0.0, |value| check.not_negative(&at.key(key), value));
+    let force_n = description.force_n.0;
     let valve = ValveTiming {
-        min_on_s: not_negative("min_on_time_s", description.min_on_time_s),
-        rise_s: not_negative("rise_time_s", description.rise_time_s),
-        tail_off_s: not_negative("tail_off_time_s", description.tail_off_time_s),
+        min_on_s: description.min_on_time_s.map_or(0.0, f64::from),
+        rise_s: description.rise_time_s.map_or(0.0, f64::from),
+        tail_off_s: description.tail_off_time_s.map_or(0.0, f64::from),
     };
-    let scatter = check.fraction(&at.key("scatter"), description.scatter.unwrap_or(0.0));
-    let plume_deg = description.plume_half_angle_deg.unwrap_or(0.0);
-    let plume_half_angle_rad = check.angle(&at.key("plume_half_angle_deg"), plume_deg, 0.0, 90.0);
     let position_body_m = check.vector(&at.key("position_m"), description.position_m);
     let direction: Vector3<f64> = check.unit_vector(&at.key("direction"), description.direction);
     let force_body_n = direction * force_n;
@@ -89,13 +78,13 @@ pub(crate) fn thruster(
         position_body_m,
         force_body_n,
         torque_body_n_m: position_body_m.cross(&force_body_n),
-        flow_kg_s: force_n / (impulse_s * STANDARD_GRAVITY_M_S2),
+        flow_kg_s: force_n / (description.specific_impulse_s.0 * STANDARD_GRAVITY_M_S2),
         valve,
-        scatter,
+        scatter: description.scatter.map_or(0.0, f64::from),
         set: description.set,
         tank: tank_of(check, tanks, at, description.tank.as_deref()),
-        at_pressure_pa,
-        plume_half_angle_rad,
+        at_pressure_pa: description.at_pressure_pa.map(f64::from),
+        plume_half_angle_rad: description.plume_half_angle_deg.map_or(0.0, f64::from).to_radians(),
     }
 }
 

@@ -18,12 +18,6 @@ use crate::spacecraft::surface::Plate;
 use crate::spacecraft::thermal::Thermal;
 use crate::toml::{Checker, Place, nearest};
 
-/// Most facets or corners around an axis.
-const MOST_FACETS: u32 = 128;
-
-/// Most rings of a dish.
-const MOST_RINGS: u32 = 32;
-
 /// What all shapes have.
 struct Shape<'s> {
     name: String,
@@ -97,9 +91,8 @@ pub(crate) fn cylinder_plates(
     let end = end.map_or(front, |name| materials.find(check, &at.key("end_optics"), name));
     let rear = rear(check, materials, at, description.rear_optics.as_deref());
     let axis = check.unit_vector(&at.key("axis"), description.axis.unwrap_or([0.0, 0.0, 1.0]));
-    let radius_m = check.positive(&at.key("radius_m"), description.radius_m);
-    let height_m = check.positive(&at.key("height_m"), description.height_m);
-    let facets = number(check, &at.key("facets"), description.facets, 16, 3, MOST_FACETS);
+    let (radius_m, height_m) = (description.radius_m.0, description.height_m.0);
+    let facets = description.facets.map_or(16, u32::from);
     let open = description.open_ends.as_deref().unwrap_or_default();
     let shape = Shape {
         name: description.called(index),
@@ -126,13 +119,12 @@ pub(crate) fn disc_plates(
     let front = materials.find(check, &at.key("optics"), &description.optics);
     let rear = rear(check, materials, at, description.rear_optics.as_deref());
     let normal = check.unit_vector(&at.key("normal"), description.normal);
-    let radius_m = check.positive(&at.key("radius_m"), description.radius_m);
-    let corners = number(check, &at.key("corners"), description.corners, 24, 3, MOST_FACETS);
+    let corners = description.corners.map_or(24, u32::from);
     let shape = Shape {
         name: description.called(index),
         turn: frame(&normal),
         shift_m: check.vector(&at.key("center_m"), description.center_m),
-        facets: disc(radius_m, corners),
+        facets: disc(description.radius_m.0, corners),
         rear,
         thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
@@ -152,10 +144,9 @@ pub(crate) fn dish_plates(
     let front = materials.find(check, &at.key("optics"), &description.optics);
     let rear = rear(check, materials, at, description.rear_optics.as_deref());
     let axis = check.unit_vector(&at.key("axis"), description.axis);
-    let radius_m = check.positive(&at.key("radius_m"), description.radius_m);
-    let depth_m = check.positive(&at.key("depth_m"), description.depth_m);
-    let facets = number(check, &at.key("facets"), description.facets, 12, 3, MOST_FACETS);
-    let rings = number(check, &at.key("rings"), description.rings, 3, 1, MOST_RINGS);
+    let (radius_m, depth_m) = (description.radius_m.0, description.depth_m.0);
+    let facets = description.facets.map_or(12, u32::from);
+    let rings = description.rings.map_or(3, u32::from);
     let shape = Shape {
         name: description.called(index),
         turn: frame(&axis),
@@ -252,20 +243,6 @@ impl Shape<'_> {
 
 fn rear(check: &mut Checker<'_>, materials: &Materials, at: &Place, name: Option<&str>) -> Option<Material> {
     name.map(|name| materials.find(check, &at.key("rear_optics"), name))
-}
-
-fn number(
-    check: &mut Checker<'_>,
-    at: &Place,
-    given: Option<u32>,
-    otherwise: u32,
-    least: u32,
-    most: u32,
-) -> u32 {
-    let number = given.unwrap_or(otherwise);
-    let allowed = format!("a whole number from {least} to {most}");
-    check.within(at, f64::from(number), f64::from(least), f64::from(most), &allowed);
-    number.clamp(least, most)
 }
 
 /// Axes with Z along a direction, as columns: X is the body axis that is most across it, made perpendicular.

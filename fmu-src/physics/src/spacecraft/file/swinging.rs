@@ -9,13 +9,6 @@ use crate::toml::{Checker, Place};
 
 /// Damping ratio where the file gives none. Assumed.
 const DAMPING: f64 = 0.005;
-/// Greatest frequency, in Hz.
-const FASTEST_HZ: f64 = 1e3;
-
-fn frequency(check: &mut Checker<'_>, at: &Place, frequency_hz: f64) -> f64 {
-    let allowed = "a number above 0 and at most 1000 Hz";
-    check.within(at, frequency_hz, f64::MIN_POSITIVE, FASTEST_HZ, allowed)
-}
 
 /// A flexible mode.
 pub(crate) fn mode(
@@ -27,8 +20,8 @@ pub(crate) fn mode(
     NamedMode {
         name: description.called(index),
         mode: FlexibleMode {
-            frequency_hz: frequency(check, &at.key("frequency_hz"), description.frequency_hz),
-            damping: check.fraction(&at.key("damping"), description.damping.unwrap_or(DAMPING)),
+            frequency_hz: description.frequency_hz.0,
+            damping: description.damping.map_or(DAMPING, f64::from),
             coupling_body_sqrt_kg_m: check
                 .vector(&at.key("coupling_sqrt_kg_m"), description.coupling_sqrt_kg_m),
         },
@@ -42,16 +35,15 @@ pub(crate) fn slosh(
     index: usize,
     description: &SloshDescription,
 ) -> NamedSlosh {
-    let coast_hz = description.coast_frequency_hz.unwrap_or(COAST_FREQUENCY_HZ);
     NamedSlosh {
         name: description.called(index),
         pendulum: SloshPendulum {
-            mass_kg: check.positive(&at.key("mass_kg"), description.mass_kg),
-            length_m: check.positive(&at.key("length_m"), description.length_m),
+            mass_kg: description.mass_kg.0,
+            length_m: description.length_m.0,
             pivot_body_m: check.vector(&at.key("pivot_m"), description.pivot_m),
             axis_body: check.unit_vector(&at.key("axis"), description.axis),
-            damping: check.fraction(&at.key("damping"), description.damping.unwrap_or(DAMPING)),
-            coast_frequency_hz: frequency(check, &at.key("coast_frequency_hz"), coast_hz),
+            damping: description.damping.map_or(DAMPING, f64::from),
+            coast_frequency_hz: description.coast_frequency_hz.map_or(COAST_FREQUENCY_HZ, f64::from),
         },
     }
 }

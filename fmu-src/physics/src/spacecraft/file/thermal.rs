@@ -2,8 +2,8 @@
 
 use super::describe_thermal::{ConductionDescription, ThermalDescription};
 use super::materials::{Material, ThermalEnvironment};
-use crate::spacecraft::thermal::{BusLink, Conduction, HIGHEST_TEMPERATURE_K, Honeycomb, Thermal};
-use crate::toml::{Checker, Place};
+use crate::spacecraft::thermal::{BusLink, Conduction, Honeycomb, Thermal};
+use crate::toml::{Checker, NotNegative, Place};
 
 /// Heat of a surface whose faces are of these materials.
 pub(crate) fn thermal(
@@ -28,19 +28,15 @@ pub(crate) fn thermal(
         }
     }
     let bus = bus(check, surroundings, &at, description);
-    let mut heat = |key: &str, value: Option<f64>| {
-        let value = value.unwrap_or(0.0);
-        check.not_negative(&at.key(key), value)
-    };
     Thermal {
         front: front.thermal,
         rear: rear.map(|rear| rear.thermal),
         bus,
         internal_heat_w: [
-            heat("internal_heat_w", description.internal_heat_w),
-            heat("rear_internal_heat_w", description.rear_internal_heat_w),
+            description.internal_heat_w.map_or(0.0, f64::from),
+            description.rear_internal_heat_w.map_or(0.0, f64::from),
         ],
-        heat_capacity_j_m2_k: heat("heat_capacity_j_m2_k", description.heat_capacity_j_m2_k),
+        heat_capacity_j_m2_k: description.heat_capacity_j_m2_k.map_or(0.0, f64::from),
         conduction: description.conduction.as_ref().map(|c| conduction(check, &at.key("conduction"), c)),
     }
 }
@@ -53,9 +49,7 @@ fn bus(
     description: &ThermalDescription,
 ) -> [BusLink; 2] {
     let temperature = at.key("bus_temperature_k");
-    let own_k = description
-        .bus_temperature_k
-        .map(|own_k| check.within(&temperature, own_k, 0.0, HIGHEST_TEMPERATURE_K, "0 to 2000 K"));
+    let own_k = description.bus_temperature_k.map(f64::from);
     let faces = [
         ("bus_conductance_w_m2_k", description.bus_conductance_w_m2_k),
         ("rear_bus_conductance_w_m2_k", description.rear_bus_conductance_w_m2_k),
@@ -64,13 +58,11 @@ fn bus(
         check.report(&temperature, "no conductance to the bus", "`bus_conductance_w_m2_k` beside it");
     }
     faces.map(|(key, given)| {
-        let Some(conductance_w_m2_k) = given else { return BusLink::NONE };
-        let place = at.key(key);
-        let conductance_w_m2_k = check.not_negative(&place, conductance_w_m2_k);
+        let Some(NotNegative(conductance_w_m2_k)) = given else { return BusLink::NONE };
         let temperature_k = own_k.or(surroundings.bus_temperature_k);
         if temperature_k.is_none() && conductance_w_m2_k > 0.0 {
             check.report(
-                &place,
+                &at.key(key),
                 "no temperature of the bus",
                 "`bus_temperature_k` beside it or under [thermal]",
             );
@@ -80,7 +72,6 @@ fn bus(
 }
 
 fn conduction(check: &mut Checker<'_>, at: &Place, description: &ConductionDescription) -> Conduction {
-    let conductance = at.key("conductance_w_m2_k");
     let Some(honeycomb) = &description.honeycomb else {
         if (description.conductance_w_m2_k, description.radiative_exchange) == (None, None) {
             check.report(
@@ -89,23 +80,20 @@ fn conduction(check: &mut Checker<'_>, at: &Place, description: &ConductionDescr
                 "`honeycomb`, or `conductance_w_m2_k` and `radiative_exchange` or one of them",
             );
         }
-        let q = description.conductance_w_m2_k.unwrap_or(0.0);
-        let exchange = description.radiative_exchange.unwrap_or(0.0);
         return Conduction {
-            conductance_w_m2_k: check.not_negative(&conductance, q),
-            radiative_exchange: check.fraction(&at.key("radiative_exchange"), exchange),
+            conductance_w_m2_k: description.conductance_w_m2_k.map_or(0.0, f64::from),
+            radiative_exchange: description.radiative_exchange.map_or(0.0, f64::from),
         };
     };
     if (description.conductance_w_m2_k, description.radiative_exchange) != (None, None) {
         check.report(at, "both numbers and a `honeycomb`", "one of them");
     }
-    let place = at.key("honeycomb");
     Honeycomb {
-        conductivity_w_m_k: check.positive(&place.key("conductivity_w_m_k"), honeycomb.conductivity_w_m_k),
-        thickness_m: check.positive(&place.key("thickness_m"), honeycomb.thickness_m),
-        wall_area_ratio: check.fraction(&place.key("wall_area_ratio"), honeycomb.wall_area_ratio),
-        packing_factor: check.fraction(&place.key("packing_factor"), honeycomb.packing_factor),
-        internal_emissivity: check.fraction(&place.key("internal_emissivity"), honeycomb.internal_emissivity),
+        conductivity_w_m_k: honeycomb.conductivity_w_m_k.0,
+        thickness_m: honeycomb.thickness_m.0,
+        wall_area_ratio: honeycomb.wall_area_ratio.0,
+        packing_factor: honeycomb.packing_factor.0,
+        internal_emissivity: honeycomb.internal_emissivity.0,
     }
     .conduction()
 }

@@ -5,6 +5,9 @@ use serde::Deserialize;
 use super::hardware::{Limits, MassTable, StarTracker, SunSensor};
 use crate::environment::frames::OBLIQUITY_J2000_RAD;
 use crate::spacecraft::StartTable;
+use crate::toml::{
+    AtLeastOne, Deviation, Distance, FieldOfView, Finite, Fraction, NotNegative, Positive, SpecificImpulse,
+};
 use crate::{constants::ASTRONOMICAL_UNIT_M, spin::geometry::L1Orbit};
 
 /// A spin-stabilised spacecraft: the file that SpinPlant is packed with. +Z is the spin axis, the origin the centre of mass.
@@ -22,7 +25,7 @@ pub struct Description {
     /// What all thrusters have in common.
     pub thrusters: ThrustersEntry,
     /// The thrusters.
-    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 24)))]
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = crate::toml::MOST_THRUSTERS)))]
     pub thruster: Vec<ThrusterEntry>,
     /// Thrusters that fire together.
     pub group: Option<Vec<GroupEntry>>,
@@ -55,13 +58,11 @@ pub struct MassEntry {
     #[cfg_attr(feature = "schema", schemars(length(min = 2)))]
     propellant_kg: Vec<f64>,
     /// Everything but propellant, in kg.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    dry_mass_kg: f64,
+    dry_mass_kg: Positive,
     /// On board at the start, in kg; otherwise the last point.
     initial_propellant_kg: Option<f64>,
     /// I1/I2; otherwise 1.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    transverse_quotient: Option<f64>,
+    transverse_quotient: Option<Positive>,
     /// Products of inertia 12, 13, 23 at each point, in kg m2: elements of the tensor; otherwise 0.
     products_of_inertia_kg_m2: Option<Vec<[f64; 3]>>,
 }
@@ -74,9 +75,9 @@ impl MassEntry {
             spin_inertia_kg_m2: self.spin_inertia_kg_m2,
             inertia_ratio: self.inertia_ratio,
             propellant_kg: self.propellant_kg,
-            dry_mass_kg: self.dry_mass_kg,
+            dry_mass_kg: self.dry_mass_kg.0,
             initial_propellant_kg: self.initial_propellant_kg.unwrap_or(most_kg),
-            transverse_quotient: self.transverse_quotient.unwrap_or(1.0),
+            transverse_quotient: self.transverse_quotient.map_or(1.0, f64::from),
             products_of_inertia_kg_m2: self.products_of_inertia_kg_m2,
         }
     }
@@ -88,8 +89,7 @@ impl MassEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DamperEntry {
     /// 1/e time of the nutation angle, in s; 0 without a damper.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub time_constant_s: f64,
+    pub time_constant_s: NotNegative,
 }
 
 /// What all thrusters have in common.
@@ -98,11 +98,9 @@ pub struct DamperEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ThrustersEntry {
     /// Smallest pulse, and the step to which its width and thruster[k].onDelay are rounded, in s.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub resolution_s: f64,
+    pub resolution_s: Positive,
     /// Specific impulse, in s.
-    #[cfg_attr(feature = "schema", schemars(range(min = 1.0, max = 1e8)))]
-    pub specific_impulse_s: f64,
+    pub specific_impulse_s: SpecificImpulse,
 }
 
 /// One thruster.
@@ -113,24 +111,19 @@ pub struct ThrusterEntry {
     /// A name of its own.
     pub name: String,
     /// Force at full thrust, in N.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub force_n: f64,
+    pub force_n: Positive,
     /// Where it stands from the centre of mass, body axes, in m.
     pub position_m: [f64; 3],
     /// Direction of the force on the spacecraft, a unit vector in body axes.
     pub direction: [f64; 3],
     /// Shortest time for which its valve opens, in s; otherwise 0.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub min_on_time_s: Option<f64>,
+    pub min_on_time_s: Option<NotNegative>,
     /// Time over which the thrust rises after the valve opens, in s; otherwise 0.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub rise_time_s: Option<f64>,
+    pub rise_time_s: Option<NotNegative>,
     /// Time over which the thrust falls after the valve closes, in s; otherwise 0.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
-    pub tail_off_time_s: Option<f64>,
+    pub tail_off_time_s: Option<NotNegative>,
     /// Standard deviation of the thrust from pulse to pulse, as a share of it; otherwise 0.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
-    pub scatter: Option<f64>,
+    pub scatter: Option<Fraction>,
 }
 
 /// Thrusters that fire together.
@@ -153,30 +146,27 @@ pub struct GroupEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StarTrackerEntry {
     /// Boresight azimuth from body X toward Y, in deg; otherwise 90.
-    azimuth_deg: Option<f64>,
+    azimuth_deg: Option<Finite>,
     /// Full width of the field in declination, in deg; otherwise 20.
-    #[cfg_attr(feature = "schema", schemars(range(max = 180.0), extend("exclusiveMinimum" = 0)))]
-    field_of_view_deg: Option<f64>,
+    field_of_view_deg: Option<FieldOfView>,
     /// Pickets in a turn, a multiple of 4; otherwise 900.
     #[cfg_attr(feature = "schema", schemars(range(min = 4)))]
     pickets: Option<u32>,
     /// One in so many is searched in a turn; otherwise 8.
-    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
-    every: Option<u32>,
+    every: Option<AtLeastOne>,
     /// Standard deviation of a declination, in deg; otherwise 0.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 180.0)))]
-    noise_deg: Option<f64>,
+    noise_deg: Option<Deviation>,
 }
 
 impl StarTrackerEntry {
     /// With what is left out.
     pub fn tracker(&self) -> StarTracker {
         StarTracker {
-            azimuth_deg: self.azimuth_deg.unwrap_or(90.0),
-            field_of_view_deg: self.field_of_view_deg.unwrap_or(20.0),
+            azimuth_deg: self.azimuth_deg.map_or(90.0, f64::from),
+            field_of_view_deg: self.field_of_view_deg.map_or(20.0, f64::from),
             pickets: self.pickets.unwrap_or(900),
-            every: self.every.unwrap_or(8),
-            noise_deg: self.noise_deg.unwrap_or(0.0),
+            every: self.every.map_or(8, u32::from),
+            noise_deg: self.noise_deg.map_or(0.0, f64::from),
         }
     }
 }
@@ -187,22 +177,20 @@ impl StarTrackerEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SunSensorEntry {
     /// Azimuth of the slit from body X toward Y, in deg; otherwise 0.
-    azimuth_deg: Option<f64>,
+    azimuth_deg: Option<Finite>,
     /// Standard deviation of a Sun angle, in deg; otherwise 0.
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 180.0)))]
-    noise_deg: Option<f64>,
+    noise_deg: Option<Deviation>,
     /// Sectors into which science data of one spin are sorted; otherwise 16384.
-    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
-    sectors: Option<u32>,
+    sectors: Option<AtLeastOne>,
 }
 
 impl SunSensorEntry {
     /// With what is left out.
     pub fn sensor(&self) -> SunSensor {
         SunSensor {
-            azimuth_deg: self.azimuth_deg.unwrap_or(0.0),
-            noise_deg: self.noise_deg.unwrap_or(0.0),
-            sectors: self.sectors.unwrap_or(16_384),
+            azimuth_deg: self.azimuth_deg.map_or(0.0, f64::from),
+            noise_deg: self.noise_deg.map_or(0.0, f64::from),
+            sectors: self.sectors.map_or(16_384, u32::from),
         }
     }
 }
@@ -220,21 +208,19 @@ const L1_FREQUENCIES: [f64; 2] = [2.0864, 2.0152];
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct L1OrbitEntry {
     /// Rate of the Earth-Sun line, in deg/day; otherwise the Earth's mean, 0.98561.
-    line_rate_deg_day: Option<f64>,
+    line_rate_deg_day: Option<Finite>,
     /// Sun to Earth, in m; otherwise 1 AU.
-    #[cfg_attr(feature = "schema", schemars(range(max = 1e13), extend("exclusiveMinimum" = 0)))]
-    sun_earth_distance_m: Option<f64>,
+    sun_earth_distance_m: Option<Distance>,
     /// Earth to L1, in m; otherwise 1.4976e9.
-    #[cfg_attr(feature = "schema", schemars(range(max = 1e13), extend("exclusiveMinimum" = 0)))]
-    earth_l1_distance_m: Option<f64>,
+    earth_l1_distance_m: Option<Distance>,
     /// Lissajous amplitudes along the line, in the ecliptic across it, normal to the ecliptic, in m; otherwise 0.
     amplitude_m: Option<[f64; 3]>,
     /// In-plane frequency over the line's rate; otherwise 2.0864.
-    in_plane_frequency: Option<f64>,
+    in_plane_frequency: Option<Finite>,
     /// Out-of-plane frequency over the line's rate; otherwise 2.0152.
-    out_of_plane_frequency: Option<f64>,
+    out_of_plane_frequency: Option<Finite>,
     /// Ecliptic to equator, in deg; otherwise that of J2000.
-    obliquity_deg: Option<f64>,
+    obliquity_deg: Option<Finite>,
 }
 
 impl L1OrbitEntry {
@@ -242,13 +228,15 @@ impl L1OrbitEntry {
     pub fn orbit(&self) -> L1Orbit {
         let [in_plane, out_of_plane] = L1_FREQUENCIES;
         L1Orbit {
-            line_rate_deg_day: self.line_rate_deg_day.unwrap_or(LINE_RATE_DEG_DAY),
-            sun_earth_distance_m: self.sun_earth_distance_m.unwrap_or(ASTRONOMICAL_UNIT_M),
-            earth_l1_distance_m: self.earth_l1_distance_m.unwrap_or(EARTH_L1_AU * ASTRONOMICAL_UNIT_M),
+            line_rate_deg_day: self.line_rate_deg_day.map_or(LINE_RATE_DEG_DAY, f64::from),
+            sun_earth_distance_m: self.sun_earth_distance_m.map_or(ASTRONOMICAL_UNIT_M, f64::from),
+            earth_l1_distance_m: self
+                .earth_l1_distance_m
+                .map_or(EARTH_L1_AU * ASTRONOMICAL_UNIT_M, f64::from),
             amplitude_m: self.amplitude_m.unwrap_or([0.0; 3]),
-            in_plane_frequency: self.in_plane_frequency.unwrap_or(in_plane),
-            out_of_plane_frequency: self.out_of_plane_frequency.unwrap_or(out_of_plane),
-            obliquity_deg: self.obliquity_deg.unwrap_or(OBLIQUITY_J2000_RAD.to_degrees()),
+            in_plane_frequency: self.in_plane_frequency.map_or(in_plane, f64::from),
+            out_of_plane_frequency: self.out_of_plane_frequency.map_or(out_of_plane, f64::from),
+            obliquity_deg: self.obliquity_deg.map_or(OBLIQUITY_J2000_RAD.to_degrees(), f64::from),
         }
     }
 }

@@ -11,9 +11,6 @@ use crate::spacecraft::{MOST_THRUSTERS, StartEntry, Thrust, Thruster, ValveTimin
 use crate::spin::geometry::L1Orbit;
 use crate::toml::{Checker, Document, FileError, Place, nearest};
 
-/// Greatest distance, in m: planets and their Lagrange points are nearer to the Sun.
-const GREATEST_DISTANCE_M: f64 = 1e13;
-
 /// The whole setup, validated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Spinner {
@@ -111,28 +108,22 @@ impl Builder<'_> {
         let root = Place::root();
         let mass_properties = raw.mass_properties.table();
         self.mass_properties(&root.key("mass_properties"), &mass_properties);
-        let damper_time_constant_s = raw.damper.map_or(0.0, |damper| damper.time_constant_s);
-        self.check.not_negative(&root.key("damper").key("time_constant_s"), damper_time_constant_s);
-        let common = root.key("thrusters");
-        self.check.positive(&common.key("resolution_s"), raw.thrusters.resolution_s);
-        let impulse_s = raw.thrusters.specific_impulse_s;
-        let allowed = "a number from 1 to 1e8 s";
-        self.check.within(&common.key("specific_impulse_s"), impulse_s, 1.0, 1e8, allowed);
-        let exhaust_m_s = raw.thrusters.specific_impulse_s * STANDARD_GRAVITY_M_S2;
+        let exhaust_m_s = raw.thrusters.specific_impulse_s.0 * STANDARD_GRAVITY_M_S2;
         let thrusters = self.thrusters(&root.key("thruster"), raw.thruster, exhaust_m_s);
         let groups = self.groups(&root.key("group"), raw.group.unwrap_or_default(), &thrusters);
         let star_tracker = raw.star_tracker.unwrap_or_default().tracker();
         let sun_sensor = raw.sun_sensor.unwrap_or_default().sensor();
         let l1_orbit = raw.l1_orbit.unwrap_or_default().orbit();
-        self.star_tracker(&root.key("star_tracker"), &star_tracker);
-        self.sun_sensor(&root.key("sun_sensor"), &sun_sensor);
-        self.limits(&root.key("limits"), &raw.limits);
+        if star_tracker.pickets == 0 || !star_tracker.pickets.is_multiple_of(4) {
+            let place = root.key("star_tracker").key("pickets");
+            self.check.report(&place, star_tracker.pickets, "a multiple of 4, at least 4");
+        }
         self.orbit(&root.key("l1_orbit"), &l1_orbit);
         Spinner {
             name: raw.name,
             mass_properties,
-            damper_time_constant_s,
-            resolution_s: raw.thrusters.resolution_s,
+            damper_time_constant_s: raw.damper.map_or(0.0, |damper| damper.time_constant_s.0),
+            resolution_s: raw.thrusters.resolution_s.0,
             thrusters,
             groups,
             star_tracker,
@@ -175,8 +166,6 @@ impl Builder<'_> {
                 self.check.report_across(at, &list, format_args!("a list of {}", products.len()), allowed);
             }
         }
-        self.check.positive(&at.key("dry_mass_kg"), mass.dry_mass_kg);
-        self.check.positive(&at.key("transverse_quotient"), mass.transverse_quotient);
         let most_kg = mass.propellant_kg.last().copied().unwrap_or(0.0);
         if !(0.0..=most_kg).contains(&mass.initial_propellant_kg) {
             let allowed = format!("a number from 0 to {most_kg}, the last of propellant_kg");
@@ -222,29 +211,24 @@ impl Builder<'_> {
             let at = list.item(i);
             let other = thrusters.iter().position(|thruster| thruster.name == entry.name);
             self.own_name(&at, &entry.name, other.map(|other| list.item(other)));
-            self.check.positive(&at.key("force_n"), entry.force_n);
             let position_m = self.check.vector(&at.key("position_m"), entry.position_m);
             self.check.unit_vector(&at.key("direction"), entry.direction);
             // Not the unit vector: scaled once, the force has the bits that GUIDs were made of.
             let direction = Vector3::from(entry.direction);
-            let mut not_negative = |key: &str, value: Option<f64>| {
-                value.map_or(0.0, |value| self.check.not_negative(&at.key(key), value))
-            };
             let valve = ValveTiming {
-                min_on_s: not_negative("min_on_time_s", entry.min_on_time_s),
-                rise_s: not_negative("rise_time_s", entry.rise_time_s),
-                tail_off_s: not_negative("tail_off_time_s", entry.tail_off_time_s),
+                min_on_s: entry.min_on_time_s.map_or(0.0, f64::from),
+                rise_s: entry.rise_time_s.map_or(0.0, f64::from),
+                tail_off_s: entry.tail_off_time_s.map_or(0.0, f64::from),
             };
-            let scatter = self.check.fraction(&at.key("scatter"), entry.scatter.unwrap_or(0.0));
-            let force_body_n = direction * (entry.force_n / direction.norm());
+            let force_body_n = direction * (entry.force_n.0 / direction.norm());
             thrusters.push(Thruster {
                 name: entry.name,
                 force_body_n,
                 position_body_m: position_m,
                 torque_body_n_m: position_m.cross(&force_body_n),
-                flow_kg_s: entry.force_n / exhaust_m_s,
+                flow_kg_s: entry.force_n.0 / exhaust_m_s,
                 valve,
-                scatter,
+                scatter: entry.scatter.map_or(0.0, f64::from),
                 set: None,
                 tank: 0,
                 at_pressure_pa: None,
@@ -309,62 +293,7 @@ impl Builder<'_> {
         index
     }
 
-    fn star_tracker(&mut self, at: &Place, tracker: &StarTracker) {
-        self.check.finite(&at.key("azimuth_deg"), tracker.azimuth_deg);
-        let field_deg = tracker.field_of_view_deg;
-        let allowed = "an angle above 0 and at most 180 deg";
-        self.check.within(&at.key("field_of_view_deg"), field_deg, f64::MIN_POSITIVE, 180.0, allowed);
-        if tracker.pickets == 0 || !tracker.pickets.is_multiple_of(4) {
-            self.check.report(&at.key("pickets"), tracker.pickets, "a multiple of 4, at least 4");
-        }
-        self.at_least_one(&at.key("every"), tracker.every);
-        self.noise(&at.key("noise_deg"), tracker.noise_deg);
-    }
-
-    fn sun_sensor(&mut self, at: &Place, sensor: &SunSensor) {
-        self.check.finite(&at.key("azimuth_deg"), sensor.azimuth_deg);
-        self.noise(&at.key("noise_deg"), sensor.noise_deg);
-        self.at_least_one(&at.key("sectors"), sensor.sectors);
-    }
-
-    fn noise(&mut self, at: &Place, noise_deg: f64) {
-        self.check.within(at, noise_deg, 0.0, 180.0, "a standard deviation from 0 to 180 deg");
-    }
-
-    fn at_least_one(&mut self, at: &Place, count: u32) {
-        if count == 0 {
-            self.check.report(at, count, "at least 1");
-        }
-    }
-
-    fn limits(&mut self, at: &Place, limits: &Limits) {
-        for (key, value) in [
-            ("sun_angle_deg", limits.sun_angle_deg),
-            ("earth_angle_deg", limits.earth_angle_deg),
-            ("spin_rate_rpm", limits.spin_rate_rpm),
-            ("spin_rate_tolerance_rpm", limits.spin_rate_tolerance_rpm),
-            ("period_variation_s", limits.period_variation_s),
-        ] {
-            self.check.positive(&at.key(key), value);
-        }
-    }
-
     fn orbit(&mut self, at: &Place, orbit: &L1Orbit) {
-        for (key, value) in [
-            ("line_rate_deg_day", orbit.line_rate_deg_day),
-            ("in_plane_frequency", orbit.in_plane_frequency),
-            ("out_of_plane_frequency", orbit.out_of_plane_frequency),
-            ("obliquity_deg", orbit.obliquity_deg),
-        ] {
-            self.check.finite(&at.key(key), value);
-        }
-        for (key, distance_m) in [
-            ("sun_earth_distance_m", orbit.sun_earth_distance_m),
-            ("earth_l1_distance_m", orbit.earth_l1_distance_m),
-        ] {
-            let allowed = "a distance above 0 and at most 1e13 m";
-            self.check.within(&at.key(key), distance_m, f64::MIN_POSITIVE, GREATEST_DISTANCE_M, allowed);
-        }
         let amplitude = at.key("amplitude_m");
         self.check.vector(&amplitude, orbit.amplitude_m);
         if orbit.amplitude_m[0].abs() >= orbit.earth_l1_distance_m {

@@ -2,6 +2,7 @@
 
 use crate::attitude::{Inertia, InertiaError};
 use crate::constants::{DEG_RAD, RPM_RAD_S};
+use crate::toml::Positive;
 use serde::{Deserialize, Serialize};
 
 /// Mass and inertia as functions of the propellant on board.
@@ -119,40 +120,35 @@ pub struct SunSensor {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Limits {
     /// Greatest angle from the spin axis to the Sun, in deg.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub sun_angle_deg: f64,
+    pub sun_angle_deg: Positive,
     /// Greatest angle from the antenna (-Z) to the Earth, in deg.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub earth_angle_deg: f64,
+    pub earth_angle_deg: Positive,
     /// Nominal spin rate, in rpm.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub spin_rate_rpm: f64,
+    pub spin_rate_rpm: Positive,
     /// Allowed either way, in rpm.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub spin_rate_tolerance_rpm: f64,
+    pub spin_rate_tolerance_rpm: Positive,
     /// Greatest variation of the spin period, in s.
-    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
-    pub period_variation_s: f64,
+    pub period_variation_s: Positive,
 }
 
 impl Limits {
     /// Greatest angle from the spin axis to the Sun, in rad.
     pub fn sun_angle_rad(&self) -> f64 {
-        self.sun_angle_deg * DEG_RAD
+        self.sun_angle_deg.0 * DEG_RAD
     }
 
     /// Greatest angle from the antenna (-Z) to the Earth, in rad.
     pub fn earth_angle_rad(&self) -> f64 {
-        self.earth_angle_deg * DEG_RAD
+        self.earth_angle_deg.0 * DEG_RAD
     }
 
     /// Nominal spin rate, in rad/s.
     pub fn spin_rate_rad_s(&self) -> f64 {
-        self.spin_rate_rpm * RPM_RAD_S
+        self.spin_rate_rpm.0 * RPM_RAD_S
     }
 
     /// Allowed either way, in rad/s.
     pub fn spin_rate_tolerance_rad_s(&self) -> f64 {
-        self.spin_rate_tolerance_rpm * RPM_RAD_S
+        self.spin_rate_tolerance_rpm.0 * RPM_RAD_S
     }
 }

@@ -1,0 +1,103 @@
+//! Ranges of numbers in files: a type each, which the reader checks by and the schema shows.
+//!
+//! A field says by its type what it may hold, as in `radius_m: Positive`. The type's name reaches the reader through serde.
+
+use serde::{Deserialize, Serialize};
+
+/// Greatest magnitude of any number in a file: keeps products of several numbers far from overflow.
+pub(super) const GREATEST: f64 = 1e12;
+
+/// Numbers from `low` to `high`, both included.
+pub(super) struct Range {
+    name: &'static str,
+    pub low: f64,
+    pub high: f64,
+    pub allowed: &'static str,
+}
+
+impl Range {
+    /// That of the type of this name, if it has one.
+    pub fn of(name: &str) -> Option<&'static Self> {
+        RANGES.iter().find(|range| range.name == name)
+    }
+}
+
+/// The schema of a number with its bounds; [`GREATEST`] goes without saying.
+#[cfg(feature = "schema")]
+fn bounded(mut schema: schemars::Schema, low: f64, high: f64) -> schemars::Schema {
+    let mut insert = |key: &str, bound: f64| {
+        let whole = bound as i64;
+        let bound = if whole as f64 == bound { whole.into() } else { bound.into() };
+        schema.insert(key.to_owned(), bound);
+    };
+    match low {
+        f64::MIN_POSITIVE => insert("exclusiveMinimum", 0.0),
+        low if low > -GREATEST => insert("minimum", low),
+        _ => {}
+    }
+    if high != GREATEST {
+        insert("maximum", high);
+    }
+    schema
+}
+
+/// A number without a row of zeros.
+pub(super) fn short(value: f64) -> String {
+    if value == 0.0 || (1e-5..1e16).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") }
+}
+
+macro_rules! ranges {
+    ($($name:ident($number:ty): $low:expr, $high:expr, $allowed:literal;)+) => {
+        $(
+            #[doc = concat!("Allowed: ", $allowed, ".")]
+            #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+            pub struct $name(pub $number);
+
+            impl From<$name> for $number {
+                fn from(value: $name) -> Self {
+                    value.0
+                }
+            }
+
+            #[cfg(feature = "schema")]
+            impl schemars::JsonSchema for $name {
+                fn inline_schema() -> bool {
+                    true
+                }
+
+                fn schema_name() -> std::borrow::Cow<'static, str> {
+                    stringify!($name).into()
+                }
+
+                fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+                    bounded(<$number>::json_schema(generator), $low, $high)
+                }
+            }
+        )+
+
+        const RANGES: &[Range] =
+            &[$(Range { name: stringify!($name), low: $low, high: $high, allowed: $allowed }),+];
+    };
+}
+
+ranges! {
+    Finite(f64): -GREATEST, GREATEST, "a finite number up to 1e12 in magnitude";
+    Positive(f64): f64::MIN_POSITIVE, GREATEST, "a number above 0 and at most 1e12";
+    NotNegative(f64): 0.0, GREATEST, "a number from 0 to 1e12";
+    Fraction(f64): 0.0, 1.0, "a number from 0 to 1";
+    Emissivity(f64): 1e-3, 1.0, "a number from 0.001 to 1";
+    Kelvin(f64): 0.0, 2000.0, "0 to 2000 K";
+    SpecificImpulse(f64): 1.0, 1e8, "a number from 1 to 1e8 s";
+    Frequency(f64): f64::MIN_POSITIVE, 1000.0, "a number above 0 and at most 1000 Hz";
+    Distance(f64): f64::MIN_POSITIVE, 1e13, "a distance above 0 and at most 1e13 m";
+    QuarterTurn(f64): 0.0, 90.0, "an angle from 0 to 90 deg";
+    HalfTurn(f64): 0.0, 180.0, "an angle from 0 to 180 deg";
+    FieldOfView(f64): f64::MIN_POSITIVE, 180.0, "an angle above 0 and at most 180 deg";
+    SubtendedAngle(f64): f64::MIN_POSITIVE, 360.0, "an angle above 0 and at most 360 deg";
+    TurnEither(f64): -360.0, 360.0, "an angle from -360 to 360 deg";
+    Deviation(f64): 0.0, 180.0, "a standard deviation from 0 to 180 deg";
+    AtLeastOne(u32): 1.0, GREATEST, "at least 1";
+    Copies(u32): 2.0, 100.0, "a whole number from 2 to 100";
+    Corners(u32): 3.0, 128.0, "a whole number from 3 to 128";
+    Rings(u32): 1.0, 32.0, "a whole number from 1 to 32";
+}
