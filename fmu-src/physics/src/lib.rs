@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 pub mod constants;
+pub mod enumeration;
 pub mod numerics;
 
 pub mod bodies;

@@ -1,57 +1,49 @@
-//! Choices among the variants of a type of physics, which declares them: what their items are called and mean to a master.
+//! Choices that several models have; those that physics makes have its items.
 
 use fmi_export::Enumeration;
+use fmi_export::variables::Item;
 use physics::bodies::{Body, surface};
+use physics::enumeration::Enumerated;
 use physics::environment::eclipse::ShadowModel;
 use physics::guidance::modes::guidance_command;
 use physics::momentum::Convention;
 use physics::spacecraft::{Panel, Spacecraft, SunshadeModel, ThrusterSet};
 
-/// An enumeration whose items are the variants of an enum of physics: `item = value => Variant`, each with its description.
-macro_rules! enumeration_of {
-    ($(#[doc = $about:literal])+ $name:ident($type:ty) {
-        $($(#[doc = $meaning:literal])+ $item:ident = $value:literal => $variant:ident,)+
-    }) => {
+/// Enumerations that are those of physics: `Name(type);` each, described by its doc comment.
+macro_rules! choices {
+    ($($(#[doc = $about:literal])+ $name:ident($type:ty);)+) => {$(
         $(#[doc = $about])+
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub struct $name(pub $type);
 
         impl ::fmi_export::Enumeration for $name {
-            const FIRST: Self = Self([$(<$type>::$variant),+][0]);
+            const FIRST: Self = Self(<$type as ::physics::enumeration::Enumerated>::ITEMS[0].variant);
 
             const TYPE: ::fmi_export::variables::EnumerationType = ::fmi_export::variables::EnumerationType {
                 name: stringify!($name),
                 description: concat!($($about),+).trim_ascii(),
-                items: &[$(::fmi_export::variables::Item {
-                    name: stringify!($item),
-                    value: $value,
-                    description: concat!($($meaning),+).trim_ascii(),
-                }),+],
+                items: &$crate::common::choices::items::<
+                    $type,
+                    { <$type as ::physics::enumeration::Enumerated>::ITEMS.len() },
+                >(None),
             };
 
             fn from_value(value: i32) -> Option<Self> {
-                match value {
-                    $($value => Some(Self(<$type>::$variant)),)+
-                    _ => None,
-                }
+                ::physics::enumeration::Enumerated::from_value(value).map(Self)
             }
 
             fn value(self) -> i32 {
-                match self.0 {
-                    $(<$type>::$variant => $value,)+
-                }
+                ::physics::enumeration::Enumerated::value(self.0)
             }
         }
-    };
+    )+};
 }
-pub(crate) use enumeration_of;
+pub(crate) use choices;
 
-/// The same for an input, where 0 is none of the variants: what masters send before the first exchange.
-macro_rules! optional_enumeration_of {
-    ($(#[doc = $about:literal])+ $name:ident($type:ty) {
-        $(#[doc = $none:literal])+ none = 0,
-        $($(#[doc = $meaning:literal])+ $item:ident = $value:literal => $variant:ident,)+
-    }) => {
+/// The same for inputs, where 0 is none of the items, what masters send before the first exchange: `Name(type) or "what none
+/// means";`.
+macro_rules! optional_choices {
+    ($($(#[doc = $about:literal])+ $name:ident($type:ty) or $none:literal;)+) => {$(
         $(#[doc = $about])+
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub struct $name(pub Option<$type>);
@@ -62,73 +54,55 @@ macro_rules! optional_enumeration_of {
             const TYPE: ::fmi_export::variables::EnumerationType = ::fmi_export::variables::EnumerationType {
                 name: stringify!($name),
                 description: concat!($($about),+).trim_ascii(),
-                items: &[
-                    ::fmi_export::variables::Item {
-                        name: "none",
-                        value: 0,
-                        description: concat!($($none),+).trim_ascii(),
-                    },
-                    $(::fmi_export::variables::Item {
-                        name: stringify!($item),
-                        value: $value,
-                        description: concat!($($meaning),+).trim_ascii(),
-                    }),+
-                ],
+                items: &$crate::common::choices::items::<
+                    $type,
+                    { <$type as ::physics::enumeration::Enumerated>::ITEMS.len() + 1 },
+                >(Some($none)),
             };
 
             fn from_value(value: i32) -> Option<Self> {
                 match value {
                     0 => Some(Self(None)),
-                    $($value => Some(Self(Some(<$type>::$variant))),)+
-                    _ => None,
+                    _ => ::physics::enumeration::Enumerated::from_value(value).map(|it| Self(Some(it))),
                 }
             }
 
             fn value(self) -> i32 {
-                match self.0 {
-                    None => 0,
-                    $(Some(<$type>::$variant) => $value,)+
-                }
+                self.0.map_or(0, ::physics::enumeration::Enumerated::value)
             }
         }
+    )+};
+}
+pub(crate) use optional_choices;
+
+/// The items by their numbers, behind the one that is none of them if that has a meaning.
+pub(crate) const fn items<E: Enumerated, const N: usize>(none: Option<&'static str>) -> [Item; N] {
+    let (before, description) = match none {
+        Some(meaning) => (1, meaning),
+        None => (0, ""),
     };
+    let mut items = [Item { name: "none", value: 0, description }; N];
+    let mut at = 0;
+    while at < E::ITEMS.len() {
+        let item = &E::ITEMS[at];
+        let (mut rank, mut other) = (before, 0);
+        while other < E::ITEMS.len() {
+            rank += (E::ITEMS[other].value < item.value) as usize;
+            other += 1;
+        }
+        items[rank] = Item { name: item.name, value: item.value, description: item.meaning };
+        at += 1;
+    }
+    items
 }
-pub(crate) use optional_enumeration_of;
 
-enumeration_of! {
+choices! {
     /// How the day side's temperature is distributed.
-    DayTemperature(surface::DayTemperature) {
-        /// One temperature for the whole day side (paper 004, eq 32).
-        uniform = 1 => Uniform,
-        /// Local balance: the fourth power of temperature goes with the cosine of the Sun's zenith angle.
-        cosine = 2 => Cosine,
-        /// The night's temperature everywhere, as under an atmosphere.
-        isothermal = 3 => Isothermal,
-    }
-}
-
-enumeration_of! {
+    DayTemperature(surface::DayTemperature);
     /// How the planet's shadow dims the Sun.
-    EclipseMethod(ShadowModel) {
-        /// By the visible fraction of the Sun's disc: umbra, penumbra, annular.
-        discs = 1 => DiscOverlap,
-        /// Paper 004: no light as soon as the discs touch.
-        cone = 2 => AllOrNothingCone,
-        /// No light in the cylinder of the planet's radius behind it.
-        cylinder = 3 => AllOrNothingCylinder,
-        /// The planet casts no shadow; so in paper 000.
-        off = 4 => Off,
-    }
-}
-
-enumeration_of! {
+    EclipseMethod(ShadowModel);
     /// Shape of the sunshade.
-    SunshadeShape(SunshadeModel) {
-        /// Flat plates.
-        plates = 1 => Plates,
-        /// Section of a cylinder.
-        cylinder = 2 => Cylinder,
-    }
+    SunshadeShape(SunshadeModel);
 }
 
 impl SunshadeShape {
@@ -162,29 +136,11 @@ impl PanelTilt {
     }
 }
 
-enumeration_of! {
+choices! {
     /// Meaning of system momentum in the body frame.
-    MomentumConvention(Convention) {
-        /// Physical: the inertial total shown in body components.
-        inertial = 1 => Inertial,
-        /// Paper 000: each body component of torque integrated on its own.
-        bodyIntegral = 2 => BodyIntegral,
-    }
-}
-
-enumeration_of! {
+    MomentumConvention(Convention);
     /// What a command gives.
-    CommandKind(guidance_command::CommandKind) {
-        /// No command yet: the attitude is held.
-        none = 0 => None,
-        /// Attitude command.q and rate command.rate.
-        attitude = 1 => Attitude,
-        /// The attitude held turns at once, when this item is chosen, by the conjugate of command.error; then with
-        /// command.rate.
-        errorQuaternion = 2 => ErrorQuaternion,
-        /// The attitude held turns on with command.rate.
-        rateOnly = 3 => RateOnly,
-    }
+    CommandKind(guidance_command::CommandKind);
 }
 
 /// Pitch during science.
@@ -199,36 +155,14 @@ pub enum ScienceRule {
     FixedToSunLine = 3,
 }
 
-enumeration_of! {
+choices! {
     /// Central body. 5 is kept free for the Moon, which cannot be one yet.
-    OrbitCenter(Body) {
-        /// Mercury.
-        mercury = 1 => Mercury,
-        /// The Sun.
-        sun = 2 => Sun,
-        /// Venus.
-        venus = 3 => Venus,
-        /// The Earth.
-        earth = 4 => Earth,
-        /// Mars.
-        mars = 6 => Mars,
-        /// Jupiter.
-        jupiter = 7 => Jupiter,
-    }
+    OrbitCenter(Body);
 }
 
-optional_enumeration_of! {
+optional_choices! {
     /// Thrusters for a delta-v.
-    ThrustRequest(ThrusterSet) {
-        /// None.
-        none = 0,
-        /// The large velocity adjust thruster.
-        lva = 1 => Lva,
-        /// The 22 N thrusters.
-        c22 = 2 => C22,
-        /// The 4.4 N thrusters.
-        mono4 = 3 => Mono4,
-    }
+    ThrustRequest(ThrusterSet) or "None.";
 }
 
 /// From where downlinks are counted.

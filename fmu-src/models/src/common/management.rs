@@ -6,51 +6,25 @@ use physics::guidance::Schedule;
 use physics::management::{self, Manager, Strategy, TargetAxes, Targeting, TargetingMethod};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 
-use super::choices::enumeration_of;
+use super::choices::choices;
 
 /// The greatest number of cycles that predictive targets look ahead.
 const LONGEST_HORIZON: i32 = management::LONGEST_HORIZON as i32;
 
-enumeration_of! {
+choices! {
     /// What sunlight is used for during downlinks.
-    MomentumStrategy(Strategy) {
-        /// Nothing: the Sun stands on -Y, thrusters dump.
-        dumpsOnly = 1 => DumpsOnly,
-        /// Every downlink brings the momentum toward momentum.target.
-        reactive = 2 => Reactive,
-        /// Every downlink brings it to the middle of what keeps all components below dump.threshold through the coming
-        /// momentum.horizon cycles, forecast.
-        predictive = 3 => Predictive,
-    }
-}
-
-enumeration_of! {
+    MomentumStrategy(Strategy);
     /// Body components of momentum that sunlight brings to a target.
-    MomentumTargetAxes(TargetAxes) {
-        /// X, by the Sun's elevation; its azimuth stays 0 as far as the antennas allow.
-        x = 1 => X,
-        /// Z, by the Sun's azimuth; its elevation stays 0.
-        z = 2 => Z,
-        /// Both.
-        xz = 3 => XAndZ,
-    }
-}
-
-enumeration_of! {
+    MomentumTargetAxes(TargetAxes);
     /// How the Sun's place is computed.
-    MomentumTargeting(TargetingMethod) {
-        /// The whole torque of direct sunlight, panels included, and the turn of the momentum with the attitude.
-        exact = 1 => Exact,
-        /// Paper 000's eq 17: the sunshade alone, to first order in the angles; up to 8 % short.
-        linear = 2 => Linear,
-    }
+    MomentumTargeting(TargetingMethod);
 }
 
 /// What downlinks bring the momentum to.
 #[derive(Variables)]
 pub struct TargetingVariables {
     /// Body components of momentum that sunlight brings to a target.
-    #[parameter(start = MomentumTargetAxes(TargetAxes::XAndZ))]
+    #[parameter(start = MomentumTargetAxes(TargetAxes::Xz))]
     pub target_axes: Choice<MomentumTargetAxes>,
     /// How the Sun's place is computed.
     #[parameter(start = MomentumTargeting(TargetingMethod::Exact))]

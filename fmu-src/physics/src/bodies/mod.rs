@@ -13,25 +13,29 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::constants::{self, DEG_RAD};
+use crate::enumeration::enumeration;
 use surface::{DayTemperature, PlanetSurface};
 
-/// A body a spacecraft can fly around or look at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "camelCase")]
-pub enum Body {
-    /// The Sun.
-    Sun,
-    /// Mercury.
-    Mercury,
-    /// Venus.
-    Venus,
-    /// The Earth itself, not the Earth-Moon barycentre.
-    Earth,
-    /// Mars.
-    Mars,
-    /// Jupiter.
-    Jupiter,
+enumeration! {
+    /// A body a spacecraft can fly around or look at.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "camelCase")]
+    pub enum Body {
+        /// The Sun.
+        2 => Sun,
+        /// Mercury.
+        1 => Mercury,
+        /// Venus.
+        3 => Venus,
+        /// The Earth.
+        // Itself, not the Earth-Moon barycentre.
+        4 => Earth,
+        /// Mars.
+        6 => Mars,
+        /// Jupiter.
+        7 => Jupiter,
+    }
 }
 
 /// What is known of a body.

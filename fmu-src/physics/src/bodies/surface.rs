@@ -6,20 +6,24 @@
 use serde::{Deserialize, Serialize};
 
 use crate::constants::{RADIUS_MERCURY_M, STEFAN_BOLTZMANN_W_M2_K4};
+use crate::enumeration::enumeration;
 use crate::numerics::scalar::Scalar;
 
-/// How the day side's temperature is distributed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum DayTemperature {
-    /// One temperature for the whole day side (paper 004 eq 32): the hemisphere 2 pi R2 radiates what the disc
-    /// pi R2 absorbs.
-    Uniform,
-    /// Every place radiates what it absorbs; the fourth power of temperature goes with cos z from the
-    /// night's at the terminator to that of local equilibrium below the Sun.
-    Cosine,
-    /// The night's temperature everywhere: an atmosphere carries the heat around.
-    Isothermal,
+enumeration! {
+    /// How the day side's temperature is distributed.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum DayTemperature {
+        /// One temperature for the whole day side (paper 004, eq 32).
+        // The hemisphere 2 pi R2 radiates what the disc pi R2 absorbs.
+        1 => Uniform,
+        /// Local balance: the fourth power of temperature goes with the cosine of the Sun's zenith angle.
+        // From the night's at the terminator to that of local equilibrium below the Sun.
+        2 => Cosine,
+        /// The night's temperature everywhere, as under an atmosphere.
+        // An atmosphere carries the heat around.
+        3 => Isothermal,
+    }
 }
 
 /// Optical and thermal properties of a spherical planet whose surface is everywhere of one kind.

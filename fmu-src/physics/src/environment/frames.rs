@@ -6,22 +6,26 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::bodies::BodyData;
+use crate::enumeration::enumeration;
 
 /// Obliquity of the ecliptic at J2000, rad: 84381.448 arc seconds (IAU 1976, SPICE's ECLIPJ2000).
 pub const OBLIQUITY_J2000_RAD: f64 = 84_381.448 / 3600.0 * core::f64::consts::PI / 180.0;
-/// The frame in which an orbit's elements are given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Frame {
-    /// x to the ascending node of the body's orbit on the ecliptic, z normal to that orbit: paper 004's MCI for Mercury. For
-    /// the Sun, which has no orbit, the ecliptic.
-    PlanetOrbit,
-    /// x to the ascending node of the body's equator on the EME2000 equator, z to its north pole at J2000 (that of Mercury
-    /// moves 0.03 deg a century).
-    PlanetEquator,
-    /// Mean equator and equinox of J2000.
-    Eme2000,
-    /// Mean ecliptic and equinox of J2000 (SPICE's ECLIPJ2000); paper 004's HCI has these axes.
-    Ecliptic,
+enumeration! {
+    /// The frame in which an orbit's elements are given.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    pub enum Frame {
+        /// The planet's orbit plane, from its ascending node on the ecliptic: the Mercury-centred inertial frame of paper 004.
+        // x to the ascending node, z normal to the orbit. For the Sun, which has no orbit, the ecliptic.
+        1 => PlanetOrbit,
+        /// The planet's equator of J2000.
+        // x to the ascending node on the EME2000 equator, z to the north pole at J2000 (that of Mercury moves 0.03 deg a century).
+        2 => PlanetEquator,
+        /// Earth mean equator and equinox of J2000.
+        3 => Eme2000,
+        /// Ecliptic and equinox of J2000.
+        // Mean (SPICE's ECLIPJ2000); paper 004's HCI has these axes.
+        4 => Ecliptic,
+    }
 }
 
 impl Frame {

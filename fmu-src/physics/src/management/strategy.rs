@@ -14,22 +14,26 @@ use super::profile::{Component, ControlAuthority};
 use super::rotated_momentum::best_turned;
 use super::targeting::{DownlinkState, ScienceAim, Targeted, Targeting};
 use crate::attitude::{SunAngles, direction_from_angles};
+use crate::enumeration::enumeration;
 use crate::guidance::{ChosenPlace, ScienceCourse};
 use crate::momentum::{Convention, DumpPolicy};
 use crate::plant::{DownlinkForecast, ForecastMomentum, PlantError, StartMomentum, SunPlanner};
 use crate::radiation::TorquePolynomial;
 use crate::spacecraft::{Sunshade, SunshadeModel};
 
-/// What sunlight is used for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Strategy {
-    /// Nothing: downlinks have the Sun on -Y.
-    #[default]
-    DumpsOnly,
-    /// To bring the momentum to one target.
-    Reactive,
-    /// To bring it where the coming cycles keep it below its thresholds.
-    Predictive,
+enumeration! {
+    /// What sunlight is used for.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum Strategy {
+        /// Nothing: the Sun stands on -Y, thrusters dump.
+        #[default]
+        1 => DumpsOnly,
+        /// Every downlink brings the momentum toward momentum.target.
+        2 => Reactive,
+        /// Every downlink brings it to the middle of what keeps all components below dump.threshold through the coming
+        /// momentum.horizon cycles, forecast.
+        3 => Predictive,
+    }
 }
 
 /// A strategy with all it needs of parameters and spacecraft.
@@ -307,7 +311,7 @@ mod tests {
         let manager = Manager {
             strategy: Strategy::Predictive,
             targeting: Targeting {
-                axes: TargetAxes::XAndZ,
+                axes: TargetAxes::Xz,
                 method: TargetingMethod::Exact,
                 azimuth_limit_rad: 0.2,
                 elevation_limit_rad: 0.2,

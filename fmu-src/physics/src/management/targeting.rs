@@ -15,21 +15,24 @@ use nalgebra::{Matrix2, Vector2, Vector3};
 use super::admissible::{Branch, KeepInLimits};
 use super::linear::LinearTorque;
 use crate::attitude::{MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
+use crate::enumeration::enumeration;
 use crate::guidance::{LinesOfSight, ScienceCourse, SunPlace, downlink_toward};
 use crate::momentum::Convention;
 use crate::numerics::roots;
 use crate::plant::StartMomentum;
 
-/// Components of momentum that sunlight is to bring to a target.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum TargetAxes {
-    /// X, by the Sun's elevation.
-    X,
-    /// Z, by the Sun's azimuth.
-    Z,
-    /// Both.
-    #[default]
-    XAndZ,
+enumeration! {
+    /// Components of momentum that sunlight is to bring to a target.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum TargetAxes {
+        /// X, by the Sun's elevation; its azimuth stays 0 as far as the antennas allow.
+        1 => X,
+        /// Z, by the Sun's azimuth; its elevation stays 0.
+        2 => Z,
+        /// Both.
+        #[default]
+        3 => Xz,
+    }
 }
 
 impl TargetAxes {
@@ -39,14 +42,16 @@ impl TargetAxes {
     }
 }
 
-/// How the Sun's place is computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum TargetingMethod {
-    /// The whole torque, and the attitude's turn of the momentum.
-    #[default]
-    Exact,
-    /// Eq 17.
-    Linear,
+enumeration! {
+    /// How the Sun's place is computed.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum TargetingMethod {
+        /// The whole torque of direct sunlight, panels included, and the turn of the momentum with the attitude.
+        #[default]
+        1 => Exact,
+        /// Paper 000's eq 17: the sunshade alone, to first order in the angles; up to 8 % short.
+        2 => Linear,
+    }
 }
 
 /// What targeting may do.
@@ -203,7 +208,7 @@ impl Targeting {
         let mut best: Option<(f64, Targeted)> = None;
         for branch in branches {
             let found = match self.axes {
-                TargetAxes::XAndZ => self.both(aim, target, branch, tolerance),
+                TargetAxes::Xz => self.both(aim, target, branch, tolerance),
                 TargetAxes::X | TargetAxes::Z => self.one(aim, target, branch),
             };
             let Some((place, left)) = found else { continue };

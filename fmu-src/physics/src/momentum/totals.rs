@@ -4,17 +4,21 @@ use nalgebra::{Matrix3, Rotation3, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::MovingFrame;
+use crate::enumeration::enumeration;
 
 /// Sampled quantities that are integrated: torque (inertial), torque (body), acceleration (inertial).
 pub(super) const RATES: usize = 9;
 
-/// What "system momentum in the body frame" means.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Convention {
-    /// Physical: dH/dt + w x H = T, the inertial momentum shown in body components.
-    Inertial,
-    /// Paper 000: the integral of each body component of torque on its own.
-    BodyIntegral,
+enumeration! {
+    /// What "system momentum in the body frame" means.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Convention {
+        /// Physical: the inertial total shown in body components.
+        // dH/dt + w x H = T.
+        1 => Inertial,
+        /// Paper 000: each body component of torque integrated on its own.
+        2 => BodyIntegral,
+    }
 }
 
 /// What is integrated over time.

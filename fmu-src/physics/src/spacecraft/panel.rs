@@ -7,19 +7,22 @@ use super::mass::PanelMass;
 use super::optics::Optics;
 use super::polygon::Polygon;
 use super::thermal::Thermal;
+use crate::enumeration::enumeration;
 use crate::numerics::scalar::{Scalar, constant_vector};
 
-/// How a panel's angle comes about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum PanelControl {
-    /// The cell side keeps a constant angle to the Sun's direction.
-    SunOffset,
-    /// The angle about the axis is given.
-    Angle,
-    /// The cell side keeps an angle to the Sun's direction that is commanded.
-    Command,
+enumeration! {
+    /// How a panel's angle comes about.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "snake_case")]
+    pub enum PanelControl {
+        /// A constant angle between the panel's normal and the Sun.
+        1 => SunOffset,
+        /// The input angle.
+        2 => Angle,
+        /// The angle to the Sun of the input sunOffsetCommand.
+        3 => Command,
+    }
 }
 
 /// A flat panel whose axis of rotation passes through its centre (paper 000, eqs 9-11).

@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::optics::Optics;
 use super::polygon::Polygon;
 use super::thermal::Thermal;
+use crate::enumeration::enumeration;
 
 /// Most surfaces of a spacecraft, copies and facets of shapes among them.
 pub const MOST_SURFACES: usize = 4000;
@@ -57,15 +58,17 @@ pub struct Cylinder {
     pub optics: Optics,
 }
 
-/// Which description of the sunshade is used.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub enum SunshadeModel {
-    /// Flat plates.
-    Plates,
-    /// The section of a cylinder.
-    Cylinder,
+enumeration! {
+    /// Which description of the sunshade is used.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "lowercase")]
+    pub enum SunshadeModel {
+        /// Flat plates.
+        1 => Plates,
+        /// Section of a cylinder.
+        2 => Cylinder,
+    }
 }
 
 /// A sunshade in its own frame, which shares the body frame's origin.

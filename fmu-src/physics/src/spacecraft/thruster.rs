@@ -3,17 +3,22 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// Thrusters that give a delta-v together (paper 001, "Delta-V").
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub enum ThrusterSet {
-    /// The large velocity adjust thruster; it never controls the attitude.
-    Lva,
-    /// The 22 N thrusters about it.
-    C22,
-    /// Monopropellant thrusters of 4.4 N.
-    Mono4,
+use crate::enumeration::enumeration;
+
+enumeration! {
+    /// Thrusters that give a delta-v together (paper 001, "Delta-V").
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "lowercase")]
+    pub enum ThrusterSet {
+        /// The large velocity adjust thruster.
+        // It never controls the attitude.
+        1 => Lva,
+        /// The 22 N thrusters.
+        2 => C22,
+        /// The 4.4 N thrusters.
+        3 => Mono4,
+    }
 }
 
 /// How a valve opens and closes.

@@ -5,16 +5,19 @@ use core::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use super::{nutation::Spin, train::Train};
+use crate::enumeration::enumeration;
 
-/// What pulses are timed by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Timing {
-    /// Fixed intervals of the assumed spin period after the first pulse.
-    Clock,
-    /// A delay at the assumed spin rate after each Sun crossing.
-    SunCrossing,
-    /// The instant that points exactly at the target, each turn.
-    TruePhase,
+enumeration! {
+    /// What pulses are timed by.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum Timing {
+        /// The first pulse by phase, the others at fixed intervals of the assumed spin period.
+        1 => Clock,
+        /// A delay at the assumed spin rate after each Sun crossing.
+        2 => SunCrossing,
+        /// The instant that points exactly at the target, each turn.
+        3 => TruePhase,
+    }
 }
 
 /// A train on a spinner whose rate may differ from what was assumed.

@@ -4,6 +4,13 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use physics::bodies::Body;
+use physics::enumeration::Enumerated;
+use physics::guidance::modes::mode::Mode;
+use physics::guidance::pointing::command::{
+    AimpointOption, AzimuthReference, BodyRollOption, BoresightOption, ExternalRollOption, ScanFrame,
+    Scenario,
+};
 use physics::guidance::timeline::Timeline;
 
 fn variables(file: &str) -> String {
@@ -11,12 +18,9 @@ fn variables(file: &str) -> String {
     fs::read_to_string(folder.join(file)).unwrap()
 }
 
-/// The items of an enumeration in the source, without those that a timeline leaves out by not naming the key.
-fn items(source: &str, enumeration: &str) -> BTreeSet<String> {
-    let (_, rest) = source.split_once(&format!("\n    {enumeration}(")).expect(enumeration);
-    let (body, _) = rest.split_once("\n    }").unwrap();
-    let lines = body.lines().filter(|line| line.contains("=>"));
-    lines.map(|line| line.split_whitespace().next().unwrap().to_owned()).collect()
+/// The names of an enumeration's items.
+fn items<E: Enumerated>() -> BTreeSet<String> {
+    E::ITEMS.iter().map(|item| item.name.to_owned()).collect()
 }
 
 /// The names of a group's inputs in the source.
@@ -47,22 +51,21 @@ fn allowed(text: &str) -> BTreeSet<String> {
 
 #[test]
 fn words_are_the_items() {
-    let choices = variables("choices.rs");
-    for (enumeration, place) in [
-        ("PointingScenario", "scenario = WORD"),
-        ("BoresightOption", "boresight = { option = WORD }"),
-        ("AimpointOption", "aimpoint = { option = WORD }"),
-        ("AimpointOption", "secondAimpoint = { option = WORD }"),
-        ("AimpointBody", "aimpoint = { option = \"body\", body = WORD }"),
-        ("BodyRollOption", "bodyRoll = { option = WORD }"),
-        ("ExternalRollOption", "externalRoll = { option = WORD }"),
-        ("AzimuthReference", "limb = { reference = WORD }"),
-        ("AzimuthReference", "scan = { frame = \"body\", reference = WORD }"),
-        ("ScanFrame", "scan = { frame = WORD }"),
-        ("ModeRequest", "mode = WORD"),
+    for (items, place) in [
+        (items::<Scenario>(), "scenario = WORD"),
+        (items::<BoresightOption>(), "boresight = { option = WORD }"),
+        (items::<AimpointOption>(), "aimpoint = { option = WORD }"),
+        (items::<AimpointOption>(), "secondAimpoint = { option = WORD }"),
+        (items::<Body>(), "aimpoint = { option = \"body\", body = WORD }"),
+        (items::<BodyRollOption>(), "bodyRoll = { option = WORD }"),
+        (items::<ExternalRollOption>(), "externalRoll = { option = WORD }"),
+        (items::<AzimuthReference>(), "limb = { reference = WORD }"),
+        (items::<AzimuthReference>(), "scan = { frame = \"body\", reference = WORD }"),
+        (items::<ScanFrame>(), "scan = { frame = WORD }"),
+        (items::<Mode>(), "mode = WORD"),
     ] {
         let text = format!("[[command]]\nat = 0\n{place}\n").replace("WORD", "\"zzzzzzzzzzzzzzzz\"");
-        assert_eq!(allowed(&text), items(&choices, enumeration), "{enumeration}");
+        assert_eq!(allowed(&text), items, "{place}");
     }
 }
 

@@ -33,7 +33,7 @@ use physics::guidance::{EphemerisAtTime, TargetPlanet};
 use physics::plant::PanelSetting;
 
 use super::setup::Plan;
-use super::variables::choices::EphemerisSource;
+use super::variables::choices::{EphemerisSource, ModeRequest};
 use super::variables::commands::AimpointVariables;
 use crate::common::ephemeris;
 
@@ -394,7 +394,7 @@ impl<'a> Reader<'a> {
 
     /// Whether an input asks for a mode.
     pub fn asks_for_a_mode(&self) -> bool {
-        self.item(self.context.variables.mode.request, |it| it.0).is_some()
+        self.item(self.context.variables.mode.request, ModeRequest::mode).is_some()
     }
 
     /// Mode request, estimate and Sun sensors, and whether there is an estimate to be judged. Where it is not connected, or
@@ -416,7 +416,7 @@ impl<'a> Reader<'a> {
         };
         let sensed = Sensed {
             time_s: self.time_s,
-            request: self.item(v.mode.request, |it| it.0),
+            request: self.item(v.mode.request, ModeRequest::mode),
             estimate,
             sun_body: self.flag(v.sun.sensed_valid).then(|| self.vector(v.sun.sensed)),
         };

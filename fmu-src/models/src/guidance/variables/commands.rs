@@ -200,7 +200,7 @@ pub struct ScanCompatibilityVariables {
 #[derive(Variables)]
 pub struct ModeVariables {
     /// A mode requested: the only way up.
-    #[input(start = ModeRequest(None))]
+    #[input(start = ModeRequest::None)]
     pub request: Choice<ModeRequest>,
     /// The mode in force.
     #[output]

@@ -1,14 +1,14 @@
 //! What follows `orbit.center`: a parameter that nobody gave takes the centre's own value.
 
-use fmi_export::{Elements, Enumeration, Given, Values};
+use fmi_export::{Elements, Given, Values};
 use physics::bodies::surface::PlanetSurface;
 use physics::bodies::{Body, BodyData};
+use physics::enumeration::Enumerated;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements as KeplerElements;
 
 use super::given::is_given;
 use crate::common::center;
-use crate::common::choices::OrbitCenter;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::choices::OrbitFrame;
@@ -162,23 +162,15 @@ pub fn say_followed(context: &Plan<'_>, values: &Values) {
         followed.map(|(name, _, own, unit)| format!("{name} = {}", shown(*own, unit).trim_end())).collect();
     let frame = center.frame();
     if values.choice(orbit.frame).0 != frame {
-        reported.push(format!(
-            "orbit.frame = {}",
-            if frame == Frame::Ecliptic { "ecliptic" } else { "planetEquator" }
-        ));
+        reported.push(format!("orbit.frame = {}", frame.name()));
     }
     if reported.is_empty() {
         return;
     }
-    let [from, to] = [context.setup.center, center.body].map(|body| item_name(OrbitCenter(body)));
+    let [from, to] = [context.setup.center, center.body].map(Body::name);
     context.log.warning(&format!(
         "orbit.center is {to}, and the start values of this FMU are those about {from}: what was not set is taken as {to}'s \
          own, {}; pack with --set orbit.center={to} for start values that are {to}'s",
         reported.join(", ")
     ));
-}
-
-fn item_name(center: OrbitCenter) -> &'static str {
-    let items = OrbitCenter::TYPE.items.iter();
-    items.clone().find(|item| item.value == center.value()).map_or("", |item| item.name)
 }

@@ -5,7 +5,7 @@ use physics::attitude::control::Allocation;
 use physics::environment::frames::Frame;
 use physics::spacecraft;
 
-use crate::common::choices::enumeration_of;
+use crate::common::choices::choices;
 
 /// Where the attitude comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
@@ -29,14 +29,9 @@ pub enum CommandSource {
     Guidance = 2,
 }
 
-enumeration_of! {
+choices! {
     /// How torque is spread over the wheels.
-    WheelAllocation(Allocation) {
-        /// Smallest sum of squares.
-        pseudoInverse = 1 => PseudoInverse,
-        /// Smallest largest torque.
-        leastMaximum = 2 => LeastMaximum,
-    }
+    WheelAllocation(Allocation);
 }
 
 /// Origin of the orbit.
@@ -59,30 +54,11 @@ pub enum OrbitDynamics {
     Disturbed = 2,
 }
 
-enumeration_of! {
+choices! {
     /// Frame of the orbital elements.
-    OrbitFrame(Frame) {
-        /// The planet's orbit plane, from its ascending node on the ecliptic: the Mercury-centred inertial frame of paper 004.
-        planetOrbit = 1 => PlanetOrbit,
-        /// The planet's equator of J2000.
-        planetEquator = 2 => PlanetEquator,
-        /// Earth mean equator and equinox of J2000.
-        eme2000 = 3 => Eme2000,
-        /// Ecliptic and equinox of J2000.
-        ecliptic = 4 => Ecliptic,
-    }
-}
-
-enumeration_of! {
+    OrbitFrame(Frame);
     /// What turns a panel.
-    PanelControl(spacecraft::PanelControl) {
-        /// A constant angle between the panel's normal and the Sun.
-        sunOffset = 1 => SunOffset,
-        /// The input angle.
-        angle = 2 => Angle,
-        /// The angle to the Sun of the input sunOffsetCommand.
-        command = 3 => Command,
-    }
+    PanelControl(spacecraft::PanelControl);
 }
 
 /// Where a dump leaves a component that exceeded its threshold.

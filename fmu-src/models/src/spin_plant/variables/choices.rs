@@ -6,7 +6,7 @@ use physics::spin::{
     plant::{self, Sampling},
 };
 
-use crate::common::choices::enumeration_of;
+use crate::common::choices::choices;
 
 /// Shape of the burn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
@@ -21,16 +21,9 @@ pub enum BurnPlan {
     Commanded = 4,
 }
 
-enumeration_of! {
+choices! {
     /// What pulses are timed by.
-    BurnTiming(Timing) {
-        /// The first pulse by phase, the others at fixed intervals of the assumed spin period.
-        clock = 1 => Clock,
-        /// A delay at the assumed spin rate after each Sun crossing.
-        sunCrossing = 2 => SunCrossing,
-        /// The instant that points exactly at the target, each turn.
-        truePhase = 3 => TruePhase,
-    }
+    BurnTiming(Timing);
 }
 
 /// Origin of the directions of Sun and Earth.
@@ -42,22 +35,9 @@ pub enum GeometrySource {
     L1Orbit = 2,
 }
 
-enumeration_of! {
+choices! {
     /// Origin of moments and products of inertia.
-    MassSource(plant::MassSource) {
-        /// The parameters inertia and productsOfInertia, unchanged by propellant use.
-        fixed = 1 => Fixed,
-        /// The setup's table over propellant, at the end of each pulse.
-        propellant = 2 => Propellant,
-    }
-}
-
-enumeration_of! {
+    MassSource(plant::MassSource);
     /// When the star tracker samples its star.
-    StarSampling(Sampling) {
-        /// When it passes the boresight, on the turns that search its picket.
-        spins = 1 => Spins,
-        /// Every 8 turns of the nominal rate by the clock, as paper 002 assumes in eqs 16 to 20.
-        clock = 2 => Clock,
-    }
+    StarSampling(Sampling);
 }

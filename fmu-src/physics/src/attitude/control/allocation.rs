@@ -8,18 +8,22 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::enumeration::enumeration;
+
 /// Sine of the angle below which two axes count as parallel, and the least sine by which axes must leave a plane.
 const PARALLEL: f64 = 1e-6;
 /// Sine below which an axis counts as in a plane or perpendicular to a line.
 const IN_PLANE: f64 = 1e-9;
 
-/// How wheels share what they exert together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Allocation {
-    /// Smallest sum of squares.
-    PseudoInverse,
-    /// Smallest greatest magnitude.
-    LeastMaximum,
+enumeration! {
+    /// How wheels share what they exert together.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Allocation {
+        /// Smallest sum of squares.
+        1 => PseudoInverse,
+        /// Smallest largest torque.
+        2 => LeastMaximum,
+    }
 }
 
 /// A wheel's part in a face of the dual polytope.

@@ -22,6 +22,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::enumeration::enumeration;
 use crate::{
     constants::RADIUS_SUN_M,
     numerics::{
@@ -33,19 +34,24 @@ use crate::{
 pub use discs::Discs;
 pub use edges::{Edge, EdgeKind, Edges, MOST_EDGES};
 
-/// How a planet's shadow dims the Sun.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum ShadowModel {
-    /// Visible fraction of the Sun's disc: umbra, penumbra, annular.
-    #[default]
-    DiscOverlap,
-    /// Paper 004: no light at all as soon as the discs touch (total, partial or annular), the annular condition
-    /// corrected.
-    AllOrNothingCone,
-    /// No light in the cylinder of the planet's radius behind it (paper 004's analytical model).
-    AllOrNothingCylinder,
-    /// The planet casts no shadow.
-    Off,
+enumeration! {
+    /// How a planet's shadow dims the Sun.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+    pub enum ShadowModel {
+        /// By the visible fraction of the Sun's disc: umbra, penumbra, annular.
+        #[default]
+        #[serde(rename = "discs")]
+        1 => DiscOverlap,
+        /// Paper 004: no light as soon as the discs touch.
+        // Total, partial or annular; the annular condition corrected.
+        #[serde(rename = "cone")]
+        2 => AllOrNothingCone,
+        /// No light in the cylinder of the planet's radius behind it.
+        #[serde(rename = "cylinder")]
+        3 => AllOrNothingCylinder,
+        /// The planet casts no shadow; so in paper 000.
+        4 => Off,
+    }
 }
 
 /// A geometry without a lit fraction.

@@ -37,7 +37,7 @@ pub(super) enum Frame {
 pub(super) struct BodyDescription {
     /// What is placed.
     pub body: OnboardTarget,
-    /// From where its position counts.
+    /// From where its position counts; the Earth is not the barycentre of Earth and Moon.
     pub center: Body,
     /// Degree of every polynomial.
     pub degree: u32,

@@ -14,6 +14,7 @@ use nalgebra::{ComplexField, Matrix3, Vector3};
 
 use crate::attitude::SunAngles;
 use crate::constants::ASTRONOMICAL_UNIT_M;
+use crate::enumeration::enumeration;
 use crate::guidance::geometry::moving::{
     Moving, MovingMatrix, MovingVector, PARALLEL_RAD, direction, fixed, unit, value,
 };
@@ -26,14 +27,16 @@ pub const DISTANCE_M: f64 = 0.85 * ASTRONOMICAL_UNIT_M;
 /// A Sun this little outside counts as inside, in rad: laws that put it on the boundary leave it there within rounding.
 pub const BOUNDARY_RAD: f64 = 1e-12;
 
-/// Which boundary point takes the place of a Sun outside.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum KeepInMethod {
-    /// The nearest.
-    #[default]
-    Nearest,
-    /// Azimuth and elevation cut at their limits.
-    Clamp,
+enumeration! {
+    /// Which boundary point takes the place of a Sun outside.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum KeepInMethod {
+        /// At the nearest point of the boundary.
+        #[default]
+        1 => Nearest,
+        /// Azimuth and elevation clamped one by one, as paper 001 does; up to 3.5 deg farther away.
+        2 => Clamp,
+    }
 }
 
 /// Where the Sun may stand.

@@ -15,16 +15,19 @@ use serde::{Deserialize, Serialize};
 use super::ephemeris_at_time::EphemerisAtTime;
 use super::moving::{Moving, MovingVector, unit, unit_normal};
 use super::planet_point::radius_m;
+use crate::enumeration::enumeration;
 use crate::numerics::scalar::Scalar;
 
-/// What the subsolar point of an ellipsoid is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SubsolarMethod {
-    /// The surface point on the line from the planet's centre to the Sun.
-    #[default]
-    Line,
-    /// The surface point whose normal is parallel to that line: incidence zero.
-    Normal,
+enumeration! {
+    /// What the subsolar point of an ellipsoid is.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum SubsolarMethod {
+        /// Where the line from the planet's centre to the Sun leaves it.
+        #[default]
+        1 => Line,
+        /// Where its normal points at the Sun.
+        2 => Normal,
+    }
 }
 
 /// Subsolar point from the planet's centre, EME2000, in m.

@@ -4,21 +4,25 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::{Attitude, MovingFrame};
+use crate::enumeration::enumeration;
 use crate::guidance::pointing::antenna::Antenna;
 use crate::guidance::pointing::boresight::DeviceAngle;
 
-/// What a command gives.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum CommandKind {
-    /// Nothing was commanded yet: the start attitude is held.
-    #[default]
-    None,
-    /// Attitude and rate.
-    Attitude,
-    /// Error quaternion and rate.
-    ErrorQuaternion,
-    /// Rate alone.
-    RateOnly,
+enumeration! {
+    /// What a command gives.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum CommandKind {
+        /// No command yet: the attitude is held.
+        #[default]
+        0 => None,
+        /// Attitude command.q and rate command.rate.
+        1 => Attitude,
+        /// The attitude held turns at once, when this item is chosen, by the conjugate of command.error; then with
+        /// command.rate.
+        2 => ErrorQuaternion,
+        /// The attitude held turns on with command.rate.
+        3 => RateOnly,
+    }
 }
 
 /// A command, propagated by its rate from its sample on.

@@ -2,20 +2,23 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::enumeration::enumeration;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 
-/// How much the guidance is trusted with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "camelCase")]
-pub enum Mode {
-    /// Every command.
-    #[default]
-    Operational,
-    /// Downlink only, within its own keep-in zone.
-    SafeHold,
-    /// Rotation about the Sun line, without inertial reference.
-    EarthAcquisition,
+enumeration! {
+    /// How much the guidance is trusted with.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "camelCase")]
+    pub enum Mode {
+        /// Every command is followed.
+        #[default]
+        1 => Operational,
+        /// Downlink only, within its own keep-in zone.
+        2 => SafeHold,
+        /// A slow turn about the Sun line, or the search for the Sun.
+        3 => EarthAcquisition,
+    }
 }
 
 impl Mode {

@@ -6,20 +6,23 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::SunAngles;
+use crate::enumeration::enumeration;
 
 /// An azimuth this little outside a quadrant counts as inside, in rad.
 pub const BOUND_RAD: f64 = 1e-12;
 
-/// A phased-array antenna.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Antenna {
-    /// None points at the Earth.
-    #[default]
-    None,
-    /// On the sunshade: azimuth -90 to 0 deg.
-    Sunshade,
-    /// On the back: azimuth 90 to 180 deg.
-    Back,
+enumeration! {
+    /// A phased-array antenna.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum Antenna {
+        /// None: no downlink.
+        #[default]
+        0 => None,
+        /// Beside the sunshade, azimuth -90 to 0 deg.
+        1 => Sunshade,
+        /// At the back, azimuth 90 to 180 deg.
+        2 => Back,
+    }
 }
 
 /// Where an antenna looks in the XY plane.

@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::bodies::Body;
+use crate::enumeration::enumeration;
 
 /// Greatest azimuth, longitude or right ascension either way, in rad.
 pub const FULL_TURN_RAD: f64 = core::f64::consts::TAU;
@@ -20,145 +21,161 @@ pub const DOWN_ANGLE_RAD: f64 = -RIGHT_ANGLE_RAD;
 /// Least angle in a half turn either way, in rad.
 pub const BACK_HALF_TURN_RAD: f64 = -core::f64::consts::PI;
 
-/// Sets of vectors under one name (Table 5).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "camelCase")]
-pub enum Scenario {
-    /// All four vectors by their options.
-    Generic,
-    /// An instrument at the aimpoint, the Sun on -Y's side.
-    PlusZ,
-    /// An instrument at the target planet's centre.
-    Nadir,
-    /// The MDIS camera, at its angle, at the aimpoint.
-    Mdis,
-    /// An instrument at the aimpoint, the MDIS camera as near to the second one as its range allows.
-    DoubleTarget,
-    /// A phased-array antenna at the Earth.
-    Downlink,
-    /// An instrument at the limb, on the terminator.
-    LimbTerminator,
-    /// An instrument at the limb, at an azimuth about the nadir.
-    LimbGeneric,
-    /// The thrust along the path of a burn.
-    Burn,
-    /// Science and downlink in turn, by the windows of the orbit.
-    OrbitPhase,
+enumeration! {
+    /// Sets of vectors under one name (Table 5).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "camelCase")]
+    pub enum Scenario {
+        /// The four vectors by their options.
+        1 => Generic,
+        /// An instrument at the aimpoint, -Y rolled toward the Sun.
+        2 => PlusZ,
+        /// An instrument at the planet's centre.
+        3 => Nadir,
+        /// The MDIS camera at boresight.angle at the aimpoint.
+        4 => Mdis,
+        /// An instrument at the aimpoint, the MDIS camera as near as it can be to the second one.
+        5 => DoubleTarget,
+        /// A phased-array antenna at the Earth.
+        6 => Downlink,
+        /// An instrument at the limb on the terminator, the point nearer to the downtrack direction.
+        7 => LimbTerminator,
+        /// An instrument at the limb at limb.azimuth.
+        8 => LimbGeneric,
+        /// The thrust along the path of the burn.
+        9 => Burn,
+        /// Science and downlink in turn by guided.*, as MomentumPlant flies by itself.
+        10 => OrbitPhase,
+    }
 }
 
-/// How the boresight is given (Table 1).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "camelCase")]
-pub enum BoresightOption {
-    /// Body-frame vector.
-    Vector,
-    /// Azimuth and elevation in the body frame.
-    #[serde(rename = "azEl")]
-    AzimuthElevation,
-    /// Angle from +Z in the camera's plane, positive sunward.
-    Mdis,
-    /// Azimuth in the antennas' plane.
-    PhasedArray,
+enumeration! {
+    /// How the boresight is given (Table 1).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "camelCase")]
+    pub enum BoresightOption {
+        /// By boresight.vector.
+        1 => Vector,
+        /// By boresight.azimuth and boresight.elevation.
+        #[serde(rename = "azEl")]
+        2 => AzimuthElevation,
+        /// The MDIS camera at boresight.angle.
+        3 => Mdis,
+        /// A phased-array antenna at boresight.azimuth.
+        4 => PhasedArray,
+    }
 }
 
-/// What the boresight aims at (Table 2), and any body of the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "camelCase")]
-pub enum AimpointOption {
-    /// EME2000 vector.
-    Vector,
-    /// Right ascension and declination in EME2000.
-    #[serde(rename = "raDec")]
-    RightAscensionDeclination,
-    /// Position from the Earth, EME2000.
-    EarthCentered,
-    /// Position from the Sun, EME2000.
-    SunCentered,
-    /// Position from the target planet, EME2000.
-    PlanetCentered,
-    /// Position from the target planet, along its own rotating axes.
-    PlanetFixed,
-    /// Planetocentric latitude and longitude (east positive), height along the radius.
-    #[serde(rename = "latLon")]
-    LatitudeLongitude,
-    /// Azimuth and elevation in the local frame, azimuth from the downtrack direction.
-    LvlhDowntrack,
-    /// The same, azimuth from the direction of the Sun.
-    LvlhSun,
-    /// The Sun.
-    Sun,
-    /// The Earth.
-    Earth,
-    /// The target planet's centre.
-    Nadir,
-    /// The subsolar point of the target planet.
-    Subsolar,
-    /// The surface point of greatest cos(emission) cos(incidence) (eqs 17 to 19).
-    OptimalLighting,
-    /// A body of the table.
-    Body,
+enumeration! {
+    /// What the boresight aims at (Table 2), and any body of the table.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "camelCase")]
+    pub enum AimpointOption {
+        /// The direction vector in EME2000.
+        1 => Vector,
+        /// The direction of rightAscension and declination in EME2000.
+        #[serde(rename = "raDec")]
+        2 => RightAscensionDeclination,
+        /// position from the Earth, in EME2000.
+        3 => EarthCentered,
+        /// position from the Sun, in EME2000.
+        4 => SunCentered,
+        /// position from the target planet, in EME2000.
+        5 => PlanetCentered,
+        /// position from the target planet along its own axes, which turn with it.
+        6 => PlanetFixed,
+        /// Planetocentric latitude, east longitude and height along the radius.
+        #[serde(rename = "latLon")]
+        7 => LatitudeLongitude,
+        /// azimuth and elevation in the local frame, azimuth from the downtrack direction.
+        8 => LvlhDowntrack,
+        /// azimuth and elevation in the local frame, azimuth from the direction of the Sun.
+        9 => LvlhSun,
+        /// The Sun.
+        10 => Sun,
+        /// The Earth.
+        11 => Earth,
+        /// The planet's centre.
+        12 => Nadir,
+        /// The subsolar point.
+        13 => Subsolar,
+        /// The surface point of best lighting (eqs 17 to 19).
+        // Of greatest cos(emission) cos(incidence).
+        14 => OptimalLighting,
+        /// The body named beside.
+        15 => Body,
+    }
 }
 
-/// How the body roll vector is given (Table 3).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "camelCase")]
-pub enum BodyRollOption {
-    /// Body-frame vector.
-    Vector,
-    /// Azimuth and elevation in the body frame.
-    #[serde(rename = "azEl")]
-    AzimuthElevation,
+enumeration! {
+    /// How the body roll vector is given (Table 3).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "camelCase")]
+    pub enum BodyRollOption {
+        /// By bodyRoll.vector.
+        1 => Vector,
+        /// By bodyRoll.azimuth and bodyRoll.elevation.
+        #[serde(rename = "azEl")]
+        2 => AzimuthElevation,
+    }
 }
 
-/// How the external roll reference is given (Table 4).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "camelCase")]
-pub enum ExternalRollOption {
-    /// EME2000 vector.
-    Vector,
-    /// Right ascension and declination in EME2000.
-    #[serde(rename = "raDec")]
-    RightAscensionDeclination,
-    /// The Sun.
-    Sun,
-    /// The Earth.
-    Earth,
-    /// The target planet.
-    Planet,
+enumeration! {
+    /// How the external roll reference is given (Table 4).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "camelCase")]
+    pub enum ExternalRollOption {
+        /// The direction externalRoll.vector in EME2000.
+        1 => Vector,
+        /// The direction of externalRoll.rightAscension and declination in EME2000.
+        #[serde(rename = "raDec")]
+        2 => RightAscensionDeclination,
+        /// The Sun.
+        3 => Sun,
+        /// The Earth.
+        4 => Earth,
+        /// The target planet.
+        5 => Planet,
+    }
 }
 
-/// From which horizontal direction an azimuth about the local vertical counts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "camelCase")]
-pub enum AzimuthReference {
-    /// The horizontal part of the velocity.
-    #[default]
-    Downtrack,
-    /// The horizontal part of the direction from the planet to the Sun.
-    Sun,
+enumeration! {
+    /// From which horizontal direction an azimuth about the local vertical counts.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "camelCase")]
+    pub enum AzimuthReference {
+        /// The horizontal part of the velocity.
+        #[default]
+        1 => Downtrack,
+        /// The horizontal part of the direction from the planet to the Sun.
+        2 => Sun,
+    }
 }
 
-/// Frame of a scan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "camelCase")]
-pub enum ScanFrame {
-    /// The boresight turns about the body axes.
-    Body,
-    /// The aim turns about the axes of EME2000.
-    InertialRotation,
-    /// The aimpoint moves along the axes of EME2000.
-    InertialTranslation,
-    /// The aimpoint moves along the target planet's rotating axes.
-    PlanetTranslation,
-    /// The aim turns about the axes of the local frame: reference, up x reference, up.
-    LvlhRotation,
+enumeration! {
+    /// Frame of a scan.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    #[serde(rename_all = "camelCase")]
+    pub enum ScanFrame {
+        /// The boresight turns about the body axes by scan.rate.
+        1 => Body,
+        /// The aim turns about the axes of EME2000 by scan.rate.
+        2 => InertialRotation,
+        /// The aimpoint moves along the axes of EME2000 by scan.speed.
+        3 => InertialTranslation,
+        /// The aimpoint moves along the planet's turning axes by scan.speed.
+        4 => PlanetTranslation,
+        /// The aim turns about the axes of the local frame by scan.rate.
+        // reference, up x reference, up.
+        5 => LvlhRotation,
+    }
 }
 
 /// The boresight, body frame.

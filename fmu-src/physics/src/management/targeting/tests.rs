@@ -10,7 +10,7 @@ use crate::spacecraft::{MESSENGER_TOML, Spacecraft};
 const PRESSURE_PA: f64 = 5.0145e-5;
 const SPAN_S: f64 = 28_800.0;
 const TARGETING: Targeting = Targeting {
-    axes: TargetAxes::XAndZ,
+    axes: TargetAxes::Xz,
     method: TargetingMethod::Exact,
     azimuth_limit_rad: 15.0 * crate::constants::DEG_RAD,
     elevation_limit_rad: 13.0 * crate::constants::DEG_RAD,
@@ -100,7 +100,7 @@ fn an_attainable_target_is_hit_to_rounding() {
                 linear,
                 science: None,
             };
-            for (axes, count) in [(TargetAxes::X, 0), (TargetAxes::Z, 1), (TargetAxes::XAndZ, 2)] {
+            for (axes, count) in [(TargetAxes::X, 0), (TargetAxes::Z, 1), (TargetAxes::Xz, 2)] {
                 let targeting = Targeting { axes, ..TARGETING };
                 let target = Vector3::new(-0.05, 7.0, 0.1);
                 let Some(Targeted { place, clamped }) = targeting.sun_place(&aim, &target) else {

@@ -9,6 +9,7 @@ use super::commands::Commands;
 use super::sound::are_moderate;
 use super::valves::Valves;
 use crate::attitude::Inertia;
+use crate::enumeration::enumeration;
 use crate::numerics::quadrature::Rule;
 use crate::propulsion::ThrustLaw;
 use crate::spacecraft::MOST_THRUSTERS;
@@ -33,13 +34,15 @@ const EDGE_ROUNDING: f64 = 1e-11;
 /// For the impulse of a turning thruster.
 static IMPULSE_RULE: LazyLock<Rule<8>> = LazyLock::new(Rule::gauss_legendre);
 
-/// What the inertia follows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum MassSource {
-    /// Stays as given.
-    Fixed,
-    /// Follows the propellant by the setup's table, at the end of each pulse.
-    Propellant,
+enumeration! {
+    /// What the inertia follows.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum MassSource {
+        /// The parameters inertia and productsOfInertia, unchanged by propellant use.
+        1 => Fixed,
+        /// The setup's table over propellant, at the end of each pulse.
+        2 => Propellant,
+    }
 }
 
 /// Thrusters, tank and what they did so far.

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::directions::Directions;
 use super::sound::{are_moderate, is_moderate, is_unit};
 use crate::attitude::{Inertia, RigidBodyState, angle_between_rad};
+use crate::enumeration::enumeration;
 use crate::numerics::noise::{Channel, normal};
 use crate::spin::{
     crossing::{Crossing, Pole},
@@ -19,13 +20,15 @@ use crate::spin::{
     work::{Cost, Work},
 };
 
-/// When the star tracker samples its star.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Sampling {
-    /// On the turns that search the star's picket, when it passes the boresight.
-    Spins,
-    /// Every 8 nominal turns by the clock, as eqs 16 to 20 assume.
-    Clock,
+enumeration! {
+    /// When the star tracker samples its star.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum Sampling {
+        /// When it passes the boresight, on the turns that search its picket.
+        1 => Spins,
+        /// Every 8 turns of the nominal rate by the clock, as paper 002 assumes in eqs 16 to 20.
+        2 => Clock,
+    }
 }
 
 /// A star tracker sample.
