@@ -21,6 +21,8 @@ pub mod propulsion;
 
 pub mod environment;
 
+pub mod loads;
+
 pub mod radiation;
 
 pub mod guidance;

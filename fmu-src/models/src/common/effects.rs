@@ -1,6 +1,8 @@
-//! Effects beside sunlight: the switches by source that several models have, and what in a file is without effect.
+//! Effects beside sunlight: the switches and laws that several models have, and what in a file is without effect.
 
-use fmi_export::{Boolean, Failure, Integer, SetupError, Values, Variables};
+use fmi_export::{Boolean, Failure, Integer, Real, SetupError, Values, Variables};
+use physics::loads::{Active, Switch};
+use physics::plant::Laws;
 use physics::spacecraft::{Spacecraft, StartValue, SunshadeModel};
 
 use super::start_values::entry_of;
@@ -46,6 +48,31 @@ pub struct GravityGradientVariables {
     /// Whether the planet's gravity gradient acts; paper 000 leaves it out.
     #[parameter(start = true)]
     pub enabled: Boolean,
+}
+
+/// Effects in closed form.
+#[derive(Variables)]
+pub struct LawVariables {
+    #[group]
+    pub gravity_gradient: GravityGradientVariables,
+}
+
+impl LawVariables {
+    /// What the laws go by about a planet with this gravitational parameter, as `read` reads it.
+    pub fn read<T>(&self, gravitational_parameter: Real, read: impl Fn(Real) -> T) -> Laws<T> {
+        Laws { gm_m3_s2: read(gravitational_parameter) }
+    }
+
+    /// The effects that act, by the switches here and those of planet light and recoil.
+    pub fn active(&self, values: &Values, [planet_light, recoil]: [Boolean; 2]) -> Active {
+        Active::by(|switch| {
+            values.boolean(match switch {
+                Switch::PlanetLight => planet_light,
+                Switch::Recoil => recoil,
+                Switch::GravityGradient => self.gravity_gradient.enabled,
+            })
+        })
+    }
 }
 
 impl ShadowingVariables {

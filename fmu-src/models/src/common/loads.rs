@@ -1,69 +1,100 @@
 //! What acts on the spacecraft, by source, and its faces one by one.
 
-use fmi_export::{Real, RealVector, Variables};
-use physics::radiation::Effect;
+use fmi_export::variables::{Causality, RealSpec, Role, Variability};
+use fmi_export::{Declare, DeclareError, Knowns, Real, RealVector, Section, Variables};
+use nalgebra::Vector3;
+use physics::loads::{Effect, Loads, Row};
+use physics::numerics::scalar::Scalar;
 
 use super::spacecraft::ReportedFace;
 
-/// Torque about the centre of mass by source, body frame.
-#[derive(Variables)]
-pub struct TorqueBySource {
-    /// Direct sunlight.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
-    pub solar: RealVector<3>,
-    /// Sunlight reflected by the planet.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
-    pub albedo: RealVector<3>,
-    /// Infrared light of the planet.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
-    pub infrared: RealVector<3>,
-    /// Recoil of the heat the spacecraft radiates.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-6)]
-    pub thermal: RealVector<3>,
-    /// Gravity gradient of the planet.
-    #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
-    pub gravity_gradient: RealVector<3>,
+/// One output of a quantity for each row of the table of effects that has it, body frame.
+pub struct BySource(Vec<(Effect, RealVector<3>)>);
+
+/// A quantity that effects have.
+pub struct Quantity {
+    unit: &'static str,
+    display_unit: Option<&'static str>,
+    has: fn(Effect) -> bool,
+    nominal: fn(&Row) -> f64,
 }
 
-/// What each source did to the momentum since the last dump, body frame by momentum.convention. All of them add up to what the
-/// momentum changed by since, but for thrusters in use and rotors out of balance.
-#[derive(Variables)]
-pub struct MomentumBySource {
-    /// Direct sunlight.
-    #[output(unit = "N.m.s", nominal = 1e-1)]
-    pub solar: RealVector<3>,
-    /// Sunlight reflected by the planet.
-    #[output(unit = "N.m.s", nominal = 1e-2)]
-    pub albedo: RealVector<3>,
-    /// Infrared light of the planet.
-    #[output(unit = "N.m.s", nominal = 1e-2)]
-    pub infrared: RealVector<3>,
-    /// Recoil of the heat the spacecraft radiates.
-    #[output(unit = "N.m.s", nominal = 1e-2)]
-    pub thermal: RealVector<3>,
-    /// Gravity gradient of the planet.
-    #[output(unit = "N.m.s", nominal = 1e-1)]
-    pub gravity_gradient: RealVector<3>,
-    /// What was applied from outside.
-    #[output(unit = "N.m.s", nominal = 1e-1)]
-    pub applied: RealVector<3>,
+/// Torque about the centre of mass.
+pub const TORQUE: Quantity = Quantity {
+    unit: "N.m",
+    display_unit: Some("uN.m"),
+    has: Effect::is_disturbance,
+    nominal: Row::usual_torque_n_m,
+};
+
+/// Force.
+pub const FORCE: Quantity = Quantity {
+    unit: "N",
+    display_unit: Some("uN"),
+    has: |effect| effect.is_disturbance() && effect.row().exerts_force,
+    nominal: Row::usual_force_n,
+};
+
+/// What an effect did to the momentum since the last dump, by momentum.convention. All of them add up to what the momentum
+/// changed by, but for thrusters in use and rotors out of balance.
+pub const MOMENTUM: Quantity = Quantity {
+    unit: "N.m.s",
+    display_unit: None,
+    has: |effect| effect.row().momentum_apart,
+    nominal: |row| row.usual_momentum_n_m_s,
+};
+
+impl Variables<Quantity> for BySource {
+    fn declare(scope: &mut Declare, quantity: &Quantity, _index: usize) -> Result<Self, DeclareError> {
+        let rows = Effect::ALL.into_iter().filter(|effect| (quantity.has)(*effect));
+        let declared = rows.map(|effect| {
+            let row = effect.row();
+            let spec = RealSpec {
+                name: row.name,
+                description: row.about,
+                role: Role {
+                    causality: Causality::Output,
+                    variability: Variability::Continuous,
+                    initial: None,
+                },
+                unit: quantity.unit,
+                display_unit: quantity.display_unit,
+                min: None,
+                max: None,
+                nominal: Some((quantity.nominal)(row)),
+            };
+            Ok((effect, scope.real_vector(&spec, None)?))
+        });
+        declared.collect::<Result<_, _>>().map(Self)
+    }
 }
 
-/// Force by source, body frame.
-#[derive(Variables)]
-pub struct ForceBySource {
-    /// Direct sunlight.
-    #[output(unit = "N", display = "uN", nominal = 1e-4)]
-    pub solar: RealVector<3>,
-    /// Sunlight reflected by the planet.
-    #[output(unit = "N", display = "uN", nominal = 1e-5)]
-    pub albedo: RealVector<3>,
-    /// Infrared light of the planet.
-    #[output(unit = "N", display = "uN", nominal = 1e-5)]
-    pub infrared: RealVector<3>,
-    /// Recoil of the heat the spacecraft radiates.
-    #[output(unit = "N", display = "uN", nominal = 1e-5)]
-    pub thermal: RealVector<3>,
+impl Section for BySource {
+    fn section(&self) -> Knowns {
+        self.0.iter().map(|(_, output)| *output).collect()
+    }
+}
+
+impl BySource {
+    /// The effects that have an output, with it.
+    pub fn iter(&self) -> impl Iterator<Item = (Effect, RealVector<3>)> + '_ {
+        self.0.iter().copied()
+    }
+
+    /// The output of an effect.
+    pub fn of(&self, effect: Effect) -> Option<RealVector<3>> {
+        self.iter().find_map(|(known, output)| (known == effect).then_some(output))
+    }
+}
+
+/// The outputs of torque and force by source, with what `loads` gives for them.
+pub fn vectors<'v, T: Scalar>(
+    torque: &'v BySource,
+    force: &'v BySource,
+    loads: &'v Loads<T>,
+) -> impl Iterator<Item = (RealVector<3>, Vector3<T>)> + 'v {
+    let torques = torque.iter().map(|(effect, output)| (output, loads[effect].torque_body_n_m));
+    torques.chain(force.iter().map(|(effect, output)| (output, loads[effect].force_body_n)))
 }
 
 /// One face of a plate or panel, in the file's order: plates, sunshade, panels, the rear after the front. There if the
@@ -78,45 +109,4 @@ pub struct PlateVariables {
     /// what is applied, and for sunlight on a cylindrical shade, which is round there and of flat strips here.
     #[output(unit = "N", display = "uN", nominal = 1e-5)]
     pub force: RealVector<3>,
-}
-
-impl TorqueBySource {
-    /// The output of an effect; none for what is applied from outside and the thrusters.
-    pub fn of(&self, effect: Effect) -> Option<RealVector<3>> {
-        match effect {
-            Effect::Solar => Some(self.solar),
-            Effect::Albedo => Some(self.albedo),
-            Effect::Infrared => Some(self.infrared),
-            Effect::Thermal => Some(self.thermal),
-            Effect::GravityGradient => Some(self.gravity_gradient),
-            Effect::Applied | Effect::Thrusters => None,
-        }
-    }
-}
-
-impl MomentumBySource {
-    /// The outputs with their effects.
-    pub fn all(&self) -> [(Effect, RealVector<3>); 6] {
-        [
-            (Effect::Solar, self.solar),
-            (Effect::Albedo, self.albedo),
-            (Effect::Infrared, self.infrared),
-            (Effect::Thermal, self.thermal),
-            (Effect::GravityGradient, self.gravity_gradient),
-            (Effect::Applied, self.applied),
-        ]
-    }
-}
-
-impl ForceBySource {
-    /// The output of an effect; none for what is applied from outside, the thrusters, and what exerts no force.
-    pub fn of(&self, effect: Effect) -> Option<RealVector<3>> {
-        match effect {
-            Effect::Solar => Some(self.solar),
-            Effect::Albedo => Some(self.albedo),
-            Effect::Infrared => Some(self.infrared),
-            Effect::Thermal => Some(self.thermal),
-            Effect::GravityGradient | Effect::Applied | Effect::Thrusters => None,
-        }
-    }
 }

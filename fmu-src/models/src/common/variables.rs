@@ -78,14 +78,14 @@ impl SurfaceVariables {
         values.set_choice(self.day_temperature, DayTemperature(surface.day_temperature));
     }
 
-    /// The surface of a planet of this radius; not checked yet.
-    pub fn read(&self, values: &Values, radius: Real) -> PlanetSurface {
+    /// The surface of a planet of this radius, as `read` reads it; not checked yet.
+    pub fn read<T>(&self, values: &Values, radius: Real, read: impl Fn(Real) -> T) -> PlanetSurface<T> {
         PlanetSurface {
-            radius_m: values.real(radius),
-            absorptivity: values.real(self.absorptivity),
-            diffuse_reflectivity: values.real(self.diffuse_reflectivity),
-            emissivity: values.real(self.emissivity),
-            night_temperature_k: values.real(self.night_temperature),
+            radius_m: read(radius),
+            absorptivity: read(self.absorptivity),
+            diffuse_reflectivity: read(self.diffuse_reflectivity),
+            emissivity: read(self.emissivity),
+            night_temperature_k: read(self.night_temperature),
             day_temperature: values.choice(self.day_temperature).0,
         }
     }

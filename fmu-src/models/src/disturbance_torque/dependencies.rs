@@ -12,19 +12,19 @@ pub fn table(_setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencie
     let lit = &knowns![places, v.planet.pole, &v.panel];
     let eclipse = &knowns![&v.planet, v.sun.radius, &v.eclipse];
     let light = &knowns![eclipse, &v.solar, &v.planet_light, &v.thermal, &v.shadowing, &v.sunshade];
-    let gradient = &knowns![&v.planet, &v.gravity_gradient, &v.spacecraft];
+    let laws = &knowns![&v.planet, &v.laws, &v.spacecraft];
+    let on_torque = (&knowns![lit, v.spacecraft.center_of_mass], &knowns![light, laws]);
 
     let mut table = Dependencies::new();
     table.output(v.sun.lit_fraction, places, eclipse);
-    table.output(knowns![force, &v.plate], lit, light);
-    table.output(torque.by_source.gravity_gradient, places, gradient);
-    let torque = knowns![
-        torque.by_source.solar,
-        torque.by_source.albedo,
-        torque.by_source.infrared,
-        torque.by_source.thermal,
-        torque.total,
-    ];
-    table.output(torque, knowns![lit, v.spacecraft.center_of_mass], knowns![light, gradient]);
+    table.output(&v.plate, lit, light);
+    let quantities =
+        [(&torque.by_source, torque.total, on_torque), (&force.by_source, force.total, (lit, light))];
+    for (by_source, total, of_light) in quantities {
+        for (effect, output) in by_source.iter() {
+            let (at_steps, at_start) = if effect.is_light() { of_light } else { (places, laws) };
+            table.output(knowns![output, total], at_steps, at_start);
+        }
+    }
     table
 }

@@ -14,7 +14,8 @@ use fmi_export::{
     StartValue, Step, StepEnd, Values,
 };
 use physics::numerics::scalar::Dual64;
-use physics::radiation::disturbance::{Positions, Workspace};
+use physics::plant::Positions;
+use physics::radiation::disturbance::Workspace;
 use serde::{Deserialize, Serialize};
 
 use inputs::Prepared;
@@ -83,7 +84,7 @@ impl Model for DisturbanceTorque {
         inputs::check_effects(context, values)?;
         let prepared = Arc::new(Prepared::new(context, values)?);
         let mut state = DisturbanceState {
-            positions: inputs::positions(context.variables, |handle| values.real(handle)),
+            positions: prepared.inputs.map(|input| values.real(*input)),
             said_unset: false,
             prepared: Some(prepared.clone()),
             workspace: Workspace::default(),
@@ -102,8 +103,9 @@ impl Model for DisturbanceTorque {
             Some(prepared) => prepared,
             None => Arc::new(Prepared::new(context, values)?),
         };
-        let at_end = |handle| step.inputs.real(values, handle, step.end_s);
-        inputs::refresh(&mut state.positions, context.variables, at_end);
+        for (position, input) in state.positions.iter_mut().zip(prepared.inputs.iter()) {
+            *position = step.inputs.real(values, *input, step.end_s);
+        }
         if !state.said_unset {
             let unset = prepared.unset(&state.positions);
             state.said_unset = !unset.is_empty();
@@ -139,7 +141,7 @@ impl Differentiable for DisturbanceTorque {
         products: &mut [f64],
     ) -> Result<(), Failure> {
         let variables = context.variables;
-        if seeds.iter().any(|(at, _)| !inputs::is_known(variables, *at)) {
+        if seeds.iter().any(|(at, _)| !inputs::is_known(variables, values, *at)) {
             return Err(Failure::new(
                 "directional derivatives are known with respect to the inputs, and in Initialization Mode to the Real \
                  parameters, only",
@@ -151,8 +153,12 @@ impl Differentiable for DisturbanceTorque {
         };
         let along =
             |known: Real| -> f64 { seeds.iter().filter(|(at, _)| *at == known).map(|(_, seed)| seed).sum() };
-        let positions = inputs::seeded_positions(&state.positions, variables, along);
-        let parameters = inputs::seeded_parameters(&prepared.parameters, variables, along);
+        let mut positions = state.positions.map(|position| Dual64::new(*position, 0.0));
+        for (position, input) in positions.iter_mut().zip(prepared.inputs.iter()) {
+            position.eps = along(*input);
+        }
+        let seeded = |parameter| Dual64::new(values.real(parameter), along(parameter));
+        let parameters = variables.parameters(values, seeded);
         let mut workspace = Workspace::<Dual64>::default();
         let found = prepared.evaluate(&parameters, &positions, &mut workspace)?;
         for (unknown, product) in unknowns.iter().zip(products) {
@@ -172,7 +178,7 @@ fn update(
     prepared: &Prepared,
 ) -> Result<(), Failure> {
     let found = prepared.evaluate(&prepared.parameters, &state.positions, &mut state.workspace)?;
-    if !found.is_finite() {
+    if !found.loads.total().is_finite() {
         return Err(Failure::new(
             "force or torque is no number at these inputs; see sun.positionBody, planet.positionBody, spacecraft.centerOfMass, solar.flux and \
              spacecraft.inertia, allowed: values a spacecraft can have",

@@ -1,12 +1,15 @@
 //! The model's variables at its public face.
 
-use fmi_export::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Values, Variables};
+use nalgebra::Matrix3;
 use physics::constants::RADIUS_SUN_M;
+use physics::numerics::scalar::Scalar;
+use physics::plant::{Parameters, Positions};
 
 use super::setup::DisturbanceSetup;
 use crate::common::choices::SunshadeShape;
-use crate::common::effects::{self, GravityGradientVariables, RecoilVariables, ShadowingVariables};
-use crate::common::loads::{ForceBySource, PlateVariables, TorqueBySource};
+use crate::common::effects::{self, LawVariables, RecoilVariables, ShadowingVariables};
+use crate::common::loads::{self, BySource, PlateVariables};
 use crate::common::variables::{EclipseVariables, SolarFluxVariables, SurfaceVariables, WorkLimit};
 
 /// Every variable, in the order of the XML.
@@ -29,8 +32,8 @@ pub struct DisturbanceVariables {
     pub thermal: RecoilVariables,
     #[group]
     pub shadowing: ShadowingVariables,
-    #[group]
-    pub gravity_gradient: GravityGradientVariables,
+    #[group(name = "")]
+    pub laws: LawVariables,
     #[group]
     pub spacecraft: SpacecraftVariables,
     #[group]
@@ -43,6 +46,32 @@ pub struct DisturbanceVariables {
     pub force: ForceVariables,
     #[group(count = setup.reported_faces.len(), setup = &setup.reported_faces)]
     pub plate: Vec<PlateVariables>,
+}
+
+impl DisturbanceVariables {
+    /// The inputs.
+    pub fn positions(&self) -> Positions<Real> {
+        let vector = |of: RealVector<3>| core::array::from_fn(|i| of.element(i));
+        Positions {
+            sun_m: vector(self.sun.position_body),
+            planet_m: vector(self.planet.position_body),
+            pole: vector(self.planet.pole),
+            center_of_mass_m: vector(self.spacecraft.center_of_mass),
+            panel_angles_rad: self.panel.iter().map(|panel| panel.angle).collect(),
+        }
+    }
+
+    /// The parameters that are numbers, as `read` reads them.
+    pub fn parameters<T: Scalar>(&self, values: &Values, read: impl Fn(Real) -> T) -> Parameters<T> {
+        let planet = &self.planet;
+        Parameters {
+            flux_at_1_au_w_m2: read(self.solar.flux),
+            sun_radius_m: read(self.sun.radius),
+            inertia_body_kg_m2: Matrix3::from_fn(|i, j| read(self.spacecraft.inertia.element(i, j))),
+            planet: planet.surface.read(values, planet.radius, &read),
+            laws: self.laws.read(planet.gravitational_parameter, &read),
+        }
+    }
 }
 
 /// The Sun.
@@ -145,8 +174,8 @@ pub struct SunshadeVariables {
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
 pub struct TorqueVariables {
-    #[group(name = "")]
-    pub by_source: TorqueBySource,
+    #[group(name = "", setup = &loads::TORQUE)]
+    pub by_source: BySource,
     /// Sum of all sources.
     #[output(unit = "N.m", display = "uN.m", nominal = 1e-5)]
     pub total: RealVector<3>,
@@ -156,8 +185,8 @@ pub struct TorqueVariables {
 #[derive(Variables)]
 #[variables(setup = DisturbanceSetup)]
 pub struct ForceVariables {
-    #[group(name = "")]
-    pub by_source: ForceBySource,
+    #[group(name = "", setup = &loads::FORCE)]
+    pub by_source: BySource,
     /// Sum of all sources.
     #[output(unit = "N", display = "uN", nominal = 1e-4)]
     pub total: RealVector<3>,

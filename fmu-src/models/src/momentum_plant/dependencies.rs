@@ -82,7 +82,7 @@ impl Parameters {
             &v.planet_light,
             &v.thermal,
             &v.shadowing,
-            &v.gravity_gradient,
+            &v.laws,
             &v.solver,
             &v.solar,
             &v.spacecraft,

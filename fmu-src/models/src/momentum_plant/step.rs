@@ -123,7 +123,7 @@ fn configure(context: &Plan<'_>, values: &mut Values, state: &mut PlantState) ->
         true => ModeSettings::Dynamic(dynamics::settings(context, values, &configuration)?.into()),
         false => ModeSettings::Ideal(dynamics::ideal_settings(context, values)?),
     };
-    let mut world = World::new(configuration);
+    let mut world = World::new(configuration, inputs::laws(context, values));
     if !state.waiting {
         world.light = inputs::light(context, values, &world.configuration)?;
     }

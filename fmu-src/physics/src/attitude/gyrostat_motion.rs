@@ -211,7 +211,7 @@ impl GyrostatMotion {
     /// N m/s, that act from there on: EME2000, in N m s. Those of the whole load add up to the change of all.
     pub fn impulses_inertial_n_m_s<const N: usize>(
         &self,
-        torques: &[[Vector3<f64>; 2]; N],
+        torques: &[Option<[Vector3<f64>; 2]>; N],
         time_s: f64,
     ) -> [Vector3<f64>; N] {
         let elapsed_s = time_s - self.start_s;
@@ -219,8 +219,10 @@ impl GyrostatMotion {
         for (node, weight) in GAUSS_3 {
             let at_s = node * elapsed_s;
             let attitude = self.attitude_after(at_s);
-            for (sum, [start, slope]) in sums.iter_mut().zip(torques) {
-                *sum += attitude.inertial_from_body(&(start + slope * at_s)) * (weight * elapsed_s);
+            for (sum, torque) in sums.iter_mut().zip(torques) {
+                if let Some([start, slope]) = torque {
+                    *sum += attitude.inertial_from_body(&(start + slope * at_s)) * (weight * elapsed_s);
+                }
             }
         }
         sums

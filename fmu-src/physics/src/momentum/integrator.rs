@@ -192,6 +192,7 @@ fn edge_tolerance_s(time_s: f64) -> f64 {
 mod tests {
     //! Against torques whose integrals and threshold crossings are known in closed form.
     use super::*;
+    use crate::loads::ByEffect;
     use crate::momentum::dump::{DUMP_WINDOW_S, DumpPolicy, Reinitialise, TooManyDumps};
     use crate::momentum::torque_model::EventValues;
     use approx::assert_relative_eq;
@@ -215,11 +216,7 @@ mod tests {
                 inertial_from_body: self.inertial_from_body(time_s),
                 rate_body_rad_s: Vector3::new(1e-3, 0.0, 0.0),
                 torque_body_n_m: Vector3::new(AMPLITUDE_N_M * (FREQUENCY_RAD_S * time_s).cos(), 0.0, 1e-6),
-                by_source_body_n_m: core::array::from_fn(|source| match source {
-                    0 => Vector3::new(AMPLITUDE_N_M * (FREQUENCY_RAD_S * time_s).cos(), 0.0, 0.0),
-                    3 => Vector3::new(0.0, 0.0, 1e-6),
-                    _ => Vector3::zeros(),
-                }),
+                by_source_body_n_m: ByEffect::default(),
                 acceleration_inertial_m_s2: Vector3::new(if time_s < 1000.0 { 1e-7 } else { 2e-7 }, 0.0, 0.0),
                 events: self.events(time_s),
             }
@@ -307,7 +304,7 @@ mod tests {
                 inertial_from_body,
                 rate_body_rad_s: Vector3::z() * self.rate_rad_s,
                 torque_body_n_m,
-                by_source_body_n_m: core::array::from_fn(|_| Vector3::zeros()),
+                by_source_body_n_m: ByEffect::default(),
                 acceleration_inertial_m_s2: Vector3::zeros(),
                 events: self.events(time_s),
             }

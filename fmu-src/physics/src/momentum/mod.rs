@@ -14,7 +14,7 @@ mod torque_model;
 mod totals;
 mod wheels;
 
-pub use by_source::{SOURCES, SourceMomenta, SourceTorques, torques_body_n_m};
+pub use by_source::{SourceMomenta, SourceTorques, torques_body_n_m};
 pub use dump::{DumpEvent, DumpPolicy, DumpSpacing, Dumps, Reinitialise, TooManyDumps};
 pub use integrator::{MomentumIntegrator, Stop};
 pub use segment::Settings;

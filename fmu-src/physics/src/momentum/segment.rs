@@ -3,12 +3,13 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::loads::ByEffect;
 use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
 use crate::numerics::or_infinite;
 
-use super::by_source::{SourceMomenta, SourceSegment, rates};
+use super::by_source::{SourceMomenta, SourceSegments, rate};
 use super::dump::DumpPolicy;
 use super::excess::{Excess, Watched};
 use super::torque_model::{Effort, Sample, TorqueModel, after_event_s};
@@ -46,8 +47,8 @@ pub struct MomentumSegment {
     /// Absent for a segment without length.
     totals: Option<Segment<RATES, { NODES + 1 }>>,
     by_source_at_start: SourceMomenta,
-    /// Absent for a segment without length.
-    by_source: Option<SourceSegment<{ NODES + 1 }>>,
+    /// None for a segment without length.
+    by_source: SourceSegments<{ NODES + 1 }>,
     /// Angular rate, body frame, in rad/s; absent for a segment without length.
     rate_body_rad_s: Option<Segment<3, NODES>>,
     /// Components of the momentum, body frame, that come to their dump thresholds at the end.
@@ -64,7 +65,7 @@ impl MomentumSegment {
             next_longest_s: f64::INFINITY,
             totals: None,
             by_source_at_start: by_source,
-            by_source: None,
+            by_source: ByEffect::default(),
             rate_body_rad_s: None,
             at_threshold: [false; 3],
         }
@@ -74,7 +75,7 @@ impl MomentumSegment {
     pub fn is_valid(&self) -> bool {
         self.next_longest_s > 0.0
             && self.totals.as_ref().is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
-            && self.by_source.as_ref().is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
+            && self.by_source.present().all(|(_, it)| it.is_valid() && it.spans(self.start_s, self.end_s))
             && self
                 .rate_body_rad_s
                 .as_ref()
@@ -143,18 +144,23 @@ impl MomentumSegment {
             flight.spend(Effort::Refinement, start_s)?;
         };
         let end_s = interval.end_s();
-        let by_source =
-            samples.map(|s| rates(settings.convention, &s.inertial_from_body, &s.by_source_body_n_m));
-        let by_source = SourceSegment::<NODES>::from_samples(start_s, end_s, &by_source)
-            .integral(by_source_at_start.to_vector());
+        let by_source = ByEffect::of(|effect| {
+            let of = |sample: &Sample| {
+                let torque_body_n_m = sample.by_source_body_n_m[effect]?;
+                Some(rate(settings.convention, &sample.inertial_from_body, &torque_body_n_m))
+            };
+            of(first)?;
+            let rates = samples.each_ref().map(|sample| of(sample).unwrap_or_default());
+            let segment = Segment::<3, NODES>::from_samples(start_s, end_s, &rates);
+            Some(segment.integral(by_source_at_start.0[effect]))
+        });
         let rate_body_rad_s = Segment::from_samples(start_s, end_s, &samples.map(|s| s.rate_body_rad_s));
-        let (totals, by_source) = (Some(totals), Some(by_source));
         let mut segment = Self {
             start_s,
             end_s,
             at_start,
             next_longest_s,
-            totals,
+            totals: Some(totals),
             by_source_at_start,
             by_source,
             rate_body_rad_s: Some(rate_body_rad_s),
@@ -191,10 +197,10 @@ impl MomentumSegment {
 
     /// What each effect did since the last dump, at a time inside the segment.
     pub fn by_source(&self, time_s: f64) -> SourceMomenta {
-        match &self.by_source {
-            Some(momenta) if time_s > self.start_s => SourceMomenta::from_vector(&momenta.value(time_s)),
-            _ => self.by_source_at_start,
-        }
+        SourceMomenta(ByEffect::of(|effect| match &self.by_source[effect] {
+            Some(momentum) if time_s > self.start_s => momentum.value(time_s),
+            _ => self.by_source_at_start.0[effect],
+        }))
     }
 
     /// Angular acceleration at a time inside the segment, body frame, in rad/s2; none where it has no length.

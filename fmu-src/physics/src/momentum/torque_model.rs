@@ -23,7 +23,7 @@ pub struct Sample {
     pub rate_body_rad_s: Vector3<f64>,
     /// Total external torque about the centre of mass, body frame, in N m.
     pub torque_body_n_m: Vector3<f64>,
-    /// The same by effect.
+    /// The same of the effects that act.
     pub by_source_body_n_m: SourceTorques,
     /// Acceleration by non-gravitational forces, inertial frame, in m/s2.
     pub acceleration_inertial_m_s2: Vector3<f64>,

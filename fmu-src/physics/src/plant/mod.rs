@@ -22,7 +22,9 @@ mod motion;
 mod settings;
 mod thrusters;
 
-pub use disturbances::evaluation::{Evaluation, External, ExternalLoad, Plant, PreparedSpacecraft, World};
+pub use disturbances::by_source::{BySource, Parameters, PositionError, Positions};
+pub use disturbances::evaluation::{Evaluation, External, Plant, PreparedSpacecraft, World};
+pub use disturbances::laws::{Laws, NearPlanet};
 pub use flight::downlink_forecast::{DownlinkForecast, ForecastMomentum, StartMomentum, SunPlanner};
 pub use flight::propagator_state::PropagatorState;
 pub use flight::report::{ControlReport, Report, Shown, WheelReport};

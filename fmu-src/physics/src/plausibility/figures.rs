@@ -6,6 +6,7 @@ use super::hull::is_outside;
 use super::surfaces::{panel_angle_rad, sun_body, surfaces};
 use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::environment::sun::SOLAR_FLUX_W_M2;
+use crate::loads::Effect;
 use crate::momentum::WheelArray;
 use crate::radiation::disturbance::{DisturbanceModel, Geometry, Options, Recoil, Workspace};
 use crate::spacecraft::{MassProperties, Optics, Spacecraft, with_panels};
@@ -109,7 +110,7 @@ fn sunlight(
         panel_angles_rad,
         center_of_mass_body_m,
     };
-    let solar = model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).ok()?.solar;
+    let solar = model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).ok()?[Effect::Solar];
     Some((solar.force_body_n, solar.torque_body_n_m))
 }
 

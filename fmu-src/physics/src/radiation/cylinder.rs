@@ -10,7 +10,7 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use nalgebra::{Matrix3, Vector3};
 
 use super::flat_plate::Beam;
-use super::force_torque::ForceTorque;
+use crate::loads::ForceTorque;
 use crate::numerics::scalar::Scalar;
 use crate::spacecraft::Cylinder;
 

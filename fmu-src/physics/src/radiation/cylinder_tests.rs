@@ -6,9 +6,10 @@ use approx::assert_relative_eq;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
+use super::Beam;
 use super::cylinder::{Lit, cylinder_force_torque, lit};
 use super::flat_plate::force_per_area_pa;
-use super::{Beam, ForceTorque};
+use crate::loads::ForceTorque;
 use crate::spacecraft::{Cylinder, Optics};
 
 fn cylinder(half_angle_rad: f64, optics: Optics) -> Cylinder {

@@ -6,9 +6,7 @@
 
 pub mod cylinder;
 pub mod disturbance;
-pub mod effect;
 pub mod flat_plate;
-pub mod force_torque;
 pub mod grid;
 pub mod planet_light;
 pub mod polynomial;
@@ -26,9 +24,7 @@ mod polynomial_tests;
 #[cfg(test)]
 mod solar_tests;
 
-pub use effect::{Effect, Loads};
 pub use flat_plate::Beam;
-pub use force_torque::ForceTorque;
 pub use planet_light::PlanetLight;
 pub use polynomial::{TorquePolynomial, polynomial_valid};
 pub use solar::{NoSuchSunshade, SolarModel};

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::cylinder::CylinderFace;
 use super::flat_plate::Beam;
-use super::force_torque::ForceTorque;
+use crate::loads::ForceTorque;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::spacecraft::{Optics, Panel, Plate, Spacecraft, Sunshade, SunshadeModel};
 

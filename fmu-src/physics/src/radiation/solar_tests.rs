@@ -8,6 +8,7 @@ use proptest::prelude::*;
 
 use super::flat_plate::force_per_area_pa;
 use super::*;
+use crate::loads::ForceTorque;
 use crate::numerics::scalar::{Dual64, Scalar, constant_vector};
 use crate::spacecraft::{MESSENGER_TOML, Optics, Plate, Spacecraft, SunshadeModel, Thermal};
 

@@ -14,6 +14,7 @@ const ORDER: &[&str] = &[
     "spacecraft",
     "propulsion",
     "environment",
+    "loads",
     "radiation",
     "guidance",
     "momentum",

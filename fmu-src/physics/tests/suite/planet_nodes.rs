@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 use physics::bodies::surface::MERCURY;
+use physics::loads::Effect;
 use physics::radiation::disturbance::{
     DisturbanceModel, Geometry, Options, PlanetLightMethod, Recoil, Workspace,
 };
@@ -47,7 +48,7 @@ fn worst(lowest: f64) -> [f64; 2] {
             Geometry::at(1365.0, &sun_m, Some(&planet_m), 1.0, &angles_rad, Vector3::zeros()).unwrap();
         let mut force_n = |model: &DisturbanceModel| {
             let found = model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();
-            found.albedo.force_body_n + found.infrared.force_body_n
+            found[Effect::Albedo].force_body_n + found[Effect::Infrared].force_body_n
         };
         let exact_n = force_n(&fine);
         for (worst, model) in worst.iter_mut().zip(&few) {

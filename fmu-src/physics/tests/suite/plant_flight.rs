@@ -12,17 +12,22 @@ use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::frames::Frame;
 use physics::environment::orbit::{Elements, OrbitMethod, TwoBodyOrbit};
 use physics::guidance::{Guided, Schedule, ScienceRule};
+use physics::loads::{Active, Effect, ForceTorque, Switch};
 use physics::momentum::{
     Convention, DumpPolicy, MomentumIntegrator, Reinitialise, Settings, TorqueModel, Totals,
 };
 use physics::numerics::quadrature;
 use physics::plant::{
-    AttitudeSource, Command, Configuration, EphemerisSource, External, ExternalLoad, Motion, PanelSetting,
-    Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver, SunLight, World,
+    AttitudeSource, Command, Configuration, EphemerisSource, External, Laws, Motion, PanelSetting, Plant,
+    PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver, SunLight, World,
     orbit_from_elements,
 };
-use physics::radiation::{Effect, SolarModel};
+use physics::radiation::SolarModel;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
+
+/// Light and heat unshadowed, without stored heat.
+const PLAIN: RadiationSettings =
+    RadiationSettings { storage: false, shadowing: false, sun_disc: false, grid_s: 600.0, tolerance: 1e-5 };
 
 pub(crate) const EPOCH_S: f64 = 3382.5 * 86_400.0;
 
@@ -46,14 +51,14 @@ pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Co
         ephemeris: EphemerisSource::Vsop87,
         light: SunLight::Distance { flux_w_m2: 1353.0 },
         shadow: Shadow::new(ShadowModel::Off, RADIUS_MERCURY_M).unwrap(),
-        light_and_heat: RadiationSettings::OFF,
+        light_and_heat: PLAIN,
         attitude,
         sunshade: SunshadeModel::Plates,
         panels: vec![PanelSetting::Disabled; 2],
         center_of_mass_body_m: Vector3::new(0.0, 0.01, -0.03),
         mass_kg: 700.0,
         inertia_body_kg_m2: Matrix3::from_diagonal(&Vector3::new(199.6, 507.1, 484.9)),
-        gravity_gradient_m3_s2: GM_MERCURY_M3_S2,
+        effects: Active::by(|switch| switch == Switch::GravityGradient),
         momentum: Settings {
             grid_s: 600.0,
             tolerance: 1e-11,
@@ -116,17 +121,17 @@ impl Rig {
     }
 
     fn plant(&mut self, configuration: &Configuration) -> Plant<'_> {
-        self.plant_with(configuration, &|_| [ExternalLoad::default(); 2])
+        self.plant_with(configuration, &|_| [ForceTorque::zero(); 2])
     }
 
     fn plant_in_light(&mut self, configuration: &Configuration, light: RadiationSolver) -> Plant<'_> {
         self.world_of(configuration).light = Some(light);
-        self.plant_now(&|_| [ExternalLoad::default(); 2])
+        self.plant_now(&|_| [ForceTorque::zero(); 2])
     }
 
     /// Goes on under this configuration.
     fn world_of(&mut self, configuration: &Configuration) -> &mut World {
-        self.world.insert(World::new(configuration.clone()))
+        self.world.insert(World::new(configuration.clone(), Laws { gm_m3_s2: GM_MERCURY_M3_S2 }))
     }
 
     pub(crate) fn plant_with<'a>(
@@ -278,9 +283,9 @@ fn light_follows_an_attitude_that_is_known_only_up_to_now() {
         rate_body_rad_s: Vector3::new(2e-4, -1e-4, 3e-4),
         since_s: 0.0,
     };
-    let settings =
-        RadiationSettings { planet_light: true, recoil: true, grid_s: 10.0, ..RadiationSettings::OFF };
+    let settings = RadiationSettings { grid_s: 10.0, ..PLAIN };
     let with = |command: Command| Configuration {
+        effects: Active::by(|_| true),
         light_and_heat: settings,
         ..configuration(orbit(), AttitudeSource::Commanded(command))
     };

@@ -8,10 +8,9 @@ use physics::bodies::Body;
 use physics::constants::{GM_MERCURY_M3_S2 as MU, RADIUS_MERCURY_M};
 use physics::environment::CartesianState;
 use physics::environment::orbit::{Flattening, Gravity};
+use physics::loads::ForceTorque;
 use physics::momentum::{MomentumIntegrator, Totals};
-use physics::plant::{
-    AttitudeSource, Command, Configuration, ExternalLoad, Motion, Plant, PropagatorState, Regime,
-};
+use physics::plant::{AttitudeSource, Command, Configuration, Motion, Plant, PropagatorState, Regime};
 
 use super::plant_flight::{EPOCH_S, Rig, configuration, guided, orbit};
 
@@ -38,8 +37,8 @@ fn fly<T>(
 ) -> Vec<T> {
     let mut rig = Rig::new();
     rig.propagator = PropagatorState::new(configuration, 0.0).unwrap();
-    let load = ExternalLoad { force_body_n: force_n, ..ExternalLoad::default() };
-    let load = move |_: f64| [load, ExternalLoad::default()];
+    let load = ForceTorque { force_body_n: force_n, ..ForceTorque::zero() };
+    let load = move |_: f64| [load, ForceTorque::zero()];
     let mut plant = rig.plant_with(configuration, &load);
     let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
     times_s
@@ -166,7 +165,7 @@ fn a_flight_cut_before_its_periapses_counts_them_once() {
     let orbit = orbit();
     for k in 1..2700 {
         let time_s = 97.0 * f64::from(k);
-        let mut plant = rig.plant_with(&configuration, &|_| [ExternalLoad::default(); 2]);
+        let mut plant = rig.plant_with(&configuration, &|_| [ForceTorque::zero(); 2]);
         integrator.advance(&mut plant, &configuration.momentum, time_s, |_| {}).unwrap();
         let epoch_s = time_s + EPOCH_S;
         let expected_s = orbit.time_since_periapsis_s(epoch_s);

@@ -7,9 +7,10 @@ use physics::constants::{GM_MERCURY_M3_S2, RADIUS_MERCURY_M};
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::frames::Frame;
 use physics::environment::orbit::{Elements, TwoBodyOrbit};
+use physics::loads::{Active, ForceTorque};
 use physics::momentum::{MomentumIntegrator, TorqueModel, Totals};
 use physics::plant::{
-    AttitudeSource, Command, Configuration, EphemerisSource, ExternalLoad, SunLight, orbit_from_elements,
+    AttitudeSource, Command, Configuration, EphemerisSource, SunLight, orbit_from_elements,
 };
 
 use super::plant_flight::{EPOCH_S, Rig, configuration, still};
@@ -54,7 +55,7 @@ fn in_light(orbit: TwoBodyOrbit, model: ShadowModel, grid_s: f64) -> Configurati
         },
         light: SunLight::Fixed { pressure_pa: 5e-5 },
         shadow: Shadow::new(model, RADIUS_MERCURY_M).unwrap(),
-        gravity_gradient_m3_s2: 0.0,
+        effects: Active::by(|_| false),
         momentum,
         ..base
     }
@@ -68,7 +69,7 @@ fn attitude_toward_x() -> Attitude {
 
 fn momentum_after(configuration: &Configuration, time_s: f64) -> Vector3<f64> {
     let mut rig = Rig::new();
-    let mut plant = rig.plant_with(configuration, &|_| [ExternalLoad::default(); 2]);
+    let mut plant = rig.plant_with(configuration, &|_| [ForceTorque::zero(); 2]);
     let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
     integrator.advance(&mut plant, &configuration.momentum, time_s, |_| {}).unwrap();
     integrator.totals(time_s).momentum_inertial_n_m_s
@@ -84,7 +85,7 @@ fn the_momentum_of_a_grazing_passage_is_torque_times_time_in_light() {
                 let dark = in_light(orbit, ShadowModel::AllOrNothingCylinder, grid_s);
                 let mut rig = Rig::new();
                 let sample = rig
-                    .plant_with(&dark, &|_| [ExternalLoad::default(); 2])
+                    .plant_with(&dark, &|_| [ForceTorque::zero(); 2])
                     .sample(midnight_s - 0.5 * shadow_s - 1.0);
                 let torque_n_m = sample.inertial_from_body * sample.torque_body_n_m;
                 let expected = torque_n_m * (FLOWN_S - shadow_s);

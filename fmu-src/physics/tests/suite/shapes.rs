@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Vector3};
+use physics::loads::{Effect, ForceTorque};
 use physics::radiation::disturbance::{DisturbanceModel, Geometry, Options, Recoil, Workspace};
-use physics::radiation::{Beam, ForceTorque, SolarModel};
+use physics::radiation::{Beam, SolarModel};
 use physics::spacecraft::{Plate, Spacecraft};
 
 pub const HEAD: &str = r#"
@@ -74,7 +75,7 @@ fn shadowed_force_n(
         center_of_mass_body_m: Vector3::zeros(),
     };
     let mut workspace = Workspace::default();
-    model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap().solar.force_body_n
+    model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap()[Effect::Solar].force_body_n
 }
 
 #[test]

@@ -8,10 +8,11 @@ use physics::attitude::control::{
 };
 use physics::attitude::{Attitude, Gyrostat, ReactionWheel};
 use physics::guidance::modes::system::CommandKind as Kind;
+use physics::loads::ForceTorque;
 use physics::momentum::{Convention, WheelArray};
 use physics::plant::{
-    Command, Configuration, Control, DynamicsInputs, DynamicsSettings, ExternalLoad, IdealSettings,
-    StartMotion, ThrusterControl, Tracked, WheelControlSettings,
+    Command, Configuration, Control, DynamicsInputs, DynamicsSettings, IdealSettings, StartMotion,
+    ThrusterControl, Tracked, WheelControlSettings,
 };
 use physics::propulsion::PulseCommand;
 
@@ -265,14 +266,14 @@ pub fn external(
     values: &Values,
     inputs: InputsOverTime<'_>,
     time_s: f64,
-) -> [ExternalLoad; 2] {
+) -> [ForceTorque; 2] {
     let v = context.variables;
     let value = |handle: RealVector<3>| Vector3::from(inputs.vector(values, handle, time_s));
     let rate =
         |handle: RealVector<3>| Vector3::from([0, 1, 2].map(|i| inputs.rate(handle.element(i), time_s)));
     [
-        ExternalLoad { force_body_n: value(v.force.applied), torque_body_n_m: value(v.torque.applied) },
-        ExternalLoad { force_body_n: rate(v.force.applied), torque_body_n_m: rate(v.torque.applied) },
+        ForceTorque { force_body_n: value(v.force.applied), torque_body_n_m: value(v.torque.applied) },
+        ForceTorque { force_body_n: rate(v.force.applied), torque_body_n_m: rate(v.torque.applied) },
     ]
 }
 

@@ -19,7 +19,8 @@ use physics::guidance::pointing::boresight::MdisRange;
 use physics::management::Manager;
 use physics::momentum::{DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
-    self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, RadiationSolver, Ramp,
+    self, Configuration, DynamicAttitude, Laws, Motion, PanelSetting, RadiationSettings, RadiationSolver,
+    Ramp,
 };
 use physics::spacecraft::{PanelControl, SunshadeModel};
 
@@ -47,6 +48,7 @@ pub fn configuration(
     let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
     let center = Center::of(context, values);
     let (body, data) = (center.body, center.data());
+    let switches = [variables.planet_light.enabled, variables.thermal.recoil.enabled];
     let orbit = orbit(&center, variables, values, state, epoch_minus_time_s)?;
     let limit_m = data.radius_m;
     let lowest_m = orbit.elements().periapsis_distance_m();
@@ -90,8 +92,6 @@ pub fn configuration(
         light: variables.solar.read(values),
         shadow: variables.eclipse.read(values, data.radius_m, values.real(variables.sun.radius))?,
         light_and_heat: RadiationSettings {
-            planet_light: values.boolean(variables.planet_light.enabled),
-            recoil: values.boolean(variables.thermal.recoil.enabled),
             storage: values.boolean(variables.thermal.storage),
             shadowing: values.boolean(variables.shadowing.enabled),
             sun_disc: values.boolean(variables.shadowing.sun_disc),
@@ -103,13 +103,16 @@ pub fn configuration(
         center_of_mass_body_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass)),
         mass_kg: values.real(variables.spacecraft.mass),
         inertia_body_kg_m2,
-        gravity_gradient_m3_s2: if values.boolean(variables.gravity_gradient.enabled) {
-            data.gm_m3_s2
-        } else {
-            0.0
-        },
+        effects: variables.laws.active(values, switches),
         momentum: settings(context, values),
     })
+}
+
+/// What effects in closed form go by, about the centre as it acts.
+pub fn laws(context: &Plan<'_>, values: &Values) -> Laws {
+    let gm = context.variables.planet.gravitational_parameter;
+    let gm_m3_s2 = Center::of(context, values).data().gm_m3_s2;
+    context.variables.laws.read(gm, |real| if real == gm { gm_m3_s2 } else { values.real(real) })
 }
 
 /// Warns of what is set, or stands in the file, and is without effect.
@@ -162,7 +165,7 @@ pub fn light(
     configuration: &Configuration,
 ) -> Result<Option<RadiationSolver>, Failure> {
     let variables = context.variables;
-    if !configuration.light_and_heat.any() && variables.plate.is_empty() {
+    if !configuration.has_light_and_heat() && variables.plate.is_empty() {
         return Ok(None);
     }
     let surface = Center::of(context, values).surface();

@@ -4,14 +4,16 @@ use fmi_export::{Failure, Real, Values};
 use nalgebra::Vector3;
 use physics::attitude::{Attitude, SunAngles};
 use physics::environment::time;
+use physics::loads::Effect;
 use physics::momentum::DumpEvent;
 use physics::plant::{Configuration, Cost, Evaluation, Flight, PlantError, Report};
 use physics::propulsion::hits_a_surface;
-use physics::radiation::{Effect, TorquePolynomial, polynomial_valid};
+use physics::radiation::{TorquePolynomial, polynomial_valid};
 
 use super::super::inputs::dynamics;
 use super::super::setup::Plan;
 use super::super::state::PlantState;
+use crate::common::loads;
 
 /// Writes every output but those of single faces.
 pub fn write(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
@@ -32,13 +34,8 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     values.set_vector(variables.attitude.rate, instant.frame.rate_body_rad_s.into());
 
     let total = loads.total();
-    for effect in Effect::ALL {
-        if let Some(torque) = variables.torque.by_source.of(effect) {
-            values.set_vector(torque, loads[effect].torque_body_n_m.into());
-        }
-        if let Some(force) = variables.force.by_source.of(effect) {
-            values.set_vector(force, loads[effect].force_body_n.into());
-        }
+    for (output, vector) in loads::vectors(&variables.torque.by_source, &variables.force.by_source, loads) {
+        values.set_vector(output, vector.into());
     }
     let own = &loads[Effect::Thrusters];
     values.set_vector(variables.torque.thruster, own.torque_body_n_m.into());
@@ -101,9 +98,8 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
     values.set_vector(v.delta_v, shown.totals.delta_v_inertial_m_s.into());
     values.set_vector(v.momentum.body, shown.totals.momentum_body_n_m_s(convention, rotation).into());
     values.set_vector(v.momentum.inertial, shown.totals.momentum_inertial_n_m_s.into());
-    for (effect, output) in v.momentum.by_source.all() {
-        let momentum = shown.by_source.body_n_m_s(effect, convention, rotation).unwrap_or_default();
-        values.set_vector(output, momentum.into());
+    for (effect, output) in v.momentum.by_source.iter() {
+        values.set_vector(output, shown.by_source.body_n_m_s(effect, convention, rotation).into());
     }
     values.set_boolean(v.momentum.target_clamped, report.target_is_clamped);
     for (k, variables) in v.wheel.iter().enumerate() {
@@ -236,9 +232,8 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
             .map(|handle| Vector3::from(values.vector(handle)));
         return Some(convention.momentum_rate_body_n_m(&momentum_body, &torque_body, &rate_body)[axis]);
     }
-    let by_source = variables.momentum.by_source.all().into_iter();
-    let found =
-        by_source.filter_map(|(effect, handle)| Some((effect, handle, handle.index_of(output)?))).next();
+    let mut by_source = variables.momentum.by_source.iter();
+    let found = by_source.find_map(|(effect, handle)| Some((effect, handle, handle.index_of(output)?)));
     if let Some((effect, handle, axis)) = found {
         let torque = variables.torque.by_source.of(effect).unwrap_or(variables.torque.applied);
         let [momentum_body, torque_body, rate_body] =

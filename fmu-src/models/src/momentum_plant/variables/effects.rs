@@ -8,7 +8,7 @@ use super::super::setup::PlantSetup;
 use super::choices::DumpReinitTo;
 use crate::common::choices::MomentumConvention;
 use crate::common::effects::RecoilVariables;
-use crate::common::loads::{ForceBySource, MomentumBySource, TorqueBySource};
+use crate::common::loads::{self, BySource};
 use crate::common::management::ManagementVariables;
 use crate::common::spacecraft::dump_threshold_n_m_s;
 use crate::common::variables::WorkLimit;
@@ -32,8 +32,8 @@ pub struct TorqueVariables {
     /// Torque from outside this model, body frame.
     #[input(unit = "N.m", display = "uN.m", start = [0.0; 3])]
     pub applied: RealVector<3>,
-    #[group(name = "")]
-    pub by_source: TorqueBySource,
+    #[group(name = "", setup = &loads::TORQUE)]
+    pub by_source: BySource,
     /// Torque of the thrusters, in controlled and free flight.
     #[output(unit = "N.m", nominal = 1.0)]
     pub thruster: RealVector<3>,
@@ -49,8 +49,8 @@ pub struct ForceVariables {
     /// Force from outside this model, body frame, through the centre of mass.
     #[input(unit = "N", display = "uN", start = [0.0; 3])]
     pub applied: RealVector<3>,
-    #[group(name = "")]
-    pub by_source: ForceBySource,
+    #[group(name = "", setup = &loads::FORCE)]
+    pub by_source: BySource,
     /// Force of the thrusters, in controlled and free flight.
     #[output(unit = "N", nominal = 1.0)]
     pub thruster: RealVector<3>,
@@ -104,8 +104,8 @@ pub struct MomentumVariables {
     /// System momentum in EME2000: always the physical total.
     #[output(unit = "N.m.s", nominal = 1.0)]
     pub inertial: RealVector<3>,
-    #[group(name = "")]
-    pub by_source: MomentumBySource,
+    #[group(name = "", setup = &loads::MOMENTUM)]
+    pub by_source: BySource,
     /// Whether the Sun's place that brings the momentum to the target of the present downlink, or of science with
     /// guided.scienceUnload, is not admissible, so that it comes as near as one that is can bring it.
     #[output]

@@ -30,7 +30,7 @@ use surroundings::{
 };
 
 use super::setup::PlantSetup;
-use crate::common::effects::{GravityGradientVariables, PlanetLightVariables, ShadowingVariables};
+use crate::common::effects::{LawVariables, PlanetLightVariables, ShadowingVariables};
 use crate::common::loads::PlateVariables;
 use crate::common::variables::{EclipseVariables, GuidedVariables, SolarVariables};
 
@@ -62,8 +62,8 @@ pub struct PlantVariables {
     pub thermal: ThermalVariables,
     #[group]
     pub shadowing: ShadowingVariables,
-    #[group]
-    pub gravity_gradient: GravityGradientVariables,
+    #[group(name = "")]
+    pub laws: LawVariables,
     #[group]
     pub spacecraft: SpacecraftVariables,
     #[group]

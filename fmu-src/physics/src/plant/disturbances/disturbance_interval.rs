@@ -18,13 +18,13 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::environment::CartesianState;
+use crate::loads::{Active, ByEffect, Effect, ForceTorque, Loads};
 use crate::momentum::Effort;
 use crate::momentum::TorqueModel;
 use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::or_infinite;
-use crate::radiation::{Effect, ForceTorque, Loads};
 
 use super::evaluation::{Evaluation, Plant};
 use crate::plant::light::light_and_heat::LEAST_ARM_M;
@@ -41,8 +41,6 @@ const SHORTEST_TURN_RAD: f64 = 0.01;
 const SHORTEST_SHARE: f64 = 0.1;
 /// Order of the impulse's error relative to the impulse.
 const ORDER: usize = 4;
-/// Force and torque of every effect of the surroundings; what is applied is known at any time and kept apart.
-const ROWS: usize = 2 * Effect::DISTURBANCES.len();
 
 /// A vector that changes linearly: at the start, and per second.
 pub type Linear = [Vector3<f64>; 2];
@@ -57,8 +55,8 @@ pub struct DisturbanceInterval {
     /// Length the tolerance will probably allow the next interval, in s.
     #[serde(with = "or_infinite")]
     next_longest_s: f64,
-    /// Force and torque of effect after effect, body frame.
-    loads: [Linear; ROWS],
+    /// Force and torque of the disturbances that act, body frame; what is applied is known at any time.
+    loads: ByEffect<Option<[Linear; 2]>>,
     /// Unit vector to the Sun, EME2000.
     to_sun: Linear,
     /// Visible part of the Sun's disc, at the start and per second.
@@ -73,7 +71,7 @@ impl DisturbanceInterval {
             start_s: f64::NEG_INFINITY,
             end_s: f64::NEG_INFINITY,
             next_longest_s: f64::INFINITY,
-            loads: [nothing; ROWS],
+            loads: ByEffect::default(),
             to_sun: nothing,
             lit_fraction: [0.0; 2],
         }
@@ -92,7 +90,8 @@ impl DisturbanceInterval {
         let turning_rad_s = rate_rad_s + orbital_rate_rad_s(&begin.geometry.spacecraft);
         let longest_s = self.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s);
         let shortest_s = (SHORTEST_TURN_RAD / turning_rad_s).min(SHORTEST_SHARE * grid_s);
-        let tolerance = plant.kinematics.configuration.light_and_heat.tolerance;
+        let configuration = plant.kinematics.configuration;
+        let (active, tolerance) = (configuration.effects, configuration.light_and_heat.tolerance);
         let mut interval = AdaptiveInterval::new(start_s, grid_s, longest_s, limit_s, shortest_s);
         let mut next_longest_s = f64::INFINITY;
         let [first, second] = loop {
@@ -103,7 +102,7 @@ impl DisturbanceInterval {
                 break nodes;
             }
             let ends = [start_s, interval.end_s()].map(|at_s| plant.evaluate(at_s));
-            let left_out = left_out(&nodes, &ends);
+            let left_out = left_out(active, &nodes, &ends);
             let unresolved = left_out * left_out.max((rate_rad_s * span_s).powi(2) / 12.0);
             if let Some(longest_s) = interval.accept(unresolved, tolerance, ORDER) {
                 next_longest_s = longest_s;
@@ -118,11 +117,10 @@ impl DisturbanceInterval {
             let slope = (b - a) / (NODES[1] - NODES[0]);
             [a - slope * NODES[0], slope / span_s]
         };
-        let mut loads = [[Vector3::zeros(); 2]; ROWS];
-        for effect in Effect::DISTURBANCES {
-            let at = 2 * effect as usize;
-            loads[at] = line(&|it| it.loads[effect].force_body_n);
-            loads[at + 1] = line(&|it| it.loads[effect].torque_body_n_m);
+        let mut loads = ByEffect::default();
+        for effect in active.disturbances() {
+            let force = line(&|it| it.loads[effect].force_body_n);
+            loads[effect] = Some([force, line(&|it| it.loads[effect].torque_body_n_m)]);
         }
         // The Sun is seen from the start on, however long the interval is.
         let (now, then) = (&begin, &second.instant);
@@ -136,7 +134,7 @@ impl DisturbanceInterval {
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub fn is_valid(&self) -> bool {
         let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
-        let lines = self.loads.iter().chain([&self.to_sun]).flatten();
+        let lines = self.loads.present().flat_map(|(_, lines)| lines).chain([&self.to_sun]).flatten();
         let is_before = self.start_s == f64::NEG_INFINITY && self.end_s == f64::NEG_INFINITY;
         (is_before || [self.start_s, self.end_s].iter().all(sound))
             && self.start_s <= self.end_s
@@ -158,31 +156,27 @@ impl DisturbanceInterval {
     pub fn loads_at(&self, time_s: f64) -> Loads {
         let elapsed_s = time_s - self.start_s;
         let mut loads = Loads::zero();
-        for effect in Effect::DISTURBANCES {
-            let at = 2 * effect as usize;
-            let [force_body_n, torque_body_n_m] =
-                [self.loads[at], self.loads[at + 1]].map(|[start, slope]| start + slope * elapsed_s);
+        for (effect, lines) in self.loads.present() {
+            let [force_body_n, torque_body_n_m] = lines.map(|[start, slope]| start + slope * elapsed_s);
             loads[effect] = ForceTorque { force_body_n, torque_body_n_m };
         }
         loads
     }
 
-    /// Torque of an effect of the surroundings at `time_s` and its slope, in N m and N m/s.
-    pub fn torque_at(&self, effect: Effect, time_s: f64) -> Linear {
-        match self.loads.get(2 * effect as usize + 1) {
-            Some([start, slope]) => [start + slope * (time_s - self.start_s), *slope],
-            None => [Vector3::zeros(); 2],
-        }
+    /// Torque of a disturbance that acts at `time_s` and its slope, in N m and N m/s.
+    pub fn torque_at(&self, effect: Effect, time_s: f64) -> Option<Linear> {
+        self.loads[effect].map(|[_, [start, slope]]| [start + slope * (time_s - self.start_s), slope])
     }
 
     /// Sum over the effects at `time_s`: force in N and its slope in N/s, torque in N m and its slope in N m/s.
     pub fn total_at(&self, time_s: f64) -> [Linear; 2] {
         let elapsed_s = time_s - self.start_s;
         let mut total = [[Vector3::zeros(); 2]; 2];
-        for (row, [start, slope]) in self.loads.iter().enumerate() {
-            let [sum, sum_slope] = &mut total[row % 2];
-            *sum += start + slope * elapsed_s;
-            *sum_slope += slope;
+        for (_, lines) in self.loads.present() {
+            for ([sum, sum_slope], [start, slope]) in total.iter_mut().zip(lines) {
+                *sum += start + slope * elapsed_s;
+                *sum_slope += slope;
+            }
         }
         total
     }
@@ -203,10 +197,10 @@ fn orbital_rate_rad_s(spacecraft: &CartesianState) -> f64 {
 
 /// Largest distance at the two ends of force and torque from the line through the loads at the two nodes, relative to the
 /// largest force and torque of all effects there; a torque counts against the largest force at an arm of 1 cm at least.
-fn left_out(nodes: &[Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
+fn left_out(active: Active, nodes: &[Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
     let (mut scale, mut most) = ([0.0_f64; 2], [0.0_f64; 2]);
     let beyond = NODES[0] / (NODES[1] - NODES[0]);
-    for effect in Effect::DISTURBANCES {
+    for effect in active.disturbances() {
         let [a, b, start, end] = [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.loads[effect]);
         let kinds = [
             [a.force_body_n, b.force_body_n, start.force_body_n, end.force_body_n],

@@ -7,15 +7,17 @@
 
 use nalgebra::{Rotation3, Vector3};
 
-use crate::attitude::{MovingFrame, gravity_gradient_n_m};
+use crate::attitude::MovingFrame;
 use crate::constants::RADIUS_SUN_M;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
+use crate::loads::{Effect, ForceTorque, Loads};
 use crate::momentum::{Effort, EventValues, Sample, TorqueModel, torques_body_n_m};
 use crate::numerics::chebyshev::Segment;
-use crate::radiation::{Beam, Effect, ForceTorque, Loads, SolarModel};
+use crate::radiation::{Beam, SolarModel};
 use crate::spacecraft::{MassProperties, Panel};
 
+use super::laws::{Laws, NearPlanet};
 use crate::plant::flight::propagator_state::PropagatorState;
 use crate::plant::flight::sun_choice::SunChoice;
 use crate::plant::light::light_and_heat::RadiationBuilder;
@@ -31,15 +33,6 @@ use crate::plant::settings::work::{Cost, Work};
 
 /// Nodes at which the acceleration of a segment is taken.
 const NODES: usize = 8;
-
-/// Force and torque from outside, body frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ExternalLoad {
-    /// Through the centre of mass, in N.
-    pub force_body_n: Vector3<f64>,
-    /// About the centre of mass, in N m.
-    pub torque_body_n_m: Vector3<f64>,
-}
 
 /// Everything about one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,14 +64,13 @@ impl Evaluation {
     /// # Errors
     /// A place inside one of them.
     pub fn check(&self, time_s: f64) -> Result<(), PlantError> {
-        let total = self.loads.total();
         let geometry = &self.instant.geometry;
         let planet_is_outside =
             geometry.to_planet.is_none() || geometry.sun_from_center().position_m.norm() > RADIUS_SUN_M;
         let is_somewhere = self.instant.sun_distance_m > RADIUS_SUN_M
             && planet_is_outside
             && self.instant.lit_fraction.is_finite()
-            && total.torque_body_n_m.iter().chain(&total.force_body_n).all(|x| x.is_finite());
+            && self.loads.total().is_finite();
         let position_m = geometry.spacecraft.position_m;
         if is_somewhere {
             Ok(())
@@ -98,8 +90,8 @@ impl Evaluation {
     }
 }
 
-/// Force and torque from outside at a time, body frame, and how they change per second.
-pub type External<'a> = dyn Fn(f64) -> [ExternalLoad; 2] + 'a;
+/// Force through the centre of mass and torque from outside at a time, body frame, and how they change per second.
+pub type External<'a> = dyn Fn(f64) -> [ForceTorque; 2] + 'a;
 
 /// Where a flight takes place, and what is known of it beside its state.
 #[derive(Clone, Debug)]
@@ -110,6 +102,8 @@ pub struct World {
     pub mass_at_zero: MassProperties,
     /// Planets.
     pub ephemeris: Ephemeris,
+    /// What effects in closed form go by.
+    pub laws: Laws,
     /// Light and heat beyond direct sunlight.
     pub light: Option<RadiationSolver>,
     /// What the step has cost so far.
@@ -118,11 +112,12 @@ pub struct World {
 
 impl World {
     /// Of this configuration with full tanks, without light and heat beyond direct sunlight.
-    pub fn new(configuration: Configuration) -> Self {
+    pub fn new(configuration: Configuration, laws: Laws) -> Self {
         Self {
             mass_at_zero: configuration.loaded(),
             configuration,
             ephemeris: Ephemeris::default(),
+            laws,
             light: None,
             work: Work::new(u32::MAX, 0),
         }
@@ -168,6 +163,7 @@ impl PreparedSpacecraft<'_> {
 pub struct Plant<'a> {
     prepared: PreparedSpacecraft<'a>,
     pub(crate) kinematics: Kinematics<'a>,
+    laws: Laws,
     segment: &'a mut Option<RadiationSegment>,
     light: Option<&'a mut RadiationSolver>,
     sun_choice: SunChoice,
@@ -185,11 +181,19 @@ impl<'a> Plant<'a> {
         propagator: &'a mut PropagatorState,
         external: &'a External<'a>,
     ) -> Self {
-        let World { configuration, mass_at_zero, ephemeris, light, work } = world;
+        let World { configuration, mass_at_zero, ephemeris, laws, light, work } = world;
         let PropagatorState { trajectory, light: segment, sun_choice } = propagator;
         let kinematics =
             Kinematics { configuration, trajectory, ephemeris, work, mass_at_zero: *mass_at_zero };
-        Self { prepared, kinematics, segment, light: light.as_mut(), sun_choice: *sun_choice, external }
+        Self {
+            prepared,
+            kinematics,
+            laws: *laws,
+            segment,
+            light: light.as_mut(),
+            sun_choice: *sun_choice,
+            external,
+        }
     }
 
     /// Everything at `time_s`, which the propagator must have reached ([`TorqueModel::prepare`]).
@@ -198,15 +202,10 @@ impl<'a> Plant<'a> {
         let configuration = self.kinematics.configuration;
         let mass = self.mass_properties(&instant, time_s);
         let mut loads = self.radiation(time_s, &instant, &mass.center_of_mass_body_m);
-        if let Some(planet_body_m) = &instant.planet_body_m {
-            loads[Effect::GravityGradient].torque_body_n_m = gravity_gradient_n_m(
-                configuration.gravity_gradient_m3_s2,
-                &mass.inertia_body_kg_m2,
-                planet_body_m,
-            );
+        if let Some(at) = NearPlanet::of(&instant, &mass) {
+            self.laws.exert(configuration.effects, &at, &mut loads);
         }
-        let [ExternalLoad { force_body_n, torque_body_n_m }, _] = (self.external)(time_s);
-        loads[Effect::Applied] = ForceTorque { force_body_n, torque_body_n_m };
+        [loads[Effect::Applied], _] = (self.external)(time_s);
         let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass, time_s);
         Evaluation { instant, loads, mass, panels_body_n_m_s }
     }
@@ -251,14 +250,13 @@ impl<'a> Plant<'a> {
     /// Light and heat: slow effects from their segment, plain sunlight in closed form.
     fn radiation(&self, time_s: f64, instant: &Instant, center_of_mass_body_m: &Vector3<f64>) -> Loads {
         let configuration = self.kinematics.configuration;
-        let effects = &configuration.light_and_heat;
         let mut loads = Loads::zero();
         let mut shadowed = false;
         if let (Some(segment), Some(light)) = (&*self.segment, &self.light)
-            && effects.any()
+            && configuration.has_light_and_heat()
         {
-            shadowed = effects.shadowing && light.model.can_shadow();
-            segment.loads(time_s, &mut loads);
+            shadowed = configuration.light_and_heat.shadowing && light.model.can_shadow();
+            loads = segment.loads(time_s);
         }
         if !shadowed {
             let pressure_pa = configuration.light.pressure_pa(instant.sun_distance_m);
@@ -284,7 +282,7 @@ impl<'a> Plant<'a> {
     /// Makes sure that light and heat are known from `start_s` on, and tells up to where, at most `limit_s`.
     fn extend_radiation(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
         match &mut self.light {
-            Some(light) if self.kinematics.configuration.light_and_heat.any() => {
+            Some(light) if self.kinematics.configuration.has_light_and_heat() => {
                 let mut builder =
                     RadiationBuilder { panels: self.prepared.panels, kinematics: &mut self.kinematics };
                 builder.extend(light, self.segment, start_s, limit_s)
@@ -354,7 +352,7 @@ impl TorqueModel for Plant<'_> {
             inertial_from_body: evaluation.instant.frame.inertial_from_body,
             rate_body_rad_s: evaluation.instant.frame.rate_body_rad_s,
             torque_body_n_m: evaluation.loads.total().torque_body_n_m,
-            by_source_body_n_m: torques_body_n_m(&evaluation.loads),
+            by_source_body_n_m: torques_body_n_m(&evaluation.loads, self.kinematics.configuration.effects),
             acceleration_inertial_m_s2: evaluation.acceleration_inertial_m_s2(evaluation.mass.mass_kg),
             events: evaluation.instant.events,
         }

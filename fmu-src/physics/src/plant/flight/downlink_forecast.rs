@@ -8,8 +8,9 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::propagator_state::PropagatorState;
 use crate::guidance::{ChosenPlace, Guided, ScienceCourse};
+use crate::loads::ForceTorque;
 use crate::momentum::{Convention, DumpPolicy, MomentumIntegrator, Totals};
-use crate::plant::disturbances::evaluation::{ExternalLoad, Plant, PreparedSpacecraft, World};
+use crate::plant::disturbances::evaluation::{Plant, PreparedSpacecraft, World};
 use crate::plant::light::sunlit::SunlitCraft;
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
@@ -79,7 +80,7 @@ pub struct DownlinkForecast<'o> {
     pub(crate) prepared: PreparedSpacecraft<'o>,
     pub(crate) world: &'o mut World,
     pub(crate) propagator: &'o PropagatorState,
-    pub(crate) applied: ExternalLoad,
+    pub(crate) applied: ForceTorque,
     pub(crate) law: Guided,
     pub(crate) totals: Totals,
     pub(crate) forecasts: bool,
@@ -150,7 +151,7 @@ impl DownlinkForecast<'_> {
         let settings = configuration.momentum;
         let mut propagator = self.propagator.clone();
         propagator.cut(configuration, *time_s, true);
-        let applied = [*applied, ExternalLoad::default()];
+        let applied = [*applied, ForceTorque::zero()];
         let external = |_: f64| applied;
         let mut integrator = MomentumIntegrator::new(*time_s, *totals);
         let mut simulated = Ok(());

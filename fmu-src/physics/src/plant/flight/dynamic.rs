@@ -9,9 +9,9 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::{Attitude, BodyLoad, BodyMotion, GyrostatMotion};
-use crate::momentum::{DumpEvent, SOURCES};
+use crate::loads::{ByEffect, Effect, ForceTorque};
+use crate::momentum::DumpEvent;
 use crate::numerics::spacing::spacing;
-use crate::radiation::{Effect, ForceTorque};
 use crate::spacecraft::MassProperties;
 
 use super::configured::ConfiguredFlight;
@@ -363,10 +363,11 @@ impl AttitudeDynamics {
     }
 
     /// Torque by effect from `time_s` on.
-    fn torques_by_source(&self, external: &External<'_>, time_s: f64) -> [Linear; SOURCES.len()] {
-        SOURCES.map(|effect| match effect {
-            Effect::Applied => external(time_s).map(|load| load.torque_body_n_m),
-            effect => self.disturbance.torque_at(effect, time_s),
+    fn torques_by_source(&self, external: &External<'_>, time_s: f64) -> ByEffect<Option<Linear>> {
+        ByEffect::of(|effect| match effect {
+            Effect::Applied => Some(external(time_s).map(|load| load.torque_body_n_m)),
+            effect if effect.row().momentum_apart => self.disturbance.torque_at(effect, time_s),
+            _ => None,
         })
     }
 
@@ -388,10 +389,7 @@ impl AttitudeDynamics {
         let mut loads = self.disturbance.loads_at(time_s);
         let [torque_body_n_m, force_body_n] = self.motion.swinging_load(&settings.gyrostat, time_s, body);
         let [external, _] = (craft.given.external)(time_s);
-        loads[Effect::Applied] = ForceTorque {
-            force_body_n: external.force_body_n + force_body_n,
-            torque_body_n_m: external.torque_body_n_m + torque_body_n_m,
-        };
+        loads[Effect::Applied] = external + ForceTorque { force_body_n, torque_body_n_m };
         let thrusters = craft.thrusters.load();
         loads[Effect::Thrusters] = ForceTorque {
             force_body_n: thrusters.law.force_at_n(time_s),

@@ -24,7 +24,8 @@ use serde::{Deserialize, Serialize};
 use crate::attitude::control::{Estimate, sample_number, sensed_sun};
 use crate::momentum::{DumpEvent, Totals};
 
-use crate::plant::disturbances::evaluation::{Evaluation, ExternalLoad, Plant, PreparedSpacecraft, World};
+use crate::loads::ForceTorque;
+use crate::plant::disturbances::evaluation::{Evaluation, Plant, PreparedSpacecraft, World};
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::configuration::{Command, Configuration, Motion};
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
@@ -409,7 +410,7 @@ impl Flight {
         report: impl FnMut(f64, Vector3<f64>),
     ) -> Result<(), PlantError> {
         let Self { propagator, setup: Some(setup), .. } = self else { return Err(PlantError::OtherMode) };
-        let external = |_: f64| [ExternalLoad::default(); 2];
+        let external = |_: f64| [ForceTorque::zero(); 2];
         Plant::new(prepared, &mut setup.world, propagator, &external).faces(time_s, report)
     }
 }

@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::GyrostatMotion;
-use crate::momentum::{DumpEvent, DumpSpacing, Dumps, SOURCES, SourceMomenta};
+use crate::loads::ByEffect;
+use crate::momentum::{DumpEvent, DumpSpacing, Dumps, SourceMomenta};
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::plant::disturbances::disturbance_interval::Linear;
 use crate::plant::thrusters::reaction_control::Thrusters;
@@ -29,7 +30,7 @@ pub(crate) struct MomentumDumps {
     /// What each effect did to the momentum from the last dump up to the present segment of the motion.
     by_source: SourceMomenta,
     /// Torque by effect from the start of that segment on.
-    pub torques: [Linear; SOURCES.len()],
+    pub torques: ByEffect<Option<Linear>>,
 }
 
 impl MomentumDumps {
@@ -40,7 +41,7 @@ impl MomentumDumps {
             && self.dumps.is_valid()
             && self.spacing.is_valid()
             && self.by_source.is_valid()
-            && self.torques.iter().flatten().flatten().all(sound)
+            && self.torques.present().flat_map(|(_, line)| line).flatten().all(sound)
     }
 
     /// When a constant torque ends, in s; infinite where none acts.
@@ -67,9 +68,7 @@ impl MomentumDumps {
 
     /// What each effect did to the momentum since the end of the last dump, at `time_s`.
     pub fn by_source(&self, motion: &GyrostatMotion, time_s: f64) -> SourceMomenta {
-        let mut momenta = self.by_source;
-        momenta.add(&motion.impulses_inertial_n_m_s(&self.torques, time_s));
-        momenta
+        self.by_source.with(&motion.impulses_inertial_n_m_s(self.torques.values(), time_s))
     }
 
     /// Begins a dump at the end of the motion: by thrusters that give torque all ways about the centre of mass, or by a constant

@@ -3,17 +3,17 @@
 use nalgebra::{SVector, Vector3};
 
 use crate::constants::SPEED_OF_LIGHT_M_S;
+use crate::loads::{ByEffect, Effect, ForceTorque};
 use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::chebyshev::Segment;
-use crate::radiation::disturbance::{Disturbance, FaceResult, GeometryError, PlanetGeometry};
+use crate::radiation::disturbance::{GeometryError, PlanetGeometry};
 use crate::spacecraft::Panel;
 
 use super::radiation_node::RadiationNode;
-use super::radiation_segment::{HOTTEST_K, NODES, ROWS, RadiationSegment};
+use super::radiation_segment::{HOTTEST_K, LoadSeries, NODES, RadiationSegment};
 use super::radiation_solver::RadiationSolver;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::radiation_settings::RadiationSettings;
 use crate::plant::settings::work::Cost;
 
 /// No segment is shortened below this, in s: kinks where a face turns dark end here.
@@ -89,7 +89,7 @@ impl RadiationBuilder<'_, '_> {
         limit_s: f64,
     ) -> Result<(), PlantError> {
         let effects = self.kinematics.configuration.light_and_heat;
-        let stores = effects.storage && effects.recoil && light.model.stores_heat();
+        let stores = self.stores_heat(light);
         if stores {
             self.take_heat(light, segment, start_s)?;
         } else {
@@ -108,7 +108,7 @@ impl RadiationBuilder<'_, '_> {
             self.kinematics.spend_units(Cost::Light, u32::try_from(shadows).unwrap_or(u32::MAX), start_s)?;
             match lit {
                 Ok(series) => {
-                    let unresolved = unresolved(&series, &effects);
+                    let unresolved = unresolved(&series, effects.shadowing);
                     if let Some(next_s) = interval.accept(unresolved, effects.tolerance, NODES) {
                         segment.next_longest_s = next_s;
                         break series;
@@ -120,7 +120,7 @@ impl RadiationBuilder<'_, '_> {
             }
         };
         let end_s = interval.end_s();
-        (segment.start_s, segment.end_s, segment.loads) = (start_s, end_s, Some(series));
+        (segment.start_s, segment.end_s, segment.loads) = (start_s, end_s, series);
         segment.temperatures_k.clear();
         if stores {
             segment.temperatures_k.extend((0..light.face_count()).map(|face| {
@@ -139,7 +139,7 @@ impl RadiationBuilder<'_, '_> {
         segment: &mut RadiationSegment,
         start_s: f64,
     ) -> Result<(), PlantError> {
-        if segment.loads.is_none() && segment.end_k.is_empty() {
+        if segment.is_before() && segment.end_k.is_empty() {
             let RadiationSolver { model, panels, nodes, .. } = light;
             if let Some(node) = nodes.first_mut() {
                 self.view(start_s, panels, node);
@@ -165,9 +165,9 @@ impl RadiationBuilder<'_, '_> {
         start_k: &[f64],
         start_s: f64,
         end_s: f64,
-    ) -> Result<Segment<ROWS, NODES>, GeometryError> {
+    ) -> Result<ByEffect<Option<LoadSeries>>, GeometryError> {
         let RadiationSolver { model, panels, nodes, heat_rule } = light;
-        let times_s = Segment::<ROWS, NODES>::nodes(start_s, end_s);
+        let times_s = LoadSeries::nodes(start_s, end_s);
         for (node, time_s) in nodes.iter_mut().zip(times_s) {
             self.view(time_s, panels, node);
             node.balance(model)?;
@@ -178,9 +178,15 @@ impl RadiationBuilder<'_, '_> {
                 node.radiate_stored(model)?;
             }
         }
-        let effects = &self.kinematics.configuration.light_and_heat;
-        let samples = core::array::from_fn(|j| rows(&nodes[j].found, effects));
-        Ok(Segment::from_samples(start_s, end_s, &samples))
+        let mut series = ByEffect::default();
+        for effect in self.kinematics.configuration.effects.light() {
+            let sample = |j: usize| {
+                let ForceTorque { force_body_n, torque_body_n_m } = &nodes[j].found[effect];
+                SVector::from_iterator(force_body_n.iter().chain(torque_body_n_m).copied())
+            };
+            series[effect] = Some(LoadSeries::from_samples(start_s, end_s, &core::array::from_fn(sample)));
+        }
+        Ok(series)
     }
 
     /// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the
@@ -197,9 +203,8 @@ impl RadiationBuilder<'_, '_> {
     ) -> Result<(), PlantError> {
         self.light_at(light, segment, time_s)?;
         if let Some(node) = light.nodes.first() {
-            let effects = &self.kinematics.configuration.light_and_heat;
             for face in node.workspace.faces() {
-                report(face.temperature_k, force_of(face, effects));
+                report(face.temperature_k, face.force_body_n(self.kinematics.configuration.effects));
             }
         }
         Ok(())
@@ -212,20 +217,23 @@ impl RadiationBuilder<'_, '_> {
         segment: Option<&RadiationSegment>,
         time_s: f64,
     ) -> Result<(), PlantError> {
+        let stores = self.stores_heat(light);
         let RadiationSolver { model, panels, nodes, .. } = light;
         let Some(node) = nodes.first_mut() else { return Ok(()) };
         self.view(time_s, panels, node);
         node.balance(model).map_err(|error| self.no_light(time_s, error))?;
-        let effects = &self.kinematics.configuration.light_and_heat;
-        if let Some(segment) = segment
-            && effects.recoil
-            && effects.storage
-            && model.stores_heat()
-        {
+        if let Some(segment) = segment.filter(|_| stores) {
             segment.temperatures_at(time_s, &mut node.temperatures_k);
             node.radiate_stored(model).map_err(|error| self.no_light(time_s, error))?;
         }
         Ok(())
+    }
+
+    /// Whether surfaces store heat.
+    fn stores_heat(&self, light: &RadiationSolver) -> bool {
+        let configuration = self.kinematics.configuration;
+        let acts = configuration.light_and_heat.storage && configuration.effects.has(Effect::Thermal);
+        acts && light.model.stores_heat()
     }
 
     fn no_light(&self, time_s: f64, source: GeometryError) -> PlantError {
@@ -235,44 +243,18 @@ impl RadiationBuilder<'_, '_> {
     }
 }
 
-/// The effects that act, row by row; sunlight always, as a measure for the others.
-fn rows(found: &Disturbance<f64>, effects: &RadiationSettings) -> SVector<f64, ROWS> {
-    let mut rows = SVector::<f64, ROWS>::zeros();
-    let planet_light = effects.planet_light;
-    for (index, (load, acts)) in [
-        (&found.solar, true),
-        (&found.albedo, planet_light),
-        (&found.infrared, planet_light),
-        (&found.thermal, effects.recoil),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        if acts {
-            rows.fixed_rows_mut::<3>(6 * index).copy_from(&load.force_body_n);
-            rows.fixed_rows_mut::<3>(6 * index + 3).copy_from(&load.torque_body_n_m);
-        }
-    }
-    rows
-}
-
-fn force_of(face: &FaceResult<f64>, effects: &RadiationSettings) -> Vector3<f64> {
-    let [solar, albedo, infrared, thermal] = face.forces_body_n;
-    let planet = if effects.planet_light { albedo + infrared } else { Vector3::zeros() };
-    solar + planet + if effects.recoil { thermal } else { Vector3::zeros() }
-}
-
-/// Largest of the last two terms of force and torque, relative to the largest force and torque of all.
-fn unresolved(series: &Segment<ROWS, NODES>, effects: &RadiationSettings) -> f64 {
-    let terms = series.coefficients();
-    // Sunlight comes from the closed form unless it is shadowed.
-    let first = if effects.shadowing { 0 } else { 6 };
+/// Largest of the last two terms of force and torque, relative to the largest force and torque of all; sunlight that nothing
+/// shadows counts as a measure only, for it comes from the closed form.
+fn unresolved(series: &ByEffect<Option<LoadSeries>>, shadowing: bool) -> f64 {
     let (mut scale, mut last) = ([0.0_f64; 2], [0.0_f64; 2]);
-    for row in 0..ROWS {
-        let kind = row / 3 % 2;
-        scale[kind] = scale[kind].max(terms.row(row).amax());
-        if row >= first {
-            last[kind] = last[kind].max(terms[(row, NODES - 1)].abs()).max(terms[(row, NODES - 2)].abs());
+    for (effect, series) in series.present() {
+        let terms = series.coefficients();
+        for row in 0..6 {
+            let kind = row / 3;
+            scale[kind] = scale[kind].max(terms.row(row).amax());
+            if shadowing || effect != Effect::Solar {
+                last[kind] = last[kind].max(terms[(row, NODES - 1)].abs()).max(terms[(row, NODES - 2)].abs());
+            }
         }
     }
     let [force, torque] = scale;

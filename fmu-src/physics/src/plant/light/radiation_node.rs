@@ -2,15 +2,16 @@
 
 use nalgebra::Vector3;
 
+use crate::loads::{Effect, Loads};
 use crate::radiation::disturbance::{
-    self, Disturbance, DisturbanceModel, GeometryError, PlanetGeometry, Recoil, Workspace,
+    self, DisturbanceModel, GeometryError, PlanetGeometry, Recoil, Workspace,
 };
 
 /// One time at which light and heat are computed.
 #[derive(Clone, Debug)]
 pub(crate) struct RadiationNode {
     pub viewing: ViewingGeometry,
-    pub found: Disturbance<f64>,
+    pub found: Loads,
     pub workspace: Workspace<f64>,
     pub heat_w: Vec<f64>,
     pub temperatures_k: Vec<f64>,
@@ -40,7 +41,7 @@ impl RadiationNode {
                 panel_angles_rad: vec![0.0; panels],
                 center_of_mass_body_m: Vector3::zeros(),
             },
-            found: Disturbance::zero(),
+            found: Loads::zero(),
             workspace: Workspace::default(),
             heat_w: vec![0.0; faces],
             temperatures_k: vec![0.0; faces],
@@ -57,7 +58,7 @@ impl RadiationNode {
     /// After [`RadiationNode::balance`]: the recoil anew, at this node's stored temperatures.
     pub fn radiate_stored(&mut self, model: &DisturbanceModel) -> Result<(), GeometryError> {
         let stored = Recoil::Stored(&self.temperatures_k);
-        self.found.thermal = model.recoil(&self.viewing.geometry(), stored, &mut self.workspace)?;
+        self.found[Effect::Thermal] = model.recoil(&self.viewing.geometry(), stored, &mut self.workspace)?;
         Ok(())
     }
 }

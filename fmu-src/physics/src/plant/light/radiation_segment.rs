@@ -12,14 +12,14 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::loads::{ByEffect, ForceTorque, Loads};
 use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
 use crate::numerics::or_infinite;
-use crate::radiation::{Effect, ForceTorque, Loads};
 
 /// Chebyshev nodes a segment.
 pub(crate) const NODES: usize = 6;
-/// Force and torque of every effect of light and heat.
-pub(crate) const ROWS: usize = 6 * Effect::RADIATION.len();
+/// Force and torque of one effect.
+pub(crate) type LoadSeries = Segment<6, NODES>;
 /// No surface is hotter, in K.
 pub(crate) const HOTTEST_K: f64 = 1e5;
 
@@ -33,8 +33,8 @@ pub struct RadiationSegment {
     /// Length the tolerance will probably allow the next segment, in s.
     #[serde(with = "or_infinite")]
     pub(crate) next_longest_s: f64,
-    /// Absent before the first segment.
-    pub(crate) loads: Option<Segment<ROWS, NODES>>,
+    /// Absent for effects that do not act, and before the first segment for all.
+    pub(crate) loads: ByEffect<Option<LoadSeries>>,
     /// Temperature of every face in K; empty where no heat is stored.
     pub(crate) temperatures_k: Vec<Segment<1, NODES>>,
     /// The same at the end.
@@ -48,24 +48,29 @@ impl RadiationSegment {
             start_s: f64::INFINITY,
             end_s: f64::NEG_INFINITY,
             next_longest_s: f64::INFINITY,
-            loads: None,
+            loads: ByEffect::default(),
             temperatures_k: Vec::new(),
             end_k: Vec::new(),
         }
     }
 
+    /// Whether it is the one before the first.
+    pub(crate) fn is_before(&self) -> bool {
+        self.loads.present().next().is_none()
+    }
+
     /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
     pub fn is_valid(&self) -> bool {
         let hot = |kelvin: &f64| (0.0..=HOTTEST_K).contains(kelvin);
-        let ordered = self.loads.is_none() || (self.start_s.abs().max(self.end_s.abs()) <= GREATEST_IN_STATE);
+        let ordered = self.is_before() || (self.start_s.abs().max(self.end_s.abs()) <= GREATEST_IN_STATE);
         ordered
             && !self.start_s.is_nan()
             && !self.end_s.is_nan()
             && self.next_longest_s > 0.0
             && self
                 .loads
-                .as_ref()
-                .is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s.max(self.start_s)))
+                .present()
+                .all(|(_, it)| it.is_valid() && it.spans(self.start_s, self.end_s.max(self.start_s)))
             && self.temperatures_k.iter().all(|it| {
                 let most_k: f64 = it.coefficients().iter().map(|c| c.abs()).sum();
                 it.is_valid()
@@ -81,15 +86,16 @@ impl RadiationSegment {
     }
 
     /// Force and torque at `time_s`.
-    pub(crate) fn loads(&self, time_s: f64, loads: &mut Loads) {
-        let Some(series) = &self.loads else { return };
-        let values = series.value(time_s);
-        for (index, effect) in Effect::RADIATION.into_iter().enumerate() {
+    pub(crate) fn loads(&self, time_s: f64) -> Loads {
+        let mut loads = Loads::zero();
+        for (effect, series) in self.loads.present() {
+            let values = series.value(time_s);
             loads[effect] = ForceTorque {
-                force_body_n: values.fixed_rows::<3>(6 * index).into_owned(),
-                torque_body_n_m: values.fixed_rows::<3>(6 * index + 3).into_owned(),
+                force_body_n: values.fixed_rows::<3>(0).into(),
+                torque_body_n_m: values.fixed_rows::<3>(3).into(),
             };
         }
+        loads
     }
 
     /// Temperatures in K of the faces at `time_s`; leaves `temperatures_k` alone where no heat is stored.

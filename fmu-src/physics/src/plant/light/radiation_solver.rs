@@ -1,6 +1,7 @@
 //! Radiation solver of the plant: the spacecraft and the planet prepared for light and heat, with the nodes of a segment.
 
 use crate::bodies::surface::PlanetSurface;
+use crate::loads::Effect;
 use crate::radiation::disturbance::{DisturbanceModel, ModelError, Options, PlanetLightMethod};
 use crate::spacecraft::Spacecraft;
 
@@ -37,7 +38,7 @@ impl RadiationSolver {
         let mut simulated = spacecraft.clone();
         simulated.panels = panels.iter().map(|&index| spacecraft.panels[index].clone()).collect();
         let effects = &configuration.light_and_heat;
-        let over_planet = effects.planet_light && configuration.center.is_planet();
+        let over_planet = configuration.effects.has(Effect::Albedo) && configuration.center.is_planet();
         let options = Options {
             planet: over_planet.then_some(*planet),
             planet_light: PlanetLightMethod::Rings(quadrature_nodes),

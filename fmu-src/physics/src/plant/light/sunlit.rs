@@ -2,8 +2,9 @@
 
 use nalgebra::Vector3;
 
+use crate::loads::ForceTorque;
 use crate::plant::settings::panel_setting::PanelSetting;
-use crate::radiation::{Beam, ForceTorque, SolarModel};
+use crate::radiation::{Beam, SolarModel};
 use crate::spacecraft::{MassProperties, Panel, with_panels};
 
 /// A spacecraft as sunlight meets it.

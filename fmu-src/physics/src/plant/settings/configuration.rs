@@ -15,6 +15,7 @@ use crate::environment::onboard::OnboardEphemeris;
 use crate::environment::orbit::{Elements, Gravity, OrbitError, TwoBodyOrbit};
 use crate::environment::sun::pressure_n_m2;
 use crate::guidance::{Guided, SunPlace};
+use crate::loads::{Active, Effect};
 use crate::momentum::Settings;
 use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::spacecraft::{MassProperties, Panel, SunshadeModel, hinged_masses, with_panels};
@@ -209,6 +210,11 @@ pub fn orbit_from_elements(
 }
 
 impl Configuration {
+    /// Whether there is more of light and heat than sunlight that nothing shadows.
+    pub fn has_light_and_heat(&self) -> bool {
+        self.light_and_heat.shadowing || self.effects.light().any(|effect| effect != Effect::Solar)
+    }
+
     /// Mass, centre of mass and inertia with every panel at angle 0 and full tanks.
     pub fn loaded(&self) -> MassProperties {
         MassProperties {
@@ -287,8 +293,8 @@ pub struct Configuration {
     pub mass_kg: f64,
     /// Inertia about the centre of mass, body frame, in kg m2, with every panel at angle 0 and full tanks.
     pub inertia_body_kg_m2: Matrix3<f64>,
-    /// Gravitational parameter whose gradient turns the body, in m3/s2; 0 = left out.
-    pub gravity_gradient_m3_s2: f64,
+    /// Which effects act.
+    pub effects: Active,
     /// Integration of momentum.
     pub momentum: Settings,
 }

@@ -2,11 +2,11 @@
 
 use super::faces::{Face, Faces, Surface};
 use super::geometry::{Geometry, Recoil};
-use super::workspace::{Disturbance, FaceResult, Workspace};
+use super::workspace::{FaceResult, Workspace};
 use crate::constants::SPEED_OF_LIGHT_M_S;
+use crate::loads::{Effect, ForceTorque, Loads};
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::radiation::flat_plate::force_per_area_pa;
-use crate::radiation::force_torque::ForceTorque;
 use crate::radiation::thermal::balance::{conducting_temperatures_k, face_temperature_k};
 use crate::radiation::thermal::recoil_n;
 
@@ -20,9 +20,9 @@ pub(super) struct FaceLoads<'a, T: Scalar> {
 
 impl<T: Scalar> FaceLoads<'_, T> {
     /// Light on every face: solar, albedo and infrared force, absorbed power.
-    pub(super) fn receive(&self, workspace: &mut Workspace<T>) -> Disturbance<T> {
+    pub(super) fn receive(&self, workspace: &mut Workspace<T>) -> Loads<T> {
         let beam = self.geometry.beam();
-        let mut sum = Disturbance::zero();
+        let mut sum = Loads::zero();
         for (face, state) in self.faces.faces.iter().zip(workspace.faces.iter_mut()) {
             let surface = &self.faces.surfaces[face.surface];
             let normal = &workspace.normals[face.normal];
@@ -42,20 +42,20 @@ impl<T: Scalar> FaceLoads<'_, T> {
                 state.absorbed_sun_w =
                     sunlight.pressure_pa * lit_area_m2 * (face.optics.absorptivity * SPEED_OF_LIGHT_M_S);
                 let force_n = force_per_area_pa(&face.optics, normal, &sunlight) * lit_area_m2;
-                state.forces_body_n[0] = force_n;
+                state.forces_body_n[Effect::Solar as usize] = force_n;
                 if !surface.closed_form_sun {
                     let lit_arm_m = lit_center_m - self.geometry.center_of_mass_body_m;
-                    sum.solar += ForceTorque::at_arm(&lit_arm_m, force_n);
+                    sum[Effect::Solar] += ForceTorque::at_arm(&lit_arm_m, force_n);
                 }
             }
             if light.albedo.pressure_pa.value() != 0.0 || light.infrared.pressure_pa.value() != 0.0 {
                 let infrared_optics = &face.thermal.infrared_optics;
                 let albedo_n = force_per_area_pa(&face.optics, normal, &light.albedo) * area_m2;
                 let infrared_n = force_per_area_pa(infrared_optics, normal, &light.infrared) * area_m2;
-                state.forces_body_n[1] = albedo_n;
-                state.forces_body_n[2] = infrared_n;
-                sum.albedo += ForceTorque::at_arm(&arm_m, albedo_n);
-                sum.infrared += ForceTorque::at_arm(&arm_m, infrared_n);
+                state.forces_body_n[Effect::Albedo as usize] = albedo_n;
+                state.forces_body_n[Effect::Infrared as usize] = infrared_n;
+                sum[Effect::Albedo] += ForceTorque::at_arm(&arm_m, albedo_n);
+                sum[Effect::Infrared] += ForceTorque::at_arm(&arm_m, infrared_n);
                 let absorbed_pa = light.albedo.pressure_pa * face.optics.absorptivity
                     + light.infrared.pressure_pa * infrared_optics.absorptivity;
                 state.absorbed_planet_w = absorbed_pa * (surface.area_m2 * SPEED_OF_LIGHT_M_S);
@@ -94,7 +94,7 @@ impl<T: Scalar> FaceLoads<'_, T> {
                     sum += ForceTorque::at_arm(&lit_center_m, lit_n);
                     force_n += lit_n;
                 }
-                state.forces_body_n[3] = force_n;
+                state.forces_body_n[Effect::Thermal as usize] = force_n;
             }
         }
         sum

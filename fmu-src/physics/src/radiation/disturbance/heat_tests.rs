@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use super::*;
 use crate::bodies::surface::{DayTemperature, PlanetSurface};
 use crate::constants::SPEED_OF_LIGHT_M_S;
+use crate::loads::Effect::{Solar as SOLAR, Thermal as RECOIL};
 use crate::spacecraft::{
     BusLink, Emission, FaceThermal, MESSENGER_THERMAL_TOML, Optics, Plate, Polygon, Spacecraft, Thermal,
 };
@@ -83,7 +84,7 @@ fn planet_heat_is_absorbed_by_infrared_optics() {
     assert_relative_eq!(workspace.faces()[0].temperature_k, expected_k, max_relative = 1e-4);
     let taken_w = 0.3 * 0.95 / 4.0 * crate::constants::STEFAN_BOLTZMANN_W_M2_K4 * 400.0_f64.powi(4);
     let expected_n = -2.0 / 3.0 * taken_w / SPEED_OF_LIGHT_M_S;
-    assert_relative_eq!(found.thermal.force_body_n.z, expected_n, max_relative = 1e-4);
+    assert_relative_eq!(found[RECOIL].force_body_n.z, expected_n, max_relative = 1e-4);
 }
 
 #[test]
@@ -97,8 +98,8 @@ fn each_side_gives_off_the_heat_from_inside_that_is_its_own() {
     let dark = Geometry { lit_fraction: 0.0, ..sunlit(Vector3::z()) };
     let found = model.evaluate(&dark, Recoil::Balance, &mut Workspace::default()).unwrap();
     let expected = Vector3::z() * (-2.0 / 3.0 * (300.0 - 120.0) / SPEED_OF_LIGHT_M_S);
-    assert_relative_eq!(found.thermal.force_body_n, expected, max_relative = 1e-12);
-    assert_relative_eq!(found.thermal.torque_body_n_m, Vector3::x().cross(&expected), max_relative = 1e-12);
+    assert_relative_eq!(found[RECOIL].force_body_n, expected, max_relative = 1e-12);
+    assert_relative_eq!(found[RECOIL].torque_body_n_m, Vector3::x().cross(&expected), max_relative = 1e-12);
 }
 
 /// An insulated plate half in shadow is warm on its lit half alone, and pushes there.
@@ -117,13 +118,13 @@ fn a_face_half_in_shadow_recoils_where_it_is_lit() {
     let pressure_pa = 9000.0 / SPEED_OF_LIGHT_M_S;
     // Lit: 2 m2 about x = -0.5 m, and the caster's 16 m2 about x = 2 m; twice the cross product of x and -z is y.
     let moment_m3 = 2.0 * -0.5 + 16.0 * 2.0;
-    assert_relative_eq!(found.solar.torque_body_n_m.y, pressure_pa * moment_m3, max_relative = 1e-12);
+    assert_relative_eq!(found[SOLAR].torque_body_n_m.y, pressure_pa * moment_m3, max_relative = 1e-12);
     assert_relative_eq!(
-        found.thermal.torque_body_n_m.y,
+        found[RECOIL].torque_body_n_m.y,
         2.0 / 3.0 * pressure_pa * moment_m3,
         max_relative = 1e-12
     );
-    assert_relative_eq!(found.thermal.force_body_n.z, -2.0 / 3.0 * pressure_pa * 18.0, max_relative = 1e-12);
+    assert_relative_eq!(found[RECOIL].force_body_n.z, -2.0 / 3.0 * pressure_pa * 18.0, max_relative = 1e-12);
 }
 
 /// Sun on a black plate that conducts heat to the bus: what it radiates is what is left, and pushes by 2/3 of its momentum from
@@ -146,8 +147,8 @@ fn a_plate_on_the_bus_pushes_by_what_the_bus_leaves() {
     assert_relative_eq!(workspace.faces()[0].temperature_k, wanted_k, max_relative = 1e-12);
     assert_eq!(workspace.faces()[1].temperature_k, 0.0);
     let expected = Vector3::z() * (-2.0 / 3.0 * radiated / SPEED_OF_LIGHT_M_S);
-    assert_relative_eq!(found.thermal.force_body_n, expected, max_relative = 1e-11);
-    assert_relative_eq!(found.thermal.torque_body_n_m, Vector3::x().cross(&expected), max_relative = 1e-11);
+    assert_relative_eq!(found[RECOIL].force_body_n, expected, max_relative = 1e-11);
+    assert_relative_eq!(found[RECOIL].torque_body_n_m, Vector3::x().cross(&expected), max_relative = 1e-11);
 
     // In the dark, with space at 2.725 K as files have it unless they say otherwise.
     let craft = spacecraft(vec![plate, bare]);
@@ -159,8 +160,8 @@ fn a_plate_on_the_bus_pushes_by_what_the_bus_leaves() {
     let from_bus_w_m2 = link.conductance_w_m2_k * (bus_k - warm.temperature_k);
     assert!(warm.temperature_k > 290.0 && cold.temperature_k == 2.725);
     let expected_n = -2.0 / 3.0 * from_bus_w_m2 / SPEED_OF_LIGHT_M_S;
-    assert_relative_eq!(found.thermal.force_body_n.z, expected_n, max_relative = 1e-9);
-    assert_eq!(cold.forces_body_n[3], Vector3::zeros());
+    assert_relative_eq!(found[RECOIL].force_body_n.z, expected_n, max_relative = 1e-9);
+    assert_eq!(cold.forces_body_n[RECOIL as usize], Vector3::zeros());
 }
 
 /// The transient solver comes to the balance that the other gives, bus and space included; heat that flows to the bus on the way
@@ -181,5 +182,5 @@ fn stored_heat_goes_to_the_bus_as_in_balance() {
     model.advance_temperatures(&mut stored_k, &heat_w, &heat_w, 1e6);
     assert_relative_eq!(stored_k[0], balanced_k, max_relative = 1e-8);
     let found = model.recoil(&lit, Recoil::Stored(&stored_k), &mut workspace).unwrap();
-    assert_relative_eq!(found.force_body_n, balanced.thermal.force_body_n, max_relative = 1e-7);
+    assert_relative_eq!(found.force_body_n, balanced[RECOIL].force_body_n, max_relative = 1e-7);
 }

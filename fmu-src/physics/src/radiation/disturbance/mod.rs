@@ -3,7 +3,6 @@
 //! [`DisturbanceModel::evaluate`] is the one call: geometry in, force and torque by effect and by face out. It is
 //! generic over the number type, so that dual numbers give exact derivatives by any part of the geometry.
 
-mod by_source;
 mod error;
 mod face_loads;
 mod faces;
@@ -21,9 +20,8 @@ mod tests;
 #[cfg(test)]
 mod whole_tests;
 
-pub use by_source::{ActiveEffects, BySource, Parameters, PositionError, Positions};
 pub use error::ModelError;
 pub use geometry::{Geometry, GeometryError, PlanetGeometry, Recoil};
 pub use model::{DisturbanceModel, Options};
 pub use planet_rule::PlanetLightMethod;
-pub use workspace::{Disturbance, FaceResult, Workspace};
+pub use workspace::{FaceResult, Workspace};

@@ -7,10 +7,10 @@ use super::face_loads::FaceLoads;
 use super::faces::{Faces, Normal, outlines};
 use super::geometry::{Geometry, GeometryError, Recoil};
 use super::planet_rule::{PlanetLightMethod, PlanetRule};
-use super::workspace::{Disturbance, Workspace};
+use super::workspace::Workspace;
 use crate::bodies::surface::PlanetSurface;
+use crate::loads::{Effect, ForceTorque, Loads};
 use crate::numerics::scalar::{Scalar, constant_vector};
-use crate::radiation::force_torque::ForceTorque;
 use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::shadow::{DIRECTIONS, ShadowScene, SunDisc};
 use crate::radiation::solar::SolarModel;
@@ -161,7 +161,7 @@ impl DisturbanceModel {
         geometry: &Geometry<'_, T>,
         recoil: Recoil<'_>,
         workspace: &mut Workspace<T>,
-    ) -> Result<Disturbance<T>, GeometryError> {
+    ) -> Result<Loads<T>, GeometryError> {
         let surface = self.planet.map(|surface| surface.constant());
         self.evaluate_on(surface.as_ref(), geometry, recoil, workspace)
     }
@@ -177,7 +177,7 @@ impl DisturbanceModel {
         geometry: &Geometry<'_, T>,
         recoil: Recoil<'_>,
         workspace: &mut Workspace<T>,
-    ) -> Result<Disturbance<T>, GeometryError> {
+    ) -> Result<Loads<T>, GeometryError> {
         geometry.check(self.panels.len())?;
         self.check_temperatures(recoil)?;
         workspace.prepare(self.faces.normals.len(), self.faces.faces.len());
@@ -194,9 +194,9 @@ impl DisturbanceModel {
         }
         let loads = self.loads(geometry);
         let mut sum = loads.receive(workspace);
-        sum.thermal = loads.radiate(recoil, workspace);
+        sum[Effect::Thermal] = loads.radiate(recoil, workspace);
         if let Some(cylinder) = &self.cylinder {
-            sum.solar += cylinder.sunshade(&geometry.beam(), &geometry.center_of_mass_body_m);
+            sum[Effect::Solar] += cylinder.sunshade(&geometry.beam(), &geometry.center_of_mass_body_m);
         }
         Ok(sum)
     }

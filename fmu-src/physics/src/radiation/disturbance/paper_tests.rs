@@ -58,9 +58,8 @@ fn around_orbit_by(
             center_of_mass_body_m: Vector3::zeros(),
         };
         let found = model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();
-        let effects = [found.solar, found.albedo, found.infrared, found.thermal];
         // The table leaves eclipses out of its extremes of solar pressure and recoil.
-        for (index, (range, effect)) in range.iter_mut().zip(effects).enumerate() {
+        for (index, (range, effect)) in range.iter_mut().zip(found.values()).enumerate() {
             let a = effect.force_body_n.norm() / spacecraft.mass_properties.mass_kg;
             if lit_fraction > 0.0 || index == 1 || index == 2 {
                 *range = [range[0].min(a), range[1].max(a)];

@@ -9,8 +9,10 @@ use proptest::prelude::*;
 use super::*;
 use crate::bodies::surface::{DayTemperature, PlanetSurface};
 use crate::constants::{SPEED_OF_LIGHT_M_S, STEFAN_BOLTZMANN_W_M2_K4};
+use crate::loads::Effect::{self, Solar as SOLAR, Thermal as RECOIL};
+use crate::loads::{Active, ForceTorque, Loads};
 use crate::numerics::scalar::{Dual64, Scalar};
-use crate::radiation::{Beam, ForceTorque, SolarModel};
+use crate::radiation::{Beam, SolarModel};
 use crate::spacecraft::{
     Emission, FaceThermal, MESSENGER_THERMAL_TOML, MESSENGER_TOML, Optics, Plate, Spacecraft, SunshadeModel,
     Thermal,
@@ -90,8 +92,8 @@ fn in_isotropic_light(spacecraft: &Spacecraft) -> [ForceTorque<f64>; 2] {
             center_of_mass_body_m: Vector3::zeros(),
         };
         let found = model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).unwrap();
-        light += found.infrared;
-        recoil += found.thermal;
+        light += found[Effect::Infrared];
+        recoil += found[RECOIL];
     }
     [light, recoil]
 }
@@ -135,12 +137,12 @@ fn an_insulated_black_plate_recoils_by_two_thirds_of_the_light() {
     let mut workspace = Workspace::default();
     let found = model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();
     let push = 2.0 * 4500.0 / SPEED_OF_LIGHT_M_S;
-    assert_relative_eq!(found.solar.force_body_n, Vector3::y() * push, epsilon = 1e-20);
-    assert_relative_eq!(found.thermal.force_body_n, Vector3::y() * push * 2.0 / 3.0, epsilon = 1e-20);
-    assert_relative_eq!(found.thermal.torque_body_n_m, Vector3::z() * push * 2.0 / 3.0, epsilon = 1e-20);
+    assert_relative_eq!(found[SOLAR].force_body_n, Vector3::y() * push, epsilon = 1e-20);
+    assert_relative_eq!(found[RECOIL].force_body_n, Vector3::y() * push * 2.0 / 3.0, epsilon = 1e-20);
+    assert_relative_eq!(found[RECOIL].torque_body_n_m, Vector3::z() * push * 2.0 / 3.0, epsilon = 1e-20);
     let temperature = workspace.faces()[0].temperature_k;
     assert_relative_eq!(temperature, (4500.0 / STEFAN_BOLTZMANN_W_M2_K4).powf(0.25), max_relative = 1e-12);
-    assert_eq!(found.albedo, ForceTorque::zero());
+    assert_eq!(found[Effect::Albedo], ForceTorque::zero());
 }
 
 #[test]
@@ -159,7 +161,7 @@ fn heat_from_inside_pushes_where_it_leaves() {
     };
     let found = model.evaluate(&dark, Recoil::Balance, &mut Workspace::default()).unwrap();
     let expected = -Vector3::z() * (2.0 / 3.0 * 300.0 / SPEED_OF_LIGHT_M_S);
-    assert_relative_eq!(found.thermal.force_body_n, expected, epsilon = 1e-20);
+    assert_relative_eq!(found[RECOIL].force_body_n, expected, epsilon = 1e-20);
 }
 
 /// Only the difference of emissivities makes conducting faces push differently; power is conserved.
@@ -216,8 +218,8 @@ fn sunlight_is_that_of_the_solar_model() {
                 };
                 let com = geometry.center_of_mass_body_m;
                 let expected = alone.total(&beam, geometry.panel_angles_rad, &com);
-                assert_relative_eq!(found.solar.force_body_n, expected.force_body_n, epsilon = 1e-17);
-                assert_relative_eq!(found.solar.torque_body_n_m, expected.torque_body_n_m, epsilon = 1e-17);
+                assert_relative_eq!(found[SOLAR].force_body_n, expected.force_body_n, epsilon = 1e-17);
+                assert_relative_eq!(found[SOLAR].torque_body_n_m, expected.torque_body_n_m, epsilon = 1e-17);
             }
         }
     }
@@ -236,9 +238,9 @@ fn a_cylinder_of_strips_recoils_like_its_light_says() {
     let shadow_m2 = 2.0 * 0.991 * 61_f64.to_radians().sin() * 2.489;
     assert_relative_eq!(absorbed, 0.5 * geometry.sun_flux_w_m2 * shadow_m2, max_relative = 1e-3);
     // Flat strips of 5 deg stand for the round shade to the square of their half angle.
-    let faces: Vector3<f64> = workspace.faces().iter().map(|face| face.forces_body_n[0]).sum();
-    assert_relative_eq!(faces.y, found.solar.force_body_n.y, max_relative = 1e-3);
-    assert!(found.thermal.force_body_n.y > 0.0 && found.thermal.force_body_n.x.abs() < 1e-12);
+    let faces: Vector3<f64> = workspace.faces().iter().map(|face| face.forces_body_n[SOLAR as usize]).sum();
+    assert_relative_eq!(faces.y, found[SOLAR].force_body_n.y, max_relative = 1e-3);
+    assert!(found[RECOIL].force_body_n.y > 0.0 && found[RECOIL].force_body_n.x.abs() < 1e-12);
 }
 
 #[test]
@@ -256,20 +258,20 @@ fn stored_heat_radiates_into_the_eclipse() {
     let mut temperatures_k: Vec<f64> = workspace.faces().iter().map(|face| face.temperature_k).collect();
     let in_light = model.evaluate(&lit, Recoil::Stored(&temperatures_k), &mut workspace).unwrap();
     let balanced = model.evaluate(&lit, Recoil::Balance, &mut workspace).unwrap();
-    assert_relative_eq!(in_light.thermal.force_body_n, balanced.thermal.force_body_n, epsilon = 1e-18);
+    assert_relative_eq!(in_light[RECOIL].force_body_n, balanced[RECOIL].force_body_n, epsilon = 1e-18);
     let mut heat_w = vec![0.0; model.face_count()];
-    let dark_balance = model.evaluate(&dark, Recoil::Balance, &mut workspace).unwrap().thermal.force_body_n;
+    let dark_balance = model.evaluate(&dark, Recoil::Balance, &mut workspace).unwrap()[RECOIL].force_body_n;
     model.heat_w(&workspace, &mut heat_w);
-    let mut last = balanced.thermal.force_body_n;
+    let mut last = balanced[RECOIL].force_body_n;
     for _ in 0..5 {
         model.advance_temperatures(&mut temperatures_k, &heat_w, &heat_w, 300.0);
         let now = model.evaluate(&dark, Recoil::Stored(&temperatures_k), &mut workspace).unwrap();
-        assert!((now.thermal.force_body_n - dark_balance).norm() < (last - dark_balance).norm());
-        last = now.thermal.force_body_n;
+        assert!((now[RECOIL].force_body_n - dark_balance).norm() < (last - dark_balance).norm());
+        last = now[RECOIL].force_body_n;
     }
     model.advance_temperatures(&mut temperatures_k, &heat_w, &heat_w, 1e7);
     let cold = model.evaluate(&dark, Recoil::Stored(&temperatures_k), &mut workspace).unwrap();
-    assert_relative_eq!(cold.thermal.force_body_n, dark_balance, epsilon = 1e-14);
+    assert_relative_eq!(cold[RECOIL].force_body_n, dark_balance, epsilon = 1e-14);
 }
 
 #[test]
@@ -308,11 +310,7 @@ fn rotated(spacecraft: &Spacecraft, rotation: &Matrix3<f64>) -> Spacecraft {
 }
 
 /// Everything as a function of one seed that moves Sun, planet, panels and centre of mass.
-fn along_seed<T: Scalar>(
-    model: &DisturbanceModel,
-    [sun, planet]: [Vector3<f64>; 2],
-    seed: T,
-) -> [ForceTorque<T>; 4] {
+fn along_seed<T: Scalar>(model: &DisturbanceModel, [sun, planet]: [Vector3<f64>; 2], seed: T) -> Loads<T> {
     let moved = |v: Vector3<f64>, by: [f64; 3], scale: f64| {
         v.map(T::constant) + Vector3::from(by.map(|x| seed * (x * scale)))
     };
@@ -322,8 +320,7 @@ fn along_seed<T: Scalar>(
     let com = moved(Vector3::new(0.1, -0.2, 0.05), [1.0, -2.0, 0.5], 1.0);
     let geometry =
         Geometry::at(T::constant(1361.0), &sun_m, Some(&planet_m), seed * 0.1 + 0.8, &angles, com).unwrap();
-    let found = model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).unwrap();
-    [found.solar, found.albedo, found.infrared, found.thermal]
+    model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).unwrap()
 }
 
 proptest! {
@@ -343,10 +340,7 @@ proptest! {
             let geometry = Geometry::at(1361.0, &(r * sun), Some(&(r * planet)), 1.0, &angles, r * com).unwrap();
             models[i].evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).unwrap()
         });
-        for (still, moved) in [
-            (still.solar, moved.solar), (still.albedo, moved.albedo),
-            (still.infrared, moved.infrared), (still.thermal, moved.thermal),
-        ] {
+        for (still, moved) in still.values().iter().zip(moved.values()) {
             prop_assert!((moved.force_body_n - rotation * still.force_body_n).norm() < 1e-15);
             prop_assert!((moved.torque_body_n_m - rotation * still.torque_body_n_m).norm() < 1e-15);
         }
@@ -359,7 +353,8 @@ proptest! {
         let geometry = Geometry::at(1361.0, &sun, Some(&planet), 1.0, &[0.4, -0.1], Vector3::zeros()).unwrap();
         let mut workspace = Workspace::default();
         let found = model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();
-        let sum: Vector3<f64> = workspace.faces().iter().map(FaceResult::force_body_n).sum();
+        let all = Active::by(|_| true);
+        let sum: Vector3<f64> = workspace.faces().iter().map(|face| face.force_body_n(all)).sum();
         prop_assert!((sum - found.total().force_body_n).norm() < 1e-17);
         // Used again, the workspace leaves nothing behind.
         let again = model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();
@@ -375,12 +370,12 @@ proptest! {
         let geometry = [direction(a, z), direction(b, w) * distance * RADIUS_M];
         let exact = along_seed(&model, geometry, Dual64::new(0.0, 1.0));
         let h = 1e-5;
-        let quotient = |i: usize, h: f64| {
-            let [low, high] = [-h, h].map(|seed| along_seed(&model, geometry, seed)[i]);
+        let quotient = |effect: Effect, h: f64| {
+            let [low, high] = [-h, h].map(|seed| along_seed(&model, geometry, seed)[effect]);
             (high.force_body_n - low.force_body_n, high.torque_body_n_m - low.torque_body_n_m)
         };
-        for (i, exact) in exact.iter().enumerate() {
-            let (near, far) = (quotient(i, h), quotient(i, 2.0 * h));
+        for (effect, exact) in exact.iter().take(Effect::LIGHT) {
+            let (near, far) = (quotient(effect, h), quotient(effect, 2.0 * h));
             let scale = exact.force_body_n.map(|x| x.re).norm() + exact.force_body_n.map(|x| x.eps).norm();
             let (force_near, force_far) = (near.0 / (2.0 * h), far.0 / (4.0 * h));
             let (torque_near, torque_far) = (near.1 / (2.0 * h), far.1 / (4.0 * h));
@@ -405,7 +400,7 @@ proptest! {
         ).unwrap();
         let recoil = |spacecraft: &Spacecraft| {
             let model = DisturbanceModel::new(spacecraft, &options(6)).unwrap();
-            model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).unwrap().thermal
+            model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).unwrap()[RECOIL]
         };
         let before = recoil(&spacecraft);
         for plate in &mut spacecraft.plates {

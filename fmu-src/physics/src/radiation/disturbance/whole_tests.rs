@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
 use super::*;
-use crate::radiation::ForceTorque;
+use crate::loads::{Effect, ForceTorque};
 use crate::spacecraft::{MESSENGER_TOML, Spacecraft};
 
 const WHOLE: &str = include_str!("../../../../resources/messenger-full.toml");
@@ -40,9 +40,9 @@ fn sunlight(
     let faces = workspace.faces().iter().zip(model.face_names()).filter(|(face, _)| face.lit_area_m2 > 0.0);
     let of = |face: &FaceResult<f64>| {
         let arm_m = face.lit_center_body_m - geometry.center_of_mass_body_m;
-        ForceTorque::at_arm(&arm_m, face.forces_body_n[0])
+        ForceTorque::at_arm(&arm_m, face.forces_body_n[Effect::Solar as usize])
     };
-    (found.solar, faces.map(|(face, name)| (name, of(face))).collect())
+    (found[Effect::Solar], faces.map(|(face, name)| (name, of(face))).collect())
 }
 
 #[test]

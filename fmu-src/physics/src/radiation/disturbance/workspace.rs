@@ -1,48 +1,18 @@
-//! What an evaluation writes: results by effect, by face, and scratch space that is allocated once.
+//! What an evaluation writes: results by face, and scratch space that is allocated once.
 
 use nalgebra::Vector3;
 
+use crate::loads::{Active, Effect};
 use crate::numerics::scalar::Scalar;
-use crate::radiation::force_torque::ForceTorque;
 use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::shadow::ShadowWorkspace;
-
-/// Force and torque about the centre of mass, by effect.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Disturbance<T: Scalar> {
-    /// Direct sunlight.
-    pub solar: ForceTorque<T>,
-    /// Sunlight reflected by the planet.
-    pub albedo: ForceTorque<T>,
-    /// Infrared light of the planet.
-    pub infrared: ForceTorque<T>,
-    /// Recoil of the heat the spacecraft radiates.
-    pub thermal: ForceTorque<T>,
-}
-
-impl<T: Scalar> Disturbance<T> {
-    /// No disturbance.
-    pub fn zero() -> Self {
-        Self {
-            solar: ForceTorque::zero(),
-            albedo: ForceTorque::zero(),
-            infrared: ForceTorque::zero(),
-            thermal: ForceTorque::zero(),
-        }
-    }
-
-    /// All effects together.
-    pub fn total(&self) -> ForceTorque<T> {
-        self.solar + self.albedo + self.infrared + self.thermal
-    }
-}
 
 /// What one face receives, gives off and feels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceResult<T: Scalar> {
-    /// Force by effect, body frame, in N: solar, albedo, infrared, thermal. They add up to the effects' forces, but for
-    /// sunlight on the strips of a cylindrical shade: there the strips are flat and the effect has the closed form.
-    pub forces_body_n: [Vector3<T>; 4],
+    /// Force of each effect of light and heat, body frame, in N. They add up to the effects' forces, but for sunlight on the
+    /// strips of a cylindrical shade: there the strips are flat and the effect has the closed form.
+    pub forces_body_n: [Vector3<T>; Effect::LIGHT],
     /// Lit area, in m2; 0 where the face looks away from the Sun.
     pub lit_area_m2: T,
     /// Centre of the lit area, body frame, in m; the face's centre where it is dark.
@@ -59,7 +29,7 @@ impl<T: Scalar> FaceResult<T> {
     pub(super) fn dark() -> Self {
         let zero = T::constant(0.0);
         Self {
-            forces_body_n: [Vector3::zeros(); 4],
+            forces_body_n: [Vector3::zeros(); Effect::LIGHT],
             lit_area_m2: zero,
             lit_center_body_m: Vector3::zeros(),
             absorbed_sun_w: zero,
@@ -68,9 +38,9 @@ impl<T: Scalar> FaceResult<T> {
         }
     }
 
-    /// Force of all effects, body frame, in N.
-    pub fn force_body_n(&self) -> Vector3<T> {
-        self.forces_body_n.iter().sum()
+    /// Force of the effects that act, body frame, in N.
+    pub fn force_body_n(&self, active: Active) -> Vector3<T> {
+        active.light().map(|effect| self.forces_body_n[effect as usize]).sum()
     }
 }
 
@@ -110,13 +80,6 @@ impl<T: Scalar> Workspace<T> {
     pub fn darken(&mut self, faces: usize) {
         self.faces.clear();
         self.faces.resize(faces, FaceResult::dark());
-    }
-
-    /// Takes the recoil out of the faces' forces; their temperatures stay.
-    pub(super) fn leave_out_recoil(&mut self) {
-        for face in &mut self.faces {
-            face.forces_body_n[3] = Vector3::zeros();
-        }
     }
 
     /// Sizes everything; allocates only when a size changes.

@@ -4,14 +4,12 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::geometry::{Geometry, GeometryError, Recoil};
-use super::model::DisturbanceModel;
-use super::workspace::{Disturbance, Workspace};
-use crate::attitude::gravity_gradient_n_m;
+use super::laws::{Laws, NearPlanet};
 use crate::bodies::surface::PlanetSurface;
 use crate::environment::eclipse::{EclipseError, Shadow};
+use crate::loads::{Active, Effect, Loads};
 use crate::numerics::scalar::Scalar;
-use crate::radiation::force_torque::ForceTorque;
+use crate::radiation::disturbance::{DisturbanceModel, Geometry, GeometryError, Recoil, Workspace};
 
 /// Where everything is, body frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,32 +33,21 @@ pub struct Parameters<T: Scalar> {
     pub flux_at_1_au_w_m2: T,
     /// The Sun's radius, in m.
     pub sun_radius_m: T,
-    /// Gravitational parameter of the planet, in m3/s2.
-    pub gm_m3_s2: T,
     /// Inertia about the centre of mass, body frame, in kg m2.
     pub inertia_body_kg_m2: Matrix3<T>,
     /// The planet's surface.
     pub planet: PlanetSurface<T>,
-}
-
-/// Which effects act beside sunlight.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ActiveEffects {
-    /// Whether light of the planet acts and heats.
-    pub planet_light: bool,
-    /// Whether the recoil of radiated heat acts.
-    pub recoil: bool,
-    /// Whether the planet's gravity gradient acts.
-    pub gravity_gradient: bool,
+    /// What effects in closed form go by.
+    pub laws: Laws<T>,
 }
 
 /// Everything computed from one set of positions, but for the faces, which are in the workspace.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BySource<T: Scalar> {
-    /// Light and heat.
-    pub disturbance: Disturbance<T>,
-    /// Torque of the planet's gravity gradient, body frame, in N m.
-    pub gravity_gradient_n_m: Vector3<T>,
+    /// The effects that act.
+    pub active: Active,
+    /// Force and torque by effect.
+    pub loads: Loads<T>,
     /// Visible fraction of the Sun's disc.
     pub lit_fraction: T,
 }
@@ -76,38 +63,39 @@ pub enum PositionError {
     Geometry(#[from] GeometryError),
 }
 
-impl Positions<f64> {
-    /// Whether all are finite numbers.
-    pub fn is_finite(&self) -> bool {
+impl<T> Positions<T> {
+    /// Every number.
+    pub fn iter(&self) -> impl Iterator<Item = &T> {
         let vectors = [&self.sun_m, &self.planet_m, &self.pole, &self.center_of_mass_m];
-        vectors.into_iter().flatten().chain(&self.panel_angles_rad).all(|x| x.is_finite())
+        vectors.into_iter().flatten().chain(&self.panel_angles_rad)
+    }
+
+    /// Every number in the same order, to be written.
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        let vectors = [&mut self.sun_m, &mut self.planet_m, &mut self.pole, &mut self.center_of_mass_m];
+        vectors.into_iter().flatten().chain(&mut self.panel_angles_rad)
+    }
+
+    /// What `of` makes of every number.
+    pub fn map<U>(&self, of: impl Fn(&T) -> U) -> Positions<U> {
+        Positions {
+            sun_m: self.sun_m.each_ref().map(&of),
+            planet_m: self.planet_m.each_ref().map(&of),
+            pole: self.pole.each_ref().map(&of),
+            center_of_mass_m: self.center_of_mass_m.each_ref().map(&of),
+            panel_angles_rad: self.panel_angles_rad.iter().map(&of).collect(),
+        }
     }
 }
 
 impl<T: Scalar> BySource<T> {
-    /// Force of all sources, body frame, in N.
-    pub fn total_force_body_n(&self) -> Vector3<T> {
-        self.disturbance.total().force_body_n
-    }
-
-    /// Torque of all sources about the centre of mass, body frame, in N m.
-    pub fn total_torque_body_n_m(&self) -> Vector3<T> {
-        self.disturbance.total().torque_body_n_m + self.gravity_gradient_n_m
-    }
-
-    /// Whether total force and torque are finite numbers.
-    pub fn is_finite(&self) -> bool {
-        let (force, torque) = (self.total_force_body_n(), self.total_torque_body_n_m());
-        force.iter().chain(&torque).all(|x| x.value().is_finite())
-    }
-
-    /// At these positions, with these parameters, by the model's light and heat, of which these effects act, and the planet's
+    /// At these positions, with these parameters, by the model's light and heat, the effects that act, and the planet's
     /// shadow; without a shadow there is no planet. The parameters' planet counts in place of the model's.
     ///
     /// # Errors
     /// The spacecraft inside planet or Sun, positions that are no numbers.
     pub fn at(
-        (model, effects): (&DisturbanceModel, ActiveEffects),
+        (model, active): (&DisturbanceModel, Active),
         shadow: Option<&Shadow>,
         parameters: &Parameters<T>,
         positions: &Positions<T>,
@@ -116,28 +104,17 @@ impl<T: Scalar> BySource<T> {
         let sun_m = Vector3::from(positions.sun_m);
         if is_zero(&sun_m) {
             workspace.darken(model.face_count());
-            return Ok(Self {
-                disturbance: Disturbance::zero(),
-                gravity_gradient_n_m: Vector3::zeros(),
-                lit_fraction: T::constant(0.0),
-            });
+            return Ok(Self { active, loads: Loads::zero(), lit_fraction: T::constant(0.0) });
         }
         let shadow = shadow.filter(|_| !is_zero(&Vector3::from(positions.planet_m)));
         let planet_m = shadow.map(|_| Vector3::from(positions.planet_m));
-        let (lit_fraction, gravity_gradient_n_m) = match (shadow, &planet_m) {
-            (Some(shadow), Some(planet_m)) => (
-                shadow.lit_fraction_of(
-                    [parameters.planet.radius_m, parameters.sun_radius_m],
-                    &-planet_m,
-                    &(sun_m - planet_m),
-                )?,
-                if effects.gravity_gradient {
-                    gravity_gradient_n_m(parameters.gm_m3_s2, &parameters.inertia_body_kg_m2, planet_m)
-                } else {
-                    Vector3::zeros()
-                },
-            ),
-            _ => (T::constant(1.0), Vector3::zeros()),
+        let lit_fraction = match (shadow, &planet_m) {
+            (Some(shadow), Some(planet_m)) => shadow.lit_fraction_of(
+                [parameters.planet.radius_m, parameters.sun_radius_m],
+                &-planet_m,
+                &(sun_m - planet_m),
+            )?,
+            _ => T::constant(1.0),
         };
         let mut geometry = Geometry::at(
             parameters.flux_at_1_au_w_m2,
@@ -152,13 +129,14 @@ impl<T: Scalar> BySource<T> {
             let pole = Vector3::from(positions.pole);
             planet.pole_body = if is_zero(&pole) { -Vector3::z() } else { pole };
         }
-        let planet = shadow.filter(|_| effects.planet_light).map(|_| &parameters.planet);
-        let mut disturbance = model.evaluate_on(planet, &geometry, Recoil::Balance, workspace)?;
-        if !effects.recoil {
-            disturbance.thermal = ForceTorque::zero();
-            workspace.leave_out_recoil();
+        let planet = shadow.filter(|_| active.has(Effect::Albedo)).map(|_| &parameters.planet);
+        let light = model.evaluate_on(planet, &geometry, Recoil::Balance, workspace)?;
+        let mut loads = light.of_active(active);
+        if let Some(planet_body_m) = planet_m {
+            let inertia_body_kg_m2 = parameters.inertia_body_kg_m2;
+            parameters.laws.exert(active, &NearPlanet { planet_body_m, inertia_body_kg_m2 }, &mut loads);
         }
-        Ok(Self { disturbance, gravity_gradient_n_m, lit_fraction })
+        Ok(Self { active, loads, lit_fraction })
     }
 }
 

@@ -9,7 +9,7 @@ use crate::numerics::scalar::Scalar;
 
 /// Force and torque in the body frame; the torque is about the centre of mass unless said otherwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ForceTorque<T: Scalar> {
+pub struct ForceTorque<T: Scalar = f64> {
     /// Force in N.
     pub force_body_n: Vector3<T>,
     /// Torque in N m.
@@ -20,6 +20,11 @@ impl<T: Scalar> ForceTorque<T> {
     /// No force, no torque.
     pub fn zero() -> Self {
         Self { force_body_n: Vector3::zeros(), torque_body_n_m: Vector3::zeros() }
+    }
+
+    /// Whether all components are finite numbers.
+    pub fn is_finite(&self) -> bool {
+        self.force_body_n.iter().chain(&self.torque_body_n_m).all(|x| x.value().is_finite())
     }
 
     /// A force through a point: torque = arm x force.

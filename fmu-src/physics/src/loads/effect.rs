@@ -1,0 +1,145 @@
+//! Table of effects: what acts on a spacecraft, one row each.
+
+/// At which times the load of an effect is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grid {
+    /// At the nodes of segments of light and heat, which cost most.
+    Light,
+    /// Wherever it is needed, by a law in closed form; of a body that moves by torque on the disturbance grid, as light is.
+    Disturbance,
+    /// With the motion: no disturbance, but applied from outside or by the spacecraft itself.
+    Motion,
+}
+
+/// What turns effects on and off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Switch {
+    /// Light of the planet.
+    PlanetLight,
+    /// Recoil of the heat the spacecraft radiates.
+    Recoil,
+    /// Gravity gradient.
+    GravityGradient,
+}
+
+/// A row of the table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Name under which loads and momentum are reported, in lower camel case.
+    pub name: &'static str,
+    /// What it is, in a sentence.
+    pub about: &'static str,
+    /// What turns it on; without a switch it always acts.
+    pub switch: Option<Switch>,
+    /// At which times it is computed.
+    pub grid: Grid,
+    /// Whether it exerts force beside torque.
+    pub exerts_force: bool,
+    /// Whether what it does to the momentum is kept apart from dump to dump.
+    pub momentum_apart: bool,
+    /// What it usually does to the momentum from dump to dump, in N m s.
+    pub usual_momentum_n_m_s: f64,
+}
+
+impl Row {
+    /// Its usual torque in N m: momentum is gathered over hours.
+    pub fn usual_torque_n_m(&self) -> f64 {
+        self.usual_momentum_n_m_s / 1e4
+    }
+
+    /// Its usual force in N, at an arm of 0.1 m.
+    pub fn usual_force_n(&self) -> f64 {
+        self.usual_momentum_n_m_s / 1e3
+    }
+}
+
+macro_rules! effects {
+    ($($effect:ident: $name:literal, $about:literal, $switch:expr, $grid:ident, $force:literal, $apart:literal, $usual:literal;)+) => {
+        /// An effect that exerts force or torque: a row of the table.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Effect {
+            $(#[doc = $about] $effect,)+
+        }
+
+        impl Effect {
+            /// All of them, in the order in which they are added up.
+            pub const ALL: [Self; [$(Self::$effect),+].len()] = [$(Self::$effect),+];
+
+            /// Its row.
+            pub const fn row(self) -> &'static Row {
+                match self {
+                    $(Self::$effect => &Row {
+                        name: $name,
+                        about: $about,
+                        switch: $switch,
+                        grid: Grid::$grid,
+                        exerts_force: $force,
+                        momentum_apart: $apart,
+                        usual_momentum_n_m_s: $usual,
+                    },)+
+                }
+            }
+        }
+    };
+}
+
+effects! {
+    // name, what it is, switch, grid, whether it exerts force, whether its momentum is kept apart, which usually is (N m s)
+    Solar: "solar", "Direct sunlight.", None, Light, true, true, 1e-1;
+    Albedo: "albedo", "Sunlight reflected by the planet.", Some(Switch::PlanetLight), Light, true, true, 1e-2;
+    Infrared: "infrared", "Infrared light of the planet.", Some(Switch::PlanetLight), Light, true, true, 1e-2;
+    Thermal: "thermal", "Recoil of the heat the spacecraft radiates.", Some(Switch::Recoil), Light, true, true, 1e-2;
+    GravityGradient: "gravityGradient", "Gravity gradient of the planet.", Some(Switch::GravityGradient), Disturbance, false, true, 1e-1;
+    Applied: "applied", "What was applied from outside.", None, Motion, true, true, 1e-1;
+    Thrusters: "thruster", "The spacecraft's own thrusters.", None, Motion, true, false, 1.0;
+}
+
+impl Effect {
+    /// Number of effects.
+    pub const COUNT: usize = Self::ALL.len();
+
+    /// Number of effects of light and heat, which stand first.
+    pub const LIGHT: usize = {
+        let mut count = 0;
+        while count < Self::COUNT && Self::ALL[count].is_light() {
+            count += 1;
+        }
+        count
+    };
+
+    /// Whether it is of light and heat.
+    pub const fn is_light(self) -> bool {
+        matches!(self.row().grid, Grid::Light)
+    }
+
+    /// Whether it disturbs from the surroundings.
+    pub const fn is_disturbance(self) -> bool {
+        !matches!(self.row().grid, Grid::Motion)
+    }
+}
+
+/// Which effects act.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Active([bool; Effect::COUNT]);
+
+impl Active {
+    /// Those whose switch is on, or that have none.
+    pub fn by(is_on: impl Fn(Switch) -> bool) -> Self {
+        Self(Effect::ALL.map(|effect| effect.row().switch.is_none_or(&is_on)))
+    }
+
+    /// Whether an effect acts.
+    pub fn has(self, effect: Effect) -> bool {
+        self.0[effect as usize]
+    }
+
+    /// The disturbances that act.
+    pub fn disturbances(self) -> impl Iterator<Item = Effect> {
+        Effect::ALL.into_iter().filter(move |effect| effect.is_disturbance() && self.has(*effect))
+    }
+
+    /// Those of light and heat that act.
+    pub fn light(self) -> impl Iterator<Item = Effect> {
+        self.disturbances().filter(|effect| effect.is_light())
+    }
+}

@@ -1,0 +1,9 @@
+//! What acts on a spacecraft: the table of effects, and their loads as data. Their laws stand in later modules.
+
+mod by_effect;
+mod effect;
+mod force_torque;
+
+pub use by_effect::{ByEffect, Loads};
+pub use effect::{Active, Effect, Grid, Row, Switch};
+pub use force_torque::ForceTorque;
