@@ -20,7 +20,7 @@ use physics::radiation::disturbance::{
     DisturbanceModel, Geometry, Options, PlanetGeometry, Recoil, Workspace,
 };
 use physics::radiation::flat_plate::force_per_area_pa;
-use physics::radiation::grid::{CellLayout, PlanetGrid};
+use physics::radiation::grid::PlanetGrid;
 use physics::radiation::ring::{PlanetView, RingRule};
 use physics::radiation::shadow::{Outline, ShadowScene, ShadowWorkspace};
 use physics::spacecraft::{
@@ -180,7 +180,7 @@ fn planet_light(
     // A tenth of the orbit's positions serve for the slow method.
     let few: Vec<usize> = (0..positions_m.len()).step_by(10).collect();
     for resolution in [80, 450, 900] {
-        let grid = PlanetGrid::new(resolution, CellLayout::Corrected)?;
+        let grid = PlanetGrid::new(resolution)?;
         let mut worst: f64 = 0.0;
         let mut times_s = Vec::new();
         for &i in &few {

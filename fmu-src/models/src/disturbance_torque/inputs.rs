@@ -8,7 +8,6 @@ use physics::loads::Active;
 use physics::numerics::scalar::Scalar;
 use physics::plant::{BySource, Parameters, PositionError, Positions};
 use physics::radiation::disturbance::{DisturbanceModel, ModelError, Options, PlanetLightMethod, Workspace};
-use physics::radiation::grid::CellLayout;
 use physics::spacecraft::Spacecraft;
 
 use super::setup::Plan;
@@ -45,7 +44,7 @@ fn method(
 ) -> Result<PlanetLightMethod, Failure> {
     let count = |handle| usize::try_from(values.integer(handle)).unwrap_or(0);
     Ok(match values.choice(light.method) {
-        PlanetMethod::Cells => PlanetLightMethod::Cells(CellLayout::Corrected, count(light.belts)),
+        PlanetMethod::Cells => PlanetLightMethod::Cells(count(light.belts)),
         PlanetMethod::Map => PlanetLightMethod::Map(spacecraft.planet_map.clone().ok_or_else(|| {
             Failure::new(
                 "planetLight.method is map, allowed only where the spacecraft's file has a planet_map",

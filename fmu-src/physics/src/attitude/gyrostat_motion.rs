@@ -108,7 +108,7 @@ impl GyrostatMotion {
     pub fn add_hinges(&mut self, internal: Option<InternalMotion>) {
         if let Some(internal) = &internal {
             let added_body = internal.momentum_after(0.0);
-            self.momentum_inertial_n_m_s += self.attitude_after(0.0).inertial_from_body(&added_body);
+            self.momentum_inertial_n_m_s += self.series.attitude_after(0.0).inertial_from_body(&added_body);
         }
         self.load.internal = internal;
     }
@@ -162,7 +162,7 @@ impl GyrostatMotion {
     /// The body at `time_s` within the segment.
     pub fn at(&self, gyrostat: &Gyrostat, time_s: f64) -> BodyMotion {
         let elapsed_s = time_s - self.start_s;
-        let attitude = self.attitude_after(elapsed_s);
+        let attitude = self.series.attitude_after(elapsed_s);
         let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = self.totals_after(elapsed_s);
         let momentum_body = attitude.body_from_inertial(&momentum_inertial_n_m_s);
         let rest = momentum_body
@@ -204,7 +204,7 @@ impl GyrostatMotion {
         let mut sums = [Vector3::zeros(); N];
         for (node, weight) in GAUSS_3 {
             let at_s = node * elapsed_s;
-            let attitude = self.attitude_after(at_s);
+            let attitude = self.series.attitude_after(at_s);
             for (sum, torque) in sums.iter_mut().zip(torques) {
                 if let Some([start, slope]) = torque {
                     *sum += attitude.inertial_from_body(&(start + slope * at_s)) * (weight * elapsed_s);
@@ -458,7 +458,7 @@ impl GyrostatMotion {
 
     /// EME2000 to body at `time_s` within the segment.
     pub fn attitude_at(&self, time_s: f64) -> Quaternion {
-        self.attitude_after(time_s - self.start_s)
+        self.series.attitude_after(time_s - self.start_s)
     }
 
     /// Angular rate at `time_s` within the segment, body frame, in rad/s.
@@ -468,10 +468,6 @@ impl GyrostatMotion {
 
     fn rate_after(&self, elapsed_s: f64) -> Vector3<f64> {
         polynomial(&self.series.rate[..=self.series.order], elapsed_s)
-    }
-
-    fn attitude_after(&self, elapsed_s: f64) -> Quaternion {
-        self.series.attitude_after(elapsed_s)
     }
 
     /// Torque and acceleration by the load, rotors out of balance and what swings under the acceleration, body frame.
@@ -498,7 +494,7 @@ impl GyrostatMotion {
         if !is_free {
             for (node, weight) in GAUSS_3 {
                 let at_s = node * elapsed_s;
-                let attitude = self.attitude_after(at_s);
+                let attitude = self.series.attitude_after(at_s);
                 for (total, load) in totals.iter_mut().zip(self.loads_after(at_s)) {
                     *total += attitude.inertial_from_body(&load) * (weight * elapsed_s);
                 }

@@ -71,11 +71,7 @@ pub enum InertiaError {
 impl Inertia {
     /// Checks the moments: positive, finite, none greater than the sum of the other two.
     pub fn new(principal_kg_m2: [f64; 3]) -> Result<Self, InertiaError> {
-        for (i, &value) in principal_kg_m2.iter().enumerate() {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(InertiaError::NotPositive { index: i + 1, value });
-            }
-        }
+        check_positive(&principal_kg_m2)?;
         for (i, &value) in principal_kg_m2.iter().enumerate() {
             let sum = principal_kg_m2.iter().sum::<f64>() - value;
             if value > sum {
@@ -93,11 +89,7 @@ impl Inertia {
         if products_kg_m2 == [0.0; 3] {
             return Self::new(diagonal_kg_m2);
         }
-        for (i, &value) in diagonal_kg_m2.iter().enumerate() {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(InertiaError::NotPositive { index: i + 1, value });
-            }
-        }
+        check_positive(&diagonal_kg_m2)?;
         if let Some(i) = products_kg_m2.iter().position(|value| !value.is_finite()) {
             return Err(InertiaError::Product { index: i + 1, value: products_kg_m2[i] });
         }
@@ -239,5 +231,12 @@ impl Inertia {
     /// Inertial nutation rate over spin rate: I3/I_T for an axisymmetric body, 1 + sqrt(...) in general (eq 11).
     pub fn inertial_nutation_ratio(&self) -> Option<f64> {
         self.body_nutation_ratio().map(|ratio| 1.0 + ratio)
+    }
+}
+
+fn check_positive(moments_kg_m2: &[f64; 3]) -> Result<(), InertiaError> {
+    match moments_kg_m2.iter().position(|moment| !(moment.is_finite() && *moment > 0.0)) {
+        Some(i) => Err(InertiaError::NotPositive { index: i + 1, value: moments_kg_m2[i] }),
+        None => Ok(()),
     }
 }

@@ -276,7 +276,7 @@ mod tests {
         let pair = Segment::<1, 8>::fit(0.0, 1.0, |t| Vector1::new((t - 0.3) * (t - 0.3001) * (t + 2.0)));
         let found = pair.sign_changes(0.0, 1.0);
         assert_eq!(found.len(), 2);
-        assert!((found[0] - 0.3).abs() < 1e-10 && (found[1] - 0.3001).abs() < 1e-10);
+        assert!((found.as_slice()[0] - 0.3).abs() < 1e-10 && (found.as_slice()[1] - 0.3001).abs() < 1e-10);
         let touch = Segment::<1, 8>::fit(0.0, 1.0, |t| Vector1::new((t - 0.3) * (t - 0.3) + 1e-9));
         assert!(touch.sign_changes(0.0, 1.0).is_empty());
     }

@@ -261,18 +261,6 @@ impl<const D: usize, const M: usize> SegmentChain<D, M> {
         if at_s >= self.end_s { self.end } else { self.segment.value(at_s) }
     }
 
-    /// Integrates one more segment, to the next edge.
-    ///
-    /// # Errors
-    /// See [`Collocation::solve`]; the segments stay as they were.
-    pub fn advance<const S: usize>(
-        &mut self,
-        method: &Collocation<S, M>,
-        rhs: impl FnMut(f64, &SVector<f64, D>) -> SVector<f64, D>,
-    ) -> Result<(), IntegrationError> {
-        self.advance_to(method, f64::INFINITY, rhs)
-    }
-
     /// Integrates one more segment, to the next edge or to `limit_s` if that comes first; later segments end at the edges
     /// again.
     ///
@@ -351,7 +339,7 @@ mod tests {
         let mut chain = SegmentChain::new(0.5, 0.2, Vector2::new(0.2_f64.cos(), -(0.2_f64.sin())));
         let mut edges = vec![];
         while chain.end_s() < 20.0 {
-            chain.advance(&method, oscillator).unwrap();
+            chain.advance_to(&method, f64::INFINITY, oscillator).unwrap();
             edges.push(chain.end_s());
             for i in 0..=10 {
                 let t = chain.start_s() + (chain.end_s() - chain.start_s()) * f64::from(i) / 10.0;
@@ -401,7 +389,7 @@ mod tests {
         };
         let before = invariants(&start);
         for _ in 0..5000 {
-            chain.advance(&method, rhs).unwrap();
+            chain.advance_to(&method, f64::INFINITY, rhs).unwrap();
         }
         let after = invariants(chain.end());
         assert!((after.0 / before.0 - 1.0).abs() < 1e-12);
@@ -414,14 +402,14 @@ mod tests {
         let method = Collocation::<6, 7>::new();
         let mut chain = SegmentChain::new(0.3, 0.1, Vector2::new(1.0, 0.0));
         for _ in 0..5 {
-            chain.advance(&method, oscillator).unwrap();
+            chain.advance_to(&method, f64::INFINITY, oscillator).unwrap();
         }
         let text = toml::to_string(&chain).unwrap();
         let mut restored: SegmentChain<2, 7> = toml::from_str(&text).unwrap();
         assert_eq!(restored, chain);
         for _ in 0..20 {
-            chain.advance(&method, oscillator).unwrap();
-            restored.advance(&method, oscillator).unwrap();
+            chain.advance_to(&method, f64::INFINITY, oscillator).unwrap();
+            restored.advance_to(&method, f64::INFINITY, oscillator).unwrap();
         }
         assert_eq!(restored, chain);
     }
@@ -431,24 +419,24 @@ mod tests {
         let method = Collocation::<6, 7>::new();
         let mut chain = SegmentChain::new(60.0, 0.0, Vector2::new(1.0, 0.0));
         let rhs = |_: f64, y: &Vector2<f64>| -y * 0.01;
-        chain.advance(&method, rhs).unwrap();
+        chain.advance_to(&method, f64::INFINITY, rhs).unwrap();
         let at = chain.value(17.0);
         // Within a segment the error of degree 6 is about 0.3^7 / (2^6 7!), at its end next to none.
         assert!((at[0] - (-0.17_f64).exp()).abs() < 1e-9);
         chain.cut(17.0, at);
         assert_eq!((chain.end_s(), chain.value(17.0)), (17.0, at));
-        chain.advance(&method, rhs).unwrap();
+        chain.advance_to(&method, f64::INFINITY, rhs).unwrap();
         assert_eq!((chain.start_s(), chain.end_s()), (17.0, 60.0));
         chain.cut(60.0, chain.value(60.0));
-        chain.advance(&method, rhs).unwrap();
+        chain.advance_to(&method, f64::INFINITY, rhs).unwrap();
         assert_eq!(chain.end_s(), 120.0);
         assert!((chain.end()[0] - (-1.2_f64).exp()).abs() < 1e-9);
         // A start a hair before an edge, and negative times.
         let mut chain = SegmentChain::new(0.1, 0.3, Vector2::new(1.0, 0.0));
-        chain.advance(&method, rhs).unwrap();
+        chain.advance_to(&method, f64::INFINITY, rhs).unwrap();
         assert_eq!(chain.end_s(), 0.4);
         let mut chain = SegmentChain::new(60.0, -30.0, Vector2::new(1.0, 0.0));
-        chain.advance(&method, rhs).unwrap();
+        chain.advance_to(&method, f64::INFINITY, rhs).unwrap();
         assert_eq!(chain.end_s(), 0.0);
     }
 

@@ -11,8 +11,6 @@
 //! Reference: Chandrupatla, Advances in Engineering Software 28, 1997; Lane and Riesenfeld, BIT 21, 1981 (Descartes' rule
 //! in Bernstein form).
 
-use core::ops::Index;
-
 use thiserror::Error;
 
 /// Why a bracket holds no root that could be found.
@@ -122,11 +120,6 @@ impl<const N: usize> Roots<N> {
         self.count == 0
     }
 
-    /// The first one.
-    pub fn first(&self) -> Option<f64> {
-        self.as_slice().first().copied()
-    }
-
     /// All of them, rising.
     pub fn as_slice(&self) -> &[f64] {
         self.at.get(..self.count).unwrap_or_default()
@@ -148,14 +141,6 @@ impl<const N: usize> Roots<N> {
             *slot = at;
             self.count += 1;
         }
-    }
-}
-
-impl<const N: usize> Index<usize> for Roots<N> {
-    type Output = f64;
-
-    fn index(&self, i: usize) -> &f64 {
-        &self.as_slice()[i]
     }
 }
 
@@ -319,6 +304,7 @@ mod tests {
         assert_eq!(bernstein_sign_changes(&zeros, 0.0, 0.75).as_slice(), [0.5]);
         // 96 (u - 1/4) (u - 1/2) (u - 3/4) is split exactly at its middle root.
         let three = bernstein_sign_changes(&[-9.0, 13.0, -13.0, 9.0], 0.0, 1.0);
+        let three = three.as_slice();
         assert_eq!(three.len(), 3);
         assert!((three[0] - 0.25).abs() < 1e-15 && three[1] == 0.5 && (three[2] - 0.75).abs() < 1e-15);
         // (u - 1/2)^2 touches on the split.

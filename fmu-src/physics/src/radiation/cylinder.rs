@@ -14,17 +14,6 @@ use crate::loads::ForceTorque;
 use crate::numerics::scalar::Scalar;
 use crate::spacecraft::Cylinder;
 
-/// How much of a section the Sun lights.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lit {
-    /// All of it.
-    Whole,
-    /// Some of it.
-    Part,
-    /// None of it.
-    None,
-}
-
 /// A cylindrical section with its orientation in the body.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CylinderFace {
@@ -45,27 +34,18 @@ impl CylinderFace {
     }
 }
 
-/// Which part of the section a Sun in this direction (shade frame) lights.
-pub fn lit(cylinder: &Cylinder, sun_shade: &Vector3<f64>) -> Lit {
-    let half = cylinder.half_angle_rad;
-    let total: f64 = lit_arcs::<f64>(half, sun_shade).iter().flatten().map(|[from, to]| to - from).sum();
-    if total <= 0.0 {
-        Lit::None
-    } else if total < 2.0 * half {
-        Lit::Part
-    } else {
-        Lit::Whole
-    }
+/// How much of the section's angle a Sun in this direction (shade frame) lights, in rad.
+pub fn lit_angle_rad(cylinder: &Cylinder, sun_shade: &Vector3<f64>) -> f64 {
+    lit_arcs::<f64>(cylinder.half_angle_rad, sun_shade).iter().flatten().map(|[from, to]| to - from).sum()
 }
 
 /// Force and torque about the shade frame's origin, both in the shade frame, as is the beam.
 pub fn cylinder_force_torque<T: Scalar>(cylinder: &Cylinder, beam: &Beam<T>) -> ForceTorque<T> {
     let sun = &beam.source_body;
-    let moments = lit_arcs(cylinder.half_angle_rad, sun)
-        .iter()
-        .flatten()
-        .map(|[from, to]| Moments::over(*from, *to, sun))
-        .fold(Moments::zero(), Moments::plus);
+    let mut moments = Moments::zero();
+    for [from, to] in lit_arcs(cylinder.half_angle_rad, sun).into_iter().flatten() {
+        moments.add(from, to, sun);
+    }
     let optics = &cylinder.optics;
     // P times the area of a strip of one radian.
     let strip_n = beam.pressure_pa * (cylinder.radius_m * cylinder.height_m);
@@ -118,15 +98,7 @@ impl<T: Scalar> Moments<T> {
         }
     }
 
-    fn plus(self, other: Self) -> Self {
-        Self {
-            light: self.light + other.light,
-            light_normal: self.light_normal + other.light_normal,
-            light_squared_normal: self.light_squared_normal + other.light_squared_normal,
-        }
-    }
-
-    fn over(from: T, to: T, sun: &Vector3<T>) -> Self {
+    fn add(&mut self, from: T, to: T, sun: &Vector3<T>) {
         let (sin_to, cos_to) = to.sin_cos();
         let (sin_from, cos_from) = from.sin_cos();
         // c = u sin + v cos
@@ -147,13 +119,11 @@ impl<T: Scalar> Moments<T> {
         let cos_cos_cos = between(|s, _| s - s * s * s / 3.0);
         let zero = T::constant(0.0);
         let normal = |along_sin: T, along_cos: T| Vector3::new(along_sin, -along_cos, zero);
-        Self {
-            light: u * sin + v * cos,
-            light_normal: normal(u * sin_sin + v * sin_cos, u * sin_cos + v * cos_cos),
-            light_squared_normal: normal(
-                u * u * sin_sin_sin + u * v * sin_sin_cos * 2.0 + v * v * sin_cos_cos,
-                u * u * sin_sin_cos + u * v * sin_cos_cos * 2.0 + v * v * cos_cos_cos,
-            ),
-        }
+        self.light += u * sin + v * cos;
+        self.light_normal += normal(u * sin_sin + v * sin_cos, u * sin_cos + v * cos_cos);
+        self.light_squared_normal += normal(
+            u * u * sin_sin_sin + u * v * sin_sin_cos * 2.0 + v * v * sin_cos_cos,
+            u * u * sin_sin_cos + u * v * sin_cos_cos * 2.0 + v * v * cos_cos_cos,
+        );
     }
 }

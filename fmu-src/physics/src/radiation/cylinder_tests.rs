@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use super::Beam;
-use super::cylinder::{Lit, cylinder_force_torque, lit};
+use super::cylinder::{cylinder_force_torque, lit_angle_rad};
 use super::flat_plate::force_per_area_pa;
 use crate::loads::ForceTorque;
 use crate::spacecraft::{Cylinder, Optics};
@@ -57,15 +57,18 @@ fn a_whole_cylinder_has_the_textbook_drag() {
 fn a_sun_on_the_axis_or_behind_does_nothing() {
     assert_eq!(cylinder_force_torque(&shade(), &beam(Vector3::z())), ForceTorque::zero());
     assert_eq!(cylinder_force_torque(&shade(), &beam(Vector3::y())), ForceTorque::zero());
-    assert_eq!(lit(&shade(), &Vector3::y()), Lit::None);
+    assert_eq!(lit_angle_rad(&shade(), &Vector3::y()), 0.0);
 }
 
 #[test]
 fn the_shade_is_lit_whole_up_to_29_deg_of_azimuth_and_not_at_all_from_151() {
-    let at = |deg: f64| lit(&shade(), &Vector3::new(deg.to_radians().sin(), -deg.to_radians().cos(), 0.3));
-    assert_eq!([at(0.0), at(28.9), at(-28.9)], [Lit::Whole; 3]);
-    assert_eq!([at(29.1), at(-29.1), at(150.9)], [Lit::Part; 3]);
-    assert_eq!([at(151.1), at(180.0), at(-151.1)], [Lit::None; 3]);
+    let whole = 2.0 * shade().half_angle_rad;
+    let at = |deg: f64| {
+        lit_angle_rad(&shade(), &Vector3::new(deg.to_radians().sin(), -deg.to_radians().cos(), 0.3))
+    };
+    assert_eq!([at(0.0), at(28.9), at(-28.9)], [whole; 3]);
+    assert!([at(29.1), at(-29.1), at(150.9)].iter().all(|part| *part > 0.0 && *part < whole));
+    assert_eq!([at(151.1), at(180.0), at(-151.1)], [0.0; 3]);
 }
 
 #[test]

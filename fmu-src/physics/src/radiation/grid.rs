@@ -16,16 +16,6 @@ use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::spacecraft::PlanetMap;
 
-/// Where the cells' centres are and how large they are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CellLayout {
-    /// Centres in the middle of cells bordered by equal steps of longitude and latitude; areas sum to the sphere's.
-    Corrected,
-    /// Eqs 6-7 to the letter: the latitudes of cell centres are taken as borders for the areas, which then sum to
-    /// 4 pi R2 cos(pi / 2n), and longitudes are those of the western border.
-    AsPrinted,
-}
-
 /// Centres this close to the terminator are on it but for rounding, and count as lit: so do the paper's, whose odd number
 /// of belts has a meridian of them there.
 const ON_TERMINATOR: f64 = 1e-12;
@@ -77,32 +67,24 @@ impl PlanetGrid {
         self.belts.len() * self.meridians.len()
     }
 
-    /// A grid of `resolution` belts of latitude and twice as many of longitude (n_res of the paper).
+    /// A grid of `resolution` belts of latitude and twice as many of longitude (n_res of the paper), whose cells are bordered by
+    /// equal steps of both, with their centres in the middle; areas sum to the sphere's.
     ///
     /// # Errors
     /// Unless the resolution is from 1 to 2000.
-    pub fn new(resolution: usize, layout: CellLayout) -> Result<Self, GridError> {
+    pub fn new(resolution: usize) -> Result<Self, GridError> {
         if !(1..=2000).contains(&resolution) {
             return Err(GridError::Resolution { found: resolution });
         }
         let n = resolution as f64;
         let belts = (0..resolution).map(|belt| {
             let latitude = -FRAC_PI_2 + PI * (belt as f64 + 0.5) / n;
-            let (south, north) = match layout {
-                CellLayout::Corrected => (latitude - FRAC_PI_2 / n, latitude + FRAC_PI_2 / n),
-                CellLayout::AsPrinted => (latitude, latitude + PI / n),
-            };
+            let (south, north) = (latitude - FRAC_PI_2 / n, latitude + FRAC_PI_2 / n);
             let area = PI / n * (north.sin() - south.sin());
             Belt { sin_latitude: latitude.sin(), cos_latitude: latitude.cos(), area }
         });
-        let offset = if layout == CellLayout::Corrected { 0.5 } else { 0.0 };
-        let meridians = (0..2 * resolution).map(|step| (-PI + PI * (step as f64 + offset) / n).sin_cos());
+        let meridians = (0..2 * resolution).map(|step| (-PI + PI * (step as f64 + 0.5) / n).sin_cos());
         Ok(Self { belts: belts.collect(), meridians: meridians.collect(), map: None })
-    }
-
-    /// Belts of latitude.
-    pub fn resolution(&self) -> usize {
-        self.belts.len()
     }
 
     /// The cells, belt by belt from the south, in the order of a [`PlanetMap`].
@@ -116,22 +98,12 @@ impl PlanetGrid {
         })
     }
 
-    /// Unit normals of the cells in the planet frame, in the order of a [`PlanetMap`].
-    pub fn normals(&self) -> impl Iterator<Item = Vector3<f64>> + '_ {
-        self.cells().map(|cell| cell.normal)
-    }
-
-    /// Sum of the cells' areas over the sphere's.
-    pub fn covered(&self) -> f64 {
-        self.cells().map(|cell| cell.area).sum::<f64>() / (4.0 * PI)
-    }
-
     /// The cells of a map, with albedo, emissivity and temperature of their own.
     ///
     /// # Errors
     /// A map finer than grids go.
     pub fn of_map(map: &PlanetMap) -> Result<Self, GridError> {
-        Ok(Self { map: Some(map.clone()), ..Self::new(map.belts(), CellLayout::Corrected)? })
+        Ok(Self { map: Some(map.clone()), ..Self::new(map.belts())? })
     }
 
     /// Light on a face of unit `normal`; `planet_axes` has the cells' axes as columns ([`sun_fixed_axes`]) in the frame of
@@ -224,3 +196,6 @@ fn add<T: Scalar>(light: &mut ReceivedLight<T>, irradiance_w_m2: T, source: &Vec
     light.pressure_pa += pressure_pa;
     light.vector_pa += source * pressure_pa;
 }
+
+#[cfg(test)]
+pub(super) mod tests;

@@ -19,8 +19,6 @@ pub mod thermal;
 #[cfg(test)]
 mod cylinder_tests;
 #[cfg(test)]
-mod grid_tests;
-#[cfg(test)]
 mod polynomial_tests;
 #[cfg(test)]
 mod solar_tests;

@@ -10,7 +10,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::cylinder::{Lit, lit};
+use super::cylinder::lit_angle_rad;
 use super::faces::NoSuchSunshade;
 use super::flat_plate::Beam;
 use crate::numerics::scalar::Scalar;
@@ -110,7 +110,9 @@ pub fn polynomial_valid(shade: &Sunshade, model: SunshadeModel, sun_body: &Vecto
     let sun_shade = shade.dcm_body_from_shade.tr_mul(sun_body);
     match (model, &shade.cylinder) {
         (SunshadeModel::Plates, _) => shade.plates.iter().all(|plate| plate.normal.dot(&sun_shade) >= 0.0),
-        (SunshadeModel::Cylinder, Some(cylinder)) => lit(cylinder, &sun_shade) == Lit::Whole,
+        (SunshadeModel::Cylinder, Some(cylinder)) => {
+            lit_angle_rad(cylinder, &sun_shade) >= 2.0 * cylinder.half_angle_rad
+        }
         (SunshadeModel::Cylinder, None) => false,
     }
 }

@@ -217,13 +217,6 @@ impl Motion {
         }
     }
 
-    /// Goes on segment by segment until the present one holds `time_s`.
-    pub fn reach(&mut self, time_s: f64) {
-        while self.segment_end_s() < time_s {
-            self.next_segment();
-        }
-    }
-
     /// State at a time within the present segment (any time after the anchor for a closed form).
     #[inline]
     pub fn at(&self, time_s: f64) -> RigidBodyState {

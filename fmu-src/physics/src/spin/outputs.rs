@@ -201,7 +201,7 @@ impl Outputs {
             next_edge_s,
             inertia_kg_m2: inertia.principal_kg_m2(),
             inertia_ratio: inertia.ratio(),
-            thrusters_on: plant.propulsion().mask(),
+            thrusters_on: plant.propulsion().valves().open_mask(),
             too_short: plant.too_short(),
             force_body_n: law.force_at_n(time_s),
             torque_body_n_m: law.torque_at_n_m(time_s),

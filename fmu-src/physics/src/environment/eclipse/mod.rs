@@ -122,11 +122,6 @@ impl Shadow {
         Ok(Self { model, planet_radius_m, sun_radius_m })
     }
 
-    /// The model.
-    pub fn model(&self) -> ShadowModel {
-        self.model
-    }
-
     /// Radius of the Sun, in m.
     pub fn sun_radius_m(&self) -> f64 {
         self.sun_radius_m

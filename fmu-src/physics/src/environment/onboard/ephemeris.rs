@@ -62,7 +62,7 @@ impl OnboardEphemeris {
             check_target(&mut check, &at, body.body, body.center, is_new);
             if is_new
                 && body.body != OnboardTarget::from(body.center)
-                && found.leads_to(body.center, body.body)
+                && found.leads_to(body.center.into(), body.body)
             {
                 let center = OnboardTarget::from(body.center);
                 let text = format!("{center}, whose own position counts from {}", body.body);
@@ -89,9 +89,10 @@ impl OnboardEphemeris {
         check.finish(found)
     }
 
-    /// Whether a chain of centres leads from a body to a target.
-    fn leads_to(&self, from: Body, target: OnboardTarget) -> bool {
-        let mut at = OnboardTarget::from(from);
+    /// Whether `target` is `from`, or `from` counts from it by way of others or not.
+    fn leads_to(&self, from: OnboardTarget, target: OnboardTarget) -> bool {
+        let mut at = from;
+        // While the file is read it may lead in a circle.
         for _ in 0..=self.precise.len() {
             if at == target {
                 return true;
@@ -174,22 +175,12 @@ impl OnboardEphemeris {
         mut visit: impl FnMut(&'a FittedBody<SegmentTable>) -> Option<()>,
     ) -> Option<()> {
         let mut at = from;
-        while !self.is_above(at, other) {
+        while !self.leads_to(other, at) {
             let body = self.entry(at)?;
             visit(body)?;
             at = body.center.into();
         }
         Some(())
-    }
-
-    /// Whether `other` is `at` or counts from it, by way of others or not.
-    fn is_above(&self, at: OnboardTarget, other: OnboardTarget) -> bool {
-        let mut below = other;
-        while below != at {
-            let Some(body) = self.entry(below) else { return false };
-            below = body.center.into();
-        }
-        true
     }
 }
 
@@ -210,9 +201,16 @@ fn error(check: &mut Checker<'_>, at: &Place, position_m: f64, velocity_m_s: f64
     }
 }
 
-/// An epoch within the years that a body can be placed in.
-fn epoch(check: &mut Checker<'_>, at: &Place, epoch_s: f64) -> f64 {
-    check.within(at, epoch_s, -VALID_EPOCH_S, VALID_EPOCH_S, "s past J2000 TDB, within 4000 years of it")
+/// Epochs within the years that a body can be placed in, one after the other.
+fn span(check: &mut Checker<'_>, at: &Place, [start_s, end_s]: [f64; 2]) -> [f64; 2] {
+    for (key, epoch_s) in [("start_s", start_s), ("end_s", end_s)] {
+        let allowed = "s past J2000 TDB, within 4000 years of it";
+        check.within(&at.key(key), epoch_s, -VALID_EPOCH_S, VALID_EPOCH_S, allowed);
+    }
+    if end_s <= start_s {
+        check.report(&at.key("end_s"), format_args!("{end_s:e}"), format!("more than start_s, {start_s:e}"));
+    }
+    [start_s, end_s]
 }
 
 /// The polynomials of a body; `None` where they leave a gap or something was reported.
@@ -254,11 +252,7 @@ fn segment(
     described: &SegmentDescription,
     degree: usize,
 ) -> EphemerisSegment {
-    let start_s = epoch(check, &at.key("start_s"), described.start_s);
-    let end_s = epoch(check, &at.key("end_s"), described.end_s);
-    if end_s <= start_s {
-        check.report(&at.key("end_s"), format_args!("{end_s:e}"), format!("more than start_s, {start_s:e}"));
-    }
+    let [start_s, end_s] = span(check, at, [described.start_s, described.end_s]);
     let lists = [("x_m", &described.x_m), ("y_m", &described.y_m), ("z_m", &described.z_m)];
     for (key, list) in lists {
         let place = at.key(key);
@@ -282,11 +276,7 @@ fn segment(
 const LOOKS: u32 = 400;
 
 fn coarse(check: &mut Checker<'_>, at: &Place, body: &CoarseDescription) -> CoarseElements {
-    let start_s = epoch(check, &at.key("start_s"), body.start_s);
-    let end_s = epoch(check, &at.key("end_s"), body.end_s);
-    if end_s <= start_s {
-        check.report(&at.key("end_s"), format_args!("{end_s:e}"), format!("more than start_s, {start_s:e}"));
-    }
+    let [start_s, end_s] = span(check, at, [body.start_s, body.end_s]);
     let rows = [
         ("semi_major_axis_m", &body.semi_major_axis_m),
         ("eccentricity", &body.eccentricity),

@@ -28,44 +28,28 @@ pub enum OnboardTarget {
 }
 
 impl OnboardTarget {
+    /// Those that are bodies, in their order.
+    const BODIES: [Self; Body::ALL.len()] =
+        [Self::Sun, Self::Mercury, Self::Venus, Self::Earth, Self::Mars, Self::Jupiter];
+    /// As they are written in the file.
+    const NAMES: [&str; Body::ALL.len() + 1] =
+        ["sun", "mercury", "venus", "earth", "mars", "jupiter", "spacecraft"];
+
     /// The body; `None` for the spacecraft.
     pub fn body(self) -> Option<Body> {
-        Some(match self {
-            Self::Sun => Body::Sun,
-            Self::Mercury => Body::Mercury,
-            Self::Venus => Body::Venus,
-            Self::Earth => Body::Earth,
-            Self::Mars => Body::Mars,
-            Self::Jupiter => Body::Jupiter,
-            Self::Spacecraft => return None,
-        })
+        Body::ALL.get(self as usize).copied()
     }
 }
 
 impl From<Body> for OnboardTarget {
     fn from(body: Body) -> Self {
-        match body {
-            Body::Sun => Self::Sun,
-            Body::Mercury => Self::Mercury,
-            Body::Venus => Self::Venus,
-            Body::Earth => Self::Earth,
-            Body::Mars => Self::Mars,
-            Body::Jupiter => Self::Jupiter,
-        }
+        Self::BODIES[body as usize]
     }
 }
 
 /// As it is written in the file.
 impl fmt::Display for OnboardTarget {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Sun => "sun",
-            Self::Mercury => "mercury",
-            Self::Venus => "venus",
-            Self::Earth => "earth",
-            Self::Mars => "mars",
-            Self::Jupiter => "jupiter",
-            Self::Spacecraft => "spacecraft",
-        })
+        f.write_str(Self::NAMES[*self as usize])
     }
 }

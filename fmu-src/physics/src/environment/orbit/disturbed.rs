@@ -234,23 +234,9 @@ impl DisturbedOrbit {
         Ok(())
     }
 
-    /// Integrates one more segment. `tide_body_m(t)` is the Sun's position relative to the central body, `extra(t, state)`
-    /// any further acceleration, m/s2, smooth within the segment; both in EME2000. Called 20 to 40 times a segment.
-    ///
-    /// # Errors
-    /// [`OrbitIntegrationError`]; the orbit stays as it was.
-    pub fn advance(
-        &mut self,
-        method: &OrbitMethod,
-        gravity: &Gravity,
-        tide_body_m: impl FnMut(f64) -> Vector3<f64>,
-        extra: impl FnMut(f64, &CartesianState) -> Vector3<f64>,
-    ) -> Result<(), OrbitIntegrationError> {
-        self.advance_to(f64::INFINITY, method, gravity, tide_body_m, extra)
-    }
-
-    /// As [`DisturbedOrbit::advance`], but the segment ends at `limit_s` if that comes first: because an acceleration
-    /// changes there. Later segments end at whole multiples again.
+    /// Integrates one more segment, to `limit_s` if that comes first: because an acceleration changes there. Later segments end at
+    /// whole multiples again. `tide_body_m(t)` is the Sun's position relative to the central body, `extra(t, state)` any further
+    /// acceleration, m/s2, smooth within the segment; both in EME2000. Called 20 to 40 times a segment.
     ///
     /// # Errors
     /// [`OrbitIntegrationError`]; the orbit stays as it was.

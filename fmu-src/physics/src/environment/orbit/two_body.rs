@@ -100,11 +100,6 @@ impl TwoBodyOrbit {
         self.mu_m3_s2
     }
 
-    /// Mean motion, rad/s.
-    pub fn mean_motion_rad_s(&self) -> f64 {
-        self.mean_motion_rad_s
-    }
-
     /// Time of one revolution, s; infinite for a hyperbola.
     pub fn period_s(&self) -> f64 {
         if self.elements.eccentricity < 1.0 { TAU / self.mean_motion_rad_s } else { f64::INFINITY }

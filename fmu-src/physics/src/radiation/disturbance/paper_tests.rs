@@ -8,7 +8,6 @@ use crate::constants::{ASTRONOMICAL_UNIT_M, GM_MERCURY_M3_S2, RADIUS_MERCURY_M};
 use crate::environment::eclipse::{Shadow, ShadowModel};
 use crate::environment::kepler_planet::{MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED, tests::Frames};
 use crate::environment::orbit::Elements;
-use crate::radiation::grid::CellLayout;
 use crate::spacecraft::{MESSENGER_THERMAL_TOML, Spacecraft};
 
 /// Flux at 1 AU that fits the paper's numbers, W/m2 (unpublished there).
@@ -102,7 +101,7 @@ fn recoil_of_case_1_is_the_published_one() {
 #[test]
 fn cells_give_the_published_infrared_closer_than_the_limit_of_many_cells() {
     for [anomaly_deg, _, albedo, infrared] in TABLE_7 {
-        let cells = PlanetLightMethod::Cells(CellLayout::Corrected, 45);
+        let cells = PlanetLightMethod::Cells(45);
         let found = around_orbit_by(anomaly_deg, cells, 360);
         let off = |found: f64, published: f64| (found / published - 1.0).abs();
         assert!(off(found[1][1], albedo) < 0.015, "albedo at {anomaly_deg}: {}", found[1][1]);

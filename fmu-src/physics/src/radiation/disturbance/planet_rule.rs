@@ -6,7 +6,7 @@ use super::error::ModelError;
 use super::geometry::{GeometryError, PlanetGeometry};
 use crate::bodies::surface::{PlanetSurface, SurfaceExitance};
 use crate::numerics::scalar::Scalar;
-use crate::radiation::grid::{CellLayout, PlanetGrid, sun_fixed_axes};
+use crate::radiation::grid::{PlanetGrid, sun_fixed_axes};
 use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::ring::{PlanetView, RingRule};
 use crate::spacecraft::PlanetMap;
@@ -17,7 +17,7 @@ pub enum PlanetLightMethod {
     /// Rings about the nadir with so many quadrature nodes a segment: 6 for 1e-4, 16 for 1e-5.
     Rings(usize),
     /// The paper's cells in so many belts of latitude: slow, and results bend as each cell rises or sets.
-    Cells(CellLayout, usize),
+    Cells(usize),
     /// Cells with properties of their own, which go before those of the planet's surface.
     Map(PlanetMap),
 }
@@ -55,7 +55,7 @@ impl PlanetRule {
     pub(super) fn new(method: &PlanetLightMethod) -> Result<Self, ModelError> {
         Ok(match method {
             PlanetLightMethod::Rings(nodes) => Self::Rings(RingRule::new(*nodes)?),
-            PlanetLightMethod::Cells(layout, belts) => Self::Cells(PlanetGrid::new(*belts, *layout)?),
+            PlanetLightMethod::Cells(belts) => Self::Cells(PlanetGrid::new(*belts)?),
             PlanetLightMethod::Map(map) => Self::Cells(PlanetGrid::of_map(map)?),
         })
     }

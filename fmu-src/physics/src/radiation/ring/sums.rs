@@ -30,14 +30,15 @@ impl<T: Scalar> Tensors<T> {
     /// Adds a ring's azimuth integrals.
     #[inline]
     pub fn add(&mut self, sin_eta: T, cos_eta: T, w: &Weighted<T>) {
-        let (c, s, one) = (sin_eta * w.c, sin_eta * w.s, cos_eta * w.one);
+        let Weighted([one, c, s, cc, cs, ss]) = *w;
+        let (c, s, one) = (sin_eta * c, sin_eta * s, cos_eta * one);
         let sin_squared = sin_eta * sin_eta;
         self.first.x += c;
         self.first.y += s;
         self.first.z += one;
-        self.second[0] += sin_squared * w.cc;
-        self.second[1] += sin_squared * w.cs;
-        self.second[2] += sin_squared * w.ss;
+        self.second[0] += sin_squared * cc;
+        self.second[1] += sin_squared * cs;
+        self.second[2] += sin_squared * ss;
         self.second[3] += cos_eta * c;
         self.second[4] += cos_eta * s;
         self.second[5] += cos_eta * one;
@@ -60,78 +61,57 @@ impl<T: Scalar> Tensors<T> {
 }
 
 /// Azimuth integrals of 1, cos, sin, cos2, cos sin, sin2 under one weight.
-pub(super) struct Weighted<T> {
-    one: T,
-    c: T,
-    s: T,
-    cc: T,
-    cs: T,
-    ss: T,
-}
+pub(super) struct Weighted<T>([T; 6]);
 
 impl<T: Scalar> Weighted<T> {
     /// Weight 1.
     #[inline]
     pub fn flat(m: &Moments<T>) -> Self {
-        Self { one: m.angle, c: m.c1, s: m.s1, cc: m.c2, cs: m.c1s1, ss: m.s2 }
+        Self([m.angle, m.c1, m.s1, m.c2, m.c1s1, m.s2])
     }
 
     /// Weight 1 over an arc about azimuth 0.
     #[inline]
     pub fn flat_even(m: &EvenMoments<T>) -> Self {
         let zero = T::constant(0.0);
-        Self { one: m.angle, c: m.c1, s: zero, cc: m.c2, cs: zero, ss: m.s2 }
+        Self([m.angle, m.c1, zero, m.c2, zero, m.s2])
     }
 
     /// Weight `level + x cos + y sin` over an arc about azimuth 0.
     #[inline]
     pub fn slanted_even(m: &EvenMoments<T>, (level, x, y): (T, T, T)) -> Self {
-        Self {
-            one: level * m.angle + x * m.c1,
-            c: level * m.c1 + x * m.c2,
-            s: y * m.s2,
-            cc: level * m.c2 + x * m.c3,
-            cs: y * m.c1s2,
-            ss: level * m.s2 + x * m.c1s2,
-        }
-    }
-
-    /// Times a factor.
-    #[inline]
-    pub fn scaled(&self, by: T) -> Self {
-        Self {
-            one: by * self.one,
-            c: by * self.c,
-            s: by * self.s,
-            cc: by * self.cc,
-            cs: by * self.cs,
-            ss: by * self.ss,
-        }
-    }
-
-    /// Plus another times a factor.
-    #[inline]
-    pub fn plus(self, factor: T, other: &Self) -> Self {
-        Self {
-            one: self.one + factor * other.one,
-            c: self.c + factor * other.c,
-            s: self.s + factor * other.s,
-            cc: self.cc + factor * other.cc,
-            cs: self.cs + factor * other.cs,
-            ss: self.ss + factor * other.ss,
-        }
+        Self([
+            level * m.angle + x * m.c1,
+            level * m.c1 + x * m.c2,
+            y * m.s2,
+            level * m.c2 + x * m.c3,
+            y * m.c1s2,
+            level * m.s2 + x * m.c1s2,
+        ])
     }
 
     /// Weight `level + x cos + y sin`.
     #[inline]
     pub fn slanted(m: &Moments<T>, (level, x, y): (T, T, T)) -> Self {
-        Self {
-            one: level * m.angle + x * m.c1 + y * m.s1,
-            c: level * m.c1 + x * m.c2 + y * m.c1s1,
-            s: level * m.s1 + x * m.c1s1 + y * m.s2,
-            cc: level * m.c2 + x * m.c3 + y * m.c2s1,
-            cs: level * m.c1s1 + x * m.c2s1 + y * m.c1s2,
-            ss: level * m.s2 + x * m.c1s2 + y * m.s3,
-        }
+        Self([
+            level * m.angle + x * m.c1 + y * m.s1,
+            level * m.c1 + x * m.c2 + y * m.c1s1,
+            level * m.s1 + x * m.c1s1 + y * m.s2,
+            level * m.c2 + x * m.c3 + y * m.c2s1,
+            level * m.c1s1 + x * m.c2s1 + y * m.c1s2,
+            level * m.s2 + x * m.c1s2 + y * m.s3,
+        ])
+    }
+
+    /// Times a factor.
+    #[inline]
+    pub fn scaled(&self, by: T) -> Self {
+        Self(self.0.map(|it| by * it))
+    }
+
+    /// Plus another times a factor.
+    #[inline]
+    pub fn plus(self, factor: T, other: &Self) -> Self {
+        Self(core::array::from_fn(|i| self.0[i] + factor * other.0[i]))
     }
 }

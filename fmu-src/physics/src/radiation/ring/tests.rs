@@ -11,7 +11,10 @@ use crate::bodies::surface::{DayTemperature, PlanetSurface, SurfaceExitance};
 use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::numerics::scalar::Dual64;
 use crate::radiation::PlanetLight;
-use crate::radiation::grid::{CellLayout, PlanetGrid};
+use crate::radiation::grid::{
+    PlanetGrid,
+    tests::{as_printed, covered},
+};
 
 const FLUX_W_M2: f64 = 9126.0;
 
@@ -117,9 +120,8 @@ fn six_nodes_give_1e_minus_4_and_sixteen_1e_minus_5() {
 }
 
 /// Relative distance between grid and rings, worst of albedo and infrared over some geometries.
-fn grid_error(resolution: usize, layout: CellLayout) -> f64 {
+fn grid_error(grid: &PlanetGrid) -> f64 {
     let rule = RingRule::new(32).unwrap();
-    let grid = PlanetGrid::new(resolution, layout).unwrap();
     let surface = surface(DayTemperature::Cosine);
     let exitance = surface.exitance(FLUX_W_M2);
     let mut worst: f64 = 0.0;
@@ -140,11 +142,11 @@ fn grid_error(resolution: usize, layout: CellLayout) -> f64 {
 
 #[test]
 fn the_planet_summed_cell_by_cell_converges_to_the_rings() {
-    let errors = [40, 80, 160, 320].map(|n| grid_error(n, CellLayout::Corrected));
+    let errors = [40, 80, 160, 320].map(|n| grid_error(&PlanetGrid::new(n).unwrap()));
     assert!(errors[1] < 5e-3 && errors[3] < 4e-4, "{errors:?}");
     assert!(errors[3] < errors[0] / 8.0, "{errors:?}");
     // To the letter of eqs 6-7 the areas do not fit the centres and convergence is much slower.
-    assert!(grid_error(80, CellLayout::AsPrinted) > 3.0 * errors[1]);
+    assert!(grid_error(&as_printed(80)) > 3.0 * errors[1]);
 }
 
 /// Light from every direction in turn: a ray from the plate meets the sphere or not, and where it does the surface
@@ -206,9 +208,9 @@ fn rays_cast_one_by_one_bring_the_same_light() {
 #[test]
 fn cells_to_the_letter_do_not_cover_the_sphere() {
     for n in [3, 10, 80] {
-        let printed = PlanetGrid::new(n, CellLayout::AsPrinted).unwrap().covered();
+        let printed = covered(&as_printed(n));
         assert!((printed - (PI / (2.0 * n as f64)).cos()).abs() < 1e-12);
-        assert!((PlanetGrid::new(n, CellLayout::Corrected).unwrap().covered() - 1.0).abs() < 1e-12);
+        assert!((covered(&PlanetGrid::new(n).unwrap()) - 1.0).abs() < 1e-12);
     }
 }
 
@@ -258,7 +260,7 @@ fn impossible_views_are_refused() {
     assert!(sunless.to_string().contains("Sun 0 m"));
     assert!(PlanetView::new(&Vector3::new(f64::NAN, 5.0, 0.0), &Vector3::x(), 1.0).is_err());
     assert_eq!(RingRule::new(0), Err(NodesError { found: 0 }));
-    assert!(PlanetGrid::new(0, CellLayout::Corrected).is_err());
+    assert!(PlanetGrid::new(0).is_err());
 }
 
 /// Everything a plate receives as a function of one seed that moves planet, Sun and plate at once.

@@ -1,6 +1,6 @@
 //! All outlines together: who can shadow whom, and what is lit.
 
-use nalgebra::{Unit, Vector2, Vector3};
+use nalgebra::{Vector2, Vector3};
 
 use super::clip::{Pieces, cross, drop_flat_corners, flat_m2};
 use super::convex::FlatParts;
@@ -324,32 +324,17 @@ impl ShadowSurface {
     /// How far `other` rises above this surface's plane at most, on the side of `sign`, over all angles.
     fn highest(&self, other: &Self, sign: f64) -> f64 {
         let points = other.flat.parts.iter().flat_map(|part| other.flat.in_space(part));
+        let normal = &self.flat.normal;
         let height = |point: Vector3<f64>| match (&self.hinge, &other.hinge) {
-            (None, None) => sign * self.flat.normal.dot(&(point - self.flat.origin)),
-            // The point circles about its axis.
-            (None, Some(hinge)) => {
-                let axis = Unit::new_unchecked(hinge.axis_body);
-                let arm = point - hinge.point_body_m;
-                let along = axis.into_inner() * axis.dot(&arm);
-                let center = hinge.point_body_m + along;
-                let radius = (arm - along).norm();
-                let across = self.flat.normal - axis.into_inner() * axis.dot(&self.flat.normal);
-                sign * self.flat.normal.dot(&(center - self.flat.origin)) + radius * across.norm()
+            (Some(a), Some(b)) if a.panel != b.panel => f64::INFINITY,
+            // The point circles about its axis; where the plane turns instead, seen from the plane.
+            (None, Some(hinge)) | (Some(hinge), None) => {
+                let (axis, arm) = (&hinge.axis_body, point - hinge.point_body_m);
+                let along = axis.dot(&arm);
+                let fixed = axis.dot(normal) * along - normal.dot(&(self.flat.origin - hinge.point_body_m));
+                sign * fixed + (arm - axis * along).norm() * (normal - axis * axis.dot(normal)).norm()
             }
-            // The plane turns about its axis: seen from it the point circles.
-            (Some(hinge), None) => {
-                let axis = hinge.axis_body;
-                let arm = point - hinge.point_body_m;
-                let across = arm - axis * axis.dot(&arm);
-                let normal_across = self.flat.normal - axis * axis.dot(&self.flat.normal);
-                let fixed = axis.dot(&self.flat.normal) * axis.dot(&arm)
-                    - self.flat.normal.dot(&(self.flat.origin - hinge.point_body_m));
-                sign * fixed + across.norm() * normal_across.norm()
-            }
-            (Some(a), Some(b)) if a.panel == b.panel => {
-                sign * self.flat.normal.dot(&(point - self.flat.origin))
-            }
-            (Some(_), Some(_)) => f64::INFINITY,
+            _ => sign * normal.dot(&(point - self.flat.origin)),
         };
         points.map(height).fold(f64::NEG_INFINITY, f64::max)
     }

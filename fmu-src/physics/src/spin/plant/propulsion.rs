@@ -5,7 +5,6 @@ use std::sync::LazyLock;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::commands::Commands;
 use super::sound::are_moderate;
 use super::valves::Valves;
 use crate::attitude::Inertia;
@@ -50,7 +49,7 @@ enumeration! {
 pub struct Propulsion {
     mass_source: MassSource,
     initial_propellant_kg: f64,
-    valves: Valves,
+    pub(super) valves: Valves,
     used_kg: f64,
     delta_v_inertial_m_s: Vector3<f64>,
     /// Up to when delta-v is summed, in s.
@@ -78,11 +77,6 @@ impl Propulsion {
         }
     }
 
-    /// Thrusters whose valves are open, bit by bit.
-    pub fn mask(&self) -> u32 {
-        self.valves.open_mask()
-    }
-
     /// Valves, and what the thrusters exert.
     pub fn valves(&self) -> &Valves {
         &self.valves
@@ -101,21 +95,6 @@ impl Propulsion {
     /// Whether the tank is empty: nothing fires any more.
     pub fn is_dry(&self) -> bool {
         self.used_kg >= self.initial_propellant_kg
-    }
-
-    /// Takes what is commanded for the step from `start_s` to `end_s`, in s.
-    pub(super) fn command(&mut self, commands: &Commands, start_s: f64, end_s: f64) {
-        self.valves.command(commands, start_s, end_s);
-    }
-
-    /// Thrusters whose commanded pulses are at hand at `now_s`, bit by bit.
-    pub(super) fn pulsing_mask(&mut self, now_s: f64) -> u32 {
-        self.valves.pulsing_mask(now_s)
-    }
-
-    /// Opens the valves of `mask` and closes the others; what was exerted before is settled.
-    pub(super) fn fire(&mut self, spinner: &Spinner, mask: u32, now_s: f64) {
-        self.valves.open(spinner, mask, now_s);
     }
 
     /// An outside torque with that of the thrusters.

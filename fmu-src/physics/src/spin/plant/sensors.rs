@@ -52,8 +52,8 @@ pub(super) enum Sensor {
 /// Sun sensor and star tracker with what they saw so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sensors {
-    sun: CrossingDetector,
-    star: CrossingDetector,
+    pub(super) sun: CrossingDetector,
+    pub(super) star: CrossingDetector,
     sun_sample_rad: f64,
     sampling: Sampling,
     clock_period_s: f64,
@@ -134,16 +134,6 @@ impl Sensors {
             Sampling::Clock => self.clock_period_s,
             Sampling::Spins => f64::from(self.every) * theory.period_s(),
         }
-    }
-
-    /// The Sun stands elsewhere from `now_s` on.
-    pub(super) fn forget_sun(&mut self, now_s: f64) {
-        self.sun.forget(now_s);
-    }
-
-    /// The star stands elsewhere from `now_s` on.
-    pub(super) fn forget_star(&mut self, now_s: f64) {
-        self.star.forget(now_s);
     }
 
     /// The motion is another from `now_s` on.

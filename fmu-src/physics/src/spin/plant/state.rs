@@ -194,10 +194,10 @@ impl Plant {
         self.directions.give(directions);
         let now = self.directions.present();
         if now.sun_inertial != before.sun_inertial {
-            self.sensors.forget_sun(self.time_s);
+            self.sensors.sun.forget(self.time_s);
         }
         if now.star_inertial != before.star_inertial {
-            self.sensors.forget_star(self.time_s);
+            self.sensors.star.forget(self.time_s);
         }
         self.commands = commands;
         self.commanded = true;
@@ -216,7 +216,7 @@ impl Plant {
         let (mut now_s, mut reached_s) = (from_s, from_s);
         let waiting_s = self.propulsion.valves().edge_before_s(f64::INFINITY);
         if self.commanded || self.commands.fires() || waiting_s <= due_s(from_s) {
-            self.propulsion.command(&self.commands, from_s, end_s);
+            self.propulsion.valves.command(&self.commands, from_s, end_s);
             // An edge where the last step ended waited for this command.
             let edge_s = self.propulsion.valves().edge_before_s(end_s);
             if edge_s <= due_s(from_s) {
@@ -253,7 +253,7 @@ impl Plant {
             if self.directions.refresh_s() <= edge_s {
                 work.spend(Cost::Direction);
                 if let Some(from_s) = self.directions.refresh() {
-                    self.sensors.forget_sun(from_s);
+                    self.sensors.sun.forget(from_s);
                 }
             }
             let mut hint_s = f64::INFINITY;
@@ -287,16 +287,17 @@ impl Plant {
         work: &mut Work,
     ) -> Result<(), SpinPlantError> {
         let plan = self.sequencer.as_ref().map_or(0, Sequencer::mask);
-        let requested = plan | self.propulsion.pulsing_mask(now_s);
+        let requested = plan | self.propulsion.valves.pulsing_mask(now_s);
         let mask = if self.propulsion.is_dry() { 0 } else { requested };
-        let turns_valves = mask != self.propulsion.mask() || self.propulsion.valves().ramp_end_s() <= now_s;
+        let turns_valves =
+            mask != self.propulsion.valves.open_mask() || self.propulsion.valves().ramp_end_s() <= now_s;
         let applied = self.commands.torque;
         if turns_valves || self.propulsion.with_thrusters(&applied) != *self.motion.torque() {
             self.reach(spinner, now_s, work)?;
             self.settle_pulse(spinner, now_s);
             let inertia = self.propulsion.inertia(spinner, &self.motion);
             work.spend_segment(self.motion.damper());
-            self.propulsion.fire(spinner, mask, now_s);
+            self.propulsion.valves.open(spinner, mask, now_s);
             let torque = self.propulsion.with_thrusters(&applied);
             let ramp_s = (self.propulsion.valves().ramp_end_s() - now_s).max(SHORTEST_RAMP_HINT_S);
             self.motion = self.motion.followed_by(now_s, inertia, torque, hint_s.min(1.001 * ramp_s));
@@ -392,7 +393,7 @@ impl Plant {
         let burn = self.sequencer().map(Sequencer::burn);
         let known = (1_u64 << spinner.thrusters.len()) - 1;
         let masks = [
-            self.propulsion.mask(),
+            self.propulsion.valves.open_mask(),
             self.commands.fire,
             burn.map_or(0, |b| b.mask),
             burn.map_or(0, |b| b.opposite_mask),

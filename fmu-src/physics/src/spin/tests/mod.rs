@@ -20,6 +20,7 @@ use nalgebra::Vector3;
 use super::{
     burn::BurnRequest,
     forecast::Timing,
+    motion::Motion,
     nutation::Spin,
     plant::{Directions, MassSource, Sampling, Start},
     spinner::Spinner,
@@ -30,6 +31,13 @@ const ACE: &str = include_str!("../../../../resources/ace.toml");
 
 fn ace() -> Spinner {
     Spinner::parse("ace.toml", ACE).unwrap()
+}
+
+/// Goes on segment by segment until the present one holds `time_s`.
+fn reach(motion: &mut Motion, time_s: f64) {
+    while motion.segment_end_s() < time_s {
+        motion.next_segment();
+    }
 }
 
 fn directions() -> Directions {

@@ -3,6 +3,7 @@
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
+use super::reach;
 use crate::attitude::{Inertia, Quaternion, RigidBodyState, angle_between_rad};
 use crate::spin::{damper::Damper, motion::Motion, series::BodyTorque};
 
@@ -17,7 +18,7 @@ fn start(inertia: Inertia, damper_s: f64, rate: Vector3<f64>, torque: Vector3<f6
 }
 
 fn state_at(mut motion: Motion, time_s: f64) -> RigidBodyState {
-    motion.reach(time_s);
+    reach(&mut motion, time_s);
     motion.at(time_s)
 }
 
@@ -102,7 +103,7 @@ fn triaxial_torque_free_rates_follow_jacobi_over_an_hour() {
     let mut motion = motion;
     for i in 1..=360 {
         let t = 10.0 * f64::from(i);
-        motion.reach(t);
+        reach(&mut motion, t);
         let w = motion.at(t).rate_rad_s(&inertia);
         let (sn, cn, dn) = jacobi(rate * t, m);
         assert!((w - Vector3::new(w10 * cn, w20 * sn, w30 * dn)).norm() < 1e-10, "{t} s: {w}");
@@ -239,7 +240,7 @@ fn momentum_by_differences(inertia: &Inertia, mut motion: Motion, time_s: f64) -
     let mut q = Vec::new();
     for k in -4..=4 {
         let at_s = centre_s + f64::from(k) * dt_s;
-        motion.reach(at_s);
+        reach(&mut motion, at_s);
         q.push(motion.at(at_s).attitude.0);
     }
     let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
@@ -377,7 +378,7 @@ fn sampling_does_not_move_the_motion() {
     let mut sampled = motion.clone();
     for i in 1..=4000 {
         let t = 0.05 * f64::from(i);
-        sampled.reach(t);
+        reach(&mut sampled, t);
         let _ = sampled.at(t);
     }
     assert_eq!(sampled.at(200.0), state_at(motion, 200.0));

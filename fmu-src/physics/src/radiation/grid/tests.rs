@@ -1,22 +1,39 @@
 //! Cells with properties of their own, and what grids refuse.
 
-use nalgebra::{Matrix3, Vector3};
-
-use super::grid::{CellLayout, PlanetGrid, sun_fixed_axes};
-use super::ring::PlanetView;
-use crate::bodies::surface::{MERCURY, PlanetSurface};
+use super::*;
+use crate::bodies::surface::MERCURY;
 use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
-use crate::numerics::scalar::{Dual64, constant_vector};
-use crate::spacecraft::{PlanetCell, PlanetMap};
+use crate::numerics::scalar::Dual64;
+use crate::spacecraft::PlanetCell;
 
 const FLUX_W_M2: f64 = 9000.0;
 const BELTS: usize = 40;
 
 const PLANET: PlanetSurface = PlanetSurface { radius_m: 1.0, ..MERCURY };
 
+/// Eqs 6-7 to the letter: the latitudes of cell centres are taken as borders for the areas, which then sum to
+/// 4 pi R2 cos(pi / 2n), and longitudes are those of the western border.
+pub(in crate::radiation) fn as_printed(resolution: usize) -> PlanetGrid {
+    let mut grid = PlanetGrid::new(resolution).unwrap();
+    let step = PI / resolution as f64;
+    for belt in &mut grid.belts {
+        let latitude = belt.sin_latitude.asin();
+        belt.area = step * ((latitude + step).sin() - latitude.sin());
+    }
+    for (k, meridian) in grid.meridians.iter_mut().enumerate() {
+        *meridian = (-PI + k as f64 * step).sin_cos();
+    }
+    grid
+}
+
+/// Sum of the cells' areas over the sphere's.
+pub(in crate::radiation) fn covered(grid: &PlanetGrid) -> f64 {
+    grid.cells().map(|cell| cell.area).sum::<f64>() / (4.0 * PI)
+}
+
 fn mapped(cell: impl Fn(&Vector3<f64>) -> PlanetCell) -> PlanetGrid {
-    let grid = PlanetGrid::new(BELTS, CellLayout::Corrected).unwrap();
-    let cells = grid.normals().map(|normal| cell(&normal)).collect();
+    let grid = PlanetGrid::new(BELTS).unwrap();
+    let cells = grid.cells().map(|it| cell(&it.normal)).collect();
     PlanetGrid::of_map(&PlanetMap::new(BELTS, cells).unwrap()).unwrap()
 }
 
@@ -32,7 +49,7 @@ fn a_map_of_one_kind_is_a_planet_of_one_kind() {
         emissivity: surface.emissivity,
         temperature_k: if normal.x > 0.0 { day_k } else { night_k },
     });
-    let plain = PlanetGrid::new(BELTS, CellLayout::Corrected).unwrap();
+    let plain = PlanetGrid::new(BELTS).unwrap();
     let sun = Vector3::new(0.3, -0.9, 0.1).normalize();
     let axes = sun_fixed_axes(&sun, &sun.cross(&Vector3::x())).unwrap();
     let view = PlanetView::new(&Vector3::new(0.2, 0.8, -1.1), &sun, 1.0).unwrap();
@@ -46,7 +63,7 @@ fn a_map_of_one_kind_is_a_planet_of_one_kind() {
 /// A hot spot below the spacecraft acts as a point source at its distance.
 #[test]
 fn a_hot_spot_pushes_from_where_it_is() {
-    let spot = PlanetGrid::new(BELTS, CellLayout::Corrected).unwrap().normals().nth(1234).unwrap();
+    let spot = PlanetGrid::new(BELTS).unwrap().cells().nth(1234).unwrap().normal;
     let map = mapped(|normal| PlanetCell {
         diffuse_reflectivity: 0.0,
         emissivity: 1.0,
@@ -68,7 +85,7 @@ fn a_hot_spot_pushes_from_where_it_is() {
 
 #[test]
 fn slopes_of_cells_are_those_of_small_differences() {
-    let grid = PlanetGrid::new(7, CellLayout::AsPrinted).unwrap();
+    let grid = as_printed(7);
     let (planet_m, sun, normal) = (Vector3::new(0.5, -1.4, 0.3), Vector3::new(-0.2, 0.9, 0.4), Vector3::y());
     let moved = |seed: Dual64| {
         let planet_m =
@@ -116,6 +133,6 @@ fn poles_and_maps_that_cannot_be_are_refused() {
         assert!(PlanetMap::new(1, vec![cell, wrong]).unwrap_err().to_string().contains("from 0 to 1"));
     }
     for belts in [0, 2001] {
-        assert!(PlanetGrid::new(belts, CellLayout::Corrected).is_err());
+        assert!(PlanetGrid::new(belts).is_err());
     }
 }
