@@ -82,7 +82,7 @@ def main():
     print(f"Of {total} faults we name {named}, FMPy {seen}. In `valid.xml` both find nothing.")
     print()
     print("This file is printed by `tests/python/corpus_table.py`; the faults are listed in")
-    print("`modelDescription/tests/main/faults.rs`.")
+    print("`modelDescription/tests/main/faults.txt`.")
     print()
     print("| fault | ours | FMPy |")
     print("|---|---|---|")

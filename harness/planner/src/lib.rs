@@ -5,3 +5,4 @@
 
 pub mod momentum;
 pub mod spin;
+pub mod torque_map;

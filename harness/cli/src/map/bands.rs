@@ -1,11 +1,9 @@
 //! Bands of a quantity on a grid of nodes that fills a frame, and their scale.
 
 use drawing::{BESIDE, Frame, Pen, Pixel, thinned, tick_text};
+use planner::torque_map::{self, Edge};
 
-use super::{
-    colours::Bands,
-    contour::{self, Edge},
-};
+use super::colours::Bands;
 
 /// Bands of values at nodes from corner to corner, the lowest below all others.
 pub fn draw(
@@ -47,7 +45,7 @@ fn enclosing(frame: &Frame, steps: [usize; 2], value: &impl Fn(usize, usize) -> 
         (Some(column), Some(row)) => value(column, row),
         _ => f64::NEG_INFINITY,
     };
-    let lines = contour::lines([steps[0] + 2, steps[1] + 2], rimmed, |_| true);
+    let lines = torque_map::lines([steps[0] + 2, steps[1] + 2], rimmed, |_| true);
     let place = |edge: &Edge| {
         let ([column, row], [other_column, other_row]) = ([edge.column, edge.row], edge.end());
         let (a, b) = (rimmed(column, row), rimmed(other_column, other_row));

@@ -4,14 +4,9 @@ use std::path::{Path, PathBuf};
 
 use files::Destination;
 use loader::csv::Real;
+use planner::torque_map::{Angles, direction};
 
-use super::{
-    found::Found,
-    grid::{Angles, direction},
-    options::Map,
-    picture,
-    spacecraft::MappedSpacecraft,
-};
+use super::{found::Found, options::Map, picture, spacecraft::MappedSpacecraft};
 use crate::output::check_svg_path;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -92,12 +87,12 @@ fn torque(spacecraft: &MappedSpacecraft, found: &Found) -> String {
         let unit = if what == "torque" { "n_m" } else { "n" };
         text.extend(AXES.map(|axis| format!(",{what}_{axis}_{unit}")));
     }
-    text.extend((1..=spacecraft.panels.len()).map(|number| format!(",panel_{number}_angle_deg")));
+    text.extend((1..=spacecraft.lit.panels.len()).map(|number| format!(",panel_{number}_angle_deg")));
     text.push('\n');
     for (place_deg, load) in found.sphere.grid.nodes().filter(|(place_deg, _)| place_deg[0] < 180.0) {
         let sun = direction(place_deg);
         let loads = load.torque_n_m.iter().chain(load.force_n.iter()).copied();
-        let angles_deg = spacecraft.panels.iter().map(|turned| turned.angle_rad(&sun).to_degrees());
+        let angles_deg = spacecraft.lit.panels.iter().map(|turned| turned.angle_rad(&sun).to_degrees());
         let cells: Vec<String> = place_deg
             .into_iter()
             .chain(loads)

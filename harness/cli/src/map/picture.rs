@@ -2,14 +2,9 @@
 
 use drawing::{Axes, BESIDE, Frame, HEADING, Pen, TEXT, round_up};
 use physics::constants::ASTRONOMICAL_UNIT_M as AU_M;
+use planner::torque_map::Mapped;
 
-use super::{
-    bands,
-    colours::Bands,
-    found::{Found, Mapped},
-    spacecraft::MappedSpacecraft,
-    verdict,
-};
+use super::{bands, colours::Bands, found::Found, spacecraft::MappedSpacecraft, verdict};
 
 const WIDTH: f64 = 1150.0;
 const HEAD: f64 = 96.0;
@@ -40,7 +35,7 @@ pub fn svg(spacecraft: &MappedSpacecraft, found: &Found) -> String {
     let title = format!(
         "{}: torque of sunlight at {} AU",
         spacecraft.name,
-        terminal::short((spacecraft.distance_m / AU_M * 1e4).round() / 1e4)
+        terminal::short((spacecraft.lit.distance_m / AU_M * 1e4).round() / 1e4)
     );
     let height = if found.zone.is_some() { HEIGHT_OF_PLOT } else { HEIGHT_OF_ONLY_PLOT };
     let row = height + AROUND_PLOT;

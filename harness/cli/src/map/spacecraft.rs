@@ -11,11 +11,9 @@ use physics::{
     constants::ASTRONOMICAL_UNIT_M as AU_M,
     spacecraft::{Panel, PanelControl, Spacecraft},
 };
+use planner::torque_map::{LitSpacecraft, Rule, TurnedPanels};
 
-use super::{
-    options::Map,
-    panels::{Rule, TurnedPanels},
-};
+use super::options::Map;
 use crate::{
     pack::{
         source,
@@ -51,9 +49,7 @@ impl Downlink {
 /// A spacecraft ready to be mapped.
 pub struct MappedSpacecraft {
     pub name: String,
-    pub fmu: Fmu,
-    pub panels: Vec<TurnedPanels>,
-    pub distance_m: f64,
+    pub lit: LitSpacecraft,
     /// Greatest azimuth and elevation of the Sun keep-in zone; `None` without one.
     pub zone_rad: Option<[f64; 2]>,
     pub downlink: Downlink,
@@ -136,9 +132,7 @@ impl MappedSpacecraft {
         }
         Ok(Self {
             name: spacecraft.name,
-            fmu,
-            panels,
-            distance_m,
+            lit: LitSpacecraft { fmu, panels, distance_m, source: arguments.source.name() },
             zone_rad,
             downlink: downlink(&default_simulated, &simulated),
             panels_left_out: panels_left_out(&simulated),

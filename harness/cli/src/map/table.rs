@@ -2,15 +2,9 @@
 
 use nalgebra::Vector3;
 use physics::constants::{ASTRONOMICAL_UNIT_M, DAY_S};
+use planner::torque_map::{Angles, Mapped, Rule};
 
-use super::{
-    found::{Found, Mapped},
-    grid::Angles,
-    options::SourceKind,
-    panels::Rule,
-    spacecraft::MappedSpacecraft,
-    verdict,
-};
+use super::{found::Found, options::SourceKind, spacecraft::MappedSpacecraft, verdict};
 
 /// Rows of a table at most.
 const MOST_ROWS: usize = 12;
@@ -31,6 +25,7 @@ pub fn text(spacecraft: &MappedSpacecraft, found: &Found, source: SourceKind) ->
 
 fn head(spacecraft: &MappedSpacecraft, found: &Found, source: SourceKind) -> String {
     let panels: Vec<String> = spacecraft
+        .lit
         .panels
         .iter()
         .map(|turned| match turned.rule {
@@ -58,7 +53,7 @@ fn head(spacecraft: &MappedSpacecraft, found: &Found, source: SourceKind) -> Str
         "{}: torque of {what} about the centre of mass at {} AU, body frame; it goes with the inverse square of the distance.\n\
          Sun keep-in zone: {zone}.",
         spacecraft.name,
-        terminal::short(spacecraft.distance_m / ASTRONOMICAL_UNIT_M)
+        terminal::short(spacecraft.lit.distance_m / ASTRONOMICAL_UNIT_M)
     );
     if !panels.is_empty() {
         text += &format!("\nPanels: {}.", panels.join("; "));

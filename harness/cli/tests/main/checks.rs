@@ -2,7 +2,7 @@
 
 use std::{fs, io::Write, path::Path, process::Command, time::Instant};
 
-use crate::{built, library, packed, run, shown};
+use crate::{built, library, packed, run, shown, words};
 
 const RESOURCES: &str = "../../fmu-src/resources";
 
@@ -242,17 +242,11 @@ fn shipped(model: &str, spacecraft: &str) -> Option<tempfile::TempDir> {
     let toml = format!("{RESOURCES}/{spacecraft}");
     let library = library()?;
     run(
-        &[
-            "pack",
-            "--library",
+        &words(&format!(
+            "pack --library {} --model {model} --spacecraft {toml} --output {}",
             shown(&library),
-            "--model",
-            model,
-            "--spacecraft",
-            &toml,
-            "--output",
-            shown(&fmu),
-        ],
+            shown(&fmu)
+        )),
         0,
     );
     loader::unpack(&fmu, &scratch.path().join("x"), loader::Limits::default()).unwrap();

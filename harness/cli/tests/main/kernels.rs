@@ -90,7 +90,7 @@ fn fits_keep_their_error_against_the_closed_form() {
     let bodies = ["--bodies", "sun,earth,spacecraft", "--tolerance", "20", "--coarse"];
     let made = fitted(&both, "2011-04-04 TDB", &bodies);
     let source = made.source.as_deref().unwrap();
-    assert_eq!(source, "SPK planets.bsp, spacecraft.bsp from Mercury (199), spacecraft -236");
+    assert_eq!(source, "SPK planets.bsp, craft.bsp from Mercury (199), spacecraft -236");
     for model in &made.precise {
         let (stated_m, found_m) = (model.error.position_m, worst_m(&made, model.target, 2.0));
         assert!(stated_m <= 20.0, "{}: {stated_m}", model.target);
@@ -142,7 +142,7 @@ fn a_span_that_is_not_covered_is_reported_with_the_one_that_is() {
     for said in [
         "--start, --stop: found 2011-04-01T23:58:53.814 UTC to 2011-05-04T00:00:00 UTC",
         "allowed: from 2011-04-01T23:58:53.814 UTC to 2011-04-25T23:58:53.814 UTC",
-        "planets.bsp, spacecraft.bsp places Sun (10)",
+        "planets.bsp, craft.bsp places Sun (10)",
     ] {
         assert!(text.contains(said), "{text}");
     }
@@ -172,7 +172,7 @@ fn a_body_that_no_kernel_holds_is_reported_with_those_that_are() {
         "{text}"
     );
     let text = fit(&[&craft], "2011-04-03 TDB", &[], 1);
-    assert!(text.contains("found no Sun (10) in spacecraft.bsp, allowed: MESSENGER (-236)"), "{text}");
+    assert!(text.contains("found no Sun (10) in craft.bsp, allowed: MESSENGER (-236)"), "{text}");
     let text = fit(&[&planets], "2011-04-03 TDB", &["--center", "jupiter"], 1);
     assert!(text.contains("found no Jupiter (599) in planets.bsp"), "{text}");
     let text = fit(&[&planets], "2011-04-03 TDB", &["--center", "saturn"], 2);

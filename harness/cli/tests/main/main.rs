@@ -34,6 +34,11 @@ pub fn heliotorque(arguments: &[&str]) -> Command {
     command
 }
 
+/// The words of a command line; none of them has a blank.
+pub fn words(line: &str) -> Vec<&str> {
+    line.split(' ').collect()
+}
+
 /// What it printed, both streams.
 pub fn text(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)

@@ -6,7 +6,7 @@ use loader::{Fmu, Instance, InstanceOptions, Value};
 use resvg::usvg::roxmltree::Document;
 use tempfile::TempDir;
 
-use crate::{heliotorque, library, run, shown, text};
+use crate::{heliotorque, library, run, shown, text, words};
 
 const MESSENGER: &str = "../../fmu-src/resources/messenger.toml";
 const AU_M: f64 = 149_597_870_700.0;
@@ -112,19 +112,10 @@ fn messenger_angle_rad(azimuth_deg: f64, elevation_deg: f64, offset_rad: f64) ->
 fn every_direction_is_what_the_fmu_says() {
     let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
     let fmu = Fmu::open(&fmu_path).unwrap();
-    let csv = mapped(&[
-        MESSENGER,
-        "--template",
-        shown(&fmu_path),
-        "--distance",
-        "0.3",
-        "--step",
-        "1deg",
-        "--csv",
-        "-",
-        "--no-picture",
-        "--quiet",
-    ]);
+    let csv = mapped(&words(&format!(
+        "{MESSENGER} --template {} --distance 0.3 --step 1deg --csv - --no-picture --quiet",
+        shown(&fmu_path)
+    )));
     let rows = rows(&csv);
     assert_eq!(rows.len(), 360 * 181);
     let mut torque = Torque::of(&fmu);
@@ -207,18 +198,10 @@ fn lines_and_balances_are_where_the_torque_vanishes() {
 fn a_degree_is_worth_what_differences_say() {
     let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
     let fmu = Fmu::open(&fmu_path).unwrap();
-    let printed = mapped(&[
-        MESSENGER,
-        "--template",
-        shown(&fmu_path),
-        "--distance",
-        "0.3",
-        "--step",
-        "10deg",
-        "--no-picture",
-        "--set",
-        "spacecraft.centerOfMass=1cm,2cm,-3cm",
-    ]);
+    let printed = mapped(&words(&format!(
+        "{MESSENGER} --template {} --distance 0.3 --step 10deg --no-picture --set spacecraft.centerOfMass=1cm,2cm,-3cm",
+        shown(&fmu_path)
+    )));
     let reported = |what: &str| -> Vec<f64> {
         let line = printed
             .lines()
@@ -285,21 +268,9 @@ fn a_degree_off_the_sun_is_worth_something_from_the_sun_on() {
 fn torque_goes_with_the_inverse_square_and_follows_the_options() {
     let Some((_room, fmu_path)) = packed(MESSENGER) else { return };
     let csv = |more: &[&str]| {
-        let all = [
-            &[
-                MESSENGER,
-                "--template",
-                shown(&fmu_path),
-                "--step",
-                "10deg",
-                "--csv",
-                "-",
-                "--no-picture",
-                "--quiet",
-            ],
-            more,
-        ];
-        rows(&mapped(&all.concat()))
+        let template = ["--template", shown(&fmu_path)];
+        let all = words("--step 10deg --csv - --no-picture --quiet");
+        rows(&mapped(&[&[MESSENGER], &template[..], &all, more].concat()))
     };
     let (near, far) = (csv(&["--distance", "0.3"]), csv(&["--distance", "0.6 AU"]));
     assert_eq!(near.len(), 36 * 19);
@@ -321,17 +292,10 @@ fn torque_goes_with_the_inverse_square_and_follows_the_options() {
     let still = csv(&["--set", "panel[1].control=angle", "--set", "panel[1].angle=12deg"]);
     assert!(still.iter().all(|row| (row["panel_1_angle_deg"] - 12.0).abs() < 1e-9));
     // The packed FMU is the same spacecraft.
-    let of_fmu = mapped(&[
-        shown(&fmu_path),
-        "--distance",
-        "0.3",
-        "--step",
-        "10deg",
-        "--csv",
-        "-",
-        "--no-picture",
-        "--quiet",
-    ]);
+    let of_fmu = mapped(&words(&format!(
+        "{} --distance 0.3 --step 10deg --csv - --no-picture --quiet",
+        shown(&fmu_path)
+    )));
     assert_eq!(rows(&of_fmu).len(), near.len());
     assert!(rows(&of_fmu).iter().zip(&near).all(|(one, other)| one["torque_z_n_m"] == other["torque_z_n_m"]));
 }
@@ -346,17 +310,13 @@ fn the_picture_shows_lines_and_a_mission() {
     }
     fs::write(&simulated, recorded).unwrap();
     let svg = room.path().join("my.svg");
-    let all = [
-        MESSENGER,
-        "--template",
+    let line = format!(
+        "{MESSENGER} --template {} --distance 0.387 --mission {} --output {}",
         shown(&fmu_path),
-        "--distance",
-        "0.387",
-        "--mission",
         shown(&simulated),
-        "--output",
-        shown(&svg),
-    ];
+        shown(&svg)
+    );
+    let all = words(&line);
     let printed = mapped(&all);
     // 5.5 N m s at 2e-5 N m less what downlinks add about X, printed to 1e-10 N m.
     let line = printed.lines().find(|line| line.trim_start().starts_with("mean torque about X")).unwrap();

@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use tempfile::TempDir;
 
-use crate::{heliotorque, library, run, shown, text};
+use crate::{heliotorque, library, run, shown, text, words};
 
 const RESOURCES: &str = "../../fmu-src/resources";
 
@@ -82,18 +82,9 @@ fn a_mission_flies_as_it_is_written_and_options_win() {
     assert_eq!(offsets, [60.0, 60.0, 60.0, 65.0, 65.0], "a tunable parameter is held");
 
     let csv = folder.join("mine.csv");
-    let (status, reported) = fly(&[
-        "--stop",
-        "1h",
-        "--every",
-        "60s",
-        "--record",
-        "time*,dump.threshold",
-        "--output",
-        "mine.csv",
-        "--set",
-        "dump.threshold[2]=3",
-    ]);
+    let (status, reported) = fly(&words(
+        "--stop 1h --every 60s --record time*,dump.threshold --output mine.csv --set dump.threshold[2]=3",
+    ));
     assert_eq!(status, Some(1), "{reported}");
     assert!(reported.contains("time*"), "{reported}");
     let more = ["--stop", "1h", "--every", "60s", "--record", "dump.threshold", "--output", "mine.csv"];
@@ -128,17 +119,7 @@ fn a_packed_mission_starts_as_the_mission_does() {
     fs::write(folder.join("m.toml"), &text).unwrap();
     let (status, reported) = said(
         folder,
-        &[
-            "pack",
-            "--mission",
-            "m.toml",
-            "--template",
-            "template.fmu",
-            "--name",
-            "Mine",
-            "--set",
-            "dump.threshold[3]=5",
-        ],
+        &words("pack --mission m.toml --template template.fmu --name Mine --set dump.threshold[3]=5"),
     );
     assert!(status == Some(0) && reported.contains("Mine.fmu: Mine, "), "{reported}");
     let (status, reported) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
@@ -169,7 +150,7 @@ fn later_wins_file_mission_option() {
     // Its [start.MomentumPlant] has 4, 4, 4.
     fs::create_dir(folder.join("craft")).unwrap();
     assert_eq!(said(folder, &["new", "spacecraft", "craft/s.toml"]).0, Some(0));
-    let mission = "spacecraft = \"spacecraft/s.toml\"\nstop = 60\nstep = 60\nrecord = [\"dump.threshold\"]\noutput = \"out.csv\"\n";
+    let mission = "spacecraft = \"craft/s.toml\"\nstop = 60\nstep = 60\nrecord = [\"dump.threshold\"]\noutput = \"out.csv\"\n";
     fs::write(
         folder.join("m.toml"),
         format!("{mission}[set]\n\"dump.threshold[2]\" = 2\n\"dump.threshold[3]\" = 2\n"),

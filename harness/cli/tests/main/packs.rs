@@ -4,7 +4,7 @@ use std::{fs, io::Read, path::Path};
 
 use model_description::call_table::Function;
 
-use crate::{built, library, packed, probe_library, run, shown};
+use crate::{built, library, packed, probe_library, run, shown, words};
 
 const ACE: &str = "../../fmu-src/resources/ace.toml";
 
@@ -222,16 +222,11 @@ fn models_without_outputs_of_single_plates_refuse_them() {
     // A model without a file would take any text.
     if let Some(probe) = probe_library() {
         let text = run(
-            &[
-                "pack",
-                "--library",
+            &words(&format!(
+                "pack --library {} --model Empty --output {} --per-plate",
                 shown(&probe),
-                "--model",
-                "Empty",
-                "--output",
-                shown(&output),
-                "--per-plate",
-            ],
+                shown(&output)
+            )),
             1,
         );
         assert!(
@@ -263,14 +258,7 @@ fn start_values_are_packed_and_simulated() {
         run(&arguments, 0);
         fmu
     };
-    let set = [
-        "--set",
-        "dump.threshold[2]=5",
-        "--set",
-        "panel[1].sunOffset=10deg",
-        "--set",
-        "orbit.frame=ecliptic",
-    ];
+    let set = words("--set dump.threshold[2]=5 --set panel[1].sunOffset=10deg --set orbit.frame=ecliptic");
     let fmu = pack("Set", &set);
     let file = |fmu: &Path, name: &str| {
         let bytes = entries(fmu).into_iter().find(|(entry, _)| entry == name).unwrap().1;

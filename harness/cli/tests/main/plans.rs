@@ -5,7 +5,7 @@ use std::{
     process::{Command, Stdio},
 };
 
-use crate::{heliotorque, library, run, shown, text};
+use crate::{heliotorque, library, run, shown, text, words};
 
 #[test]
 fn a_plan_is_simulated_through_the_fmu_in_dist() {
@@ -90,21 +90,7 @@ fn the_printed_start_values_fly_to_where_the_plan_says() {
                 "upper radial I",
             ],
         ),
-        (
-            1,
-            vec![
-                "--angle",
-                "2",
-                "--ratio",
-                "1.5",
-                "--propellant",
-                "40",
-                "--rate-rpm",
-                "4",
-                "--timing",
-                "phase",
-            ],
-        ),
+        (1, words("--angle 2 --ratio 1.5 --propellant 40 --rate-rpm 4 --timing phase")),
     ]
     .into_iter()
     .enumerate()
@@ -155,20 +141,12 @@ fn the_printed_start_values_fly_to_where_the_plan_says() {
         std::fs::write(&with_start, std::fs::read_to_string(ace).unwrap() + "\n" + &start).unwrap();
         let own = at("own.fmu");
         run(&[&pack[..], &[shown(&own), "--spacecraft", shown(&with_start)]].concat(), 0);
-        let stop = stop.to_string();
         run(
-            &[
-                "run",
+            &words(&format!(
+                "run {} --stop {stop} --step 12.5 --record {record} --output {}",
                 shown(&own),
-                "--stop",
-                &stop,
-                "--step",
-                "12.5",
-                "--record",
-                record,
-                "--output",
-                shown(&csv),
-            ],
+                shown(&csv)
+            )),
             0,
         );
         check(axis_deg(&csv));

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{built, library, packed, run, shown};
+use crate::{built, library, packed, run, shown, words};
 
 fn csv(path: &std::path::Path) -> (Vec<String>, Vec<Vec<f64>>) {
     let mut reader = csv::Reader::from_path(path).unwrap();
@@ -289,20 +289,12 @@ fn an_error_on_the_way_leaves_what_was_simulated() {
     let number = panic.split_whitespace().find(|word| word.parse::<i32>().is_ok()).unwrap();
     fs::write(&input, format!("time,fault\n0,1\n3,{number}\n")).unwrap();
     let text = run(
-        &[
-            "run",
+        &words(&format!(
+            "run {} --start 0 --stop 10 --step 1 --input {} --output {}",
             shown(&fmu),
-            "--start",
-            "0",
-            "--stop",
-            "10",
-            "--step",
-            "1",
-            "--input",
             shown(&input),
-            "--output",
-            shown(&output),
-        ],
+            shown(&output)
+        )),
         1,
     );
     assert!(text.contains("fmi2Error") && text.contains("panic"), "{text}");

@@ -4,7 +4,7 @@ use std::fs;
 
 use model_description::Description;
 
-use crate::{packed, probe_library, run, shown};
+use crate::{packed, probe_library, run, shown, words};
 
 const SCHEDULE: &str = "all-types-schedule.toml";
 
@@ -20,17 +20,13 @@ fn a_timeline_is_packed_and_leaves_the_guid() {
     let library = probe_library().unwrap();
     let path = |name: &str| scratch.path().join(name);
     let (timeline, fmu) = (path("mine.toml"), path("Timed.fmu"));
-    let pack = [
-        "pack",
-        "--library",
+    let line = format!(
+        "pack --library {} --model AllTypes --timeline {} --output {}",
         shown(&library),
-        "--model",
-        "AllTypes",
-        "--timeline",
         shown(&timeline),
-        "--output",
-        shown(&fmu),
-    ];
+        shown(&fmu)
+    );
+    let pack = words(&line);
     assert!(run(&pack, 1).contains("mine.toml"));
     fs::write(&timeline, "# torn\nend_s = ").unwrap();
     let text = run(&pack, 1);

@@ -12,14 +12,32 @@ fn refusal(ssd: &str, files: &[(&str, &str)]) -> String {
     loader::Error::chain(&System::open(&path).expect_err(ssd))
 }
 
-const fn connection(connections: &'static str) -> Ssd {
+const fn written(connections: &'static str) -> Ssd {
     Ssd { connections, ..GOOD }
 }
 
-/// The system's own connectors, and connections to them.
-fn own(connectors: &str, connections: &'static str) -> Ssd {
-    let connectors = format!("<ssd:Connectors>{connectors}</ssd:Connectors>");
-    Ssd { bindings: connectors.leak(), connections, ..GOOD }
+const fn giver(giver: &'static str) -> Ssd {
+    Ssd { giver, ..GOOD }
+}
+
+/// Connections from start to end: `element.connector`, or a connector of the system's own.
+fn wired(pairs: &[(&str, &str)]) -> Ssd {
+    let end = |which: &str, at: &str| match at.split_once('.') {
+        Some((element, connector)) => format!(r#"{which}Element="{element}" {which}Connector="{connector}""#),
+        None => format!(r#"{which}Connector="{at}""#),
+    };
+    let wire =
+        |(from, to): &(&str, &str)| format!("<ssd:Connection {} {}/>\n", end("start", from), end("end", to));
+    written(pairs.iter().map(wire).collect::<String>().leak())
+}
+
+/// The system's own connectors, with their kinds and what they hold, and connections to them.
+fn own(connectors: &[(&str, &str, &str)], pairs: &[(&str, &str)]) -> Ssd {
+    let connector = |(name, kind, holds): &(&str, &str, &str)| {
+        format!(r#"<ssd:Connector name="{name}" kind="{kind}">{holds}</ssd:Connector>"#)
+    };
+    let connectors: String = connectors.iter().map(connector).collect();
+    Ssd { bindings: format!("<ssd:Connectors>{connectors}</ssd:Connectors>").leak(), ..wired(pairs) }
 }
 
 const GOOD: Ssd = Ssd {
@@ -40,159 +58,102 @@ const GOOD: Ssd = Ssd {
 fn what_cannot_be_simulated_is_refused_by_name() {
     let cases: Vec<(Ssd, &[&str])> = vec![
         (
-            connection(
-                r#"<ssd:Connection startElement="c" startConnector="angle" endElement="b" endConnector="angle"/>"#,
-            ),
+            wired(&[("c.angle", "b.angle")]),
             &["connection c.angle to b.angle", "no component \"c\"", "allowed: a, b"],
         ),
         (
-            connection(
-                r#"<ssd:Connection startElement="a" startConnector="angel" endElement="b" endConnector="angle"/>"#,
-            ),
+            wired(&[("a.angel", "b.angle")]),
             &["connection a.angel to b.angle", "no connector \"angel\"", "near it: angle"],
         ),
+        (wired(&[("b.angle", "a.angle")]), &["at its start found b.angle of kind input", "allowed: output"]),
+        (wired(&[("a.count", "b.angle")]), &["found type Integer at its start and Real at its end"]),
         (
-            connection(
-                r#"<ssd:Connection startElement="b" startConnector="angle" endElement="a" endConnector="angle"/>"#,
-            ),
-            &["at its start found b.angle of kind input", "allowed: output"],
-        ),
-        (
-            connection(
-                r#"<ssd:Connection startElement="a" startConnector="count" endElement="b" endConnector="angle"/>"#,
-            ),
-            &["found type Integer at its start and Real at its end"],
-        ),
-        (
-            connection(
-                r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="duration"/>"#,
-            ),
+            wired(&[("a.angle", "b.duration")]),
             &["found unit \"deg\" at its start and \"s\" at its end", "one dimension"],
         ),
+        (wired(&[("a.label", "b.label")]), &["found type String"]),
+        (wired(&[("zero", "b.angle")]), &["the system has no connector \"zero\" of its own"]),
         (
-            connection(
-                r#"<ssd:Connection startElement="a" startConnector="label" endElement="b" endConnector="label"/>"#,
-            ),
-            &["found type String"],
-        ),
-        (
-            connection(r#"<ssd:Connection startConnector="zero" endElement="b" endConnector="angle"/>"#),
-            &["the system has no connector \"zero\" of its own"],
-        ),
-        (
-            own(
-                r#"<ssd:Connector name="zero" kind="output"/>"#,
-                r#"<ssd:Connection startConnector="zero" endElement="b" endConnector="angle"/>"#,
-            ),
+            own(&[("zero", "output", "")], &[("zero", "b.angle")]),
             &["the system's own zero of kind output", "allowed: input, parameter"],
         ),
         (
-            own(
-                r#"<ssd:Connector name="zero" kind="input"><ssc:Real unit="m"/></ssd:Connector>"#,
-                r#"<ssd:Connection startConnector="zero" endElement="b" endConnector="angle"/>"#,
-            ),
+            own(&[("zero", "input", r#"<ssc:Real unit="m"/>"#)], &[("zero", "b.angle")]),
             &["connection zero to b.angle", "found unit \"m\" at its start and \"rad\" at its end"],
         ),
         (
-            own(
-                r#"<ssd:Connector name="zero" kind="input"><ssc:Boolean/></ssd:Connector>"#,
-                r#"<ssd:Connection startConnector="zero" endElement="b" endConnector="angle"/>"#,
-            ),
+            own(&[("zero", "input", "<ssc:Boolean/>")], &[("zero", "b.angle")]),
             &["the system's own zero of type Boolean, allowed: Real"],
         ),
         (
-            own(
-                r#"<ssd:Connector name="zero" kind="input"/>"#,
-                r#"<ssd:Connection startConnector="zero" endElement="b" endConnector="angle"/>
-<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"/>"#,
-            ),
+            own(&[("zero", "input", "")], &[("zero", "b.angle"), ("a.angle", "b.angle")]),
             &["connection a.angle to b.angle", "connected already in line", "allowed: once"],
         ),
         (
-            own(
-                r#"<ssd:Connector name="all" kind="output"/>"#,
-                r#"<ssd:Connection startElement="a" startConnector="angle" endConnector="all"/>
-<ssd:Connection startElement="a" startConnector="position[1]" endConnector="all"/>"#,
-            ),
+            own(&[("all", "output", "")], &[("a.angle", "all"), ("a.position[1]", "all")]),
             &["connection a.position[1] to all", "connected already in line", "allowed: once"],
         ),
         (
-            own(
-                r#"<ssd:Connector name="zero" kind="input"/><ssd:Connector name="all" kind="output"/>"#,
-                r#"<ssd:Connection startConnector="zero" endConnector="all"/>"#,
-            ),
+            own(&[("zero", "input", ""), ("all", "output", "")], &[("zero", "all")]),
             &["the system's own connectors at both ends"],
         ),
         (
-            own(
-                r#"<ssd:Connector name="b.angle" kind="input"/>"#,
-                r#"<ssd:Connection startConnector="b.angle" endElement="b" endConnector="angle"/>"#,
-            ),
+            Ssd {
+                connections: r#"<ssd:Connection startConnector="b.angle" endElement="b" endConnector="angle"/>"#,
+                ..own(&[("b.angle", "input", "")], &[])
+            },
             &["the system's own connector b.angle", "allowed: a name of its own"],
         ),
         (
-            connection(
+            written(
                 r#"<ssd:Connection startElement="a" startConnector="position[1]" endElement="b" endConnector="angle" suppressUnitConversion="perhaps"/>"#,
             ),
             &["suppressUnitConversion", "\"perhaps\"", "true, false"],
         ),
         (
-            connection(
+            written(
                 r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"><ssc:LinearTransformation factor="2"/></ssd:Connection>"#,
             ),
             &["LinearTransformation between different units", "suppressUnitConversion"],
         ),
         (
-            connection(
+            written(
                 r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"><ssc:IntegerMappingTransformation/></ssd:Connection>"#,
             ),
             &["IntegerMappingTransformation", "allowed there: LinearTransformation"],
         ),
         (
-            connection(
-                r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"/>
-<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"/>"#,
-            ),
+            wired(&[("a.angle", "b.angle"), ("a.angle", "b.angle")]),
             &["connected already in line", "allowed: once"],
         ),
         (
-            Ssd { giver: r#"<ssd:Connector name="postion[1]" kind="output"/>"#, ..GOOD },
+            giver(r#"<ssd:Connector name="postion[1]" kind="output"/>"#),
             &["connector a.postion[1]", "Giver has no variable of that name", "near it: position[1]"],
         ),
         (
-            Ssd { giver: r#"<ssd:Connector name="angle" kind="input"/>"#, ..GOOD },
+            giver(r#"<ssd:Connector name="angle" kind="input"/>"#),
             &["connector a.angle", "found kind input", "Output"],
         ),
         (
-            Ssd { giver: r#"<ssd:Connector name="angle" kind="sink"/>"#, ..GOOD },
+            giver(r#"<ssd:Connector name="angle" kind="sink"/>"#),
             &["found kind \"sink\"", "allowed: input, output"],
         ),
         (
-            Ssd {
-                giver: r#"<ssd:Connector name="angle" kind="output"><ssc:Boolean/></ssd:Connector>"#,
-                ..GOOD
-            },
+            giver(r#"<ssd:Connector name="angle" kind="output"><ssc:Boolean/></ssd:Connector>"#),
             &["found type Boolean, the variable is Real"],
         ),
         (
-            Ssd {
-                giver: r#"<ssd:Connector name="angle" kind="output"><ssc:Real unit="furlong"/></ssd:Connector>"#,
-                ..GOOD
-            },
+            giver(r#"<ssd:Connector name="angle" kind="output"><ssc:Real unit="furlong"/></ssd:Connector>"#),
             &["connector a.angle", "unit \"furlong\", which is not defined", "deg"],
         ),
         (
-            Ssd {
-                giver: r#"<ssd:Connector name="angle" kind="output"><ssc:Real unit="m"/></ssd:Connector>"#,
-                ..GOOD
-            },
+            giver(r#"<ssd:Connector name="angle" kind="output"><ssc:Real unit="m"/></ssd:Connector>"#),
             &["unit \"m\", which measures something else than unit \"deg\""],
         ),
         (
-            Ssd {
-                giver: r#"<ssd:Connector name="colour" kind="output"><ssc:Enumeration name="Color"/></ssd:Connector>"#,
-                ..GOOD
-            },
+            giver(
+                r#"<ssd:Connector name="colour" kind="output"><ssc:Enumeration name="Color"/></ssd:Connector>"#,
+            ),
             &["Enumeration \"Color\", which is not defined"],
         ),
         (
@@ -380,9 +341,7 @@ fn archives_that_are_no_systems_are_refused() {
 #[test]
 fn an_enumeration_with_foreign_items_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let ssd = connection(
-        r#"<ssd:Connection startElement="a" startConnector="colour" endElement="b" endConnector="colour"/>"#,
-    );
+    let ssd = wired(&[("a.colour", "b.colour")]);
     let taker = r#"<ssd:Connector name="colour" kind="input"/>"#;
     let text = Ssd { taker, ..ssd }.text();
     assert!(System::open(ssp(folder.path(), &text, &[])).is_ok());

@@ -23,14 +23,16 @@ const TARGETED: [usize; 2] = [0, 2];
 /// A direction of the Sun without torque about X and Z.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Balance {
+    /// Azimuth and elevation.
     pub place_deg: Angles,
+    /// What is left, in N m.
     pub torque_n_m: Vector3<f64>,
     /// Whether a small turn of the spacecraft about any axis across Y is turned back, panels following the Sun.
     pub is_restoring: bool,
 }
 
 /// The balances near cells of a grid in which both components change sign.
-pub fn find(sunlight: &mut Sunlight<'_>, grid: &Grid) -> Result<Vec<Balance>, Error> {
+pub(super) fn find(sunlight: &mut Sunlight<'_>, grid: &Grid) -> Result<Vec<Balance>, Error> {
     let (_, greatest_n_m) = grid.most();
     let is_flat = TARGETED.map(|axis| grid.is_flat(axis));
     let is_free = |corners: [(usize, usize); 4]| {
@@ -125,7 +127,10 @@ fn newton(
     Ok(Some(Balance { place_deg, torque_n_m, is_restoring }))
 }
 
-/// Where the whole torque is least within the limits of a grid, by a search with shrinking steps from its least node.
+/// Where the whole torque is least within the limits of a grid, by a search with shrinking steps from its least node, in N m.
+///
+/// # Errors
+/// A call that failed.
 pub fn least(sunlight: &mut Sunlight<'_>, grid: &Grid) -> Result<(Angles, Vector3<f64>), Error> {
     let start = grid.nodes().min_by(|a, b| a.1.torque_n_m.norm().total_cmp(&b.1.torque_n_m.norm()));
     let Some((mut place, load)) = start else { return Ok(([0.0; 2], Vector3::zeros())) };

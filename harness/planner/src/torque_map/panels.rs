@@ -5,7 +5,9 @@ use physics::{numerics::scalar::Dual64, spacecraft::Panel};
 
 /// A panel and what turns it.
 pub struct TurnedPanels {
+    /// Of the spacecraft's file.
     pub panel: Panel,
+    /// What turns it.
     pub rule: Rule,
 }
 
@@ -13,8 +15,13 @@ pub struct TurnedPanels {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rule {
     /// It keeps an angle between cells and Sun, tilted by a sign about its axis.
-    SunOffset { offset_rad: f64, tilt_sign: f64 },
-    /// It stands.
+    SunOffset {
+        /// The angle, in rad.
+        offset_rad: f64,
+        /// The sign: 1 or -1.
+        tilt_sign: f64,
+    },
+    /// It stands at this angle, in rad.
     Angle(f64),
 }
 
@@ -30,7 +37,7 @@ impl TurnedPanels {
     }
 
     /// How the angle changes with a change of the Sun's direction.
-    pub fn angle_rate(&self, sun: &Vector3<f64>, change: &Vector3<f64>) -> f64 {
+    pub(super) fn angle_rate(&self, sun: &Vector3<f64>, change: &Vector3<f64>) -> f64 {
         match self.rule {
             Rule::SunOffset { offset_rad, tilt_sign } => {
                 let moving = sun.zip_map(change, Dual64::new);
@@ -42,7 +49,7 @@ impl TurnedPanels {
 
     /// How the angle changes with the offset o: cos(tilt) = cos(o) / sqrt(1 - a^2), a being the Sun's part along the axis, so
     /// d tilt / d o = sin(o) / sqrt(sin(o)^2 - a^2), 1 with the axis across the Sun; 0 where the offset cannot be kept.
-    pub fn angle_per_offset(&self, sun: &Vector3<f64>) -> f64 {
+    pub(super) fn angle_per_offset(&self, sun: &Vector3<f64>) -> f64 {
         /// The axis is across the Sun.
         const ACROSS: f64 = 1e-12;
         let Rule::SunOffset { offset_rad, tilt_sign } = self.rule else { return 0.0 };

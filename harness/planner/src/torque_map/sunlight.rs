@@ -3,16 +3,29 @@
 use loader::{Error, Fmu, Instance, InstanceOptions, Value};
 use nalgebra::Vector3;
 
-use super::{options::SourceKind, panels::TurnedPanels, spacecraft::MappedSpacecraft};
+use super::panels::TurnedPanels;
 
 /// Any step: the model has no memory.
 const STEP_S: f64 = 1.0;
 
+/// A spacecraft and how it stands in sunlight.
+pub struct LitSpacecraft {
+    /// A DisturbanceTorque.
+    pub fmu: Fmu,
+    /// In the order of the FMU.
+    pub panels: Vec<TurnedPanels>,
+    /// From the Sun, in m.
+    pub distance_m: f64,
+    /// What acts: the last part of the outputs' names.
+    pub source: &'static str,
+}
+
 /// What acts, body frame.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Load {
-    /// About the centre of mass.
+    /// About the centre of mass, in N m.
     pub torque_n_m: Vector3<f64>,
+    /// In N.
     pub force_n: Vector3<f64>,
 }
 
@@ -31,14 +44,18 @@ pub struct Sunlight<'a> {
 
 impl<'a> Sunlight<'a> {
     /// An instance without a planet, at the spacecraft's distance from the Sun.
-    pub fn new(spacecraft: &'a MappedSpacecraft, source: SourceKind) -> Result<Self, Error> {
+    ///
+    /// # Errors
+    /// An FMU without these variables, or that does not start.
+    pub fn new(spacecraft: &'a LitSpacecraft) -> Result<Self, Error> {
         let fmu = &spacecraft.fmu;
         let references = |names: &[String]| -> Result<Vec<u32>, Error> {
             names.iter().map(|name| Ok(fmu.variable(name)?.value_reference)).collect()
         };
         let mut inputs = vector("sun.positionBody");
         inputs.extend((1..=spacecraft.panels.len()).map(|number| format!("panel[{number}].angle")));
-        let outputs = ["torque", "force"].map(|what| vector(&format!("{what}.{}", source.name()))).concat();
+        let outputs =
+            ["torque", "force"].map(|what| vector(&format!("{what}.{}", spacecraft.source))).concat();
         let (inputs, outputs) = (references(&inputs)?, references(&outputs)?);
         let mut sunlight = Self {
             instance: started(fmu)?,
@@ -55,6 +72,9 @@ impl<'a> Sunlight<'a> {
     }
 
     /// With the Sun in this direction, a unit vector.
+    ///
+    /// # Errors
+    /// A call that failed.
     pub fn at(&mut self, sun: &Vector3<f64>) -> Result<Load, Error> {
         let (position, angles_rad) = self.values.split_at_mut(3);
         for (value, part) in position.iter_mut().zip(sun.iter()) {
@@ -73,7 +93,7 @@ impl<'a> Sunlight<'a> {
     }
 
     /// Torque with the Sun in this direction, and its derivatives along changes of it, panels turning along, in N m per rad.
-    pub fn slopes<const N: usize>(
+    pub(super) fn slopes<const N: usize>(
         &mut self,
         sun: &Vector3<f64>,
         changes: [Vector3<f64>; N],
@@ -89,7 +109,11 @@ impl<'a> Sunlight<'a> {
     }
 
     /// Torque's derivative by the Sun offset of these panels, in N m per rad.
-    pub fn slope_by_offset(&mut self, sun: &Vector3<f64>, panels: &[usize]) -> Result<Vector3<f64>, Error> {
+    pub(super) fn slope_by_offset(
+        &mut self,
+        sun: &Vector3<f64>,
+        panels: &[usize],
+    ) -> Result<Vector3<f64>, Error> {
         self.at(sun)?;
         let mut seed = vec![0.0; self.inputs.len()];
         for &panel in panels {

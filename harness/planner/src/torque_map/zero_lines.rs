@@ -57,7 +57,7 @@ impl ZeroLine {
 }
 
 /// The lines of a component (0 to 2) in a grid.
-pub fn find(sunlight: &mut Sunlight<'_>, grid: &Grid, axis: usize) -> Result<Vec<ZeroLine>, Error> {
+pub(super) fn find(sunlight: &mut Sunlight<'_>, grid: &Grid, axis: usize) -> Result<Vec<ZeroLine>, Error> {
     let greatest_n_m = grid.greatest_n_m(axis);
     let (value_n_m, is_flat) = (grid.component_n_m(axis), grid.is_flat(axis));
     let mut roots: HashMap<Edge, Angles> = HashMap::new();

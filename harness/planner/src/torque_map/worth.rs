@@ -3,26 +3,28 @@
 use loader::Error;
 use nalgebra::Vector3;
 
-use crate::draw::scene::panel_called;
-
 use super::{
-    panels::{Rule, TurnedPanels},
-    sunlight::Sunlight,
+    panels::Rule,
+    sunlight::{LitSpacecraft, Sunlight},
 };
 
 /// One quantity that is turned by a degree.
 pub struct Worth {
+    /// The quantity.
     pub what: String,
     /// Change of torque for each degree, body frame.
     pub torque_n_m_per_deg: Vector3<f64>,
 }
 
-/// Torque with the Sun on -Y, as in a downlink without targets, and what a degree changes.
-pub fn find(
-    sunlight: &mut Sunlight<'_>,
-    panels: &[TurnedPanels],
+/// Torque with the Sun on -Y in N m, as in a downlink without targets, and what a degree changes; `called` names panels.
+///
+/// # Errors
+/// A call that failed.
+pub fn worths(
+    spacecraft: &LitSpacecraft,
+    called: impl Fn(&str) -> String,
 ) -> Result<(Vector3<f64>, Vec<Worth>), Error> {
-    let sun = -Vector3::y();
+    let (mut sunlight, sun) = (Sunlight::new(spacecraft)?, -Vector3::y());
     // Azimuth turns the Sun toward +X, elevation toward -Z.
     let (load, slopes) = sunlight.slopes(&sun, [Vector3::x(), -Vector3::z()])?;
     let per_deg = |what: &str, slope: Vector3<f64>| Worth {
@@ -30,14 +32,15 @@ pub fn find(
         torque_n_m_per_deg: slope * 1_f64.to_radians(),
     };
     let mut found = vec![per_deg("Sun azimuth", slopes[0]), per_deg("Sun elevation", slopes[1])];
-    let held = panels.iter().enumerate().filter(|(_, turned)| matches!(turned.rule, Rule::SunOffset { .. }));
+    let panels = spacecraft.panels.iter();
+    let held = panels.enumerate().filter(|(_, turned)| matches!(turned.rule, Rule::SunOffset { .. }));
     let held: Vec<usize> = held.map(|(index, _)| index).collect();
     if !held.is_empty() {
         found.push(per_deg("Sun offset of the panels", sunlight.slope_by_offset(&sun, &held)?));
     }
     if held.len() > 1 {
         for index in held {
-            let what = format!("Sun offset of {}", panel_called(&panels[index].panel.name));
+            let what = format!("Sun offset of {}", called(&spacecraft.panels[index].panel.name));
             found.push(per_deg(&what, sunlight.slope_by_offset(&sun, &[index])?));
         }
     }

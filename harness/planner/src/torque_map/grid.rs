@@ -6,11 +6,7 @@ use loader::Error;
 use nalgebra::Vector3;
 use physics::attitude::{SunAngles, direction_from_angles};
 
-use super::{
-    options::SourceKind,
-    spacecraft::MappedSpacecraft,
-    sunlight::{Load, Sunlight},
-};
+use super::sunlight::{LitSpacecraft, Load, Sunlight};
 
 /// Least part of the greatest torque that is not rounding.
 const ROUNDING: f64 = 1e-13;
@@ -37,19 +33,17 @@ pub fn direction([azimuth_deg, elevation_deg]: Angles) -> Vector3<f64> {
 }
 
 /// Azimuth and elevation of a direction.
-pub fn angles_deg(direction: &Vector3<f64>) -> Angles {
+pub(super) fn angles_deg(direction: &Vector3<f64>) -> Angles {
     let of = SunAngles::of(direction);
     [of.azimuth_rad.to_degrees(), of.elevation_rad.to_degrees()]
 }
 
 impl Grid {
     /// Asks for every node, on as many threads as the computer has; what acts depends on the direction alone.
-    pub fn new(
-        spacecraft: &MappedSpacecraft,
-        source: SourceKind,
-        limits_deg: Angles,
-        steps: [usize; 2],
-    ) -> Result<Self, Error> {
+    ///
+    /// # Errors
+    /// A call that failed.
+    pub fn new(spacecraft: &LitSpacecraft, limits_deg: Angles, steps: [usize; 2]) -> Result<Self, Error> {
         let empty = Self { limits_deg, steps, loads: Vec::new() };
         let threads = thread::available_parallelism().map_or(1, usize::from).min(steps[1]);
         // Rows in turns, as directions differ in what they cost.
@@ -57,7 +51,7 @@ impl Grid {
             let requested = |first: usize| {
                 let empty = &empty;
                 scope.spawn(move || -> Result<Vec<Vec<Load>>, Error> {
-                    let mut sunlight = Sunlight::new(spacecraft, source)?;
+                    let mut sunlight = Sunlight::new(spacecraft)?;
                     (first..=steps[1]).step_by(threads).map(|row| empty.row(&mut sunlight, row)).collect()
                 })
             };
@@ -136,7 +130,7 @@ impl Grid {
     }
 
     /// The corners of the cell that a place is in.
-    pub fn corners(&self, place_deg: Angles) -> [(usize, usize); 4] {
+    pub(super) fn corners(&self, place_deg: Angles) -> [(usize, usize); 4] {
         let [column, row] = [0, 1].map(|axis| {
             let part = 0.5 * (place_deg[axis] / self.limits_deg[axis] + 1.0);
             ((part * self.steps[axis] as f64).floor().max(0.0) as usize).min(self.steps[axis] - 1)
