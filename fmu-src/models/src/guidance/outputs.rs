@@ -41,7 +41,7 @@ pub fn write(
     let active = if is_coarse { EphemerisModel::Coarse } else { EphemerisModel::Precise };
     values.set_choice(v.ephemeris.active, active);
 
-    let sun = state.sun_angles_at(&attitude, time_s);
+    let sun = state.sun_line().angles_at(&attitude, time_s);
     values.set_real(v.sun.azimuth, sun.azimuth_rad);
     values.set_real(v.sun.elevation, sun.elevation_rad);
     let judged = state.status();
@@ -89,7 +89,7 @@ pub fn derivative(context: &Plan<'_>, state: &GuidanceState, time_s: f64, output
     if let Some(index) = v.command.q.index_of(output) {
         return Some(state.command().quaternion_rate_at(time_s)[index]);
     }
-    let rates = state.sun_angle_rates_at(time_s);
+    let rates = state.sun_line().angle_rates_at(state.command(), time_s);
     [v.sun.azimuth, v.sun.elevation]
         .into_iter()
         .zip(rates)

@@ -8,6 +8,7 @@ pub(crate) mod flight_tests;
 pub mod guidance_command;
 pub mod mode;
 pub mod monitor;
+pub mod sun_line;
 pub mod system;
 #[cfg(test)]
 pub(crate) mod test_burn;

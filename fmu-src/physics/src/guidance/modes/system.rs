@@ -12,8 +12,9 @@ use serde::{Deserialize, Serialize};
 use super::body_positions::BodyPositions;
 use super::guidance_command::{CommandKind, CommandStatus, GuidanceCommand};
 use super::mode::Mode;
+use super::sun_line::SunLine;
 use super::transitions::{ModeSettings, ModeState, Sensed, Steering};
-use crate::attitude::{Attitude, SunAngles};
+use crate::attitude::Attitude;
 use crate::guidance::burn::delta_v::{BurnSettings, BurnState, MeasuredMotion};
 use crate::guidance::constraints::constrained::{ConstrainedPointing, Constraints};
 use crate::guidance::constraints::hot_pole::TurnSide;
@@ -21,7 +22,7 @@ use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::downlink::downlink_sun::{DownlinkSun, SunChooser, WindowStart};
 use crate::guidance::downlink::sun_place::{LinkLimits, SunPlace, link};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
-use crate::guidance::geometry::moving::{MovingVector, rate, value};
+use crate::guidance::geometry::moving::{MovingVector, value};
 use crate::guidance::orbit_phase::guided::Guided;
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
 use crate::guidance::orbit_phase::schedule::Activity;
@@ -32,7 +33,6 @@ use crate::guidance::pointing::command::{
 use crate::guidance::pointing::law::{Pointing, PointingVectors};
 use crate::guidance::pointing::scan::ScanTime;
 use crate::guidance::pointing::scenario::{Aimed, GuidanceHardware, PointingProgress, aim};
-use crate::numerics::scalar::{Dual64, Scalar};
 use crate::numerics::spacing::spacing;
 
 /// Time between two samples, in s.
@@ -91,9 +91,7 @@ pub struct TimedEntries {
 pub struct GuidanceState {
     command: GuidanceCommand,
     status: CommandStatus,
-    /// From the spacecraft to the Sun and its rate, EME2000, and when; zero while it is not known.
-    to_sun: [Vector3<f64>; 2],
-    to_sun_since_s: f64,
+    sun_line: SunLine,
     modes: ModeState,
     periapses: PeriapsisCount,
     /// The scan and since when it is commanded, in s.
@@ -125,8 +123,7 @@ impl GuidanceState {
         Self {
             command: GuidanceCommand::held(attitude, start_s),
             status: CommandStatus::NOTHING,
-            to_sun: [Vector3::zeros(); 2],
-            to_sun_since_s: start_s,
+            sun_line: SunLine::default(),
             modes: ModeState::default(),
             periapses: PeriapsisCount::default(),
             scan: None,
@@ -215,7 +212,7 @@ impl GuidanceState {
         let steering = self.modes.sample(&modes, &sensed, &inputs.places);
         let surroundings = self.modes.surroundings(&inputs.places);
         if let Some(to_sun) = surroundings.map(EphemerisAtTime::to_sun) {
-            (self.to_sun, self.to_sun_since_s) = ([value(&to_sun), rate(&to_sun)], time_s);
+            self.sun_line = SunLine::new(&to_sun, time_s);
         }
         match steering {
             Some(Steering::Pointing(constraints)) => {
@@ -300,32 +297,9 @@ impl GuidanceState {
         self.downlink_sun.place().filter(|_| self.modes.mode == Mode::Operational)
     }
 
-    /// Azimuth and elevation of the Sun in the frame of `attitude` at `time_s`; both 0 while it is not known.
-    pub fn sun_angles_at(&self, attitude: &Attitude, time_s: f64) -> SunAngles {
-        let [to_sun, _] = self.sun_line_at(time_s);
-        if to_sun == Vector3::zeros() {
-            return SunAngles::default();
-        }
-        SunAngles::of(&(attitude.inertial_from_body().inverse() * to_sun))
-    }
-
-    /// Their rates, in rad/s.
-    pub fn sun_angle_rates_at(&self, time_s: f64) -> [f64; 2] {
-        let [to_sun, sun_rate] = self.sun_line_at(time_s);
-        if to_sun == Vector3::zeros() {
-            return [0.0; 2];
-        }
-        let to_body = self.command.attitude_at(time_s).inertial_from_body().inverse();
-        let sun_body = to_body * to_sun;
-        let rate_body = to_body * sun_rate - self.command.rate_body_rad_s.cross(&sun_body);
-        let [x, y, z] = [0, 1, 2].map(|i| Dual64::new(sun_body[i], rate_body[i]));
-        let across = Dual64::constant(libm::hypot(sun_body.x, sun_body.y));
-        let across = if across.re > 0.0 {
-            Dual64::new(across.re, (x * x.eps + y * y.eps).re / across.re)
-        } else {
-            across
-        };
-        [Dual64::polar_angle(x, -y).eps, Dual64::polar_angle(-z, across).eps]
+    /// The line to the Sun at the last sample where it was known.
+    pub fn sun_line(&self) -> &SunLine {
+        &self.sun_line
     }
 
     /// Rejects decoded states that no simulation can produce.
@@ -337,11 +311,6 @@ impl GuidanceState {
     pub fn covers(&self, time_s: f64) -> bool {
         let tolerance_s = 4.0 * spacing(time_s);
         (time_s - tolerance_s..=time_s + SAMPLE_INTERVAL_S + tolerance_s).contains(&self.next_sample_s)
-    }
-
-    fn sun_line_at(&self, time_s: f64) -> [Vector3<f64>; 2] {
-        let [to_sun, rate] = self.to_sun;
-        [to_sun + rate * (time_s - self.to_sun_since_s), rate]
     }
 
     /// What is commanded now: where no scenario is, the last command that gave an attitude, without its scans.
