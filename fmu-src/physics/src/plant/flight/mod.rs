@@ -68,6 +68,8 @@ enum Mode {
 struct FlightSetup {
     world: World,
     settings: ModeSettings,
+    /// Where everything was and what acted at the last report, kept in place: it is large.
+    evaluation: Option<Evaluation>,
 }
 
 /// What parameters say beside the configuration.
@@ -176,7 +178,7 @@ impl Flight {
 
     /// Takes what parameters and inputs say.
     pub fn configure(&mut self, world: World, settings: ModeSettings) {
-        self.setup = Some(Box::new(FlightSetup { world, settings }));
+        self.setup = Some(Box::new(FlightSetup { world, settings, evaluation: None }));
         self.set_left();
     }
 
@@ -245,7 +247,7 @@ impl Flight {
         let Self { propagator, thrusters, setup: Some(setup), mode } = self else {
             return Err(PlantError::OtherMode);
         };
-        let FlightSetup { world, settings } = &mut **setup;
+        let FlightSetup { world, settings, .. } = &mut **setup;
         Ok((ConfiguredFlight { given, world, propagator, thrusters, log }, settings, mode))
     }
 
@@ -350,24 +352,29 @@ impl Flight {
         let Self { propagator, thrusters, setup: Some(setup), mode } = self else {
             return Err(PlantError::OtherMode);
         };
-        let FlightSetup { world, settings } = &mut **setup;
+        let FlightSetup { world, settings, evaluation } = &mut **setup;
         let mut flight = ConfiguredFlight { given, world, propagator, thrusters, log: &mut |_| {} };
-        let (evaluation, body) = match (&*mode, &mut *settings) {
+        let body = match (&*mode, &mut *settings) {
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
                 dynamics.resume(settings, &mut flight);
-                let body = dynamics.motion.at(&settings.gyrostat, time_s);
-                (dynamics.evaluation(settings, &mut flight, &body, time_s), Some(body))
+                Some(dynamics.motion.at(&settings.gyrostat, time_s))
             }
-            (Mode::Waiting, _) => (Evaluation::without_position(frame, flight.world.mass_at_zero), None),
-            _ => (flight.plant().evaluate(time_s), None),
+            _ => None,
         };
+        let evaluation = &*evaluation.insert(match (&*mode, &mut *settings, &body) {
+            (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings), Some(body)) => {
+                dynamics.evaluation(settings, &mut flight, body, time_s)
+            }
+            (Mode::Waiting, ..) => Evaluation::without_position(frame, flight.world.mass_at_zero),
+            _ => flight.plant().evaluate(time_s),
+        });
         let (configuration, thrusters) = (&world.configuration, &*thrusters);
         let shown = match (&*mode, &*settings, body) {
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings), Some(body)) => {
                 dynamic(dynamics, settings, thrusters, body, time_s)
             }
             (Mode::Ideal(simulated), ModeSettings::Ideal(settings), _) => {
-                let mut shown = ideal(simulated, settings, &evaluation, inputs, time_s);
+                let mut shown = ideal(simulated, settings, evaluation, inputs, time_s);
                 let Instant { sun_body, lit_fraction, .. } = &evaluation.instant;
                 shown.sun_sensed_body = sensed_sun(
                     &settings.sun_sensors,
@@ -381,7 +388,7 @@ impl Flight {
             }
             (Mode::Waiting, ModeSettings::Ideal(settings), _) => {
                 let totals = Totals::at_start(held.1, &frame.inertial_from_body);
-                ideal(&IdealFlight::new(time_s, totals), settings, &evaluation, inputs, time_s)
+                ideal(&IdealFlight::new(time_s, totals), settings, evaluation, inputs, time_s)
             }
             _ => return Err(PlantError::OtherMode),
         };

@@ -27,7 +27,7 @@ pub struct Report<'a> {
     /// Whether a downlink lasts whose target of momentum is out of reach.
     pub target_is_clamped: bool,
     /// Where everything is and what acts.
-    pub evaluation: Evaluation,
+    pub evaluation: &'a Evaluation,
     /// Momentum, dumps, sensors and control.
     pub shown: Shown<'a>,
 }
