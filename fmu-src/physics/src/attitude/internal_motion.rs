@@ -12,7 +12,6 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::series::TERMS;
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// A mass that turns on a hinge.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,12 +154,6 @@ impl InternalMotion {
     pub(super) fn inertia_change_after(&self, elapsed_s: f64) -> Matrix3<f64> {
         let terms = self.inertia[1..].iter().rev();
         terms.fold(Matrix3::zeros(), |sum, term| sum * elapsed_s + term) * elapsed_s
-    }
-
-    pub(super) fn is_valid(&self) -> bool {
-        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
-        let inertia = self.inertia.iter().flat_map(|it| it.iter());
-        inertia.chain(self.momentum.iter().flat_map(|it| it.iter())).all(sound)
     }
 }
 

@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::totals::Convention;
-use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
+use crate::numerics::chebyshev::Segment;
 use crate::radiation::{Effect, Loads};
 
 /// Effects that act between dumps.
@@ -33,11 +33,6 @@ pub fn torques_body_n_m(loads: &Loads) -> SourceTorques {
 pub struct SourceMomenta([Vector3<f64>; SOURCES.len()]);
 
 impl SourceMomenta {
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_valid(&self) -> bool {
-        self.0.iter().flatten().all(|x| x.abs() <= GREATEST_IN_STATE)
-    }
-
     /// Of one effect, body frame, in N m s, the body standing like this; `None` for an effect that is not kept apart.
     pub fn body_n_m_s(
         &self,
