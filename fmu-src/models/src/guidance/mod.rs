@@ -167,7 +167,7 @@ impl Model for Guidance {
     }
 
     fn check_state(_setup: &GuidanceSetup, state: &State) -> Result<(), Failure> {
-        if state.system.is_valid() && state.dumps.is_valid() {
+        if state.system.is_valid() {
             return Ok(());
         }
         Err(Failure::new("the saved state holds a direction or an attitude that is none"))

@@ -17,7 +17,7 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::body_load::{BodyLoad, BodyMotion, Components};
+use super::body_load::{BodyLoad, BodyMotion};
 use super::gyrostat::Gyrostat;
 use super::imbalance::ImbalanceMotion;
 use super::internal_motion::InternalMotion;
@@ -26,7 +26,6 @@ use super::quaternion::Quaternion;
 use super::rotor_motion::RotorMotion;
 use super::series::{ORDER, ROUNDING, RotationSeries, TERMS, exact_length_s, polynomial, slope};
 use super::wheel::{Motor, Rotor};
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::quadrature::GAUSS_3;
 
 /// [`ROUNDING`] of cosine and sine of a rotor's phase, which act on the body through a small imbalance alone.
@@ -86,20 +85,15 @@ impl GyrostatMotion {
         motion
     }
 
-    /// Whether its numbers can come from a flight of a body with so many wheels and modal coordinates; bytes from elsewhere may hold anything.
+    /// Whether a simulation with so many wheels and modal coordinates can produce it.
     pub fn is_valid(&self, wheels: usize, oscillators: usize) -> bool {
-        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
-        let totals = [&self.momentum_inertial_n_m_s, &self.delta_v_inertial_m_s];
         self.rotors.len() == wheels
             && self.oscillators.len() == oscillators
             && self.imbalances.len() <= wheels
             && self.oscillators.iter().all(OscillatorMotion::is_valid)
             && self.imbalances.iter().all(ImbalanceMotion::is_valid)
             && self.series.is_valid()
-            && [self.start_s, self.end_s].iter().all(sound)
             && self.start_s <= self.end_s
-            && totals.into_iter().flatten_all().all(sound)
-            && self.inverse_inertia.iter().all(sound)
             && self.load.is_valid()
             && self.rotors.iter().all(RotorMotion::is_valid)
     }

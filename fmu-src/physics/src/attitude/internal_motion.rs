@@ -12,7 +12,6 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::series::{TERMS, polynomial};
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// A mass that turns on a hinge.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -153,12 +152,6 @@ impl InternalMotion {
     /// By how much the inertia is another after `elapsed_s`, in kg m2.
     pub(super) fn inertia_change_after(&self, elapsed_s: f64) -> Matrix3<f64> {
         polynomial(&self.inertia[1..], elapsed_s) * elapsed_s
-    }
-
-    pub(super) fn is_valid(&self) -> bool {
-        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
-        let inertia = self.inertia.iter().flat_map(|it| it.iter());
-        inertia.chain(self.momentum.iter().flat_map(|it| it.iter())).all(sound)
     }
 }
 

@@ -7,8 +7,6 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
-
 /// What a flow that is linear in time does to the body beside thrust, body frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MassFlow {
@@ -30,11 +28,5 @@ impl MassFlow {
         let [start, slope] = &self.jet_damping_kg_m2_s;
         let from_slope = j.checked_sub(1).map_or(Vector3::zeros(), |before| slope * rates[before]);
         -(start * rates[j] + from_slope)
-    }
-
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_valid(&self) -> bool {
-        let matrices = self.jet_damping_kg_m2_s.iter().chain([&self.inertia_rate_kg_m2_s]);
-        matrices.flat_map(|matrix| matrix.iter()).all(|x| x.abs() <= GREATEST_IN_STATE)
     }
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::series::{TERMS, polynomial, slope};
 use super::wheel::{Motor, ReactionWheel, Rotor};
-use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
+use crate::numerics::chebyshev::Segment;
 
 /// One rotor over a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,11 +18,9 @@ pub(super) struct RotorMotion {
 }
 
 impl RotorMotion {
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Whether a simulation can produce it.
     pub fn is_valid(&self) -> bool {
-        self.rotor.is_valid()
-            && self.next.is_none_or(|next| next.is_valid())
-            && self.axial.iter().all(|x| x.abs() <= GREATEST_IN_STATE)
+        self.rotor.is_valid() && self.next.is_none_or(|next| next.is_valid())
     }
 
     /// By how much in N m a rotor that is held is driven off its speed at the start, or one that turns through its rest or beyond

@@ -4,7 +4,6 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::momentum::DumpPolicy;
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// Requests so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -36,11 +35,6 @@ impl DumpRequests {
     /// Where the last request leaves the momentum, body frame, in N m s; zero before any.
     pub fn target_body_n_m_s(&self) -> &Vector3<f64> {
         &self.target_body_n_m_s
-    }
-
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_valid(&self) -> bool {
-        self.target_body_n_m_s.iter().all(|x| x.abs() <= GREATEST_IN_STATE)
     }
 }
 

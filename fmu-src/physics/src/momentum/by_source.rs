@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::totals::Convention;
 use crate::loads::{Active, ByEffect, Effect, Loads};
-use crate::numerics::chebyshev::{GREATEST_IN_STATE, Segment};
+use crate::numerics::chebyshev::Segment;
 
 /// Torque of the effects that act and whose momentum is kept apart, body frame, in N m.
 pub type SourceTorques = ByEffect<Option<Vector3<f64>>>;
@@ -23,11 +23,6 @@ pub fn torques_body_n_m(loads: &Loads, active: Active) -> SourceTorques {
 pub struct SourceMomenta(pub(super) ByEffect<Vector3<f64>>);
 
 impl SourceMomenta {
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_valid(&self) -> bool {
-        self.0.values().iter().flatten().all(|x| x.abs() <= GREATEST_IN_STATE)
-    }
-
     /// Of one effect, body frame, in N m s, the body standing like this; zero for an effect that is not kept apart.
     pub fn body_n_m_s(
         &self,

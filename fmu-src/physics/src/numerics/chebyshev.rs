@@ -27,9 +27,6 @@ pub struct Segment<const D: usize, const N: usize> {
     coefficients: SMatrix<f64, D, N>,
 }
 
-/// Greatest magnitude of a number in a state that was saved: far beyond any quantity, and its square is finite.
-pub const GREATEST_IN_STATE: f64 = 1e100;
-
 impl<const D: usize, const N: usize> Segment<D, N> {
     /// Whether `from`..`to` lies inside, up to rounding: there no value exceeds the sum of the coefficients.
     pub fn spans(&self, from: f64, to: f64) -> bool {

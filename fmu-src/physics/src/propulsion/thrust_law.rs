@@ -4,7 +4,6 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::flow::{flowed_kg, lasts_s};
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::spacecraft::Thrust;
 
 /// What thrusters exert from a time on: values then, and their slopes a second.
@@ -30,13 +29,6 @@ impl ThrustLaw {
     /// Whether nothing fires; couples exert no force, but propellant flows.
     pub fn is_none(&self) -> bool {
         self.flow_kg_s == [0.0; 2]
-    }
-
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_valid(&self) -> bool {
-        let vectors = self.force_body_n.iter().chain(&self.torque_body_n_m);
-        let numbers = vectors.flat_map(|vector| vector.iter()).chain(&self.flow_kg_s).chain([&self.since_s]);
-        numbers.into_iter().all(|x| x.abs() <= GREATEST_IN_STATE)
     }
 
     /// Adds a thruster's full thrust times a share that is linear in time.

@@ -159,7 +159,8 @@ fn states_torn_at_random_are_refused_or_simulated_on_without_panic_or_hang() {
                 torn[at] = random() as u8;
             }
             let Ok(mut other) = postcard::from_bytes::<Plant>(&torn) else { continue };
-            if SpinPlant::check_state(&spinner, &other).is_err() {
+            if fmi_export::check_finite(&other).is_err() || SpinPlant::check_state(&spinner, &other).is_err()
+            {
                 refused += 1;
                 continue;
             }

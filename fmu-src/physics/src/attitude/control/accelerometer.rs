@@ -6,7 +6,6 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::noise::{Channel, normal_vector};
 
 /// How well the accelerometers measure; all zero is exact.
@@ -64,12 +63,6 @@ impl AccelerometerState {
     /// Sum of the increments along the body axes since the start, in m/s.
     pub fn delta_v_body_m_s(&self) -> &Vector3<f64> {
         &self.delta_v_body_m_s
-    }
-
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
-    pub fn is_valid(&self) -> bool {
-        let vectors = [&self.bias_body_m_s2, &self.scale_error, &self.delta_v_body_m_s];
-        vectors.into_iter().flatten().all(|x| x.abs() <= GREATEST_IN_STATE)
     }
 }
 

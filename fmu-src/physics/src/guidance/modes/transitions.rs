@@ -20,7 +20,6 @@ use crate::attitude::{Attitude, Quaternion};
 use crate::guidance::constraints::constrained::Constraints;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// Two unit vectors whose cross product is as small as this are opposite within rounding.
 const OPPOSITE: f64 = 1e-15;
@@ -153,8 +152,9 @@ impl ModeState {
         if self.mode == Mode::Operational && !self.ephemeris.is_valid() {
             // Coarse models do not point as Operational demands.
             self.mode = self.mode.demoted();
-            // The turn to where the coarse Sun stands is a safing turn.
-            let violation = Violation { since_s: sensed.time_s, least_excess_rad: Some(GREATEST_IN_STATE) };
+            // The turn to where the coarse Sun stands is a safing turn: any excess is less.
+            let violation =
+                Violation { since_s: sensed.time_s, least_excess_rad: Some(core::f64::consts::TAU) };
             self.monitor.violation = Some(violation);
         }
         let Some(estimate) = &sensed.estimate else {

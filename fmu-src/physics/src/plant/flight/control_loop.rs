@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 use crate::attitude::control::{ControlTarget, ControllerState, Estimate};
 use crate::attitude::{Attitude, BodyMotion, Gyrostat, GyrostatMotion};
 use crate::momentum::Totals;
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::spacing::spacing;
 
@@ -64,12 +63,11 @@ impl ControlLoop {
         }
     }
 
-    /// Whether its numbers can come from a flight with so many wheels; bytes from elsewhere may hold anything.
+    /// Whether a simulation with so many wheels can produce it.
     pub fn is_valid(&self, wheels: usize) -> bool {
         self.controller.is_valid()
             && self.wheels.is_valid(wheels)
             && self.guidance.as_ref().is_none_or(Command::is_valid)
-            && self.next_guidance_s.abs() <= GREATEST_IN_STATE
     }
 
     /// Whether wheels or thrusters could not give the torque requested at the last sample.

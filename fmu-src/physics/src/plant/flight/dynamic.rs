@@ -103,8 +103,7 @@ impl AttitudeDynamics {
         Ok(begun)
     }
 
-    /// Whether its numbers can come from a flight of a body with so many wheels, modal coordinates and panels; bytes from
-    /// elsewhere may hold anything.
+    /// Whether a simulation with so many wheels, modal coordinates and panels can produce it.
     pub fn is_valid(&self, wheels: usize, oscillators: usize, panels: usize) -> bool {
         self.motion.is_valid(wheels, oscillators)
             && self.mass.is_valid()

@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::SunAngles;
 use crate::guidance::{ChosenPlace, SunPlace};
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// The last choices; the slew after a downlink starts from its attitude, and that after science from its own.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -20,10 +19,9 @@ pub struct SunChoice {
 }
 
 impl SunChoice {
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Whether a simulation can produce it.
     pub fn is_valid(&self) -> bool {
         [self.chosen, self.science].into_iter().flatten().all(|chosen| chosen.place.is_valid())
-            && self.chosen_s.is_none_or(|at_s| at_s.abs() <= GREATEST_IN_STATE)
     }
 
     /// The Sun's place in the downlink attitude; `None`: on -Y.

@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::control::{Allocation, WheelAllocator};
 use crate::attitude::{Gyrostat, Motor};
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
 
 /// How torque reaches the wheels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,10 +45,9 @@ impl WheelControl {
         Self { motors: vec![Motor::default(); wheels], is_limited: false, allocator: None }
     }
 
-    /// Whether its numbers can come from a flight with so many wheels; bytes from elsewhere may hold anything.
+    /// Whether a simulation with so many wheels can produce it.
     pub fn is_valid(&self, wheels: usize) -> bool {
         self.motors.len() == wheels
-            && self.motors.iter().all(|motor| motor.torque_n_m.abs() <= GREATEST_IN_STATE)
     }
 
     /// The motors.

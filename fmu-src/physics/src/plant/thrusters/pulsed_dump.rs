@@ -8,7 +8,6 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::Quaternion;
-use crate::numerics::chebyshev::GREATEST_IN_STATE;
 use crate::propulsion::ThrusterSelection;
 use crate::spacecraft::MOST_THRUSTERS;
 
@@ -62,18 +61,10 @@ impl PulsedDump {
         }
     }
 
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Whether a simulation can produce it.
     pub(crate) fn is_valid(&self) -> bool {
-        let sound = |x: &f64| x.abs() <= GREATEST_IN_STATE;
-        let vector = |it: &Vector3<f64>| it.iter().all(sound);
         let norm: f64 = self.attitude_at_start.0.iter().map(|x| x * x).sum();
-        vector(&self.target_inertial_n_m_s)
-            && vector(&self.mean_torque_body_n_m)
-            && (norm - 1.0).abs() < 1e-9
-            && self.before.is_valid()
-            && self.after.as_ref().is_none_or(ThrusterTotals::is_valid)
-            && sound(&self.next_s)
-            && self.residual_s.iter().all(|residual_s| *residual_s >= 0.0 && sound(residual_s))
+        (norm - 1.0).abs() < 1e-9 && self.residual_s.iter().all(|residual_s| *residual_s >= 0.0)
     }
 
     /// Decides the pulses now: for how long each thruster opens, where this is left to give, body frame, in N m s.

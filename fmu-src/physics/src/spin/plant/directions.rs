@@ -3,7 +3,6 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::sound::is_moderate;
 use crate::numerics::or_infinite;
 use crate::spin::geometry::L1Ephemeris;
 
@@ -49,9 +48,7 @@ impl Directions {
 
     /// Whether all are unit vectors, or none.
     pub(super) fn are_directions(&self) -> bool {
-        let unit = |direction: &Vector3<f64>| {
-            *direction == Vector3::zeros() || (direction.norm() - 1.0).abs() < 1e-6
-        };
+        let unit = |direction: &Vector3<f64>| *direction == Vector3::zeros() || is_unit(direction);
         [&self.sun_inertial, &self.earth_inertial, &self.star_inertial].into_iter().all(unit)
     }
 }
@@ -115,7 +112,7 @@ impl DirectionSource {
         let refreshes = match &self.l1 {
             None => self.refresh_s == f64::INFINITY,
             Some(l1) => {
-                orbit_is_sound(l1)
+                has_directions(l1)
                     && self.refresh_s == self.refresh_count as f64 * INTERVAL_S
                     && (self.refresh_s - time_s).abs() <= 2.0 * INTERVAL_S
             }
@@ -125,10 +122,11 @@ impl DirectionSource {
 }
 
 /// Whether Sun and Earth of an L1 orbit have a direction at any time.
-pub(super) fn orbit_is_sound(L1Ephemeris { orbit, phases }: &L1Ephemeris) -> bool {
-    let angles = [phases.longitude_rad, phases.in_plane_rad, phases.out_of_plane_rad, orbit.obliquity_deg];
-    let rates = [orbit.line_rate_deg_day, orbit.in_plane_frequency, orbit.out_of_plane_frequency];
-    let distances = [orbit.sun_earth_distance_m, orbit.earth_l1_distance_m];
-    angles.iter().chain(&rates).chain(&distances).chain(&orbit.amplitude_m).all(|&x| is_moderate(x))
-        && orbit.amplitude_m[0].abs() < orbit.earth_l1_distance_m
+pub(super) fn has_directions(L1Ephemeris { orbit, .. }: &L1Ephemeris) -> bool {
+    orbit.amplitude_m[0].abs() < orbit.earth_l1_distance_m
+}
+
+/// Whether the norm of a decoded unit vector is 1, up to rounding.
+pub(super) fn is_unit(vector: &Vector3<f64>) -> bool {
+    (vector.norm() - 1.0).abs() <= 1e-6
 }

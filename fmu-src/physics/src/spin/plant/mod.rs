@@ -4,7 +4,6 @@ mod commands;
 mod directions;
 mod propulsion;
 mod sensors;
-mod sound;
 mod start;
 mod state;
 mod valves;

@@ -5,7 +5,6 @@ use std::sync::LazyLock;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::sound::are_moderate;
 use super::valves::Valves;
 use crate::attitude::Inertia;
 use crate::enumeration::enumeration;
@@ -247,6 +246,5 @@ impl Propulsion {
             && (0.0..=self.initial_propellant_kg).contains(&self.used_kg)
             && self.delta_v_until_s <= latest_s
             && self.valves.is_valid(spinner, latest_s)
-            && are_moderate(&self.delta_v_inertial_m_s)
     }
 }

@@ -388,7 +388,7 @@ impl Plant {
         }
     }
 
-    /// Whether a decoded state can be flown on: its thrusters exist, its numbers are finite and belong together.
+    /// Whether a decoded state can be flown on: its thrusters exist, its numbers belong together.
     pub fn fits(&self, spinner: &Spinner) -> bool {
         let burn = self.sequencer().map(Sequencer::burn);
         let known = (1_u64 << spinner.thrusters.len()) - 1;
@@ -402,7 +402,7 @@ impl Plant {
         masks.iter().all(|&mask| u64::from(mask) & !known == 0)
             && (LEAST_WORK..=MOST_WORK).contains(&self.work_limit)
             && self.initial.is_valid()
-            && self.motion_is_sound(slack_s)
+            && self.motion_is_valid(slack_s)
             && self.propulsion.is_valid(spinner, self.time_s + slack_s)
             && self.commands.is_valid()
             && self.sensors.is_valid(self.time_s)
@@ -410,7 +410,7 @@ impl Plant {
             && self.sequencer().is_none_or(Sequencer::is_valid)
     }
 
-    fn motion_is_sound(&self, slack_s: f64) -> bool {
+    fn motion_is_valid(&self, slack_s: f64) -> bool {
         let (now_s, anchor_s, end_s) = (self.time_s, self.motion.anchor_s(), self.motion.segment_end_s());
         self.motion.is_valid()
             && anchor_s <= now_s + slack_s
