@@ -1,6 +1,6 @@
 //! State of a rigid body: attitude and angular momentum, and what follows from them with its inertia.
 //!
-//! Equations: w = J^-1 h in body components, E = w.h / 2, nutation angle atan2(sqrt(h1^2 + h2^2), h3) about the principal
+//! Equations: w = J^-1 h in body components, nutation angle atan2(sqrt(h1^2 + h2^2), h3) about the principal
 //! axes (Wertz).
 
 use nalgebra::Vector3;
@@ -31,10 +31,5 @@ impl RigidBodyState {
     pub fn nutation_rad(&self, inertia: &Inertia) -> f64 {
         let h = inertia.principal_from_body(&self.momentum_body);
         libm::hypot(h.x, h.y).atan2(h.z)
-    }
-
-    /// Rotational kinetic energy in J.
-    pub fn energy_j(&self, inertia: &Inertia) -> f64 {
-        0.5 * self.rate_rad_s(inertia).dot(&self.momentum_body)
     }
 }

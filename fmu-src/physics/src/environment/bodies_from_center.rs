@@ -26,7 +26,7 @@ impl BodiesFromCenter {
         let center = self.center_state(ephemeris, epoch_s);
         // About the Earth there is one Earth, on whatever orbit.
         let earth = if self.center == Body::Earth { center } else { earth };
-        (difference(&CartesianState::default(), &center), difference(&earth, &center))
+        (CartesianState::default() - center, earth - center)
     }
 
     /// Any body at `epoch_s`, from the centre, in EME2000.
@@ -34,7 +34,7 @@ impl BodiesFromCenter {
         if body == self.center {
             return CartesianState::default();
         }
-        difference(&ephemeris.state(body, epoch_s), &self.center_state(ephemeris, epoch_s))
+        ephemeris.state(body, epoch_s) - self.center_state(ephemeris, epoch_s)
     }
 
     fn center_state(&self, ephemeris: &mut Ephemeris, epoch_s: f64) -> CartesianState {
@@ -43,10 +43,6 @@ impl BodiesFromCenter {
             None => ephemeris.state(self.center, epoch_s),
         }
     }
-}
-
-fn difference(a: &CartesianState, b: &CartesianState) -> CartesianState {
-    CartesianState { position_m: a.position_m - b.position_m, velocity_m_s: a.velocity_m_s - b.velocity_m_s }
 }
 
 /// A body that stays where it is, in m.

@@ -69,10 +69,7 @@ impl CoarseEphemeris {
             let own = carried.and_then(|carried| carried.coarse_state(body.into(), epoch_s));
             own.unwrap_or_else(|| self.state(body, epoch_s))
         });
-        CartesianState {
-            position_m: body.position_m - center.position_m,
-            velocity_m_s: body.velocity_m_s - center.velocity_m_s,
-        }
+        body - center
     }
 }
 

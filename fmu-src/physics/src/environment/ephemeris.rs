@@ -76,10 +76,7 @@ impl Theory {
 /// the same bits. It is no state: skip it when serialising and start from the default.
 #[derive(Clone, Debug, Default)]
 pub struct Ephemeris {
-    mercury: TwoLayers,
-    venus: TwoLayers,
-    mars: TwoLayers,
-    jupiter: TwoLayers,
+    planets: [TwoLayers; Body::ALL.len()],
     earth: Slots<3, EARTH_TERMS>,
     entered: [Entered; Body::ALL.len()],
 }
@@ -111,13 +108,10 @@ impl Ephemeris {
     /// [`VALID_EPOCH_S`] the series loses its meaning; an epoch that is not finite gives NaN.
     pub fn state(&mut self, body: Body, epoch_s: f64) -> CartesianState {
         self.entered[body as usize].enter((epoch_s / LONG_S).floor() as i64);
-        let (position_m, velocity_m_s) = match body {
-            Body::Sun => (Vector3::repeat(0.0 * epoch_s), Vector3::zeros()),
-            Body::Mercury => self.mercury.state(epoch_s, &MERCURY),
-            Body::Venus => self.venus.state(epoch_s, &VENUS),
-            Body::Mars => self.mars.state(epoch_s, &MARS),
-            Body::Jupiter => self.jupiter.state(epoch_s, &JUPITER),
-            Body::Earth => {
+        let (position_m, velocity_m_s) = match theory(body) {
+            None => (Vector3::repeat(0.0 * epoch_s), Vector3::zeros()),
+            Some(theory) if body != Body::Earth => self.planets[body as usize].state(epoch_s, theory),
+            Some(_) => {
                 let position = |epoch_s| from_rectangular(vsop87::vsop87a::earth(julian_date(epoch_s)));
                 self.earth.segment(epoch_s, LONG_S, position).value_and_derivative(epoch_s)
             }
@@ -139,7 +133,7 @@ impl Ephemeris {
         let terms = |body| match body {
             Body::Sun => 0,
             Body::Earth => EARTH_TERMS as u64,
-            Body::Mercury | Body::Venus | Body::Mars | Body::Jupiter => ELEMENT_TERMS as u64,
+            _ => ELEMENT_TERMS as u64,
         };
         Body::ALL.iter().map(|&body| terms(body) * self.entered[body as usize].count).sum()
     }

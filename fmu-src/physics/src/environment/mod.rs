@@ -12,6 +12,8 @@ pub mod orbit;
 pub mod sun;
 pub mod time;
 
+use core::ops::{Add, Sub};
+
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -31,5 +33,23 @@ impl CartesianState {
             position_m: Vector3::x() * radius_m,
             velocity_m_s: Vector3::y() * (mu_m3_s2 / radius_m).sqrt(),
         }
+    }
+}
+
+impl Add for CartesianState {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        let Self { position_m, velocity_m_s } = other;
+        Self { position_m: self.position_m + position_m, velocity_m_s: self.velocity_m_s + velocity_m_s }
+    }
+}
+
+impl Sub for CartesianState {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        let Self { position_m, velocity_m_s } = other;
+        Self { position_m: self.position_m - position_m, velocity_m_s: self.velocity_m_s - velocity_m_s }
     }
 }

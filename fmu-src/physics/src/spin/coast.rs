@@ -71,13 +71,6 @@ impl Coast {
             (self.attitude, self.cosine * dt_s)
         };
         let (sine, cosine) = (0.5 * side * self.relative_spin_rad_s * cosine_s).sin_cos();
-        let [x, y, z, w] = precession.after(moved).0;
-        // Product with a turn about the third axis.
-        Quaternion([
-            x * cosine + y * sine,
-            y * cosine - x * sine,
-            z * cosine + w * sine,
-            w * cosine - z * sine,
-        ])
+        precession.after(moved).after(Quaternion([0.0, 0.0, sine, cosine]))
     }
 }

@@ -89,12 +89,10 @@ impl Work {
     /// More was spent than may be.
     #[inline]
     pub fn check(&self, time_s: f64) -> Result<(), WorkExceeded> {
-        if self.is_exhausted() { Err(self.exceeded(time_s)) } else { Ok(()) }
-    }
-
-    #[cold]
-    fn exceeded(&self, time_s: f64) -> WorkExceeded {
-        WorkExceeded { limit: self.0.limit(), time_s, cause: Cost::cause(self.0.greatest()) }
+        if !self.is_exhausted() {
+            return Ok(());
+        }
+        Err(WorkExceeded { limit: self.0.limit(), time_s, cause: Cost::cause(self.0.greatest()) })
     }
 }
 

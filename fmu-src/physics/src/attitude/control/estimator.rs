@@ -243,25 +243,17 @@ impl EstimatorState {
             None => self.is_lost,
         };
         let innovation = self.attitude.rotation_vector_to(&measured);
-        let gain = match &mut self.without_gyros {
-            Some(filter) if is_first => {
-                filter.covariance.replace(&variance);
-                None
-            }
-            Some(filter) => {
-                let (gain, rate_gain) = filter.covariance.update(&variance);
-                filter.rate_body_rad_s -= rate_gain.component_mul(&innovation);
-                Some(gain)
-            }
-            None if is_first => {
-                self.covariance.replace(&variance);
-                None
-            }
-            None => {
-                let (gain, bias_gain) = self.covariance.update(&variance);
-                self.bias_rad_s += bias_gain.component_mul(&innovation);
-                Some(gain)
-            }
+        let (covariance, known, sign) = match &mut self.without_gyros {
+            Some(filter) => (&mut filter.covariance, &mut filter.rate_body_rad_s, -1.0),
+            None => (&mut self.covariance, &mut self.bias_rad_s, 1.0),
+        };
+        let gain = if is_first {
+            covariance.replace(&variance);
+            None
+        } else {
+            let (gain, known_gain) = covariance.update(&variance);
+            *known += known_gain.component_mul(&innovation) * sign;
+            Some(gain)
         };
         self.attitude = match gain.filter(|_| noise != Vector3::zeros()) {
             Some(gain) => self.attitude.turned(gain.component_mul(&innovation)).normalized(),

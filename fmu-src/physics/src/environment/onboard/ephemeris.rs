@@ -128,16 +128,11 @@ impl OnboardEphemeris {
         let center = center.into();
         for (from, other, sum) in [(target, center, &mut up), (center, target, &mut down)] {
             self.climb(from, other, |body| {
-                let state = body.motion.state(epoch_s)?;
-                sum.position_m += state.position_m;
-                sum.velocity_m_s += state.velocity_m_s;
+                *sum = *sum + body.motion.state(epoch_s)?;
                 Some(())
             })?;
         }
-        Some(CartesianState {
-            position_m: up.position_m - down.position_m,
-            velocity_m_s: up.velocity_m_s - down.velocity_m_s,
-        })
+        Some(up - down)
     }
 
     /// The same, beyond the span of the models as their last state would move on evenly: for integrators, which look
@@ -162,8 +157,8 @@ impl OnboardEphemeris {
 
     /// The same of the spacecraft, if its model is about `center`.
     pub fn coarse_spacecraft(&self, center: Body, epoch_s: f64) -> Option<CartesianState> {
-        let spacecraft = self.coarse.iter().find(|body| body.target == OnboardTarget::Spacecraft)?;
-        if spacecraft.center == center { spacecraft.motion.state(epoch_s) } else { None }
+        let is_it = |it: &&FittedBody<_>| it.target == OnboardTarget::Spacecraft && it.center == center;
+        self.coarse.iter().find(is_it)?.motion.state(epoch_s)
     }
 
     /// Visits the models from `from` up to the first centre that `other` counts from as well, or is; `None` where the chain

@@ -14,12 +14,8 @@ pub fn to_toml(ephemeris: &OnboardEphemeris) -> String {
     for body in &ephemeris.precise {
         let segments = body.motion.segments();
         let degree = segments.first().map_or(0, |segment| segment.coefficients_m.len().saturating_sub(1));
-        let _ = writeln!(
-            text,
-            "\n[[body]]\nbody = \"{}\"\ncenter = \"{}\"",
-            body.target,
-            OnboardTarget::from(body.center)
-        );
+        let center = OnboardTarget::from(body.center);
+        let _ = writeln!(text, "\n[[body]]\nbody = \"{}\"\ncenter = \"{center}\"", body.target);
         let _ = writeln!(text, "degree = {degree}");
         let _ = writeln!(text, "error_m = {:e}", body.error.position_m);
         let _ = writeln!(text, "error_m_s = {:e}", body.error.velocity_m_s);
@@ -34,12 +30,8 @@ pub fn to_toml(ephemeris: &OnboardEphemeris) -> String {
     }
     for body in &ephemeris.coarse {
         let [start_s, end_s] = body.motion.span_s;
-        let _ = writeln!(
-            text,
-            "\n[[coarse]]\nbody = \"{}\"\ncenter = \"{}\"",
-            body.target,
-            OnboardTarget::from(body.center)
-        );
+        let center = OnboardTarget::from(body.center);
+        let _ = writeln!(text, "\n[[coarse]]\nbody = \"{}\"\ncenter = \"{center}\"", body.target);
         let _ = writeln!(text, "start_s = {start_s:e}\nend_s = {end_s:e}");
         let _ = writeln!(text, "error_m = {:e}", body.error.position_m);
         let _ = writeln!(text, "error_m_s = {:e}", body.error.velocity_m_s);

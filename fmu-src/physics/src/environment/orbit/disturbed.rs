@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::deviation::{Deviation, NODES, TERMS};
-use super::elements::{OrbitError, check_mu};
+use super::elements::{OrbitError, check, check_mu};
 use crate::{
     bodies::BodyData,
     constants::GM_SUN_M3_S2,
@@ -145,9 +145,6 @@ impl DisturbedOrbit {
         segment_length_s: f64,
         radius_m: f64,
     ) -> Result<Self, OrbitIntegrationError> {
-        let check = |what, found: f64, ok: bool, allowed| {
-            if ok { Ok(()) } else { Err(OrbitError::OutOfRange { what, found, allowed }) }
-        };
         check("start time in s", start_s, start_s.is_finite(), "a finite number")?;
         check(
             "segment length in s",
@@ -162,9 +159,7 @@ impl DisturbedOrbit {
             "a finite number, 0 or more",
         )?;
         let start = pack(state);
-        if let Some(&found) = start.iter().find(|x| !x.is_finite()) {
-            check("position or velocity", found, false, "finite numbers")?;
-        }
+        start.iter().try_for_each(|x| check("position or velocity", *x, x.is_finite(), "finite numbers"))?;
         check_above(state.position_m.norm(), start_s, radius_m)?;
         Ok(Self { chain: SegmentChain::new(segment_length_s, start_s, start), radius_m, deviation: None })
     }

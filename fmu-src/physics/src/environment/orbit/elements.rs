@@ -113,9 +113,6 @@ impl Elements {
     /// # Errors
     /// The first element that cannot be, with what is allowed.
     pub fn check(&self) -> Result<(), OrbitError> {
-        let check = |what, found: f64, ok: bool, allowed| {
-            if ok { Ok(()) } else { Err(OrbitError::OutOfRange { what, found, allowed }) }
-        };
         let (a, e) = (self.semi_major_axis_m, self.eccentricity);
         check("eccentricity", e, e.is_finite() && e >= 0.0, "0 or more")?;
         if e == 1.0 {
@@ -166,9 +163,7 @@ impl Elements {
         check_mu(mu_m3_s2)?;
         let (position, velocity) = (state.position_m, state.velocity_m_s);
         for (what, vector) in [("position in m", position), ("velocity in m/s", velocity)] {
-            if let Some(&found) = vector.iter().find(|x| !x.is_finite()) {
-                return Err(OrbitError::OutOfRange { what, found, allowed: "finite numbers" });
-            }
+            vector.iter().try_for_each(|x| check(what, *x, x.is_finite(), "finite numbers"))?;
         }
         let (distance_m, speed_m_s) = (position.norm(), velocity.norm());
         let momentum = position.cross(&velocity);
@@ -232,14 +227,18 @@ impl Elements {
 }
 
 pub(super) fn check_mu(mu_m3_s2: f64) -> Result<(), OrbitError> {
-    if mu_m3_s2.is_finite() && mu_m3_s2 > 0.0 {
-        return Ok(());
-    }
-    Err(OrbitError::OutOfRange {
-        what: "gravitational parameter in m3/s2",
-        found: mu_m3_s2,
-        allowed: "a finite number above 0",
-    })
+    let is_allowed = mu_m3_s2.is_finite() && mu_m3_s2 > 0.0;
+    check("gravitational parameter in m3/s2", mu_m3_s2, is_allowed, "a finite number above 0")
+}
+
+/// Refuses a number that was found not to be allowed.
+pub(super) fn check(
+    what: &'static str,
+    found: f64,
+    is_allowed: bool,
+    allowed: &'static str,
+) -> Result<(), OrbitError> {
+    if is_allowed { Ok(()) } else { Err(OrbitError::OutOfRange { what, found, allowed }) }
 }
 
 /// The same angle in `[0, 2 pi)`.

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    elements::{Elements, OrbitError, check_mu},
+    elements::{Elements, OrbitError, check, check_mu},
     kepler::{eccentric_anomaly_rad, hyperbolic_anomaly},
 };
 use crate::environment::CartesianState;
@@ -31,10 +31,7 @@ impl TwoBodyOrbit {
     pub fn from_elements(elements: Elements, mu_m3_s2: f64, epoch_s: f64) -> Result<Self, OrbitError> {
         elements.check()?;
         check_mu(mu_m3_s2)?;
-        if !epoch_s.is_finite() {
-            let allowed = "a finite number";
-            return Err(OrbitError::OutOfRange { what: "epoch in s", found: epoch_s, allowed });
-        }
+        check("epoch in s", epoch_s, epoch_s.is_finite(), "a finite number")?;
         let axis_m = elements.semi_major_axis_m.abs();
         let mean_motion_rad_s = (mu_m3_s2 / axis_m).sqrt() / axis_m;
         let e = elements.eccentricity;

@@ -57,12 +57,8 @@ impl<'a> OrbitAhead<'a> {
     pub fn at(&self, epoch_s: f64) -> EphemerisAtTime {
         let spacecraft = self.spacecraft.state_at(epoch_s);
         let planet = self.planet_from_sun.at(epoch_s);
-        let earth = self.earth_from_sun.at(epoch_s);
-        let sun = CartesianState { position_m: -planet.position_m, velocity_m_s: -planet.velocity_m_s };
-        let earth = CartesianState {
-            position_m: earth.position_m - planet.position_m,
-            velocity_m_s: earth.velocity_m_s - planet.velocity_m_s,
-        };
+        let earth = self.earth_from_sun.at(epoch_s) - planet;
+        let sun = CartesianState::default() - planet;
         EphemerisAtTime::new(epoch_s, self.now.planet, &spacecraft, &sun, &earth)
     }
 }

@@ -37,9 +37,9 @@ impl Geometry {
         let planet = configuration.center.is_planet();
         Self {
             spacecraft,
-            to_sun: difference(&sun, &spacecraft),
-            to_planet: planet.then(|| difference(&fixed(Vector3::zeros()), &spacecraft)),
-            to_earth: difference(&earth, &spacecraft),
+            to_sun: sun - spacecraft,
+            to_planet: planet.then(|| CartesianState::default() - spacecraft),
+            to_earth: earth - spacecraft,
         }
     }
 
@@ -50,12 +50,12 @@ impl Geometry {
 
     /// The Sun from the orbit's centre.
     pub fn sun_from_center(&self) -> CartesianState {
-        sum(&self.to_sun, &self.spacecraft)
+        self.to_sun + self.spacecraft
     }
 
     /// The Earth from the orbit's centre.
     pub fn earth_from_center(&self) -> CartesianState {
-        sum(&self.to_earth, &self.spacecraft)
+        self.to_earth + self.spacecraft
     }
 
     /// Directions with their rates; a body at zero distance counts as lying toward +X.
@@ -68,7 +68,7 @@ impl Geometry {
             sun: unit(&self.to_sun),
             planet: self.to_planet.as_ref().map(unit),
             earth: unit(&self.to_earth),
-            sun_from_planet: self.to_planet.as_ref().map(|to_planet| difference(&self.to_sun, to_planet)),
+            sun_from_planet: self.to_planet.map(|to_planet| self.to_sun - to_planet),
         }
     }
 }
@@ -92,12 +92,4 @@ pub(crate) fn sun_and_earth(
         EphemerisSource::Kepler(planet) => Some(*planet),
     };
     BodiesFromCenter { center: configuration.center, ellipse }.sun_and_earth(ephemeris, epoch_s)
-}
-
-fn difference(a: &CartesianState, b: &CartesianState) -> CartesianState {
-    CartesianState { position_m: a.position_m - b.position_m, velocity_m_s: a.velocity_m_s - b.velocity_m_s }
-}
-
-fn sum(a: &CartesianState, b: &CartesianState) -> CartesianState {
-    CartesianState { position_m: a.position_m + b.position_m, velocity_m_s: a.velocity_m_s + b.velocity_m_s }
 }

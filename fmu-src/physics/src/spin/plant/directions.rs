@@ -86,11 +86,9 @@ impl DirectionSource {
 
     /// Looks up Sun and Earth on the L1 orbit for the interval that begins; when it does, in s.
     pub fn refresh(&mut self) -> Option<f64> {
-        let l1 = self.l1.as_ref()?;
+        self.l1.as_ref()?;
         let from_s = self.refresh_s;
-        let seen = l1.sun_earth(from_s);
-        self.present.sun_inertial = seen.sun_inertial;
-        self.present.earth_inertial = seen.earth_inertial;
+        self.present = self.at(from_s);
         self.refresh_count = self.refresh_count.saturating_add(1);
         self.refresh_s = self.refresh_count as f64 * INTERVAL_S;
         Some(from_s)

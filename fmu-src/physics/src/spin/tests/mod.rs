@@ -17,6 +17,8 @@ mod work;
 
 use nalgebra::Vector3;
 
+use crate::attitude::{Inertia, RigidBodyState};
+
 use super::{
     burn::BurnRequest,
     forecast::Timing,
@@ -31,6 +33,11 @@ const ACE: &str = include_str!("../../../../resources/ace.toml");
 
 fn ace() -> Spinner {
     Spinner::parse("ace.toml", ACE).unwrap()
+}
+
+/// Rotational kinetic energy, w.h / 2.
+fn energy_j(state: &RigidBodyState, inertia: &Inertia) -> f64 {
+    0.5 * state.rate_rad_s(inertia).dot(&state.momentum_body)
 }
 
 /// Goes on segment by segment until the present one holds `time_s`.

@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::reach;
+use super::{energy_j, reach};
 use crate::attitude::{Inertia, Quaternion, RigidBodyState, angle_between_rad};
 use crate::spin::{damper::Damper, motion::Motion, series::BodyTorque};
 
@@ -221,7 +221,11 @@ fn momentum_and_energy_are_conserved_over_1e5_revolutions() {
         let inertia = Inertia::new(principal).unwrap();
         let motion = start(inertia, 0.0, rate, Vector3::zeros());
         let (before, after) = (motion.at(0.0), state_at(motion.clone(), end_s));
-        assert_relative_eq!(after.energy_j(&inertia), before.energy_j(&inertia), max_relative = tolerance);
+        assert_relative_eq!(
+            energy_j(&after, &inertia),
+            energy_j(&before, &inertia),
+            max_relative = tolerance
+        );
         let seen = if inertia.is_axisymmetric() {
             momentum_by_precession(&inertia, &motion, end_s)
         } else {
@@ -320,7 +324,7 @@ fn the_damper_takes_the_nutation_angle_to_1_e_and_keeps_the_momentum() {
             max_relative = tolerance
         );
         assert_eq!(after.momentum_inertial, before.momentum_inertial);
-        assert!(after.energy_j(&inertia) < before.energy_j(&inertia));
+        assert!(energy_j(&after, &inertia) < energy_j(&before, &inertia));
         // The spin relaxes to H/I3.
         let rest =
             state_at(start(inertia, 60.0, Vector3::new(0.05, 0.0, OMEGA_RAD_S), Vector3::zeros()), 3_000.0);
