@@ -22,14 +22,14 @@ velocity_m_s = np.column_stack([-a * np.sin(E), b * np.cos(E), 0 * E]) * (n / (1
 options = {"orbit.center": "sun", "orbit.source": "inputs", "guided.downlinkEvery": 0}
 options |= {"orbit.position": position_m[0], "orbit.velocity": velocity_m_s[0]}
 rows = []
-with Fmu(plant, options) as craft:
+with Fmu(plant, options) as spacecraft:
     for k in range(len(E)):
-        rows.append((time_s[k] / 86400, craft.get("sun.distance"), craft.get("force.solar[2]")))
+        rows.append((time_s[k] / 86400, spacecraft.get("sun.distance"), spacecraft.get("force.solar[2]")))
         if k + 1 < len(E):
-            craft.step(time_s[k + 1] - time_s[k])
+            spacecraft.step(time_s[k + 1] - time_s[k])
             # What holds from here on; the plant moves on from it by itself until the next row.
-            craft.set("orbit.position", position_m[k + 1])
-            craft.set("orbit.velocity", velocity_m_s[k + 1])
+            spacecraft.set("orbit.position", position_m[k + 1])
+            spacecraft.set("orbit.velocity", velocity_m_s[k + 1])
 day, distance_m, force_n = np.array(rows).T
 print(f"{day[-1]:.2f} d from {distance_m[0] / AU_M:.4f} to {distance_m[-1] / AU_M:.4f} AU, "
       f"force of light {force_n[0] * 1e6:.4f} to {force_n[-1] * 1e6:.4f} uN")

@@ -90,8 +90,8 @@ def test_commanded_attitude(run):
         "after # s held # N.m.s, at most # N.m.s with a turn in # s", run("commanded_attitude")
     )
     pressure = 1361.0 / LIGHT_M_S * (AU_M / 1.496e11) ** 2
-    craft, sun = shipped("messenger.toml", [0.0, 0.0, -0.0254]), np.array([0.0, -1.0, 0.0])
-    torque = np.linalg.norm(solar_torque(craft, sun, pressure, [0.0, 0.0]))
+    spacecraft, sun = shipped("messenger.toml", [0.0, 0.0, -0.0254]), np.array([0.0, -1.0, 0.0])
+    torque = np.linalg.norm(solar_torque(spacecraft, sun, pressure, [0.0, 0.0]))
     # The Sun moves by a third of a degree meanwhile.
     assert held == pytest.approx(torque * stop_s, rel=2e-3)
     assert turning == pytest.approx(torque * period_s / np.pi, rel=1e-2)

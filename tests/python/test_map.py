@@ -23,10 +23,10 @@ def direction(azimuth_deg, elevation_deg):
     ])
 
 
-def mapped(heliotorque, dist, craft, *arguments):
+def mapped(heliotorque, dist, spacecraft, *arguments):
     """Rows of the CSV as numbers."""
     done = call(
-        heliotorque, "map", craft, "--template", (dist / "MomentumPlant.fmu").resolve(), "--csv", "-", "--no-picture", "--quiet",
+        heliotorque, "map", spacecraft, "--template", (dist / "MomentumPlant.fmu").resolve(), "--csv", "-", "--no-picture", "--quiet",
         *arguments,
     )
     assert done.returncode == 0, done.stderr
@@ -60,10 +60,10 @@ def test_directions_are_as_in_fmpy(heliotorque, dist, tmp_path, name):
 
 
 def test_directions_follow_the_flat_plate_law(heliotorque, dist, tmp_path):
-    craft = tmp_path / "sailer.toml"
-    craft.write_text(SAILER, encoding="utf-8")
+    spacecraft = tmp_path / "sailer.toml"
+    spacecraft.write_text(SAILER, encoding="utf-8")
     rows = mapped(
-        heliotorque, dist, craft, "--distance", "1", "--step", "10deg", "--set", "solar.flux=1361"
+        heliotorque, dist, spacecraft, "--distance", "1", "--step", "10deg", "--set", "solar.flux=1361"
     )
     pressure = 1361.0 / 299_792_458.0
     greatest = max(np.linalg.norm(torque(row)) for row in rows)

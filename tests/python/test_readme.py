@@ -274,7 +274,7 @@ def test_the_dump_and_the_jitter_are_those_of_the_studies(studied):
     jitter = {row["case"]: row for row in rows_of(studied, "control/jitter")}["free, wheel at mode 1"]
     ours, closed = (float(jitter[name]) for name in ("amplitude [urad]", "in closed form [urad]"))
     assert line(
-        "beyond 000", "jitter by a wheel out of balance at the first mode of a flexible craft (`control/jitter`)",
+        "beyond 000", "jitter by a wheel out of balance at the first mode of a flexible spacecraft (`control/jitter`)",
         "not stated", f"{ours:.5f} urad; {closed:.5f} in closed form", f"same to {100 * abs(ours / closed - 1):.2f} %",
     ) in VALIDATION
 
