@@ -78,11 +78,14 @@ pub fn step(
     if let Some(changes) = changes {
         apply(context, values, state, step, changes)?;
     }
-    let mut inputs = dynamics::step_inputs(context, values, state.command, state.inputs.take());
+    let mut inputs = match state.inputs.take() {
+        Some(unchanged) if !step.changed => unchanged,
+        memory => dynamics::step_inputs(context, values, state.command, memory),
+    };
     propulsion::warn(context, &inputs, &state.flight.thrusters.settings, &mut state.warned.thrusters, step);
-    if state.request.rises(values.boolean(context.variables.dump.request)) {
-        inputs.dump_to_body_n_m_s = Some(Vector3::from(values.vector(context.variables.dump.target)));
-    }
+    let is_requested = state.request.rises(values.boolean(context.variables.dump.request));
+    let target = || Vector3::from(values.vector(context.variables.dump.target));
+    inputs.dump_to_body_n_m_s = is_requested.then(target);
     let unserved = state.flight.thrusters.unserved_dumps();
     let log = &mut |event: &_| log_dump(context, event);
     let span_s = [step.start_s, step.end_s];

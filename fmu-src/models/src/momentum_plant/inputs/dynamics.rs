@@ -249,7 +249,6 @@ pub fn step_inputs(
     };
     let mut inputs = memory.unwrap_or_else(|| DynamicsInputs::new(tracked, thrust, health));
     (inputs.tracked, inputs.thrust, inputs.health) = (tracked, thrust, health);
-    inputs.dump_to_body_n_m_s = None;
     inputs.refill(
         v.wheel.iter().map(|it| (values.real(it.torque_command), values.boolean(it.failed))),
         v.sun_sensor.iter().map(|it| values.boolean(it.failed)),
