@@ -31,6 +31,14 @@ impl BaseType {
 }
 
 impl VariableKind {
+    /// The standard's word.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Enumeration { .. } => "Enumeration",
+            other => other.base_type().name(),
+        }
+    }
+
     /// The base type at the C interface.
     pub const fn base_type(&self) -> BaseType {
         match self {

@@ -313,6 +313,18 @@ fn limits(description: &Description, variable: &ScalarVariable) -> (Option<f64>,
     (attributes.min.or_else(|| of_type?.min), attributes.max.or_else(|| of_type?.max))
 }
 
+/// The start value of a variable.
+pub fn start(variable: &ScalarVariable) -> Option<Value> {
+    match &variable.kind {
+        VariableKind::Real { start, .. } => start.map(Value::Real),
+        VariableKind::Integer { start, .. } | VariableKind::Enumeration { start, .. } => {
+            start.map(Value::Integer)
+        }
+        VariableKind::Boolean { start, .. } => start.map(Value::Boolean),
+        VariableKind::String { start, .. } => start.clone().map(Value::Text),
+    }
+}
+
 /// Makes `value` the start value; a value of another base type changes nothing.
 pub fn set_start(variable: &mut ScalarVariable, value: &Value) {
     match (&mut variable.kind, value) {

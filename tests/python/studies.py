@@ -1,8 +1,10 @@
-"""Running `heliotorque study` as a user would."""
+"""Running `heliotorque study` as a user would, and reading vectors and attitudes from what it leaves."""
 
 import csv
 import os
 import subprocess
+
+import numpy as np
 
 
 def study(heliotorque, dist, folder, name, threads):
@@ -20,3 +22,21 @@ def table(files, name):
     rows = list(csv.DictReader(files[name].splitlines()))
     assert rows and all(None not in row and None not in row.values() for row in rows), "a ragged table"
     return rows
+
+
+def vector(row, names):
+    """The columns of these names as one vector."""
+    return np.array([float(row[name]) for name in names.split()])
+
+
+def unit(v):
+    return v / np.linalg.norm(v)
+
+
+def attitude(row, names="q1 q2 q3 q4"):
+    """The matrix from EME2000 to body: (w2 - v.v) 1 + 2 v vT - 2 w [v x]."""
+    *v, w = vector(row, names)
+    v = np.array(v)
+    assert abs(v @ v + w * w - 1.0) < 1e-12
+    crossed = np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+    return (w * w - v @ v) * np.eye(3) + 2.0 * np.outer(v, v) - 2.0 * w * crossed

@@ -10,26 +10,9 @@ import numpy as np
 import pytest
 from fmpy import read_model_description
 
-from studies import table
+from studies import attitude, table, unit, vector
 
 BORESIGHT = np.array([0.0, -1.0, 0.0])
-
-
-def vector(row, names):
-    return np.array([float(row[name]) for name in names.split()])
-
-
-def unit(v):
-    return v / np.linalg.norm(v)
-
-
-def attitude(row, names="q1 q2 q3 q4"):
-    """The matrix from EME2000 to body: (w2 - v.v) 1 + 2 v vT - 2 w [v x]."""
-    *v, w = vector(row, names)
-    v = np.array(v)
-    assert abs(v @ v + w * w - 1.0) < 1e-12
-    crossed = np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
-    return (w * w - v @ v) * np.eye(3) + 2.0 * np.outer(v, v) - 2.0 * w * crossed
 
 
 def turn_deg(before, after):

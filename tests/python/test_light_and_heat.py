@@ -9,7 +9,7 @@ import pytest
 from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 
-from simulation import stack
+from simulation import QUATERNION, stack, to_body, vector
 from spacecraft import RESOURCES, call
 
 DAY_S = 86_400.0
@@ -34,10 +34,6 @@ def orbiter(heliotorque, dist, tmp_path_factory):
     )
     assert packed.returncode == 0, packed.stderr
     return str(fmu)
-
-
-def vector(name, count=3):
-    return [f"{name}[{i}]" for i in range(1, count + 1)]
 
 
 def simulate(fmu, step_s, stop_s, start, output):
@@ -87,15 +83,10 @@ def test_stored_heat_does_not_jump_where_light_does(orbiter):
 
 def albedo_force(result, row, spacecraft):
     """Force of reflected sunlight in the body frame: a sum over squares of the planet's surface."""
-    def at(name, count=3):
-        return np.array([result[element][row] for element in vector(name, count)])
+    def at(name):
+        return np.array([result[element][row] for element in vector(name)])
 
-    x, y, z, w = at("attitude.q", 4)
-    body = np.array([
-        [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
-        [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
-        [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)],
-    ])
+    body = to_body(result)[row]
     position, sun = at("position"), at("position") - at("heliocentric.position")
     # Rings about the point below the spacecraft, up to its horizon.
     up = position / np.linalg.norm(position)
@@ -151,7 +142,7 @@ def faces(spacecraft, angles):
 def test_albedo_is_a_sum_over_the_planets_surface(orbiter):
     spacecraft = tomllib.loads(FILE.read_text(encoding="utf-8"))
     output = [
-        *vector("attitude.q", 4), *vector("position"), *vector("heliocentric.position"), *vector("force.albedo"),
+        *QUATERNION, *vector("position"), *vector("heliocentric.position"), *vector("force.albedo"),
         "panel[1].angleActual", "panel[2].angleActual",
     ]
     start = {"planetLight.enabled": True, "planet.radius": RADIUS_M, "solar.flux": FLUX_W_M2, "planetLight.nodes": 12,

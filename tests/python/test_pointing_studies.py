@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from fmpy import read_model_description
 
-from studies import table
+from studies import attitude, table, unit, vector
 
 TRIAXIAL_M = np.array([2_440_530.0, 2_439_280.0, 2_438_260.0])
 # 2009-04-06 00:00 TDB in seconds past J2000.
@@ -19,27 +19,10 @@ START_S = (3_382 * 24 + 12) * 3600.0
 Z = np.array([0.0, 0.0, 1.0])
 
 
-def vector(row, names):
-    return np.array([float(row[name]) for name in names.split()])
-
-
-def unit(v):
-    return v / np.linalg.norm(v)
-
-
 def off(a, b):
     """Sine of the angle between two directions on one side."""
     assert a @ b > 0.0
     return np.linalg.norm(np.cross(unit(a), unit(b)))
-
-
-def attitude(row):
-    """The matrix from EME2000 to body: (w2 - v.v) 1 + 2 v vT - 2 w [v x]."""
-    *v, w = vector(row, "q1 q2 q3 q4")
-    v = np.array(v)
-    assert abs(v @ v + w * w - 1.0) < 1e-12
-    crossed = np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
-    return (w * w - v @ v) * np.eye(3) + 2.0 * np.outer(v, v) - 2.0 * w * crossed
 
 
 def body_angles_deg(body):

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from lxml import etree
 
+from masters import elements
 from spacecraft import call
 from systems import connectors, flown, flown_by_fmpy, flown_by_libcosim, loop_of
 
@@ -21,10 +22,6 @@ SYSTEMS = {
     "DisturbanceLoop": (43_200.0, 10.0),
 }
 DAY_S = 86_400.0
-
-
-def elements(name, size):
-    return [f"{name}[{i}]" for i in range(1, size + 1)]
 
 
 ATTITUDE = elements("body.attitude.q", 4)

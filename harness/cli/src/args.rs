@@ -233,7 +233,7 @@ pub struct RunInChild {
 }
 
 /// `heliotorque run`.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct Run {
     /// The FMU, an .fmu file or the folder it was unpacked into; a system, an .ssp file, whose variables are named
     /// component.variable; or a mission, a .toml file (see `heliotorque new mission`), whose values the options replace
@@ -299,25 +299,7 @@ pub struct Run {
 impl Run {
     /// Of a file, without any option.
     pub fn of(fmu: PathBuf, template: Option<PathBuf>) -> Self {
-        Self {
-            fmu,
-            start: None,
-            stop: None,
-            step: None,
-            set: Vec::new(),
-            master: None,
-            first_exchange: None,
-            input: None,
-            slopes: false,
-            record: Vec::new(),
-            every: None,
-            output: None,
-            plot: None,
-            template,
-            timeout: None,
-            log: false,
-            quiet: false,
-        }
+        Self { fmu, template, ..Self::default() }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The value that a variable begins with: its start, unless something else was set.
 
 use loader::Value;
-use model_description::{Description, VariableKind, value};
+use model_description::{Description, value};
 
 /// The value of a variable at the start, the last one that was set or the description's.
 pub fn of(description: &Description, sets: &[(String, Value)], name: &str) -> Option<Value> {
@@ -9,14 +9,7 @@ pub fn of(description: &Description, sets: &[(String, Value)], name: &str) -> Op
         return Some(value.clone());
     }
     let variable = description.variables.iter().find(|it| it.name == name)?;
-    match &variable.kind {
-        VariableKind::Real { start, .. } => start.map(Value::Real),
-        VariableKind::Integer { start, .. } | VariableKind::Enumeration { start, .. } => {
-            start.map(Value::Integer)
-        }
-        VariableKind::Boolean { start, .. } => start.map(Value::Boolean),
-        VariableKind::String { start, .. } => start.clone().map(Value::Text),
-    }
+    value::start(variable)
 }
 
 /// The value of a Real.

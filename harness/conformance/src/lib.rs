@@ -25,50 +25,26 @@ pub fn trials() -> impl Iterator<Item = &'static Trial> {
 
 /// Every probe, in the order of the report.
 pub const PROBES: &[Probe] = &[
-    Probe { name: "library", title: "loads, exports every function", run: library::probe },
-    Probe { name: "simulation", title: "runs its default experiment", run: stepping::simulation },
-    Probe {
-        name: "reference",
-        title: "meets the reference flights it carries",
-        run: reference_flight::flights,
-    },
-    Probe {
-        name: "values",
-        title: "start values read back, limits and references are kept",
-        run: values::probe,
-    },
-    Probe {
-        name: "calls",
-        title: "answers every function in every state as FMI 2.0 requires",
-        run: calls::probe,
-    },
-    Probe { name: "times", title: "takes jittered, uneven and refuses wrong times", run: times::probe },
-    Probe { name: "states", title: "saves, restores, serialises and resets to the bit", run: state::probe },
-    Probe {
-        name: "derivatives",
-        title: "input, output and directional derivatives",
-        run: values::derivatives,
-    },
-    Probe {
-        name: "callbacks",
-        title: "works without memory functions and without the callbacks' struct",
-        run: host::callbacks,
-    },
-    Probe { name: "nulls", title: "takes NULL for vectors of no length", run: host::nulls },
-    Probe { name: "paths", title: "finds its resources under strange paths", run: host::paths },
-    Probe {
-        name: "identity",
-        title: "refuses a wrong GUID, takes strange instance names",
-        run: host::identity,
-    },
-    Probe { name: "locale", title: "runs alike under a comma locale", run: host::locale },
-    Probe {
-        name: "threads",
-        title: "two instances on two threads do not disturb each other",
-        run: host::threads,
-    },
-    Probe { name: "instances", title: "many instances come and go", run: host::instances },
+    probe("library", "loads, exports every function", library::probe),
+    probe("simulation", "runs its default experiment", stepping::simulation),
+    probe("reference", "meets the reference flights it carries", reference_flight::flights),
+    probe("values", "start values read back, limits and references are kept", values::probe),
+    probe("calls", "answers every function in every state as FMI 2.0 requires", calls::probe),
+    probe("times", "takes jittered, uneven and refuses wrong times", times::probe),
+    probe("states", "saves, restores, serialises and resets to the bit", state::probe),
+    probe("derivatives", "input, output and directional derivatives", values::derivatives),
+    probe("callbacks", "works without memory functions and without the callbacks' struct", host::callbacks),
+    probe("nulls", "takes NULL for vectors of no length", host::nulls),
+    probe("paths", "finds its resources under strange paths", host::paths),
+    probe("identity", "refuses a wrong GUID, takes strange instance names", host::identity),
+    probe("locale", "runs alike under a comma locale", host::locale),
+    probe("threads", "two instances on two threads do not disturb each other", host::threads),
+    probe("instances", "many instances come and go", host::instances),
 ];
+
+const fn probe(name: &'static str, title: &'static str, run: fn(&Fmu) -> Findings) -> Probe {
+    Probe { name, title, run }
+}
 
 /// Runs the probe or trial of this name; `None` where there is none. An FMU that fails in it is a finding.
 pub fn run(fmu: &Fmu, name: &str) -> Option<Vec<Finding>> {

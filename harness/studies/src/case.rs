@@ -4,7 +4,7 @@ use loader::{Fmu, Rows, Value};
 use model_description::{BaseType, Description};
 use nalgebra::SVector;
 use rayon::prelude::*;
-use systems::{FirstExchange, System};
+use systems::{FirstExchange, Master, System};
 
 use crate::attitude::{Attitude, Vector};
 use crate::settings::{Settings, elements, flag, item, number, real};
@@ -248,36 +248,22 @@ impl Case {
         let types: Vec<_> = positions.iter().map(|position| variables[*position].kind.base_type()).collect();
         let columns = vec![Vec::new(); types.len()];
         let mut rows = Steered { recorded: Recorded { columns, ..Recorded::default() }, types, steer };
-        let (stop_s, step_s) = (Some(self.stop_s), Some(self.step_s));
-        let (record_every_s, sets, record) = (self.every_s, self.sets.clone(), Some(positions));
+        let options = loader::Options {
+            stop_s: Some(self.stop_s),
+            step_s: Some(self.step_s),
+            record_every_s: self.every_s,
+            sets: self.sets.clone(),
+            record: Some(positions),
+            apart: model.positions(self.apart.as_slice())?.first().copied(),
+            ..loader::Options::default()
+        };
         match model {
-            Model::Fmu(fmu) => {
-                let apart = self.apart.as_slice();
-                let apart = model.positions(apart)?.first().copied();
-                let options = loader::Options {
-                    stop_s,
-                    step_s,
-                    record_every_s,
-                    sets,
-                    record,
-                    apart,
-                    ..loader::Options::default()
-                };
-                loader::simulate_into(fmu, options, &mut rows)?;
-            }
+            Model::Fmu(fmu) => loader::simulate_into(fmu, options, &mut rows)?,
             Model::System(system) => {
-                let options = systems::Options {
-                    stop_s,
-                    step_s,
-                    record_every_s,
-                    sets,
-                    record,
-                    first_exchange: FirstExchange::Separate,
-                    ..systems::Options::default()
-                };
-                systems::simulate_into(system, options, &mut rows)?;
+                let way = (Master::default(), FirstExchange::Separate);
+                systems::simulate_into(system, way, options, &mut rows)?
             }
-        }
+        };
         Ok(rows.recorded)
     }
 }

@@ -1,7 +1,7 @@
 //! Connections held against the FMUs they join: names, roles, types, items, units.
 
 use loader::Fmu;
-use model_description::{Causality, ScalarVariable, VariableKind, names::similar, value};
+use model_description::{Causality, ScalarVariable, names::similar, value};
 
 use crate::{
     structure::{Connection, Connector, End, Kind, Linear, Signal, Structure},
@@ -37,17 +37,6 @@ pub struct Place {
     pub linear: Linear,
 }
 
-/// The name of a variable's base type.
-pub fn type_name(variable: &ScalarVariable) -> &'static str {
-    match variable.kind {
-        VariableKind::Real { .. } => "Real",
-        VariableKind::Integer { .. } => "Integer",
-        VariableKind::Boolean { .. } => "Boolean",
-        VariableKind::String { .. } => "String",
-        VariableKind::Enumeration { .. } => "Enumeration",
-    }
-}
-
 /// A list of near names for a refusal.
 pub fn near<'a>(name: &str, all: impl Iterator<Item = &'a str> + Clone) -> String {
     let found = similar(name, all.clone());
@@ -76,8 +65,8 @@ pub fn check_connector(structure: &Structure, fmu: &Fmu, connector: &Connector) 
         return Err(format!("found kind {word}, the variable is of causality {:?}", variable.causality));
     }
     let Some(signal) = &connector.signal else { return Ok(()) };
-    if signal.word() != type_name(variable) {
-        return Err(format!("found type {}, the variable is {}", signal.word(), type_name(variable)));
+    if signal.word() != variable.kind.name() {
+        return Err(format!("found type {}, the variable is {}", signal.word(), variable.kind.name()));
     }
     match signal {
         Signal::Real { unit: Some(unit) } => {
@@ -186,7 +175,7 @@ fn own_linear(
     (own, inner): (&Connector, &Joined<'_>),
     inwards: bool,
 ) -> Result<Linear, String> {
-    let kind = type_name(inner.variable);
+    let kind = inner.variable.kind.name();
     if let Some(found) = own.signal.as_ref().map(Signal::word).filter(|found| *found != kind) {
         return Err(format!("found the system's own {} of type {found}, allowed: {kind}", own.name));
     }
@@ -203,7 +192,7 @@ fn own_linear(
 fn joint(structure: &Structure, fmus: &[Fmu], connection: &Connection) -> Result<Joint, String> {
     let start = find(structure, fmus, &connection.start, Kind::Output)?;
     let end = find(structure, fmus, &connection.end, Kind::Input)?;
-    let (one, other) = (type_name(start.variable), type_name(end.variable));
+    let (one, other) = (start.variable.kind.name(), end.variable.kind.name());
     if one != other {
         return Err(format!("found type {one} at its start and {other} at its end, allowed: one type"));
     }

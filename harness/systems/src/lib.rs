@@ -29,7 +29,7 @@ pub use master::{FirstExchange, Master};
 pub use own::Own;
 pub use package::{MOST_BYTES, is_system};
 pub use reader::MOST_COMPONENTS;
-pub use simulate::{Options, simulate_into};
+pub use simulate::simulate_into;
 pub use structure::{
     Binding, Component, Connection, Connector, End, Enumeration, Experiment, Kind, Linear, Parameter,
     ParameterSet, SSD_FILE, Signal, Structure, Written,

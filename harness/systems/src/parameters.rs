@@ -4,7 +4,7 @@ use loader::{Fmu, Value};
 use model_description::{ScalarVariable, Unit, value};
 
 use crate::{
-    joint::{Place, near, type_name},
+    joint::{Place, near},
     own::Own,
     structure::{Parameter, ParameterSet, Structure, Written},
     units::{base, conversion, is_same_dimension, shown},
@@ -82,15 +82,15 @@ fn read(
 ) -> Result<Value, String> {
     loader::set_early(variable).map_err(|error| error.to_string())?;
     let description = fmu.description();
-    let mismatch = |found: &str| format!("found type {found}, allowed: {}", type_name(variable));
+    let mismatch = |found: &str| format!("found type {found}, allowed: {}", variable.kind.name());
     let value = match &parameter.value {
-        Written::Real { value, unit } if type_name(variable) == "Real" => {
+        Written::Real { value, unit } if variable.kind.name() == "Real" => {
             Value::Real(in_own_unit(fmu, variable, *value, unit.as_deref(), units)?)
         }
-        Written::Integer(value) if type_name(variable) == "Integer" => Value::Integer(*value),
-        Written::Boolean(value) if type_name(variable) == "Boolean" => Value::Boolean(*value),
-        Written::Text(value) if type_name(variable) == "String" => Value::Text(value.clone()),
-        Written::Enumeration(name) if type_name(variable) == "Enumeration" => {
+        Written::Integer(value) if variable.kind.name() == "Integer" => Value::Integer(*value),
+        Written::Boolean(value) if variable.kind.name() == "Boolean" => Value::Boolean(*value),
+        Written::Text(value) if variable.kind.name() == "String" => Value::Text(value.clone()),
+        Written::Enumeration(name) if variable.kind.name() == "Enumeration" => {
             let items = value::items(description, variable);
             let item = items.iter().find(|item| item.name == *name).ok_or_else(|| {
                 let all = items.iter().map(|item| item.name.as_str());

@@ -1,8 +1,8 @@
 //! Runs a system from start to stop and hands the recorded rows on.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
-use loader::{Ended, Error, InputTable, InstanceOptions, LogMessage, Rows, Value};
+use loader::{Ended, Error, InputTable, LogMessage, Options, Rows, Value};
 
 use crate::{
     joint::Place,
@@ -11,42 +11,18 @@ use crate::{
     system::System,
 };
 
-/// What to simulate. `Options::default()` runs the system's default experiment and records the outputs of all components.
-#[derive(Default)]
-pub struct Options<'a> {
-    /// Start in s; otherwise the default experiment's.
-    pub start_s: Option<f64>,
-    /// Stop in s; otherwise the default experiment's.
-    pub stop_s: Option<f64>,
-    /// Communication step in s; otherwise the default experiment's.
-    pub step_s: Option<f64>,
-    /// Record the point nearest to each multiple of this time, in s; otherwise every point.
-    pub record_every_s: Option<f64>,
-    /// Values set before the run, by `component.variable`; they win over the system's parameters.
-    pub sets: Vec<(String, Value)>,
-    /// Inputs over time, of the system's description; held over each step.
-    pub inputs: Option<&'a InputTable>,
-    /// Positions in the system's description to record; `None` means every output.
-    pub record: Option<Vec<usize>>,
-    /// In which order components step.
-    pub master: Master,
-    /// What connected outputs count as in the first step.
-    pub first_exchange: FirstExchange,
-    /// How to instantiate.
-    pub instance: InstanceOptions,
-    /// Told the time in s after every step.
-    pub progress: Option<&'a mut dyn FnMut(f64)>,
-    /// Once true, the run ends after the step under way.
-    pub cancel: Option<&'a AtomicBool>,
-}
-
-/// Runs a system. Communication points are `start + k*step`; the last step ends at the stop time. The first row is of the
-/// start. Also gives what the instances logged.
+/// Runs a system in this order of components, with connected outputs counting in the first step as `way` says. Times that
+/// are not given are those of its default experiment; names and positions are those of its description, and what is set wins
+/// over its parameters. Inputs are held over each step: slopes and events that are to stand apart are for one FMU.
+///
+/// Communication points are `start + k*step`; the last step ends at the stop time. The first row is of the start. Also gives
+/// what the instances logged.
 ///
 /// # Errors
 /// The first call that failed, with the component's name as the instance's.
 pub fn simulate_into(
     system: &System,
+    way: (Master, FirstExchange),
     mut options: Options<'_>,
     rows: &mut dyn Rows,
 ) -> Result<(Ended, Vec<LogMessage>), Error> {
@@ -59,7 +35,6 @@ pub fn simulate_into(
     if let Some(inputs) = &mut inputs {
         sets.extend(inputs.at_start(times.start_s));
     }
-    let way = (options.master, options.first_exchange);
     let mut running = Running::start(system, way, &times, &options.instance, &sets)?;
     record(system, &mut recorder, &mut running, times.start_s, rows)?;
     let steps = times.steps();

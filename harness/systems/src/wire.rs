@@ -10,7 +10,6 @@ use model_description::{
 use crate::{
     error::Error,
     experiment::complete,
-    joint::type_name,
     merged::{Merged, merge},
     structure::{
         Binding, Component, Connection, Connector, End, Enumeration, Experiment, Kind, Parameter,
@@ -259,7 +258,7 @@ fn fits(
     (from, output): (&Description, &ScalarVariable),
     (to, input): (&Description, &ScalarVariable),
 ) -> Result<(), String> {
-    let (given, taken) = (type_name(output), type_name(input));
+    let (given, taken) = (output.kind.name(), input.kind.name());
     if given != taken || given == "String" {
         return Err(format!("other type: {given} to {taken}"));
     }

@@ -44,7 +44,7 @@ impl Check<'_> {
         if variability == Variability::Continuous && !is_real {
             let message = format!(
                 "is {} with variability continuous (the default); only Real variables may be continuous",
-                kind_name(&variable.kind)
+                variable.kind.name()
             );
             self.add(Code::ContinuousNotReal, place, message);
         }
@@ -105,7 +105,7 @@ impl Check<'_> {
             SimpleTypeKind::String => "String",
             SimpleTypeKind::Enumeration { .. } => "Enumeration",
         };
-        let own = kind_name(&variable.kind);
+        let own = variable.kind.name();
         if type_name != own {
             let message =
                 format!("is {own}, its declaredType `{name}` is {type_name}; allowed is a type of {own}");
@@ -263,7 +263,7 @@ impl Check<'_> {
                 "is the derivative of `{}`, a {} {}; allowed is that of a continuous Real",
                 state.name,
                 state.variability,
-                kind_name(&state.kind)
+                state.kind.name()
             );
             self.add(Code::DerivativeKind, place, message);
         }
@@ -274,16 +274,6 @@ fn derivative_of(variable: &ScalarVariable) -> Option<u32> {
     match variable.kind {
         VariableKind::Real { derivative, .. } => derivative,
         _ => None,
-    }
-}
-
-fn kind_name(kind: &VariableKind) -> &'static str {
-    match kind {
-        VariableKind::Real { .. } => "Real",
-        VariableKind::Integer { .. } => "Integer",
-        VariableKind::Boolean { .. } => "Boolean",
-        VariableKind::String { .. } => "String",
-        VariableKind::Enumeration { .. } => "Enumeration",
     }
 }
 

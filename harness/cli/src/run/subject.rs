@@ -6,7 +6,7 @@ use std::{
     sync::atomic::AtomicBool,
 };
 
-use loader::{Ended, Fmu, InstanceOptions, LogMessage, Rows, Times};
+use loader::{Ended, Fmu, InstanceOptions, LogMessage, Options, Rows, Times};
 use model_description::Description;
 use systems::System;
 
@@ -141,45 +141,25 @@ impl Subject {
         rows: &mut dyn Rows,
     ) -> Result<(Ended, Vec<LogMessage>), loader::Error> {
         let Given { sets, inputs, positions, progress, cancel } = given;
-        let instance = InstanceOptions { logging: arguments.log, ..InstanceOptions::default() };
+        let options = Options {
+            start_s: arguments.start,
+            stop_s: arguments.stop,
+            step_s: arguments.step,
+            record_every_s: arguments.every,
+            sets,
+            inputs,
+            input_derivatives: arguments.slopes,
+            record: Some(positions),
+            apart: None,
+            instance: InstanceOptions { logging: arguments.log, ..InstanceOptions::default() },
+            progress: Some(progress),
+            cancel: Some(cancel),
+        };
+        let master = arguments.master.map(systems::Master::from).unwrap_or_default();
+        let first = arguments.first_exchange.map(systems::FirstExchange::from).unwrap_or_default();
         match self {
-            Self::Fmu(fmu) => {
-                let options = loader::Options {
-                    start_s: arguments.start,
-                    stop_s: arguments.stop,
-                    step_s: arguments.step,
-                    record_every_s: arguments.every,
-                    sets,
-                    inputs,
-                    input_derivatives: arguments.slopes,
-                    record: Some(positions),
-                    apart: None,
-                    instance,
-                    progress: Some(progress),
-                    cancel: Some(cancel),
-                };
-                loader::simulate_into(fmu, options, rows)
-            }
-            Self::System(system) => {
-                let options = systems::Options {
-                    start_s: arguments.start,
-                    stop_s: arguments.stop,
-                    step_s: arguments.step,
-                    record_every_s: arguments.every,
-                    sets,
-                    inputs,
-                    record: Some(positions),
-                    master: arguments.master.map(systems::Master::from).unwrap_or_default(),
-                    first_exchange: arguments
-                        .first_exchange
-                        .map(systems::FirstExchange::from)
-                        .unwrap_or_default(),
-                    instance,
-                    progress: Some(progress),
-                    cancel: Some(cancel),
-                };
-                systems::simulate_into(system, options, rows)
-            }
+            Self::Fmu(fmu) => loader::simulate_into(fmu, options, rows),
+            Self::System(system) => systems::simulate_into(system, (master, first), options, rows),
         }
     }
 }

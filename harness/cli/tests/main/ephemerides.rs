@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{library, packed, run, shown};
+use crate::{packed, run, shown, template};
 
 const START: &str = "2011-04-06 UTC";
 const STOP: &str = "2011-04-16 UTC";
@@ -59,12 +59,10 @@ fn reported_m(text: &str, body: &str) -> f64 {
 
 #[test]
 fn a_flight_is_fitted_to_the_tolerance_and_simulated_by_another_fmu() {
-    let Some(library) = library() else { return };
-    let scratch = tempfile::tempdir().unwrap();
+    let Some((scratch, plant)) = template() else { return };
     let path = |name: &str| scratch.path().join(name);
-    let (plant, fitted, file) = (path("Plant.fmu"), path("Fitted.fmu"), path("flown.toml"));
-    let pack = ["pack", "--library", shown(&library), "--model", "MomentumPlant", "--output"];
-    run(&[&pack[..], &[shown(&plant)]].concat(), 0);
+    let (fitted, file) = (path("Fitted.fmu"), path("flown.toml"));
+    let pack = ["pack", "--template", shown(&plant), "--model", "MomentumPlant", "--output"];
     let make = ["ephemeris", shown(&plant), "--start", START, "--stop", STOP, "--output", shown(&file)];
     let text = run(
         &[&make[..], &["--tolerance", "500", "--coarse", "--bodies", "sun,earth,spacecraft"]].concat(),

@@ -6,7 +6,7 @@ use physics::spacecraft::MOST_SURFACES;
 use physics::toml::{LIMITS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES};
 use zip::{CompressionMethod, ZipWriter, write::SimpleFileOptions};
 
-use crate::{library, run, shown};
+use crate::{run, shown, template};
 
 const GUIDE: &str = include_str!("../../../../docs/src/files/limits.md");
 
@@ -102,10 +102,7 @@ fn most(key: &str) -> usize {
 
 #[test]
 fn a_spacecraft_beyond_a_limit_is_refused_by_its_key() {
-    let Some(library) = library() else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let template = folder.path().join("template.fmu");
-    run(&["pack", "--library", shown(&library), "--model", "MomentumPlant", "--output", shown(&template)], 0);
+    let Some((folder, template)) = template() else { return };
     let file = folder.path().join("craft.toml");
     let check = |text: &str, status: i32| {
         fs::write(&file, format!("{CRAFT}{text}")).unwrap();

@@ -2,21 +2,9 @@
 
 use std::{fs, path::Path};
 
-use tempfile::TempDir;
-
-use crate::{heliotorque, library, run, shown, text, words};
+use crate::{heliotorque, run, shown, template, text, words};
 
 const RESOURCES: &str = "../../fmu-src/resources";
-
-/// A folder with an FMU whose library flies missions.
-fn hangar() -> Option<TempDir> {
-    let library = library()?;
-    let scratch = tempfile::tempdir().unwrap();
-    let template = scratch.path().join("template.fmu");
-    let model = ["--model", "MomentumPlant", "--output", shown(&template)];
-    run(&[&["pack", "--library", shown(&library)], &model[..]].concat(), 0);
-    Some(scratch)
-}
 
 /// What a command says in the folder, and its status.
 fn said(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
@@ -52,7 +40,7 @@ names = ["momentum.body[1]", "sun.elevation"]
 
 #[test]
 fn a_mission_flies_as_it_is_written_and_options_win() {
-    let Some(scratch) = hangar() else { return };
+    let Some((scratch, _)) = template() else { return };
     let folder = scratch.path();
     fs::create_dir(folder.join("deep")).unwrap();
     fs::write(folder.join("deep/m.toml"), MISSION).unwrap();
@@ -96,7 +84,7 @@ fn a_mission_flies_as_it_is_written_and_options_win() {
 
 #[test]
 fn a_limit_that_breaks_is_reported_with_its_time_and_ends_with_one() {
-    let Some(scratch) = hangar() else { return };
+    let Some((scratch, _)) = template() else { return };
     let folder = scratch.path();
     let text = MISSION.replace(r#"min = "-20 deg", max = "20 deg""#, "min = 100");
     fs::write(folder.join("m.toml"), text).unwrap();
@@ -112,7 +100,7 @@ fn a_limit_that_breaks_is_reported_with_its_time_and_ends_with_one() {
 
 #[test]
 fn a_packed_mission_starts_as_the_mission_does() {
-    let Some(scratch) = hangar() else { return };
+    let Some((scratch, _)) = template() else { return };
     let folder = scratch.path();
     // Inputs over time are no start values.
     let text = MISSION.replace("\"60 deg\"], [\"1 h\", \"65 deg\"]", "\"65 deg\"]");
@@ -145,7 +133,7 @@ fn a_packed_mission_starts_as_the_mission_does() {
 
 #[test]
 fn later_wins_file_mission_option() {
-    let Some(scratch) = hangar() else { return };
+    let Some((scratch, _)) = template() else { return };
     let folder = scratch.path();
     // Its [start.MomentumPlant] has 4, 4, 4.
     fs::create_dir(folder.join("craft")).unwrap();
@@ -173,7 +161,7 @@ fn later_wins_file_mission_option() {
 
 #[test]
 fn the_files_of_a_mission_are_not_written_over() {
-    let Some(scratch) = hangar() else { return };
+    let Some((scratch, _)) = template() else { return };
     let folder = scratch.path();
     let mission = MISSION.replace("output = \"out.csv\"", "output = \"m.toml\"");
     fs::write(folder.join("m.toml"), &mission).unwrap();
@@ -201,7 +189,7 @@ fn what_is_no_mission_is_reported() {
 
 #[test]
 fn the_missions_of_the_examples_fly() {
-    let Some(scratch) = hangar() else { return };
+    let Some((scratch, _)) = template() else { return };
     let at = |name: &str| scratch.path().join(name);
     fs::create_dir_all(at("examples/missions")).unwrap();
     let mut missions = Vec::new();
@@ -250,7 +238,7 @@ fn refused(folder: &Path, name: &str) -> String {
 
 #[test]
 fn a_mission_that_cannot_run_is_refused_by_check_for_the_same_reason() {
-    let Some(scratch) = hangar() else { return };
+    let Some((scratch, _)) = template() else { return };
     let folder = scratch.path();
     for (change, expected) in [
         (("stop = \"2011-04-06T02:00:00 UTC\"", "stop = \"9999999 d\""), "(--every)"),
@@ -276,7 +264,7 @@ fn a_mission_that_cannot_run_is_refused_by_check_for_the_same_reason() {
 #[cfg(unix)]
 #[test]
 fn what_a_mission_writes_stays_beside_it_and_replaces_no_file_of_others() {
-    let Some(scratch) = hangar() else { return };
+    let Some((scratch, _)) = template() else { return };
     let folder = scratch.path();
     fs::create_dir_all(folder.join("home/deep")).unwrap();
     fs::create_dir(folder.join("away")).unwrap();

@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path};
 
-use crate::{heliotorque, library, run, shown, text};
+use crate::{heliotorque, run, shown, template, text};
 
 const RECORDED: &str = "tests/main/mistakes.txt";
 /// What begins a line of what is said.
@@ -91,11 +91,7 @@ impl Mistake {
 
 #[test]
 fn every_typical_mistake_is_reported_with_file_place_finding_and_remedy() {
-    let Some(library) = library() else { return };
-    let scratch = tempfile::tempdir().unwrap();
-    let template = scratch.path().join("template.fmu");
-    let model = ["--model", "MomentumPlant", "--output", shown(&template)];
-    run(&[&["pack", "--library", shown(&library)], &model[..]].concat(), 0);
+    let Some((scratch, _)) = template() else { return };
     let wrong = run(&["new", "spacecraft", "-"], 0).replace("mass_kg = 400.0", "mass_kg = -4.0");
     fs::write(scratch.path().join("wrong.toml"), wrong).unwrap();
 

@@ -2,7 +2,7 @@
 
 use std::{fs, process::Command};
 
-use crate::{library, run, shown};
+use crate::{run, shown, template};
 
 const KINDS: [&str; 4] = ["spacecraft", "spinner", "mission", "timeline"];
 
@@ -30,12 +30,8 @@ fn a_file_that_is_there_is_kept() {
 
 #[test]
 fn every_new_file_works_unchanged() {
-    let Some(library) = library() else { return };
-    let scratch = tempfile::tempdir().unwrap();
+    let Some((scratch, template)) = template() else { return };
     let at = |name: &str| scratch.path().join(name);
-    let template = at("template.fmu");
-    let model = ["--model", "MomentumPlant", "--output", shown(&template)];
-    run(&[&["pack", "--library", shown(&library)], &model[..]].concat(), 0);
     let with = |arguments: &[&str]| run(&[arguments, &["--template", shown(&template)]].concat(), 0);
     for kind in KINDS {
         let file = at(&format!("{kind}.toml"));

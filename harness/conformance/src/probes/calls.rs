@@ -2,9 +2,8 @@
 
 use loader::{Error, Fmu, Instance, State as Saved, Status};
 use model_description::call_table::{Access, Condition, Function, LENIENCIES, State, allowed};
-use model_description::{Causality, ScalarVariable, Variability, VariableKind};
+use model_description::{BaseType, Causality, ScalarVariable, Variability, value::start};
 
-use super::values;
 use crate::{Finding, experiment, probe::Findings};
 
 /// The states an FMU can be brought to by lawful calls, and the error state.
@@ -62,7 +61,7 @@ enum Answer {
 /// and one with a variable that does not.
 fn cases(fmu: &Fmu, function: Function, state: State) -> Vec<Case<'_>> {
     let case = |variable, expected| Case { function, state, variable, expected };
-    let Some((kind, sets)) = variable_function(function) else {
+    let Some((base, sets)) = variable_function(function) else {
         return match allowed(function, state) {
             Access::Forbidden => vec![case(None, Expected::Refused)],
             Access::Allowed | Access::Conditional(_) => vec![case(None, Expected::Done)],
@@ -72,7 +71,7 @@ fn cases(fmu: &Fmu, function: Function, state: State) -> Vec<Case<'_>> {
         fmu.description()
             .variables
             .iter()
-            .filter(move |it| kind(&it.kind) && (!sets || values::start(it).is_some()))
+            .filter(move |it| it.kind.base_type() == base && (!sets || start(it).is_some()))
     };
     match allowed(function, state) {
         Access::Forbidden => of_kind()
@@ -94,25 +93,17 @@ fn cases(fmu: &Fmu, function: Function, state: State) -> Vec<Case<'_>> {
     }
 }
 
-/// Tells one base type from the others.
-type IsKind = fn(&VariableKind) -> bool;
-
 /// For the functions that take variables: of which base type, and whether they set them.
-fn variable_function(function: Function) -> Option<(IsKind, bool)> {
-    let real: IsKind = |kind| matches!(kind, VariableKind::Real { .. });
-    let integer: IsKind =
-        |kind| matches!(kind, VariableKind::Integer { .. } | VariableKind::Enumeration { .. });
-    let boolean: IsKind = |kind| matches!(kind, VariableKind::Boolean { .. });
-    let string: IsKind = |kind| matches!(kind, VariableKind::String { .. });
+fn variable_function(function: Function) -> Option<(BaseType, bool)> {
     match function {
-        Function::GetReal => Some((real, false)),
-        Function::GetInteger => Some((integer, false)),
-        Function::GetBoolean => Some((boolean, false)),
-        Function::GetString => Some((string, false)),
-        Function::SetReal => Some((real, true)),
-        Function::SetInteger => Some((integer, true)),
-        Function::SetBoolean => Some((boolean, true)),
-        Function::SetString => Some((string, true)),
+        Function::GetReal => Some((BaseType::Real, false)),
+        Function::GetInteger => Some((BaseType::Integer, false)),
+        Function::GetBoolean => Some((BaseType::Boolean, false)),
+        Function::GetString => Some((BaseType::String, false)),
+        Function::SetReal => Some((BaseType::Real, true)),
+        Function::SetInteger => Some((BaseType::Integer, true)),
+        Function::SetBoolean => Some((BaseType::Boolean, true)),
+        Function::SetString => Some((BaseType::String, true)),
         _ => None,
     }
 }
@@ -213,7 +204,7 @@ fn make(instance: &mut Instance, case: &Case<'_>, saved: Option<Saved>, bytes: &
     };
     if let Some(variable) = case.variable {
         return Ok(match variable_function(case.function) {
-            Some((_, true)) => values::start(variable).map(|value| instance.set_variable(variable, &value)),
+            Some((_, true)) => start(variable).map(|value| instance.set_variable(variable, &value)),
             _ => Some(instance.get_variable(variable).map(|_| ())),
         });
     }

@@ -2,7 +2,7 @@
 
 use loader::{Fmu, Instance, Value};
 use model_description::call_table::{Condition, State};
-use model_description::{Causality, Initial, ScalarVariable, Variability, VariableKind, rules};
+use model_description::{Causality, Initial, Variability, VariableKind, rules, value::start};
 
 use crate::{
     Finding,
@@ -18,18 +18,6 @@ pub fn probe(fmu: &Fmu) -> Findings {
     limits(fmu, &mut findings)?;
     references(fmu, &mut findings)?;
     Ok(findings)
-}
-
-/// The start value in the description.
-pub fn start(variable: &ScalarVariable) -> Option<Value> {
-    match &variable.kind {
-        VariableKind::Real { start, .. } => start.map(Value::Real),
-        VariableKind::Integer { start, .. } | VariableKind::Enumeration { start, .. } => {
-            start.map(Value::Integer)
-        }
-        VariableKind::Boolean { start, .. } => start.map(Value::Boolean),
-        VariableKind::String { start, .. } => start.clone().map(Value::Text),
-    }
 }
 
 fn start_values(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Error> {

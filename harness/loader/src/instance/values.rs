@@ -141,18 +141,8 @@ impl Instance {
             (VariableKind::String { .. }, Value::Text(value)) => self.set_strings(&reference, &[value]),
             (kind, value) => Err(Error::Value {
                 variable: variable.name.clone(),
-                what: format!("it is a {}, and {value:?} is not", kind_name(kind)),
+                what: format!("it is a {}, and {value:?} is not", kind.name()),
             }),
         }
-    }
-}
-
-fn kind_name(kind: &VariableKind) -> &'static str {
-    match kind {
-        VariableKind::Real { .. } => "Real",
-        VariableKind::Integer { .. } => "Integer",
-        VariableKind::Boolean { .. } => "Boolean",
-        VariableKind::String { .. } => "String",
-        VariableKind::Enumeration { .. } => "Enumeration",
     }
 }

@@ -10,6 +10,11 @@ fn real(value: f64) -> Value {
     Value::Real(value)
 }
 
+/// A run from start to stop in these steps, in s.
+fn over<'a>(start_s: f64, stop_s: f64, step_s: f64) -> Options<'a> {
+    Options { start_s: Some(start_s), stop_s: Some(stop_s), step_s: Some(step_s), ..Options::default() }
+}
+
 #[test]
 fn outputs_are_recorded_at_every_point() {
     let Some((_folder, fmu)) = probe("AllTypes") else { return };
@@ -122,17 +127,7 @@ fn a_choice_is_set_by_its_items_name() {
 #[test]
 fn recording_less_often_keeps_the_last_point() {
     let Some((_folder, fmu)) = probe("Empty").or(probe("AllTypes")) else { return };
-    let simulation = simulate(
-        &fmu,
-        Options {
-            start_s: Some(0.0),
-            stop_s: Some(10.5),
-            step_s: Some(1.0),
-            record_every_s: Some(4.0),
-            ..Options::default()
-        },
-    )
-    .unwrap();
+    let simulation = simulate(&fmu, Options { record_every_s: Some(4.0), ..over(0.0, 10.5, 1.0) }).unwrap();
     assert_eq!(simulation.recording.times_s, [0.0, 4.0, 8.0, 10.5]);
 }
 
@@ -176,17 +171,7 @@ fn fault_at_3_s(fmu: &loader::Fmu, fault: &str) -> InputTable {
 fn an_fmu_that_ends_by_itself_is_no_error() {
     let Some((_folder, fmu)) = probe("Panicking") else { return };
     let table = fault_at_3_s(&fmu, "terminateStep");
-    let simulation = simulate(
-        &fmu,
-        Options {
-            start_s: Some(0.0),
-            stop_s: Some(10.0),
-            step_s: Some(1.0),
-            inputs: Some(&table),
-            ..Options::default()
-        },
-    )
-    .unwrap();
+    let simulation = simulate(&fmu, Options { inputs: Some(&table), ..over(0.0, 10.0, 1.0) }).unwrap();
     assert_eq!(simulation.ended, Ended::ByItself);
     assert!(*simulation.recording.times_s.last().unwrap() <= 4.0);
 }
@@ -195,17 +180,7 @@ fn an_fmu_that_ends_by_itself_is_no_error() {
 fn an_error_on_the_way_keeps_what_was_simulated() {
     let Some((_folder, fmu)) = probe("Panicking") else { return };
     let table = fault_at_3_s(&fmu, "failStep");
-    let stopped = simulate(
-        &fmu,
-        Options {
-            start_s: Some(0.0),
-            stop_s: Some(10.0),
-            step_s: Some(1.0),
-            inputs: Some(&table),
-            ..Options::default()
-        },
-    )
-    .unwrap_err();
+    let stopped = simulate(&fmu, Options { inputs: Some(&table), ..over(0.0, 10.0, 1.0) }).unwrap_err();
     assert_eq!(stopped.partial.times_s, [0.0, 1.0, 2.0, 3.0]);
     assert!(stopped.to_string().contains("fmi2DoStep(currentCommunicationPoint=3"), "{stopped}");
 }

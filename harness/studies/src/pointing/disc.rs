@@ -3,8 +3,7 @@
 use super::flight::Place;
 use super::planet::Ellipsoid;
 use crate::attitude::{Vector, across};
-use drawing::PlanePanel;
-use drawing::Series;
+use drawing::{PlaneChart, PlanePanel, Series};
 
 /// A view toward nadir: downtrack to the right, the orbit's left up.
 #[derive(Clone, Copy, Debug)]
@@ -15,10 +14,11 @@ pub struct View {
     nadir: Vector,
 }
 
-/// Label of the axes.
-pub const X_LABEL: &str = "downtrack of nadir [deg]";
-/// Label of the axes.
-pub const Y_LABEL: &str = "left of the track [deg]";
+/// A chart of discs.
+pub fn disc_chart(title: &str, panels: Vec<PlanePanel>) -> PlaneChart {
+    let [x_label, y_label] = ["downtrack of nadir [deg]", "left of the track [deg]"].map(str::to_owned);
+    PlaneChart { title: title.to_owned(), x_label, y_label, panels }
+}
 
 const POINTS: u32 = 720;
 

@@ -1,6 +1,6 @@
 //! Limb points at azimuths, and the scan of the limb's height, where the Sun stays in its zone.
 
-use super::disc::{View, X_LABEL, Y_LABEL};
+use super::disc::{View, disc_chart};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, GEOMETRY, Place, Simulated};
 use super::limb_orbit;
 use super::limb_point::{Found, PLUS_Z, triaxial};
@@ -9,7 +9,7 @@ use crate::case::{chosen, run_all};
 use crate::settings::{cells, item, real};
 use crate::{Options, Report, StudyError};
 use drawing::Series;
-use drawing::{PlaneChart, PlanePanel};
+use drawing::PlanePanel;
 
 /// Six days in, orbit and terminator lie in nearly one plane: the Sun is across nadir and limb all the way round.
 const EPOCH_S: f64 = DEFAULT_EPOCH_S + 6.0 * 86_400.0;
@@ -141,12 +141,7 @@ fn print_azimuths(
     panel.title = format!("true anomaly {TRUE_ANOMALY_DEG} deg, labels: azimuth [deg]");
     panel.series.push(Series::dots("limb points commanded", limb_points.iter().map(|(at, _)| *at).collect()));
     panel.texts = limb_points.into_iter().map(|((x, y), text)| ((1.11 * x, 1.11 * y), text)).collect();
-    let chart = PlaneChart {
-        title: "Generic limb points".to_owned(),
-        x_label: X_LABEL.to_owned(),
-        y_label: Y_LABEL.to_owned(),
-        panels: vec![panel],
-    };
+    let chart = disc_chart("Generic limb points", vec![panel]);
     report.picture(options, "limb.svg", &chart)
 }
 
@@ -210,11 +205,6 @@ fn print_scan(report: &mut Report, options: &Options, simulated: &Simulated) -> 
             .collect(),
         ..whole.clone()
     };
-    let chart = PlaneChart {
-        title: "Scan of the limb's height".to_owned(),
-        x_label: X_LABEL.to_owned(),
-        y_label: Y_LABEL.to_owned(),
-        panels: vec![whole, close],
-    };
+    let chart = disc_chart("Scan of the limb's height", vec![whole, close]);
     report.picture(options, "limb-scan.svg", &chart)
 }

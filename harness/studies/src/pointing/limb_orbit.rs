@@ -1,13 +1,13 @@
 //! The limb point on the terminator once round an orbit over noon and midnight: how many there are, and which is taken.
 
-use super::disc::{View, X_LABEL, Y_LABEL};
+use super::disc::{View, disc_chart};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, GEOMETRY, Place, Sample, Simulated};
 use super::limb_point::{Found, PLUS_Z, triaxial};
 use crate::attitude::{Vector, across, angle_rad};
 use crate::settings::{cells, flag, item};
 use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
-use drawing::{PlaneChart, PlanePanel};
+use drawing::PlanePanel;
 
 /// 25 days in, the orbit passes over noon and midnight.
 const EPOCH_S: f64 = DEFAULT_EPOCH_S + 25.0 * 86_400.0;
@@ -164,12 +164,7 @@ fn draw_discs(
     let gap: Vec<&Point<'_>> = points.iter().filter(|point| point.nearer.is_none()).collect();
     let panels: Vec<PlanePanel> =
         two.into_iter().chain(gap.get(gap.len() / 2).copied()).map(|point| panel(point, simulated)).collect();
-    let chart = PlaneChart {
-        title: "Limb points on the terminator".to_owned(),
-        x_label: X_LABEL.to_owned(),
-        y_label: Y_LABEL.to_owned(),
-        panels,
-    };
+    let chart = disc_chart("Limb points on the terminator", panels);
     report.picture(options, "limb-discs.svg", &chart)
 }
 

@@ -1,7 +1,7 @@
 //! Mosaics: frames of MDIS and of an instrument along +Z during inertial, body and planet-fixed scans.
 
 use super::camera::Frame;
-use super::disc::{View, X_LABEL, Y_LABEL};
+use super::disc::{View, disc_chart};
 use super::flight::{Fmus, GEOMETRY, Simulated};
 use super::scans::{CASES, Case};
 use crate::attitude::{Vector, angle_rad};
@@ -190,11 +190,6 @@ impl Mosaic {
         let aside = (-length * y, length * x);
         let number = |(k, (x, y)): (usize, &(f64, f64))| ((x + aside.0, y + aside.1), (k + 1).to_string());
         panel.texts = middles.iter().enumerate().map(number).collect();
-        PlaneChart {
-            title: case.title.to_owned(),
-            x_label: X_LABEL.to_owned(),
-            y_label: Y_LABEL.to_owned(),
-            panels: vec![panel],
-        }
+        disc_chart(case.title, vec![panel])
     }
 }
