@@ -263,7 +263,7 @@ pub fn check(description: &Description, variable: &ScalarVariable, value: &Value
     Err(Misfit::new(found(), range))
 }
 
-/// An angle beyond its limits, told in deg too: a number without unit is taken in rad and may have been meant in deg.
+/// An angle beyond its limits, reported in deg too: a number without unit is taken in rad and may have been meant in deg.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AngleMisfit {
     /// The angle with its unit.

@@ -12,7 +12,7 @@ use model_description::{BaseType, Description};
 use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 use probe::{AllTypes, Empty, Panicking, RigidBody};
 
-/// Every model at hand.
+/// Every model here.
 pub static LIBRARY: Library = Library {
     entries: &[
         Entry::of::<Empty>(),

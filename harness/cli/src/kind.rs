@@ -1,4 +1,4 @@
-//! What kind of file a TOML text is meant as, told by its keys also where it is damaged.
+//! What kind of file a TOML text is meant as, recognised by its keys also where it is damaged.
 
 use physics::toml::nearest;
 use toml::de::DeTable;

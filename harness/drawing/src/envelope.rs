@@ -1,6 +1,6 @@
 //! Long oscillations: where a line would only blacken the panel, its extremes are drawn as a band.
 
-/// Reversals in a column from which on its line cannot be told apart.
+/// Reversals in a column from which on its line cannot be distinguished.
 const REVERSALS_PER_COLUMN: usize = 3;
 /// Points that a reversal of an oscillation has; noise has fewer.
 const POINTS_PER_REVERSAL: usize = 2;

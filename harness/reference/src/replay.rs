@@ -39,7 +39,7 @@ impl Replay {
     }
 }
 
-/// Every flight that the FMU lists, flown again, or why it cannot be; `None` for an FMU without any list.
+/// Every flight that the FMU lists, simulated again, or why it cannot be; `None` for an FMU without any list.
 ///
 /// # Errors
 /// A list that cannot be read.

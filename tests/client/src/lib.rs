@@ -1,4 +1,4 @@
-//! Clients of the exported C functions within one process, for the tests of every crate that has a model at hand.
+//! Clients of the exported C functions within one process, for the tests of every crate with a model.
 #![allow(clippy::panic, reason = "tests fail by panics")]
 
 mod in_process;

@@ -1,4 +1,4 @@
-//! Where Sun and planets stand: what parameters and the file of flown ephemerides say, checked by name.
+//! Where Sun and planets stand: what parameters and the file of onboard ephemerides say, checked by name.
 
 use std::sync::Arc;
 
@@ -10,10 +10,10 @@ use physics::environment::onboard::{OnboardEphemeris, OnboardTarget};
 
 use super::variables::EllipseVariables;
 
-/// The file of flown ephemerides in the resources.
+/// The file of onboard ephemerides in the resources.
 pub const EPHEMERIS_FILE: &str = "ephemeris.toml";
 
-/// Reads flown ephemerides; `file` names the text in errors.
+/// Reads onboard ephemerides; `file` names the text in errors.
 pub fn read(file: &str, text: &str) -> Result<Arc<OnboardEphemeris>, SetupError> {
     OnboardEphemeris::from_toml(file, text).map(Arc::new).map_err(|error| SetupError(error.to_string()))
 }
@@ -45,7 +45,7 @@ pub fn kepler(
         .map_err(|error| Failure::new(format!("ephemeris elements: {error}")))
 }
 
-/// Refuses flown ephemerides that do not place Sun and Earth from a centre, or not at `epoch_s`, which `what` gives.
+/// Refuses onboard ephemerides that do not place Sun and Earth from a centre, or not at `epoch_s`, which `what` gives.
 pub fn check_onboard(
     carried: &OnboardEphemeris,
     center: Body,

@@ -87,7 +87,7 @@ impl Request {
 }
 
 impl PlantState {
-    /// Checks numbers that were decoded; bytes from elsewhere may hold anything.
+    /// Checks numbers that were decoded.
     pub fn check(&self, spacecraft: &Spacecraft) -> Result<(), Failure> {
         let parts =
             [("the command", self.command.is_valid()), ("the flight", self.flight.is_valid(spacecraft))];

@@ -111,7 +111,7 @@ fn a_center_set_later_gives_the_same_orbit_and_a_warning() {
     }
 }
 
-/// About the Sun an eccentricity that happens to be the one of the default about Mercury is flown by a file about the Sun.
+/// About the Sun an eccentricity that happens to be the one of the default about Mercury is simulated by a file about the Sun.
 #[test]
 fn values_that_are_set_are_simulated() {
     let set = format!(

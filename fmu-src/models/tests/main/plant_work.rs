@@ -6,7 +6,7 @@ use models::MomentumPlant;
 
 use super::named_model::{NamedInstance, NamedModel};
 
-/// Time this thread spent computing, so that a busy machine does not count; where that is not told, all time.
+/// Time this thread spent computing, so that a busy machine does not count; where that is not known, all time.
 fn busy(since: Instant) -> Duration {
     let reported = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let spent_ns = reported.and_then(|text| text.split(' ').next().and_then(|word| word.parse().ok()));

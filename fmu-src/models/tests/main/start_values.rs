@@ -119,7 +119,7 @@ fn an_instance_begins_with_them_and_returns_to_them() {
     assert_eq!(fmu.reset(), Status::Ok);
     assert_eq!(read(&mut fmu), from_file);
 
-    // The shipped FMU, told the same by its master.
+    // The shipped FMU, set alike by its master.
     let mut reported = InProcess::instantiate(&LIBRARY, &plain.guid, None).unwrap();
     assert_ne!(read(&mut reported), from_file);
     assert_eq!(reported.reset(), Status::Ok);

@@ -1,4 +1,4 @@
-//! What is set and can have no effect is refused or told by name.
+//! What is set and can have no effect is refused or reported by name.
 
 use fmi_export::Model;
 use models::{DisturbanceTorque, MomentumPlant};

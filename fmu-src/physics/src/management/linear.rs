@@ -29,7 +29,7 @@ impl LinearTorque {
         }
     }
 
-    /// Where the Sun stands for this torque, body frame, in N m, of which X and Z of the shade count where they are asked
+    /// Where the Sun stands for this torque, body frame, in N m, of which X and Z of the shade count where they are requested
     /// for; `None` where the shade gives no torque that way.
     pub fn sun_angles(
         &self,

@@ -136,7 +136,7 @@ pub struct DumpSpacing {
 }
 
 impl DumpSpacing {
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         self.closest_s.is_none_or(|gap_s| gap_s >= 0.0)
     }
@@ -151,7 +151,7 @@ impl DumpSpacing {
 }
 
 impl Dumps {
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Rejects decoded states that no simulation can produce.
     pub(crate) fn is_valid(&self) -> bool {
         self.count >= 0
     }

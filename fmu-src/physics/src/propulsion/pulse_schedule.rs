@@ -16,7 +16,7 @@ use super::pulse_command::PulseCommand;
 /// A pulse this share short of the shortest time lasts that time.
 const SAME_LENGTH: f64 = 1e-12;
 
-/// The pulse at hand.
+/// The current pulse.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct OpenPulse {
     /// When the valve closes, in s; infinite without end.
@@ -35,7 +35,7 @@ struct NextPulse {
     closes_s: f64,
 }
 
-/// The pulse of a valve at hand and the one ahead, and what became of the last step's command.
+/// The current pulse of a valve and the one ahead, and what became of the last step's command.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PulseSchedule {
     open: Option<OpenPulse>,
@@ -44,7 +44,7 @@ pub struct PulseSchedule {
 }
 
 impl PulseSchedule {
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         self.next.is_none_or(|next| next.opens_s <= next.closes_s)
     }
@@ -90,7 +90,7 @@ impl PulseSchedule {
         }
     }
 
-    /// Ends the pulse at hand as soon as the valve may close from `time_s` on, in s, and plans none.
+    /// Ends the current pulse as soon as the valve may close from `time_s` on, in s, and plans none.
     pub fn end(&mut self, time_s: f64) {
         self.next = None;
         if let Some(open) = &mut self.open {
@@ -113,7 +113,7 @@ impl PulseSchedule {
         self.next.map_or(f64::INFINITY, |next| next.opens_s)
     }
 
-    /// Takes note that the pulse at hand is over; whether it is by `due_s`, in s.
+    /// Takes note that the current pulse is over; whether it is by `due_s`, in s.
     pub fn take_closing(&mut self, due_s: f64) -> bool {
         let closes = self.closes_s() <= due_s;
         if closes {

@@ -95,7 +95,7 @@ pub(super) enum Normal {
     Rear(usize),
 }
 
-/// A sunshade was asked for in a form its file does not describe.
+/// A sunshade was requested in a form its file does not describe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the spacecraft's file does not describe its sunshade as {0:?}")]
 pub struct NoSuchSunshade(pub SunshadeModel);

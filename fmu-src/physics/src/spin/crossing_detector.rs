@@ -67,7 +67,7 @@ impl CrossingDetector {
         self.count
     }
 
-    /// The motion, its segment or the direction changed: what was foreseen is void.
+    /// The motion, its segment or the direction changed: what was predicted is void.
     pub fn forget(&mut self, now_s: f64) {
         self.next_s = None;
         self.search_from_s = self.search_from_s.max(now_s);

@@ -53,7 +53,7 @@ pub struct Map {
     /// dump.threshold, panel[k].sunOffset); repeatable, written as for `run`: 'spacecraft.centerOfMass[3]=-2.54cm'
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
-    /// A flown mission, recorded by `run`: torque.total, or momentum.body with dump.count; with sun.distance, what downlinks
+    /// A simulated mission, recorded by `run`: torque.total, or momentum.body with dump.count; with sun.distance, what downlinks
     /// give follows the distance
     #[arg(long, value_name = "CSV")]
     pub mission: Option<PathBuf>,

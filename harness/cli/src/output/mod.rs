@@ -49,7 +49,7 @@ pub struct Requested {
     pub plots: Vec<Plot>,
     /// How many of the recording's columns were requested, the first ones; more is for the pictures.
     pub columns: usize,
-    /// Whether no summary is wanted.
+    /// Whether no summary is requested.
     pub is_quiet: bool,
 }
 
@@ -65,7 +65,7 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// Everything wanted, its files opened; without any, a summary on the terminal. `empty` is the recording before its first row;
+    /// Everything requested, its files opened; without any, a summary on the terminal. `empty` is the recording before its first row;
     /// `inputs` are not written over.
     pub fn open(
         requested: &Requested,

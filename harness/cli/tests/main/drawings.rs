@@ -1,4 +1,4 @@
-//! `draw`: well-formed SVG, names and lengths of the file, views and angles as asked, refusals that name what is wrong.
+//! `draw`: well-formed SVG, names and lengths of the file, views and angles as requested, refusals that name what is wrong.
 
 use std::{fs, path::Path};
 

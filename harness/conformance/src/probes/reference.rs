@@ -1,4 +1,4 @@
-//! The reference flights that an FMU carries, flown again.
+//! The reference flights that an FMU carries, simulated again.
 
 use loader::Fmu;
 

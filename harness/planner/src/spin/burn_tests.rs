@@ -1,4 +1,4 @@
-//! A flown plan agrees with the theory it was found by, its tables with each other, and its limits are named.
+//! A simulated plan agrees with the theory it was found by, its tables with each other, and its limits are named.
 
 use physics::attitude::angle_between_rad;
 use physics::spin::spinner::Spinner;

@@ -1,4 +1,4 @@
-//! A plan flown pulse by pulse on the plant's physics, with everything as it is assumed.
+//! A plan simulated pulse by pulse on the plant's physics, with everything as it is assumed.
 
 use core::f64::consts::TAU;
 
@@ -55,7 +55,7 @@ pub struct Sample {
     pub spin_rate_rad_s: f64,
 }
 
-/// A flown plan.
+/// A simulated plan.
 #[derive(Clone, Debug)]
 pub struct Flight {
     /// Where the axis stands before the first.

@@ -237,7 +237,7 @@ fn simulated_again<'a>(
     Err(PlanError::Broken(lines.join("\n  ")))
 }
 
-/// What came out of a simulation that kept everything, beside what was foreseen.
+/// What came out of a simulation that kept everything, beside what was predicted.
 fn kept(task: &Task, row: &Row, simulated: &Verification) -> String {
     let rates =
         if simulated.rates > 1 { format!(" at {} spin rates", simulated.rates) } else { String::new() };

@@ -153,7 +153,7 @@ fn simulate(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Simulated,
     Ok(Simulated {
         final_rad: last(0),
         peak_rad: columns[0].iter().copied().fold(0.0, f64::max),
-        // Within the plane of the turn, as it is foreseen: a clock that runs wrong also moves it aside.
+        // Within the plane of the turn, as it is predicted: a clock that runs wrong also moves it aside.
         moved_rad: last(1).atan2(last(7)),
         duration_s: last_s - first_s,
     })

@@ -159,7 +159,7 @@ fn outside_deg(body: &Vector, zone_deg: &[f64; 2]) -> f64 {
     (azimuth.abs() - zone_deg[0]).max(elevation.abs() - zone_deg[1])
 }
 
-/// Whether the greatest errors of the rate along an axis and across it are small beside what is wanted, and text.
+/// Whether the greatest errors of the rate along an axis and across it are small beside what is requested, and text.
 fn turns_about(phase: &Phase<'_>, axis: &Vector, wanted_rad_s: f64) -> (bool, String) {
     let along = phase.greatest(|sample| (sample.rate_rad_s.dot(axis) - wanted_rad_s).abs());
     let aside = phase.greatest(|sample| across(&sample.rate_rad_s, axis).norm());

@@ -8,8 +8,8 @@ use crate::attitude::Vector;
 use crate::case::{chosen, run_all};
 use crate::settings::{cells, item, real};
 use crate::{Options, Report, StudyError};
-use drawing::Series;
 use drawing::PlanePanel;
+use drawing::Series;
 
 /// Six days in, orbit and terminator lie in nearly one plane: the Sun is across nadir and limb all the way round.
 const EPOCH_S: f64 = DEFAULT_EPOCH_S + 6.0 * 86_400.0;

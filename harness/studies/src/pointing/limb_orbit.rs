@@ -6,8 +6,8 @@ use super::limb_point::{Found, PLUS_Z, triaxial};
 use crate::attitude::{Vector, across, angle_rad};
 use crate::settings::{cells, flag, item};
 use crate::{Options, Report, StudyError};
-use drawing::{Chart, Panel, Series};
 use drawing::PlanePanel;
+use drawing::{Chart, Panel, Series};
 
 /// 25 days in, the orbit passes over noon and midnight.
 const EPOCH_S: f64 = DEFAULT_EPOCH_S + 25.0 * 86_400.0;

@@ -140,7 +140,7 @@ pub fn settle(context: &Plan<'_>, values: &mut Values) {
     settled.write(context.variables, values);
 }
 
-/// Refuses a step that leaves the span of the flown ephemerides it goes by.
+/// Refuses a step that leaves the span of the onboard ephemerides it goes by.
 pub fn check_span(
     context: &Plan<'_>,
     values: &Values,

@@ -1,4 +1,4 @@
-//! Flown ephemerides: what contradicts the Sun sensors is not flown by, and each mode goes by what paper 001 lets it.
+//! Onboard ephemerides: what contradicts the Sun sensors is not flown by, and each mode goes by what paper 001 lets it.
 
 use models::Guidance;
 use nalgebra::{UnitQuaternion, Vector3};

@@ -77,7 +77,7 @@ impl ControllerState {
         }
     }
 
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         self.reference.is_valid()
     }

@@ -117,7 +117,7 @@ impl EstimatorState {
         }
     }
 
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         self.last_truth.iter().chain([&self.attitude]).all(Attitude::is_rotation)
     }

@@ -1,9 +1,9 @@
 //! Reference attitude that follows a command within a slew rate and an acceleration limit.
 //!
 //! At each sample the motion relative to the command, a rotation vector e and a rate v, is turned toward the command
-//! about the eigenaxis: with p = e + v dt/2 (where half of the motion already under way leads), the wanted relative rate
+//! about the eigenaxis: with p = e + v dt/2 (where half of the motion already under way leads), the requested relative rate
 //! is -p/|p| times min(slew rate, a (sqrt(T^2 + 2|p|/a) - T)), which solves v^2/2a + v T = |p|: braking never needs more
-//! than a, and near the end the rate is |p|/T. The rate follows the wanted one with a lag of T/5 (overdamped, no
+//! than a, and near the end the rate is |p|/T. The rate follows the requested one with a lag of T/5 (overdamped, no
 //! overshoot), so that the small jumps of a command that is itself sampled ask for little torque. What the command's own
 //! rotation takes of the acceleration (rate x relative rate) is set aside beforehand.
 
@@ -83,7 +83,7 @@ impl Reference {
         Self { attitude, rate_body_rad_s, is_settled: false }
     }
 
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         self.attitude.is_rotation()
     }

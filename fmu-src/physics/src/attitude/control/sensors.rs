@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-/// A greater acceleration than this, in rad/s2, is not told from one without limit.
+/// A greater acceleration than this, in rad/s2, is not distinguished from one without limit.
 const GREATEST_ACCELERATION_RAD_S2: f64 = 1e3;
 
 /// A star tracker.

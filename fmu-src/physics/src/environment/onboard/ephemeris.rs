@@ -1,4 +1,4 @@
-//! The flown ephemeris, from its file; every problem is reported by file, line, key, what was found and what is allowed.
+//! The onboard ephemeris, from its file; every problem is reported by file, line, key, what was found and what is allowed.
 
 use nalgebra::SMatrix;
 

@@ -1,4 +1,4 @@
-//! What a flown ephemeris places: a body or the spacecraft.
+//! What an onboard ephemeris places: a body or the spacecraft.
 
 use core::fmt;
 

@@ -57,7 +57,7 @@ impl Deviation {
         value
     }
 
-    /// Whether it can come from an integration; bytes from elsewhere may hold anything.
+    /// Rejects decoded states that no simulation can produce.
     pub(super) fn is_valid(&self) -> bool {
         self.segment.is_valid() && self.segment.spans(self.start_s, self.end_s)
     }

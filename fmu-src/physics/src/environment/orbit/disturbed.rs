@@ -164,7 +164,7 @@ impl DisturbedOrbit {
         Ok(Self { chain: SegmentChain::new(segment_length_s, start_s, start), radius_m, deviation: None })
     }
 
-    /// Whether it can come from an integration; bytes from elsewhere may hold anything.
+    /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         self.chain.is_valid()
             && self.radius_m >= 0.0

@@ -181,7 +181,7 @@ impl BurnState {
         self.thrust_body.unwrap_or(settings.thrust_body)
     }
 
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         self.last.as_ref().is_none_or(|last| last.attitude.is_rotation())
             && self.thrust_body.is_none_or(|thrust| (thrust.norm() - 1.0).abs() < 1e-9)

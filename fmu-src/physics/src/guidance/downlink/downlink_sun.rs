@@ -60,7 +60,7 @@ pub struct DownlinkSun {
 }
 
 impl DownlinkSun {
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         [self.chosen, self.science].into_iter().flatten().all(|chosen| chosen.place.is_valid())
     }

@@ -8,7 +8,7 @@
 //! - the one inside a quadrant is taken; of two, A - delta for theta below 90 deg and A + delta beyond, which at A = E = 0
 //!   is the default attitude (eq 18);
 //! - where none is inside, the one nearest to a quadrant gives the antenna. The antenna looks along the quadrant's bound,
-//!   and the Sun comes as near to the asked place as the Earth there allows.
+//!   and the Sun comes as near to the requested place as the Earth there allows.
 
 use core::f64::consts::TAU;
 
@@ -44,7 +44,7 @@ pub struct SunPlace {
 }
 
 impl SunPlace {
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         [self.angles.azimuth_rad, self.angles.elevation_rad].iter().all(|angle_rad| angle_rad.abs() <= TAU)
     }
@@ -68,7 +68,7 @@ pub struct Downlink {
     pub antenna: Antenna,
     /// Where it looks, in its quadrant.
     pub antenna_azimuth_rad: f64,
-    /// Whether elevation or antenna stands at a bound, off what was asked.
+    /// Whether elevation or antenna stands at a bound, off what was requested.
     pub clamped: bool,
 }
 

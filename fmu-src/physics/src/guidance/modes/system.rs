@@ -183,7 +183,7 @@ impl GuidanceState {
         (self.next_sample_s < end_s - tolerance_s).then_some(self.next_sample_s)
     }
 
-    /// Takes the sample that is due; `chooser` puts the Sun where a downlink begins, or science that unloads. Whether it was asked.
+    /// Takes the sample that is due; `chooser` puts the Sun where a downlink begins, or science that unloads. Whether it was requested.
     pub fn sample(
         &mut self,
         settings: &GuidanceSettings<'_>,

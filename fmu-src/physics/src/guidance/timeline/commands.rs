@@ -28,7 +28,7 @@ pub(super) type Given<'g> = &'g [(&'g str, bool)];
 pub(super) struct Commands<'d, 'i> {
     pub check: Checker<'d>,
     instruments: &'i [Instrument],
-    /// The scenario of the command at hand, for messages.
+    /// The scenario of the current command, for messages.
     scenario: String,
 }
 

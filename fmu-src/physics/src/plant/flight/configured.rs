@@ -40,7 +40,7 @@ pub struct StepContext<'a> {
     pub prepared: PreparedSpacecraft<'a>,
     /// Force and torque from outside.
     pub external: &'a External<'a>,
-    /// Who chooses the Sun's place in downlinks and in science that unloads; asked where the guidance is managed.
+    /// Who chooses the Sun's place in downlinks and in science that unloads; called where the guidance is managed.
     pub planner: &'a dyn SunPlanner,
     /// Units of about a microsecond that a step may take.
     pub work_limit: u32,
@@ -52,7 +52,7 @@ pub(crate) struct ConfiguredFlight<'a> {
     pub world: &'a mut World,
     pub propagator: &'a mut PropagatorState,
     pub thrusters: &'a mut Thrusters,
-    /// Is told of dumps.
+    /// Receives dumps.
     pub log: &'a mut dyn FnMut(&DumpEvent),
 }
 

@@ -40,7 +40,7 @@ impl StartMomentum {
     }
 }
 
-/// Who chooses the Sun's place; asked once a downlink or science that unloads, and again after a dump at its very beginning.
+/// Who chooses the Sun's place; called once a downlink or science that unloads, and again after a dump at its very beginning.
 pub trait SunPlanner {
     /// The place, and whether limits keep the momentum from its target; no place where the default attitude is to be simulated.
     ///

@@ -22,7 +22,7 @@ pub struct PropagatorState {
 }
 
 impl PropagatorState {
-    /// Whether its numbers can come from a flight; bytes from elsewhere may hold anything.
+    /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         self.trajectory.is_valid()
             && self.sun_choice.is_valid()
@@ -49,7 +49,7 @@ impl PropagatorState {
         Ok(())
     }
 
-    /// Forgets what was computed ahead of `time_s`: the flight changes there. `configuration` is the one flown so far;
+    /// Forgets what was computed ahead of `time_s`: the flight changes there. `configuration` is the one simulated so far;
     /// `light_changes` tells whether attitude, panels, mass centre or the Sun do, on which light and heat depend.
     pub fn cut(&mut self, configuration: &Configuration, time_s: f64, light_changes: bool) {
         self.cut_with_jump(configuration, time_s, light_changes, &Vector3::zeros());

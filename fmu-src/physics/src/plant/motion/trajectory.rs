@@ -17,7 +17,7 @@ use crate::plant::settings::configuration::{Configuration, Motion};
 const SAME_PASSAGE: f64 = 1e-3;
 /// Two beginnings of a window closer together than this part of a revolution are one, computed twice.
 const SAME_WINDOW: f64 = 1e-7;
-/// Passages kept for the schedule: one may lie ahead of the time at hand, one may be too recent for its window.
+/// Passages kept for the schedule: one may lie ahead of the current time, one may be too recent for its window.
 const KEPT: usize = 3;
 /// A passage that never was; a number, for states hold no infinity.
 const BEFORE_ALL_TIME_S: f64 = -1e100;

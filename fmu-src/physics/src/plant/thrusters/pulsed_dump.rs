@@ -34,9 +34,9 @@ pub(crate) struct PulsedDump {
     pub(crate) residual_s: [f64; MOST_THRUSTERS],
     /// How often the end was corrected.
     pub(crate) corrections: u8,
-    /// Whether the pulses at hand are the last.
+    /// Whether the current pulses are the last.
     pub(crate) is_last: bool,
-    /// Mean torque of the pulses at hand, body frame, in N m.
+    /// Mean torque of the current pulses, body frame, in N m.
     pub(crate) mean_torque_body_n_m: Vector3<f64>,
 }
 

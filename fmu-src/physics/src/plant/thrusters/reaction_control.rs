@@ -323,7 +323,7 @@ impl Thrusters {
             .map_or(Vector3::zeros(), |dump| dump.mean_torque_body_n_m)
     }
 
-    /// Angular impulse of the dump at hand or the last one, in the body frame at its start, in N m s, and its velocity change,
+    /// Angular impulse of the current dump or the last one, in the body frame at its start, in N m s, and its velocity change,
     /// EME2000, in m/s.
     pub fn dumped_at(&self, motion: &GyrostatMotion, time_s: f64) -> Option<[Vector3<f64>; 2]> {
         self.dump.map(|dump| {

@@ -1,7 +1,7 @@
 //! Arcs of a ring around nadir and the integrals of sines and cosines over them, in closed form.
 //!
 //! Equation: int cos^i(psi) sin^j(psi) dpsi over an arc |psi - middle| < half, for i + j up to 3.
-//! Method: antiderivatives about the arc's middle, where odd powers of the sine vanish, turned to the wanted azimuth; the
+//! Method: antiderivatives about the arc's middle, where odd powers of the sine vanish, turned to the requested azimuth; the
 //! common part of two arcs is an arc, or two where both are wider than half the ring.
 //! Error measure: rounding, in units of the full ring's integral.
 //! Reference: elementary integrals; the tests of [`super`] compare their sums with other integrations.

@@ -79,7 +79,7 @@ fn names<D: Named>(at: Place, items: Option<&[D]>) -> Vec<Name> {
     items.map(|(i, item)| (at.item(i), item.called(i), item.name().is_some())).collect()
 }
 
-/// Two parts of one kind with one name could not be told apart; all plates are one kind, the shade's among them.
+/// Two parts of one kind with one name could not be distinguished; all plates are one kind, the shade's among them.
 pub(crate) fn check_names(check: &mut Checker<'_>, description: &Description) {
     let at = |key: &str| Place::root().key(key);
     let of_shade = description

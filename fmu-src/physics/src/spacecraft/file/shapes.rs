@@ -160,7 +160,7 @@ pub(crate) fn dish_plates(
     shape.plates(check, at, "facets", &|_| front)
 }
 
-/// Two plates of one name, made by different items of the file, could not be told apart.
+/// Two plates of one name, made by different items of the file, could not be distinguished.
 pub(crate) fn distinct_plates(check: &mut Checker<'_>, found: &[(Place, Vec<Plate>)]) {
     let mut known: BTreeMap<&str, &Place> = BTreeMap::new();
     for (at, plates) in found {

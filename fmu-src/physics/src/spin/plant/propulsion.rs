@@ -1,4 +1,4 @@
-//! What the thrusters use and do: propellant, delta-v, inertia, foreseen nutation.
+//! What the thrusters use and do: propellant, delta-v, inertia, predicted nutation.
 
 use std::sync::LazyLock;
 

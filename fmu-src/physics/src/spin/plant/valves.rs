@@ -64,7 +64,7 @@ impl Valves {
         }
     }
 
-    /// Thrusters whose commanded pulses are at hand at `now_s`, bit by bit, those that begin and end there taken note of.
+    /// Thrusters whose commanded pulses act at `now_s`, bit by bit, those that begin and end there taken note of.
     pub(super) fn pulsing_mask(&mut self, now_s: f64) -> u32 {
         let due_s = due_s(now_s);
         let mut mask = 0;

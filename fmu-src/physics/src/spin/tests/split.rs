@@ -10,7 +10,7 @@ use crate::spin::{
     train::{Shape, Train, TrainError},
 };
 
-/// Planned and flown move of a train for 2 deg, in rad, and the nutation it leaves.
+/// Planned and simulated move of a train for 2 deg, in rad, and the nutation it leaves.
 fn simulated(ratio: f64, turns_per_pulse: f64) -> (f64, f64, f64) {
     let spinner = ace();
     let mut start = paper_start(ratio);

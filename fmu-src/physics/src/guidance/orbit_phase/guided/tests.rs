@@ -1,0 +1,74 @@
+//! A slew begins where the old attitude was, ends at the new one, and its rate is the derivative of its axes.
+use super::*;
+use crate::attitude::{MovingUnit, rotation_vector};
+use crate::guidance::pointing::boresight::MdisRange;
+use approx::assert_relative_eq;
+use nalgebra::Vector3;
+
+fn lines(t: f64) -> LinesOfSight {
+    let moving = |p: Vector3<f64>, v: Vector3<f64>| MovingUnit::of(p, v).unwrap();
+    let w = 2e-4;
+    LinesOfSight {
+        sun: moving(Vector3::new(1.0, 1e-7 * t, 0.1), Vector3::new(0.0, 1e-7, 0.0)),
+        planet: Some(moving(
+            Vector3::new((w * t).cos(), 0.5, (w * t).sin()),
+            Vector3::new(-w * (w * t).sin(), 0.0, w * (w * t).cos()),
+        )),
+        earth: moving(Vector3::new(-0.3, 1.0, 0.2), Vector3::zeros()),
+        sun_from_planet: None,
+    }
+}
+
+fn guided(slew_rate_rad_s: f64) -> Guided {
+    Guided {
+        schedule: Schedule {
+            periapsis_s: 0.0,
+            period_s: 43_200.0,
+            downlink_start_s: 7200.0,
+            downlink_end_s: 36_000.0,
+            every: 2,
+            once: false,
+        },
+        science: ScienceRule::Nadir,
+        elevation_limit_rad: 0.2,
+        slew_rate_rad_s,
+        keep_in: None,
+        sun_place: None,
+        managed: false,
+    }
+}
+
+#[test]
+fn a_slew_is_continuous_and_arrives() {
+    let law = guided(3e-3);
+    let just_before = guided(0.0).at(7200.0 - 1e-6, lines).frame.inertial_from_body;
+    let at_edge = law.at(7200.0, lines);
+    assert!(at_edge.slewing);
+    assert_relative_eq!(just_before.matrix(), at_edge.frame.inertial_from_body.matrix(), epsilon = 1e-8);
+    let angle_rad =
+        rotation_vector(&just_before, &guided(0.0).at(7200.0, lines).frame.inertial_from_body).norm();
+    let end_s = 7200.0 + angle_rad / 3e-3;
+    assert!(law.at(end_s - 0.1, lines).slewing);
+    assert!(!law.at(end_s + 0.1, lines).slewing);
+    assert_eq!(law.at(end_s + 0.1, lines).frame, guided(0.0).at(end_s + 0.1, lines).frame);
+}
+
+#[test]
+fn rate_is_the_derivative_of_the_axes_everywhere() {
+    let angles = SunAngles { azimuth_rad: -0.1, elevation_rad: 0.15 };
+    let off_sun = SunPlace { angles, earth_ahead: false };
+    for sun_place in [None, Some(off_sun)] {
+        rate_is_the_derivative(&Guided { sun_place, ..guided(2e-3) });
+        let science = ScienceRule::Unloading { sun: angles, camera: MdisRange::default() };
+        rate_is_the_derivative(&Guided { sun_place, science, ..guided(2e-3) });
+    }
+}
+
+fn rate_is_the_derivative(law: &Guided) {
+    for t in [100.0, 7300.0, 7500.0, 20_000.0, 36_100.0, 50_000.0] {
+        let dt = 0.01;
+        let at = |t| law.at(t, lines).frame.inertial_from_body;
+        let turned = rotation_vector(&at(t - dt), &at(t + dt)) / (2.0 * dt);
+        assert_relative_eq!(turned, law.at(t, lines).frame.rate_body_rad_s, epsilon = 1e-8);
+    }
+}

@@ -1,0 +1,91 @@
+//! Every option against positions and angles known by other means.
+use super::super::scenario_tests::aimpoint as command;
+use super::*;
+use crate::guidance::geometry::moving::matrix_value;
+use crate::guidance::geometry::test_orbit::TestOrbit;
+use approx::assert_relative_eq;
+
+#[test]
+fn the_table_holds_every_option_once() {
+    for (at, row) in AIMPOINTS.iter().enumerate() {
+        assert_eq!(row.option as usize, at);
+    }
+}
+
+#[test]
+fn every_option_has_a_direction_and_the_points_are_where_they_are_said_to_be() {
+    use AimpointOption as Option;
+    let s = TestOrbit::new(12.0).surroundings(700.0);
+    let spacecraft = value(&s.position);
+    let toward = |option| {
+        let aim = aimpoint(&command(option), &s, SubsolarMethod::Line).unwrap();
+        assert!(aim.reachable);
+        value(&aim.toward)
+    };
+    let c = command(Option::Vector);
+    let place = |option| toward(option) + spacecraft;
+    let near = |found: Vector3<f64>, expected: Vector3<f64>| {
+        assert_relative_eq!(found, expected, max_relative = 1e-13, epsilon = 1e-13);
+    };
+    near(toward(Option::Vector), c.vector);
+    let star = toward(Option::RightAscensionDeclination);
+    near(Vector3::new(star.y.atan2(star.x), star.z.asin(), star.norm()), Vector3::new(1.1, -0.4, 1.0));
+    assert_relative_eq!(
+        place(Option::EarthCentered),
+        value(&s.earth) + command(Option::EarthCentered).position_m,
+        epsilon = 1e-4
+    );
+    assert_relative_eq!(
+        place(Option::SunCentered),
+        value(&s.sun) + command(Option::SunCentered).position_m,
+        epsilon = 1e-4
+    );
+    assert_relative_eq!(
+        place(Option::PlanetCentered),
+        command(Option::PlanetCentered).position_m,
+        epsilon = 1e-8
+    );
+    let to_planet = matrix_value(&s.planet.planet_from_inertial(s.epoch_s));
+    assert_relative_eq!(
+        to_planet * place(Option::PlanetFixed),
+        command(Option::PlanetFixed).position_m,
+        epsilon = 1e-8
+    );
+    let ground = to_planet * place(Option::LatitudeLongitude);
+    assert_relative_eq!(ground.z.atan2(ground.x.hypot(ground.y)), 0.3, epsilon = 1e-14);
+    assert_relative_eq!(ground.y.atan2(ground.x), -2.0, epsilon = 1e-14);
+    let up = spacecraft.normalize();
+    for option in [Option::LvlhDowntrack, Option::LvlhSun] {
+        assert_relative_eq!(toward(option).dot(&up), (-0.6_f64).sin(), epsilon = 1e-14);
+    }
+    assert_relative_eq!(place(Option::Sun), value(&s.sun), epsilon = 1e-4);
+    assert_relative_eq!(place(Option::Earth), value(&s.earth), epsilon = 1e-4);
+    assert_relative_eq!(place(Option::Nadir), Vector3::zeros(), epsilon = 1e-8);
+    assert_relative_eq!(place(Option::Subsolar).normalize(), value(&s.sun).normalize(), epsilon = 1e-14);
+    assert_relative_eq!(place(Option::OptimalLighting).norm(), s.planet.radii_m.x, epsilon = 1e-8);
+    assert_relative_eq!(place(Option::Body), value(&s.bodies[Body::Venus as usize].unwrap()), epsilon = 1e-4);
+}
+
+#[test]
+fn an_aim_without_direction_is_none() {
+    let s = TestOrbit::new(12.0).surroundings(700.0);
+    let none = |command: AimpointCommand, s: &EphemerisAtTime| {
+        assert!(aimpoint(&command, s, SubsolarMethod::Normal).is_none(), "{:?}", command.option);
+    };
+    none(AimpointCommand::default(), &s);
+    none(AimpointCommand { option: Some(AimpointOption::Vector), ..AimpointCommand::default() }, &s);
+    none(
+        AimpointCommand { body: Some(Body::Mars), ..command(AimpointOption::Body) },
+        &EphemerisAtTime { bodies: [None; 6], ..s },
+    );
+    none(AimpointCommand { vector: Vector3::repeat(f64::NAN), ..command(AimpointOption::Vector) }, &s);
+    let mut flat = s;
+    flat.planet.radii_m = Vector3::zeros();
+    for option in [AimpointOption::Subsolar, AimpointOption::OptimalLighting] {
+        none(command(option), &flat);
+    }
+    let without_position = EphemerisAtTime { position: MovingVector::zeros(), ..s };
+    for option in [AimpointOption::Nadir, AimpointOption::LvlhSun, AimpointOption::OptimalLighting] {
+        none(command(option), &without_position);
+    }
+}

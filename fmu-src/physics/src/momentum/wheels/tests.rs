@@ -1,0 +1,92 @@
+//! The wheels together hold exactly what they were given, by the pyramid's closed form.
+use super::*;
+use approx::assert_relative_eq;
+
+use crate::spacecraft::{MESSENGER_TOML, PAPER_DUMP_THRESHOLDS_N_M_S, Spacecraft};
+
+fn pyramid() -> Vec<Vector3<f64>> {
+    let c = (1.0f64 / 3.0).sqrt();
+    [(c, c), (c, -c), (-c, -c), (-c, c)].iter().map(|&(x, z)| Vector3::new(x, c, z)).collect()
+}
+
+#[test]
+fn two_wheels_or_wheels_in_a_plane_hold_no_momentum_together() {
+    let skew = [Vector3::new(0.36, 0.48, 0.8), Vector3::new(-0.6, 0.64, 0.48)];
+    let between = (skew[0] * 0.3 + skew[1] * 0.7).normalize();
+    assert!(WheelArray::new(&skew).is_none());
+    assert!(WheelArray::new(&[skew[0], skew[1], between]).is_none());
+    let off_the_plane = (between + skew[0].cross(&skew[1]) * 1e-3).normalize();
+    assert!(WheelArray::new(&[skew[0], skew[1], off_the_plane]).is_some());
+}
+
+#[test]
+fn wheels_sum_to_the_momentum() {
+    let array = WheelArray::new(&pyramid()).unwrap();
+    let momentum = Vector3::new(1.0, -2.0, 0.5);
+    let sum: Vector3<f64> =
+        pyramid().iter().enumerate().map(|(k, axis)| axis * array.momentum_n_m_s(k, &momentum)).sum();
+    assert_relative_eq!(sum, momentum, epsilon = 1e-14);
+}
+
+#[test]
+fn the_most_that_any_sharing_holds_is_that_of_the_closed_form() {
+    // Across the normal (-2, 2, 0)/3 of two neighbours the other two reach 4 sqrt 3/9 each, and its size is 4/3.
+    let h = attainable_threshold_n_m_s(&pyramid(), &[8.0; 4]);
+    assert_relative_eq!(h, 16.0 / 3.0_f64.sqrt(), max_relative = 1e-14);
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+    assert_eq!(attainable_threshold_n_m_s(&axes, &[2.0, 3.0, 4.0]), 2.0);
+    // In a plane, along a line, none.
+    assert_eq!(attainable_threshold_n_m_s(&axes[..2], &[2.0; 2]), 0.0);
+    assert_eq!(attainable_threshold_n_m_s(&[Vector3::x(), Vector3::x()], &[2.0; 2]), 0.0);
+    assert_eq!(attainable_threshold_n_m_s(&[], &[]), 0.0);
+}
+
+#[test]
+fn a_symmetric_pyramid_shares_equally() {
+    let array = WheelArray::new(&pyramid()).unwrap();
+    for wheel in 0..array.len() {
+        assert_relative_eq!(array.momentum_n_m_s(wheel, &Vector3::y()), 3.0f64.sqrt() / 4.0, epsilon = 1e-14);
+    }
+}
+
+fn shipped(text: &str) -> (Spacecraft, f64) {
+    let spacecraft = Spacecraft::from_toml("shipped.toml", text).unwrap();
+    let axes: Vec<Vector3<f64>> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
+    let array = WheelArray::new(&axes).unwrap();
+    let threshold_n_m_s =
+        array.guaranteed_threshold_n_m_s(spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s));
+    // Any corner of the cube can be held, one a little beyond cannot.
+    let loads = |scale: f64| {
+        let corners = (0..8_u32).map(move |corner| {
+            Vector3::from_fn(|i, _| if corner >> i & 1 == 0 { scale } else { -scale } * threshold_n_m_s)
+        });
+        let share = |corner: Vector3<f64>| {
+            let wheels = spacecraft.wheels.iter().enumerate();
+            wheels
+                .map(|(k, wheel)| array.momentum_n_m_s(k, &corner).abs() / wheel.capacity_n_m_s)
+                .fold(0.0, f64::max)
+        };
+        corners.map(share).fold(0.0, f64::max)
+    };
+    assert!(loads(1.0 - 1e-9) <= 1.0 && loads(1.0 + 1e-9) > 1.0);
+    (spacecraft, threshold_n_m_s)
+}
+
+#[test]
+fn shipped_thresholds_are_guaranteed() {
+    // MESSENGER's corner along a wheel's axis loads it by sqrt 3 x 3/4.
+    let (spacecraft, guaranteed) = shipped(MESSENGER_TOML);
+    assert_relative_eq!(guaranteed, 8.0 / (0.75 * 3.0_f64.sqrt()), max_relative = 1e-5);
+    assert!(spacecraft.dump_threshold_n_m_s.unwrap().max() <= guaranteed);
+    assert_eq!(spacecraft.dump_threshold_n_m_s, Some(Vector3::repeat(PAPER_DUMP_THRESHOLDS_N_M_S[1].1)));
+    // Three wheels along the axes hold their own capacity.
+    let (spacecraft, guaranteed) = shipped(include_str!("../../../resources/examples/solar-sailer.toml"));
+    assert_relative_eq!(guaranteed, 2.0, epsilon = 1e-12);
+    assert!(spacecraft.dump_threshold_n_m_s.unwrap().max() <= guaranteed);
+}
+
+#[test]
+fn a_plane_of_wheels_is_no_array() {
+    assert!(WheelArray::new(&[Vector3::x(), Vector3::y(), Vector3::new(0.6, 0.8, 0.0)]).is_none());
+    assert!(WheelArray::new(&[]).is_none());
+}
