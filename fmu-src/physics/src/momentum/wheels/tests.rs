@@ -80,7 +80,7 @@ fn shipped_thresholds_are_guaranteed() {
     assert!(spacecraft.dump_threshold_n_m_s.unwrap().max() <= guaranteed);
     assert_eq!(spacecraft.dump_threshold_n_m_s, Some(Vector3::repeat(PAPER_DUMP_THRESHOLDS_N_M_S[1].1)));
     // Three wheels along the axes hold their own capacity.
-    let (spacecraft, guaranteed) = shipped(include_str!("../../../resources/examples/solar-sailer.toml"));
+    let (spacecraft, guaranteed) = shipped(include_str!("../../../../resources/examples/solar-sailer.toml"));
     assert_relative_eq!(guaranteed, 2.0, epsilon = 1e-12);
     assert!(spacecraft.dump_threshold_n_m_s.unwrap().max() <= guaranteed);
 }
