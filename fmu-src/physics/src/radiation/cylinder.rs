@@ -42,10 +42,11 @@ pub fn lit_angle_rad(cylinder: &Cylinder, sun_shade: &Vector3<f64>) -> f64 {
 /// Force and torque about the shade frame's origin, both in the shade frame, as is the beam.
 pub fn cylinder_force_torque<T: Scalar>(cylinder: &Cylinder, beam: &Beam<T>) -> ForceTorque<T> {
     let sun = &beam.source_body;
-    let mut moments = Moments::zero();
-    for [from, to] in lit_arcs(cylinder.half_angle_rad, sun).into_iter().flatten() {
-        moments.add(from, to, sun);
-    }
+    let moments = lit_arcs(cylinder.half_angle_rad, sun)
+        .iter()
+        .flatten()
+        .map(|[from, to]| Moments::over(*from, *to, sun))
+        .fold(Moments::zero(), Moments::plus);
     let optics = &cylinder.optics;
     // P times the area of a strip of one radian.
     let strip_n = beam.pressure_pa * (cylinder.radius_m * cylinder.height_m);
@@ -98,7 +99,15 @@ impl<T: Scalar> Moments<T> {
         }
     }
 
-    fn add(&mut self, from: T, to: T, sun: &Vector3<T>) {
+    fn plus(self, other: Self) -> Self {
+        Self {
+            light: self.light + other.light,
+            light_normal: self.light_normal + other.light_normal,
+            light_squared_normal: self.light_squared_normal + other.light_squared_normal,
+        }
+    }
+
+    fn over(from: T, to: T, sun: &Vector3<T>) -> Self {
         let (sin_to, cos_to) = to.sin_cos();
         let (sin_from, cos_from) = from.sin_cos();
         // c = u sin + v cos
@@ -119,11 +128,13 @@ impl<T: Scalar> Moments<T> {
         let cos_cos_cos = between(|s, _| s - s * s * s / 3.0);
         let zero = T::constant(0.0);
         let normal = |along_sin: T, along_cos: T| Vector3::new(along_sin, -along_cos, zero);
-        self.light += u * sin + v * cos;
-        self.light_normal += normal(u * sin_sin + v * sin_cos, u * sin_cos + v * cos_cos);
-        self.light_squared_normal += normal(
-            u * u * sin_sin_sin + u * v * sin_sin_cos * 2.0 + v * v * sin_cos_cos,
-            u * u * sin_sin_cos + u * v * sin_cos_cos * 2.0 + v * v * cos_cos_cos,
-        );
+        Self {
+            light: u * sin + v * cos,
+            light_normal: normal(u * sin_sin + v * sin_cos, u * sin_cos + v * cos_cos),
+            light_squared_normal: normal(
+                u * u * sin_sin_sin + u * v * sin_sin_cos * 2.0 + v * v * sin_cos_cos,
+                u * u * sin_sin_cos + u * v * sin_cos_cos * 2.0 + v * v * cos_cos_cos,
+            ),
+        }
     }
 }
