@@ -127,7 +127,13 @@ fn starts_that_make_no_sense_say_why() {
         Plant::start(&ace(), &start, directions(), Commands::none(), 0.0).unwrap_err().to_string()
     };
     assert_names(&refuse(&|s| s.inertia_kg_m2[1] = -2.0), &["inertia[2]", "-2", "positive"]);
-    assert_names(&refuse(&|s| s.inertia_kg_m2 = [10.0, 10.0, 30.0]), &["inertia[3]", "triangle"]);
+    for axis in 0..3 {
+        let refused = refuse(&|s| {
+            s.inertia_kg_m2 = [10.0; 3];
+            s.inertia_kg_m2[axis] = 30.0;
+        });
+        assert_names(&refused, &[&format!("inertia[{}]", axis + 1), "triangle"]);
+    }
     assert_names(&refuse(&|s| s.spin_rate_rad_s = 0.0), &["spin.initialRate"]);
     assert_names(&refuse(&|s| s.attitude = [0.0, 0.0, 0.0, 2.0]), &["start.q", "norm"]);
     assert_names(&refuse(&|s| s.nutation_rad = 2.0), &["start.nutation"]);
