@@ -13,7 +13,10 @@ use physics::{
     numerics::chebyshev::Segment,
 };
 
-use super::source::{Failure, Source};
+use super::{
+    options::Ephemeris,
+    source::{Failure, Source},
+};
 use crate::interrupt;
 
 /// Length of the segments to begin with: of planets, and of the spacecraft.
@@ -31,45 +34,37 @@ const HALVINGS: u32 = 12;
 /// Epochs, evenly spaced, at which coarse elements are checked.
 const COARSE_CHECKS: u32 = 2_000;
 
-/// What is requested of a fit.
-pub struct Requested {
-    /// What moves.
-    pub target: OnboardTarget,
-    /// First and last epoch.
-    pub span_s: [f64; 2],
-    /// Length of the segments, if given.
-    pub segment_s: Option<f64>,
-    /// Degree, if given.
-    pub degree: Option<usize>,
-    /// Otherwise the greatest error of position.
-    pub tolerance_m: f64,
-    /// Whether to show no progress.
-    pub is_quiet: bool,
-}
-
-/// The precise model of a target.
-pub fn precise(source: &dyn Source, requested: &Requested) -> Result<FittedBody<SegmentTable>, Failure> {
-    let &Requested { target, span_s, .. } = requested;
-    if target == OnboardTarget::from(source.center()) {
+/// The precise model of a target over a span, as the arguments ask.
+pub fn precise(
+    source: &dyn Source,
+    arguments: &Ephemeris,
+    target: OnboardTarget,
+    span_s: [f64; 2],
+) -> Result<FittedBody<SegmentTable>, Failure> {
+    let center = source.center();
+    if target == OnboardTarget::from(center) {
         return Err(format!("--bodies: {target} is the center, from where positions count").into());
     }
-    if let Some(degree) = requested.degree {
-        let plan = FitPlan::new(span_s, requested.segment_s.unwrap_or(SEGMENT_S));
-        let states = simulated_alone(source, target, &plan.epochs_s(), requested.is_quiet)?;
+    let sampled = |segment_s: f64| -> Result<(FitPlan, Vec<CartesianState>), Failure> {
+        let plan = FitPlan::new(span_s, segment_s);
+        let states = simulated(source, &[target], &plan.epochs_s(), arguments.quiet)?.pop();
+        Ok((plan, states.unwrap_or_default()))
+    };
+    if let Some(degree) = arguments.degree.map(usize::from) {
+        let (plan, states) = sampled(arguments.segment.unwrap_or(SEGMENT_S))?;
         let (motion, error) = plan.fit(&states, degree.min(GREATEST_DEGREE));
-        return Ok(FittedBody { target, center: source.center(), motion, error });
+        return Ok(FittedBody { target, center, motion, error });
     }
     let is_spacecraft = usize::from(target == OnboardTarget::Spacecraft);
-    let mut segment_s = requested.segment_s.unwrap_or(LONGEST_S[is_spacecraft]);
-    let halvings = if requested.segment_s.is_some() { 0 } else { HALVINGS };
+    let mut segment_s = arguments.segment.unwrap_or(LONGEST_S[is_spacecraft]);
+    let halvings = if arguments.segment.is_some() { 0 } else { HALVINGS };
     let mut best: Option<(FitError, f64)> = None;
     for _ in 0..=halvings {
-        let plan = FitPlan::new(span_s, segment_s);
-        let states = simulated_alone(source, target, &plan.epochs_s(), requested.is_quiet)?;
+        let (plan, states) = sampled(segment_s)?;
         for degree in DEGREES {
             let (motion, error) = plan.fit(&states, degree);
-            if error.position_m <= requested.tolerance_m {
-                return Ok(FittedBody { target, center: source.center(), motion, error });
+            if error.position_m <= arguments.tolerance {
+                return Ok(FittedBody { target, center, motion, error });
             }
             if best.is_none_or(|(best, _)| error.position_m < best.position_m) {
                 best = Some((error, segment_s));
@@ -85,7 +80,7 @@ pub fn precise(source: &dyn Source, requested: &Requested) -> Result<FittedBody<
     Err(format!(
         "--tolerance: no fit of {target} up to degree {} keeps {} m; the best found errs by {} m, with segments of {} d",
         DEGREES.end(),
-        terminal::short(requested.tolerance_m),
+        terminal::short(arguments.tolerance),
         terminal::short(error.position_m),
         terminal::short(best_s / DAY_S)
     )
@@ -106,15 +101,6 @@ fn simulated(
     });
     bar.finish_and_clear();
     states
-}
-
-fn simulated_alone(
-    source: &dyn Source,
-    target: OnboardTarget,
-    epochs_s: &[f64],
-    is_quiet: bool,
-) -> Result<Vec<CartesianState>, Failure> {
-    Ok(simulated(source, &[target], epochs_s, is_quiet)?.pop().unwrap_or_default())
 }
 
 /// The coarse models: of the planet in the centre, of the Earth, and of the spacecraft if it is among the targets.

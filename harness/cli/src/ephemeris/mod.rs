@@ -5,8 +5,7 @@ mod fit;
 mod flight;
 #[cfg(feature = "spk")]
 mod kernel;
-pub mod options;
-mod report;
+mod options;
 mod source;
 
 use std::{
@@ -19,29 +18,14 @@ use files::Destination;
 use physics::environment::onboard::OnboardTarget;
 use physics::environment::onboard::{OnboardEphemeris, to_toml};
 
-use crate::{interrupt, outcome::Outcome};
-use fit::Requested;
+use crate::{
+    carried::ephemeris::{FILE, table},
+    interrupt,
+    outcome::{self, Outcome},
+};
 use flight::Flight;
-use options::Ephemeris;
-pub use report::{FILE, of, read, summary};
+pub use options::Ephemeris;
 use source::{Failure, Source};
-
-/// Tells what a file holds, or everything that is wrong with it.
-pub fn run_check(path: &Path, (bytes, read): (usize, Result<OnboardEphemeris, String>)) -> Outcome {
-    match read {
-        Ok(carried) => {
-            terminal::print(&format!("{}: ok: {}", path.display(), report::table(&carried, bytes)))?;
-            Ok(ExitCode::SUCCESS)
-        }
-        Err(problems) => {
-            terminal::print(&problems)?;
-            let count = problems.lines().count();
-            let plural = if count == 1 { "problem" } else { "problems" };
-            terminal::note(&format!("{}: {count} {plural}, judged as an ephemeris", path.display()));
-            Ok(ExitCode::FAILURE)
-        }
-    }
-}
 
 /// Makes the file.
 pub fn run(arguments: &Ephemeris) -> Outcome {
@@ -53,15 +37,7 @@ pub fn run(arguments: &Ephemeris) -> Outcome {
     let source = source(arguments, [start_s, stop_s])?;
     let mut made = OnboardEphemeris { source: Some(source.title()), ..OnboardEphemeris::default() };
     for target in arguments.targets() {
-        let requested = Requested {
-            target,
-            span_s: [start_s, stop_s],
-            segment_s: arguments.segment,
-            degree: arguments.degree.map(usize::from),
-            tolerance_m: arguments.tolerance,
-            is_quiet: arguments.quiet,
-        };
-        made.precise.push(fit::precise(source.as_ref(), &requested)?);
+        made.precise.push(fit::precise(source.as_ref(), arguments, target, [start_s, stop_s])?);
         if interrupt::raised() {
             return Ok(ExitCode::from(interrupt::INTERRUPTED));
         }
@@ -75,17 +51,12 @@ pub fn run(arguments: &Ephemeris) -> Outcome {
     if OnboardEphemeris::from_toml(FILE, &text).map_err(|error| error.to_string())? != made {
         return Err("the file does not read back as it was made".into());
     }
-    let is_stdout = destination.is_stdout();
-    destination.fill(|file| file.write_all(text.as_bytes()))?;
-    let reported = format!("{}: {}", output.display(), report::table(&made, text.len()));
-    if is_stdout || arguments.quiet {
-        if !arguments.quiet {
-            terminal::note(&reported);
-        }
-    } else {
-        terminal::print(&reported)?;
+    if arguments.quiet {
+        destination.fill(|file| file.write_all(text.as_bytes()))?;
+        return Ok(ExitCode::SUCCESS);
     }
-    Ok(ExitCode::SUCCESS)
+    let report = format!("{}: {}", output.display(), table(&made, text.len()));
+    outcome::written(destination, text.as_bytes(), &report)
 }
 
 /// Where the states come from: kernels if there are any, otherwise a flight.

@@ -24,7 +24,7 @@ fn drawn_chart(columns: &[(&str, Column)], known: &Known) -> Chart {
         columns: columns.iter().map(|(_, column)| column.clone()).collect(),
     };
     let fmu = loader::Fmu::open(folder.path()).unwrap();
-    chart(fmu.description(), &recording, known).chart
+    chart(fmu.description(), &recording, known).0
 }
 
 /// The labels of each panel of a recording of two points.

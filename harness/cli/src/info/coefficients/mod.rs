@@ -1,14 +1,12 @@
 //! `heliotorque info --coefficients`: what an FMU computes from its parameters, before any step.
 
-mod instance;
 mod spacecraft;
 mod wheels;
 
-use loader::{Error, Fmu, Instance, Value};
+use loader::{Error, Fmu, Instance, Times, Value};
 use model_description::{Causality, ScalarVariable};
 
-use crate::epoch;
-use instance::started;
+use crate::{instance::started, variables::assigned};
 
 /// One row of a table: the elements of a vector, or of one row of a matrix.
 struct Row {
@@ -19,14 +17,8 @@ struct Row {
 
 /// The tables for these settings: those of a spacecraft where it is one, then the other calculated parameters.
 pub fn text(fmu: &Fmu, settings: &[String]) -> Result<String, Error> {
-    let mut sets = Vec::new();
-    for setting in settings {
-        sets.extend(loader::parse_assignment(
-            fmu.description(),
-            &epoch::in_seconds(fmu.description(), setting)?,
-        )?);
-    }
-    let mut instance = started(fmu, &sets)?;
+    let start_s = Times::of(fmu, None, None, None)?.start_s;
+    let mut instance = started(fmu, "info", start_s, &assigned(fmu.description(), settings)?)?;
     let mut parts = spacecraft::tables(fmu, &mut instance)?;
     parts.extend(others(fmu, &mut instance)?);
     if parts.is_empty() {

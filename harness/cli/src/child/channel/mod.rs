@@ -29,6 +29,8 @@ const TAIL: usize = 48;
 const RING: usize = 64;
 /// 4 MiB: the rows of some milliseconds.
 pub const RING_WORDS: usize = 1 << 19;
+/// What is wrong with a frame that nobody waits for.
+pub const NOT_REQUESTED: &str = "it sent what was not requested";
 /// Longest payload; a row of a million Reals fits.
 const MAX_WORDS: usize = 1 << 21;
 /// How often a child checks whether a full ring has space again, and how much has to be free before it goes on.
@@ -45,7 +47,12 @@ pub struct Link {
 
 impl Link {
     /// Takes the memory that the parent gave as standard input, keeps the parent's limits and ends with the parent.
-    pub fn attach() -> io::Result<Self> {
+    /// `command` is what starts such a child.
+    pub fn attach(command: &str) -> Result<Self, String> {
+        Self::attached().map_err(|error| format!("`{command}` starts this: {error}"))
+    }
+
+    fn attached() -> io::Result<Self> {
         let file = system::take_stdin()?;
         // For the life of the process: the record of calls is read from anywhere.
         let words: &'static SharedWords = Box::leak(Box::new(SharedWords::map(&file)?));
@@ -64,12 +71,7 @@ impl Link {
         Ok(Self { words, token, head: 0, frame: Vec::new() })
     }
 
-    /// Whether the parent requests the child's end.
-    pub fn is_cancelled(&self) -> bool {
-        self.cancel_word().load(Ordering::Relaxed) != 0
-    }
-
-    /// The word by which the parent requests the child's end.
+    /// The word by which the parent requests the child's end: other than 0.
     pub fn cancel_word(&self) -> &'static AtomicU64 {
         &self.words[CANCEL]
     }

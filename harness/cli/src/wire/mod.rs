@@ -7,11 +7,61 @@ use std::{
     process::ExitCode,
 };
 
+use clap::Args;
 use files::{Destination, Entries};
 use loader::Fmu;
 use systems::{Experiment, SSD_FILE, Wired, Wiring};
 
-use crate::{args::Wire, home, outcome::Outcome};
+use crate::{
+    home,
+    outcome::Outcome,
+    values::{duration, span},
+    variables,
+};
+
+/// Shown with the help.
+const EXAMPLE: &str = "\
+Example:
+  heliotorque wire guidance=dist/Guidance.fmu plant=MyCraft.fmu > loop.ssp
+  heliotorque run loop.ssp --stop 1d --set plant.attitude.source=commanded";
+
+/// `heliotorque wire`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub struct Wire {
+    /// The FMUs, in the order in which they step: A.fmu is component a, or name=A.fmu
+    #[arg(required = true, num_args = 1.., value_name = "FMU")]
+    pub fmus: Vec<String>,
+    /// List these outputs too, for tools that show only connectors: component.variable, vectors, patterns with *
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub outputs: Vec<String>,
+    /// Make these connectors of the system too, by names such as attitude_q_1: outputs, open inputs, parameters. FMPy sets connected
+    /// inputs to 0 where it is given nothing; libcosim refuses systems with such connectors
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub export: Vec<String>,
+    /// Leave enumerations open, for tools that cannot connect them, and say what each stands at
+    #[arg(long)]
+    pub without_enumerations: bool,
+    /// Give a parameter of a component a value, in a parameter set of the component; repeatable, written as for `run`:
+    /// plant.dump.threshold=4,4,4
+    #[arg(long, value_name = "COMPONENT.NAME=VALUE")]
+    pub set: Vec<String>,
+    /// Name of the system; otherwise the file's
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+    /// Stop time of the default experiment, in s or with a unit: 1d; otherwise the earliest of the FMUs
+    #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
+    pub stop: Option<f64>,
+    /// Communication step of the default experiment, in s or with a unit; otherwise the smallest of the FMUs
+    #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
+    pub step: Option<f64>,
+    /// The SSP to write; otherwise, and for -, the standard output, where that is no terminal
+    #[arg(long, short, value_name = "SSP")]
+    pub output: Option<PathBuf>,
+    /// Say nothing of what was connected and left open
+    #[arg(long, short)]
+    pub quiet: bool,
+}
 
 /// The system's name where no file gives one.
 const DEFAULT_NAME: &str = "System";
@@ -23,8 +73,6 @@ pub fn run(arguments: &Wire) -> Outcome {
         return Err("an SSP is a ZIP archive, which is not written to a terminal: see --output".into());
     }
     let named: Vec<(String, PathBuf)> = arguments.fmus.iter().map(|text| named(text)).collect();
-    let named = named.into_iter().map(|(name, file)| (name, home::found(file)));
-    let named: Vec<(String, PathBuf)> = named.collect();
     let mut components = Vec::with_capacity(named.len());
     for (name, file) in &named {
         let fmu = Fmu::open(file)?;
@@ -67,10 +115,11 @@ pub fn run(arguments: &Wire) -> Outcome {
 
 /// `name=path`, or a path whose file gives the name.
 fn named(text: &str) -> (String, PathBuf) {
-    match text.split_once('=') {
-        Some((name, path)) if !name.contains(['/', '\\', '.']) => (name.to_owned(), PathBuf::from(path)),
-        _ => (systems::component_name(Path::new(text)), PathBuf::from(text)),
-    }
+    let (name, path) = match text.split_once('=') {
+        Some((name, path)) if !name.contains(['/', '\\', '.']) => (name.to_owned(), path),
+        _ => (systems::component_name(Path::new(text)), text),
+    };
+    (name, home::found(PathBuf::from(path)))
 }
 
 /// What was connected between which components, and what was left open and why.
@@ -128,6 +177,5 @@ pub fn grouped<K: Ord>(all: impl Iterator<Item = (K, String)>) -> BTreeMap<K, Ve
 
 /// The vector that an element is of; of any other variable its name.
 pub fn vector(name: &str) -> String {
-    let split = name.strip_suffix(']').and_then(|name| name.rsplit_once('['));
-    split.map_or_else(|| name.to_owned(), |(vector, _)| vector.to_owned())
+    variables::vector(name).unwrap_or(name).to_owned()
 }

@@ -3,8 +3,21 @@
 use loader::Recording;
 use model_description::Description;
 
-use super::resolved::Limit;
-use crate::{epoch, output::Shown};
+use super::shown::Shown;
+use crate::epoch;
+
+/// Bounds of one variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// The variable.
+    pub name: String,
+    /// The smallest value that is kept, in the variable's unit.
+    pub min: Option<f64>,
+    /// The largest.
+    pub max: Option<f64>,
+    /// Where the file says so.
+    pub at: String,
+}
 
 /// How a limit fares.
 struct Judged {

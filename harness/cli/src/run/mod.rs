@@ -1,28 +1,35 @@
 //! `heliotorque run`: runs an FMU or a system in a process of its own, records, writes, draws.
 
-use std::{error::Error, process::ExitCode, time::Instant};
+mod child;
+mod options;
+mod settings;
+mod simulated;
+mod subject;
 
-use files::Scratch;
-use loader::{Collector, Ended, LogMessage, RecordedPoints};
-
-use crate::{
-    args::{Run, RunInChild},
-    interrupt::INTERRUPTED,
-    low_orbit,
-    mission::Judge,
-    outcome::Outcome,
-    output::{self, Known, Outputs},
+use std::{
+    error::Error,
+    fs::File,
+    io,
+    path::{Path, PathBuf},
+    process::ExitCode,
+    time::Instant,
 };
 
-mod child;
-mod input_copy;
-pub mod settings;
-pub mod simulated;
-pub mod subject;
+use files::Scratch;
+use loader::{Collector, Ended, RecordedPoints};
 
-use input_copy::InputCopy;
-use settings::Settings;
+use crate::{
+    child::Bounds,
+    interrupt::INTERRUPTED,
+    low_orbit,
+    outcome::Outcome,
+    output::{self, Judge, Known, Outputs},
+};
+pub use child::{RunInChild, run as run_in_child};
+pub use options::Run;
+pub use settings::Settings;
 use simulated::Simulated;
+pub use simulated::{Assemble, assemble_into};
 use subject::Subject;
 
 /// Why a run ends before its stop.
@@ -39,9 +46,10 @@ pub struct Prepared {
     /// Points that will be recorded.
     pub points: u64,
     outputs: Outputs,
-    input_copy: Option<InputCopy>,
-    // The packed FMU of a mission, as long as it is in use.
-    _packed: Option<Scratch>,
+    /// What the standard input held, for parent and child.
+    input_copy: Option<PathBuf>,
+    // The packed FMU of a mission and the copy, as long as they are in use.
+    _scratch: [Option<Scratch>; 2],
 }
 
 impl Prepared {
@@ -54,11 +62,12 @@ impl Prepared {
             output::check_svg_path(path, "--plot")?;
         }
         let simulated = Simulated::of(arguments)?;
-        let (subject, _packed) = simulated.open()?;
+        let (subject, packed) = simulated.open()?;
         subject.check_options(&simulated.run)?;
-        let input_copy = InputCopy::of(&simulated.run)?;
-        let copy = input_copy.as_ref().map(InputCopy::path);
-        let settings = Settings::of(&subject, &simulated, copy.as_deref())?;
+        let copied =
+            copied_input(&simulated.run).map_err(|error| format!("standard input: {error}: see --input"))?;
+        let (copy, input_copy) = copied.unzip();
+        let settings = Settings::of(&subject, &simulated, input_copy.as_deref())?;
         subject.check_libraries()?;
         let described = subject.description();
         let known = Known::of(&subject.parts(), described, &settings.sets, &settings.limits);
@@ -66,14 +75,25 @@ impl Prepared {
         let outputs = Outputs::open(&settings.requested, collector.recording(), &known, &simulated.reads())?;
         let points = RecordedPoints::new(&settings.times, simulated.run.every)?.count();
         collector.fits(points)?;
-        Ok(Self { simulated, subject, settings, points, outputs, input_copy, _packed })
+        Ok(Self { simulated, subject, settings, points, outputs, input_copy, _scratch: [packed, copy] })
     }
+}
+
+/// A file with what the standard input holds, in a folder that goes with it, where `--input -` says so.
+fn copied_input(arguments: &Run) -> io::Result<Option<(Scratch, PathBuf)>> {
+    if arguments.input.as_deref() != Some(Path::new("-")) {
+        return Ok(None);
+    }
+    let scratch = Scratch::new()?;
+    let path = scratch.path().join("input.csv");
+    io::copy(&mut io::stdin().lock(), &mut File::create_new(&path)?)?;
+    Ok(Some((scratch, path)))
 }
 
 /// Runs in a child process.
 pub fn run(arguments: &Run) -> Outcome {
     let prepared = Prepared::of(arguments)?;
-    let Prepared { simulated, subject, settings, points, mut outputs, input_copy, _packed } = prepared;
+    let Prepared { simulated, subject, settings, points, mut outputs, input_copy, _scratch } = prepared;
     let arguments = &simulated.run;
     let described = subject.description();
     let warnings = low_orbit::warnings(described, &settings.sets);
@@ -84,13 +104,13 @@ pub fn run(arguments: &Run) -> Outcome {
     let is_judged = !limits.is_empty();
     let mut judge = Judge::new(limits);
     let mut collector = Collector::new(described, &positions);
-    let copy = input_copy.as_ref().map(InputCopy::path);
+    let child = child::start(&subject, input_copy.as_deref())
+        .map_err(|error| format!("the process of the FMU cannot be started: {error}"))?;
+    let bounds = Bounds { call_s: arguments.timeout, ..Bounds::default() };
 
     let progress = terminal::progress((times.stop_s - times.start_s) as u64, "s", arguments.quiet);
     let began = Instant::now();
-    let in_child =
-        child::InChild { subject: &subject, input_copy: copy.as_deref(), timeout_s: arguments.timeout };
-    let result = child::simulate(&in_child, points, &mut collector, |recording, time_s| {
+    let result = child::simulate(child, &subject, bounds, points, &mut collector, |recording, time_s| {
         if let Some(time_s) = time_s {
             progress.set_position((time_s - times.start_s).max(0.0) as u64);
         }
@@ -104,27 +124,27 @@ pub fn run(arguments: &Run) -> Outcome {
     let recording = collector.recording();
     judge.update(recording);
     if arguments.log {
-        print_log(&result.messages);
+        result.messages.iter().for_each(|it| terminal::note(&format!("{} {it}", it.status)));
     }
     let last_s = recording.times_s.last().copied().unwrap_or(times.start_s);
+    let last = terminal::short(last_s);
     if outputs.has_lost_reader() {
         // Nobody is there for the rest; what is drawn and judged at the end is not, and that is no success.
         return if requested.plots.is_empty() && !is_judged {
             Ok(ExitCode::SUCCESS)
         } else {
-            let last = terminal::short(last_s);
             Err(format!("{LOST_READER}: the run ends at {last} s, without pictures and judgement").into())
         };
     }
+    let rows = recording.times_s.len();
+    let so_far = |kept: Vec<PathBuf>| -> String {
+        kept.iter().map(|path| format!("\n{rows} rows so far: {}", path.display())).collect()
+    };
     let ended = match result.outcome {
         Ok(ended) => ended,
         Err(error) => {
             // What was simulated until then is worth keeping.
-            let kept = outputs.leave(described, recording);
-            let rows = recording.times_s.len();
-            let kept: String =
-                kept.iter().map(|path| format!("\n{rows} rows so far: {}", path.display())).collect();
-            return Err(format!("{error}{kept}").into());
+            return Err(format!("{error}{}", so_far(outputs.leave(described, recording))).into());
         }
     };
     // Part of a recording does not replace a complete one.
@@ -134,8 +154,7 @@ pub fn run(arguments: &Run) -> Outcome {
     };
     if !arguments.quiet {
         let steps = ((last_s - times.start_s) / times.step_s).ceil();
-        let (last, elapsed) = (terminal::short(last_s), elapsed.as_secs_f64());
-        terminal::note(&format!("{steps} steps to {last} s in {elapsed:.3} s"));
+        terminal::note(&format!("{steps} steps to {last} s in {:.3} s", elapsed.as_secs_f64()));
     }
     if !arguments.quiet || !judge.is_kept() {
         let zero_s = simulated.mission.as_ref().and_then(|mission| Some(mission.epoch_s.as_ref()?.it));
@@ -144,15 +163,9 @@ pub fn run(arguments: &Run) -> Outcome {
     }
     match ended {
         Ended::AtStop => {}
-        Ended::ByItself => {
-            let (name, last) = (subject.name(), terminal::short(last_s));
-            terminal::note(&format!("{name} ended by itself at {last} s"));
-        }
+        Ended::ByItself => terminal::note(&format!("{} ended by itself at {last} s", subject.name())),
         Ended::Cancelled => {
-            let last = terminal::short(last_s);
-            let rows = recording.times_s.len();
-            let kept: String =
-                kept.iter().map(|path| format!("\n{rows} rows so far: {}", path.display())).collect();
+            let kept = so_far(kept);
             terminal::note(&format!(
                 "interrupted at {last} s; what was recorded until then is written{kept}"
             ));
@@ -164,16 +177,5 @@ pub fn run(arguments: &Run) -> Outcome {
         Some(fault) => Err(fault.into()),
         None if !judge.is_kept() => Ok(ExitCode::FAILURE),
         None => Ok(ExitCode::SUCCESS),
-    }
-}
-
-/// Runs the FMU in this process for the parent.
-pub fn run_in_child(arguments: &RunInChild) -> Outcome {
-    child::run(arguments)
-}
-
-fn print_log(messages: &[LogMessage]) {
-    for message in messages {
-        terminal::note(&format!("{} {message}", message.status));
     }
 }

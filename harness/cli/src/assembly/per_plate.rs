@@ -4,6 +4,8 @@ use loader::Binary;
 use model_description::Description;
 use toml::de::DeTable;
 
+use super::source::description;
+
 /// The key of a spacecraft file that requests them.
 const KEY: &str = "per_plate_outputs";
 
@@ -55,8 +57,7 @@ pub fn describe(
 }
 
 fn described(binary: &Binary, model: &str, file: Option<&str>, text: &str) -> Option<Description> {
-    let described = binary.describe(model, file, Some(text)).ok()?;
-    Some(model_description::parse(described.xml.as_bytes()).ok()?.description)
+    description(&binary.describe(model, file, Some(text)).ok()?).ok()
 }
 
 fn has_plates(description: &Description) -> bool {

@@ -8,7 +8,7 @@ use physics::{
     environment::{CartesianState, orbit::Elements},
 };
 
-use crate::start_value::{item, real};
+use crate::variables::{item, real};
 
 /// Below this altitude drag and magnetic torque are no smaller than those of light.
 const LOW_M: f64 = 1e6;

@@ -1,31 +1,23 @@
-//! The timeline in an FMU of this project, for `info` and `check`.
+//! The timeline in an FMU, for `info` and `check`.
 
-use loader::Fmu;
+use std::path::Path;
+
 use physics::{
     environment::dates,
     guidance::timeline::{Timeline, TimelineClock},
     spacecraft::Spacecraft,
 };
 
-use crate::home;
-
 /// Its name in the resources.
 pub const FILE: &str = "timeline.toml";
 
-/// The timeline of an FMU, or what is wrong with it, a line for each problem; `None` where there is none.
-pub fn of(fmu: &Fmu) -> Option<Result<Timeline, String>> {
-    // Other exporters' files of this name mean something else.
-    let resources = fmu.folder().join("resources");
-    if !home::is_ours(fmu.description()) || !resources.join(FILE).exists() {
-        return None;
-    }
+/// Which commands an FMU's resources hold, or what is wrong with them.
+pub fn read(resources: &Path) -> Result<String, String> {
     let text = |file: &str| files::read_text(&resources.join(file));
-    let read = || {
-        let spacecraft = Spacecraft::from_toml("spacecraft.toml", &text("spacecraft.toml")?)
-            .map_err(|error| error.to_string())?;
-        Timeline::from_toml(FILE, &text(FILE)?, &spacecraft.instruments).map_err(|error| error.to_string())
-    };
-    Some(read())
+    let spacecraft = Spacecraft::from_toml("spacecraft.toml", &text("spacecraft.toml")?)
+        .map_err(|error| error.to_string())?;
+    let timeline = Timeline::from_toml(FILE, &text(FILE)?, &spacecraft.instruments);
+    timeline.map(|timeline| summary(&timeline)).map_err(|error| error.to_string())
 }
 
 /// How many commands from when to when.

@@ -2,12 +2,16 @@
 
 use std::path::Path;
 
-use ::files::Entries;
+use files::Entries;
 use loader::{Binary, Described};
 use model_description::Description;
 use physics::toml::nearest;
 
-use super::{per_plate, schedule, source::Source, start};
+use super::{
+    per_plate, schedule,
+    source::{Source, description, taker},
+    start,
+};
 use crate::mission::{Craft, Mission};
 
 /// What an FMU is made of.
@@ -94,7 +98,7 @@ pub struct Assembled {
 /// Whatever the library refuses, and names and values that the model does not take.
 pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn std::error::Error>> {
     parts.check_model(source)?;
-    let spacecraft = parts.spacecraft.map(::files::read_text).transpose()?;
+    let spacecraft = parts.spacecraft.map(files::read_text).transpose()?;
     let file = parts.spacecraft.map(|path| path.display().to_string());
     let model = match parts.model {
         Some(model) => model.to_owned(),
@@ -104,7 +108,7 @@ pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn
         source.binary().describe(&model, file.as_deref(), spacecraft.as_deref()).map_err(|refusal| {
             with_hint(source.binary(), &model, file.as_deref(), spacecraft.as_deref(), refusal)
         })?;
-    let mut description = model_description::parse(described.xml.as_bytes())?.description;
+    let mut description = description(&described)?;
     let mut setup = spacecraft.unwrap_or_else(|| described.default_setup.clone());
     let mut settings = Vec::new();
     if let Some(mission) = parts.mission {
@@ -119,8 +123,7 @@ pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn
             return Err(format!("{at}: {model} reads no file that values could stand in").into());
         }
         setup = start::with_values(&setup, table, &model, &description, &settings)?;
-        let again = source.binary().describe(&model, file.as_deref(), Some(&setup))?;
-        description = model_description::parse(again.xml.as_bytes())?.description;
+        description = self::description(&source.binary().describe(&model, file.as_deref(), Some(&setup))?)?;
     }
     if parts.per_plate {
         // After the user's own text was read as it stands, so that errors name its lines.
@@ -137,7 +140,7 @@ pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn
     let mut schedules = Vec::new();
     for (kind, path) in [(schedule::TIMELINE, parts.timeline), (schedule::EPHEMERIS, parts.ephemeris)] {
         let Some(path) = path else { continue };
-        let (shown, text) = (path.display().to_string(), ::files::read_text(path)?);
+        let (shown, text) = (path.display().to_string(), files::read_text(path)?);
         let given = (shown.as_str(), text.as_str());
         let name = kind.checked(source.binary(), &described, file.as_deref(), &setup, given)?;
         schedules.push((name, text));
@@ -166,14 +169,8 @@ fn with_hint(
     refusal: String,
 ) -> String {
     let models = binary.models().unwrap_or_default();
-    let Some(own) = models.iter().find(|it| it.model == model).filter(|_| text.is_some()) else {
-        return refusal;
-    };
-    let takes = |other: &&Described| {
-        let is_other_kind = || binary.describe(&other.model, None, Some(&own.default_setup)).is_err();
-        other.setup_file.is_some() && is_other_kind() && binary.describe(&other.model, file, text).is_ok()
-    };
-    match models.iter().find(takes) {
+    let own = models.iter().find(|it| it.model == model);
+    match own.zip(text).and_then(|(own, text)| taker(binary, &models, own, file, text)) {
         Some(other) => format!("{refusal}\nthis is a file of {}: see --model", other.model),
         None => refusal,
     }

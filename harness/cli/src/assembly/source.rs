@@ -2,8 +2,9 @@
 
 use std::{fs, path::Path, path::PathBuf, sync::Arc};
 
-use ::files::Entries;
+use files::Entries;
 use loader::{Binary, Described, Fmu};
+use model_description::{Description, ReadError};
 use toml::de::DeTable;
 
 use crate::home;
@@ -41,8 +42,7 @@ impl Source {
         };
         let Some((path, model)) = library else {
             let fallback = home::fmu(home::DEFAULT_MODEL);
-            let fmu = open_template(template.unwrap_or(&fallback))?;
-            return Ok(Self { binary: fmu.binary()?, from: From::Template(fmu) });
+            return Ok(Self::of_template(open_template(template.unwrap_or(&fallback))?)?);
         };
         // A bare file name would be searched in the system's library folders.
         let path = std::path::absolute(path)?;
@@ -51,6 +51,11 @@ impl Source {
             return Err(format!("{path}: found {found}, allowed: a regular file: see --library").into());
         }
         Ok(Self { binary: Arc::new(Binary::load(&path)?), from: From::Library(path, model) })
+    }
+
+    /// The library of an FMU.
+    pub fn of_template(fmu: Fmu) -> Result<Self, loader::Error> {
+        Ok(Self { binary: fmu.binary()?, from: From::Template(fmu) })
     }
 
     /// The library or template.
@@ -88,23 +93,14 @@ impl Source {
             return Ok(own);
         };
         let models = self.binary.models()?;
-        let default_setup = models.iter().find(|model| model.model == own).map(|model| &model.default_setup);
-        let is_other_kind = |model: &Described| {
-            default_setup.is_some_and(|own| self.binary.describe(&model.model, None, Some(own)).is_err())
-        };
-        let takes = |model: &&Described| {
-            model.setup_file.is_some()
-                && is_other_kind(model)
-                && (self.binary.describe(&model.model, file, Some(text)).is_ok())
-        };
-        if let Some(taker) = models.iter().find(takes) {
+        let Some(of_own) = models.iter().find(|model| model.model == own) else { return Ok(own) };
+        if let Some(taker) = taker(&self.binary, &models, of_own, file, text) {
             return Ok(taker.model.clone());
         }
         // None takes it: the kind that it has most of is judged.
         let common = |model: &Described| common_keys(text, &model.default_setup);
-        let of_own = models.iter().find(|model| model.model == own).map_or(0, common);
-        let other = models.iter().filter(|model| model.setup_file.is_some() && is_other_kind(model));
-        let nearest = other.max_by_key(|model| common(model)).filter(|model| common(model) > of_own);
+        let other = models.iter().filter(|model| is_other_kind(&self.binary, model, of_own));
+        let nearest = other.max_by_key(|model| common(model)).filter(|model| common(model) > common(of_own));
         Ok(nearest.map_or(own, |model| model.model.clone()))
     }
 
@@ -155,6 +151,25 @@ impl Source {
     }
 }
 
+/// Whether a model reads files, of another kind than a second one's.
+fn is_other_kind(binary: &Binary, model: &Described, than: &Described) -> bool {
+    model.setup_file.is_some() && binary.describe(&model.model, None, Some(&than.default_setup)).is_err()
+}
+
+/// The first model that takes a file, and another kind of file than one that does not.
+pub fn taker<'m>(
+    binary: &Binary,
+    models: &'m [Described],
+    refusing: &Described,
+    file: Option<&str>,
+    text: &str,
+) -> Option<&'m Described> {
+    let takes = |model: &&Described| {
+        is_other_kind(binary, model, refusing) && binary.describe(&model.model, file, Some(text)).is_ok()
+    };
+    models.iter().find(takes)
+}
+
 /// Opens the FMU that libraries come from.
 pub fn open_template(path: &Path) -> Result<Fmu, String> {
     Fmu::open(path).map_err(|error| {
@@ -164,6 +179,11 @@ pub fn open_template(path: &Path) -> Result<Fmu, String> {
              its own: cargo xtask install)"
         )
     })
+}
+
+/// The description that a library gave.
+pub fn description(described: &Described) -> Result<Description, ReadError> {
+    Ok(model_description::parse(described.xml.as_bytes())?.description)
 }
 
 /// The model that a heliotorque FMU holds.
@@ -176,11 +196,9 @@ pub fn model_of(fmu: &Fmu, binary: &Binary) -> Result<String, String> {
             .as_ref()
             .and_then(|file| files::read(&fmu.folder().join("resources").join(file)).ok())
             .and_then(|bytes| String::from_utf8(bytes).ok());
-        let described = binary.describe(&model.model, None, setup.as_deref());
-        described
-            .ok()
-            .and_then(|described| model_description::parse(described.xml.as_bytes()).ok())
-            .is_some_and(|parsed| parsed.description.guid == fmu.description().guid)
+        let described = binary.describe(&model.model, None, setup.as_deref()).ok();
+        let own = described.and_then(|described| description(&described).ok());
+        own.is_some_and(|own| own.guid == fmu.description().guid)
     };
     match models.iter().find(|model| model.model == fmu.name() || holds(model)) {
         Some(model) => Ok(model.model.clone()),
@@ -202,12 +220,12 @@ fn which(models: &[Described]) -> String {
 
 /// Every file below a folder with its path relative to it; nothing if there is no such folder.
 fn files_below(folder: &Path) -> Result<Vec<(String, Vec<u8>)>, String> {
-    let mut files = Vec::new();
-    collect(folder, "", &mut files)?;
-    Ok(files)
+    let mut found = Vec::new();
+    collect(folder, "", &mut found)?;
+    Ok(found)
 }
 
-fn collect(folder: &Path, prefix: &str, files: &mut Vec<(String, Vec<u8>)>) -> Result<(), String> {
+fn collect(folder: &Path, prefix: &str, found: &mut Vec<(String, Vec<u8>)>) -> Result<(), String> {
     let failed = |path: &Path, error: std::io::Error| format!("{}: {error}", path.display());
     let entries = match fs::read_dir(folder) {
         Ok(entries) => entries,
@@ -218,9 +236,9 @@ fn collect(folder: &Path, prefix: &str, files: &mut Vec<(String, Vec<u8>)>) -> R
         let path = entry.map_err(|error| failed(folder, error))?.path();
         let name = format!("{prefix}{}", path.file_name().unwrap_or_default().to_string_lossy());
         if path.is_dir() {
-            collect(&path, &format!("{name}/"), files)?;
+            collect(&path, &format!("{name}/"), found)?;
         } else {
-            files.push((name, ::files::read(&path).map_err(|error| failed(&path, error))?));
+            found.push((name, files::read(&path).map_err(|error| failed(&path, error))?));
         }
     }
     Ok(())

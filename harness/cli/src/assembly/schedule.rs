@@ -2,6 +2,8 @@
 
 use loader::{Binary, Described};
 
+use crate::carried::ephemeris::FILE;
+
 /// A file that `pack` takes beside the spacecraft.
 pub struct Kind {
     /// The option that names it.
@@ -14,7 +16,7 @@ pub struct Kind {
 pub const TIMELINE: Kind = Kind { option: "--timeline", resource: None };
 
 /// Positions over time.
-pub const EPHEMERIS: Kind = Kind { option: "--ephemeris", resource: Some(crate::ephemeris::FILE) };
+pub const EPHEMERIS: Kind = Kind { option: "--ephemeris", resource: Some(FILE) };
 
 impl Kind {
     /// Its name in the resources of a model that takes it.
@@ -22,7 +24,7 @@ impl Kind {
         let mut names = model.schedule_files.iter().map(String::as_str);
         match self.resource {
             Some(resource) => names.find(|name| *name == resource),
-            None => names.find(|name| *name != crate::ephemeris::FILE),
+            None => names.find(|name| *name != FILE),
         }
     }
 

@@ -15,6 +15,7 @@ use super::{
     known::Known,
     shown::{ANGLE_UNIT, ROUNDING, find},
 };
+use crate::variables::vector;
 
 /// Panels drawn at most; more would not be readable.
 const PANELS: usize = 10;
@@ -28,45 +29,42 @@ const TIME_UNITS: [(f64, &str, f64); 4] =
 
 /// What is drawn together: the elements of a vector, or the same quantity of everything that is counted.
 fn group(name: &str) -> String {
-    match name.rsplit_once('[') {
-        Some((vector, index)) if index.ends_with(']') => vector.to_owned(),
-        Some((counted, rest)) => {
+    match (vector(name), name.rsplit_once('[')) {
+        (Some(vector), _) => vector.to_owned(),
+        (None, Some((counted, rest))) => {
             let (_, quantity) = rest.split_once(']').unwrap_or(("", rest));
             format!("{counted}{quantity}")
         }
-        None => name.to_owned(),
+        (None, None) => name.to_owned(),
     }
 }
 
 /// The picture, drawn at the end.
 pub struct Svg {
-    file: Destination,
+    /// The file, of which nothing is written yet.
+    pub file: Destination,
     /// The variables that it shows; `None`: everything recorded.
-    names: Option<Vec<String>>,
-    known: Known,
+    pub names: Option<Vec<String>>,
+    /// What is known of them.
+    pub known: Known,
 }
 
 impl Svg {
-    /// Draws into a file of which nothing is written yet.
-    pub fn new(file: Destination, names: Option<Vec<String>>, known: Known) -> Self {
-        Self { file, names, known }
-    }
-
     fn draw(&self, described: &Description, recording: &Recording) -> Result<String, Box<dyn Error>> {
         let only = self.names.as_ref().map(|names| recording.only(names));
-        let mut chart = chart(described, only.as_ref().unwrap_or(recording), &self.known);
-        let mut eclipses = eclipses(recording, chart.seconds);
+        let (mut chart, seconds) = chart(described, only.as_ref().unwrap_or(recording), &self.known);
+        let mut eclipses = eclipses(recording, seconds);
         if eclipses.len() > ECLIPSES {
             terminal::note(&format!("{} eclipses, so not shaded", eclipses.len()));
             eclipses.clear();
         }
-        for panel in &mut chart.chart.panels {
+        for panel in &mut chart.panels {
             panel.shades.clone_from(&eclipses);
         }
-        if let Some(first) = chart.chart.panels.first_mut().filter(|_| !eclipses.is_empty()) {
+        if let Some(first) = chart.panels.first_mut().filter(|_| !eclipses.is_empty()) {
             first.shade_label = "eclipse".to_owned();
         }
-        Ok(drawing::svg(&[&chart.chart])?)
+        Ok(drawing::svg(&[&chart])?)
     }
 }
 
@@ -92,17 +90,9 @@ impl Exporter for Svg {
 }
 
 /// The chart of a recording, and how many seconds a unit of its horizontal axis has.
-struct Drawn {
-    chart: Chart,
-    seconds: f64,
-}
-
-/// The chart of a recording.
-fn chart(described: &Description, recording: &Recording, known: &Known) -> Drawn {
-    let span_s = match (recording.times_s.first(), recording.times_s.last()) {
-        (Some(first_s), Some(last_s)) => last_s - first_s,
-        _ => 0.0,
-    };
+fn chart(described: &Description, recording: &Recording, known: &Known) -> (Chart, f64) {
+    let ends_s = recording.times_s.first().zip(recording.times_s.last());
+    let span_s = ends_s.map_or(0.0, |(first_s, last_s)| last_s - first_s);
     let (_, time_unit, seconds) =
         TIME_UNITS.into_iter().find(|(from_s, _, _)| span_s >= *from_s).unwrap_or((0.0, "s", 1.0));
     let mut groups: Vec<Group> = Vec::new();
@@ -148,9 +138,8 @@ fn chart(described: &Description, recording: &Recording, known: &Known) -> Drawn
     let panels = groups.into_iter().map(|group| group.labelled(vectors > 1, known)).collect();
     let legend =
         if vectors > 1 { AXES[..3].iter().map(|axis| (*axis).to_owned()).collect() } else { Vec::new() };
-    let chart =
-        Chart { title: described.model_name.clone(), x_label: format!("time [{time_unit}]"), panels, legend };
-    Drawn { chart, seconds }
+    let (title, x_label) = (described.model_name.clone(), format!("time [{time_unit}]"));
+    (Chart { title, x_label, panels, legend }, seconds)
 }
 
 /// Components of vectors and, with the scalar last, of quaternions.
@@ -192,8 +181,7 @@ impl Group {
         let rounding = ROUNDING * self.scale.unwrap_or(largest);
         for series in self.panel.series.iter_mut().filter(|series| series.mark == Mark::Line) {
             let values = || series.points.iter().map(|(_, value)| *value);
-            let (low, high) =
-                (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+            let (low, high) = range(values());
             let Some(first) = values().next().filter(|_| high - low < rounding) else { continue };
             let all_finite = values().all(f64::is_finite);
             let value = if low.abs().max(high.abs()) < rounding { 0.0 } else { first };
@@ -218,9 +206,7 @@ impl Group {
 
     /// The panel with its lines named, and the bounds that are near them.
     fn labelled(mut self, is_shared: bool, known: &Known) -> Panel {
-        let (low, high) = self
-            .values()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+        let (low, high) = range(self.values());
         let reach = (high - low).max(low.abs()).max(high.abs());
         let is_near = |mark: &f64| *mark > low - reach && *mark < high + reach;
         let near: Vec<_> = self.bounds.iter().copied().filter(|(_, mark)| is_near(mark)).collect();
@@ -251,6 +237,11 @@ impl Group {
         }
         self.panel
     }
+}
+
+/// The least and the greatest value.
+fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }
 
 /// Takes out what stays the same, unless nothing else is there; their names with their values.
