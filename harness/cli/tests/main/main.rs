@@ -52,6 +52,12 @@ pub fn run(arguments: &[&str], status: i32) -> String {
     text
 }
 
+/// Asserts that a text has all of these parts.
+#[track_caller]
+pub fn says(text: &str, parts: &[&str]) {
+    parts.iter().for_each(|part| assert!(text.contains(part), "{text} lacks {part}"));
+}
+
 /// A path as text.
 pub fn shown(path: &Path) -> &str {
     path.to_str().unwrap()

@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path};
 
-use crate::{heliotorque, run, shown, template, text, words};
+use crate::{heliotorque, run, says, shown, template, text, words};
 
 const RESOURCES: &str = "../../fmu-src/resources";
 
@@ -48,11 +48,7 @@ fn a_mission_flies_as_it_is_written_and_options_win() {
         |more: &[&str]| said(folder, &[&["run", "deep/m.toml", "--template", "template.fmu"], more].concat());
     let (status, reported) = fly(&[]);
     assert_eq!(status, Some(0), "{reported}");
-    assert!(
-        reported.contains("120 steps to 7200 s")
-            && reported.contains("kept: sun.elevation from -20 to 20 deg"),
-        "{reported}"
-    );
+    says(&reported, &["120 steps to 7200 s", "kept: sun.elevation from -20 to 20 deg"]);
     // Beside the mission, not where it was started.
     assert!(folder.join("deep/momentum.svg").exists() && !folder.join("out.csv").exists());
     let header = fs::read_to_string(folder.join("deep/out.csv")).unwrap();
@@ -91,10 +87,7 @@ fn a_limit_that_breaks_is_reported_with_its_time_and_ends_with_one() {
     let (status, reported) = said(folder, &["run", "m.toml", "--template", "template.fmu", "--quiet"]);
     assert_eq!(status, Some(1), "{reported}");
     let expected = "m.toml:18: limits.\"sun.elevation\": found ";
-    assert!(
-        reported.contains(expected) && reported.contains("at 0 s (2011-04-06T00:00:00 UTC), the first time"),
-        "{reported}"
-    );
+    says(&reported, &[expected, "at 0 s (2011-04-06T00:00:00 UTC), the first time"]);
     assert!(folder.join("out.csv").exists(), "what was simulated is kept");
 }
 
@@ -179,10 +172,7 @@ fn what_is_no_mission_is_reported() {
     let scratch = tempfile::tempdir().unwrap();
     let spacecraft = format!("{RESOURCES}/messenger.toml");
     let reported = run(&["run", &spacecraft], 1);
-    assert!(
-        reported.contains("without any key of a mission") && reported.contains("heliotorque new mission"),
-        "{reported}"
-    );
+    says(&reported, &["without any key of a mission", "heliotorque new mission"]);
     let fmu = scratch.path().join("no.fmu");
     assert!(run(&["run", shown(&fmu), "--template", "x.fmu"], 1).contains("--template is for a mission"));
 }
@@ -286,10 +276,7 @@ fn what_a_mission_writes_stays_beside_it_and_replaces_no_file_of_others() {
     ] {
         mission(output_to, plot_to);
         let reported = refused(&home, "m.toml");
-        assert!(
-            reported.contains("outside the mission's folder") && reported.contains(&format!("{option} may")),
-            "{reported}"
-        );
+        says(&reported, &["outside the mission's folder", &format!("{option} may")]);
     }
     // Not a mission's word but the user's.
     let run = |more: &[&str]| {
@@ -307,11 +294,7 @@ fn what_a_mission_writes_stays_beside_it_and_replaces_no_file_of_others() {
     for (name, option) in [("deep/x.csv", "--output"), ("x.svg", "--plot")] {
         fs::write(home.join(name), "precious").unwrap();
         let reported = refused(&home, "m.toml");
-        assert!(
-            reported.contains("a file that no run wrote")
-                && reported.contains(&format!("{option} replaces any")),
-            "{reported}"
-        );
+        says(&reported, &["a file that no run wrote", &format!("{option} replaces any")]);
         assert_eq!(fs::read_to_string(home.join(name)).unwrap(), "precious");
         fs::remove_file(home.join(name)).unwrap();
     }
