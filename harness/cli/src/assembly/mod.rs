@@ -17,8 +17,11 @@ pub use source::{Source, common_keys, description, model_of, open_template};
 pub use start::{START, with_values};
 pub use without_effect::{can_read_map, unused_map};
 
-/// The files of the reference flight of the FMU that these files make, by path; an error where it cannot fly it.
-pub fn reference_flight(entries: &Entries, inputs: &str) -> Result<Vec<(String, Vec<u8>)>, Box<dyn Error>> {
+/// Paths within an archive with what stands there.
+type Contents = Vec<(String, Vec<u8>)>;
+
+/// The files of the reference flight of the FMU that these files make; an error where it cannot fly it.
+pub fn reference_flight(entries: &Entries, inputs: &str) -> Result<Contents, Box<dyn Error>> {
     let folder = Scratch::new()?;
     entries.write_below(folder.path())?;
     let fmu = Fmu::open(folder.path())?;

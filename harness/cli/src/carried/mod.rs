@@ -13,12 +13,11 @@ use crate::home;
 type Read = fn(&Path) -> Result<String, String>;
 
 /// What an FMU carries, by the names of the files.
-pub fn of(fmu: &Fmu) -> impl Iterator<Item = (&'static str, Result<String, String>)> {
+pub fn of(fmu: &Fmu) -> Vec<(&'static str, Result<String, String>)> {
     let resources = fmu.folder().join("resources");
     let all: [(&str, Read); 2] = [(timeline::FILE, timeline::read), (ephemeris::FILE, ephemeris::read)];
     // Other exporters' files of these names mean something else.
     let is_ours = home::is_ours(fmu.description());
-    all.into_iter().filter_map(move |(file, read)| {
-        (is_ours && resources.join(file).exists()).then(|| (file, read(&resources)))
-    })
+    let there = all.into_iter().filter(|(file, _)| is_ours && resources.join(file).exists());
+    there.map(|(file, read)| (file, read(&resources))).collect()
 }

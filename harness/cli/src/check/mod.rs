@@ -83,7 +83,7 @@ pub fn run(arguments: &Check) -> Outcome {
     if !low.is_empty() {
         sections.push(Section::new("orbit", low.into_iter().map(Finding::note).collect()));
     }
-    sections.extend(carried::of(&fmu).map(|(file, read)| match read {
+    sections.extend(carried::of(&fmu).into_iter().map(|(file, read)| match read {
         Ok(summary) => Section::new(file, vec![Finding::good(summary)]),
         Err(problems) => Section::new(file, problems.lines().map(Finding::bad).collect()),
     }));

@@ -8,8 +8,8 @@ use physics::{
     bodies::Body,
     environment::{CartesianState, onboard::OnboardTarget},
 };
+use planner::ephemeris::{Failure, Source};
 
-use super::source::{Failure, Source};
 use crate::{instance, variables::assigned};
 
 /// Parameter with the epoch at the start of a flight.

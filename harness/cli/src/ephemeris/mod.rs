@@ -1,12 +1,11 @@
 //! `heliotorque ephemeris`: Chebyshev fits and coarse elements of what an FMU flies or SPICE kernels place, as an ephemeris
 //! file that others carry.
 
-mod fit;
 mod flight;
 #[cfg(feature = "spk")]
-mod kernel;
+mod kernel_options;
 mod options;
-mod source;
+mod shown;
 
 use std::{
     path::{Path, PathBuf},
@@ -17,6 +16,9 @@ use files::Destination;
 #[cfg(feature = "spk")]
 use physics::environment::onboard::OnboardTarget;
 use physics::environment::onboard::{OnboardEphemeris, to_toml};
+#[cfg(feature = "spk")]
+use planner::ephemeris::spk::Kernels;
+use planner::ephemeris::{Failure, Requested, Source, coarse, precise};
 
 use crate::{
     carried::ephemeris::{FILE, table},
@@ -25,7 +27,7 @@ use crate::{
 };
 use flight::Flight;
 pub use options::Ephemeris;
-use source::{Failure, Source};
+use shown::Shown;
 
 /// Makes the file.
 pub fn run(arguments: &Ephemeris) -> Outcome {
@@ -34,17 +36,23 @@ pub fn run(arguments: &Ephemeris) -> Outcome {
     let inputs = arguments.inputs();
     let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
     let destination = Destination::open(&output, "--output", &inputs)?;
-    let source = source(arguments, [start_s, stop_s])?;
+    let source = Shown { source: source(arguments, [start_s, stop_s])?, is_quiet: arguments.quiet };
     let mut made = OnboardEphemeris { source: Some(source.title()), ..OnboardEphemeris::default() };
+    let requested = Requested {
+        span_s: [start_s, stop_s],
+        segment_s: arguments.segment,
+        degree: arguments.degree.map(usize::from),
+        tolerance_m: arguments.tolerance,
+    };
     for target in arguments.targets() {
-        made.precise.push(fit::precise(source.as_ref(), arguments, target, [start_s, stop_s])?);
+        made.precise.push(precise(&source, target, &requested)?);
         if interrupt::raised() {
             return Ok(ExitCode::from(interrupt::INTERRUPTED));
         }
     }
     if arguments.coarse {
         let span_s = [start_s, arguments.coarse_until_s(stop_s)?];
-        made.coarse = fit::coarse(source.as_ref(), &arguments.targets(), span_s, arguments.quiet)?;
+        made.coarse = coarse(&source, &arguments.targets(), span_s)?;
     }
     let text = terminal::unsigned_zeros(&to_toml(&made)).into_owned();
     // What a spacecraft will read is what was made.
@@ -68,7 +76,13 @@ fn source(arguments: &Ephemeris, span_s: [f64; 2]) -> Result<Box<dyn Source>, Fa
             targets.extend([OnboardTarget::Sun, OnboardTarget::Earth]);
             span_s[1] = arguments.coarse_until_s(span_s[1])?;
         }
-        return Ok(Box::new(kernel::Kernels::open(&arguments.kernels, &targets, span_s)?));
+        return Ok(Box::new(Kernels::open(
+            &arguments.kernels.kernel,
+            arguments.kernels.center,
+            arguments.kernels.spacecraft,
+            &targets,
+            span_s,
+        )?));
     }
     Ok(Box::new(Flight::open(&arguments.simulated(), &arguments.set, span_s[0])?))
 }

@@ -173,17 +173,13 @@ fn capabilities(fmu: &Fmu) -> String {
         return "No co-simulation: this FMU cannot be stepped here.".to_owned();
     };
     let mut table = terminal::table(&["co-simulation", ""]);
-    table.add_row(["modelIdentifier".to_owned(), flags.model_identifier.clone()]);
-    for (name, value) in self::flags(flags) {
-        table.add_row([name, if value { "yes" } else { "no" }]);
-    }
-    table.add_row(["maxOutputDerivativeOrder".to_owned(), flags.max_output_derivative_order.to_string()]);
+    capability_rows(flags).for_each(|(name, value)| table.add_row([name, value.as_str()]));
     table.to_string()
 }
 
-/// The capability flags by the standard's names.
-pub fn flags(flags: &CoSimulation) -> [(&'static str, bool); 9] {
-    [
+/// The capabilities by the standard's names.
+pub fn capability_rows(flags: &CoSimulation) -> impl Iterator<Item = (&'static str, String)> {
+    let switches = [
         ("canHandleVariableCommunicationStepSize", flags.can_handle_variable_communication_step_size),
         ("canInterpolateInputs", flags.can_interpolate_inputs),
         ("canGetAndSetFMUstate", flags.can_get_and_set_fmu_state),
@@ -193,7 +189,10 @@ pub fn flags(flags: &CoSimulation) -> [(&'static str, bool); 9] {
         ("canBeInstantiatedOnlyOncePerProcess", flags.can_be_instantiated_only_once_per_process),
         ("canNotUseMemoryManagementFunctions", flags.can_not_use_memory_management_functions),
         ("needsExecutionTool", flags.needs_execution_tool),
-    ]
+    ];
+    let switches = switches.map(|(name, is_on)| (name, if is_on { "yes" } else { "no" }.to_owned()));
+    let order = ("maxOutputDerivativeOrder", flags.max_output_derivative_order.to_string());
+    [("modelIdentifier", flags.model_identifier.clone())].into_iter().chain(switches).chain([order])
 }
 
 fn units(description: &Description) -> String {

@@ -89,15 +89,6 @@ pub enum MasterKind {
     GaussSeidel,
 }
 
-impl From<MasterKind> for systems::Master {
-    fn from(kind: MasterKind) -> Self {
-        match kind {
-            MasterKind::Jacobi => Self::Jacobi,
-            MasterKind::GaussSeidel => Self::GaussSeidel,
-        }
-    }
-}
-
 /// `--first-exchange`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum FirstExchangeKind {
@@ -105,13 +96,4 @@ pub enum FirstExchangeKind {
     Initial,
     /// Zero, as for FMPy
     Zeros,
-}
-
-impl From<FirstExchangeKind> for systems::FirstExchange {
-    fn from(kind: FirstExchangeKind) -> Self {
-        match kind {
-            FirstExchangeKind::Initial => Self::Initial,
-            FirstExchangeKind::Zeros => Self::Zeros,
-        }
-    }
 }

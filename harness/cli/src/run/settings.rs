@@ -5,7 +5,13 @@ use std::{path::Path, sync::atomic::AtomicBool};
 use loader::{Ended, InputTable, InstanceOptions, LogMessage, Options, Rows, Times};
 use model_description::Description;
 
-use super::{options::Run, simulated::Simulated, subject::Subject};
+use systems::{FirstExchange, Master};
+
+use super::{
+    options::{FirstExchangeKind, MasterKind, Run},
+    simulated::Simulated,
+    subject::Subject,
+};
 use crate::{
     mission::{self, Resolved},
     output::{self, Limit, OutputFile, Plot, Requested},
@@ -130,8 +136,14 @@ impl Settings {
         match subject {
             Subject::Fmu(fmu) => loader::simulate_into(fmu, options, rows),
             Subject::System(system) => {
-                let master = arguments.master.map(systems::Master::from).unwrap_or_default();
-                let first = arguments.first_exchange.map(systems::FirstExchange::from).unwrap_or_default();
+                let master = match arguments.master {
+                    None | Some(MasterKind::Jacobi) => Master::Jacobi,
+                    Some(MasterKind::GaussSeidel) => Master::GaussSeidel,
+                };
+                let first = match arguments.first_exchange {
+                    None | Some(FirstExchangeKind::Initial) => FirstExchange::Initial,
+                    Some(FirstExchangeKind::Zeros) => FirstExchange::Zeros,
+                };
                 systems::simulate_into(system, (master, first), options, rows)
             }
         }

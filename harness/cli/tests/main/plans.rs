@@ -5,7 +5,7 @@ use std::{
     process::{Command, Stdio},
 };
 
-use crate::{heliotorque, library, run, says, shown, text, words};
+use crate::{heliotorque, library, run, shown, text, words};
 
 #[test]
 fn a_plan_is_simulated_through_the_fmu_in_dist() {

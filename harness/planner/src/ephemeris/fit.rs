@@ -13,11 +13,7 @@ use physics::{
     numerics::chebyshev::Segment,
 };
 
-use super::{
-    options::Ephemeris,
-    source::{Failure, Source},
-};
-use crate::interrupt;
+use super::source::{Failure, Source};
 
 /// Length of the segments to begin with: of planets, and of the spacecraft.
 const LONGEST_S: [f64; 2] = [16.0 * DAY_S, 0.25 * DAY_S];
@@ -34,36 +30,51 @@ const HALVINGS: u32 = 12;
 /// Epochs, evenly spaced, at which coarse elements are checked.
 const COARSE_CHECKS: u32 = 2_000;
 
-/// The precise model of a target over a span, as the arguments ask.
+/// What is requested of a fit.
+#[derive(Clone, Copy, Debug)]
+pub struct Requested {
+    /// First and last epoch, in s past J2000 TDB.
+    pub span_s: [f64; 2],
+    /// Length of the segments, if given.
+    pub segment_s: Option<f64>,
+    /// Degree, if given.
+    pub degree: Option<usize>,
+    /// Otherwise the greatest error of position.
+    pub tolerance_m: f64,
+}
+
+/// The precise model of a target.
+///
+/// # Errors
+/// What the source cannot place, and a tolerance that no fit keeps.
 pub fn precise(
     source: &dyn Source,
-    arguments: &Ephemeris,
     target: OnboardTarget,
-    span_s: [f64; 2],
+    requested: &Requested,
 ) -> Result<FittedBody<SegmentTable>, Failure> {
     let center = source.center();
     if target == OnboardTarget::from(center) {
         return Err(format!("--bodies: {target} is the center, from where positions count").into());
     }
     let sampled = |segment_s: f64| -> Result<(FitPlan, Vec<CartesianState>), Failure> {
-        let plan = FitPlan::new(span_s, segment_s);
-        let states = simulated(source, &[target], &plan.epochs_s(), arguments.quiet)?.pop();
+        let plan = FitPlan::new(requested.span_s, segment_s);
+        let states = source.states(&[target], &plan.epochs_s(), &mut || Ok(()))?.pop();
         Ok((plan, states.unwrap_or_default()))
     };
-    if let Some(degree) = arguments.degree.map(usize::from) {
-        let (plan, states) = sampled(arguments.segment.unwrap_or(SEGMENT_S))?;
+    if let Some(degree) = requested.degree {
+        let (plan, states) = sampled(requested.segment_s.unwrap_or(SEGMENT_S))?;
         let (motion, error) = plan.fit(&states, degree.min(GREATEST_DEGREE));
         return Ok(FittedBody { target, center, motion, error });
     }
     let is_spacecraft = usize::from(target == OnboardTarget::Spacecraft);
-    let mut segment_s = arguments.segment.unwrap_or(LONGEST_S[is_spacecraft]);
-    let halvings = if arguments.segment.is_some() { 0 } else { HALVINGS };
+    let mut segment_s = requested.segment_s.unwrap_or(LONGEST_S[is_spacecraft]);
+    let halvings = if requested.segment_s.is_some() { 0 } else { HALVINGS };
     let mut best: Option<(FitError, f64)> = None;
     for _ in 0..=halvings {
         let (plan, states) = sampled(segment_s)?;
         for degree in DEGREES {
             let (motion, error) = plan.fit(&states, degree);
-            if error.position_m <= arguments.tolerance {
+            if error.position_m <= requested.tolerance_m {
                 return Ok(FittedBody { target, center, motion, error });
             }
             if best.is_none_or(|(best, _)| error.position_m < best.position_m) {
@@ -80,35 +91,21 @@ pub fn precise(
     Err(format!(
         "--tolerance: no fit of {target} up to degree {} keeps {} m; the best found errs by {} m, with segments of {} d",
         DEGREES.end(),
-        terminal::short(arguments.tolerance),
+        terminal::short(requested.tolerance_m),
         terminal::short(error.position_m),
         terminal::short(best_s / DAY_S)
     )
     .into())
 }
 
-fn simulated(
-    source: &dyn Source,
-    targets: &[OnboardTarget],
-    epochs_s: &[f64],
-    is_quiet: bool,
-) -> Result<Vec<Vec<CartesianState>>, Failure> {
-    let named: Vec<String> = targets.iter().map(ToString::to_string).collect();
-    let bar = terminal::progress(epochs_s.len() as u64, &format!("epochs of {}", named.join(", ")), is_quiet);
-    let states = source.states(targets, epochs_s, &mut || {
-        bar.inc(1);
-        if interrupt::raised() { Err("interrupted".into()) } else { Ok(()) }
-    });
-    bar.finish_and_clear();
-    states
-}
-
 /// The coarse models: of the planet in the centre, of the Earth, and of the spacecraft if it is among the targets.
+///
+/// # Errors
+/// What the source cannot place, and a target on no ellipse.
 pub fn coarse(
     source: &dyn Source,
     targets: &[OnboardTarget],
     span_s: [f64; 2],
-    is_quiet: bool,
 ) -> Result<Vec<FittedBody<CoarseElements>>, Failure> {
     let nodes_s = Segment::<6, COARSE_SAMPLES>::nodes(span_s[0], span_s[1]);
     let length_s = span_s[1] - span_s[0];
@@ -151,7 +148,7 @@ pub fn coarse(
     // One flight for all.
     let mut requested = vec![OnboardTarget::Sun, OnboardTarget::Earth];
     requested.extend(targets.contains(&OnboardTarget::Spacecraft).then_some(OnboardTarget::Spacecraft));
-    let mut states = simulated(source, &requested, &epochs_s, is_quiet)?.into_iter();
+    let mut states = source.states(&requested, &epochs_s, &mut || Ok(()))?.into_iter();
     let [sun, earth] = [(); 2].map(|()| states.next().unwrap_or_default());
     let origin = vec![CartesianState::default(); epochs_s.len()];
     if center != Body::Sun {

@@ -2,10 +2,9 @@
 
 mod chain;
 mod coverage;
+mod kernels;
 mod naif;
-mod options;
-mod source;
 mod spk_file;
 
-pub use options::KernelOptions;
-pub use source::Kernels;
+pub use kernels::Kernels;
+pub use naif::{Center, center, spacecraft};

@@ -1,5 +1,7 @@
 //! Kernels that place bodies about a center, as a source to fit.
 
+use std::path::PathBuf;
+
 use physics::{
     bodies::Body,
     environment::{CartesianState, onboard::OnboardTarget},
@@ -8,10 +10,9 @@ use physics::{
 use super::{
     chain, coverage,
     naif::{self, Center},
-    options::KernelOptions,
     spk_file::SpkFile,
 };
-use crate::ephemeris::source::{Failure, Source};
+use crate::ephemeris::{Failure, Source};
 
 /// Open kernels, of which the later ones count first.
 pub struct Kernels {
@@ -22,26 +23,29 @@ pub struct Kernels {
 }
 
 impl Kernels {
-    /// Opens the kernels that are named, and looks whether they place the targets over a span.
+    /// Opens kernels, and looks whether they place the targets over a span; positions count from Mercury and the spacecraft is
+    /// MESSENGER, unless others are given.
     ///
     /// # Errors
     ///
     /// A file that is no SPK, a body that none holds, a span that they do not cover.
     pub fn open(
-        options: &KernelOptions,
+        paths: &[PathBuf],
+        center: Option<Center>,
+        spacecraft: Option<i32>,
         targets: &[OnboardTarget],
         span_s: [f64; 2],
     ) -> Result<Self, Failure> {
-        let files: Vec<SpkFile> =
-            options.kernel.iter().map(|path| SpkFile::open(path)).collect::<Result<_, _>>()?;
-        let center = options.center.unwrap_or(Center { body: Body::Mercury, id: naif::id(Body::Mercury) });
+        let files: Vec<SpkFile> = paths.iter().map(|path| SpkFile::open(path)).collect::<Result<_, _>>()?;
+        let center = center.unwrap_or(Center { body: Body::Mercury, id: naif::id(Body::Mercury) });
         let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
         let mut title = format!("SPK {} from {}", names.join(", "), naif::named(center.id));
-        let spacecraft = options.spacecraft.unwrap_or(naif::MESSENGER);
+        if spacecraft.is_some() && !targets.contains(&OnboardTarget::Spacecraft) {
+            return Err("--spacecraft: allowed where --bodies names the spacecraft".into());
+        }
+        let spacecraft = spacecraft.unwrap_or(naif::MESSENGER);
         if targets.contains(&OnboardTarget::Spacecraft) {
             title += &format!(", spacecraft {spacecraft}");
-        } else if options.spacecraft.is_some() {
-            return Err("--spacecraft: allowed where --bodies names the spacecraft".into());
         }
         let kernels = Self { files, center, spacecraft, title };
         for target in targets {

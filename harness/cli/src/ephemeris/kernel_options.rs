@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-
-use super::naif::{self, Center};
+use planner::ephemeris::spk::{self, Center};
 
 /// What kernels take the place of a flight.
 #[derive(Debug, Args)]
@@ -15,10 +14,10 @@ pub struct KernelOptions {
     pub kernel: Vec<PathBuf>,
     /// With --kernel: from where positions count, sun, mercury, venus, earth, mars, jupiter or a NAIF id, where 1, 2, 4 and 5
     /// are the barycentres of planets with their moons; otherwise mercury
-    #[arg(long, value_name = "BODY", value_parser = naif::center, requires = "kernel")]
+    #[arg(long, value_name = "BODY", value_parser = spk::center, requires = "kernel")]
     pub center: Option<Center>,
     /// With --kernel: what spacecraft stands for in --bodies, a NAIF id: -236; otherwise messenger
-    #[arg(long, value_name = "ID", value_parser = naif::spacecraft, allow_hyphen_values = true, requires = "kernel")]
+    #[arg(long, value_name = "ID", value_parser = spk::spacecraft, allow_hyphen_values = true, requires = "kernel")]
     pub spacecraft: Option<i32>,
 }
 
