@@ -146,12 +146,11 @@ mod tests {
         fs::create_dir(folder.path().join("resources")).unwrap();
         fs::write(folder.path().join("resources").join("craft.toml"), physics::spacecraft::MESSENGER_TOML)
             .unwrap();
-        fs::write(folder.path().join("modelDescription.xml"), PLANT).unwrap();
-        let fmu = loader::Fmu::open(folder.path()).unwrap();
+        let description = model_description::parse(PLANT.as_bytes()).unwrap().description;
         let parts = [("p.".to_owned(), folder.path().to_owned())];
         let limit =
             Limit { name: "p.wheel[1].speed".to_owned(), min: None, max: Some(3.0), at: String::new() };
-        let known = Known::of(&parts, fmu.description(), &[], &[limit]);
+        let known = Known::of(&parts, &description, &[], &[limit]);
         let craft = Spacecraft::from_toml("", physics::spacecraft::MESSENGER_TOML).unwrap();
         assert_eq!(known.name("p.wheel[1].speed"), Some(craft.wheels[0].name.as_str()));
         assert_eq!(known.name("p.plate[7].temperature"), Some("lid"));
@@ -160,7 +159,7 @@ mod tests {
         assert_eq!(known.bound("p.wheel[1].speed"), None);
         assert_eq!(known.limits("p.wheel[1].speed"), [3.0]);
         let set = [("p.dump.threshold[2]".to_owned(), Value::Real(7.0))];
-        let set = Known::of(&parts, fmu.description(), &set, &[]);
+        let set = Known::of(&parts, &description, &set, &[]);
         assert_eq!(set.bound("p.momentum.body[2]"), Some(("dump.threshold", 7.0)));
     }
 }

@@ -2,7 +2,7 @@
 
 use std::{fs, io::Write, path::Path, process::Command, time::Instant};
 
-use crate::{built, library, packed, run, says, shown, words};
+use crate::{built, library, packed, packed_from, run, says, shown};
 
 const RESOURCES: &str = "../../fmu-src/resources";
 
@@ -237,18 +237,8 @@ fn an_fmu_that_dies_is_a_finding() {
 
 /// A shipped model with a shipped spacecraft, unpacked.
 fn shipped(model: &str, spacecraft: &str) -> Option<tempfile::TempDir> {
-    let scratch = tempfile::tempdir().unwrap();
-    let fmu = scratch.path().join("x.fmu");
     let toml = format!("{RESOURCES}/{spacecraft}");
-    let library = library()?;
-    run(
-        &words(&format!(
-            "pack --library {} --model {model} --spacecraft {toml} --output {}",
-            shown(&library),
-            shown(&fmu)
-        )),
-        0,
-    );
+    let (scratch, fmu) = packed_from(&library()?, model, "x.fmu", &["--spacecraft", &toml])?;
     loader::unpack(&fmu, &scratch.path().join("x"), loader::Limits::default()).unwrap();
     Some(scratch)
 }
@@ -281,25 +271,13 @@ fn a_spacecraft_is_judged_by_the_model_it_is_for() {
 #[test]
 fn a_spacecraft_changed_after_packing_is_the_first_thing_reported() {
     for (model, spacecraft, from, to, expected) in [
-        ("MomentumPlant", "messenger.toml", "mass_kg = 700", "mass_kg = 701", "MomentumPlant has GUID {"),
-        (
-            "MomentumPlant",
-            "messenger.toml",
-            "mass_kg = 700",
-            "mass_kg = -7",
-            "mass_properties.mass_kg: found -7",
-        ),
-        (
-            "MomentumPlant",
-            "messenger-thermal.toml",
-            "mass_kg = 700",
-            "mass_kg = 701",
-            "MomentumPlant has GUID {",
-        ),
-        ("MomentumPlant", "messenger-thermal.toml", "mass_kg = 700", "mas_kg = 700", "`mas_kg`"),
-        ("SpinPlant", "ace.toml", "dry_mass_kg = 562", "dry_mass_kg = 563", "SpinPlant has GUID {"),
+        ("MomentumPlant", "messenger", "mass_kg = 700", "mass_kg = 701", "MomentumPlant has GUID {"),
+        ("MomentumPlant", "messenger", "mass_kg = 700", "mass_kg = -7", "mass_properties.mass_kg: found -7"),
+        ("MomentumPlant", "messenger-thermal", "mass_kg = 700", "mass_kg = 701", "MomentumPlant has GUID {"),
+        ("MomentumPlant", "messenger-thermal", "mass_kg = 700", "mas_kg = 700", "`mas_kg`"),
+        ("SpinPlant", "ace", "dry_mass_kg = 562", "dry_mass_kg = 563", "SpinPlant has GUID {"),
     ] {
-        let Some(scratch) = shipped(model, spacecraft) else { return };
+        let Some(scratch) = shipped(model, &format!("{spacecraft}.toml")) else { return };
         let folder = scratch.path().join("x");
         let toml = folder.join("resources/spacecraft.toml");
         let text = fs::read_to_string(&toml).unwrap();

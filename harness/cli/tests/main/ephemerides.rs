@@ -41,12 +41,6 @@ fn dates_and_sources_that_cannot_be_are_refused_by_name() {
     );
     assert!(ask(STOP, START).contains("--stop: found \"2011-04-06 UTC\", allowed: a date after --start"));
     assert!(ask(START, STOP).contains("Empty has no variable start.epoch, allowed: a MomentumPlant"));
-    let library = crate::probe_library().unwrap();
-    let scratch = tempfile::tempdir().unwrap();
-    let file = scratch.path().join("mine.toml");
-    fs::write(&file, SMALL).unwrap();
-    let pack = ["pack", "--library", shown(&library), "--model", "Empty", "--ephemeris", shown(&file)];
-    assert!(run(&pack, 1).contains("--ephemeris: Empty takes none, allowed for: no model of this library"));
 }
 
 /// Greatest error that a table tells in its row of a body, in m.

@@ -1,30 +1,22 @@
 //! What is written wins, and the rest of the file stays.
 
-use model_description::{RealAttributes, ScalarVariable, Variability};
+use model_description::RealAttributes;
 
 use super::*;
 
 fn description() -> Description {
-    let variable = |name: &str| ScalarVariable {
-        name: name.to_owned(),
-        value_reference: 0,
-        description: None,
-        causality: Causality::Parameter,
-        variability: Variability::Tunable,
-        initial: None,
-        can_handle_multiple_set_per_time_instant: None,
-        kind: VariableKind::Real {
-            start: Some(0.0),
-            declared_type: None,
-            attributes: RealAttributes { max: Some(9.0), ..RealAttributes::default() },
-            derivative: None,
-            reinit: None,
-        },
-    };
-    Description {
-        variables: ["ship.mass", "arm[1]", "arm[2]"].map(variable).to_vec(),
-        ..Description::default()
-    }
+    let variables = ["ship.mass", "arm[1]", "arm[2]"].map(|name| {
+        format!(
+            "<ScalarVariable name=\"{name}\" valueReference=\"0\" causality=\"parameter\" variability=\"tunable\">\
+             <Real start=\"0\" max=\"9\"/></ScalarVariable>"
+        )
+    });
+    let xml = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?><fmiModelDescription fmiVersion=\"2.0\" modelName=\"Ship\" guid=\"g\">\
+         <ModelVariables>{}</ModelVariables><ModelStructure/></fmiModelDescription>",
+        variables.concat()
+    );
+    model_description::parse(xml.as_bytes()).unwrap().description
 }
 
 fn written(text: &str, sets: &[&str]) -> String {
