@@ -1,6 +1,7 @@
 //! `heliotorque info`: what an FMU is, takes and gives; what a system joins.
 
 mod coefficients;
+mod experiment;
 mod system;
 
 use std::path::PathBuf;
@@ -8,8 +9,7 @@ use std::path::PathBuf;
 use clap::Args;
 use loader::{Fmu, Value};
 use model_description::{
-    Causality, CoSimulation, DefaultExperiment, Description, ScalarVariable, SimpleTypeKind, Variability,
-    VariableKind, value,
+    Causality, CoSimulation, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind, value,
 };
 use systems::System;
 
@@ -19,6 +19,7 @@ use crate::{
     patience::Patience,
     variables::selected,
 };
+use experiment::times;
 
 /// `heliotorque info`.
 #[derive(Debug, Args)]
@@ -132,21 +133,6 @@ fn summary(fmu: &Fmu) -> String {
         row("also", Some("model exchange, which is not used here".to_owned()));
     }
     table.to_string()
-}
-
-/// Times of a default experiment, those that it has.
-fn times(experiment: &DefaultExperiment) -> String {
-    let times = [
-        ("start", experiment.start_time, " s"),
-        ("stop", experiment.stop_time, " s"),
-        ("step", experiment.step_size, " s"),
-        ("tolerance", experiment.tolerance, ""),
-    ];
-    let times = times.into_iter().filter_map(|(name, value, unit)| Some((name, value?, unit)));
-    times
-        .map(|(name, value, unit)| format!("{name} {}{unit}", terminal::short(value)))
-        .collect::<Vec<_>>()
-        .join(", ")
 }
 
 /// Causalities in reading order, in words.

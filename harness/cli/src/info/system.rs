@@ -2,7 +2,7 @@
 
 use systems::System;
 
-use super::times;
+use super::experiment::times;
 use crate::wire::{grouped, vector, wrapped};
 
 /// The tables.
