@@ -41,7 +41,6 @@ pub fn is_child() -> bool {
 }
 
 /// A command and what its process may take.
-#[derive(Clone, Debug)]
 pub struct Relayed {
     /// What loads the library, as the user named it.
     pub name: String,

@@ -230,8 +230,7 @@ fn variables(description: &Description, positions: &[usize]) -> String {
 
 /// Causality, with what the variability adds to it.
 fn causality(variable: &ScalarVariable) -> String {
-    let named = CAUSALITIES.iter().find(|(causality, _)| *causality == variable.causality);
-    let name = named.map_or("", |(_, name)| *name);
+    let name = CAUSALITIES.iter().find(|(it, _)| *it == variable.causality).map_or("", |(_, name)| name);
     match (variable.causality, variable.variability) {
         (Causality::Parameter, Variability::Tunable) => "tunable parameter".to_owned(),
         (_, Variability::Constant) => format!("constant {name}"),
