@@ -92,6 +92,7 @@ def test_table_4_is_near_the_papers(simulated):
         assert int(row["paper"]) == PAPER_PANELS[row["offset"]] and row["verdict"] == "within 2", row
 
 
+@pytest.mark.long
 def test_plates_alone_dump_about_as_often_as_the_cylinder(studied):
     """The paper says of them that "the number and spacing of thruster dumps was comparable"."""
     found = {}
@@ -128,6 +129,7 @@ def test_dumps_are_those_that_fmpy_simulates(simulated, momentum_plant, threshol
         assert [row["dump_time_d"] for row in found if all(part in row["case"] for part in label)] == expected
 
 
+@pytest.mark.long
 def test_tables_from_one_set_of_simulations_are_those_of_each(simulated, studied):
     text, files = studied("momentum/tables")
     for name in ("table2", "table3", "table4", "table5"):

@@ -4,10 +4,10 @@ use fmi_export::Model;
 use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 
 use super::super::named_model::Tables;
+use super::super::spacecraft::{ALL, RADIATING};
 use super::bench::Bench;
 use super::draw::Draw::{Between, Flag, Rotation, Vector, Whole};
 use super::draw::{Kept, Row, draw, redraw};
-use super::spacecraft::{ALL, RADIATING};
 
 /// In a long search there are so many times as many states.
 const LONG: usize = 40;
