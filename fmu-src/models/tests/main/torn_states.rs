@@ -72,7 +72,7 @@ fn goes_on_or_fails<M: Model>(
     tear: impl Fn(&[u8]) -> Vec<Vec<u8>>,
 ) {
     let mut flight = named.fly(0.0, sets).unwrap();
-    flight.step_to(at_s).unwrap();
+    flight.fly_to(at_s, 500.0).unwrap();
     let state = flight.state_bytes();
     let (mut refused, mut simulated) = (0, 0);
     for torn in tear(&state) {
@@ -100,7 +100,7 @@ fn goes_on_or_fails<M: Model>(
 }
 
 /// What a torn state may ask for in vain; a sound one needs less.
-const LIMIT: (&str, f64) = ("solver.workLimit", 1e5);
+const LIMIT: (&str, f64) = ("solver.workLimit", 2e4);
 
 #[test]
 fn a_plant_in_light_and_heat() {
@@ -111,7 +111,7 @@ fn a_plant_in_light_and_heat() {
     }
     let orbiter = include_str!("../../../resources/examples/mercury-orbiter.toml");
     let named = NamedModel::<MomentumPlant>::with("mercury-orbiter.toml", orbiter);
-    let sets = [&EFFECTS[..2], &[("orbit.dynamics", 2.0), ("solver.workLimit", 2e4)]].concat();
+    let sets = [&EFFECTS[..2], &[("orbit.dynamics", 2.0), LIMIT]].concat();
     goes_on_or_fails(&named, &sets, 1_000.0, &[2_000.0], |state| scattered(state, 1500));
 }
 
@@ -144,7 +144,7 @@ fn a_spinner() {
         ("starTracker.sampling", 2.0),
         ("burn.pulseWidth", 2.0),
         ("burn.count", 10.0),
-        ("solver.workLimit", 50_000.0),
+        LIMIT,
     ];
     for (sets, at_s) in
         [(&[("burn.timing", 2.0), cells[6]][..], 50.0), (&cells[..], 50.0), (&cells[..], 10.22)]
