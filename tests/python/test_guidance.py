@@ -60,16 +60,6 @@ def test_ten_days_of_guidance_are_the_plants_own(dist, tmp_path):
     assert np.abs(own_n_m_s - commanded_n_m_s).max() < 2e-4 * largest_n_m_s
 
 
-TIMELINE = """
-[[command]]
-at = 0
-scenario = "nadir"
-
-[[command]]
-at = "10 min"
-scenario = "latLonWouldBeWrong"
-"""
-
 DAY = """
 [[command]]
 at = 0
@@ -134,10 +124,3 @@ def test_an_input_overrides_the_timeline(heliotorque, dist, tmp_path):
         it.set(**place)
         it.step(5.0)
     assert planned.get(*COMMAND).tolist() == alone.get(*COMMAND).tolist()
-
-
-def test_a_wrong_timeline_is_refused_with_its_line(heliotorque, dist, tmp_path):
-    done, fmu = packed(heliotorque, dist, tmp_path, TIMELINE)
-    assert done.returncode != 0 and not fmu.exists()
-    assert "timeline.toml" in done.stderr and "latLonWouldBeWrong" in done.stderr and "8" in done.stderr
-    assert "nadir" in done.stderr, "what is allowed"
