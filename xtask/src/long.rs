@@ -1,5 +1,5 @@
 //! `cargo xtask test --long`: fuzzing, sanitizers, Miri, failing allocations, failing writes, dependencies at
-//! many states.
+//! many states, long tests in Python.
 
 use std::fs;
 use std::path::Path;
@@ -35,6 +35,7 @@ const PARTS: &[Part] = &[
     ("allocations", allocations),
     ("writes", writes),
     ("dependencies", dependencies),
+    ("python", python),
 ];
 
 /// Everything `cargo xtask test` runs, then the longer searches for faults; stops at the first that fails.
@@ -52,6 +53,11 @@ pub fn all() -> Outcome {
         part()?;
     }
     Ok(())
+}
+
+/// The tests in Python that take minutes.
+fn python() -> Outcome {
+    test::python(test::current_environment()?, "long")
 }
 
 /// What acts is declared, at many more states.

@@ -49,7 +49,8 @@ pub fn all() -> Outcome {
         client.join().map_err(|_| "the C client's thread panicked".to_owned())?
     })?;
     guide::test(environment.clone())?;
-    python(environment)
+    python(environment.clone(), "not long")?;
+    pytest(environment, &[INSTALLATION])
 }
 
 /// Where the tests find what was built, and the seed of their draws.
@@ -79,19 +80,21 @@ pub fn print_environment() -> Outcome {
     Ok(())
 }
 
-/// Runs the tests in Python on up to four processes; the one that builds and packs anew after all that read what is there.
-fn python(environment: Vec<(&'static str, PathBuf)>) -> Outcome {
-    const INSTALLATION: &str = "tests/python/test_install.py";
-    let pytest = |arguments: &[&str]| {
-        run(command(python::interpreter()?)
-            .args(["-m", "pytest", "-q"])
-            .args(arguments)
-            .env("PYTHONDONTWRITEBYTECODE", "1")
-            .envs(environment.clone()))
-    };
+/// It builds and packs anew, so it runs after all that read what is there.
+const INSTALLATION: &str = "tests/python/test_install.py";
+
+fn pytest(environment: Vec<(&'static str, PathBuf)>, arguments: &[&str]) -> Outcome {
+    run(command(python::interpreter()?)
+        .args(["-m", "pytest", "-q"])
+        .args(arguments)
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .envs(environment))
+}
+
+/// Runs the tests in Python of a mark on up to four processes.
+pub fn python(environment: Vec<(&'static str, PathBuf)>, mark: &str) -> Outcome {
     let several = ["--numprocesses=auto", "--maxprocesses=4", "--dist=loadgroup"];
-    pytest(&[&several[..], &["--ignore", INSTALLATION, "tests/python"]].concat())?;
-    pytest(&[INSTALLATION])
+    pytest(environment, &[&several[..], &["-m", mark, "--ignore", INSTALLATION, "tests/python"]].concat())
 }
 
 /// An FMU whose library others built: FMPy's container around our plant.

@@ -1,4 +1,4 @@
-//! Spacecraft in which everything can act on everything.
+//! Spacecraft files that several tests fly: everything acts on everything, or hardly anything does.
 
 /// Surfaces that shadow one another, with heat stored and not, each face reported; two wheels only.
 pub const RADIATING: &str = r#"
@@ -124,3 +124,49 @@ length_m = 0.3
 pivot_m = [0.3, 0.1, 0.2]
 axis = [0.6, 0.0, 0.8]
 "#;
+
+/// A body of simple numbers with a tank in its middle.
+pub const SIMPLE: &str = r#"
+name = "simple"
+[mass_properties]
+mass_kg = 500.0
+center_of_mass_m = [0.0, 0.0, 0.0]
+inertia_kg_m2 = [[200.0, 0.0, 0.0], [0.0, 300.0, 0.0], [0.0, 0.0, 400.0]]
+[optics.black]
+specular = 0.0
+diffuse = 0.0
+[[plates]]
+area_m2 = 1.0
+center_m = [0.0, 0.0, 0.0]
+normal = [0.0, -1.0, 0.0]
+optics = "black"
+[[tanks]]
+position_m = [0.0, 0.0, 0.0]
+propellant_kg = 50.0
+"#;
+
+/// Of the thrusters here, with 220 s.
+pub const EXHAUST_M_S: f64 = 220.0 * 9.80665;
+
+pub fn thruster(position: [f64; 3], direction: [f64; 3], force_n: f64, more: &str) -> String {
+    format!(
+        "[[thrusters]]\nposition_m = {position:?}\ndirection = {direction:?}\nforce_n = {force_n:?}\n\
+         specific_impulse_s = 220.0\n{more}\n"
+    )
+}
+
+/// Couples each way about all axes: twelve thrusters of 5 N, arms of 1 m.
+pub fn couples(more: &str) -> String {
+    let mut text = String::new();
+    for axis in 0..3 {
+        for sense in [1.0, -1.0] {
+            for side in [1.0, -1.0] {
+                let (mut at, mut force) = ([0.0; 3], [0.0; 3]);
+                at[(axis + 1) % 3] = side;
+                force[(axis + 2) % 3] = side * sense;
+                text += &thruster(at, force, 5.0, more);
+            }
+        }
+    }
+    text
+}

@@ -19,6 +19,30 @@ impl RandomNumbers {
         (f64::from(low) + (f64::from(high - low + 1) * self.next()).floor()).min(f64::from(high))
     }
 
+    pub fn below(&mut self, count: usize) -> usize {
+        (self.next() * count as f64) as usize
+    }
+
+    /// Within limits: an end, or any magnitude.
+    pub fn legal(&mut self, (min, max): (f64, f64), whole: bool) -> f64 {
+        if whole {
+            let span = max.min(1e9) - min.max(-1e9) + 1.0;
+            return match self.below(4) {
+                0 => min,
+                1 => max,
+                _ => (min.max(-1e9) + (self.next() * span).floor()).min(max),
+            };
+        }
+        match self.below(6) {
+            0 => min.max(-1e30),
+            1 => max.min(1e30),
+            _ => {
+                let sign = if self.next() < 0.5 { -1.0 } else { 1.0 };
+                (sign * 10_f64.powf(self.next() * 36.0 - 12.0)).clamp(min, max)
+            }
+        }
+    }
+
     pub fn direction(&mut self) -> [f64; 3] {
         let (azimuth, z) = (core::f64::consts::TAU * self.next(), 2.0 * self.next() - 1.0);
         let rho = (1.0 - z * z).sqrt();
