@@ -4,6 +4,7 @@
 //! harness's call checker and the generated documentation; the tests hold it against a second one.
 
 use crate::rules::effective_initial;
+use crate::words::words;
 use crate::{Causality, Initial, ScalarVariable, Status, Variability};
 use Access::{Allowed, Conditional, Forbidden};
 use Condition::{
@@ -11,60 +12,34 @@ use Condition::{
     SettableBeforeInitialization, SettableInInitialization,
 };
 
-/// The state of a co-simulation slave.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[repr(u8)]
-pub enum State {
-    /// After `fmi2Instantiate` or `fmi2Reset`.
-    Instantiated,
-    /// Between `fmi2EnterInitializationMode` and `fmi2ExitInitializationMode`.
-    InitializationMode,
-    /// Between steps.
-    StepComplete,
-    /// `fmi2DoStep` answered `fmi2Pending`.
-    StepInProgress,
-    /// `fmi2DoStep` answered `fmi2Discard`.
-    StepFailed,
-    /// `fmi2CancelStep` ended a step in progress.
-    StepCanceled,
-    /// After `fmi2Terminate`.
-    Terminated,
-    /// A function answered `fmi2Error`.
-    Error,
-    /// A function answered `fmi2Fatal`, here or in another instance.
-    Fatal,
+words! {
+    /// The state of a co-simulation slave; in the order of the table's columns.
+    #[repr(u8)]
+    pub enum State, name {
+        /// After `fmi2Instantiate` or `fmi2Reset`.
+        Instantiated => "instantiated",
+        /// Between `fmi2EnterInitializationMode` and `fmi2ExitInitializationMode`.
+        InitializationMode => "Initialization Mode",
+        /// Between steps.
+        StepComplete => "stepComplete",
+        /// `fmi2DoStep` answered `fmi2Pending`.
+        StepInProgress => "stepInProgress",
+        /// `fmi2DoStep` answered `fmi2Discard`.
+        StepFailed => "stepFailed",
+        /// `fmi2CancelStep` ended a step in progress.
+        StepCanceled => "stepCanceled",
+        /// After `fmi2Terminate`.
+        Terminated => "terminated",
+        /// A function answered `fmi2Error`.
+        Error => "error",
+        /// A function answered `fmi2Fatal`, here or in another instance.
+        Fatal => "fatal",
+    }
 }
 
 impl State {
     /// Number of states.
-    pub const COUNT: usize = 9;
-    /// Every state, in the order of the table's columns.
-    pub const ALL: [Self; Self::COUNT] = [
-        Self::Instantiated,
-        Self::InitializationMode,
-        Self::StepComplete,
-        Self::StepInProgress,
-        Self::StepFailed,
-        Self::StepCanceled,
-        Self::Terminated,
-        Self::Error,
-        Self::Fatal,
-    ];
-
-    /// The standard's name of the state.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Instantiated => "instantiated",
-            Self::InitializationMode => "Initialization Mode",
-            Self::StepComplete => "stepComplete",
-            Self::StepInProgress => "stepInProgress",
-            Self::StepFailed => "stepFailed",
-            Self::StepCanceled => "stepCanceled",
-            Self::Terminated => "terminated",
-            Self::Error => "error",
-            Self::Fatal => "fatal",
-        }
-    }
+    pub const COUNT: usize = Self::ALL.len();
 }
 
 /// Whether a function may be called.

@@ -2,7 +2,7 @@
 
 use model_description::{
     Causality, Variability, names,
-    rules::{self, StartRule},
+    rules::{self, RoleFault},
     units,
 };
 use syn::{Expr, Ident, LitStr, spanned::Spanned};
@@ -28,37 +28,18 @@ pub fn variability(declared: &Declaration, kind: Kind) -> Variability {
 }
 
 fn role(declared: &Declaration, kind: Kind, field: &Ident) -> syn::Result<()> {
-    let at = |problem: String| Err(syn::Error::new(declared.span, problem));
-    let (causality, variability) = (declared.causality, variability(declared, kind));
-    if variability == Variability::Continuous && !kind.is_real() {
-        return at("only a Real can be continuous".to_owned());
-    }
-    let Some(rule) = rules::initial(causality, variability) else {
-        let allowed = list(rules::legal_variabilities(causality));
-        return at(format!("{causality} cannot be {variability}; allowed: {allowed}"));
-    };
-    if let Some(initial) = declared.initial
-        && !rule.allowed.contains(&initial)
-    {
-        let allowed = list(rule.allowed);
-        return at(format!("{variability} {causality} cannot have initial {initial}; allowed: {allowed}"));
-    }
-    let effective = rules::effective(causality, variability, declared.initial);
-    match (rules::start(causality, effective), &declared.start) {
-        (StartRule::Required, None) => {
-            Err(syn::Error::new(field.span(), format!("`{field}` needs a start value")))
-        }
-        (StartRule::Forbidden, Some(start)) => {
-            let problem = format!("`{field}` is calculated and cannot have a start value");
-            Err(syn::Error::new_spanned(start, problem))
-        }
-        _ => Ok(()),
-    }
-}
-
-fn list<T: core::fmt::Display>(all: impl IntoIterator<Item = T>) -> String {
-    let words: Vec<_> = all.into_iter().map(|word| word.to_string()).collect();
-    if words.is_empty() { "none".to_owned() } else { words.join(", ") }
+    let variability = variability(declared, kind);
+    let Declaration { causality, initial, start, .. } = declared;
+    let is_real = kind.is_real();
+    rules::check_role(*causality, variability, *initial, is_real, start.is_some()).map_err(
+        |fault| match fault {
+            RoleFault::Role(problem) => syn::Error::new(declared.span, problem),
+            RoleFault::StartMissing(problem) => syn::Error::new(field.span(), format!("`{field}` {problem}")),
+            RoleFault::StartForbidden(problem) => {
+                syn::Error::new_spanned(start, format!("`{field}` {problem}"))
+            }
+        },
+    )
 }
 
 fn unit(declared: &Declaration, kind: Kind, field: &Ident) -> syn::Result<()> {
@@ -88,7 +69,7 @@ fn unit(declared: &Declaration, kind: Kind, field: &Ident) -> syn::Result<()> {
     };
     match &declared.display {
         Some(display) if !known.has_display(&display.value()) => {
-            let allowed = list(known.display.iter().map(|(name, _)| *name));
+            let allowed = rules::listed(known.display.iter().map(|(name, _)| *name));
             Err(syn::Error::new(
                 display.span(),
                 format!("`{}` is no display unit of `{}`; allowed: {allowed}", display.value(), known.name),

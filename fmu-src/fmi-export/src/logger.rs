@@ -128,11 +128,6 @@ impl Logger {
         });
     }
 
-    /// Enables no category; what is always logged still passes.
-    pub(crate) fn enable_nothing(&self) {
-        self.enabled.set(0);
-    }
-
     /// Back to the setting with which the instance was made.
     pub(crate) fn reset(&self) {
         self.enabled.set(self.initially);

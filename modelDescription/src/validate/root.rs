@@ -1,10 +1,10 @@
 //! The root element's attributes, the interfaces and the default experiment.
 
 use super::{Check, Place};
-use crate::document::{self, Sink};
 use crate::finding::Code;
+use crate::lexical::double;
 use crate::names::is_c_identifier;
-use crate::write::is_xml_char;
+use crate::write::illegal_characters;
 
 impl Check<'_> {
     pub(super) fn root(&mut self) {
@@ -26,54 +26,46 @@ impl Check<'_> {
             let message = "has neither CoSimulation nor ModelExchange; at least one is required".to_owned();
             self.add(Code::NoInterface, Place::Root, message);
         }
-        let mut characters = Characters::default();
-        document::walk(all, &mut characters);
-        for message in characters.messages {
+        for (element, name, c) in illegal_characters(all) {
+            let message = format!(
+                "attribute `{name}` of <{element}> holds U+{:04X}; allowed are tab, line breaks and characters from U+0020",
+                u32::from(c)
+            );
             self.add(Code::IllegalCharacter, Place::Root, message);
         }
     }
 
     pub(super) fn interfaces(&mut self) {
-        if let Some(flags) = &self.description.model_exchange {
-            self.interface(
-                Place::ModelExchange,
-                &flags.model_identifier,
-                flags.can_serialize_fmu_state && !flags.can_get_and_set_fmu_state,
-                &flags.source_files,
-            );
+        let all = self.description;
+        let model_exchange = all.model_exchange.as_ref().map(|it| {
+            let states = (it.can_get_and_set_fmu_state, it.can_serialize_fmu_state);
+            (Place::ModelExchange, &it.model_identifier, states, &it.source_files)
+        });
+        let co_simulation = all.co_simulation.as_ref().map(|it| {
+            let states = (it.can_get_and_set_fmu_state, it.can_serialize_fmu_state);
+            (Place::CoSimulation, &it.model_identifier, states, &it.source_files)
+        });
+        for (place, identifier, states, source_files) in model_exchange.into_iter().chain(co_simulation) {
+            if !is_c_identifier(identifier) {
+                let message = format!(
+                    "modelIdentifier is `{identifier}`; allowed are letters, digits and `_`, not starting with a digit"
+                );
+                self.add(Code::ModelIdentifier, place, message);
+            }
+            if states == (false, true) {
+                let message = "canSerializeFMUstate is true but canGetAndSetFMUstate is false; allowed is true with \
+                               canGetAndSetFMUstate true";
+                self.add(Code::SerializeWithoutState, place, message.to_owned());
+            }
+            self.unique(Code::DuplicateSourceFile, source_files.iter().map(String::as_str), |_| place);
         }
-        if let Some(flags) = &self.description.co_simulation {
-            self.interface(
-                Place::CoSimulation,
-                &flags.model_identifier,
-                flags.can_serialize_fmu_state && !flags.can_get_and_set_fmu_state,
-                &flags.source_files,
-            );
-        }
-    }
-
-    fn interface(&mut self, place: Place, identifier: &str, no_state: bool, source_files: &[String]) {
-        if !is_c_identifier(identifier) {
-            let message = format!(
-                "modelIdentifier is `{identifier}`; allowed are letters, digits and `_`, not starting with a digit"
-            );
-            self.add(Code::ModelIdentifier, place, message);
-        }
-        if no_state {
-            let message =
-                "canSerializeFMUstate is true but canGetAndSetFMUstate is false; allowed is true with \
-                           canGetAndSetFMUstate true"
-                    .to_owned();
-            self.add(Code::SerializeWithoutState, place, message);
-        }
-        self.unique(Code::DuplicateSourceFile, source_files.iter().map(String::as_str), |_| place);
     }
 
     pub(super) fn experiment(&mut self) {
         let Some(experiment) = self.description.default_experiment else { return };
         for (name, time) in [("startTime", experiment.start_time), ("stopTime", experiment.stop_time)] {
             if let Some(time) = time.filter(|time| !time.is_finite()) {
-                let message = format!("{name} is {}; allowed is a finite time in s", document::double(time));
+                let message = format!("{name} is {}; allowed is a finite time in s", double(time));
                 self.add(Code::ExperimentTime, Place::Experiment, message);
             }
         }
@@ -89,38 +81,10 @@ impl Check<'_> {
         ];
         for (name, value, code) in above_zero {
             if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
-                let message =
-                    format!("{name} is {}; allowed is a finite number above 0", document::double(value));
+                let message = format!("{name} is {}; allowed is a finite number above 0", double(value));
                 self.add(code, Place::Experiment, message);
             }
         }
-    }
-}
-
-/// Looks at every text of a description for characters that XML cannot carry.
-#[derive(Default)]
-struct Characters {
-    open: Vec<&'static str>,
-    messages: Vec<String>,
-}
-
-impl Sink for Characters {
-    fn open(&mut self, element: &'static str) {
-        self.open.push(element);
-    }
-
-    fn attribute(&mut self, name: &'static str, text: &str) {
-        if let Some(c) = text.chars().find(|c| !is_xml_char(*c)) {
-            let element = self.open.last().copied().unwrap_or_default();
-            self.messages.push(format!(
-                "attribute `{name}` of <{element}> holds U+{:04X}; allowed are tab, line breaks and characters from U+0020",
-                u32::from(c)
-            ));
-        }
-    }
-
-    fn close(&mut self) {
-        self.open.pop();
     }
 }
 

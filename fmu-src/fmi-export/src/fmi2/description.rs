@@ -148,7 +148,7 @@ fn kind(variable: &Variable, element: Element, start: &Values) -> VariableKind {
     let role = variable.role;
     let effective = rules::effective(role.causality, role.variability, role.initial);
     let has_start = rules::start(role.causality, effective) == rules::StartRule::Required;
-    let at = Some(element.place() as usize).filter(|_| has_start);
+    let at = Some(element.place as usize).filter(|_| has_start);
     let integer = at.and_then(|at| start.integers.get(at).copied());
     match &variable.kind {
         Kind::Real { unit, display_unit, min, max, nominal } => VariableKind::Real {

@@ -88,7 +88,6 @@ impl Model for AllTypes {
                 "Every type in every role, with {} channels; \"<&>\" – ünïcödé.",
                 setup.channel.len()
             ),
-            start_time_s: 0.0,
             stop_time_s: 10.0,
             step_size_s: 0.5,
             tolerance: 1e-9,
