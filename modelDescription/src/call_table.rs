@@ -53,34 +53,30 @@ pub enum Access {
     Conditional(Condition),
 }
 
-/// The notes under the standard's table; the numbers are the standard's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Condition {
-    /// 1: variability is not constant, and initial is exact or approx.
-    SettableBeforeInitialization,
-    /// 2: an output, or listed under `InitialUnknowns`.
-    OutputOrInitialUnknown,
-    /// 3: variability is not constant, and initial is exact or the variable is an input.
-    SettableInInitialization,
-    /// 6: an input or a tunable parameter.
-    InputOrTunable,
-    /// 7: the values are for debugging only.
-    Debugging,
-    /// 8: the values are for debugging only, unless the status `fmi2Terminated` is true.
-    DebuggingUnlessTerminated,
+words! {
+    /// The notes under the standard's table, in words; the numbers are the standard's.
+    pub enum Condition, text {
+        /// Note 1.
+        SettableBeforeInitialization = 1
+            => "variables whose variability is not constant and whose initial is exact or approx",
+        /// Note 2.
+        OutputOrInitialUnknown = 2 => "outputs and variables listed under InitialUnknowns",
+        /// Note 3.
+        SettableInInitialization = 3
+            => "variables whose variability is not constant, and whose initial is exact or which are inputs",
+        /// Note 6.
+        InputOrTunable = 6 => "inputs and tunable parameters",
+        /// Note 7.
+        Debugging = 7 => "for debugging only",
+        /// Note 8.
+        DebuggingUnlessTerminated = 8 => "for debugging only, unless the status fmi2Terminated is true",
+    }
 }
 
 impl Condition {
     /// The number of the note.
     pub const fn number(self) -> u32 {
-        match self {
-            SettableBeforeInitialization => 1,
-            OutputOrInitialUnknown => 2,
-            SettableInInitialization => 3,
-            InputOrTunable => 6,
-            Debugging => 7,
-            DebuggingUnlessTerminated => 8,
-        }
+        self as u32
     }
 
     /// Whether a variable meets the condition; `initial_unknown` is whether `InitialUnknowns` lists it. The conditions on
@@ -102,22 +98,6 @@ impl Condition {
                 _ => false,
             },
             Debugging | DebuggingUnlessTerminated => true,
-        }
-    }
-
-    /// The condition in words.
-    pub const fn text(self) -> &'static str {
-        match self {
-            SettableBeforeInitialization => {
-                "variables whose variability is not constant and whose initial is exact or approx"
-            }
-            OutputOrInitialUnknown => "outputs and variables listed under InitialUnknowns",
-            SettableInInitialization => {
-                "variables whose variability is not constant, and whose initial is exact or which are inputs"
-            }
-            InputOrTunable => "inputs and tunable parameters",
-            Debugging => "for debugging only",
-            DebuggingUnlessTerminated => "for debugging only, unless the status fmi2Terminated is true",
         }
     }
 }

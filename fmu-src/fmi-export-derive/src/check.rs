@@ -90,25 +90,16 @@ fn limits(declared: &Declaration, kind: Kind) -> syn::Result<()> {
         |expression: &Option<Expr>| expression.as_ref().and_then(literal_numbers).unwrap_or_default();
     let (lows, highs, starts) = (literal(min), literal(max), literal(start));
     let above = |low: &[f64], high: &[f64]| low.iter().any(|low| high.iter().any(|high| low > high));
-    let error = |place: &Option<Expr>, problem: &str| {
-        Err(match place {
-            Some(place) => syn::Error::new_spanned(place, problem),
-            None => syn::Error::new(declared.span, problem),
-        })
-    };
-    if above(&lows, &highs) {
-        return error(min, "`min` is above `max`");
+    let faults = [
+        (above(&lows, &highs), min, "`min` is above `max`"),
+        (above(&lows, &starts), start, "`start` is below `min`"),
+        (above(&starts, &highs), start, "`start` is above `max`"),
+        (literal(nominal).iter().any(|value| *value <= 0.0), nominal, "`nominal` must be above 0"),
+    ];
+    match faults.into_iter().find(|(holds, ..)| *holds) {
+        Some((_, place, problem)) => Err(syn::Error::new_spanned(place, problem)),
+        None => Ok(()),
     }
-    if above(&lows, &starts) {
-        return error(start, "`start` is below `min`");
-    }
-    if above(&starts, &highs) {
-        return error(start, "`start` is above `max`");
-    }
-    if literal(nominal).iter().any(|value| *value <= 0.0) {
-        return error(nominal, "`nominal` must be above 0");
-    }
-    Ok(())
 }
 
 /// Checks a structured name (FMI 2.0.5, 2.2.9) and that it is new among `known`.

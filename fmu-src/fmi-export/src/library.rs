@@ -56,12 +56,6 @@ impl Entry {
         self.prepare(file, setup_text, &[]).map(|prepared| prepared.description)
     }
 
-    /// The names that start values in this setup text may have for this model; `None` if it cannot take the text.
-    fn start_names(&self, file: &str, setup_text: &str) -> Option<BTreeSet<String>> {
-        self.setup_file?;
-        (self.start_names)(file, setup_text)
-    }
-
     pub(crate) fn prepare(
         &self,
         file: Option<&str>,
@@ -71,7 +65,8 @@ impl Entry {
         let file = file.or(self.setup_file).unwrap_or("the built-in setup");
         let text = setup_text.unwrap_or(self.default_setup);
         let reader = |other: &Self| {
-            let names = contain(|| other.start_names(file, text)).ok().flatten()?;
+            other.setup_file?;
+            let names = contain(|| (other.start_names)(file, text)).ok().flatten()?;
             Some(Reader { model: other.name, names })
         };
         let others = || library.iter().filter(|other| other.name != self.name).filter_map(reader).collect();
@@ -222,7 +217,11 @@ fn refusal(guid: &str, mut tried: Vec<Tried>) -> String {
     let with_file = || tried.iter().filter(|it| it.file.is_some());
     let lead = if let Some(index) = tried.iter().position(|it| it.is_changed(guid)) {
         tried = vec![tried.swap_remove(index)];
-        tried.iter().map(|it| changed(guid, it)).collect()
+        let (file, name) = (tried[0].file.unwrap_or_default(), tried[0].entry.name);
+        format!(
+            "{file}: the file was changed after packing: pack the FMU again (the requested GUID {guid} is that of {name} \
+             with its original {file})"
+        )
     } else if with_file().next().is_some() && with_file().all(|it| !it.was_read) {
         let reasons: BTreeSet<String> = with_file().filter_map(|it| it.outcome.clone().err()).collect();
         tried.retain(|it| it.file.is_none());
@@ -251,14 +250,6 @@ fn refusal(guid: &str, mut tried: Vec<Tried>) -> String {
         }
     }
     verdicts.iter().fold(lead, |text, (names, verdict)| format!("{text}; {names} {verdict}"))
-}
-
-fn changed(guid: &str, it: &Tried) -> String {
-    let (file, name) = (it.file.unwrap_or_default(), it.entry.name);
-    format!(
-        "{file}: the file was changed after packing: pack the FMU again (the requested GUID {guid} is that of {name} \
-         with its original {file})"
-    )
 }
 
 fn joined(texts: BTreeSet<String>, separator: &str) -> String {

@@ -41,7 +41,7 @@ impl Parsed {
 }
 
 /// The children of the root in schema order; those marked are required.
-const SECTIONS: &[(&str, bool)] = &[
+const SECTIONS: [(&str, bool); 9] = [
     ("ModelExchange", false),
     ("CoSimulation", false),
     ("UnitDefinitions", false),
@@ -92,31 +92,44 @@ impl Read<'_> {
     }
 
     fn sections(&mut self, root: &Start) -> Result<(), ReadError> {
-        let mut seen = [false; SECTIONS.len()];
-        let mut last = 0;
-        while let Some(mut start) = self.xml.child(root)? {
-            let Some(rank) = SECTIONS.iter().position(|(name, _)| *name == start.name) else {
-                self.unknown(&start)?;
-                continue;
-            };
-            if seen[rank] {
-                return Err(twice(&start));
-            }
-            seen[rank] = true;
-            // Either of ModelExchange and CoSimulation may come first.
-            if rank < last && last > 1 {
-                let message = format!("stands after <{}>; the schema requires it before", SECTIONS[last].0);
-                self.xml.warn(Code::ElementOrder, start.line, &start.name, message);
-            }
-            last = last.max(rank);
-            self.section(&mut start)?;
-        }
+        let names = SECTIONS.map(|(name, _)| name);
+        // Either of ModelExchange and CoSimulation may come first.
+        let seen = self.ordered(root, names, 2, |read, _, start| read.section(start))?;
         for ((name, required), seen) in SECTIONS.iter().zip(seen) {
             if *required && !seen {
                 return Err(lacks(root, name));
             }
         }
         Ok(())
+    }
+
+    /// Reads the children of `parent` with `child`, which gets the place of each in `names`; those after the first `free` should
+    /// stand in this order. Says which there were.
+    fn ordered<const N: usize>(
+        &mut self,
+        parent: &Start,
+        names: [&str; N],
+        free: usize,
+        mut child: impl FnMut(&mut Self, usize, &mut Start) -> Result<(), ReadError>,
+    ) -> Result<[bool; N], ReadError> {
+        let mut seen = [false; N];
+        let mut last = 0;
+        while let Some(mut start) = self.xml.child(parent)? {
+            let Some(rank) = names.iter().position(|name| *name == start.name) else {
+                self.unknown(&start)?;
+                continue;
+            };
+            if core::mem::replace(&mut seen[rank], true) {
+                return Err(twice(&start));
+            }
+            if rank < last && last >= free {
+                let message = format!("stands after <{}>; the schema requires it before", names[last]);
+                self.xml.warn(Code::ElementOrder, start.line, &start.name, message);
+            }
+            last = last.max(rank);
+            child(self, rank, &mut start)?;
+        }
+        Ok(seen)
     }
 
     fn section(&mut self, start: &mut Start) -> Result<(), ReadError> {

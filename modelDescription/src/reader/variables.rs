@@ -49,38 +49,21 @@ impl Read<'_> {
 
     pub(super) fn structure(&mut self, start: &mut Start) -> Result<(), ReadError> {
         Fields::of(start).finish(&mut self.xml);
-        let mut seen = [false; LISTS.len()];
-        let mut last = 0;
-        while let Some(mut child) = self.xml.child(start)? {
-            let Some(rank) = LISTS.iter().position(|name| *name == child.name) else {
-                self.unknown(&child)?;
-                continue;
-            };
-            if seen[rank] {
-                return Err(twice(&child));
-            }
-            seen[rank] = true;
-            if rank < last {
-                let message = format!("stands after <{}>; the schema requires it before", LISTS[last]);
-                self.xml.warn(Code::ElementOrder, child.line, &child.name, message);
-            }
-            last = last.max(rank);
-            let mut unknowns = Vec::new();
-            let mut lines = Vec::new();
-            self.list(&mut child, "Unknown", |read, entry| {
+        self.ordered(start, LISTS, 0, |read, rank, child| {
+            let (mut unknowns, mut lines) = (Vec::new(), Vec::new());
+            read.list(child, "Unknown", |read, entry| {
                 lines.push(entry.line);
                 unknowns.push(read.leaf(entry)?);
                 Ok(())
             })?;
-            let structure = &mut self.description.structure;
-            let (to, to_lines) = match rank {
-                0 => (&mut structure.outputs, &mut self.lines.outputs),
-                1 => (&mut structure.derivatives, &mut self.lines.derivatives),
-                _ => (&mut structure.initial_unknowns, &mut self.lines.initial_unknowns),
-            };
-            *to = unknowns;
-            *to_lines = lines;
-        }
+            let (structure, all) = (&mut read.description.structure, &mut read.lines);
+            match rank {
+                0 => (structure.outputs, all.outputs) = (unknowns, lines),
+                1 => (structure.derivatives, all.derivatives) = (unknowns, lines),
+                _ => (structure.initial_unknowns, all.initial_unknowns) = (unknowns, lines),
+            }
+            Ok(())
+        })?;
         Ok(())
     }
 }

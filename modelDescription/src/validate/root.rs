@@ -90,58 +90,50 @@ impl Check<'_> {
 
 /// Whether the text is an xs:dateTime: `-?YYYY-MM-DDThh:mm:ss(.s+)?(Z|[+-]hh:mm)?`.
 fn is_date_time(text: &str) -> bool {
-    let Some((date, clock)) = text.split_once('T') else { return false };
-    let mut date = date.strip_prefix('-').unwrap_or(date).splitn(3, '-');
-    let (Some(year), Some(month), Some(day)) = (date.next(), date.next(), date.next()) else { return false };
-    let year_digits = year.len() >= 4 && year.bytes().all(|b| b.is_ascii_digit());
-    if !year_digits || (year.len() > 4 && year.starts_with('0')) {
-        return false;
-    }
-    let (Some(month), Some(day)) = (two_digits(month, 12), two_digits(day, 31)) else { return false };
+    let date_and_clock = text.split_once('T');
+    date_and_clock.is_some_and(|(date, clock)| is_date(date) == Some(true) && is_clock(clock) == Some(true))
+}
+
+fn is_date(date: &str) -> Option<bool> {
+    let mut parts = date.strip_prefix('-').unwrap_or(date).splitn(3, '-');
+    let year = parts.next()?;
+    let (month, day) = (two_digits(parts.next()?, 12)?, two_digits(parts.next()?, 31)?);
     // Only the last digits decide on leap years: 10000 is a multiple of 400.
-    let year: u32 = year[year.len() - 4..].parse().unwrap_or(0);
-    let leap = year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
+    let last: u32 = year.get(year.len().checked_sub(4)?..)?.parse().ok()?;
+    let leap = last.is_multiple_of(4) && (!last.is_multiple_of(100) || last.is_multiple_of(400));
     let days = match month {
         2 => 28 + u32::from(leap),
         4 | 6 | 9 | 11 => 30,
         _ => 31,
     };
-    if month == 0 || day == 0 || day > days {
-        return false;
-    }
-    let zone = clock.find(['Z', '+', '-']).unwrap_or(clock.len());
-    let (clock, zone) = clock.split_at(zone);
+    let year_good = all_digits(year) && (year.len() == 4 || !year.starts_with('0'));
+    Some(year_good && month > 0 && (1..=days).contains(&day))
+}
+
+fn is_clock(text: &str) -> Option<bool> {
+    let (clock, zone) = text.split_at(text.find(['Z', '+', '-']).unwrap_or(text.len()));
     let zone_good = match zone.split_at_checked(1) {
         None => true,
         Some(("Z", rest)) => rest.is_empty(),
-        Some((_, rest)) => rest.split_once(':').is_some_and(|(hours, minutes)| {
-            match (two_digits(hours, 14), two_digits(minutes, 59)) {
-                (Some(14), Some(minutes)) => minutes == 0,
-                (Some(_), Some(_)) => true,
-                _ => false,
-            }
-        }),
-    };
-    let mut clock = clock.splitn(3, ':');
-    let (Some(hours), Some(minutes), Some(seconds)) = (clock.next(), clock.next(), clock.next()) else {
-        return false;
-    };
-    let (seconds, fraction) = seconds.split_once('.').unwrap_or((seconds, "0"));
-    let fraction_good = !fraction.is_empty() && fraction.bytes().all(|b| b.is_ascii_digit());
-    zone_good
-        && fraction_good
-        && match (two_digits(hours, 24), two_digits(minutes, 59), two_digits(seconds, 59)) {
-            (Some(24), Some(minutes), Some(seconds)) => {
-                minutes == 0 && seconds == 0 && fraction.bytes().all(|b| b == b'0')
-            }
-            (Some(_), Some(_), Some(_)) => true,
-            _ => false,
+        Some((_, rest)) => {
+            let (hours, minutes) = rest.split_once(':')?;
+            (two_digits(hours, 14)?, two_digits(minutes, 59)?) <= (14, 0)
         }
+    };
+    let mut parts = clock.splitn(3, ':');
+    let (hours, minutes) = (two_digits(parts.next()?, 24)?, two_digits(parts.next()?, 59)?);
+    let seconds = parts.next()?;
+    let (seconds, fraction) = seconds.split_once('.').unwrap_or((seconds, "0"));
+    let seconds = two_digits(seconds, 59)?;
+    let is_midnight = minutes == 0 && seconds == 0 && fraction.bytes().all(|b| b == b'0');
+    Some(zone_good && all_digits(fraction) && (hours < 24 || is_midnight))
+}
+
+fn all_digits(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
 }
 
 fn two_digits(text: &str, max: u32) -> Option<u32> {
-    if text.len() != 2 || !text.bytes().all(|b| b.is_ascii_digit()) {
-        return None;
-    }
-    text.parse().ok().filter(|value| *value <= max)
+    let value = text.parse().ok().filter(|_| text.len() == 2 && all_digits(text))?;
+    (value <= max).then_some(value)
 }

@@ -30,16 +30,16 @@ impl Sender {
         for file in entry.schedule_files {
             self.send(kind::SCHEDULE_FILE, file);
         }
-        self.send(kind::SETUP_TEXT, entry.default_setup);
-        self.send(kind::REFERENCE_INPUTS, entry.reference_inputs);
         let Manual { about, example, closed_loop, frames } = entry.manual;
-        let manual = [
+        let texts = [
+            (kind::SETUP_TEXT, entry.default_setup),
+            (kind::REFERENCE_INPUTS, entry.reference_inputs),
             (kind::ABOUT, about),
             (kind::EXAMPLE, example),
             (kind::CLOSED_LOOP, closed_loop),
             (kind::FRAMES, frames),
         ];
-        for (kind, text) in manual {
+        for (kind, text) in texts {
             self.send(kind, text);
         }
         for source in entry.sources {

@@ -107,12 +107,6 @@ impl<const R: usize, const C: usize> RealMatrix<R, C> {
         debug_assert!(row < R && column < C);
         Real(self.0 + (row * C + column) as u32)
     }
-
-    /// The 0-based row and column of an element of this matrix; `None` for any other Real.
-    pub fn index_of(self, element: Real) -> Option<(usize, usize)> {
-        let index = element.0.checked_sub(self.0)? as usize;
-        (index < R * C).then(|| (index / C, index % C))
-    }
 }
 
 /// An Enumeration variable whose items are the variants of `E`.

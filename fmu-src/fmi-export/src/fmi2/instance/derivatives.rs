@@ -47,10 +47,9 @@ impl Instance {
         orders: &[i32],
         values: &mut [f64],
     ) -> Result<(), Problem> {
-        let largest = u32::from(self.runtime.has_output_rates());
         for (&reference, &order) in references.iter().zip(orders) {
             self.require(reference, OUTPUT, OUTPUT, "Real output")?;
-            check_order(order, largest)?;
+            check_order(order, self.output_derivative_order)?;
         }
         for (&reference, value) in references.iter().zip(values) {
             *value = self.runtime.output_rate(self.values_at_last_step(), real(reference), &self.logger)?;

@@ -39,7 +39,9 @@ impl Instance {
         start_s: f64,
         stop_s: Option<f64>,
     ) -> Result<(), Problem> {
-        if !start_s.is_finite() || stop_s.is_some_and(|stop_s| !stop_s.is_finite() || stop_s < start_s) {
+        let usable = |tolerance: &f64| *tolerance > 0.0 && tolerance.is_finite();
+        let experiment = Experiment { start_s, stop_s, tolerance: tolerance.filter(usable) };
+        if !experiment.is_valid() {
             return Err(match stop_s {
                 None => Problem::error(format_args!("the start time is {start_s:?} s, it must be finite")),
                 Some(stop_s) => Problem::error(format_args!(
@@ -48,10 +50,7 @@ impl Instance {
                 )),
             });
         }
-        let usable = |tolerance: &f64| *tolerance > 0.0 && tolerance.is_finite();
-        if let Some(tolerance) = tolerance
-            && !usable(&tolerance)
-        {
+        if let Some(tolerance) = tolerance.filter(|tolerance| !usable(tolerance)) {
             self.logger.log(
                 Status::Warning,
                 format_args!(
@@ -59,7 +58,7 @@ impl Instance {
                 ),
             );
         }
-        self.state.experiment = Some(Experiment { start_s, stop_s, tolerance: tolerance.filter(usable) });
+        self.state.experiment = Some(experiment);
         Ok(())
     }
 

@@ -53,19 +53,22 @@ pub(crate) struct Instance {
     directions: (Vec<Real>, Vec<(Real, f64)>),
     /// The parameter that the experiment's tolerance stands in for.
     tolerance: Option<Real>,
+    /// Highest order of an output's derivative.
+    output_derivative_order: u32,
     poisoned: bool,
 }
 
 impl Instance {
     /// A fresh instance.
     pub(crate) fn new(prepared: Prepared, logger: Logger) -> Self {
-        let Prepared { access, start, runtime, digest, description: _ } = prepared;
+        let Prepared { description, access, start, runtime, digest, tolerance } = prepared;
         let mut state = InstanceState::new(&start);
         state.input_derivatives.reserve(access.real_limits.len());
         Self {
             spare: Values::clone(&start),
             directions: Default::default(),
-            tolerance: runtime.tolerance(),
+            tolerance,
+            output_derivative_order: description.co_simulation.map_or(0, |it| it.max_output_derivative_order),
             state,
             runtime,
             access,

@@ -22,6 +22,14 @@ pub(crate) struct Experiment {
     pub(crate) tolerance: Option<f64>,
 }
 
+impl Experiment {
+    /// Whether its times are finite and in order.
+    pub(crate) fn is_valid(&self) -> bool {
+        self.start_s.is_finite()
+            && self.stop_s.is_none_or(|stop_s| stop_s.is_finite() && stop_s >= self.start_s)
+    }
+}
+
 /// The mutable part of an instance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct InstanceState {
@@ -147,10 +155,7 @@ impl InstanceState {
             {
                 return Err(damaged(format_args!("tolerance {tolerance:?}")));
             }
-            Some(Experiment { start_s, stop_s, .. })
-                if !start_s.is_finite()
-                    || stop_s.is_some_and(|stop_s| !stop_s.is_finite() || stop_s < start_s) =>
-            {
+            Some(experiment @ Experiment { start_s, stop_s, .. }) if !experiment.is_valid() => {
                 return Err(damaged(format_args!("start {start_s:?} s and stop {stop_s:?} s")));
             }
             _ => {}
