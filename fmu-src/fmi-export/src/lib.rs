@@ -24,7 +24,7 @@ pub mod model;
 mod panics;
 mod runtime;
 mod start_values;
-pub mod state_bytes;
+mod state_bytes;
 pub mod time;
 pub mod variables;
 

@@ -24,12 +24,12 @@ pub trait Model: Sized + 'static {
     /// Raised whenever the meaning of `State` changes; part of the GUID.
     const STATE_VERSION: u32;
     /// File under `resources/` that holds the setup, or `None` for a model without resources.
-    const SETUP_FILE: Option<&'static str>;
+    const SETUP_FILE: Option<&'static str> = None;
     /// Files under `resources/` that hold schedules, what is commanded or known over time, each of which may be there beside
     /// the setup. A schedule does not enter the GUID: one FMU flies many.
     const SCHEDULE_FILES: &'static [&'static str] = &[];
     /// The compiled-in setup text, used when an importer gives no resource location.
-    const DEFAULT_SETUP: &'static str;
+    const DEFAULT_SETUP: &'static str = "";
     /// Inputs of the reference flight that a packed FMU carries: CSV whose first column, `time`, counts steps of the default
     /// experiment. Columns that a setup has no input for are left out.
     const REFERENCE_INPUTS: &'static str = "";
