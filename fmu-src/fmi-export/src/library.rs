@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::fmi2::description::{DescribeError, Prepared, prepare, start_names};
 use crate::location::{self, Resources};
-use crate::model::{Manual, Model, SetupError, Source};
+use crate::model::{Manual, Model, SetupError};
 use crate::panics::contain;
 use crate::start_values::{OtherReaders, Reader};
 
@@ -17,7 +17,6 @@ pub struct Entry {
     default_setup: &'static str,
     reference_inputs: &'static str,
     manual: Manual,
-    sources: &'static [Source],
     prepare: fn(&str, &str, OtherReaders<'_>) -> Result<Prepared, DescribeError>,
     start_names: fn(&str, &str) -> Option<BTreeSet<String>>,
 }
@@ -32,7 +31,6 @@ impl Entry {
             default_setup: M::DEFAULT_SETUP,
             reference_inputs: M::REFERENCE_INPUTS,
             manual: M::MANUAL,
-            sources: M::SOURCES,
             prepare: prepare::<M>,
             start_names: start_names::<M>,
         }
@@ -66,11 +64,6 @@ impl Entry {
     /// The beginning of its manual.
     pub const fn manual(&self) -> &Manual {
         &self.manual
-    }
-
-    /// By what the model computes.
-    pub const fn sources(&self) -> &'static [Source] {
-        self.sources
     }
 
     /// Describes the model for a setup text, the compiled-in one if `None`; `file` names it in errors. Start values for

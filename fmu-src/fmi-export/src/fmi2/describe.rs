@@ -32,7 +32,7 @@ impl Sender {
         }
         self.send(kind::SETUP_TEXT, entry.default_setup());
         self.send(kind::REFERENCE_INPUTS, entry.reference_inputs());
-        let Manual { about, example, closed_loop, frames } = *entry.manual();
+        let Manual { about, example, closed_loop, frames, .. } = *entry.manual();
         let manual = [
             (kind::ABOUT, about),
             (kind::EXAMPLE, example),
@@ -42,8 +42,8 @@ impl Sender {
         for (kind, text) in manual {
             self.send(kind, text);
         }
-        for source in entry.sources() {
-            self.send(kind::SOURCE, &format!("{}\t{}", source.what, source.by));
+        for (what, by) in entry.manual().sources() {
+            self.send(kind::SOURCE, &format!("{what}\t{by}"));
         }
     }
 
