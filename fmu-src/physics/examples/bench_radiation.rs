@@ -23,9 +23,7 @@ use physics::radiation::flat_plate::force_per_area_pa;
 use physics::radiation::grid::PlanetGrid;
 use physics::radiation::ring::{PlanetView, RingRule};
 use physics::radiation::shadow::{Outline, ShadowScene, ShadowWorkspace};
-use physics::spacecraft::{
-    MESSENGER_THERMAL_TOML, Optics, Plate, Polygon, PolygonError, Spacecraft, Thermal,
-};
+use physics::spacecraft::{MESSENGER_THERMAL_TOML, Optics, Plate, Polygon, Spacecraft, Thermal};
 
 const RUNS: usize = 301;
 
@@ -246,12 +244,16 @@ fn evaluations(
     Ok(())
 }
 
-fn rectangle(center: Vector3<f64>, u: Vector3<f64>, v: Vector3<f64>) -> Result<Polygon, PolygonError> {
+fn rectangle(
+    center: Vector3<f64>,
+    u: Vector3<f64>,
+    v: Vector3<f64>,
+) -> Result<Polygon, physics::refusal::Refusal> {
     Polygon::new(vec![center - u - v, center + u - v, center + u + v, center - u + v])
 }
 
 /// A drum of `hull` staves, and around it `shaded` pairs of a plate and a smaller shade half a metre sunward of it.
-fn drum(hull: usize, shaded: usize) -> Result<Vec<Polygon>, PolygonError> {
+fn drum(hull: usize, shaded: usize) -> Result<Vec<Polygon>, physics::refusal::Refusal> {
     let mut polygons = Vec::new();
     for i in 0..hull {
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), i as f64 * TAU / hull as f64);

@@ -6,6 +6,7 @@ use super::cylinder::CylinderFace;
 use super::shadow::{Hinge, Outline};
 use super::thermal::balance::FaceEnvironment;
 use super::thermal::transient::HeatStore;
+use crate::refusal::Refusal;
 use crate::spacecraft::{
     BusLink, Cylinder, Emission, FaceThermal, Optics, Plate, Spacecraft, SunshadeModel, Thermal,
 };
@@ -95,10 +96,10 @@ pub(super) enum Normal {
     Rear(usize),
 }
 
-/// A sunshade was requested in a form its file does not describe.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the spacecraft's file does not describe its sunshade as {0:?}")]
-pub struct NoSuchSunshade(pub SunshadeModel);
+/// Refuses a form of the sunshade that the spacecraft's file does not give.
+pub(super) fn no_such_sunshade(form: SunshadeModel) -> Refusal {
+    Refusal::new(format_args!("the spacecraft's file does not describe its sunshade as {form:?}"), "")
+}
 
 /// Surfaces, faces and distinct normals of a spacecraft: plates, sunshade, panels, in this order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -118,7 +119,7 @@ impl Faces {
     ///
     /// # Errors
     /// The file has a sunshade but not in this form.
-    pub fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, NoSuchSunshade> {
+    pub fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, Refusal> {
         let mut faces = Self { background_k: spacecraft.background_k, ..Self::default() };
         for plate in &spacecraft.plates {
             faces.add_plate(plate);
@@ -126,7 +127,7 @@ impl Faces {
         if let Some(shade) = &spacecraft.sunshade {
             let form = form.unwrap_or(shade.model);
             if !shade.has(form) {
-                return Err(NoSuchSunshade(form));
+                return Err(no_such_sunshade(form));
             }
             let dcm_body_from_shade = shade.dcm_body_from_shade;
             let cylinder = shade.cylinder.filter(|_| form == SunshadeModel::Cylinder);

@@ -25,6 +25,8 @@ enumeration! {
     }
 }
 
+crate::toml::plain!(PanelControl);
+
 /// A flat panel whose axis of rotation passes through its centre (paper 000, eqs 9-11).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Panel {

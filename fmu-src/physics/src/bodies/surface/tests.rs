@@ -57,7 +57,10 @@ fn temperatures_are_mercurys() {
 fn impossible_surfaces_are_refused_by_name() {
     let good = mercury(DayTemperature::Uniform);
     assert_eq!(good.validate(), Ok(()));
-    let name = |surface: PlanetSurface| surface.validate().unwrap_err().quantity;
+    let name = |surface: PlanetSurface| {
+        let refusal = surface.validate().unwrap_err();
+        refusal.found.split('`').nth(1).unwrap().to_owned()
+    };
     assert_eq!(name(PlanetSurface { radius_m: 0.0, ..good }), "radius");
     assert_eq!(name(PlanetSurface { emissivity: f64::NAN, ..good }), "emissivity");
     assert_eq!(name(PlanetSurface { emissivity: 0.0, ..good }), "emissivity");

@@ -259,7 +259,7 @@ fn impossible_views_are_refused() {
     let sunless = PlanetView::new(&Vector3::new(0.0, 5.0, 0.0), &Vector3::zeros(), 1.0).unwrap_err();
     assert!(sunless.to_string().contains("Sun 0 m"));
     assert!(PlanetView::new(&Vector3::new(f64::NAN, 5.0, 0.0), &Vector3::x(), 1.0).is_err());
-    assert_eq!(RingRule::new(0), Err(NodesError { found: 0 }));
+    assert!(RingRule::new(0).unwrap_err().found.starts_with("0 quadrature nodes"));
     assert!(PlanetGrid::new(0).is_err());
 }
 
