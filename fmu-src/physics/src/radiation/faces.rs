@@ -142,18 +142,8 @@ impl Faces {
             }
         }
         for (index, panel) in spacecraft.panels.iter().enumerate() {
-            let plate = Plate {
-                name: panel.name.clone(),
-                area_m2: panel.area_m2,
-                center_m: panel.center_body_m,
-                normal: panel.zero_normal_body,
-                optics: panel.optics,
-                rear_optics: panel.rear_optics,
-                thermal: panel.thermal,
-                polygon: panel.polygon.clone(),
-            };
             let hinge = Hinge { panel: index, point_body_m: panel.center_body_m, axis_body: panel.axis_body };
-            faces.add(&plate, [Normal::Front(index), Normal::Rear(index)], Some(hinge));
+            faces.add(&panel.plate_at_zero(), [Normal::Front(index), Normal::Rear(index)], Some(hinge));
         }
         Ok(faces)
     }
@@ -208,15 +198,8 @@ fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
     (0..CYLINDER_STRIPS).map(move |i| {
         let angle_rad = (f64::from(i) + 0.5) * width_rad - cylinder.half_angle_rad;
         let normal = Vector3::new(angle_rad.sin(), -angle_rad.cos(), 0.0);
-        Plate {
-            name: format!("shade strip {}", i + 1),
-            area_m2: cylinder.radius_m * width_rad * cylinder.height_m,
-            center_m: normal * cylinder.radius_m,
-            normal,
-            optics: cylinder.optics,
-            rear_optics: None,
-            thermal: Thermal::insulated(&cylinder.optics, None),
-            polygon: None,
-        }
+        let name = format!("shade strip {}", i + 1);
+        let area_m2 = cylinder.radius_m * width_rad * cylinder.height_m;
+        Plate::insulated(name, area_m2, normal * cylinder.radius_m, normal, cylinder.optics, None)
     })
 }

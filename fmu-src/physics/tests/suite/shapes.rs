@@ -66,15 +66,7 @@ fn shadowed_force_n(
 ) -> Vector3<f64> {
     let options = Options { self_shadowing, ..Options::default() };
     let model = DisturbanceModel::new(spacecraft, &options).unwrap();
-    let geometry = Geometry {
-        sun_direction_body: source_body,
-        sun_sine: 0.0,
-        sun_flux_w_m2: 1361.0,
-        lit_fraction: 1.0,
-        planet: None,
-        panel_angles_rad: &[],
-        center_of_mass_body_m: Vector3::zeros(),
-    };
+    let geometry = Geometry::sunlit(source_body, 1361.0);
     let mut workspace = Workspace::default();
     model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap()[Effect::Solar].force_body_n
 }

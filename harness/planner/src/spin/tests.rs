@@ -4,9 +4,7 @@ use clap::Parser;
 use physics::attitude::Inertia;
 use physics::spin::{damper::Damper, geometry::L1Phases, spinner::Spinner, train::Shape};
 
-use super::{
-    ACE, Options, PlanError, Row, Task, best, campaign, frontier, longest_interval_s, paper_plan, plan, trade,
-};
+use super::{ACE, Options, Row, Task, best, campaign, frontier, longest_interval_s, paper_plan, plan, trade};
 
 #[derive(Parser)]
 struct Line {
@@ -84,7 +82,8 @@ fn the_frontier_holds_no_train_that_another_beats() {
 
 #[test]
 fn plans_that_cannot_be_had_say_why() {
-    assert!(matches!(best(&trade(&task("--max-nutation 0.001")).unwrap()), Err(PlanError::NoPlan { .. })));
+    let text = best(&trade(&task("--max-nutation 0.001")).unwrap()).unwrap_err().to_string();
+    assert!(text.contains("no plan keeps the limits"), "{text}");
     let text = plan(&options("--max-duration 0.01")).unwrap_err().to_string();
     assert!(text.contains("shortest") && text.contains("min"));
     let text = plan(&options("--thruster V")).unwrap_err().to_string();
@@ -94,7 +93,7 @@ fn plans_that_cannot_be_had_say_why() {
     assert!(plan(&options("--spacecraft nowhere.toml")).unwrap_err().to_string().contains("nowhere.toml"));
     let text =
         Task::new(&Options { thruster: Some("thrust along +Z".into()), ..options("") }, &ace()).unwrap_err();
-    assert!(matches!(text, PlanError::NoTorque { .. }));
+    assert!(text.to_string().contains("no torque across the spin axis"));
 }
 
 #[test]
@@ -125,7 +124,7 @@ fn bodies_and_angles_that_have_no_quiet_plan_are_refused_with_what_is_allowed() 
     // A body of its own may be as bad as a flag.
     let mut slim = ace();
     slim.mass_properties.inertia_ratio.iter_mut().for_each(|ratio| *ratio = 0.9);
-    assert!(matches!(Task::new(&options(""), &slim), Err(PlanError::Ratio { .. })));
+    assert!(Task::new(&options(""), &slim).unwrap_err().to_string().contains("the inertia ratio I3/IT"));
 }
 
 #[test]

@@ -5,14 +5,7 @@ use approx::assert_relative_eq;
 use super::*;
 
 fn mercury(day_temperature: DayTemperature) -> PlanetSurface {
-    PlanetSurface {
-        radius_m: 2.44e6,
-        absorptivity: 0.88,
-        diffuse_reflectivity: 0.12,
-        emissivity: 0.9,
-        night_temperature_k: 100.0,
-        day_temperature,
-    }
+    PlanetSurface { day_temperature, ..MERCURY }
 }
 
 /// Power through the day hemisphere by rings of equal zenith angle, per pi R2.

@@ -50,6 +50,19 @@ pub enum Recoil<'a> {
 }
 
 impl<'a, T: Scalar> Geometry<'a, T> {
+    /// In sunlight alone, of a Sun that is a point; without panels, torque about the body frame's origin.
+    pub fn sunlit(sun_direction_body: Vector3<T>, sun_flux_w_m2: T) -> Self {
+        Self {
+            sun_direction_body,
+            sun_sine: T::constant(0.0),
+            sun_flux_w_m2,
+            lit_fraction: T::constant(1.0),
+            planet: None,
+            panel_angles_rad: &[],
+            center_of_mass_body_m: Vector3::zeros(),
+        }
+    }
+
     /// Geometry from positions: fluxes follow the inverse square of the distance (paper 004 eq 22).
     ///
     /// `sun_position_body_m` and `planet_position_body_m` point from the spacecraft to the centres. The planet's pole is

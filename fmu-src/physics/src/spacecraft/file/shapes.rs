@@ -217,16 +217,8 @@ impl Shape<'_> {
         let mut thermal = self.thermal;
         thermal.front = front.thermal;
         let dot = if facet.name.is_empty() { "" } else { "." };
-        Plate {
-            name: format!("{name}{dot}{}", facet.name),
-            area_m2: outline.area_m2(),
-            center_m: outline.centroid_m(),
-            normal: outline.normal(),
-            optics: front.optics,
-            rear_optics: self.rear.map(|rear| rear.optics),
-            thermal,
-            polygon: Some(outline),
-        }
+        let (name, rear) = (format!("{name}{dot}{}", facet.name), self.rear.map(|rear| rear.optics));
+        Plate { thermal, ..Plate::outlined(name, outline, front.optics, rear) }
     }
 
     /// Heat from inside leaves through all plates alike.
