@@ -7,28 +7,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::toml::Problem;
 
-const SMALL: &str = r#"
-name = "Small"
-[mass_properties]
-mass_kg = 100
-center_of_mass_m = [0.0, 0.1, 0.0]
-inertia_kg_m2 = [[10, 0, 0], [0, 12, 0], [0, 0, 15]]
-[optics.white]
-specular = 0.2
-diffuse = 0.5
-[[plates]]
-area_m2 = 2.0
-center_m = [0.0, -1.0, 0.0]
-normal = [0.0, -1.0, 0.0]
-optics = "white"
-[[panels]]
-area_m2 = 3.0
-center_m = [2.0, 0.0, 0.0]
-optics = "white"
-[[wheels]]
-axis = [1.0, 0.0, 0.0]
-capacity_n_m_s = 4.0
-"#;
+const SMALL: &str = include_str!("small.toml");
 
 fn small(text: &str) -> Spacecraft {
     Spacecraft::from_toml("small.toml", text).unwrap()

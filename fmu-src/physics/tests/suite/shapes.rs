@@ -10,25 +10,7 @@ use physics::radiation::disturbance::{DisturbanceModel, Geometry, Options, Recoi
 use physics::radiation::{Beam, SolarModel};
 use physics::spacecraft::{Plate, Spacecraft};
 
-pub const HEAD: &str = r#"
-name = "Shapes"
-[mass_properties]
-mass_kg = 100
-center_of_mass_m = [0.1, 0.2, -0.3]
-inertia_kg_m2 = [[10, 0, 0], [0, 12, 0], [0, 0, 15]]
-[optics.grey]
-specular = 0.2
-diffuse = 0.3
-[optics.black]
-specular = 0
-diffuse = 0
-[optics.white]
-specular = 0
-diffuse = 1
-[optics.mirror]
-specular = 1
-diffuse = 0
-"#;
+pub const HEAD: &str = include_str!("shapes.toml");
 
 fn spacecraft(surfaces: &str) -> Spacecraft {
     Spacecraft::from_toml("shapes.toml", &format!("{HEAD}{surfaces}")).unwrap()
