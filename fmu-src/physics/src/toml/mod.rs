@@ -11,7 +11,7 @@ mod place;
 mod ranges;
 mod reader;
 mod spelling;
-mod tables;
+pub(crate) mod tables;
 
 pub use checker::Checker;
 pub(crate) use checker::rounded;

@@ -16,14 +16,14 @@ macro_rules! tables {
             $(
                 $(#[$key_about])*
                 $(#[cfg_attr(feature = "schema", schemars(extend("default" = $default)))])?
-                pub $key: $crate::toml::tables!(@read $type $(, $default)?),
+                pub $key: $crate::toml::tables::tables!(@read $type $(, $default)?),
             )+
         }
 
         impl $table {$($(
             #[doc = concat!("`", stringify!($key), "`, or its default.")]
-            pub fn $key(&self) -> <$type as $crate::toml::Written>::Value {
-                self.$key.map_or($default, $crate::toml::Written::value)
+            pub fn $key(&self) -> <$type as $crate::toml::tables::Written>::Value {
+                self.$key.map_or($default, $crate::toml::tables::Written::value)
             }
         )?)+}
     )+};
@@ -45,7 +45,7 @@ pub trait Written: Copy {
 /// What is written as it counts.
 macro_rules! plain {
     ($($type:ty),+) => {$(
-        impl $crate::toml::Written for $type {
+        impl $crate::toml::tables::Written for $type {
             type Value = Self;
 
             fn value(self) -> Self {
