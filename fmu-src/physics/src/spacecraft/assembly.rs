@@ -138,7 +138,6 @@ impl Spacecraft {
             list(check, &root.key("flexible_modes"), description.flexible_modes.as_deref(), mode);
         let sloshes = list(check, &root.key("slosh"), description.slosh.as_deref(), slosh);
         swinging_fits(check, &flexible_modes, &sloshes, &mass_properties);
-        let threshold = root.key("momentum").key("dump_threshold_n_m_s");
         Self {
             name: description.name.clone(),
             mass_properties,
@@ -168,13 +167,10 @@ impl Spacecraft {
                 description.instruments.as_deref(),
                 instrument,
             ),
-            dump_threshold_n_m_s: description.momentum.as_ref().map(|momentum| {
-                let mut axis = 0;
-                Vector3::from(momentum.dump_threshold_n_m_s.map(|value| {
-                    axis += 1;
-                    check.positive(&threshold.item(axis - 1), value)
-                }))
-            }),
+            dump_threshold_n_m_s: description
+                .momentum
+                .as_ref()
+                .map(|momentum| Vector3::from(momentum.dump_threshold_n_m_s.map(f64::from))),
             per_plate_outputs: description.per_plate_outputs(),
             background_k: materials.surroundings.background_k,
             planet_map: description

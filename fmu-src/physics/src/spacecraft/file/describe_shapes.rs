@@ -70,10 +70,10 @@ struct BoxDescription {
     /// Centre, in m.
     center_m: [f64; 3],
     /// Lengths along its own X, Y and Z axis, in m.
-    size_m: [f64; 3],
+    size_m: [Positive; 3],
     /// Turns of the box about the body's X, then Y, then Z direction through its centre, in deg; its axes are the body's
     /// unless given.
-    rotation_deg: Option<[f64; 3]>,
+    rotation_deg: Option<[TurnEither; 3]>,
     /// Material of the outside.
     optics: String,
     /// Materials of single faces instead: `+X`, `-X`, `+Y`, `-Y`, `+Z`, `-Z`.

@@ -17,7 +17,7 @@ use crate::spacecraft::thermal::EMISSIVITY_REFERENCE_TEMPERATURE_K;
 use crate::spacecraft::thruster::ThrusterSet;
 use crate::toml::{
     Emissivity, Finite, Fraction, HalfTurn, Kelvin, NonEmpty, NotNegative, Positive, QuarterTurn,
-    SpecificImpulse, SubtendedAngle, tables,
+    SpecificImpulse, SubtendedAngle, TurnEither, tables,
 };
 
 tables! {
@@ -141,7 +141,7 @@ struct SunshadeDescription {
     /// Which description is used.
     model: SunshadeModel,
     /// Misalignment: turns of the shade about the body's X, then Y, then Z axis, in deg.
-    rotation_deg: Option<[f64; 3]>,
+    rotation_deg: Option<[TurnEither; 3]>,
     /// Misalignment as matrix, row by row: components in the shade frame to components in the body frame.
     dcm_body_from_shade: Option<[[f64; 3]; 3]>,
     /// Plates in the shade frame.
@@ -197,9 +197,9 @@ struct PanelDescription {
     #[cfg_attr(feature = "schema", schemars(extend("enum" = [1, -1])))]
     tilt_sign: i64 = 1,
     /// Angle about the axis for `angle`, in deg.
-    angle_deg: f64 = 0.0,
+    angle_deg: TurnEither = 0.0,
     /// Misalignment: turns of the panel frame about the body's X, then Y, then Z axis, in deg.
-    rotation_deg: Option<[f64; 3]>,
+    rotation_deg: Option<[TurnEither; 3]>,
     /// Misalignment as matrix, row by row: components in the panel frame to components in the body frame.
     dcm_body_from_panel: Option<[[f64; 3]; 3]>,
 }
@@ -298,7 +298,7 @@ struct InstrumentDescription {
 /// Limits of the stored momentum; left out, they are what the wheels guarantee on all body axes at once.
 struct MomentumDescription {
     /// Magnitude of each body component at which thrusters dump it, in N m s.
-    dump_threshold_n_m_s: [f64; 3],
+    dump_threshold_n_m_s: [Positive; 3],
 }
 
 /// Directions the Sun may have, symmetric about -Y.

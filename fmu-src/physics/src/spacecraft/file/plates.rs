@@ -182,6 +182,6 @@ pub(crate) fn panel(
         control: description.control(),
         sun_offset_rad: description.sun_offset_deg().to_radians(),
         tilt_sign: if tilt_sign < 0 { -1.0 } else { 1.0 },
-        angle_rad: check.angle(&at.key("angle_deg"), description.angle_deg(), -360.0, 360.0),
+        angle_rad: description.angle_deg().to_radians(),
     }
 }

@@ -60,12 +60,7 @@ pub(crate) fn box_plates(
         }
     }
     let rear = rear(check, materials, at, description.rear_optics.as_deref());
-    let size = at.key("size_m");
-    let mut axis = 0;
-    let size_m = Vector3::from(description.size_m.map(|length_m| {
-        axis += 1;
-        check.positive(&size.item(axis - 1), length_m)
-    }));
+    let size_m = Vector3::from(description.size_m.map(f64::from));
     let shape = Shape {
         name: description.called(index),
         turn: check.rotation(at, ("rotation_deg", description.rotation_deg), ("", None)),
