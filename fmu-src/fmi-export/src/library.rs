@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::fmi2::description::{DescribeError, Prepared, prepare, start_names};
 use crate::location;
-use crate::model::{Manual, Model, SetupError, Source};
+use crate::model::{Manual, Model, SetupError};
 use crate::panics::contain;
 use crate::start_values::{OtherReaders, Reader};
 
@@ -24,8 +24,6 @@ pub struct Entry {
     pub reference_inputs: &'static str,
     /// The beginning of its manual.
     pub manual: Manual,
-    /// By what the model computes.
-    pub sources: &'static [Source],
     prepare: fn(&str, &str, OtherReaders<'_>) -> Result<Prepared, DescribeError>,
     start_names: fn(&str, &str) -> Option<BTreeSet<String>>,
 }
@@ -40,7 +38,6 @@ impl Entry {
             default_setup: M::DEFAULT_SETUP,
             reference_inputs: M::REFERENCE_INPUTS,
             manual: M::MANUAL,
-            sources: M::SOURCES,
             prepare: prepare::<M>,
             start_names: start_names::<M>,
         }

@@ -9,6 +9,7 @@
 pub mod constants;
 pub mod enumeration;
 pub mod numerics;
+pub mod refusal;
 
 pub mod bodies;
 

@@ -30,7 +30,7 @@ impl Sender {
         for file in entry.schedule_files {
             self.send(kind::SCHEDULE_FILE, file);
         }
-        let Manual { about, example, closed_loop, frames } = entry.manual;
+        let Manual { about, example, closed_loop, frames, .. } = entry.manual;
         let texts = [
             (kind::SETUP_TEXT, entry.default_setup),
             (kind::REFERENCE_INPUTS, entry.reference_inputs),
@@ -42,8 +42,8 @@ impl Sender {
         for (kind, text) in texts {
             self.send(kind, text);
         }
-        for source in entry.sources {
-            self.send(kind::SOURCE, &format!("{}\t{}", source.what, source.by));
+        for (what, by) in entry.manual.sources() {
+            self.send(kind::SOURCE, &format!("{what}\t{by}"));
         }
     }
 

@@ -8,7 +8,7 @@ mod variables;
 
 use fmi_export::{
     About, Dependencies, Extensions, Failure, InputsOverTime, Manual, Model, OutputRates, Real, SetupError,
-    Source, StartValue, Step, StepEnd, Values,
+    StartValue, Step, StepEnd, Values,
 };
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
@@ -57,7 +57,6 @@ impl Model for Guidance {
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/Guidance.csv");
     const MANUAL: Manual = crate::manuals::GUIDANCE;
-    const SOURCES: &'static [Source] = crate::sources::GUIDANCE;
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
 
     type Setup = GuidanceSetup;

@@ -10,8 +10,8 @@ mod step;
 mod variables;
 
 use fmi_export::{
-    About, Dependencies, Extensions, Failure, Manual, Model, OutputRates, Real, SetupError, Source,
-    StartValue, Step, StepEnd, Values,
+    About, Dependencies, Extensions, Failure, Manual, Model, OutputRates, Real, SetupError, StartValue, Step,
+    StepEnd, Values,
 };
 
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
@@ -28,7 +28,6 @@ impl Model for MomentumPlant {
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/MomentumPlant.csv");
     const MANUAL: Manual = crate::manuals::MOMENTUM_PLANT;
-    const SOURCES: &'static [Source] = crate::sources::MOMENTUM_PLANT;
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
 
     type Setup = PlantSetup;
