@@ -5,8 +5,11 @@ use super::safe_mode_flight::{
     BORESIGHT, OPERATIONAL_S, OUTAGE_S, PARDONED_S, SAFE_HOLD_S, SUN_BACK_S, SUN_LOST_S, TRACKER_BACK_S,
     TRACKER_FAILS_S, ZONE_ON_S, sun_angle_deg,
 };
+use nalgebra::Vector2;
+
 use crate::StudyError;
 use crate::attitude::{Vector, across, angle_rad, body_angles_deg};
+use crate::case::recorded;
 use crate::verdict::{agrees, compared};
 use drawing::Series;
 
@@ -36,6 +39,20 @@ impl Check {
     }
 }
 
+recorded! {
+    /// Limits and rates of Guidance, as the FMU has them.
+    pub struct Limits {
+        earth_acquisition_rad_s: f64 = "guidance.earthAcquisition.rate",
+        search_rad_s: f64 = "guidance.sunSearch.rate",
+        search_s: f64 = "guidance.sunSearch.duration",
+        zone_rad: Vector2<f64> = "guidance.keepIn.azimuth" "guidance.keepIn.elevation",
+        safe_hold_rad: Vector2<f64> = "guidance.safeHold.keepIn.azimuth" "guidance.safeHold.keepIn.elevation",
+        persistence_s: f64 = "guidance.monitor.persistence",
+        margin_rad: f64 = "guidance.monitor.margin",
+        beam_rad: f64 = "guidance.link.beam",
+    }
+}
+
 /// Parameters of Guidance that the checks compare with.
 pub struct Parameters {
     operational: i32,
@@ -44,44 +61,15 @@ pub struct Parameters {
     attitude: i32,
     error_quaternion: i32,
     rate_only: i32,
-    earth_acquisition_rad_s: f64,
-    search_rad_s: f64,
-    search_s: f64,
-    zone_deg: [f64; 2],
-    safe_hold_deg: [f64; 2],
-    persistence_s: f64,
-    margin_deg: f64,
-    beam_deg: f64,
+    limits: Limits,
+    zone_deg: Vector2<f64>,
+    safe_hold_deg: Vector2<f64>,
 }
 
 impl Parameters {
     /// As the FMU has them.
     pub fn read(both: &Loop) -> Result<Self, StudyError> {
-        let names = [
-            "earthAcquisition.rate",
-            "sunSearch.rate",
-            "sunSearch.duration",
-            "keepIn.azimuth",
-            "keepIn.elevation",
-            "safeHold.keepIn.azimuth",
-            "safeHold.keepIn.elevation",
-            "monitor.persistence",
-            "monitor.margin",
-            "link.beam",
-        ];
-        let values = both.parameters(names.map(|name| format!("guidance.{name}")))?;
-        let [
-            rate,
-            search,
-            search_s,
-            azimuth,
-            elevation,
-            hold_azimuth,
-            hold_elevation,
-            persistence_s,
-            margin,
-            beam,
-        ] = values;
+        let limits: Limits = both.parameters(Limits::NAMES)?;
         let mode = |item: &str| both.number("guidance.mode.active", item);
         let kind = |item: &str| both.number("guidance.command.kind", item);
         Ok(Self {
@@ -91,14 +79,9 @@ impl Parameters {
             attitude: kind("attitude")?,
             error_quaternion: kind("errorQuaternion")?,
             rate_only: kind("rateOnly")?,
-            earth_acquisition_rad_s: rate,
-            search_rad_s: search,
-            search_s,
-            zone_deg: [azimuth, elevation].map(f64::to_degrees),
-            safe_hold_deg: [hold_azimuth, hold_elevation].map(f64::to_degrees),
-            persistence_s,
-            margin_deg: margin.to_degrees(),
-            beam_deg: beam.to_degrees(),
+            limits,
+            zone_deg: limits.zone_rad.map(f64::to_degrees),
+            safe_hold_deg: limits.safe_hold_rad.map(f64::to_degrees),
         })
     }
 
@@ -111,8 +94,8 @@ impl Parameters {
         };
         let lost_s = TRACKER_FAILS_S + OUTAGE_S;
         [
-            line("earthAcquisition.rate about -Y", -self.earth_acquisition_rad_s, lost_s, SUN_LOST_S),
-            line("sunSearch.rate", self.search_rad_s, SUN_LOST_S, SUN_BACK_S),
+            line("earthAcquisition.rate about -Y", -self.limits.earth_acquisition_rad_s, lost_s, SUN_LOST_S),
+            line("sunSearch.rate", self.limits.search_rad_s, SUN_LOST_S, SUN_BACK_S),
         ]
     }
 }
@@ -149,12 +132,12 @@ fn after(samples: &[Sample], since_s: f64, is: impl Fn(&Sample) -> bool) -> f64 
 }
 
 /// How far outside a zone the Sun is, in deg; negative within.
-fn beyond_deg(sample: &Sample, zone_deg: &[f64; 2]) -> f64 {
+fn beyond_deg(sample: &Sample, zone_deg: &Vector2<f64>) -> f64 {
     outside_deg(&sample.sun_body_m(), zone_deg)
 }
 
 /// The same of a body direction.
-fn outside_deg(body: &Vector, zone_deg: &[f64; 2]) -> f64 {
+fn outside_deg(body: &Vector, zone_deg: &Vector2<f64>) -> f64 {
     let [azimuth, elevation] = body_angles_deg(body);
     (azimuth.abs() - zone_deg[0]).max(elevation.abs() - zone_deg[1])
 }
@@ -187,6 +170,7 @@ fn acquired(samples: &[Sample], from_s: f64, to_s: f64) -> (bool, String) {
 
 /// Inertial reference, then the Sun, are lost and found.
 pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> {
+    let limits = &parameters.limits;
     let mut checks = Vec::new();
     let mut check =
         |statement, (holds, found): (bool, String)| checks.push(Check { statement, found, holds });
@@ -218,7 +202,7 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     let settled = Phase::between(samples, SUN_LOST_S - SETTLED_S, SUN_LOST_S);
     check(
         "slow rotation about the Sun direction",
-        turns_about(&settled, &BORESIGHT, parameters.earth_acquisition_rad_s),
+        turns_about(&settled, &BORESIGHT, limits.earth_acquisition_rad_s),
     );
     let search_s = after(samples, SUN_LOST_S, |sample| sample.command_kind == parameters.rate_only);
     check(
@@ -231,22 +215,22 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
             ("then about a second", Vector::y()),
             ("then about a third", Vector::z()),
         ][round];
-        let from_s = SUN_LOST_S + search_s + round as f64 * parameters.search_s;
-        let to_s = from_s + parameters.search_s;
-        let commanded = |sample: &Sample| sample.command_rate_rad_s.dot(&axis) == parameters.search_rad_s;
+        let from_s = SUN_LOST_S + search_s + round as f64 * limits.search_s;
+        let to_s = from_s + limits.search_s;
+        let commanded = |sample: &Sample| sample.command_rate_rad_s.dot(&axis) == limits.search_rad_s;
         let seconds =
-            Phase::between(samples, SUN_LOST_S, SUN_LOST_S + search_s + 3.0 * parameters.search_s - 1.0);
+            Phase::between(samples, SUN_LOST_S, SUN_LOST_S + search_s + 3.0 * limits.search_s - 1.0);
         let seconds = seconds.0.iter().filter(|sample| commanded(sample)).count();
         let whole = Phase::between(samples, from_s, to_s - 1.0).all(commanded);
         let end = Phase::between(samples, to_s - SETTLED_S, to_s - 1.0);
-        let (turns, text) = turns_about(&end, &axis, parameters.search_rad_s);
+        let (turns, text) = turns_about(&end, &axis, limits.search_rad_s);
         check(name, (whole && turns, format!("{} for {seconds} s, {text}", ["X", "Y", "Z"][round])));
     }
-    let again = Phase::between(samples, SUN_LOST_S + search_s + 3.0 * parameters.search_s, SUN_BACK_S);
+    let again = Phase::between(samples, SUN_LOST_S + search_s + 3.0 * limits.search_s, SUN_BACK_S);
     check(
         "cycling is repeated",
         (
-            again.all(|it| it.command_rate_rad_s == Vector::new(parameters.search_rad_s, 0.0, 0.0)),
+            again.all(|it| it.command_rate_rad_s == Vector::new(limits.search_rad_s, 0.0, 0.0)),
             format!("about X again to {SUN_BACK_S:.0} s"),
         ),
     );
@@ -277,10 +261,10 @@ pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     });
     check("an attitude that maintains communication with Earth", {
         let off_deg =
-            end.greatest(|it| body_angles_deg(&it.q.inverse_transform_vector(&it.to_earth_m))[1].abs());
+            end.greatest(|it| body_angles_deg(&it.q.inverse_transform_vector(&it.to_earth_m()))[1].abs());
         let links = end.all(|sample| sample.has_link);
         (
-            links && off_deg <= parameters.beam_deg,
+            links && off_deg <= limits.beam_rad.to_degrees(),
             format!(
                 "Earth within {off_deg:.1e} deg of the antennas' plane, link {}",
                 if links { "kept" } else { "lost" }
@@ -309,6 +293,7 @@ fn plus_z_from_sun_deg(sample: &Sample) -> f64 {
 
 /// The keep-in zone is put in force while the Sun is outside.
 pub fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> {
+    let limits = &parameters.limits;
     let mut checks = Vec::new();
     let mut check =
         |statement, (holds, found): (bool, String)| checks.push(Check { statement, found, holds });
@@ -317,7 +302,7 @@ pub fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     let commanded = Phase::between(samples, ZONE_ON_S + DELAY_S, stop_s);
     check("the command is forced into the zone", {
         let most_deg = commanded.greatest(|sample| {
-            outside_deg(&sample.command_q.inverse_transform_vector(&sample.to_sun_m), &parameters.zone_deg)
+            outside_deg(&sample.command_q.inverse_transform_vector(&sample.to_sun_m()), &parameters.zone_deg)
         });
         let kinds = commanded.all(|sample| sample.command_kind == parameters.attitude);
         (kinds && most_deg < 1e-6, format!("at most {most_deg:.1e} deg outside"))
@@ -329,8 +314,8 @@ pub fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> 
     check(
         "a violation that persists demotes to the next lowest mode",
         (
-            least_deg > parameters.margin_deg
-                && (parameters.persistence_s..=parameters.persistence_s + DELAY_S).contains(&demoted_s)
+            least_deg > limits.margin_rad.to_degrees()
+                && (limits.persistence_s..=limits.persistence_s + DELAY_S).contains(&demoted_s)
                 && !lowest,
             format!("Sun {sun_deg:.1} deg from -Y, Safe Hold {demoted_s:.0} s later"),
         ),
