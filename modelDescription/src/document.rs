@@ -178,17 +178,7 @@ impl<S: Sink> Elements<'_, S> {
             out.text("name", &unit.name);
             if let Some(base) = &unit.base {
                 out.element("BaseUnit", |out| {
-                    let exponents = [
-                        ("kg", base.kg),
-                        ("m", base.m),
-                        ("s", base.s),
-                        ("A", base.a),
-                        ("K", base.k),
-                        ("mol", base.mol),
-                        ("cd", base.cd),
-                        ("rad", base.rad),
-                    ];
-                    for (symbol, exponent) in exponents {
+                    for (symbol, exponent) in base.exponents() {
                         out.shown(symbol, (exponent != 0).then_some(exponent));
                     }
                     out.scale(base.factor, base.offset);

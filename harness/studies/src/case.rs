@@ -22,40 +22,36 @@ pub(crate) struct Case {
 }
 
 /// What is simulated: one FMU, or a system, whose variables are named `component.variable`.
-#[derive(Clone, Copy)]
-pub(crate) enum Model<'a> {
-    Fmu(&'a Fmu),
-    System(&'a System),
+pub(crate) trait Model {
+    fn description(&self) -> &Description;
+    fn simulate_into(&self, options: loader::Options<'_>, rows: &mut dyn Rows) -> Result<(), loader::Error>;
 }
 
-impl<'a> From<&'a Fmu> for Model<'a> {
-    fn from(fmu: &'a Fmu) -> Self {
-        Self::Fmu(fmu)
-    }
-}
-
-impl<'a> From<&'a System> for Model<'a> {
-    fn from(system: &'a System) -> Self {
-        Self::System(system)
-    }
-}
-
-impl Model<'_> {
+impl Model for Fmu {
     fn description(&self) -> &Description {
-        match self {
-            Self::Fmu(fmu) => fmu.description(),
-            Self::System(system) => system.description(),
-        }
+        self.description()
     }
 
-    /// Positions of the variables that names of variables and vectors mean, in this order.
-    fn positions<S: AsRef<str>>(&self, names: &[S]) -> Result<Vec<usize>, loader::Error> {
-        let select = |name: &S| match self {
-            Self::Fmu(fmu) => fmu.select(name.as_ref()),
-            Self::System(system) => loader::select(system.description(), name.as_ref()),
-        };
-        Ok(names.iter().map(select).collect::<Result<Vec<_>, _>>()?.concat())
+    fn simulate_into(&self, options: loader::Options<'_>, rows: &mut dyn Rows) -> Result<(), loader::Error> {
+        loader::simulate_into(self, options, rows).map(|_| ())
     }
+}
+
+impl Model for System {
+    fn description(&self) -> &Description {
+        self.description()
+    }
+
+    fn simulate_into(&self, options: loader::Options<'_>, rows: &mut dyn Rows) -> Result<(), loader::Error> {
+        let way = (Master::default(), FirstExchange::Separate);
+        systems::simulate_into(self, way, options, rows).map(|_| ())
+    }
+}
+
+/// Positions of the variables that names of variables and vectors mean, in this order.
+fn positions<S: AsRef<str>>(model: &dyn Model, names: &[S]) -> Result<Vec<usize>, loader::Error> {
+    let select = |name: &S| loader::select(model.description(), name.as_ref());
+    Ok(names.iter().map(select).collect::<Result<Vec<_>, _>>()?.concat())
 }
 
 /// Recorded columns, in the order of the names, and the recorded points.
@@ -269,65 +265,48 @@ impl Case {
         self.with(value.of(name))
     }
 
-    /// The error of this case.
-    pub fn failed(&self, source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> StudyError {
-        StudyError::Simulation { case: self.label.clone(), source: source.into() }
-    }
-
     /// Simulates it and returns the columns of `names`, of variables and vectors.
-    pub fn simulate<'m, S: AsRef<str>>(
-        &self,
-        model: impl Into<Model<'m>>,
-        names: &[S],
-    ) -> Result<Recorded, StudyError> {
+    pub fn simulate<S: AsRef<str>>(&self, model: &dyn Model, names: &[S]) -> Result<Recorded, StudyError> {
         self.steer(model, names, &mut |_| Settings::new())
     }
 
     /// As [`Self::simulate`]; what `steer` answers to a recorded point is set there.
-    pub fn steer<'m, S: AsRef<str>>(
+    pub fn steer<S: AsRef<str>>(
         &self,
-        model: impl Into<Model<'m>>,
+        model: &dyn Model,
         names: &[S],
         steer: &mut dyn FnMut(Row<'_>) -> Settings,
     ) -> Result<Recorded, StudyError> {
-        self.run(model.into(), names, steer).map_err(|error| self.failed(error))
+        let failed = |error| StudyError::Simulation { case: self.label.clone(), source: Box::new(error) };
+        self.run(model, names, steer).map_err(failed)
     }
 
     fn run<S: AsRef<str>>(
         &self,
-        model: Model<'_>,
+        model: &dyn Model,
         names: &[S],
         steer: &mut dyn FnMut(Row<'_>) -> Settings,
     ) -> Result<Recorded, loader::Error> {
-        let positions = model.positions(names)?;
-        let variables = &model.description().variables;
-        let types: Vec<_> = positions.iter().map(|position| variables[*position].kind.base_type()).collect();
-        let columns = vec![Vec::new(); types.len()];
-        let mut rows = Steered { recorded: Recorded { columns, ..Recorded::default() }, types, steer };
+        let record = positions(model, names)?;
+        let base_type = |position: &usize| model.description().variables[*position].kind.base_type();
+        let types: Vec<_> = record.iter().map(base_type).collect();
+        let recorded = Recorded { times_s: Vec::new(), columns: vec![Vec::new(); types.len()] };
+        let mut rows = Steered { recorded, types, steer };
         let options = loader::Options {
             stop_s: Some(self.stop_s),
             step_s: Some(self.step_s),
             record_every_s: self.every_s,
             sets: self.sets.clone(),
-            record: Some(positions),
-            apart: model.positions(self.apart.as_slice())?.first().copied(),
+            record: Some(record),
+            apart: positions(model, self.apart.as_slice())?.first().copied(),
             ..loader::Options::default()
         };
-        match model {
-            Model::Fmu(fmu) => loader::simulate_into(fmu, options, &mut rows)?,
-            Model::System(system) => {
-                let way = (Master::default(), FirstExchange::Separate);
-                systems::simulate_into(system, way, options, &mut rows)?
-            }
-        };
+        model.simulate_into(options, &mut rows)?;
         Ok(rows.recorded)
     }
 }
 
 /// The values of variables and vectors at the start, as nobody sets them.
-pub(crate) fn at_start<'m, S: AsRef<str>>(
-    model: impl Into<Model<'m>>,
-    names: &[S],
-) -> Result<Recorded, StudyError> {
+pub(crate) fn at_start<S: AsRef<str>>(model: &dyn Model, names: &[S]) -> Result<Recorded, StudyError> {
     Case::new("start values", 1.0, 1.0).simulate(model, names)
 }

@@ -86,19 +86,10 @@ impl Read<'_> {
             match child.name.as_str() {
                 "BaseUnit" if unit.base.is_some() => return Err(twice(&child)),
                 "BaseUnit" => {
-                    let mut exponent = |symbol| fields.int(symbol).map(|value| value.unwrap_or(0));
-                    unit.base = Some(BaseUnit {
-                        kg: exponent("kg")?,
-                        m: exponent("m")?,
-                        s: exponent("s")?,
-                        a: exponent("A")?,
-                        k: exponent("K")?,
-                        mol: exponent("mol")?,
-                        cd: exponent("cd")?,
-                        rad: exponent("rad")?,
-                        factor: fields.double("factor")?.unwrap_or(1.0),
-                        offset: fields.double("offset")?.unwrap_or(0.0),
-                    });
+                    let factor = fields.double("factor")?.unwrap_or(1.0);
+                    let offset = fields.double("offset")?.unwrap_or(0.0);
+                    let exponent = |symbol| fields.int(symbol).map(|value| value.unwrap_or(0));
+                    unit.base = Some(BaseUnit::of(exponent, factor, offset)?);
                 }
                 "DisplayUnit" => unit.display_units.push(DisplayUnit {
                     name: fields.required("name")?,
