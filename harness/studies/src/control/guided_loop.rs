@@ -53,17 +53,17 @@ recorded! {
 
 impl Sample {
     /// From the spacecraft to the planet's centre, EME2000, in m.
-    pub fn to_planet_m(&self) -> Vector {
+    pub fn to_planet_m(self) -> Vector {
         -self.position_m
     }
 
     /// To the Sun.
-    pub fn to_sun_m(&self) -> Vector {
+    pub fn to_sun_m(self) -> Vector {
         self.sun_m - self.position_m
     }
 
     /// To the Earth.
-    pub fn to_earth_m(&self) -> Vector {
+    pub fn to_earth_m(self) -> Vector {
         self.earth_m - self.position_m
     }
 
