@@ -64,7 +64,7 @@ impl Checker {
                     "in state {} it takes only {}, and {} is none",
                     self.state.get().map_or("unknown", State::name),
                     condition.text(),
-                    self.name_of(base, reference)
+                    self.fmu.name_of(base, reference)
                 ));
             }
         }
@@ -83,13 +83,6 @@ impl Checker {
             return Err("fmi2SetupExperiment comes first".to_owned());
         }
         Ok(access)
-    }
-
-    fn name_of(&self, base: BaseType, reference: u32) -> String {
-        let mut variables = self.fmu.description().variables.iter();
-        variables
-            .find(|variable| variable.value_reference == reference && variable.kind.base_type() == base)
-            .map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone())
     }
 
     /// Follows the answer of a call that was made.

@@ -348,9 +348,6 @@ struct InputSetter<'a> {
     variables: Vec<&'a ScalarVariable>,
     last: Vec<Option<Value>>,
     slopes: bool,
-    references: Vec<u32>,
-    orders: Vec<i32>,
-    values: Vec<f64>,
 }
 
 impl<'a> InputSetter<'a> {
@@ -359,15 +356,7 @@ impl<'a> InputSetter<'a> {
             table.positions().map(|position| &fmu.description().variables[position]).collect();
         let last = vec![None; variables.len()];
         let can = fmu.description().co_simulation.as_ref().is_some_and(|it| it.can_interpolate_inputs);
-        Self {
-            table,
-            variables,
-            last,
-            slopes: slopes && can,
-            references: Vec::new(),
-            orders: Vec::new(),
-            values: Vec::new(),
-        }
+        Self { table, variables, last, slopes: slopes && can }
     }
 
     fn set(&mut self, instance: &mut Instance, time_s: f64, initializing: bool) -> Result<(), Error> {
@@ -385,23 +374,16 @@ impl<'a> InputSetter<'a> {
         Ok(())
     }
 
-    fn set_slopes(&mut self, instance: &mut Instance, time_s: f64) -> Result<(), Error> {
-        if !self.slopes {
+    fn set_slopes(&self, instance: &mut Instance, time_s: f64) -> Result<(), Error> {
+        let slope = |(column, variable): (usize, &&ScalarVariable)| {
+            let slope = self.table.slope(column, time_s).filter(|slope| self.slopes && *slope != 0.0)?;
+            Some((variable.value_reference, slope))
+        };
+        let (references, values): (Vec<u32>, Vec<f64>) =
+            self.variables.iter().enumerate().filter_map(slope).unzip();
+        if references.is_empty() {
             return Ok(());
         }
-        self.references.clear();
-        self.orders.clear();
-        self.values.clear();
-        for (column, variable) in self.variables.iter().enumerate() {
-            if let Some(slope) = self.table.slope(column, time_s).filter(|slope| *slope != 0.0) {
-                self.references.push(variable.value_reference);
-                self.orders.push(1);
-                self.values.push(slope);
-            }
-        }
-        if self.references.is_empty() {
-            return Ok(());
-        }
-        instance.set_input_derivatives(&self.references, &self.orders, &self.values)
+        instance.set_input_derivatives(&references, &vec![1; references.len()], &values)
     }
 }

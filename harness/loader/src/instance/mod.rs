@@ -353,19 +353,7 @@ impl Instance {
 
     fn names(&self, references: &[u32], base: BaseType) -> Vec<String> {
         const SHOWN: usize = 4;
-        let variables = &self.fmu.description().variables;
-        references
-            .iter()
-            .take(SHOWN)
-            .map(|&reference| {
-                variables
-                    .iter()
-                    .find(|variable| {
-                        variable.value_reference == reference && variable.kind.base_type() == base
-                    })
-                    .map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone())
-            })
-            .collect()
+        references.iter().take(SHOWN).map(|&reference| self.fmu.name_of(base, reference)).collect()
     }
 
     fn failure(&self, call: String, outcome: Outcome) -> Error {

@@ -2,7 +2,7 @@
 
 use super::slew_figures::figure;
 use super::slew_flight::{BodySample, Event, Plant, SLEW_S, Sample, Simulated, Slew, WheelSample};
-use crate::attitude::Vector;
+use crate::attitude::{Vector, greatest};
 use crate::cells::row;
 use crate::report::{Outcome, Run};
 
@@ -47,10 +47,6 @@ struct Measures {
     /// Whether the torque requested was ever more than the wheels could give.
     is_torque_limited: bool,
     dumps: i32,
-}
-
-fn greatest(values: impl Iterator<Item = f64>) -> f64 {
-    values.map(f64::abs).fold(0.0, f64::max)
 }
 
 impl Measures {

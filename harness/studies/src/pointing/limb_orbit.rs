@@ -4,7 +4,7 @@ use super::disc::{View, disc_chart};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, GEOMETRY, Place, Sample, Simulated};
 use super::limb_point::{Found, PLUS_Z, triaxial};
 use crate::StudyError;
-use crate::attitude::{Vector, across, angle_rad};
+use crate::attitude::{Vector, across, angle_rad, greatest};
 use crate::cells::row;
 use crate::report::{Outcome, Run};
 use crate::settings::set;
@@ -49,7 +49,6 @@ pub(super) fn print(run: &mut Run<'_>, simulated: &Simulated) -> Outcome {
     let total = points.len();
     let count = |n: usize| points.iter().filter(|point| point.solutions.len() == n).count();
     let two = || points.iter().filter_map(|point| Some((point, point.nearer?)));
-    let greatest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
     let aim_rad = |(point, aim): (&Point<'_>, Vector)| {
         angle_rad(&point.boresight, &(aim - point.sample.place.position_m))
     };
@@ -66,27 +65,24 @@ pub(super) fn print(run: &mut Run<'_>, simulated: &Simulated) -> Outcome {
         ("target.reachable says which", format!("{reported} of {total}")),
         (
             "+Z off the solution nearer to downtrack, greatest",
-            format!("{:.1e} rad", greatest(&mut two().map(aim_rad))),
+            format!("{:.1e} rad", greatest(two().map(aim_rad))),
         ),
         (
             "+Z off the centre where there is none, greatest",
             format!(
                 "{:.1e} rad",
-                greatest(&mut points.iter().filter(|point| point.nearer.is_none()).map(nadir_rad))
+                greatest(points.iter().filter(|point| point.nearer.is_none()).map(nadir_rad))
             ),
         ),
         (
             "height residual, greatest",
             format!(
                 "{:.1e} m",
-                greatest(&mut two().filter_map(|(point, _)| Some(point.found.as_ref()?.height_m)))
+                greatest(two().filter_map(|(point, _)| Some(point.found.as_ref()?.height_m)))
             ),
         ),
         ("Sun elevation in the body frame", format!("{least:+.1} to {most:+.1} deg")),
-        (
-            "Sun azimuth, greatest",
-            format!("{:.1e} deg", greatest(&mut points.iter().map(|p| p.sun_deg()[0]))),
-        ),
+        ("Sun azimuth, greatest", format!("{:.1e} deg", greatest(points.iter().map(|p| p.sun_deg()[0])))),
         ("Sun within its zone of 15 by 13 deg", share(inside)),
     ];
     run.table("terminator limb | ", &rows.map(|(name, value)| vec![name.to_owned(), value]));

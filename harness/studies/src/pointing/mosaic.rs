@@ -4,7 +4,7 @@ use super::camera::Frame;
 use super::disc::{View, disc_chart};
 use super::flight::{Fmus, GEOMETRY, Simulated};
 use super::scans::{CASES, Case};
-use crate::attitude::{Vector, angle_rad};
+use crate::attitude::{Vector, angle_rad, greatest};
 use crate::cells::row;
 use crate::report::{Outcome, Run};
 use drawing::{PlaneChart, Series};
@@ -43,18 +43,16 @@ impl Numbers {
             disc.iter().map(|x| frames.iter().filter(|frame| frame.shows(x)).count()).collect();
         let at_least = |times: usize| shown.iter().filter(|n| **n >= times).count() as f64;
         let rate = |rate: &Vector| rate.norm().to_degrees();
-        let greatest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
-        let sun = |i: usize| {
-            greatest(&mut simulated.samples.iter().map(|s| s.body_angles_deg(&s.place.to_sun_m)[i]))
-        };
+        let sun =
+            |i: usize| greatest(simulated.samples.iter().map(|s| s.body_angles_deg(&s.place.to_sun_m)[i]));
         Self {
             frames: frames.len(),
             coverage: at_least(1) / disc.len().max(1) as f64,
             twice: at_least(2) / at_least(1),
             overlaps: frames.windows(2).map(overlap).collect(),
             rates_deg_s: [
-                greatest(&mut simulated.samples.iter().map(|s| rate(&s.rate_rad_s))),
-                greatest(&mut frames.iter().map(|frame| rate(&frame.sample.rate_rad_s))),
+                greatest(simulated.samples.iter().map(|s| rate(&s.rate_rad_s))),
+                greatest(frames.iter().map(|frame| rate(&frame.sample.rate_rad_s))),
             ],
             sun_deg: [sun(0), sun(1)],
             constrained: simulated.samples.iter().filter(|s| s.constrained || !s.scan_active).count(),

@@ -2,7 +2,7 @@
 
 use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, GEOMETRY, Place, Sample, Simulated};
 use crate::StudyError;
-use crate::attitude::angle_rad;
+use crate::attitude::{angle_rad, greatest};
 use crate::cells::row;
 use crate::report::{Outcome, Run};
 use crate::settings::{Settings, set};
@@ -122,9 +122,8 @@ fn rows(angle: Angle, simulated: &Simulated) -> Vec<Vec<String>> {
     let before_slew = || {
         simulated.samples.iter().filter(|sample| sample.place.time_s < SLEW_S).map(|s| Angles::of(s).earth)
     };
-    let greatest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
-    let sun = [0, 1].map(|i| greatest(&mut all().map(|angles| angles.sun[i])));
-    let elevation = greatest(&mut before_slew().map(|earth| earth[1]));
+    let sun = [0, 1].map(|i| greatest(all().map(|angles| angles.sun[i])));
+    let elevation = greatest(before_slew().map(|earth| earth[1]));
     let azimuth = Angles::of(before).earth[0];
     // Adding zero takes the sign from a zero.
     let planet = Angles::of(after).planet.map(|x| (100.0 * x).round() / 100.0 + 0.0);

@@ -11,6 +11,7 @@ use super::spinner::{
 use crate::StudyError;
 use crate::attitude::Vector;
 use crate::report::{Outcome, Run};
+use crate::settings::{Settings, set};
 use crate::verdict::{compared, rounds, verdict, verdict_text};
 
 /// Number of ratios over 1.471 to 1.494 at which trains are simulated.
@@ -54,8 +55,7 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         .simulate(fmu, &names)?;
     let train = |thruster: i32, turns: f64| {
         paper_case("2 deg", 1800.0, 1800.0)
-            .set("burn.thruster", thruster)
-            .set("burn.oppositeThruster", if thruster == AXIAL { AXIAL_OPPOSITE } else { 10 })
+            .with(thrusters(thruster))
             .set("burn.turnsPerPulse", turns)
             .set("burn.angle", 2.0 * PI / 180.0)
             .simulate(fmu, &names)
@@ -123,6 +123,12 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     ])
 }
 
+/// A thruster and the one that fires opposite it.
+fn thrusters(thruster: i32) -> Settings {
+    let opposite = if thruster == AXIAL { AXIAL_OPPOSITE } else { 10 };
+    [set("burn.thruster", thruster), set("burn.oppositeThruster", opposite)].concat()
+}
+
 /// Half the angle by which the body turns while a pulse of 32 ms is on, from the edges of a simulation, in deg.
 fn half_arc_deg(fmu: &Fmu) -> Result<f64, StudyError> {
     let simulated = paper_case("half arc", 2.0 * PERIOD_S, 0.016)
@@ -184,8 +190,7 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         let sine =
             2.0_f64.to_radians() / count * SPIN_INERTIA_KG_M2 * RATE_RAD_S.powi(2) / (2.0 * FORCE_N * arm_m);
         let found = paper_case("envelope", 1.0, 1.0)
-            .set("burn.thruster", thruster)
-            .set("burn.oppositeThruster", if thruster == AXIAL { AXIAL_OPPOSITE } else { 10 })
+            .with(thrusters(thruster))
             .set("burn.turnsPerPulse", turns)
             .set("burn.pulseWidth", 2.0 * sine.asin() / RATE_RAD_S)
             .simulate(fmu, &["inertiaRatio", "nutation.envelope"])?;
