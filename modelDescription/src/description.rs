@@ -121,6 +121,42 @@ impl Default for BaseUnit {
     }
 }
 
+impl BaseUnit {
+    /// The SI base units' symbols with their exponents.
+    pub fn exponents(&self) -> [(&'static str, i32); 8] {
+        [
+            ("kg", self.kg),
+            ("m", self.m),
+            ("s", self.s),
+            ("A", self.a),
+            ("K", self.k),
+            ("mol", self.mol),
+            ("cd", self.cd),
+            ("rad", self.rad),
+        ]
+    }
+
+    /// Of exponents that are read by their symbols.
+    pub fn of<E>(
+        mut exponent: impl FnMut(&'static str) -> Result<i32, E>,
+        factor: f64,
+        offset: f64,
+    ) -> Result<Self, E> {
+        Ok(Self {
+            kg: exponent("kg")?,
+            m: exponent("m")?,
+            s: exponent("s")?,
+            a: exponent("A")?,
+            k: exponent("K")?,
+            mol: exponent("mol")?,
+            cd: exponent("cd")?,
+            rad: exponent("rad")?,
+            factor,
+            offset,
+        })
+    }
+}
+
 element! {
     /// `DisplayUnit`: value_display = factor * value_unit + offset.
     pub struct DisplayUnit {

@@ -42,7 +42,8 @@ pub use recorder::{Collector, Row, Rows};
 pub use recording::{Column, Recording};
 pub use select::{select, select_outputs};
 pub use simulate::{
-    Ended, Options, RecordedPoints, Simulation, Stopped, Times, outputs, set_early, simulate, simulate_into,
+    Ended, Options, RecordedPoints, Simulation, Stopped, Times, initialize, outputs, set_early, simulate,
+    simulate_into,
 };
 pub use status::LogMessage;
 pub use uri::file_uri;
