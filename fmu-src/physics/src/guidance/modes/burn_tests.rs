@@ -12,13 +12,18 @@ use crate::guidance::burn::delta_v::{BurnPhase, BurnSettings};
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::downlink::downlink_sun::SunOnMinusY;
 
+/// Where a path ends.
+fn end_m_s(path: &VelocityPath) -> Vector3<f64> {
+    path.point(path.length_m_s()).velocity_m_s
+}
+
 /// Root mean square over seeds 1 to 16 of the true direction's error with these corrections, in deg.
 fn direction_error_deg(predictive: bool, reactive: bool, bias_m_s2: f64) -> f64 {
     let squares = (1..=16).map(|seed| {
         let mut flight = BurnFlight::new(seed);
         (flight.settings.predictive, flight.settings.reactive) = (predictive, reactive);
         flight.accelerometers.bias_m_s2 = bias_m_s2;
-        let end = flight.settings.path.unwrap().end_m_s();
+        let end = end_m_s(&flight.settings.path.unwrap());
         let simulated = flight.fly(140);
         (simulated.velocity_m_s.angle(&end) / DEG_RAD).powi(2)
     });
@@ -109,7 +114,7 @@ fn a_powered_turn_is_followed() {
     flight.thrust.exhaust_m_s = 3100.0;
     flight.accelerometers = AccelerometerSettings::default();
     let simulated = flight.fly(400);
-    let end = flight.settings.path.unwrap().end_m_s();
+    let end = end_m_s(&flight.settings.path.unwrap());
     let error = simulated.velocity_m_s - end;
     assert!(simulated.velocity_m_s.angle(&end) < 0.01 * DEG_RAD, "{error}");
     assert!(error.norm() < 0.05, "{error}");

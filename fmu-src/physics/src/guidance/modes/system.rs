@@ -432,13 +432,10 @@ impl GuidanceState {
         let keeps_nadir = attitude.window.activity == Activity::Science && law.science.unloads();
         let earth_body = || value(&pointing.to_body(&surroundings.to_earth()));
         Aimed {
-            vectors: pointing.vectors(),
-            mdis: None,
             second: keeps_nadir.then(|| surroundings.to_planet()),
             antenna: is_downlink.then(|| Beam::AtTheEarth(AntennaAzimuth::toward(&earth_body()))),
             reachable: !attitude.slewing && attitude.margins.iter().all(|margin| *margin >= 0.0),
-            clamped: false,
-            scan_active: false,
+            ..Aimed::at(pointing.vectors())
         }
     }
 
