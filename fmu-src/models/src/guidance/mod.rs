@@ -125,7 +125,7 @@ impl Model for Guidance {
         shown.sample(context, values, &fixed, &settings, InputsOverTime::held())?;
         state.ephemeris = shown.ephemeris.clone();
         state.coarse = shown.coarse.clone();
-        outputs::write(context, values, &shown.system, &shown.dumps, &fixed.burn, start_s, epoch_s);
+        outputs::write(context, values, &shown, &fixed.burn, epoch_s);
         state.fixed = Some(fixed);
         Ok(state)
     }
@@ -157,7 +157,7 @@ impl Model for Guidance {
         }
         let epoch_s = time::epoch_at_s(step.end_s, state.epoch_minus_time_s);
         state.time_s = step.end_s;
-        outputs::write(context, values, &state.system, &state.dumps, &fixed.burn, step.end_s, epoch_s);
+        outputs::write(context, values, state, &fixed.burn, epoch_s);
         state.fixed = Some(fixed);
         Ok(StepEnd::at(step.end_s))
     }
@@ -254,7 +254,7 @@ impl State {
         let manager = management::manager(context, values, &fixed.panels, &keep_in)?;
         let manager = SampledManager { momentum_body_n_m_s, ..manager };
         let inputs = SampleInputs { command, entries, places, sensed, delta_v_body_m_s };
-        let is_asked = self.system.sample(&settings, &inputs, &manager);
+        let is_asked = self.system.sample(&settings, &inputs, |start| manager.choose(start));
         Ok(if is_asked { manager.work(settings.orbit_phase.science.unloads()) } else { 0 })
     }
 }

@@ -4,8 +4,8 @@ use fmi_export::{Real, Values};
 
 use physics::guidance::burn::delta_v::{BurnSettings, BurnState};
 use physics::guidance::modes::system::GuidanceState;
-use physics::management::DumpRequests;
 
+use super::State;
 use super::setup::Plan;
 use super::variables::choices::{ActiveMode, AntennaSelect, EphemerisModel, EphemerisSource};
 use crate::common::choices::{CommandKind, ThrustRequest};
@@ -13,17 +13,10 @@ use crate::common::choices::{CommandKind, ThrustRequest};
 /// What `thrust.stop` says without thrust, in s.
 const NO_STOP_S: f64 = -1.0;
 
-/// Writes every output at `time_s`, the epoch there being `epoch_s`.
-pub fn write(
-    context: &Plan<'_>,
-    values: &mut Values,
-    state: &GuidanceState,
-    dumps: &DumpRequests,
-    burn: &BurnSettings,
-    time_s: f64,
-    epoch_s: f64,
-) {
+/// Writes every output at the communication point reached, the epoch there being `epoch_s`.
+pub fn write(context: &Plan<'_>, values: &mut Values, state: &State, burn: &BurnSettings, epoch_s: f64) {
     let v = context.variables;
+    let (State { system: state, dumps, .. }, time_s) = (state, state.time_s);
     let command = state.command();
     let attitude = command.attitude_at(time_s);
     values.set_choice(v.command.kind, CommandKind(command.kind));

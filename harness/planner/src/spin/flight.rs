@@ -226,7 +226,7 @@ impl Flyer<'_> {
             .map_err(|error| PlanError::Flight(error.to_string()))?;
         let sun = centred.state().attitude.body_from_inertial(&self.task.aim.sun_inertial);
         let slit_rad = self.spinner.sun_sensor.azimuth_deg.to_radians();
-        let last_s = self.plant.sensors().sun_crossings().last_s();
+        let last_s = self.plant.sensors().sun.last_s;
         self.opened = Some(Pulse {
             time_s,
             on_time_s: before_s + after_s,

@@ -5,7 +5,7 @@ use core::cell::RefCell;
 use nalgebra::{Matrix3, Vector3};
 
 use super::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
-use super::moving::{MovingMatrix, matrix_value, moving};
+use super::moving::{MovingMatrix, fixed, matrix_value, moving};
 use crate::bodies::Body;
 use crate::constants::DEG_RAD;
 use crate::environment::CartesianState;
@@ -14,6 +14,19 @@ use crate::environment::orbit::{Elements, TwoBodyOrbit, semi_major_axis_m};
 
 /// 2011-04-06, a whole number of seconds past J2000: times in steps of powers of two are exact.
 const EPOCH_S: f64 = 355_363_200.0;
+
+/// At epoch 0 about Mercury, with Sun and Earth that stand still.
+pub fn about_mercury(position: Vector3<f64>, sun: Vector3<f64>, earth: Vector3<f64>) -> EphemerisAtTime {
+    EphemerisAtTime {
+        epoch_s: 0.0,
+        planet: TargetPlanet::of(Body::Mercury.data()),
+        position: fixed(position),
+        velocity: fixed(Vector3::y() * 3e3),
+        sun: fixed(sun),
+        earth: fixed(earth),
+        bodies: [None; Body::ALL.len()],
+    }
+}
 
 /// The orbit of paper 001: periapsis at 200 km, 60 deg north, inclined by 80 deg, about a triaxial Mercury.
 pub struct TestOrbit {

@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
-use super::{ace, directions, paper_start, request, uniform_train_rad};
+use super::{ace, burning, directions, launch, paper_start, request, undamped, uniform_train_rad};
 use crate::attitude::angle_between_rad;
 use crate::spacecraft::ValveTiming;
 use crate::spin::{
@@ -17,10 +17,6 @@ use crate::spin::{
     train::Shape,
 };
 
-fn launch(spinner: &Spinner, start: &Start) -> Plant {
-    Plant::start(spinner, start, directions(), Commands::none(), 0.0).unwrap()
-}
-
 fn fly(spinner: &Spinner, start: &Start, end_s: f64) -> Plant {
     let mut plant = launch(spinner, start);
     plant.advance(spinner, end_s).unwrap();
@@ -33,8 +29,7 @@ fn nutation_follows_eq_8_with_the_nutation_kick_pulse_by_pulse() {
     for ratio in [1.471, 1.478, 1.483, 1.49, 1.5] {
         for (width_s, count) in [(0.032, 114), (1.0, 11)] {
             for turns in [1.0, 0.5, 1.5, 2.0] {
-                let mut start = paper_start(ratio);
-                start.damper_time_constant_s = 0.0;
+                let mut start = undamped(ratio);
                 start.burn =
                     Some(BurnRequest { pulse_width_s: width_s, turns_per_pulse: turns, count, ..request() });
                 let mut plant = launch(&spinner, &start);
@@ -98,8 +93,7 @@ fn the_momentum_moves_toward_the_target_by_the_sum_of_eq_3() {
             (Shape::Tapered { order: 2 }, 31, 1.5),
             (Shape::Split, 114, 1.0),
         ] {
-            let mut start = paper_start(1.483);
-            start.burn = Some(BurnRequest { shape, count, turns_per_pulse: turns, timing, ..request() });
+            let start = burning(BurnRequest { shape, count, turns_per_pulse: turns, timing, ..request() });
             let plant = fly(&spinner, &start, 3000.0);
             let outputs = Outputs::of(&plant, &spinner);
             assert!(outputs.burn_done, "{timing:?} {shape:?} {turns}: {} pulses", outputs.pulses_fired);
@@ -122,8 +116,7 @@ fn the_tapered_train_turns_2_deg_in_11_4_min_and_stays_under_0_0033_deg() {
     let spinner = ace();
     for i in 0..=23 {
         let ratio = 1.471 + 0.001 * f64::from(i);
-        let mut start = paper_start(ratio);
-        start.damper_time_constant_s = 0.0;
+        let mut start = undamped(ratio);
         start.burn = Some(BurnRequest { shape: Shape::Tapered { order: 1 }, count: 58, ..request() });
         let plant = fly(&spinner, &start, 720.0);
         let outputs = Outputs::of(&plant, &spinner);
@@ -137,8 +130,7 @@ fn the_tapered_train_turns_2_deg_in_11_4_min_and_stays_under_0_0033_deg() {
 #[test]
 fn a_split_train_leaves_no_nutation_when_the_ratio_is_known() {
     let spinner = ace();
-    let mut start = paper_start(1.483);
-    start.damper_time_constant_s = 0.0;
+    let mut start = undamped(1.483);
     start.burn = Some(BurnRequest { shape: Shape::Split, count: 114, ..request() });
     let outputs = Outputs::of(&fly(&spinner, &start, 3000.0), &spinner);
     assert!(outputs.burn_done);
@@ -183,8 +175,7 @@ fn any_grid_gives_the_same_bits() {
 #[test]
 fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
     let spinner = ace();
-    let mut start = paper_start(1.483);
-    start.burn = Some(BurnRequest { count: 5, ..request() });
+    let start = burning(BurnRequest { count: 5, ..request() });
     let planned = launch(&spinner, &start);
     let (first, period) = (planned.sequencer().unwrap().next_edge_s(), planned.initial().theory.period_s());
     let expected = Outputs::of(&fly(&spinner, &start, 60.0), &spinner);
@@ -224,8 +215,7 @@ fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
 fn spin_couples_change_the_rate_alone() {
     let spinner = ace();
     for (group, sign) in [("spin up", 1.0), ("spin down", -1.0)] {
-        let mut start = paper_start(1.483);
-        start.burn = Some(BurnRequest { group: group.into(), count: 3, pulse_width_s: 4.0, ..request() });
+        let start = burning(BurnRequest { group: group.into(), count: 3, pulse_width_s: 4.0, ..request() });
         let outputs = Outputs::of(&fly(&spinner, &start, 60.0), &spinner);
         // Two arms of 0.78 m, canted by 45 deg.
         let torque = 2.0 * 4.448 * 0.78 * std::f64::consts::FRAC_1_SQRT_2;
@@ -239,8 +229,7 @@ fn spin_couples_change_the_rate_alone() {
 #[test]
 fn delta_v_of_one_pulse_is_that_of_a_turning_force() {
     let spinner = ace();
-    let mut start = paper_start(1.483);
-    start.burn = Some(BurnRequest { count: 1, pulse_width_s: 3.0, ..request() });
+    let start = burning(BurnRequest { count: 1, pulse_width_s: 3.0, ..request() });
     let outputs = Outputs::of(&fly(&spinner, &start, 30.0), &spinner);
     let rate = std::f64::consts::PI / 6.0;
     let mass_kg = 562.0 + 97.5 - 1.5 * 4.448 / (220.0 * 9.80665);
@@ -292,8 +281,7 @@ fn a_clock_that_runs_wrong_turns_the_burn_away_and_sun_pulses_do_not() {
     let spinner = ace();
     let mut moved = Vec::new();
     for timing in [Timing::Clock, Timing::SunCrossing] {
-        let mut start = paper_start(1.483);
-        start.burn = Some(BurnRequest { timing, spin_rate_error: 0.002, count: 114, ..request() });
+        let start = burning(BurnRequest { timing, spin_rate_error: 0.002, count: 114, ..request() });
         let outputs = Outputs::of(&fly(&spinner, &start, 1600.0), &spinner);
         assert!(outputs.burn_done);
         moved.push(outputs.momentum_displacement_rad.to_degrees());
@@ -347,8 +335,7 @@ fn where_the_sun_sensor_sits_does_not_turn_the_burn() {
     for azimuth_deg in [0.0, 75.0, -140.0] {
         let mut spinner = ace();
         spinner.sun_sensor.azimuth_deg = azimuth_deg;
-        let mut start = paper_start(1.483);
-        start.burn = Some(BurnRequest { timing: Timing::SunCrossing, ..request() });
+        let start = burning(BurnRequest { timing: Timing::SunCrossing, ..request() });
         let outputs = Outputs::of(&fly(&spinner, &start, 1600.0), &spinner);
         assert!(outputs.burn_done && !outputs.burn_active);
         // The momentum began along Z and was to move toward the target, square to it.

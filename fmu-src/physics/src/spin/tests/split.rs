@@ -1,13 +1,13 @@
 //! A split train moves the momentum as far as it says, whatever the ratio leaves of its halves.
 
-use super::{ace, directions, paper_spin, paper_start, request};
+use super::{ace, directions, paper_spin, paper_start, request, train};
 use crate::spin::{
     burn::BurnRequest,
     forecast::Timing,
     outputs::Outputs,
     plant::{Commands, Plant},
     predictions::Predictions,
-    train::{Shape, Train, TrainError},
+    train::{Shape, TrainError},
 };
 
 /// Planned and simulated move of a train for 2 deg, in rad, and the nutation it leaves.
@@ -63,7 +63,7 @@ fn an_angle_that_no_split_train_reaches_is_refused() {
 fn halves_that_undo_each_other_are_refused() {
     // Nutation gains a third of a turn a turn: the halves never point less than half a turn apart.
     let spin = paper_spin(4.0 / 3.0);
-    let error = Train::new(Shape::Split, 114, 0.032, 1.0, &spin, 0.032).unwrap_err();
+    let error = train(Shape::Split, 114, 0.032, 1.0, &spin).unwrap_err();
     assert!(matches!(error, TrainError::OffsetHalves { .. }), "{error}");
     assert!(error.to_string().contains("0.500 turns apart with inertia ratio 1.3333"), "{error}");
 }

@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use std::f64::consts::PI;
 
-use super::{paper_spin, tapered_bound_rad, uniform_train_rad};
+use super::{paper_spin, tapered_bound_rad, train, uniform_train_rad};
 use crate::spin::{
     forecast::{ForecastCase, Range, Timing},
     nutation::{allowed_nutation_rad, exact_envelope_rad, period_variation_s},
@@ -77,7 +77,7 @@ fn a_tapered_train_stays_under_its_bound_at_any_length() {
         for order in 1..=4 {
             for count in 2 * order + 1..80 {
                 let spin = paper_spin(ratio);
-                let train = Train::new(Shape::Tapered { order }, count, 0.032, 1.0, &spin, 0.032).unwrap();
+                let train = train(Shape::Tapered { order }, count, 0.032, 1.0, &spin).unwrap();
                 let flight = ForecastCase {
                     spin,
                     assumed_rate_rad_s: spin.rate_rad_s,
@@ -101,7 +101,7 @@ fn forecasts_of_uniform_trains_are_eq_8() {
     for turns in [0.5, 1.0, 1.5, 2.0] {
         for count in [1, 2, 17, 114] {
             let spin = paper_spin(1.479);
-            let train = Train::new(Shape::Uniform, count, 0.064, turns, &spin, 0.032).unwrap();
+            let train = train(Shape::Uniform, count, 0.064, turns, &spin).unwrap();
             let flight = ForecastCase {
                 spin,
                 assumed_rate_rad_s: spin.rate_rad_s,
@@ -158,7 +158,7 @@ fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
                     [Shape::Uniform, Shape::Tapered { order: 1 }, Shape::Tapered { order: 3 }, Shape::Split];
                 for shape in shapes {
                     cases.extend(
-                        Train::new(shape, count, 0.032, turns, &spin, 0.032)
+                        train(shape, count, 0.032, turns, &spin)
                             .map(|train| (train, range, Timing::TruePhase)),
                     );
                 }
@@ -168,7 +168,7 @@ fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
     // By the clock the rate counts as much as the ratio, alone or with it.
     for (ratio, rate) in [(0.0, 0.02), (0.0115, 0.002)] {
         let range = Range { ratio, rate_rad_s: rate * spin.rate_rad_s };
-        let train = Train::new(Shape::Uniform, 40, 0.032, 1.0, &spin, 0.032).unwrap();
+        let train = train(Shape::Uniform, 40, 0.032, 1.0, &spin).unwrap();
         cases.extend([Timing::Clock, Timing::SunCrossing].map(|timing| (train, range, timing)));
     }
     for (train, range, timing) in cases {
@@ -191,7 +191,7 @@ fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
 #[test]
 fn trains_that_make_no_sense_are_refused() {
     let spin = paper_spin(1.483);
-    let make = |shape, count, width, turns| Train::new(shape, count, width, turns, &spin, 0.032);
+    let make = |shape, count, width, turns| train(shape, count, width, turns, &spin);
     assert!(matches!(make(Shape::Uniform, 5, 0.032, 0.7), Err(TrainError::Turns { .. })));
     assert!(matches!(make(Shape::Uniform, 5, 0.032, f64::NAN), Err(TrainError::Turns { .. })));
     assert!(matches!(make(Shape::Uniform, 0, 0.032, 1.0), Err(TrainError::Count { .. })));

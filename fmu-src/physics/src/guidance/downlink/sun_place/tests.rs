@@ -5,9 +5,9 @@ use nalgebra::Vector3;
 
 use super::*;
 use crate::bodies::Body;
-use crate::guidance::geometry::ephemeris_at_time::TargetPlanet;
 use crate::guidance::geometry::moving::moving;
 use crate::guidance::geometry::test_geometry::{Motion, Random, difference_rad_s};
+use crate::guidance::geometry::test_orbit::about_mercury;
 use crate::guidance::pointing::antenna::Antenna;
 
 /// Azimuth in -90..0 or 90..180 deg, typed anew, -180 counting as 180.
@@ -196,21 +196,12 @@ fn in_line_the_attitude_is_finite_and_nothing_without_direction() {
 
 #[test]
 fn the_link_needs_antenna_distance_from_the_sun_and_a_free_line() {
-    let planet = TargetPlanet::of(Body::Mercury.data());
-    let radius_m = planet.radii_m.x;
     let degrees = f64::to_radians;
     let limits = LinkLimits { sun_separation_rad: degrees(3.0), coverage_rad: degrees(2.0) };
-    let around = |position: Vector3<f64>, theta_deg: f64| EphemerisAtTime {
-        epoch_s: 0.0,
-        planet,
-        position: fixed(position * radius_m),
-        velocity: fixed(Vector3::x()),
-        sun: fixed(
-            position * radius_m
-                + Vector3::new(degrees(theta_deg).cos(), degrees(theta_deg).sin(), 0.0) * 5e10,
-        ),
-        earth: fixed(position * radius_m + Vector3::x() * 1e11),
-        bodies: [None; Body::ALL.len()],
+    let around = |position: Vector3<f64>, theta_deg: f64| {
+        let position = position * Body::Mercury.data().radius_m;
+        let sun = Vector3::new(degrees(theta_deg).cos(), degrees(theta_deg).sin(), 0.0) * 5e10;
+        about_mercury(position, position + sun, position + Vector3::x() * 1e11)
     };
     let free = Vector3::new(2.0, 0.0, 0.0);
     for (position, theta_deg, off_deg, antenna, expected) in [
