@@ -26,7 +26,7 @@ const ONE_SIZE: f64 = 1e-3;
 /// A target closer than this to the momentum's line has no direction across it but rounding, in rad.
 const ALONG_RAD: f64 = 1e-6;
 
-/// What a burn is asked to be. Numbers that are 0 where the field says so mean "not given".
+/// What a burn is requested to be. Numbers that are 0 where the field says so mean "not given".
 #[derive(Clone, Debug, PartialEq)]
 pub struct BurnRequest {
     /// Shape of the train.

@@ -123,7 +123,7 @@ pub struct TaylorSegment {
 impl TaylorSegment {
     /// The segment that starts at `anchor`, its attitude being that of the principal axes, about which `torque` is too.
     ///
-    /// `hint_s` is how far the motion will be asked for, if that is known; the segment may be shorter.
+    /// `hint_s` is how far the motion will be evaluated, if that is known; the segment may be shorter.
     pub fn new(
         inertia: &Inertia,
         damper: &Damper,

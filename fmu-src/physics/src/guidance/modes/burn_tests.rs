@@ -71,8 +71,8 @@ fn magnitude_error_m_s(stops_between: bool, delta_v_m_s: f64) -> f64 {
         flight.accelerometers = AccelerometerSettings::default();
         flight.stops_between = stops_between;
         let simulated = flight.fly(140);
-        let wanted = flight.settings.path.unwrap().length_m_s();
-        (simulated.velocity_m_s.norm() - wanted).powi(2)
+        let requested = flight.settings.path.unwrap().length_m_s();
+        (simulated.velocity_m_s.norm() - requested).powi(2)
     });
     (squares.sum::<f64>() / 16.0).sqrt()
 }

@@ -190,7 +190,7 @@ impl GuidanceState {
         inputs: &SampleInputs,
         choose: impl Fn(&WindowStart<'_>) -> Option<ChosenPlace>,
     ) -> bool {
-        let mut is_asked = false;
+        let mut is_chosen = false;
         let time_s = self.next_sample_s;
         self.next_sample_s = next_whole_s(time_s);
         let sensed = Sensed { time_s, ..inputs.sensed };
@@ -221,7 +221,7 @@ impl GuidanceState {
                 let settings = &GuidanceSettings { orbit_phase, ..*settings };
                 if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
                     let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
-                    is_asked = self.place_sun(settings, &command, surroundings, attitude, choose);
+                    is_chosen = self.place_sun(settings, &command, surroundings, attitude, choose);
                     self.compute_attitude(
                         &SampleContext { settings, constraints, surroundings, time_s },
                         &command,
@@ -247,7 +247,7 @@ impl GuidanceState {
             self.burn.end();
             self.downlink_sun.end();
         }
-        is_asked
+        is_chosen
     }
 
     /// Puts the Sun where a downlink begins, or science that unloads; whether one does.

@@ -94,7 +94,7 @@ impl Propulsion {
         if law.is_none() { *applied } else { applied.plus_linear(&law.torque_body_n_m, law.since_s) }
     }
 
-    /// Books what the thrusters used and did since they were last booked; whether they did anything.
+    /// Accumulates what the thrusters used and did since the last call; whether they did anything.
     pub(super) fn accumulate(
         &mut self,
         spinner: &Spinner,
@@ -114,7 +114,7 @@ impl Propulsion {
         true
     }
 
-    /// Nothing is left in the tank at `now_s`; what came out was settled.
+    /// Nothing is left in the tank at `now_s`; what flowed out was accumulated before.
     pub(super) fn empty(&mut self, now_s: f64) {
         self.used_kg = self.initial_propellant_kg;
         self.valves.shut(now_s);

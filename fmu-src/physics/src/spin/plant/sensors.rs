@@ -140,11 +140,12 @@ impl Sensors {
         work: &mut Work,
     ) -> Option<(Sensor, f64)> {
         let azimuths = self.azimuths;
-        let look = |body, inertial| move || Crossing { body, inertial, pole: Pole::SpinAxis };
+        let crossing = |body, inertial| move || Crossing { body, inertial, pole: Pole::SpinAxis };
         let due_s = |detector: &mut CrossingDetector, body, inertial: Vector3<f64>, work: &mut Work| {
             // A direction of 0 is none.
             let known = inertial != Vector3::zeros();
-            let due_s = known.then(|| detector.due_s(motion, look(body, inertial), until_s, work)).flatten();
+            let due_s =
+                known.then(|| detector.due_s(motion, crossing(body, inertial), until_s, work)).flatten();
             due_s.unwrap_or(f64::INFINITY)
         };
         let sun_s = due_s(&mut self.sun, azimuths.sun, directions.sun_inertial, work);

@@ -293,7 +293,7 @@ impl Plant {
         let applied = self.commands.torque;
         if turns_valves || self.propulsion.with_thrusters(&applied) != *self.motion.torque() {
             self.reach(spinner, now_s, work)?;
-            self.settle_pulse(spinner, now_s);
+            self.accumulate_pulse(spinner, now_s);
             let inertia = self.propulsion.inertia(spinner, &self.motion);
             work.spend_segment(self.motion.damper());
             self.propulsion.valves.open(spinner, mask, now_s);
@@ -309,8 +309,8 @@ impl Plant {
         Ok(())
     }
 
-    /// Books what the thrusters that were on used and did.
-    fn settle_pulse(&mut self, spinner: &Spinner, now_s: f64) {
+    /// Accumulates what the thrusters that were on used and did.
+    fn accumulate_pulse(&mut self, spinner: &Spinner, now_s: f64) {
         if self.propulsion.accumulate(spinner, &self.motion, &self.initial.theory, now_s) {
             self.sensors.restart_estimate(now_s);
         }
@@ -319,7 +319,7 @@ impl Plant {
     /// Empties the tank at `now_s`; the burn ends with the pulse it cut.
     fn run_dry(&mut self, spinner: &Spinner, now_s: f64, work: &mut Work) -> Result<(), SpinPlantError> {
         self.reach(spinner, now_s, work)?;
-        self.settle_pulse(spinner, now_s);
+        self.accumulate_pulse(spinner, now_s);
         self.propulsion.empty(now_s);
         if let Some(sequencer) = &mut self.sequencer {
             sequencer.stop();
@@ -387,7 +387,7 @@ impl Plant {
         }
     }
 
-    /// Whether a decoded state can be flown on: its thrusters exist, its numbers belong together.
+    /// Whether a decoded state can be advanced: its thrusters exist, its numbers belong together.
     pub fn fits(&self, spinner: &Spinner) -> bool {
         let burn = self.sequencer().map(Sequencer::burn);
         let known = (1_u64 << spinner.thrusters.len()) - 1;

@@ -175,7 +175,7 @@ fn any_grid_gives_the_same_bits() {
 #[test]
 fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
     let spinner = ace();
-    let start = burning(BurnRequest { count: 5, ..request() });
+    let mut start = burning(BurnRequest { count: 5, ..request() });
     let planned = launch(&spinner, &start);
     let (first, period) = (planned.sequencer().unwrap().next_edge_s(), planned.initial().theory.period_s());
     let expected = Outputs::of(&fly(&spinner, &start, 60.0), &spinner);
@@ -229,7 +229,7 @@ fn spin_couples_change_the_rate_alone() {
 #[test]
 fn delta_v_of_one_pulse_is_that_of_a_turning_force() {
     let spinner = ace();
-    let start = burning(BurnRequest { count: 1, pulse_width_s: 3.0, ..request() });
+    let mut start = burning(BurnRequest { count: 1, pulse_width_s: 3.0, ..request() });
     let outputs = Outputs::of(&fly(&spinner, &start, 30.0), &spinner);
     let rate = std::f64::consts::PI / 6.0;
     let mass_kg = 562.0 + 97.5 - 1.5 * 4.448 / (220.0 * 9.80665);
@@ -252,7 +252,7 @@ fn delta_v_of_one_pulse_is_that_of_a_turning_force() {
 }
 
 #[test]
-fn inertia_follows_the_propellant_when_asked() {
+fn inertia_follows_the_propellant_when_requested() {
     let spinner = ace();
     let mut start = paper_start(1.483);
     start.mass_source = MassSource::Propellant;

@@ -40,7 +40,7 @@ fn a_split_train_turns_by_what_it_plans() {
     ] {
         for ratio in ratios {
             let (planned, moved, nutation) = simulated(ratio, turns);
-            assert!((moved / planned - 1.0).abs() < 1e-3, "{ratio}: {planned} planned, {moved} flown");
+            assert!((moved / planned - 1.0).abs() < 1e-3, "{ratio}: {planned} planned, {moved} simulated");
             assert!((moved.to_degrees() - 2.0).abs() < 0.02, "{ratio}: {} deg", moved.to_degrees());
             // What one pulse leaves is 0.017 deg.
             assert!(nutation.to_degrees() < 1e-4, "{ratio}: {} deg left", nutation.to_degrees());

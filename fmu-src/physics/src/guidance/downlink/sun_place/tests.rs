@@ -120,7 +120,7 @@ fn one_two_or_no_azimuth_lies_in_a_quadrant() {
 }
 
 #[test]
-fn an_asked_azimuth_looks_at_the_earth_or_its_nearest_bound_does() {
+fn a_requested_azimuth_looks_at_the_earth_or_its_nearest_bound_does() {
     let mut random = Random(23);
     for _ in 0..10_000 {
         let [to_sun, to_earth] = random_lines(&mut random);
