@@ -63,34 +63,44 @@ pub fn aim_kind(option: AimpointOption) -> AimKind {
 
 /// The commanded aim; `None` where nothing is commanded or it has no direction, such as a zero vector or a body whose place
 /// is not known.
-pub fn aimpoint(c: &AimpointCommand, s: &EphemerisAtTime, method: SubsolarMethod) -> Option<Aim> {
-    let option = c.option?;
-    let position = moving(c.position_m, c.velocity_m_s);
-    let lvlh = |reference| lvlh_direction(s, reference, c.azimuth_rad, c.elevation_rad);
+pub fn aimpoint(
+    command: &AimpointCommand,
+    surroundings: &EphemerisAtTime,
+    method: SubsolarMethod,
+) -> Option<Aim> {
+    let option = command.option?;
+    let position = moving(command.position_m, command.velocity_m_s);
+    let lvlh =
+        |reference| lvlh_direction(surroundings, reference, command.azimuth_rad, command.elevation_rad);
     let toward = match option {
-        AimpointOption::Vector => fixed(c.vector),
+        AimpointOption::Vector => fixed(command.vector),
         AimpointOption::RightAscensionDeclination => {
-            fixed(spherical(c.right_ascension_rad, c.declination_rad))
+            fixed(spherical(command.right_ascension_rad, command.declination_rad))
         }
-        AimpointOption::EarthCentered => s.to_earth() + position,
-        AimpointOption::SunCentered => s.to_sun() + position,
-        AimpointOption::PlanetCentered => s.to_planet() + position,
-        AimpointOption::PlanetFixed => s.to_planet() + planet_fixed(s, &position),
+        AimpointOption::EarthCentered => surroundings.to_earth() + position,
+        AimpointOption::SunCentered => surroundings.to_sun() + position,
+        AimpointOption::PlanetCentered => surroundings.to_planet() + position,
+        AimpointOption::PlanetFixed => surroundings.to_planet() + planet_fixed(surroundings, &position),
         AimpointOption::LatitudeLongitude => {
-            let at_m = geographic_m(&s.planet.radii_m, c.latitude_rad, c.longitude_rad, c.height_m);
-            s.to_planet() + planet_fixed(s, &fixed(at_m))
+            let at_m = geographic_m(
+                &surroundings.planet.radii_m,
+                command.latitude_rad,
+                command.longitude_rad,
+                command.height_m,
+            );
+            surroundings.to_planet() + planet_fixed(surroundings, &fixed(at_m))
         }
         AimpointOption::LvlhDowntrack => lvlh(AzimuthReference::Downtrack)?,
         AimpointOption::LvlhSun => lvlh(AzimuthReference::Sun)?,
-        AimpointOption::Sun => s.to_sun(),
-        AimpointOption::Earth => s.to_earth(),
-        AimpointOption::Nadir => s.to_planet(),
-        AimpointOption::Subsolar => s.to_planet() + subsolar_m(s, method)?,
-        AimpointOption::OptimalLighting => s.to_planet() + optimal_lighting_m(s)?,
-        AimpointOption::Body => match c.body? {
-            Body::Sun => s.to_sun(),
-            Body::Earth => s.to_earth(),
-            other => s.to_body(other),
+        AimpointOption::Sun => surroundings.to_sun(),
+        AimpointOption::Earth => surroundings.to_earth(),
+        AimpointOption::Nadir => surroundings.to_planet(),
+        AimpointOption::Subsolar => surroundings.to_planet() + subsolar_m(surroundings, method)?,
+        AimpointOption::OptimalLighting => surroundings.to_planet() + optimal_lighting_m(surroundings)?,
+        AimpointOption::Body => match command.body? {
+            Body::Sun => surroundings.to_sun(),
+            Body::Earth => surroundings.to_earth(),
+            other => surroundings.to_body(other),
         },
     };
     Aim::new(toward, aim_kind(option))
