@@ -16,7 +16,7 @@ use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::limb::terminator_limb;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::geometry::test_geometry::{Random, nearest_zone};
-use crate::guidance::geometry::test_orbit::TestOrbit;
+use crate::guidance::geometry::test_orbit::{TestOrbit, guided};
 use crate::guidance::orbit_phase::schedule::Schedule;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::guidance::pointing::scenario_tests::{SCENARIOS, command, hardware};
@@ -31,20 +31,9 @@ fn zone() -> KeepIn {
 /// A downlink after every periapsis of an orbit of twelve hours, begun at it.
 fn law(science: ScienceRule, slew_rate_rad_s: f64) -> Guided {
     Guided {
-        schedule: Schedule {
-            periapsis_s: 0.0,
-            period_s: f64::INFINITY,
-            downlink_start_s: 2.0 * 3600.0,
-            downlink_end_s: 10.0 * 3600.0,
-            every: 1,
-            once: false,
-        },
-        science,
         elevation_limit_rad: zone().elevation_rad,
         slew_rate_rad_s,
-        keep_in: None,
-        sun_place: None,
-        managed: false,
+        ..guided(science, f64::INFINITY, [2.0 * 3600.0, 10.0 * 3600.0], 1)
     }
 }
 

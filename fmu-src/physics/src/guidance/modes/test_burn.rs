@@ -17,10 +17,8 @@ use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::constraints::constrained::Constraints;
 use crate::guidance::downlink::sun_place::LinkLimits;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
-use crate::guidance::geometry::test_orbit::about_mercury;
+use crate::guidance::geometry::test_orbit::{about_mercury, guided};
 use crate::guidance::orbit_phase::attitudes::ScienceRule;
-use crate::guidance::orbit_phase::guided::Guided;
-use crate::guidance::orbit_phase::schedule::Schedule;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::guidance::pointing::scenario::GuidanceHardware;
 use crate::numerics::noise::{Channel, normal_vector};
@@ -115,22 +113,7 @@ pub fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static> {
         keep_in,
         keep_in_distance_m: 1e13,
         link: LinkLimits { sun_separation_rad: 0.05, coverage_rad: 0.05 },
-        orbit_phase: Guided {
-            schedule: Schedule {
-                periapsis_s: 0.0,
-                period_s: f64::INFINITY,
-                downlink_start_s: 0.0,
-                downlink_end_s: 0.0,
-                every: 0,
-                once: false,
-            },
-            science: ScienceRule::Nadir,
-            elevation_limit_rad: 0.2,
-            slew_rate_rad_s: 0.0,
-            keep_in: None,
-            sun_place: None,
-            managed: false,
-        },
+        orbit_phase: guided(ScienceRule::Nadir, f64::INFINITY, [0.0, 0.0], 0),
         burn,
     }
 }

@@ -3,7 +3,9 @@
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
-use super::{ace, burning, directions, launch, paper_start, request, undamped, uniform_train_rad};
+use super::{
+    ace, burning, directions, firing, launch, paper_start, pulses, request, undamped, uniform_train_rad,
+};
 use crate::attitude::angle_between_rad;
 use crate::spacecraft::ValveTiming;
 use crate::spin::{
@@ -11,7 +13,7 @@ use crate::spin::{
     forecast::Timing,
     nutation::Spin,
     outputs::Outputs,
-    plant::{Commands, MassSource, Plant, PulseCommand, PulseExecution, Start},
+    plant::{Commands, MassSource, Plant, PulseExecution, Start},
     predictions::Predictions,
     spinner::Spinner,
     train::Shape,
@@ -183,11 +185,8 @@ fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
     start.burn = None;
     let mut plant = launch(&spinner, &start);
     for i in 0..5 {
-        let mut commands = Commands::none();
         let from = f64::from(i) * period;
-        commands.pulses[7] = PulseCommand { delay_s: first + f64::from(i) * period - from, on_s: 0.032 };
-        commands.any_pulse = true;
-        plant.command(commands, directions());
+        plant.command(pulses(&[8], first + f64::from(i) * period - from, 0.032), directions());
         plant.advance(&spinner, from + period).unwrap();
     }
     plant.command(Commands::none(), directions());
@@ -200,7 +199,7 @@ fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
     for i in 0..5 {
         let on = first + f64::from(i) * period;
         plant.advance(&spinner, on).unwrap();
-        plant.command(Commands { fire: 1 << 7, ..Commands::none() }, directions());
+        plant.command(firing(&[8]), directions());
         plant.advance(&spinner, on + 0.016).unwrap();
         plant.advance(&spinner, on + 0.032).unwrap();
         plant.command(Commands::none(), directions());
@@ -240,7 +239,7 @@ fn delta_v_of_one_pulse_is_that_of_a_turning_force() {
     // Thrusters that turn nothing: pure delta-v along the axis.
     start.burn = None;
     let mut plant = launch(&spinner, &start);
-    plant.command(Commands { fire: 1 << 6 | 1 << 8, ..Commands::none() }, directions());
+    plant.command(firing(&[7, 9]), directions());
     for i in 1..=20 {
         plant.advance(&spinner, 5.0 * f64::from(i)).unwrap();
     }
@@ -259,7 +258,7 @@ fn inertia_follows_the_propellant_when_requested() {
     start.burn = None;
     let mut plant = launch(&spinner, &start);
     let before = Outputs::of(&plant, &spinner);
-    plant.command(Commands { fire: 1 << 6 | 1 << 8, ..Commands::none() }, directions());
+    plant.command(firing(&[7, 9]), directions());
     plant.advance(&spinner, 5000.0).unwrap();
     plant.command(Commands::none(), directions());
     plant.advance(&spinner, 5001.0).unwrap();

@@ -25,7 +25,7 @@ use super::{
     forecast::Timing,
     motion::Motion,
     nutation::Spin,
-    plant::{Commands, Directions, MassSource, Plant, Sampling, Start},
+    plant::{Commands, Directions, MassSource, Plant, PulseCommand, Sampling, Start},
     series::{Anchor, BodyTorque},
     spinner::Spinner,
     train::{Pulses, Shape, Train, TrainError},
@@ -52,6 +52,20 @@ fn reach(motion: &mut Motion, time_s: f64) {
 /// A flight at 0 s without commands.
 fn launch(spinner: &Spinner, start: &Start) -> Plant {
     Plant::start(spinner, start, directions(), Commands::none(), 0.0).unwrap()
+}
+
+/// Thrusters, numbered from 1, that fire over whole steps.
+fn firing(thrusters: &[u32]) -> Commands {
+    Commands { fire: thrusters.iter().map(|k| 1 << (k - 1)).sum(), ..Commands::none() }
+}
+
+/// A pulse of thrusters numbered from 1.
+fn pulses(thrusters: &[usize], delay_s: f64, on_s: f64) -> Commands {
+    let mut commands = Commands { any_pulse: true, ..Commands::none() };
+    for k in thrusters {
+        commands.pulses[k - 1] = PulseCommand { delay_s, on_s };
+    }
+    commands
 }
 
 /// The paper's spinner without a damper.

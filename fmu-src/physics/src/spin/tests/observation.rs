@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
-use super::{ace, directions, paper_start};
+use super::{ace, directions, launch, paper_start, undamped};
 use crate::attitude::angle_between_rad;
 use crate::numerics::noise::{Channel, normal};
 use crate::spin::{
@@ -19,9 +19,8 @@ use crate::spin::{
 fn sun_crossing_periods_spread_as_eq_1_says_for_small_nutation() {
     let spinner = ace();
     for beta_deg in [5.0_f64, 10.0, 20.0] {
-        let mut start = paper_start(1.483);
+        let mut start = undamped(1.483);
         start.nutation_rad = 0.01_f64.to_radians();
-        start.damper_time_constant_s = 0.0;
         let beta = beta_deg.to_radians();
         let sun = Directions { sun_inertial: Vector3::new(0.0, beta.sin(), beta.cos()), ..directions() };
         // Put the momentum, not the body axis, at that Sun angle.
@@ -44,7 +43,7 @@ fn sun_crossing_periods_spread_as_eq_1_says_for_small_nutation() {
 #[test]
 fn a_quiet_spinner_crosses_the_sun_once_a_period() {
     let spinner = ace();
-    let mut plant = Plant::start(&spinner, &paper_start(1.483), directions(), Commands::none(), 0.0).unwrap();
+    let mut plant = launch(&spinner, &paper_start(1.483));
     plant.advance(&spinner, 1200.5).unwrap();
     let outputs = Outputs::of(&plant, &spinner);
     assert_eq!(plant.sensors().sun.count, 101);
@@ -71,7 +70,7 @@ fn the_star_is_sampled_every_eight_spins_or_every_96_s() {
         let mut start = paper_start(1.483);
         start.spin_rate_rad_s = 4.9 * PI / 30.0;
         start.sampling = sampling;
-        let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+        let mut plant = launch(&spinner, &start);
         let mut times = Vec::new();
         for i in 1..2000 {
             plant.advance(&spinner, f64::from(i)).unwrap();
@@ -90,10 +89,9 @@ fn the_star_is_sampled_every_eight_spins_or_every_96_s() {
 #[test]
 fn declination_swings_by_the_nutation_angle_either_way() {
     let spinner = ace();
-    let mut start = paper_start(1.483);
+    let mut start = undamped(1.483);
     start.nutation_rad = 0.02_f64.to_radians();
-    start.damper_time_constant_s = 0.0;
-    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let mut plant = launch(&spinner, &start);
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     for i in 1..10_000 {
         plant.advance(&spinner, 0.01 * f64::from(i)).unwrap();
@@ -110,11 +108,10 @@ fn the_estimator_finds_the_nutation_angle_within_its_own_error() {
     let spinner = ace();
     let mut hits = 0;
     for seed in 0..20 {
-        let mut start = paper_start(1.478);
+        let mut start = undamped(1.478);
         start.nutation_rad = 0.03_f64.to_radians();
-        start.damper_time_constant_s = 0.0;
         start.seed = seed;
-        let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+        let mut plant = launch(&spinner, &start);
         plant.advance(&spinner, 4.0 * 3600.0).unwrap();
         let estimate = Outputs::of(&plant, &spinner).estimate;
         assert!(plant.sensors().estimator.count > 100);
@@ -185,7 +182,7 @@ fn directions_on_the_l1_orbit_do_not_depend_on_the_grid() {
     let axis = Vector3::z().cross(&sun).normalize();
     let q = crate::attitude::Quaternion::turn(&axis, angle_between_rad(&Vector3::z(), &sun) + 0.1);
     start.attitude = q.0;
-    let launch = || Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let launch = || launch(&spinner, &start);
     let mut whole = launch();
     whole.advance(&spinner, 4000.0).unwrap();
     let mut cut = launch();
@@ -199,10 +196,9 @@ fn directions_on_the_l1_orbit_do_not_depend_on_the_grid() {
 #[test]
 fn the_sector_error_is_what_a_spin_divided_by_the_period_before_is_off() {
     let spinner = ace();
-    let mut start = paper_start(1.4);
+    let mut start = undamped(1.4);
     start.nutation_rad = 1.0_f64.to_radians();
-    start.damper_time_constant_s = 0.0;
-    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let mut plant = launch(&spinner, &start);
     let (mut crossings, mut most) = (Vec::new(), 0.0_f64);
     for i in 1..2000 {
         plant.advance(&spinner, 0.1 * f64::from(i)).unwrap();
@@ -266,10 +262,9 @@ fn a_star_is_sampled_where_it_passes_the_boresight_also_after_another_is_chosen(
 fn a_pulse_begins_the_estimate_anew() {
     let mut spinner = ace();
     spinner.star_tracker.noise_deg = 0.0;
-    let mut start = paper_start(1.478);
+    let mut start = undamped(1.478);
     start.nutation_rad = 0.05_f64.to_radians();
-    start.damper_time_constant_s = 0.0;
-    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let mut plant = launch(&spinner, &start);
     plant.advance(&spinner, 4.0 * 3600.0).unwrap();
     let before = Outputs::of(&plant, &spinner);
     assert_relative_eq!(before.estimate.nutation_rad, before.nutation_rad, max_relative = 0.01);

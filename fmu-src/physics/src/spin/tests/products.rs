@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
 use super::{
-    ace, assert_same_attitude, directions, paper_start, reach, request, runge_kutta, started, tensor,
+    ace, assert_same_attitude, directions, launch, paper_start, reach, request, runge_kutta, started, tensor,
 };
 use crate::attitude::{Inertia, Quaternion};
 use crate::spin::{
@@ -144,7 +144,7 @@ fn a_start_without_nutation_turns_about_the_principal_axis() {
     let spinner = ace();
     let mut start = paper_start(1.483);
     (start.inertia_kg_m2, start.products_kg_m2) = (DIAGONAL, PRODUCTS);
-    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let mut plant = launch(&spinner, &start);
     let body = tensor(DIAGONAL, PRODUCTS);
     let w = Outputs::of(&plant, &spinner).rate_rad_s;
     assert!(w.cross(&(body * w)).norm() < 1e-13 * (body * w).norm());
@@ -154,7 +154,7 @@ fn a_start_without_nutation_turns_about_the_principal_axis() {
     assert!((later.rate_rad_s - w).norm() < 1e-13 && later.nutation_rad < 1e-13);
     // With nutation: the angle and the azimuth requested.
     (start.nutation_rad, start.nutation_phase_rad) = (0.1, 2.0);
-    let plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let plant = launch(&spinner, &start);
     let seen = Outputs::of(&plant, &spinner);
     assert_relative_eq!(seen.nutation_rad, 0.1, max_relative = 1e-13);
     assert_relative_eq!(seen.nutation_phase_rad, 2.0, max_relative = 1e-13);
@@ -170,7 +170,7 @@ fn burns_of_a_coning_spacecraft_point_at_their_target() {
         let mut start = paper_start(1.483);
         start.products_kg_m2 = [0.0, 1.0, -0.5];
         start.burn = Some(BurnRequest { timing, count: 57, ..request() });
-        let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+        let mut plant = launch(&spinner, &start);
         let from = plant.state().momentum_inertial.normalize();
         plant.advance(&spinner, 1500.0).unwrap();
         let seen = Outputs::of(&plant, &spinner);

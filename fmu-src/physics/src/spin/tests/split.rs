@@ -1,6 +1,6 @@
 //! A split train moves the momentum as far as it says, whatever the ratio leaves of its halves.
 
-use super::{ace, directions, paper_spin, paper_start, request, train};
+use super::{ace, directions, launch, paper_spin, paper_start, request, train, undamped};
 use crate::spin::{
     burn::BurnRequest,
     forecast::Timing,
@@ -13,8 +13,7 @@ use crate::spin::{
 /// Planned and simulated move of a train for 2 deg, in rad, and the nutation it leaves.
 fn simulated(ratio: f64, turns_per_pulse: f64) -> (f64, f64, f64) {
     let spinner = ace();
-    let mut start = paper_start(ratio);
-    start.damper_time_constant_s = 0.0;
+    let mut start = undamped(ratio);
     start.burn = Some(BurnRequest {
         shape: Shape::Split,
         timing: Timing::TruePhase,
@@ -23,7 +22,7 @@ fn simulated(ratio: f64, turns_per_pulse: f64) -> (f64, f64, f64) {
         turns_per_pulse,
         ..request()
     });
-    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let mut plant = launch(&spinner, &start);
     let planned = Predictions::of(&plant);
     plant.advance(&spinner, planned.duration_s + 60.0).unwrap();
     let outputs = Outputs::of(&plant, &spinner);

@@ -6,12 +6,17 @@ use std::f64::consts::PI;
 use super::{paper_spin, tapered_bound_rad, train, uniform_train_rad};
 use crate::spin::{
     forecast::{ForecastCase, Range, Timing},
-    nutation::{allowed_nutation_rad, exact_envelope_rad, period_variation_s},
+    nutation::{Spin, allowed_nutation_rad, exact_envelope_rad, period_variation_s},
     tracker::{observation_time_eq20_s, observation_time_s},
     train::{Shape, Train, TrainError},
 };
 
 const TORQUE_N_M: f64 = 4.448 * 0.40;
+
+/// A radial thruster on a spinner whose rate is known.
+fn case(spin: Spin, timing: Timing) -> ForecastCase {
+    ForecastCase { spin, assumed_rate_rad_s: spin.rate_rad_s, timing, torque_n_m: TORQUE_N_M }
+}
 
 #[test]
 fn the_papers_numbers_come_out() {
@@ -78,12 +83,7 @@ fn a_tapered_train_stays_under_its_bound_at_any_length() {
             for count in 2 * order + 1..80 {
                 let spin = paper_spin(ratio);
                 let train = train(Shape::Tapered { order }, count, 0.032, 1.0, &spin).unwrap();
-                let flight = ForecastCase {
-                    spin,
-                    assumed_rate_rad_s: spin.rate_rad_s,
-                    timing: Timing::Clock,
-                    torque_n_m: TORQUE_N_M,
-                };
+                let flight = case(spin, Timing::Clock);
                 let end = flight.forecast(&train).final_nutation_rad;
                 let bound = tapered_bound_rad(q, 2.0 * PI * ratio, order);
                 // Whole steps of width have the whole multiples of the kick to 1e-4 only.
@@ -102,12 +102,7 @@ fn forecasts_of_uniform_trains_are_eq_8() {
         for count in [1, 2, 17, 114] {
             let spin = paper_spin(1.479);
             let train = train(Shape::Uniform, count, 0.064, turns, &spin).unwrap();
-            let flight = ForecastCase {
-                spin,
-                assumed_rate_rad_s: spin.rate_rad_s,
-                timing: Timing::Clock,
-                torque_n_m: TORQUE_N_M,
-            };
+            let flight = case(spin, Timing::Clock);
             let seen = flight.forecast(&train);
             let kick = spin.nutation_kick_rad(TORQUE_N_M, 0.064);
             let expected = uniform_train_rad(kick, spin.phase_advance_rad(turns), count);
@@ -146,8 +141,6 @@ fn scanned(flight: &ForecastCase, range: &Range, train: &Train) -> [f64; 2] {
 #[test]
 fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
     let spin = paper_spin(1.4825);
-    let flight =
-        |timing| ForecastCase { spin, assumed_rate_rad_s: spin.rate_rad_s, timing, torque_n_m: TORQUE_N_M };
     let known = Range { ratio: 0.0115, rate_rad_s: 0.0 };
     let vague = Range { ratio: 0.06, rate_rad_s: 0.0 };
     let mut cases = Vec::new();
@@ -172,7 +165,7 @@ fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
         cases.extend([Timing::Clock, Timing::SunCrossing].map(|timing| (train, range, timing)));
     }
     for (train, range, timing) in cases {
-        let flight = flight(timing);
+        let flight = case(spin, timing);
         let worst = range.worst(&flight, &train);
         let found = [worst.final_nutation_rad, worst.peak_nutation_rad];
         for (found, finest) in found.into_iter().zip(scanned(&flight, &range, &train)) {

@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Vector3};
 
-use super::{ACE, ace, assert_same_attitude, directions, launch, paper_start, request, tensor};
+use super::{ACE, ace, assert_same_attitude, directions, launch, paper_start, pulses, request, tensor};
 use crate::numerics::noise::{Channel, normal};
 use crate::spacecraft::ValveTiming;
 use crate::spin::{
@@ -11,7 +11,7 @@ use crate::spin::{
     forecast::Timing,
     nutation::{LinearNutation, Spin},
     outputs::Outputs,
-    plant::{Commands, Plant, PulseCommand, PulseExecution, Start},
+    plant::{Commands, Plant, PulseExecution, Start},
     predictions::Predictions,
     spinner::Spinner,
     train::Shape,
@@ -23,15 +23,6 @@ const TIMING: ValveTiming = ValveTiming { min_on_s: 0.02, rise_s: 0.06, tail_off
 
 fn start(valve: ValveTiming, scatter: f64) -> Start {
     Start { execution: [PulseExecution { valve, scatter }; 24], ..paper_start(1.483) }
-}
-
-fn pulses(thrusters: &[usize], delay_s: f64, on_s: f64) -> Commands {
-    let mut commands = Commands::none();
-    for k in thrusters {
-        commands.pulses[k - 1] = PulseCommand { delay_s, on_s };
-    }
-    commands.any_pulse = true;
-    commands
 }
 
 /// One pulse after a delay of half a second, and what is left of it.
