@@ -36,7 +36,7 @@ impl Model for SpinPlant {
     type State = Plant;
 
     fn parse_setup(file: &str, text: &str) -> Result<Spinner, SetupError> {
-        setup::parse(file, text)
+        Spinner::parse(file, text).map_err(|error| SetupError(error.to_string()))
     }
 
     fn start_values(setup: &Spinner) -> Vec<StartValue> {

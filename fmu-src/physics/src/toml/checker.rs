@@ -78,6 +78,11 @@ impl<'d> Checker<'d> {
         self.document.line(at)
     }
 
+    /// Whether somebody wrote what is at this place.
+    pub fn is_written(&self, at: &Place) -> bool {
+        self.document.is_written(at)
+    }
+
     /// Whether nobody wrote what is at this place.
     pub fn is_stand_in(&self, at: &Place) -> bool {
         !self.stand_ins.is_empty() && at.around().any(|place| self.stand_ins.contains(&place))

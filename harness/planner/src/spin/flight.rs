@@ -226,7 +226,7 @@ impl Flyer<'_> {
         centred.advance(self.spinner, time_s + before_s).map_err(failed)?;
         let sun = centred.state().attitude.body_from_inertial(&self.task.aim.sun_inertial);
         let slit_rad = self.spinner.sun_sensor.azimuth_deg.to_radians();
-        let last_s = self.plant.sensors().sun_crossings().last_s();
+        let last_s = self.plant.sensors().sun.last_s;
         self.opened = Some(Pulse {
             time_s,
             on_time_s: before_s + after_s,

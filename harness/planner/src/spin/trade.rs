@@ -3,9 +3,9 @@
 use core::f64::consts::PI;
 
 use physics::spin::{
-    burn::sized,
     forecast::Timing,
-    train::{Shape, Train},
+    sizing::sized,
+    train::{Pulses, Shape, Train},
 };
 
 use super::{PlanError, Task};
@@ -157,8 +157,9 @@ pub fn paper_plan(task: &Task) -> Result<Row, PlanError> {
 pub fn evaluate(task: &Task, shape: Shape, unit: u32, turns: f64) -> Option<Row> {
     let spin = &task.case.spin;
     let width_s = f64::from(unit) * task.resolution_s;
-    let make = |count| Train::new(shape, count, width_s, turns, spin, task.resolution_s);
-    let train = sized(&make, &task.case, task.angle_rad).ok()?;
+    let pulses =
+        Pulses { shape, unit_width_s: width_s, turns_per_pulse: turns, resolution_s: task.resolution_s };
+    let train = sized(&pulses, &task.case, task.angle_rad).ok()?;
     // A pulse beyond half a turn works against itself.
     if train.widest_s() > 0.5 * spin.period_s() {
         return None;
