@@ -10,6 +10,9 @@ use crate::{Causality, DependencyKind, Initial, ScalarVariable, Unknown, Variabl
 /// Whether a variable, with its index, may be depended on.
 type Known<'k> = &'k dyn Fn(u32, &ScalarVariable) -> bool;
 
+/// A list of unknowns: where each stands, what it may depend on, and that in words.
+type List<'l> = (&'l [Unknown], fn(usize) -> Place, Known<'l>, &'l str);
+
 impl Check<'_> {
     pub(super) fn structure(&mut self) {
         let structure = &self.description.structure;
@@ -131,7 +134,7 @@ impl Check<'_> {
         };
         let step_rule = "inputs, continuous states and the independent variable";
         let start_rule = "inputs, variables with initial exact and the independent variable";
-        let lists: [(&[Unknown], fn(usize) -> Place, Known<'_>, &str); 3] = [
+        let lists: [List<'_>; 3] = [
             (&structure.outputs, Place::Output, &at_steps, step_rule),
             (&structure.derivatives, Place::Derivative, &at_steps, step_rule),
             (&structure.initial_unknowns, Place::InitialUnknown, &at_start, start_rule),
