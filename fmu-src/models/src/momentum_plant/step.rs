@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use nalgebra::Vector3;
-use physics::plant::{Changes, ModeSettings, Report, Start, StepContext, World};
+use physics::plant::{Changes, DownlinkForecast, ModeSettings, Report, Start, StepContext, World};
 
 use super::inputs::{self, dynamics, propulsion};
 use super::outputs::{self, failure, log_dump};
@@ -171,7 +171,9 @@ fn with_given<T>(
     use_it(StepContext {
         prepared: context.setup.prepared_spacecraft(sunshade)?,
         external: &|time_s| dynamics::external(context, values, over_time, time_s),
-        planner: &inputs::manager(context, values, sunshade),
+        planner: &|outlook: &mut DownlinkForecast<'_>| {
+            inputs::manager(context, values, sunshade).choose(outlook)
+        },
         work_limit: variables.solver.work.units(values),
     })
 }
