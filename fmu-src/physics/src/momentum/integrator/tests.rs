@@ -2,7 +2,7 @@
 use super::*;
 use crate::loads::ByEffect;
 use crate::momentum::dump::{DUMP_WINDOW_S, DumpPolicy, Reinitialise, TooManyDumps};
-use crate::momentum::torque_model::EventValues;
+use crate::momentum::torque_model::{EventValues, Sample};
 use approx::assert_relative_eq;
 use nalgebra::Rotation3;
 
