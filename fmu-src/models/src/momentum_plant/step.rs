@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use nalgebra::Vector3;
-use physics::plant::{Changes, ModeSettings, Report, Start, StepContext, World};
+use physics::plant::{Changes, DownlinkForecast, ModeSettings, Report, Start, StepContext, World};
 
 use super::inputs::{self, dynamics, propulsion};
 use super::outputs::{self, failure, log_dump};
@@ -36,6 +36,9 @@ pub fn begin(
     with_given(context, values, held, |given| {
         state.flight.begin(given, start, time_s, log).map_err(failure)
     })?;
+    if let Some(planets) = state.flight.ephemeris() {
+        context.setup.planets_at_start.get_or_init(|| planets.clone());
+    }
     if let Some(estimate) = state.flight.estimate_at(time_s) {
         state.take_first_command(context, values, estimate.attitude, time_s)?;
     }
@@ -127,6 +130,9 @@ fn configure(context: &Plan<'_>, values: &mut Values, state: &mut PlantState) ->
         false => ModeSettings::Ideal(dynamics::ideal_settings(context, values)?),
     };
     let mut world = World::new(configuration, inputs::laws(context, values));
+    if let Some(planets) = context.setup.planets_at_start.get() {
+        world.ephemeris.clone_from(planets);
+    }
     if !state.waiting {
         world.light = inputs::light(context, values, &world.configuration)?;
     }
@@ -171,7 +177,9 @@ fn with_given<T>(
     use_it(StepContext {
         prepared: context.setup.prepared_spacecraft(sunshade)?,
         external: &|time_s| dynamics::external(context, values, over_time, time_s),
-        planner: &inputs::manager(context, values, sunshade),
+        planner: &|outlook: &mut DownlinkForecast<'_>| {
+            inputs::manager(context, values, sunshade).choose(outlook)
+        },
         work_limit: variables.solver.work.units(values),
     })
 }
