@@ -22,26 +22,13 @@ use crate::plant::disturbances::disturbance_interval::{DisturbanceInterval, Line
 use crate::plant::disturbances::evaluation::{Evaluation, External, Plant};
 use crate::plant::mass::MassState;
 use crate::plant::motion::panel_motion::PanelMotion;
-use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
+use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings, StartMotion};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::work::Cost;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
 /// Units of work of a segment of the motion with flexible modes, slosh or imbalance; one of a rigid body's is a unit.
 const FLEXIBLE_UNITS: u32 = 8;
-
-/// How the body stands and turns where a flight begins, where nothing is measured yet.
-#[derive(Clone, Copy, Debug)]
-pub struct StartMotion {
-    /// Attitude.
-    pub attitude: Attitude,
-    /// Body rate, in rad/s.
-    pub rate_body_rad_s: Vector3<f64>,
-    /// Whether internal guidance gives the attitude.
-    pub attitude_is_guided: bool,
-    /// Whether internal guidance gives the rate too.
-    pub rate_is_guided: bool,
-}
 
 /// State of the attitude dynamics: body, panels, disturbances, sensors, control, dumps.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -56,15 +43,14 @@ pub(crate) struct AttitudeDynamics {
 }
 
 impl AttitudeDynamics {
-    /// At the start of a flight, the wheels holding these momenta, in N m s.
+    /// At the start of a flight.
     pub fn begin(
         settings: &mut DynamicsSettings,
         craft: &mut ConfiguredFlight<'_>,
-        start: &StartMotion,
-        wheels_n_m_s: impl Fn(usize) -> f64,
         time_s: f64,
     ) -> Result<Self, PlantError> {
-        let StartMotion { mut attitude, mut rate_body_rad_s, attitude_is_guided, rate_is_guided } = *start;
+        let StartMotion { mut attitude, mut rate_body_rad_s, attitude_is_guided, rate_is_guided, .. } =
+            settings.start;
         if attitude_is_guided && let Some(frame) = craft.guided_start(time_s)? {
             attitude = Attitude::from_rotation(&frame.inertial_from_body);
             if rate_is_guided {
@@ -84,8 +70,9 @@ impl AttitudeDynamics {
             settings.set_mass_properties(&mass);
         }
         let gyrostat = &settings.gyrostat;
+        let wheel_n_m_s = |k: usize| settings.start.wheels_n_m_s.get(k).copied().unwrap_or(0.0);
         let mut begun = Self {
-            motion: GyrostatMotion::new(gyrostat, time_s, unit, &rate_body_rad_s, wheels_n_m_s),
+            motion: GyrostatMotion::new(gyrostat, time_s, unit, &rate_body_rad_s, wheel_n_m_s),
             mass: MassState::new(mass),
             panels: PanelMotion::default(),
             disturbance: DisturbanceInterval::before(),
@@ -298,8 +285,9 @@ impl AttitudeDynamics {
         let number = self.sensing.sample(settings, inputs, time_s, &body, self.disturbance.sun_at(time_s));
         let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
         let is_free = self.dumps.are_over(craft.thrusters) && !self.control.by_thrusters;
-        if is_free && craft.thrusters.burning().is_none() && settings.dump.exceeded(&momentum_body) {
-            self.begin_dump(craft, &momentum_body, settings.dump.after(&momentum_body));
+        let policy = craft.world.configuration.momentum.policy;
+        if is_free && craft.thrusters.burning().is_none() && policy.exceeded(&momentum_body) {
+            self.begin_dump(craft, &momentum_body, policy.after(&momentum_body));
             self.dumps.dumps.check()?;
         }
         craft.thrusters.sample_dump(&self.motion, &body.momentum_inertial_n_m_s, &self.mass.known);

@@ -17,7 +17,6 @@ pub mod sun_choice;
 pub mod wheel_control;
 
 pub use configured::StepContext;
-pub use dynamic::StartMotion;
 pub use fork::ForecastMomentum;
 
 use nalgebra::Vector3;
@@ -79,14 +78,6 @@ pub enum ModeSettings {
     Ideal(IdealSettings),
     /// Of a flight by torque.
     Dynamic(Box<DynamicsSettings>),
-}
-
-/// How a flight begins.
-pub enum Start<W> {
-    /// With this momentum, body frame, in N m s, in an attitude that is followed ideally.
-    Ideal(Vector3<f64>),
-    /// With this motion, the wheels holding these momenta, in N m s.
-    Dynamic(StartMotion, W),
 }
 
 /// What changes.
@@ -255,23 +246,21 @@ impl Flight {
     ///
     /// # Errors
     /// What ends a flight.
-    pub fn begin<W: Fn(usize) -> f64>(
+    pub fn begin(
         &mut self,
         given: StepContext<'_>,
-        start: Start<W>,
         time_s: f64,
         log: &mut dyn FnMut(&DumpEvent),
     ) -> Result<(), PlantError> {
         let (mut flight, settings, mode) = self.parts(given, log)?;
         *flight.propagator = PropagatorState::new(&flight.world.configuration, time_s)?;
-        *mode = match (start, settings) {
-            (Start::Ideal(momentum_body_n_m_s), ModeSettings::Ideal(_)) => {
-                Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, momentum_body_n_m_s)?))
+        *mode = match settings {
+            ModeSettings::Ideal(IdealSettings { start_momentum_body_n_m_s, .. }) => {
+                Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, *start_momentum_body_n_m_s)?))
             }
-            (Start::Dynamic(start, wheels_n_m_s), ModeSettings::Dynamic(settings)) => Mode::Dynamic(
-                Box::new(AttitudeDynamics::begin(settings, &mut flight, &start, wheels_n_m_s, time_s)?),
-            ),
-            _ => return Err(PlantError::OtherMode),
+            ModeSettings::Dynamic(settings) => {
+                Mode::Dynamic(Box::new(AttitudeDynamics::begin(settings, &mut flight, time_s)?))
+            }
         };
         Ok(())
     }
@@ -336,8 +325,8 @@ impl Flight {
         (self.mode, self.thrusters) = (mode, thrusters);
     }
 
-    /// Everything at `time_s`, where the flight has come; a flight that waits holds the attitude of `command`, its system the
-    /// momentum of `start`, body frame, in N m s.
+    /// Everything at `time_s`, where the flight has come; one that waits holds the attitude of `held`, and the momentum of its
+    /// start.
     ///
     /// # Errors
     /// A state that belongs to another mode than the settings.
@@ -345,10 +334,10 @@ impl Flight {
         &mut self,
         given: StepContext<'_>,
         inputs: &DynamicsInputs,
-        held: (Command, Vector3<f64>),
+        held: &Command,
         time_s: f64,
     ) -> Result<Report<'_>, PlantError> {
-        let frame = held.0.frame_at(time_s);
+        let frame = held.frame_at(time_s);
         let Self { propagator, thrusters, setup: Some(setup), mode } = self else {
             return Err(PlantError::OtherMode);
         };
@@ -387,7 +376,8 @@ impl Flight {
                 shown
             }
             (Mode::Waiting, ModeSettings::Ideal(settings), _) => {
-                let totals = Totals::at_start(held.1, &frame.inertial_from_body);
+                let momentum_body_n_m_s = settings.start_momentum_body_n_m_s;
+                let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
                 ideal(&IdealFlight::new(time_s, totals), settings, evaluation, inputs, time_s)
             }
             _ => return Err(PlantError::OtherMode),
