@@ -10,6 +10,7 @@ use physics::environment::time;
 use physics::guidance::Guided;
 use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
 use physics::guidance::pointing::boresight::MdisRange;
+use physics::management::Strategy;
 use physics::momentum::{DumpPolicy, Reinitialise, Settings};
 use physics::plant::{self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, Ramp};
 use physics::spacecraft::PanelControl;
@@ -228,7 +229,8 @@ fn attitude(
         let camera = MdisRange::default();
         let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, camera)?;
         let management = &variables.momentum.management;
-        let (managed, choice) = (management.manages(values), state.flight.sun_choice());
+        let (managed, choice) =
+            (values.choice(management.strategy).0 != Strategy::DumpsOnly, state.flight.sun_choice());
         variables.guided.check_unload(values, managed)?;
         if managed && !state.waiting {
             check_windows(&law.schedule)?;

@@ -23,7 +23,6 @@ use super::state::PlantState;
 use super::variables::choices::EphemerisSource;
 use crate::common::effects::unused_map;
 use crate::common::ephemeris;
-use crate::common::management::Limits;
 pub use dynamics::wheel_array;
 
 /// What parameters and inputs say to one step, beside what [`PlantState::inputs`] hold.
@@ -91,8 +90,9 @@ pub fn read<'a>(
     let begins = state.waiting && state.inputs.unset_places.is_empty();
     state.waiting &= !begins;
     let sunshade = values.choice(variables.sunshade.shape).0;
-    let limits = Limits { azimuth: variables.keep_in.azimuth, elevation: variables.keep_in.elevation };
+    let limits_rad = [variables.keep_in.azimuth, variables.keep_in.elevation].map(|limit| values.real(limit));
     let (management, spacecraft) = (&variables.momentum.management, &context.setup.spacecraft);
+    let strategy = values.choice(management.strategy).0;
     let configured = configured(context, values, state, step.inputs, (begins, changes))?;
     Ok(Reading {
         changes,
@@ -100,7 +100,7 @@ pub fn read<'a>(
         is_reconfigured: configured.is_some(),
         configured,
         applied: state.inputs.applied_load(variables, step.inputs),
-        manager: management.manager(values, limits, spacecraft, sunshade),
+        manager: management.aim.manager(values, strategy, limits_rad, (spacecraft, sunshade)),
         prepared: context.setup.prepared_spacecraft(sunshade)?,
         work_limit: variables.solver.work.units(values),
     })
