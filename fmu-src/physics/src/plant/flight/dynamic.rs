@@ -19,7 +19,7 @@ use super::control_loop::{ControlLoop, Sampled};
 use super::momentum_dumps::MomentumDumps;
 use super::sensing::Sensing;
 use crate::plant::disturbances::disturbance_interval::{DisturbanceInterval, Linear};
-use crate::plant::disturbances::evaluation::{Evaluation, External, Plant};
+use crate::plant::disturbances::evaluation::{Evaluation, Plant};
 use crate::plant::mass::MassState;
 use crate::plant::motion::panel_motion::PanelMotion;
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings, StartMotion};
@@ -136,9 +136,10 @@ impl AttitudeDynamics {
             let edge_s = craft.thrusters.next_edge_s();
             let limit_s = self.sensing.next_s().min(self.disturbance.end_s()).min(edge_s);
             let limit_s = limit_s.min(self.dumps.until_s());
-            let mut load = self.load(craft.given.external, craft.thrusters, time_s);
+            let external = (craft.given.external)(time_s);
+            let mut load = self.load(&external, craft.thrusters, time_s);
             load.internal = self.panels.internal(craft.given.prepared.panels, &self.mass.now, time_s);
-            self.dumps.torques = self.torques_by_source(craft.given.external, time_s);
+            self.dumps.torques = self.torques_by_source(&external, time_s);
             self.motion.advance(&settings.gyrostat, self.control.wheels.motors(), &load, limit_s);
             craft.take_thrust(&self.motion)?;
         }
@@ -161,6 +162,7 @@ impl AttitudeDynamics {
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
         let due_s = time_s + tolerance_s(time_s);
+        self.motion.remembered_at(&settings.gyrostat, time_s);
         self.dumps.accumulate(&self.motion, self.dumps.is_dumping(craft.thrusters, time_s));
         if !craft.thrusters.load().law.is_none() {
             let Thrusters { propellant, settings: known, .. } = &*craft.thrusters;
@@ -281,7 +283,7 @@ impl AttitudeDynamics {
         inputs: &DynamicsInputs,
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
-        let body = self.motion.at(&settings.gyrostat, time_s);
+        let body = self.motion.remembered_at(&settings.gyrostat, time_s);
         let number = self.sensing.sample(settings, inputs, time_s, &body, self.disturbance.sun_at(time_s));
         let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
         let is_free = self.dumps.are_over(craft.thrusters) && !self.control.by_thrusters;
@@ -326,9 +328,8 @@ impl AttitudeDynamics {
     }
 
     /// What acts from `time_s` on.
-    fn load(&self, external: &External<'_>, thrusters: &Thrusters, time_s: f64) -> BodyLoad {
+    fn load(&self, [now, slope]: &[ForceTorque; 2], thrusters: &Thrusters, time_s: f64) -> BodyLoad {
         let [[force, force_slope], [torque, torque_slope]] = self.disturbance.total_at(time_s);
-        let [now, slope] = external(time_s);
         let dump = self.dumps.torque_body_n_m();
         let thrusters = thrusters.load();
         let [thrust, thrust_slope] = thrusters.law.force_body_n;
@@ -350,9 +351,9 @@ impl AttitudeDynamics {
     }
 
     /// Torque by effect from `time_s` on.
-    fn torques_by_source(&self, external: &External<'_>, time_s: f64) -> ByEffect<Option<Linear>> {
+    fn torques_by_source(&self, external: &[ForceTorque; 2], time_s: f64) -> ByEffect<Option<Linear>> {
         ByEffect::of(|effect| match effect {
-            Effect::Applied => Some(external(time_s).map(|load| load.torque_body_n_m)),
+            Effect::Applied => Some(external.map(|load| load.torque_body_n_m)),
             effect if effect.row().momentum_apart => self.disturbance.torque_at(effect, time_s),
             _ => None,
         })
