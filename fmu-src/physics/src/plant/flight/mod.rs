@@ -337,32 +337,22 @@ impl Flight {
         held: &Command,
         time_s: f64,
     ) -> Result<Report<'_>, PlantError> {
-        let frame = held.frame_at(time_s);
+        let (is_waiting, frame) = (self.is_waiting(), held.frame_at(time_s));
         let Self { propagator, thrusters, setup: Some(setup), mode } = self else {
             return Err(PlantError::OtherMode);
         };
         let FlightSetup { world, settings, evaluation } = &mut **setup;
         let mut flight = ConfiguredFlight { given, world, propagator, thrusters, log: &mut |_| {} };
-        let body = match (&*mode, &mut *settings) {
+        let (evaluation, shown) = match (mode, settings) {
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
                 dynamics.resume(settings, &mut flight);
-                Some(dynamics.motion.at(&settings.gyrostat, time_s))
+                let body = dynamics.motion.remembered_at(&settings.gyrostat, time_s);
+                let evaluation =
+                    &*evaluation.insert(dynamics.evaluation(settings, &mut flight, &body, time_s));
+                (evaluation, dynamic(dynamics, settings, flight.thrusters, body, time_s))
             }
-            _ => None,
-        };
-        let evaluation = &*evaluation.insert(match (&*mode, &mut *settings, &body) {
-            (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings), Some(body)) => {
-                dynamics.evaluation(settings, &mut flight, body, time_s)
-            }
-            (Mode::Waiting, ..) => Evaluation::without_position(frame, flight.world.mass_at_zero),
-            _ => flight.plant().evaluate(time_s),
-        });
-        let (configuration, thrusters) = (&world.configuration, &*thrusters);
-        let shown = match (&*mode, &*settings, body) {
-            (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings), Some(body)) => {
-                dynamic(dynamics, settings, thrusters, body, time_s)
-            }
-            (Mode::Ideal(simulated), ModeSettings::Ideal(settings), _) => {
+            (Mode::Ideal(simulated), ModeSettings::Ideal(settings)) => {
+                let evaluation = &*evaluation.insert(flight.plant().evaluate(time_s));
                 let mut shown = ideal(simulated, settings, evaluation, inputs, time_s);
                 let Instant { sun_body, lit_fraction, .. } = &evaluation.instant;
                 shown.sun_sensed_body = sensed_sun(
@@ -373,18 +363,21 @@ impl Flight {
                     settings.seed,
                     sample_number(time_s, settings.rate_hz),
                 );
-                shown
+                (evaluation, shown)
             }
-            (Mode::Waiting, ModeSettings::Ideal(settings), _) => {
+            (Mode::Waiting, ModeSettings::Ideal(settings)) => {
+                let evaluated = Evaluation::without_position(frame, flight.world.mass_at_zero);
+                let evaluation = &*evaluation.insert(evaluated);
                 let momentum_body_n_m_s = settings.start_momentum_body_n_m_s;
                 let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-                ideal(&IdealFlight::new(time_s, totals), settings, evaluation, inputs, time_s)
+                (evaluation, ideal(&IdealFlight::new(time_s, totals), settings, evaluation, inputs, time_s))
             }
             _ => return Err(PlantError::OtherMode),
         };
-        let since_periapsis_s = match mode {
-            Mode::Waiting => 0.0,
-            _ => propagator.trajectory.time_since_periapsis_s(configuration, time_s),
+        let (configuration, thrusters) = (&world.configuration, &*thrusters);
+        let since_periapsis_s = match is_waiting {
+            true => 0.0,
+            false => propagator.trajectory.time_since_periapsis_s(configuration, time_s),
         };
         let target_is_clamped = propagator.sun_choice.is_clamped();
         Ok(Report {
