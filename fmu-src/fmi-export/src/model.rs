@@ -268,7 +268,13 @@ impl<'a> InputsOverTime<'a> {
     /// An input at `time_s`.
     #[inline]
     pub fn real(&self, values: &Values, input: Real, time_s: f64) -> f64 {
-        let mut sum = values.real(input);
+        self.from_held(values.real(input), input, time_s)
+    }
+
+    /// An input that has the value `held` where the derivatives hold, at `time_s`.
+    #[inline]
+    pub fn from_held(&self, held: f64, input: Real, time_s: f64) -> f64 {
+        let mut sum = held;
         for &InputDerivative { input: of, order, value } in self.derivatives {
             if of == input {
                 let dt_s = time_s - self.start_s;

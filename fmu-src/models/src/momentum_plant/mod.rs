@@ -76,12 +76,9 @@ impl Model for MomentumPlant {
 
     fn initialize(context: &Plan<'_>, values: &mut Values, start_s: f64) -> Result<PlantState, Failure> {
         inputs::check_effects(context, values)?;
-        let mut state = PlantState::new(context, values, start_s)?;
-        if state.waiting {
-            step::wait(context, values, &mut state, start_s)?;
-        } else {
-            step::begin(context, values, &mut state, start_s)?;
-        }
+        let mut state = inputs::start(context, values, start_s)?;
+        outputs::write_guaranteed(context, values);
+        step::start(context, values, &mut state, start_s)?;
         Ok(state)
     }
 
