@@ -52,6 +52,7 @@ mod tests {
             valve: ValveTiming::default(),
             scatter: 0.0,
             set: Some(set),
+            attitude_control: true,
             tank: 0,
             at_pressure_pa: None,
             plume_half_angle_rad: 0.0,
