@@ -18,7 +18,7 @@ pub fn table(_setup: &GuidanceSetup, v: &GuidanceVariables) -> Dependencies {
     let body = knowns![&v.start, &v.target, &v.planet, &v.ephemeris];
     let zones = knowns![&v.keep_in, &v.safe_hold, &v.hot_pole, &v.monitor];
     let judged = &knowns![body, zones];
-    table.output(knowns![v.mode.active, v.ephemeris.valid, v.ephemeris.active], mode, judged);
+    table.output(knowns![v.mode.active, v.mode.reason, v.ephemeris.valid, v.ephemeris.active], mode, judged);
     let measured = knowns![mode, v.pointing.scenario, v.accelerometer.delta_v];
     table.output(knowns![&v.thrust, &v.burn], measured, knowns![judged, &v.burn]);
 

@@ -11,10 +11,12 @@ use fmi_export::{
     About, Dependencies, Extensions, Failure, InputsOverTime, Manual, Model, OutputRates, Real, SetupError,
     StartValue, Step, StepEnd, Values,
 };
+use physics::enumeration::Enumerated;
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
 use physics::guidance::burn::delta_v::{BurnPhase, BurnState};
+use physics::guidance::modes::mode::{Mode, ModeReason};
 use physics::guidance::modes::system::{
     GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs, TimedEntries,
 };
@@ -30,7 +32,7 @@ use variables::GuidanceVariables;
 
 impl Model for Guidance {
     const NAME: &'static str = "Guidance";
-    const STATE_VERSION: u32 = 5;
+    const STATE_VERSION: u32 = 6;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &["timeline.toml", EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
@@ -129,9 +131,11 @@ impl Model for Guidance {
                     step.start_s, step.end_s
                 )));
             }
-            let burn = *state.system.burn();
+            let (burn, sampled_s) = (*state.system.burn(), state.system.next_sample_s());
+            let before = (state.system.mode(), state.system.mode_reason());
             work.spend(0, state.sample(context, values, &fixed, &settings, step.inputs)?);
             warn_of_missed_burn(context, &burn, state.system.burn());
+            log_demotion(context, sampled_s, before, (state.system.mode(), state.system.mode_reason()));
         }
         let epoch_s = time::epoch_at_s(step.end_s, state.epoch_minus_time_s);
         state.time_s = step.end_s;
@@ -156,6 +160,49 @@ impl Model for Guidance {
             return Ok(());
         }
         Err(Failure::new(format!("the next sample is due elsewhere than after {time_s:?} s")))
+    }
+}
+
+/// Says why the mode fell at the sample, or what was lost beside: a request as an event, what comes by itself as a warning.
+fn log_demotion(
+    context: &Plan<'_>,
+    sampled_s: f64,
+    (mode_before, reason_before): (Mode, Option<ModeReason>),
+    (mode, reason): (Mode, Option<ModeReason>),
+) {
+    let Some(reason) = reason else { return };
+    let has_fallen = mode.value() > mode_before.value();
+    let is_requested = matches!(reason, ModeReason::Request | ModeReason::Timeline);
+    let is_lost = matches!(reason, ModeReason::AttitudeLost | ModeReason::SunLost);
+    if !has_fallen && !(is_lost && reason_before != Some(reason)) {
+        return;
+    }
+    let why = match reason {
+        ModeReason::Request => "mode.request asked for it",
+        ModeReason::Timeline => "the timeline asked for it",
+        ModeReason::SunKeepIn => {
+            "estimate.q has the Sun outside the keep-in zone (keepIn.*) by more than monitor.margin for monitor.persistence"
+        }
+        ModeReason::HotPole => {
+            "estimate.q has -Z too near the planet over its hot pole (hotPole.*) by more than monitor.margin for \
+             monitor.persistence"
+        }
+        ModeReason::AttitudeLost => "estimate.valid is false",
+        ModeReason::SunLost => "estimate.valid and sun.sensedValid are false: the Sun is searched for",
+        ModeReason::Ephemeris => {
+            "the precise ephemerides contradict the Sun sensors by more than ephemeris.tolerance for \
+             ephemeris.persistence, or do not reach this time"
+        }
+        ModeReason::NoProgress => {
+            "the turn back within the constraints came no nearer to them for monitor.persistence"
+        }
+    };
+    let (from, to, name) = (mode_before.name(), mode.name(), reason.name());
+    let change = if has_fallen { format!("mode {from} -> {to}") } else { format!("mode {to} stays") };
+    if is_requested {
+        context.log.event(sampled_s, &format!("{change} (mode.reason {name}): {why}"));
+    } else {
+        context.log.warning(&format!("t = {sampled_s} s: {change} (mode.reason {name}): {why}"));
     }
 }
 
@@ -225,6 +272,7 @@ impl State {
             settings.modes.ephemeris_check = None;
         }
         sensed.request = sensed.request.or(entry.and_then(|entry| entry.mode));
+        sensed.is_of_timeline = entries.mode.is_some();
         let delta_v_body_m_s = reader.delta_v_body_m_s();
         let momentum_body_n_m_s = reader.momentum_body_n_m_s();
         self.dumps.sample(&management::policy(context, values), &momentum_body_n_m_s);

@@ -7,7 +7,7 @@ use physics::guidance::modes::system::GuidanceState;
 
 use super::setup::Plan;
 use super::state::State;
-use super::variables::choices::{ActiveMode, AntennaSelect, EphemerisModel, EphemerisSource};
+use super::variables::choices::{ActiveMode, AntennaSelect, EphemerisModel, EphemerisSource, ModeReason};
 use crate::common::choices::{CommandKind, ThrustRequest};
 
 /// What `thrust.stop` says without thrust, in s.
@@ -24,6 +24,7 @@ pub fn write(context: &Plan<'_>, values: &mut Values, state: &State, burn: &Burn
     values.set_vector(v.command.rate, command.rate_body_rad_s.into());
     values.set_vector(v.command.error, command.error);
     values.set_choice(v.mode.active, ActiveMode(state.mode()));
+    values.set_choice(v.mode.reason, ModeReason(state.mode_reason()));
     values.set_real(v.epoch, epoch_s);
     values.set_boolean(v.ephemeris.valid, state.ephemeris_is_valid());
     let is_coarse = match values.choice(v.ephemeris.source) {

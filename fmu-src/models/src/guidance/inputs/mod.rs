@@ -416,6 +416,7 @@ impl<'a> Reader<'a> {
         let sensed = Sensed {
             time_s: self.time_s,
             request: self.item(v.mode.request, ModeRequest::mode),
+            is_of_timeline: false,
             estimate,
             sun_body: self.flag(v.sun.sensed_valid).then(|| self.vector(v.sun.sensed)),
         };

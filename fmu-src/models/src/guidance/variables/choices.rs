@@ -28,6 +28,8 @@ optional_choices! {
     AzimuthReference(command::AzimuthReference) or "As downtrack.";
     /// Frame of a scan.
     ScanFrame(command::ScanFrame) or "No scan.";
+    /// Why a mode is in force.
+    ModeReason(mode::ModeReason) or "The mode of the start.";
 }
 
 /// A mode requested.

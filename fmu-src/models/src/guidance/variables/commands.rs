@@ -8,7 +8,7 @@ use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;
 use super::super::setup::GuidanceSetup;
 use super::choices::{
     ActiveMode, AimpointBody, AimpointOption, AzimuthReference, BodyRollOption, BoresightOption,
-    ExternalRollOption, ModeRequest, PointingScenario, ScanFrame,
+    ExternalRollOption, ModeReason, ModeRequest, PointingScenario, ScanFrame,
 };
 
 /// The scenario.
@@ -205,4 +205,7 @@ pub struct ModeVariables {
     /// The mode in force.
     #[output]
     pub active: Choice<ActiveMode>,
+    /// Why, since it changed last; while there is no estimate of the attitude what is lost now. A demotion is logged too.
+    #[output]
+    pub reason: Choice<ModeReason>,
 }

@@ -11,6 +11,7 @@ use super::{FREE, Flight, to_inertial, with};
 const OPERATIONAL: i32 = 1;
 const SAFE_HOLD: i32 = 2;
 const EARTH_ACQUISITION: i32 = 3;
+const BY_EPHEMERIS: i32 = 7;
 const PRECISE: i32 = 1;
 const COARSE: i32 = 2;
 const DEG: f64 = core::f64::consts::PI / 180.0;
@@ -66,6 +67,7 @@ fn a_sun_five_degrees_off_is_lost_after_its_persistence_and_the_coarse_one_simul
         // The sample at 10 s, which belongs to the step that ends at 11 s, has lasted for ten.
         let expected = if second <= 10 { (OPERATIONAL, true, PRECISE) } else { (SAFE_HOLD, false, COARSE) };
         assert_eq!(seen(&flight), expected, "{second}");
+        assert_eq!(flight.integer("mode.reason"), if second <= 10 { 0 } else { BY_EPHEMERIS }, "{second}");
     }
     // Safe Hold flies downlink within its keep-in zone: now with the Sun where it is, to the coarse model's error.
     let elevation_rad = flight.real("sun.elevation");

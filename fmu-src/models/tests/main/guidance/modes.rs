@@ -95,6 +95,56 @@ fn the_monitor_demotes_after_its_persistence_and_watches_no_estimate_of_zero() {
 }
 
 #[test]
+fn every_demotion_says_why_in_mode_reason_and_in_the_log() {
+    let named = NamedModel::<Guidance>::shipped();
+    let at_once = [("monitor.persistence", 0.0), ("monitor.margin", 0.01)];
+    let reason_of = |flight: &mut Flight<'_>, sets: &[(&str, f64)]| {
+        let before = named.warnings().len();
+        step(flight, sets);
+        (flight.integer("mode.active"), flight.integer("mode.reason"), named.warnings()[before..].to_vec())
+    };
+    let says = |(mode, reason, warnings): (i32, i32, Vec<String>), expected: (i32, i32), words: &[&str]| {
+        assert_eq!((mode, reason), expected, "{warnings:?}");
+        assert_eq!(warnings.len(), usize::from(!words.is_empty()), "{warnings:?}");
+        assert!(words.iter().all(|word| warnings[0].contains(word)), "{words:?} {warnings:?}");
+    };
+    let zone_only = [("hotPole.enabled", 0.0)];
+    let mut flight = named.fly(0.0, &with(&[PLACED, DOWN, &at_once, &zone_only])).unwrap();
+    says(reason_of(&mut flight, &[]), (OPERATIONAL, 0), &[]);
+    let held: [f64; 4] = flight.quaternion("command.q");
+    let away = to_inertial(&flight) * nalgebra::UnitQuaternion::from_scaled_axis(Vector3::z() * 3.0);
+    flight.set_elements("estimate.q", away.coords.iter());
+    says(reason_of(&mut flight, &[]), (SAFE_HOLD, 3), &["t = 1 s", "operational -> safeHold", "keepIn"]);
+    let lower = (EARTH_ACQUISITION, 8);
+    says(reason_of(&mut flight, &[]), lower, &["t = 2 s", "safeHold -> earthAcquisition", "noProgress"]);
+    // What the ground asks for is no warning.
+    flight.set_elements("estimate.q", held.iter());
+    says(reason_of(&mut flight, &[("mode.request", 1.0)]), (OPERATIONAL, 1), &[]);
+    let lost = [("estimate.valid", 0.0)];
+    says(reason_of(&mut flight, &lost), (EARTH_ACQUISITION, 6), &["sunLost", "sun.sensedValid"]);
+    let sun = [("sun.sensed[1]", 2.0), ("sun.sensedValid", 1.0)];
+    says(reason_of(&mut flight, &sun), (EARTH_ACQUISITION, 5), &["earthAcquisition stays", "attitudeLost"]);
+    says(reason_of(&mut flight, &[]), (EARTH_ACQUISITION, 5), &[]);
+    let asked = [("estimate.valid", 1.0), ("mode.request", 2.0)];
+    says(reason_of(&mut flight, &asked), (SAFE_HOLD, 1), &[]);
+
+    // Over the subsolar point at 100 km, without a zone: -Z at the planet.
+    let over = [
+        ("keepIn.enabled", 0.0),
+        ("position[1]", 2.54e6),
+        ("position[2]", 0.0),
+        ("position[3]", 0.0),
+        ("sun.position[1]", 5e10),
+        ("sun.position[2]", 0.0),
+        ("sun.position[3]", 0.0),
+    ];
+    let mut low = named.fly(0.0, &with(&[PLACED, &over, DOWN, &at_once])).unwrap();
+    let half = core::f64::consts::FRAC_1_SQRT_2;
+    low.set_elements("estimate.q", [0.0, half, 0.0, half].iter());
+    says(reason_of(&mut low, &[]), (SAFE_HOLD, 4), &["hotPole", "operational -> safeHold"]);
+}
+
+#[test]
 fn safe_hold_ignores_all_but_downlink() {
     let named = NamedModel::<Guidance>::shipped();
     let hold = [("mode.request", 2.0), ("monitor.enabled", 0.0)];

@@ -29,6 +29,26 @@ pub struct ConstrainedPointing {
     pub hot_pole_reached: bool,
 }
 
+/// By how much directions of Sun and planet in the body frame exceed the constraints, in rad; negative where they are kept,
+/// minus infinity where nothing is watched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Excess {
+    /// The Sun, over the keep-in zone.
+    pub sun_rad: f64,
+    /// The planet, over the hot pole's cone.
+    pub planet_rad: f64,
+}
+
+impl Excess {
+    /// Nothing is watched.
+    pub const NONE: Self = Self { sun_rad: f64::NEG_INFINITY, planet_rad: f64::NEG_INFINITY };
+
+    /// The greater of both.
+    pub fn greatest_rad(&self) -> f64 {
+        self.sun_rad.max(self.planet_rad)
+    }
+}
+
 impl Constraints {
     /// The attitude of `vectors`, constrained; `None` where boresight, aimpoint, zone axis or Sun has no direction.
     /// `last_turn` is the side of a turn away from the hot pole that lasts.
@@ -54,12 +74,14 @@ impl Constraints {
         })
     }
 
-    /// By how much the directions of Sun and planet in the body frame exceed the constraints, the greatest in rad;
-    /// negative where all are kept, minus infinity where nothing is watched. `in_region`: whether the hot pole counts.
-    pub fn excess_rad(&self, sun_body: &Vector3<f64>, planet_body: &Vector3<f64>, in_region: bool) -> f64 {
+    /// By how much the directions of Sun and planet in the body frame exceed the constraints. `in_region`: whether the hot
+    /// pole counts.
+    pub fn excess(&self, sun_body: &Vector3<f64>, planet_body: &Vector3<f64>, in_region: bool) -> Excess {
         let sun_rad = self.keep_in.as_ref().and_then(|zone| zone.excess_rad(sun_body));
-        let planet_rad =
-            self.hot_pole.as_ref().filter(|_| in_region).map(|cone| cone.excess_rad(planet_body));
-        sun_rad.into_iter().chain(planet_rad).fold(f64::NEG_INFINITY, f64::max)
+        let cone = self.hot_pole.as_ref().filter(|_| in_region);
+        Excess {
+            sun_rad: sun_rad.unwrap_or(Excess::NONE.sun_rad),
+            planet_rad: cone.map_or(Excess::NONE.planet_rad, |cone| cone.excess_rad(planet_body)),
+        }
     }
 }

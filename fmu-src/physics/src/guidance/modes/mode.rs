@@ -21,6 +21,29 @@ enumeration! {
     }
 }
 
+enumeration! {
+    /// Why a mode is in force.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+    pub enum ModeReason {
+        /// The input mode.request asked for it.
+        1 => Request,
+        /// The timeline asked for it.
+        2 => Timeline,
+        /// The estimated attitude had the Sun outside the keep-in zone for too long.
+        3 => SunKeepIn,
+        /// The estimated attitude had -Z too near the planet over the hot pole for too long.
+        4 => HotPole,
+        /// There is no valid estimate of the attitude; the Sun is known.
+        5 => AttitudeLost,
+        /// There is no valid estimate of the attitude and no Sun: it is searched for.
+        6 => SunLost,
+        /// The precise ephemerides contradict the Sun sensors, or end.
+        7 => Ephemeris,
+        /// The safing turn of the mode before came no nearer to its constraint for too long.
+        8 => NoProgress,
+    }
+}
+
 impl Mode {
     /// The next lower mode; the lowest is its own.
     pub fn demoted(self) -> Self {

@@ -8,7 +8,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::Attitude;
-use crate::guidance::constraints::constrained::Constraints;
+use crate::guidance::constraints::constrained::{Constraints, Excess};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
 
@@ -40,6 +40,13 @@ pub struct MonitorState {
     pub violation: Option<Violation>,
 }
 
+impl MonitorState {
+    /// Whether the present violation was answered by a demotion: a second one means that the turn makes no progress.
+    pub fn is_answered(&self) -> bool {
+        self.violation.is_some_and(|violation| violation.least_excess_rad.is_some())
+    }
+}
+
 impl Monitor {
     /// Takes the sample at `time_s` with this excess over `constraints` (unwidened); whether the mode is to be demoted.
     pub fn trips(&self, state: &mut MonitorState, time_s: f64, excess_rad: f64) -> bool {
@@ -63,12 +70,12 @@ impl Monitor {
     }
 }
 
-/// By how much an estimated attitude exceeds the constraints, in rad; negative where it keeps them.
-pub fn excess_rad(constraints: &Constraints, estimate: &Attitude, surroundings: &EphemerisAtTime) -> f64 {
+/// By how much an estimated attitude exceeds the constraints.
+pub fn excess(constraints: &Constraints, estimate: &Attitude, surroundings: &EphemerisAtTime) -> Excess {
     let body_from_inertial = estimate.inertial_from_body().inverse();
     let in_region = constraints.hot_pole.is_some_and(|cone| cone.in_region(surroundings));
     let body = |vector| body_from_inertial * value(&vector);
-    constraints.excess_rad(&body(surroundings.to_sun()), &body(surroundings.to_planet()), in_region)
+    constraints.excess(&body(surroundings.to_sun()), &body(surroundings.to_planet()), in_region)
 }
 
 #[cfg(test)]

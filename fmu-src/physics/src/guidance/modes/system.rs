@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::body_positions::BodyPositions;
 use super::guidance_command::{CommandKind, CommandStatus, GuidanceCommand};
-use super::mode::Mode;
+use super::mode::{Mode, ModeReason};
 use super::sun_line::SunLine;
 use super::transitions::{ModeSettings, ModeState, Sensed, Steering};
 use crate::attitude::Attitude;
@@ -150,6 +150,11 @@ impl GuidanceState {
     /// The mode in force.
     pub fn mode(&self) -> Mode {
         self.modes.mode
+    }
+
+    /// Why it is; `None`: it is that of the start.
+    pub fn mode_reason(&self) -> Option<ModeReason> {
+        self.modes.reason
     }
 
     /// Whether the precise ephemerides are trusted.

@@ -124,7 +124,13 @@ pub fn sample_inputs(attitude: Attitude, delta_v_body_m_s: Vector3<f64>) -> Samp
         command: PointingCommand { scenario: Some(Scenario::Burn), ..PointingCommand::default() },
         entries: TimedEntries::default(),
         places: BodyPositions::in_every_mode(Some(surroundings())),
-        sensed: Sensed { time_s: 0.0, request: None, estimate: Some(attitude), sun_body: None },
+        sensed: Sensed {
+            time_s: 0.0,
+            request: None,
+            is_of_timeline: false,
+            estimate: Some(attitude),
+            sun_body: None,
+        },
         delta_v_body_m_s,
     }
 }

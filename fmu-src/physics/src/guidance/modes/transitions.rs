@@ -14,10 +14,10 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::body_positions::{BodyPositions, EphemerisTrust};
-use super::mode::Mode;
-use super::monitor::{Monitor, MonitorState, Violation, excess_rad};
+use super::mode::{Mode, ModeReason};
+use super::monitor::{Monitor, MonitorState, Violation, excess};
 use crate::attitude::{Attitude, Quaternion};
-use crate::guidance::constraints::constrained::Constraints;
+use crate::guidance::constraints::constrained::{Constraints, Excess};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::value;
 
@@ -63,6 +63,8 @@ pub struct Sensed {
     pub time_s: f64,
     /// The mode that is requested.
     pub request: Option<Mode>,
+    /// Whether a timeline requests it.
+    pub is_of_timeline: bool,
     /// Estimated attitude; `None` where it is not valid.
     pub estimate: Option<Attitude>,
     /// Sun in the body frame by the Sun sensors, of any length; `None` where not valid.
@@ -90,6 +92,8 @@ pub enum Steering {
 pub struct ModeState {
     /// Active.
     pub mode: Mode,
+    /// Why, since the mode changed last; without an estimate of the attitude what is lost now. `None`: the mode of the start.
+    pub reason: Option<ModeReason>,
     /// Request of the last sample.
     pub last_request: Option<Mode>,
     /// When the Sun search began, in s; `None` outside a search.
@@ -136,10 +140,20 @@ impl ModeState {
         places.in_mode(self.mode, &self.ephemeris)
     }
 
+    /// The next lower mode.
+    fn demote(&mut self, reason: ModeReason) {
+        self.mode = self.mode.demoted();
+        self.reason = Some(reason);
+    }
+
     fn change_mode(&mut self, settings: &ModeSettings, sensed: &Sensed, places: &BodyPositions) {
         let requested = sensed.request.filter(|_| sensed.request != self.last_request);
         self.last_request = sensed.request;
         if let Some(mode) = requested {
+            if mode != self.mode {
+                let by = if sensed.is_of_timeline { ModeReason::Timeline } else { ModeReason::Request };
+                self.reason = Some(by);
+            }
             self.mode = mode;
             // A violation is judged anew, without the lenience toward a safing turn.
             self.monitor = MonitorState::default();
@@ -147,11 +161,12 @@ impl ModeState {
                 self.ephemeris.renew();
             }
         }
-        let sun_in_estimate = sensed.estimate.zip(sensed.sun_body.and_then(direction));
+        let sensed_sun = sensed.sun_body.and_then(direction);
+        let sun_in_estimate = sensed.estimate.zip(sensed_sun);
         self.ephemeris.judge(settings.ephemeris_check.as_ref(), sensed.time_s, places, sun_in_estimate);
         if self.mode == Mode::Operational && !self.ephemeris.is_valid() {
             // Coarse models do not point as Operational demands.
-            self.mode = self.mode.demoted();
+            self.demote(ModeReason::Ephemeris);
             // The turn to where the coarse Sun stands is a safing turn: any excess is less.
             let violation =
                 Violation { since_s: sensed.time_s, least_excess_rad: Some(core::f64::consts::TAU) };
@@ -159,6 +174,9 @@ impl ModeState {
         }
         let Some(estimate) = &sensed.estimate else {
             self.mode = Mode::EarthAcquisition;
+            // Without the attitude no ephemeris tells where the Sun is in the body.
+            let lost = if sensed_sun.is_some() { ModeReason::AttitudeLost } else { ModeReason::SunLost };
+            self.reason = Some(lost);
             self.monitor = MonitorState::default();
             return;
         };
@@ -167,13 +185,20 @@ impl ModeState {
             self.monitor = MonitorState::default();
             return;
         };
-        let excess_rad = self.surroundings(places).map_or(f64::NEG_INFINITY, |surroundings| {
+        let excess = self.surroundings(places).map_or(Excess::NONE, |surroundings| {
             let constraints = settings.constraints(self.mode);
             let hot_pole = constraints.hot_pole.filter(|_| settings.watches_hot_pole);
-            excess_rad(&Constraints { hot_pole, ..*constraints }, estimate, surroundings)
+            excess(&Constraints { hot_pole, ..*constraints }, estimate, surroundings)
         });
-        if monitor.trips(&mut self.monitor, sensed.time_s, excess_rad) {
-            self.mode = self.mode.demoted();
+        let reason = if self.monitor.is_answered() {
+            ModeReason::NoProgress
+        } else if excess.planet_rad > excess.sun_rad {
+            ModeReason::HotPole
+        } else {
+            ModeReason::SunKeepIn
+        };
+        if monitor.trips(&mut self.monitor, sensed.time_s, excess.greatest_rad()) {
+            self.demote(reason);
         }
     }
 }

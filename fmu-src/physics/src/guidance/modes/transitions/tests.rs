@@ -49,7 +49,7 @@ fn estimate(angle_rad: f64) -> Attitude {
 }
 
 fn sensed(request: Option<Mode>, estimate: Option<Attitude>) -> Sensed {
-    Sensed { time_s: 0.0, request, estimate, sun_body: None }
+    Sensed { time_s: 0.0, request, is_of_timeline: false, estimate, sun_body: None }
 }
 
 #[test]
@@ -104,6 +104,36 @@ fn the_modes_change_by_the_table() {
 }
 
 #[test]
+fn the_reason_is_that_of_the_last_change_of_mode() {
+    let (safe, unsafe_both) = (Some(estimate(0.0)), Some(estimate(0.5)));
+    let sun = Some(Vector3::x());
+    let mut state = ModeState::default();
+    // Request, of a timeline, estimate, Sun; mode and reason after it.
+    for (row, (request, is_of_timeline, estimate, sun_body, mode, reason)) in [
+        (None, false, safe, None, Operational, None),
+        (Some(Operational), false, safe, None, Operational, None),
+        (Some(SafeHold), false, safe, None, SafeHold, Some(ModeReason::Request)),
+        (Some(Operational), true, safe, None, Operational, Some(ModeReason::Timeline)),
+        (Some(Operational), true, unsafe_both, None, SafeHold, Some(ModeReason::SunKeepIn)),
+        (Some(Operational), true, unsafe_both, None, EarthAcquisition, Some(ModeReason::NoProgress)),
+        (Some(Operational), true, None, sun, EarthAcquisition, Some(ModeReason::AttitudeLost)),
+        (Some(Operational), true, None, None, EarthAcquisition, Some(ModeReason::SunLost)),
+        (Some(Operational), true, safe, None, EarthAcquisition, Some(ModeReason::SunLost)),
+        (None, false, safe, None, EarthAcquisition, Some(ModeReason::SunLost)),
+        (Some(Operational), false, safe, None, Operational, Some(ModeReason::Request)),
+        // What demotes at the same sample outweighs the request.
+        (Some(SafeHold), false, None, sun, EarthAcquisition, Some(ModeReason::AttitudeLost)),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let sensed = Sensed { sun_body, is_of_timeline, ..sensed(request, estimate) };
+        state.sample(&settings(), &sensed, &known()).unwrap();
+        assert_eq!((state.mode, state.reason), (mode, reason), "row {row}");
+    }
+}
+
+#[test]
 fn without_ephemeris_or_monitor_nothing_is_judged() {
     let far_off = sensed(None, Some(estimate(2.0)));
     let mut state = ModeState::default();
@@ -151,8 +181,9 @@ fn a_demoted_mode_commands_a_safe_attitude_at_once() {
         let found = downlink(&surroundings.to_sun(), &surroundings.to_earth(), &request).unwrap();
         let kept = constraints.applied(&found.vectors, &surroundings, None).unwrap();
         let body = |v| value(&kept.pointing.to_body(&unit(&v).unwrap()));
-        let excess_rad =
-            constraints.excess_rad(&body(surroundings.to_sun()), &body(surroundings.to_planet()), true);
+        let excess_rad = constraints
+            .excess(&body(surroundings.to_sun()), &body(surroundings.to_planet()), true)
+            .greatest_rad();
         // The planet is opposite the Sun here: the cone is out of reach with the Sun on -Y, and flagged.
         assert!(excess_rad < 1e-12 || !kept.hot_pole_reached, "{excess_rad} {kept:?}");
     }
@@ -184,7 +215,7 @@ fn losing_the_sun_sensors_alone_demotes_nothing() {
 fn the_search_turns_about_x_y_and_z_until_the_sun_is_back() {
     let mut state = ModeState::default();
     let mut at = |time_s: f64, estimate, sun_body| {
-        let sensed = Sensed { time_s, request: None, estimate, sun_body };
+        let sensed = Sensed { time_s, request: None, is_of_timeline: false, estimate, sun_body };
         let steering = state.sample(&settings(), &sensed, &known()).unwrap();
         assert_eq!(state.mode, EarthAcquisition);
         (steering, state.search_since_s)
