@@ -41,6 +41,23 @@ pub fn assigned(description: &Description, settings: &[String]) -> Result<Vec<(S
     Ok(sets)
 }
 
+/// A warning for each name that is set more than once; `option` is where.
+pub fn repeated(option: &str, settings: &[String]) -> Vec<String> {
+    let name = |setting: &String| setting.split_once('=').map(|(name, _)| name.trim().to_lowercase());
+    let later = |at: usize| settings[at + 1..].iter().rev().find(|other| name(other) == name(&settings[at]));
+    let is_first = |at: usize| settings[..at].iter().all(|other| name(other) != name(&settings[at]));
+    (0..settings.len())
+        .filter(|at| is_first(*at))
+        .filter_map(|at| Some((&settings[at], later(at)?)))
+        .map(|(first, last)| format!("{option} {first} stands before {option} {last}, which counts"))
+        .collect()
+}
+
+/// Says so on the terminal.
+pub fn warn_of_repeated(option: &str, settings: &[String]) {
+    repeated(option, settings).iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));
+}
+
 /// Positions of everything that some patterns mean, each once; `select` says what one means.
 ///
 /// # Errors
@@ -62,4 +79,16 @@ pub fn selected(
 /// The vector that an element is of.
 pub fn vector(name: &str) -> Option<&str> {
     name.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map(|(vector, _)| vector)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_that_is_set_twice_is_warned_of_once() {
+        let settings = ["a=1", "b=2", " A =3", "a[1]=2", "a=4"].map(str::to_owned);
+        assert_eq!(repeated("--set", &settings), ["--set a=1 stands before --set a=4, which counts"]);
+        assert!(repeated("--set", &settings[..2]).is_empty());
+    }
 }

@@ -14,10 +14,10 @@ use model_description::{
 use systems::System;
 
 use crate::{
-    carried, epoch,
+    carried, epoch, kind,
     outcome::{self, Outcome},
     patience::Patience,
-    variables::selected,
+    variables::{selected, warn_of_repeated},
 };
 use experiment::times;
 
@@ -47,6 +47,7 @@ pub struct Info {
 
 /// Prints the tables.
 pub fn run(arguments: &Info) -> Outcome {
+    kind::check_archive(&arguments.fmu)?;
     let text = if systems::is_system(&arguments.fmu) {
         if arguments.coefficients {
             return Err("--coefficients is for an FMU, and this is a system".into());
@@ -65,6 +66,7 @@ pub fn run(arguments: &Info) -> Outcome {
         let fmu = Fmu::open(&arguments.fmu)?;
         let description = fmu.description();
         if arguments.coefficients {
+            warn_of_repeated("--set", &arguments.set);
             return outcome::printed(&coefficients::text(&fmu, &arguments.set)?);
         }
         match chosen(description, arguments)? {

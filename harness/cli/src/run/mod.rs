@@ -16,7 +16,7 @@ use std::{
 };
 
 use files::Scratch;
-use loader::{Collector, Ended, RecordedPoints};
+use loader::{Collector, Ended, RecordedPoints, Times};
 
 use crate::{
     child::Bounds,
@@ -24,6 +24,7 @@ use crate::{
     low_orbit,
     outcome::Outcome,
     output::{self, Judge, Known, Outputs},
+    variables,
 };
 pub use child::{RunInChild, run as run_in_child};
 pub use options::Run;
@@ -90,13 +91,26 @@ fn copied_input(arguments: &Run) -> io::Result<Option<(Scratch, PathBuf)>> {
     Ok(Some((scratch, path)))
 }
 
+/// A warning where the step is longer than the run.
+pub fn long_step(times: &Times) -> Option<String> {
+    let Times { start_s, stop_s, step_s } = *times;
+    let [run, step] = [stop_s - start_s, step_s].map(terminal::short);
+    (step_s > stop_s - start_s).then(|| {
+        format!(
+            "the step of {step} s is longer than the run of {run} s, which is one step: see --step and --stop"
+        )
+    })
+}
+
 /// Runs in a child process.
 pub fn run(arguments: &Run) -> Outcome {
     let prepared = Prepared::of(arguments)?;
     let Prepared { simulated, subject, settings, points, mut outputs, input_copy, _scratch } = prepared;
     let arguments = &simulated.run;
     let described = subject.description();
-    let warnings = low_orbit::warnings(described, &settings.sets);
+    let mut warnings = low_orbit::warnings(described, &settings.sets);
+    warnings.extend(variables::repeated("--set", &arguments.set));
+    warnings.extend(long_step(&settings.times));
     let Settings { times, positions, limits, requested, .. } = settings;
     if !arguments.quiet {
         warnings.iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));

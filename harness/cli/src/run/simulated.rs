@@ -15,6 +15,7 @@ use super::{options::Run, subject::Subject};
 use crate::{
     assembly::{Parts, Source, assemble},
     child::{self, Bounds, Relayed, SMALL, path_option},
+    kind,
     mission::{Craft, Inputs, Mission},
     outcome::Outcome,
 };
@@ -74,6 +75,7 @@ impl Simulated {
                     "--template is for a mission with a spacecraft: its FMU has its own library".into()
                 );
             }
+            kind::check_archive(path)?;
             return Ok((Subject::open(path)?, None));
         }
         let folder = self.packed(mission)?;

@@ -13,7 +13,7 @@ use loader::Fmu;
 use systems::{Experiment, SSD_FILE, Wired, Wiring};
 
 use crate::{
-    home,
+    home, kind,
     outcome::Outcome,
     values::{duration, span},
     variables,
@@ -75,6 +75,7 @@ pub fn run(arguments: &Wire) -> Outcome {
     let named: Vec<(String, PathBuf)> = arguments.fmus.iter().map(|text| named(text)).collect();
     let mut components = Vec::with_capacity(named.len());
     for (name, file) in &named {
+        kind::check_archive(file)?;
         let fmu = Fmu::open(file)?;
         if file.is_dir() {
             return Err(format!("{}: found a folder, allowed: an .fmu file", file.display()).into());
@@ -91,6 +92,7 @@ pub fn run(arguments: &Wire) -> Outcome {
         without_enumerations: arguments.without_enumerations,
         sets: arguments.set.clone(),
     };
+    variables::warn_of_repeated("--set", &arguments.set);
     let wired = systems::wire(&name, &components, experiment, &wiring)?;
 
     let mut entries = Entries::default();
