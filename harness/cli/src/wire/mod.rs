@@ -23,7 +23,7 @@ use crate::{
 const EXAMPLE: &str = "\
 Example:
   heliotorque wire guidance=dist/Guidance.fmu plant=MyCraft.fmu > loop.ssp
-  heliotorque run loop.ssp --stop 1d --set plant.attitude.source=commanded";
+  heliotorque run loop.ssp --stop 1d --set guidance.pointing.scenario=nadir";
 
 /// `heliotorque wire`.
 #[derive(Debug, Args)]
@@ -139,12 +139,20 @@ fn report(wired: &Wired) -> String {
     })) {
         lines.push(format!("  {from} to {to}:{}", wrapped(&names)));
     }
+    if !wired.implied.is_empty() {
+        lines.push(
+            "set because the inputs are connected (FMPy reads no parameter sets: see `pack --set`)"
+                .to_owned(),
+        );
+        lines.extend(wired.implied.iter().map(|set| format!("  {set}")));
+    }
     lines.push(format!("{} inputs left open", wired.left.len()));
     for ((component, why), names) in grouped(
         wired.left.iter().map(|left| ((left.component.clone(), left.why.clone()), vector(&left.input))),
     ) {
         lines.push(format!("  {component}, {why}:{}", wrapped(&names)));
     }
+    lines.extend(wired.unread.iter().map(|unread| format!("warning: {unread}")));
     lines.join("\n")
 }
 
