@@ -57,7 +57,7 @@ pub struct Run {
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub every: Option<f64>,
     /// Write what is recorded as CSV; - is the standard output. Until the run is complete the file is <CSV>.part; it
-    /// stays if the FMU fails, crashes or hangs
+    /// stays if the FMU fails, crashes or hangs. Beside it stands <CSV>.toml: units, epoch, FMU, GUID, values, versions
     #[arg(long, value_name = "CSV")]
     pub output: Option<PathBuf>,
     /// Draw what was recorded as SVG; - is the standard output

@@ -66,6 +66,11 @@ impl Simulated {
         Ok(Self { run, mission: Some(mission) })
     }
 
+    /// The epoch of time 0 in s past J2000 TDB, where the mission begins at a date.
+    pub fn zero_epoch_s(&self, start_s: f64) -> Option<f64> {
+        Some(self.mission.as_ref()?.epoch_s.as_ref()?.it - start_s)
+    }
+
     /// Opens what flies; a mission's files are packed into a temporary FMU.
     pub fn open(&self) -> Result<(Subject, Option<Scratch>), Box<dyn Error>> {
         let Some(mission) = &self.mission else { return Ok((Subject::open(&self.run.fmu)?, None)) };
