@@ -156,7 +156,7 @@ pub fn check_archive(path: &Path) -> Result<(), String> {
     let (file, text) = (path.display().to_string(), files::read_text(path)?);
     Err(match FileKind::of(&text) {
         Some(found) => format!("{file}: found {found}, allowed: an FMU or a system: {}", found.remedy(&file)),
-        None => format!("{file}: found a TOML file, allowed: an FMU or a system"),
+        None => format!("{file}: found a TOML file, allowed: an FMU or a system: see `heliotorque check`"),
     })
 }
 
