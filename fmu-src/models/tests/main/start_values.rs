@@ -50,6 +50,14 @@ fn an_epoch_takes_a_date() {
 }
 
 #[test]
+fn one_value_is_that_of_every_element() {
+    let described = described::<MomentumPlant>("[start]\n\"dump.threshold\" = \"3 N.m.s\"").unwrap();
+    for k in 1..=3 {
+        assert_eq!(start(&described, &format!("dump.threshold[{k}]")), "3.0");
+    }
+}
+
+#[test]
 fn every_base_type_and_unit_becomes_a_start_value() {
     let lines = r#"
 [start]
@@ -282,8 +290,12 @@ const REFUSALS: &[(&str, &str)] = &[
         "my.toml:+2: start.\"start.momentum\": found a list of length 2, allowed: a list of length 3",
     ),
     (
-        "[start]\n\"start.momentum\" = 1",
-        "my.toml:+2: start.\"start.momentum\": found 1, allowed: a list of length 3",
+        "[start]\n\"start.momentum\" = true",
+        "my.toml:+2: start.\"start.momentum\": found true, allowed: a number, with one of the units N.m.s",
+    ),
+    (
+        "[start]\n\"spacecraft.inertia\" = 5",
+        "my.toml:+2: start.\"spacecraft.inertia\": found 5, allowed: 3 lists of length 3",
     ),
     (
         "[start]\n\"spacecraft.inertia\" = [1, 2, 3, 4, 5, 6, 7, 8, 9]",
