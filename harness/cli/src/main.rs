@@ -29,6 +29,7 @@ mod patience;
 mod plan;
 mod run;
 mod schema;
+mod size;
 mod study;
 mod values;
 mod variables;

@@ -29,9 +29,8 @@ use crate::{
 pub use child::{RunInChild, run as run_in_child};
 pub use options::Run;
 pub use settings::Settings;
-use simulated::Simulated;
-pub use simulated::{Assemble, assemble_into};
-use subject::Subject;
+pub use simulated::{Assemble, Simulated, assemble_into};
+pub use subject::Subject;
 
 /// Why a run ends before its stop.
 const LOST_READER: &str = "nobody reads the standard output any more";
