@@ -174,7 +174,8 @@ fn log_demotion(
     let has_fallen = mode.value() > mode_before.value();
     let is_requested = matches!(reason, ModeReason::Request | ModeReason::Timeline);
     let is_lost = matches!(reason, ModeReason::AttitudeLost | ModeReason::SunLost);
-    if !has_fallen && !(is_lost && reason_before != Some(reason)) {
+    let is_lost_anew = is_lost && reason_before != Some(reason);
+    if !has_fallen && !is_lost_anew {
         return;
     }
     let why = match reason {

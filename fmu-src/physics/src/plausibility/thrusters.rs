@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::propulsion::surface_in_plume;
-use crate::spacecraft::{Spacecraft, ThrusterSet};
+use crate::spacecraft::Spacecraft;
 
 /// Torque below this part of force times arm is rounding of the arm.
 const ROUNDING: f64 = 1e-9;
@@ -51,7 +51,7 @@ pub struct TorqueBothWays {
 impl TorqueBothWays {
     /// Of the thrusters that may control the attitude.
     pub(super) fn of(spacecraft: &Spacecraft, center_of_mass_body_m: &Vector3<f64>) -> Option<Self> {
-        let may_control = spacecraft.thrusters.iter().filter(|it| it.set != Some(ThrusterSet::Lva));
+        let may_control = spacecraft.thrusters.iter().filter(|it| it.attitude_control);
         let torques_n_m = may_control.map(|thruster| {
             let arm_m = (thruster.position_body_m - center_of_mass_body_m).norm();
             let least_n_m = ROUNDING * arm_m * thruster.force_body_n.norm();

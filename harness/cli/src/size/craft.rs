@@ -45,8 +45,10 @@ impl Craft {
     pub fn open(arguments: &Size) -> Result<Self, Failure> {
         let text = files::read_text(&arguments.file)?;
         let file = arguments.file.display().to_string();
-        let (fmu, mut sets, inputs, [start_s, stop_s], folders) = match FileKind::of(&text) {
-            FileKind::Spacecraft => {
+        let is_mission = FileKind::of(&text) == Some(FileKind::Mission);
+        let (fmu, mut sets, inputs, [start_s, stop_s], folders) = match is_mission {
+            false => {
+                FileKind::Spacecraft.check(&file, &text)?;
                 let source = Source::open(arguments.template.as_deref(), None)?;
                 let parts =
                     Parts { spacecraft: Some(&arguments.file), model: Some(MODEL), ..Parts::default() };
@@ -55,7 +57,7 @@ impl Craft {
                 let fmu = Fmu::open(folder.path())?;
                 (fmu, Vec::new(), None, [0.0, YEAR_S], [Some(folder), None])
             }
-            FileKind::Mission => {
+            true => {
                 let template = arguments.template.clone();
                 let run = Run { fmu: arguments.file.clone(), template, ..Run::default() };
                 let simulated = Simulated::of(&run)?;
@@ -72,9 +74,6 @@ impl Craft {
                     return Err(format!("{file}: found a system, allowed: a spacecraft or an FMU").into());
                 };
                 (fmu, settings.sets, settings.inputs, [start_s, stop_s], [folder, None])
-            }
-            FileKind::Timeline => {
-                return Err(format!("{file}: found a timeline, allowed: a spacecraft or a mission").into());
             }
         };
         let description = fmu.description();

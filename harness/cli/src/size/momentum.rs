@@ -78,7 +78,8 @@ fn windows(times_s: &[f64], span_s: f64) -> Vec<core::ops::Range<usize>> {
             begin = end;
         }
     }
-    if windows.is_empty() { vec![0..times_s.len()] } else { windows }
+    let whole = 0..times_s.len();
+    if windows.is_empty() { Vec::from([whole]) } else { windows }
 }
 
 /// The greatest range that a component of the body's momentum has within any time of this length, by axis, in N m s.

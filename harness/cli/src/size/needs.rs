@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use physics::{
     momentum::WheelCapacity,
     propulsion::{Preference, ThrusterSelection},
-    spacecraft::{Spacecraft, Thruster, ThrusterSet},
+    spacecraft::{Spacecraft, Thruster},
 };
 
 use super::craft::{Craft, vector};
@@ -166,7 +166,7 @@ pub fn allocations(craft: &Craft) -> Result<Vec<Allocation>, String> {
     let center_m =
         vector(&mut craft.started().map_err(|error| error.to_string())?, "spacecraft.centerOfMass");
     let center_m = center_m.map_err(|error| error.to_string())?;
-    let may_fire = |k: usize| thrusters[k].set != Some(ThrusterSet::Lva);
+    let may_fire = |k: usize| thrusters[k].attitude_control;
     let selection = ThrusterSelection::of_the_finest(thrusters, may_fire, &center_m, Preference::LeastForce)
         .map_err(|error| format!("Thrusters: {error}; dumps take no propellant."))?;
     let senses = NAMES.into_iter().enumerate().flat_map(|(axis, name)| {

@@ -6,7 +6,9 @@ use model_description::{Causality, Variability};
 use super::*;
 use crate::dependencies::Dependencies;
 use crate::knowns;
-use crate::variables::{Declare, Integer, Item, Kind, Real, RealSpec, RealVector, Role, ScalarSpec};
+use crate::variables::{
+    Declare, EnumerationType, Integer, Item, Kind, Real, RealSpec, RealVector, Role, ScalarSpec,
+};
 
 struct Handles {
     input: RealVector<2>,
