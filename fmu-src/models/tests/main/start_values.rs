@@ -5,10 +5,15 @@ use std::path::Path;
 use client::InProcess;
 use fmi_export::{Entry, Library, Model, Status};
 use model_description::{Description, VariableKind};
-use models::{DisturbanceTorque, MomentumPlant, SpinPlant};
+use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 
 static LIBRARY: Library = Library {
-    entries: &[Entry::of::<MomentumPlant>(), Entry::of::<SpinPlant>(), Entry::of::<DisturbanceTorque>()],
+    entries: &[
+        Entry::of::<MomentumPlant>(),
+        Entry::of::<SpinPlant>(),
+        Entry::of::<DisturbanceTorque>(),
+        Entry::of::<Guidance>(),
+    ],
 };
 
 /// The shipped file of a model with lines added at its end.
