@@ -32,8 +32,8 @@ pub fn by_source(flown: &Recording, period_s: f64, years: f64) -> Vec<SourceRow>
             cyclic_per_year_n_m_s: [0.0; 3],
         };
         for axis in 0..3 {
-            let column = flown.column(&format!("momentum.{source}[{}]", axis + 1));
-            let values = column.map(|column| column.numbers()).unwrap_or_default();
+            let Some(column) = flown.column(&format!("momentum.{source}[{}]", axis + 1)) else { continue };
+            let values = column.numbers();
             let span_s = flown.times_s.last().zip(flown.times_s.first()).map_or(0.0, |(a, b)| a - b);
             let (gathered, swing) = parts(&flown.times_s, &values);
             row.secular_per_orbit_n_m_s[axis] = gathered * period_s / span_s;

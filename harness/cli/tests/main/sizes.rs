@@ -131,9 +131,5 @@ fn what_cannot_be_sized_is_refused_by_name() {
         "attitude.source: found controlled, allowed: guided",
     );
     refused(MESSENGER_FULL, &["--margin", "-1"], "allowed is a share from 0 to 10");
-    refused(
-        "../../fmu-src/resources/examples/timeline.toml",
-        &[],
-        "found a timeline, allowed: a spacecraft or a mission",
-    );
+    refused("../../fmu-src/resources/examples/timeline.toml", &[], "found a timeline, allowed: a spacecraft");
 }
