@@ -1,11 +1,14 @@
 //! What a spacecraft flies about, and the parameters' defaults that follow from it.
 
-use physics::bodies::Body;
+use fmi_export::{Enumeration, SetupError};
 use physics::bodies::surface::{MERCURY, PlanetSurface};
+use physics::bodies::{Body, BodyData};
+use physics::enumeration::Enumerated;
 use physics::environment::frames::Frame;
-use physics::environment::kepler_planet::{MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
+use physics::environment::kepler_planet::{KeplerPlanet, MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use physics::environment::orbit::{self, Elements};
-use physics::spacecraft::{Spacecraft, StartEntry};
+use physics::spacecraft::{Spacecraft, StartEntry, StartValue};
+use physics::toml::nearest;
 
 use super::choices::OrbitCenter;
 use super::start_values::{entry_of, item};
@@ -13,52 +16,121 @@ use super::start_values::{entry_of, item};
 /// The model whose orbit it is.
 const PLANT: &str = "MomentumPlant";
 
-/// The centre by the start value of `orbit.center` in the spacecraft's file; Mercury without one.
-pub fn center_of(spacecraft: &Spacecraft) -> Body {
-    of_entry(entry_of(&spacecraft.start, PLANT, "orbit.center")).unwrap_or(Body::Mercury)
+/// Longest and shortest semi-major axis of a planet's ellipse in `ephemeris.*`, in m, and its greatest eccentricity.
+const ELLIPSES: ([f64; 2], f64) = ([1e9, 1e13], 0.99);
+
+/// A body with what a spacecraft's file says of it.
+#[derive(Clone, Copy, Debug)]
+pub struct CenterBody {
+    /// What is known of it.
+    pub data: BodyData,
+    /// Radii of its ellipsoid, in m.
+    pub radii_m: [f64; 3],
+    /// Where the file's own body is about the Sun, if that is this one and the file says it.
+    pub motion: Option<KeplerPlanet>,
+}
+
+/// The centre by the start value of `orbit.center` in the spacecraft's file; without one the file's own body, or Mercury.
+pub fn center_of(file: &str, spacecraft: &Spacecraft) -> Result<CenterBody, SetupError> {
+    let named = named(file, spacecraft, PLANT, "orbit.center")?;
+    let own = if spacecraft.body.is_some() { Body::Custom } else { Body::Mercury };
+    CenterBody::of(spacecraft, named.unwrap_or(own)).map_err(|error| SetupError(format!("{file}: {error}")))
 }
 
 /// The planet that is observed: that of `target.planet` in the file, else the centre.
-pub fn target_of(spacecraft: &Spacecraft, model: &str) -> Body {
-    let target = of_entry(entry_of(&spacecraft.start, model, "target.planet"));
-    target.unwrap_or_else(|| center_of(spacecraft))
-}
-
-fn of_entry(entry: Option<&StartEntry>) -> Option<Body> {
-    entry.and_then(|entry| item::<OrbitCenter>(&entry.value)).map(|it| it.0)
-}
-
-/// Elements of an orbit to begin with: about Mercury paper 004's Table 3 with a period of 12 h, about another planet a circle
-/// of three radii over the poles, about the Sun one of 1 AU.
-pub fn elements(center: Body) -> Elements {
-    match center {
-        // 12 h by Kepler's third law.
-        Body::Mercury => Elements {
-            semi_major_axis_m: orbit::semi_major_axis_m(center.data().gm_m3_s2, 43_200.0),
-            true_anomaly_rad: 0.0,
-            ..MESSENGER_AS_PRINTED
-        },
-        other => Elements::simple_about(other),
+pub fn target_of(file: &str, spacecraft: &Spacecraft, model: &str) -> Result<CenterBody, SetupError> {
+    match named(file, spacecraft, model, "target.planet")? {
+        None => center_of(file, spacecraft),
+        Some(body) => {
+            CenterBody::of(spacecraft, body).map_err(|error| SetupError(format!("{file}: {error}")))
+        }
     }
 }
 
-/// The frame of those elements: the ecliptic about the Sun, the equator about a planet.
-pub const fn frame(center: Body) -> Frame {
-    if center.is_planet() { Frame::PlanetEquator } else { Frame::Ecliptic }
+/// The body that a start value names; what is neither a name nor a number is refused with the variable itself.
+fn named(file: &str, spacecraft: &Spacecraft, model: &str, name: &str) -> Result<Option<Body>, SetupError> {
+    let Some(entry) = entry_of(&spacecraft.start, model, name) else { return Ok(None) };
+    let found = match &entry.value {
+        StartValue::Text(name) => Body::ITEMS.iter().find(|item| item.name == name).map(|item| item.variant),
+        value => item::<OrbitCenter>(value).map(|it| it.0),
+    };
+    match (&entry.value, found) {
+        (StartValue::Text(name), None) => Err(unknown(file, entry, name)),
+        (StartValue::Text(name), Some(Body::Custom)) if spacecraft.body.is_none() => {
+            Err(unknown(file, entry, name))
+        }
+        _ => Ok(found),
+    }
 }
 
-/// The surface; Mercury's, at the body's radius, where there is none.
-pub fn surface(center: Body) -> PlanetSurface {
-    let data = center.data();
-    PlanetSurface { radius_m: data.radius_m, ..data.surface.unwrap_or(MERCURY) }
+fn unknown(file: &str, StartEntry { key, line, .. }: &StartEntry, found: &str) -> SetupError {
+    let names: Vec<&str> = OrbitCenter::TYPE.items.iter().map(|item| item.name).collect();
+    let hint = nearest(found, &names).map_or(String::new(), |it| format!(" (did you mean \"{it}\"?)"));
+    let items: Vec<String> =
+        OrbitCenter::TYPE.items.iter().map(|item| format!("{} ({})", item.name, item.value)).collect();
+    SetupError(format!(
+        "{file}:{line}: {key}: found {found:?}{hint}, allowed: {}, and custom where the file has a table [body]",
+        items.join(", ")
+    ))
 }
 
-/// The planet's ellipse about the Sun: Mercury's by paper 004's Table 4, else the mean one at J2000 from perihelion. The Sun, for
-/// which none counts, has the Earth's.
-pub fn ellipse(center: Body) -> Elements {
-    match center {
-        Body::Mercury => MERCURY_AS_PRINTED,
-        Body::Sun => Elements::mean_orbit_of(Body::Earth.data()),
-        planet => Elements::mean_orbit_of(planet.data()),
+impl CenterBody {
+    /// What a spacecraft's file and everybody know of a body.
+    ///
+    /// # Errors
+    /// A body of the file's own on no orbit about the Sun.
+    pub fn of(spacecraft: &Spacecraft, body: Body) -> Result<Self, String> {
+        let own = spacecraft.body.as_ref().filter(|_| body == Body::Custom);
+        let Some(own) = own else {
+            let data = *body.data();
+            return Ok(Self { data, radii_m: [data.radius_m; 3], motion: None });
+        };
+        let motion = own.motion.as_ref().map(KeplerPlanet::of_body).transpose();
+        Ok(Self {
+            data: own.data(),
+            radii_m: own.radii_m,
+            motion: motion.map_err(|error| format!("body: {error}"))?,
+        })
+    }
+
+    /// Elements of an orbit to begin with: about Mercury paper 004's Table 3 with a period of 12 h, about another planet a circle
+    /// of three radii over the poles, about the Sun one of 1 AU.
+    pub fn elements(&self) -> Elements {
+        match self.data.body {
+            // 12 h by Kepler's third law.
+            Body::Mercury => Elements {
+                semi_major_axis_m: orbit::semi_major_axis_m(self.data.gm_m3_s2, 43_200.0),
+                true_anomaly_rad: 0.0,
+                ..MESSENGER_AS_PRINTED
+            },
+            _ => Elements::simple_about(&self.data),
+        }
+    }
+
+    /// The frame of those elements: the ecliptic about the Sun, the equator about a planet.
+    pub const fn frame(&self) -> Frame {
+        if self.data.body.is_planet() { Frame::PlanetEquator } else { Frame::Ecliptic }
+    }
+
+    /// The surface; Mercury's, at the body's radius, where there is none.
+    pub fn surface(&self) -> PlanetSurface {
+        PlanetSurface { radius_m: self.data.radius_m, ..self.data.surface.unwrap_or(MERCURY) }
+    }
+
+    /// The planet's ellipse about the Sun: Mercury's by paper 004's Table 4, the file's own body's by the file, else the mean one
+    /// at J2000 from perihelion. The Sun, for which none counts, and a body that is on none have the Earth's.
+    pub fn ellipse(&self) -> Elements {
+        let ([least_m, most_m], most) = ELLIPSES;
+        let is_ellipse =
+            |it: &&Elements| (least_m..=most_m).contains(&it.semi_major_axis_m) && it.eccentricity <= most;
+        match self.data.body {
+            Body::Mercury => MERCURY_AS_PRINTED,
+            Body::Sun => Elements::mean_orbit_of(Body::Earth.data()),
+            Body::Custom => {
+                let own = self.motion.as_ref().map(KeplerPlanet::elements).filter(is_ellipse);
+                own.copied().unwrap_or_else(|| Elements::mean_orbit_of(Body::Earth.data()))
+            }
+            planet => Elements::mean_orbit_of(planet.data()),
+        }
     }
 }

@@ -3,11 +3,11 @@
 use fmi_export::Enumeration;
 use fmi_export::variables::{DeclaredItem, EnumerationType, Item};
 use physics::bodies::{Body, surface};
-use physics::enumeration::Enumerated;
+use physics::enumeration::{Enumerated, Item as EnumeratedItem};
 use physics::environment::eclipse::ShadowModel;
 use physics::guidance::modes::guidance_command;
 use physics::momentum::Convention;
-use physics::spacecraft::{Panel, Spacecraft, SunshadeModel, ThrusterSet};
+use physics::spacecraft::{CustomBody, Panel, Spacecraft, SunshadeModel, ThrusterSet};
 
 /// Enumerations that are those of physics: `Name(type);` each, described by its doc comment.
 macro_rules! choices {
@@ -77,17 +77,25 @@ pub(crate) use optional_choices;
 
 /// The items by their numbers, behind the one that is none of them if that has a meaning.
 pub(crate) const fn items<E: Enumerated, const N: usize>(none: Option<&'static str>) -> [Item; N] {
+    ranked(E::ITEMS, none)
+}
+
+/// The same of some items.
+pub(crate) const fn ranked<E: Enumerated, const N: usize>(
+    given: &[EnumeratedItem<E>],
+    none: Option<&'static str>,
+) -> [Item; N] {
     let (before, description) = match none {
         Some(meaning) => (1, meaning),
         None => (0, ""),
     };
     let mut items = [Item { name: "none", value: 0, description }; N];
     let mut at = 0;
-    while at < E::ITEMS.len() {
-        let item = &E::ITEMS[at];
+    while at < given.len() {
+        let item = &given[at];
         let (mut rank, mut other) = (before, 0);
-        while other < E::ITEMS.len() {
-            rank += (E::ITEMS[other].value < item.value) as usize;
+        while other < given.len() {
+            rank += (given[other].value < item.value) as usize;
             other += 1;
         }
         items[rank] = Item { name: item.name, value: item.value, description: item.meaning };
@@ -155,9 +163,42 @@ pub enum ScienceRule {
     FixedToSunLine = 3,
 }
 
-choices! {
-    /// Central body. 5 is kept free for the Moon, which cannot be one yet.
-    OrbitCenter(Body);
+/// Central body. 5 is kept free for the Moon, which cannot be one yet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OrbitCenter(pub Body);
+
+/// The bodies that everybody knows; the one of a spacecraft's file stands behind them.
+pub(crate) const KNOWN_BODIES: &[EnumeratedItem<Body>] = match Body::ITEMS.split_last() {
+    Some((_custom, known)) => known,
+    None => &[],
+};
+
+impl Enumeration for OrbitCenter {
+    const FIRST: Self = Self(Body::Sun);
+
+    const TYPE: EnumerationType = EnumerationType {
+        name: "OrbitCenter",
+        description: "Central body. 5 is kept free for the Moon, which cannot be one yet.",
+        items: &ranked::<Body, { KNOWN_BODIES.len() }>(KNOWN_BODIES, None),
+    };
+
+    fn from_value(value: i32) -> Option<Self> {
+        Body::from_value(value).map(Self)
+    }
+
+    fn value(self) -> i32 {
+        Enumerated::value(self.0)
+    }
+}
+
+/// The item of the body that a spacecraft's file describes.
+pub fn custom_body(spacecraft: &Spacecraft) -> Vec<DeclaredItem> {
+    let item = |body: &CustomBody| DeclaredItem {
+        name: Body::Custom.name().to_owned(),
+        value: Enumerated::value(Body::Custom),
+        description: format!("{}, the file's own body.", body.name),
+    };
+    spacecraft.body.iter().map(item).collect()
 }
 
 /// Thrusters for a delta-v.

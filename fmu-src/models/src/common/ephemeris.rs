@@ -9,6 +9,8 @@ use physics::environment::kepler_planet::KeplerPlanet;
 use physics::environment::onboard::{OnboardEphemeris, OnboardTarget};
 use physics::environment::orbit::Elements;
 
+use super::center::CenterBody;
+
 /// The file of onboard ephemerides in the resources.
 pub const EPHEMERIS_FILE: &str = "ephemeris.toml";
 
@@ -36,6 +38,16 @@ pub fn check_start(epoch_s: f64) -> Result<(), Failure> {
 /// The planet on the ellipse of `ephemeris.source` kepler.
 pub fn kepler(ellipse: Elements, epoch_s: f64) -> Result<KeplerPlanet, Failure> {
     KeplerPlanet::new(ellipse, epoch_s).map_err(|error| Failure::new(format!("ephemeris elements: {error}")))
+}
+
+/// Where the body of the spacecraft's file is about the Sun where nothing else says it: by that file.
+pub fn custom(body: &CenterBody, source: &str) -> Result<KeplerPlanet, Failure> {
+    body.motion.ok_or_else(|| {
+        Failure::new(format!(
+            "ephemeris.source: found {source} with a `[body]` that has neither `elements` nor `position_m`, allowed: one of them in \
+             the spacecraft's file, ephemeris.source inputs or kepler, or chebyshev with {EPHEMERIS_FILE} that places custom"
+        ))
+    })
 }
 
 /// Refuses onboard ephemerides that do not place Sun and Earth from a centre, or not at `epoch_s`, which `what` gives.

@@ -4,7 +4,6 @@ use fmi_export::{
     Boolean, Choice, Context, Elements, Failure, Given, Integer, Model, Real, Values, Variables,
 };
 use physics::attitude::SunAngles;
-use physics::bodies::Body;
 use physics::bodies::surface::PlanetSurface;
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::orbit::Elements as KeplerElements;
@@ -14,28 +13,28 @@ use physics::guidance::pointing::boresight::MdisRange;
 use physics::guidance::{self, Guided, Schedule};
 use physics::plant::SunLight;
 
-use super::center;
+use super::center::CenterBody;
 use super::choices::{DayTemperature, DownlinkReference, EclipseMethod, ScienceRule};
 use super::elements::ElementHandles;
 
 /// What a planet's surface does with sunlight; Mercury's fits paper 004, which prints none.
 #[derive(Variables)]
-#[variables(setup = Body)]
+#[variables(setup = CenterBody)]
 pub struct SurfaceVariables {
     /// Fraction of sunlight the planet absorbs; Mercury's 0.88 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = center::surface(*setup).absorptivity)]
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = setup.surface().absorptivity)]
     pub absorptivity: Real,
     /// Fraction of sunlight the planet reflects diffusely; Mercury's 0.12 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = center::surface(*setup).diffuse_reflectivity)]
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = setup.surface().diffuse_reflectivity)]
     pub diffuse_reflectivity: Real,
     /// Infrared emissivity of the planet; Mercury's 0.9 fits paper 004, which does not print it.
-    #[parameter(unit = "1", min = 0.0, max = 1.0, start = center::surface(*setup).emissivity)]
+    #[parameter(unit = "1", min = 0.0, max = 1.0, start = setup.surface().emissivity)]
     pub emissivity: Real,
     /// Temperature of the planet's night side; Mercury's 100 K fits paper 004, which does not print it.
-    #[parameter(unit = "K", min = 0.0, max = 1e4, start = center::surface(*setup).night_temperature_k)]
+    #[parameter(unit = "K", min = 0.0, max = 1e4, start = setup.surface().night_temperature_k)]
     pub night_temperature: Real,
     /// How the temperature of the planet's day side is distributed.
-    #[parameter(start = DayTemperature(center::surface(*setup).day_temperature))]
+    #[parameter(start = DayTemperature(setup.surface().day_temperature))]
     pub day_temperature: Choice<DayTemperature>,
 }
 
@@ -196,26 +195,26 @@ pub struct GuidedVariables {
 
 /// The planet's ellipse about the Sun when `ephemeris.source` is kepler.
 #[derive(Variables)]
-#[variables(setup = Body)]
+#[variables(setup = CenterBody)]
 pub struct EllipseVariables {
     /// Semi-major axis of the planet's orbit about the Sun when source is kepler; elements are in the ecliptic and
     /// equinox of J2000, of Mercury those of paper 004's Table 4 (whose axis is printed a digit short).
-    #[parameter(unit = "m", display = "AU", min = 1e9, max = 1e13, start = center::ellipse(*setup).semi_major_axis_m)]
+    #[parameter(unit = "m", display = "AU", min = 1e9, max = 1e13, start = setup.ellipse().semi_major_axis_m)]
     pub semi_major_axis: Real,
     /// Its eccentricity.
-    #[parameter(unit = "1", min = 0.0, max = 0.99, start = center::ellipse(*setup).eccentricity)]
+    #[parameter(unit = "1", min = 0.0, max = 0.99, start = setup.ellipse().eccentricity)]
     pub eccentricity: Real,
     /// Its inclination.
-    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = center::ellipse(*setup).inclination_rad)]
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.ellipse().inclination_rad)]
     pub inclination: Real,
     /// Longitude of its ascending node.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = center::ellipse(*setup).ascending_node_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.ellipse().ascending_node_rad)]
     pub ascending_node: Real,
     /// Its argument of perihelion; paper 004 uses Mercury's longitude of perihelion, 77.46 deg, in its place.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = center::ellipse(*setup).periapsis_argument_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.ellipse().periapsis_argument_rad)]
     pub periapsis_argument: Real,
     /// The planet's true anomaly at start.epoch; paper 004's cases 1 to 4 are 10, 98, 189 and 279 deg.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = center::ellipse(*setup).true_anomaly_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.ellipse().true_anomaly_rad)]
     pub true_anomaly: Real,
 }
 
@@ -232,9 +231,14 @@ impl EllipseVariables {
     }
 
     /// Elements of the planet's ellipse about the Sun, in the ecliptic of J2000: those that are given, else the body's own.
-    pub fn read<M: Model>(&self, context: &Context<'_, M>, values: &Values, body: Body) -> KeplerElements {
+    pub fn read<M: Model>(
+        &self,
+        context: &Context<'_, M>,
+        values: &Values,
+        body: &CenterBody,
+    ) -> KeplerElements {
         let handles = self.handles();
-        handles.read_or(context.given(values, &handles.group()), &center::ellipse(body))
+        handles.read_or(context.given(values, &handles.group()), &body.ellipse())
     }
 
     /// Writes these elements.

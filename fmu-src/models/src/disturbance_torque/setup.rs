@@ -1,11 +1,10 @@
 //! The model and its immutable setup: the spacecraft.
 
 use fmi_export::{Context, Model, SetupError};
-use physics::bodies::Body;
 use physics::spacecraft::Spacecraft;
 use serde::Serialize;
 
-use crate::common::center::center_of;
+use crate::common::center::{CenterBody, center_of};
 use crate::common::effects::check_start;
 
 /// The memoryless disturbance model.
@@ -21,7 +20,7 @@ pub struct DisturbanceSetup {
     pub spacecraft: Spacecraft,
     /// What it flies about by its file, and the defaults of the parameters go by.
     #[serde(skip)]
-    pub center: Body,
+    pub center: CenterBody,
     /// The faces reported one by one, with the panel each belongs to; empty unless the file asks for that.
     #[serde(skip)]
     pub reported_faces: Vec<crate::common::spacecraft::ReportedFace>,
@@ -33,6 +32,6 @@ impl DisturbanceSetup {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
         check_start(file, &spacecraft, DisturbanceTorque::NAME)?;
         let reported_faces = crate::common::spacecraft::reported_faces(file, &spacecraft)?;
-        Ok(Self { center: center_of(&spacecraft), spacecraft, reported_faces })
+        Ok(Self { center: center_of(file, &spacecraft)?, spacecraft, reported_faces })
     }
 }

@@ -83,7 +83,7 @@ pub struct SunVariables {
     #[parameter(unit = "m", display = "km", min = 1.0, max = 1e10, start = RADIUS_SUN_M)]
     pub radius: Real,
     /// From the spacecraft to the Sun, body frame.
-    #[input(unit = "m", display = "AU", start = setup.center.usual_sun_body_m())]
+    #[input(unit = "m", display = "AU", start = setup.center.data.usual_sun_body_m())]
     pub position_body: RealVector<3>,
     /// Visible part of the Sun's disc: 1 in full light, 0 in the planet's shadow.
     #[output(unit = "1", min = 0.0, max = 1.0, nominal = 1.0)]
@@ -95,17 +95,17 @@ pub struct SunVariables {
 #[variables(setup = DisturbanceSetup)]
 pub struct PlanetVariables {
     /// From the spacecraft to the planet's centre, body frame.
-    #[input(unit = "m", display = "km", start = setup.center.usual_planet_body_m())]
+    #[input(unit = "m", display = "km", start = setup.center.data.usual_planet_body_m())]
     pub position_body: RealVector<3>,
     /// Whether there is a planet; without one its position does not count. By default there is unless the file's orbit.center is
     /// the Sun; the defaults of planet.* are those of that body.
-    #[parameter(start = setup.center.is_planet())]
+    #[parameter(start = setup.center.data.body.is_planet())]
     pub present: Boolean,
     /// Radius of the planet; a spacecraft below it is refused.
-    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data().radius_m)]
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data.radius_m)]
     pub radius: Real,
     /// Gravitational parameter of the planet: by it its gravity gradient.
-    #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = setup.center.data().gm_m3_s2)]
+    #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = setup.center.data.gm_m3_s2)]
     pub gravitational_parameter: Real,
     /// North of the planet's cells in the body frame, of any length; -Z as paper 004 flies. Without effect on rings.
     #[input(unit = "1", start = [0.0, 0.0, -1.0])]

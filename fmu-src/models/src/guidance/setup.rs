@@ -11,7 +11,7 @@ use physics::plant::ControlDefaults;
 use physics::spacecraft::{Spacecraft, SunKeepIn};
 use serde::Serialize;
 
-use crate::common::center::target_of;
+use crate::common::center::{CenterBody, target_of};
 use crate::common::spacecraft::{PreparedShapes, dump_threshold_n_m_s};
 
 /// Guidance.
@@ -27,7 +27,7 @@ pub struct GuidanceSetup {
     pub spacecraft: Spacecraft,
     /// The planet that is observed by the file, and the defaults of the parameters go by.
     #[serde(skip)]
-    pub target: Body,
+    pub target: CenterBody,
     /// Prepared for sunlight.
     #[serde(skip)]
     pub shapes: PreparedShapes,
@@ -44,12 +44,20 @@ impl GuidanceSetup {
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
         Ok(Self {
-            target: target_of(&spacecraft, Guidance::NAME),
+            target: target_of(file, &spacecraft, Guidance::NAME)?,
             shapes: PreparedShapes::of(&spacecraft),
             spacecraft,
             ephemeris: None,
             timeline: None,
         })
+    }
+
+    /// A body with what the file says of it. The file was read before: its own body is on an orbit.
+    pub fn body(&self, body: Body) -> CenterBody {
+        match body == self.target.data.body {
+            true => self.target,
+            false => CenterBody::of(&self.spacecraft, body).unwrap_or(self.target),
+        }
     }
 
     /// The dump threshold, as MomentumPlant has it.

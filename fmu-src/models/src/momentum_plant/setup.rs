@@ -13,7 +13,7 @@ use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
 
 use super::variables::choices::{AttitudeSource, CommandSource, EphemerisSource, OrbitSource};
-use crate::common::center::center_of;
+use crate::common::center::{CenterBody, center_of};
 use crate::common::effects::check_start;
 use crate::common::spacecraft::{PreparedShapes, ReportedFace, reported_faces};
 use crate::common::start_values::{entry_of, fixed_item, item};
@@ -31,7 +31,7 @@ pub struct PlantSetup {
     pub spacecraft: Spacecraft,
     /// What it flies about by its file, and the defaults of the parameters go by.
     #[serde(skip)]
-    pub center: Body,
+    pub center: CenterBody,
     /// Prepared for sunlight.
     #[serde(skip)]
     shapes: PreparedShapes,
@@ -64,7 +64,7 @@ impl PlantSetup {
         let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
         let wheel_array = WheelArray::new(&axes);
         Ok(Self {
-            center: center_of(&spacecraft),
+            center: center_of(file, &spacecraft)?,
             control: ControlDefaults::of(&spacecraft, wheel_array.as_ref()),
             reported_faces: reported_faces(file, &spacecraft)?,
             shapes: PreparedShapes::of(&spacecraft),
@@ -74,6 +74,14 @@ impl PlantSetup {
             planets_at_start: OnceLock::new(),
             spacecraft,
         })
+    }
+
+    /// A body with what the file says of it. The file was read before: its own body is on an orbit.
+    pub fn body(&self, body: Body) -> CenterBody {
+        match body == self.center.data.body {
+            true => self.center,
+            false => CenterBody::of(&self.spacecraft, body).unwrap_or(self.center),
+        }
     }
 
     /// Whether the file asks for controlled or free flight.

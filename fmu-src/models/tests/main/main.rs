@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 mod center_defaults;
+mod custom_body;
 mod dependencies;
 mod disturbance_degenerate;
 mod disturbance_torque;

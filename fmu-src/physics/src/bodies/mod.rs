@@ -35,6 +35,9 @@ enumeration! {
         6 => Mars,
         /// Jupiter.
         7 => Jupiter,
+        /// The body that the spacecraft's file describes.
+        // Of which [`Spacecraft::body`](crate::spacecraft::Spacecraft) says what is known; 8 to 99 are left to bodies to come.
+        100 => Custom,
     }
 }
 
@@ -76,30 +79,16 @@ pub struct BodyData {
 }
 
 impl Body {
-    /// All bodies.
+    /// How many there are, that of a spacecraft's file among them.
+    pub const COUNT: usize = Self::ALL.len() + 1;
+
+    /// All bodies of which the same is known to everybody.
     pub const ALL: [Self; 6] =
         [Self::Sun, Self::Mercury, Self::Venus, Self::Earth, Self::Mars, Self::Jupiter];
 
-    /// What is known of it.
+    /// What is known of it; of that of a spacecraft's file nothing but its name here.
     pub const fn data(self) -> &'static BodyData {
         &BODIES[self as usize]
-    }
-
-    /// Where the Sun stands for a spacecraft about this body unless somebody says otherwise, from the spacecraft in body axes, in m:
-    /// on -Y, at the planet's mean distance from it (Mercury's as paper 004 has it).
-    pub fn usual_sun_body_m(self) -> [f64; 3] {
-        let distance_m = match self {
-            Self::Mercury => 5.791e10,
-            Self::Sun => constants::ASTRONOMICAL_UNIT_M,
-            planet => planet.data().orbit_semi_major_axis_m,
-        };
-        [0.0, -distance_m, 0.0]
-    }
-
-    /// Where the planet stands likewise, in m: four radii away.
-    pub fn usual_planet_body_m(self) -> [f64; 3] {
-        let radii = self.data().radius_m / Self::Mercury.data().radius_m;
-        [2e6, 3e6, 9e6].map(|along_m| along_m * radii)
     }
 
     /// Whether sunlight falls on it and it casts a shadow.
@@ -109,6 +98,23 @@ impl Body {
 }
 
 impl BodyData {
+    /// Where the Sun stands for a spacecraft about this body unless somebody says otherwise, from the spacecraft in body axes, in m:
+    /// on -Y, at the planet's mean distance from it (Mercury's as paper 004 has it), 1 AU where none is known.
+    pub fn usual_sun_body_m(&self) -> [f64; 3] {
+        let distance_m = match self.body {
+            Body::Mercury => 5.791e10,
+            _ if self.orbit_semi_major_axis_m == 0.0 => constants::ASTRONOMICAL_UNIT_M,
+            _ => self.orbit_semi_major_axis_m,
+        };
+        [0.0, -distance_m, 0.0]
+    }
+
+    /// Where the planet stands likewise, in m: four radii away.
+    pub fn usual_planet_body_m(&self) -> [f64; 3] {
+        let radii = self.radius_m / Body::Mercury.data().radius_m;
+        [2e6, 3e6, 9e6].map(|along_m| along_m * radii)
+    }
+
     /// Unit vector to the north pole, in EME2000.
     pub fn pole(&self) -> Vector3<f64> {
         let (sin_ra, cos_ra) = self.pole_right_ascension_rad.sin_cos();
@@ -134,7 +140,7 @@ const fn gray(radius_m: f64, bond_albedo: f64, effective_temperature_k: f64) -> 
 }
 
 /// Every body, in the order of [`Body`].
-pub const BODIES: [BodyData; 6] = [
+pub const BODIES: [BodyData; Body::COUNT] = [
     BodyData {
         body: Body::Sun,
         name: "the Sun",
@@ -247,6 +253,24 @@ pub const BODIES: [BodyData; 6] = [
         orbit_inclination_rad: 1.304_396_95 * DEG_RAD,
         orbit_perihelion_longitude_rad: 14.728_479_83 * DEG_RAD,
         surface: Some(gray(constants::RADIUS_JUPITER_M, 0.343, 109.9)),
+    },
+    BodyData {
+        body: Body::Custom,
+        name: "the body of the spacecraft's file",
+        gm_m3_s2: 0.0,
+        radius_m: 1.0,
+        j2: 0.0,
+        j2_radius_m: 1.0,
+        pole_right_ascension_rad: 0.0,
+        pole_declination_rad: 90.0 * DEG_RAD,
+        prime_meridian_rad: 0.0,
+        rotation_rate_rad_s: 0.0,
+        orbit_semi_major_axis_m: 0.0,
+        orbit_eccentricity: 0.0,
+        orbit_node_rad: 0.0,
+        orbit_inclination_rad: 0.0,
+        orbit_perihelion_longitude_rad: 0.0,
+        surface: None,
     },
 ];
 

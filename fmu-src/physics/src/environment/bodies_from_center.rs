@@ -14,6 +14,8 @@ pub struct BodiesFromCenter {
     pub center: Body,
     /// Its ellipse about the Sun, if it moves on one.
     pub ellipse: Option<KeplerPlanet>,
+    /// The orbit of the body that the spacecraft's file describes, if that tells it.
+    pub custom: Option<KeplerPlanet>,
 }
 
 impl BodiesFromCenter {
@@ -34,13 +36,20 @@ impl BodiesFromCenter {
         if body == self.center {
             return CartesianState::default();
         }
-        ephemeris.state(body, epoch_s) - self.center_state(ephemeris, epoch_s)
+        self.heliocentric(body, ephemeris, epoch_s) - self.center_state(ephemeris, epoch_s)
     }
 
     fn center_state(&self, ephemeris: &mut Ephemeris, epoch_s: f64) -> CartesianState {
         match self.ellipse {
             Some(planet) => planet.state(epoch_s),
-            None => ephemeris.state(self.center, epoch_s),
+            None => self.heliocentric(self.center, ephemeris, epoch_s),
+        }
+    }
+
+    fn heliocentric(&self, body: Body, ephemeris: &mut Ephemeris, epoch_s: f64) -> CartesianState {
+        match self.custom.filter(|_| body == Body::Custom) {
+            Some(custom) => custom.state(epoch_s),
+            None => ephemeris.state(body, epoch_s),
         }
     }
 }

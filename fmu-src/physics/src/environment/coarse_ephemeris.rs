@@ -12,6 +12,7 @@ use core::f64::consts::TAU;
 use nalgebra::Vector3;
 
 use super::CartesianState;
+use super::bodies_from_center::BodiesFromCenter;
 use super::ephemeris::{Theory, eme2000_from_vsop87, theory};
 use super::onboard::{CoarseElements, KeplerianElements, OnboardEphemeris};
 use super::time::julian_date;
@@ -28,17 +29,18 @@ const SAMPLES: usize = 64;
 /// Planets by coarse elements, a cache of fixed size. It is no state: skip it when serialising and start from the default.
 #[derive(Clone, Debug, Default)]
 pub struct CoarseEphemeris {
-    held: [Option<(i64, CoarseElements)>; Body::ALL.len()],
+    held: [Option<(i64, CoarseElements)>; Body::COUNT],
 }
 
 impl CoarseEphemeris {
     /// Heliocentric position and velocity in EME2000 at `epoch_s` past J2000 TDB.
     pub fn state(&mut self, body: Body, epoch_s: f64) -> CartesianState {
+        let unknown =
+            CartesianState { position_m: Vector3::repeat(f64::NAN), velocity_m_s: Vector3::repeat(f64::NAN) };
         let Some(theory) = theory(body) else {
-            return CartesianState {
-                position_m: Vector3::repeat(0.0 * epoch_s),
-                ..CartesianState::default()
-            };
+            let sun =
+                CartesianState { position_m: Vector3::repeat(0.0 * epoch_s), ..CartesianState::default() };
+            return if body == Body::Sun { sun } else { unknown };
         };
         let number = (epoch_s / WINDOW_S).floor() as i64;
         let slot = &mut self.held[body as usize];
@@ -49,25 +51,24 @@ impl CoarseEphemeris {
                 &mut slot.insert((number, averaged(theory, [start_s, start_s + WINDOW_S]))).1
             }
         };
-        let unknown =
-            CartesianState { position_m: Vector3::repeat(f64::NAN), velocity_m_s: Vector3::repeat(f64::NAN) };
         fitted.state(epoch_s).unwrap_or(unknown)
     }
 
-    /// Position and velocity of a body from another one, by the coarse models that a spacecraft carries where it has them.
+    /// Position and velocity of a body from the centre, by the coarse models that a spacecraft carries where it has them.
     pub fn from_center(
         &mut self,
         carried: Option<&OnboardEphemeris>,
         body: Body,
-        center: Body,
+        bodies: &BodiesFromCenter,
         epoch_s: f64,
     ) -> CartesianState {
-        if body == center {
+        if body == bodies.center {
             return CartesianState::default();
         }
-        let [body, center] = [body, center].map(|body| {
+        let [body, center] = [body, bodies.center].map(|body| {
             let own = carried.and_then(|carried| carried.coarse_state(body.into(), epoch_s));
-            own.unwrap_or_else(|| self.state(body, epoch_s))
+            let custom = || bodies.custom.filter(|_| body == Body::Custom).map(|it| it.state(epoch_s));
+            own.or_else(custom).unwrap_or_else(|| self.state(body, epoch_s))
         });
         body - center
     }

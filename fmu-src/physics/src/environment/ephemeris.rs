@@ -53,10 +53,11 @@ const EARTH_MOON: Theory = Theory { elements: vsop87::earth_moon, mean_motion: 6
 const MARS: Theory = Theory { elements: vsop87::mars, mean_motion: 3_340.612_434_14 };
 const JUPITER: Theory = Theory { elements: vsop87::jupiter, mean_motion: 529.690_965_09 };
 
-/// The theory of a planet's orbit, the Earth's being that of its barycentre with the Moon; `None` for the Sun.
+/// The theory of a planet's orbit, the Earth's being that of its barycentre with the Moon; `None` for the Sun and a body of
+/// which the spacecraft's file tells.
 pub(super) fn theory(body: Body) -> Option<&'static Theory> {
     Some(match body {
-        Body::Sun => return None,
+        Body::Sun | Body::Custom => return None,
         Body::Mercury => &MERCURY,
         Body::Venus => &VENUS,
         Body::Earth => &EARTH_MOON,
@@ -76,9 +77,9 @@ impl Theory {
 /// the same bits. It is no state: skip it when serialising and start from the default.
 #[derive(Clone, Debug, Default)]
 pub struct Ephemeris {
-    planets: [TwoLayers; Body::ALL.len()],
+    planets: [TwoLayers; Body::COUNT],
     earth: Slots<3, EARTH_TERMS>,
-    entered: [Entered; Body::ALL.len()],
+    entered: [Entered; Body::COUNT],
 }
 
 /// The long segments that a count of work has seen, whatever is held of them.
@@ -105,10 +106,12 @@ impl Ephemeris {
     /// Heliocentric position and velocity in EME2000 at `epoch_s` past J2000 TDB, geometric (no light time).
     ///
     /// The velocity is the derivative of the position, within 0.01 m/s, or 0.5 m/s for the Earth. Beyond
-    /// [`VALID_EPOCH_S`] the series loses its meaning; an epoch that is not finite gives NaN.
+    /// [`VALID_EPOCH_S`] the series loses its meaning; an epoch that is not finite gives NaN, as does a body that it does not
+    /// know.
     pub fn state(&mut self, body: Body, epoch_s: f64) -> CartesianState {
         self.entered[body as usize].enter((epoch_s / LONG_S).floor() as i64);
         let (position_m, velocity_m_s) = match theory(body) {
+            None if body == Body::Custom => (Vector3::repeat(f64::NAN), Vector3::repeat(f64::NAN)),
             None => (Vector3::repeat(0.0 * epoch_s), Vector3::zeros()),
             Some(theory) if body != Body::Earth => self.planets[body as usize].state(epoch_s, theory),
             Some(_) => {
@@ -131,7 +134,7 @@ impl Ephemeris {
     /// past and a new one count alike.
     pub fn evaluations(&self) -> u64 {
         let terms = |body| match body {
-            Body::Sun => 0,
+            Body::Sun | Body::Custom => 0,
             Body::Earth => EARTH_TERMS as u64,
             _ => ELEMENT_TERMS as u64,
         };

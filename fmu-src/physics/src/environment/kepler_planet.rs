@@ -13,6 +13,7 @@ use super::{
     orbit::{Elements, OrbitError, TwoBodyOrbit},
 };
 use crate::constants::GM_SUN_M3_S2;
+use crate::spacecraft::{BodyMotion, BodyOrbit, InertialFrame};
 
 /// Mercury's orbit in HCI (Table 4), at perihelion. The semi-major axis is 57.91e9 m (printed a digit short); 77.46
 /// deg is the longitude of the perihelion but printed, and used, as its argument.
@@ -53,6 +54,51 @@ impl KeplerPlanet {
             orbit_hci: TwoBodyOrbit::from_elements(elements, GM_SUN_M3_S2, epoch_s)?,
             dcm_eme2000_from_hci: dcm_eme2000_from_ecliptic(),
         })
+    }
+
+    /// The body that a spacecraft's file places by elements or by a state about the Sun.
+    ///
+    /// # Errors
+    /// See [`Elements::check`] and [`Elements::from_state`].
+    pub fn of_body(motion: &BodyMotion) -> Result<Self, OrbitError> {
+        let hci_from_frame = match motion.frame {
+            InertialFrame::Ecliptic => Matrix3::identity(),
+            InertialFrame::Eme2000 => dcm_eme2000_from_ecliptic().transpose(),
+        };
+        let state = match motion.orbit {
+            BodyOrbit::Elements {
+                semi_major_axis_m,
+                eccentricity,
+                inclination_rad,
+                ascending_node_rad,
+                periapsis_argument_rad,
+                true_anomaly_rad,
+            } => {
+                let elements = Elements {
+                    semi_major_axis_m,
+                    eccentricity,
+                    inclination_rad,
+                    ascending_node_rad,
+                    periapsis_argument_rad,
+                    true_anomaly_rad,
+                };
+                if motion.frame == InertialFrame::Ecliptic {
+                    return Self::new(elements, motion.epoch_s);
+                }
+                elements.state(GM_SUN_M3_S2)?
+            }
+            BodyOrbit::State { position_m, velocity_m_s } => CartesianState { position_m, velocity_m_s },
+        };
+        let state = CartesianState {
+            position_m: hci_from_frame * state.position_m,
+            velocity_m_s: hci_from_frame * state.velocity_m_s,
+        };
+        Self::new(Elements::from_state(&state, GM_SUN_M3_S2)?, motion.epoch_s)
+    }
+
+    /// Its elements about the Sun, in HCI.
+    pub fn elements(&self) -> &Elements {
+        self.orbit_hci.elements()
     }
 
     /// Heliocentric position and velocity in EME2000.

@@ -2,7 +2,6 @@
 
 pub mod bodies_from_center;
 pub mod coarse_ephemeris;
-pub mod dates;
 pub mod eclipse;
 pub mod ephemeris;
 pub mod frames;
@@ -11,6 +10,8 @@ pub mod onboard;
 pub mod orbit;
 pub mod sun;
 pub mod time;
+
+pub use crate::toml::dates;
 
 use core::ops::{Add, Sub};
 

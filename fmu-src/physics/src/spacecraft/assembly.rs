@@ -3,6 +3,8 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use super::body::CustomBody;
+use super::file::body::body;
 use super::file::description::Description;
 use super::file::devices::{instrument, sun_sensor, wheel};
 use super::file::mass::{mass, parts_fit};
@@ -66,6 +68,9 @@ pub struct Spacecraft {
     pub background_k: f64,
     /// The planet it flies about, cell by cell.
     pub planet_map: Option<PlanetMap>,
+    /// A body of the user's own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub body: Option<CustomBody>,
     /// Start values of the models' variables, handed on as they were written.
     #[serde(skip)]
     pub start: Vec<StartEntry>,
@@ -183,6 +188,7 @@ impl Spacecraft {
                 .planet_map
                 .as_ref()
                 .and_then(|map| planet_map(check, &root.key("planet_map"), map)),
+            body: description.body.as_ref().map(|own| body(check, &root.key("body"), own)),
             start: start_entries(check, description.start.as_ref(), description.fixed.as_ref()),
             sun_keep_in: description.sun_keep_in.as_ref().map(|limits| SunKeepIn {
                 azimuth_rad: limits.azimuth_deg.0.to_radians(),

@@ -8,6 +8,7 @@
 //! axis of the panels; the origin is wherever the file's coordinates start, not the centre of mass.
 
 mod assembly;
+mod body;
 mod file;
 mod instruments;
 mod mass;
@@ -30,6 +31,7 @@ mod tests;
 
 pub use crate::toml::MOST_THRUSTERS;
 pub use assembly::{Spacecraft, SunKeepIn};
+pub use body::{BodyMotion, BodyOrbit, CustomBody, InertialFrame};
 #[cfg(feature = "schema")]
 pub use file::schema;
 pub use instruments::Instrument;

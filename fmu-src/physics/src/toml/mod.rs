@@ -4,6 +4,7 @@
 //! with the values. So one run tells of everything, each with line, key, what was found and what is allowed.
 
 mod checker;
+pub mod dates;
 mod document;
 mod error;
 mod limits;
@@ -20,8 +21,9 @@ pub use error::{FileError, Problem};
 pub use limits::{LIMITS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUSTERS};
 pub use place::Place;
 pub use ranges::{
-    AtLeastOne, Copies, Corners, Deviation, Distance, Emissivity, FieldOfView, Finite, Fraction, Frequency,
-    HalfTurn, Kelvin, NotNegative, Positive, QuarterTurn, Rings, SpecificImpulse, SubtendedAngle, TurnEither,
+    AtLeastOne, BodyRadius, Copies, Corners, Deviation, Distance, Emissivity, FieldOfView, Finite, Fraction,
+    Frequency, GravitationalParameter, HalfTurn, Kelvin, NotNegative, OrbitAxis, Positive, QuarterTurn,
+    Rings, SpecificImpulse, SubtendedAngle, TurnEither,
 };
 pub use reader::Findings;
 pub use spelling::{hint, nearest};

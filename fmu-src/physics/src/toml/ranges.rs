@@ -97,6 +97,9 @@ ranges! {
     Kelvin(f64): 0.0, 2000.0, "0 to 2000 K";
     SpecificImpulse(f64): 1.0, 1e8, "a number from 1 to 1e8 s";
     Frequency(f64): f64::MIN_POSITIVE, 1000.0, "a number above 0 and at most 1000 Hz";
+    GravitationalParameter(f64): f64::MIN_POSITIVE, 1e21, "a number above 0 and at most 1e21 m3/s2";
+    BodyRadius(f64): 1.0, 1e9, "1 to 1e9 m";
+    OrbitAxis(f64): 1e9, 1e13, "1e9 to 1e13 m";
     Distance(f64): f64::MIN_POSITIVE, 1e13, "a distance above 0 and at most 1e13 m";
     QuarterTurn(f64): 0.0, 90.0, "an angle from 0 to 90 deg";
     HalfTurn(f64): 0.0, 180.0, "an angle from 0 to 180 deg";

@@ -57,7 +57,7 @@ macro_rules! plain {
 
 pub(crate) use plain;
 
-plain!(bool, i64, f64, [f64; 3]);
+plain!(bool, i64, f64, [f64; 2], [f64; 3]);
 
 /// A list that is not empty.
 #[derive(Clone, Debug, Deserialize, Serialize)]

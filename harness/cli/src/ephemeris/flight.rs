@@ -6,6 +6,7 @@ use loader::{Error, Fmu, Instance, Value};
 use nalgebra::Vector3;
 use physics::{
     bodies::Body,
+    enumeration::Enumerated,
     environment::{CartesianState, onboard::OnboardTarget},
 };
 use planner::ephemeris::{Failure, Source};
@@ -52,9 +53,10 @@ impl Flight {
         let mut source = Self { fmu, shown, sets, start_s, center: Body::Mercury };
         let mut instance = source.started()?;
         let center = instance.get(CENTER)?.to_string();
-        source.center = Body::ALL
-            .into_iter()
-            .find(|body| OnboardTarget::from(*body).to_string() == center || code(*body) == center)
+        source.center = Body::ITEMS
+            .iter()
+            .find(|item| item.name == center || item.value.to_string() == center)
+            .map(|item| item.variant)
             .ok_or_else(|| format!("{}: {CENTER} is {center}, which no ephemeris names", source.shown))?;
         Ok(source)
     }
@@ -123,17 +125,4 @@ impl Source for Flight {
         }
         Ok(states)
     }
-}
-
-/// The value of a body among those that `orbit.center` takes.
-fn code(body: Body) -> String {
-    let number = match body {
-        Body::Mercury => 1,
-        Body::Sun => 2,
-        Body::Venus => 3,
-        Body::Earth => 4,
-        Body::Mars => 6,
-        Body::Jupiter => 7,
-    };
-    number.to_string()
 }

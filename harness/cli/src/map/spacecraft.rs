@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 use physics::{
     bodies::Body,
     constants::ASTRONOMICAL_UNIT_M as AU_M,
+    enumeration::Enumerated,
     spacecraft::{Panel, PanelControl, Spacecraft},
 };
 use planner::torque_map::{LitSpacecraft, Rule, TurnedPanels};
@@ -107,10 +108,10 @@ impl MappedSpacecraft {
         {
             return Err(format!("--panel-offset: {file} has no panel held by Sun offset").into());
         }
-        let (default, default_simulated) = (describe(MODEL, None)?, describe(FLOWN, None)?);
+        let default = describe(MODEL, None)?;
         let distance_m = match arguments.distance {
             Some(distance_au) => distance_au * AU_M,
-            None => distance_m(fmu.description(), &simulated, [&default, &default_simulated]),
+            None => distance_m(fmu.description(), &simulated, &default),
         };
         let [azimuth_rad, elevation_rad] =
             ["keepIn.azimuth", "keepIn.elevation"].map(|name| real(&simulated, name));
@@ -127,7 +128,7 @@ impl MappedSpacecraft {
             name: spacecraft.name,
             lit: LitSpacecraft { fmu, panels, distance_m, source: arguments.source.name() },
             zone_rad,
-            downlink: downlink(&default_simulated, &simulated),
+            downlink: downlink(&simulated),
             panels_left_out: panels_left_out(&simulated),
             threshold_n_m_s: [1, 2, 3]
                 .map(|axis| real(&simulated, &format!("dump.threshold[{axis}]")).unwrap_or(f64::INFINITY)),
@@ -181,46 +182,39 @@ fn panels_left_out(simulated: &Description) -> bool {
 }
 
 /// Where the file puts the Sun, otherwise the mean distance of the body it flies around.
-fn distance_m(described: &Description, simulated: &Description, default: [&Description; 2]) -> f64 {
+fn distance_m(described: &Description, simulated: &Description, default: &Description) -> f64 {
     let sun_m = |description: &Description| {
         Vector3::from(
             [1, 2, 3].map(|axis| real(description, &format!("sun.positionBody[{axis}]")).unwrap_or(0.0)),
         )
     };
     let given_m = sun_m(described);
-    let [default, default_simulated] = default;
     if given_m != sun_m(default) && given_m.norm() > 0.0 {
         return given_m.norm();
     }
     match center(simulated) {
-        Body::Sun => semi_major_axis_m(default_simulated, simulated),
+        Body::Sun => real(simulated, "orbit.semiMajorAxis").unwrap_or(AU_M),
+        Body::Custom => real(simulated, "ephemeris.semiMajorAxis").unwrap_or(AU_M),
         planet => planet.data().orbit_semi_major_axis_m,
-    }
-}
-
-/// Of the orbit; left at its default it follows the centre, as MomentumPlant says of orbit.semiMajorAxis.
-fn semi_major_axis_m(default: &Description, simulated: &Description) -> f64 {
-    let [axis_m, default_m] = [simulated, default].map(|it| real(it, "orbit.semiMajorAxis").unwrap_or(0.0));
-    match center(simulated) {
-        Body::Sun if axis_m == default_m => AU_M,
-        Body::Mercury => axis_m,
-        planet if axis_m == default_m => 3.0 * planet.data().radius_m,
-        _ => axis_m,
     }
 }
 
 fn center(simulated: &Description) -> Body {
     let named = item(simulated, "orbit.center").unwrap_or("mercury");
-    let is_named = |body: &&Body| format!("{body:?}").eq_ignore_ascii_case(named);
-    Body::ALL.iter().find(is_named).copied().unwrap_or(Body::Mercury)
+    let item = Body::ITEMS.iter().find(|item| item.name == named);
+    item.map_or(Body::Mercury, |item| item.variant)
 }
 
-fn downlink(default: &Description, simulated: &Description) -> Downlink {
+fn downlink(simulated: &Description) -> Downlink {
     let [start_s, end_s] =
         ["guided.downlinkStart", "guided.downlinkEnd"].map(|name| real(simulated, name).unwrap_or(0.0));
     let every = start_of(simulated, "guided.downlinkEvery").map_or(0.0, |value| value.to_f64());
-    let axis_m = semi_major_axis_m(default, simulated);
-    let period_s = core::f64::consts::TAU * (axis_m.powi(3) / center(simulated).data().gm_m3_s2).sqrt();
+    let axis_m = real(simulated, "orbit.semiMajorAxis").unwrap_or(0.0);
+    let gm_m3_s2 = match center(simulated) {
+        Body::Sun => Body::Sun.data().gm_m3_s2,
+        _ => real(simulated, "planet.gravitationalParameter").unwrap_or(0.0),
+    };
+    let period_s = core::f64::consts::TAU * (axis_m.powi(3) / gm_m3_s2).sqrt();
     Downlink { length_h: (end_s - start_s).max(0.0) / 3600.0, every_h: every * period_s / 3600.0 }
 }
 

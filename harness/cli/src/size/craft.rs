@@ -80,7 +80,7 @@ impl Craft {
         sets.extend(assigned(description, &arguments.set)?);
         check_plant(&file, description, &sets)?;
         let mut started = instance::started(&fmu, "size", start_s, &sets)?;
-        let period_s = period_s(item(description, &sets, "orbit.center"), &mut started)?;
+        let period_s = period_s(item(description, &sets, "orbit.center") == Some("sun"), &mut started)?;
         drop(started);
         let strategies = strategies(description, &sets, period_s);
         Ok(Self {
@@ -124,10 +124,11 @@ fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) 
 }
 
 /// Of the orbit at the start.
-fn period_s(center: Option<&str>, instance: &mut Instance) -> Result<f64, loader::Error> {
-    let is_center = |body: &&Body| center.is_some_and(|it| format!("{body:?}").eq_ignore_ascii_case(it));
-    let body = Body::ALL.iter().find(is_center);
-    let gm_m3_s2 = body.copied().unwrap_or(Body::Sun).data().gm_m3_s2;
+fn period_s(is_about_sun: bool, instance: &mut Instance) -> Result<f64, loader::Error> {
+    let gm_m3_s2 = match is_about_sun {
+        true => Body::Sun.data().gm_m3_s2,
+        false => instance.get_real("planet.gravitationalParameter")?,
+    };
     Ok(core::f64::consts::TAU * (instance.get_real("orbit.semiMajorAxis")?.powi(3) / gm_m3_s2).sqrt())
 }
 

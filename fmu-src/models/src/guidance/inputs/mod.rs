@@ -63,12 +63,19 @@ impl Fixed {
         if let Some(carried) = precise.filter(|_| source == EphemerisSource::Chebyshev) {
             ephemeris::check_onboard(carried, body, "start.epoch", epoch_s)?;
         }
-        let ellipse = if source == EphemerisSource::Kepler {
-            Some(ephemeris::kepler(v.ephemeris.ellipse.read(context, values, body), epoch_s)?)
-        } else {
-            None
+        let (seen, has_table) = (context.setup.body(body), precise.is_some());
+        let ellipse = match source {
+            EphemerisSource::Kepler => {
+                Some(ephemeris::kepler(v.ephemeris.ellipse.read(context, values, &seen), epoch_s)?)
+            }
+            EphemerisSource::Vsop87 if body == Body::Custom => Some(ephemeris::custom(&seen, "vsop87")?),
+            EphemerisSource::Chebyshev if body == Body::Custom && !has_table => {
+                Some(ephemeris::custom(&seen, "chebyshev")?)
+            }
+            _ => None,
         };
-        let bodies = BodiesFromCenter { center: body, ellipse };
+        let bodies =
+            BodiesFromCenter { center: body, ellipse, custom: context.setup.body(Body::Custom).motion };
         Ok(Self {
             planet,
             source,
@@ -83,7 +90,8 @@ impl Fixed {
 fn target(context: &Plan<'_>, values: &Values) -> (Body, TargetPlanet) {
     let v = &context.variables.planet;
     let body = values.choice(context.variables.target.planet).0;
-    let own = TargetPlanet::of(body.data());
+    let seen = context.setup.body(body);
+    let own = TargetPlanet { radii_m: seen.radii_m.into(), ..TargetPlanet::of(&seen.data) };
     let given = context.given(
         values,
         &[
@@ -110,7 +118,7 @@ fn target(context: &Plan<'_>, values: &Values) -> (Body, TargetPlanet) {
 pub fn settle(context: &Plan<'_>, values: &mut Values) {
     let (v, ellipse) = (&context.variables.planet, &context.variables.ephemeris.ellipse);
     let (body, planet) = target(context, values);
-    let elements = ellipse.read(context, values, body);
+    let elements = ellipse.read(context, values, &context.setup.body(body));
     ellipse.write(values, &elements);
     values.set_vector(v.radii, planet.radii_m.into());
     values.set_real(v.pole_right_ascension, planet.pole_right_ascension_rad);
@@ -343,7 +351,7 @@ impl<'a> Reader<'a> {
         let given = self.state(v.position, v.velocity);
         let is_onboard = fixed.source == EphemerisSource::Chebyshev;
         let coarse = if is_onboard || fixed.source == EphemerisSource::Coarse {
-            let mut body = |body| coarse.from_center(carried, body, center, epoch_s);
+            let mut body = |body| coarse.from_center(carried, body, bodies, epoch_s);
             let sun_and_earth = (body(Body::Sun), body(Body::Earth));
             let spacecraft = carried.and_then(|it| it.coarse_spacecraft(center, epoch_s)).unwrap_or(given);
             let surroundings =

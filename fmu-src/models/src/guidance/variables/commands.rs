@@ -1,5 +1,6 @@
 //! What is commanded: scenario, the options of the four vectors, limb, scan, mode.
 
+use crate::common::choices::custom_body;
 use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 use physics::guidance::pointing::aimpoint::AimKind;
 use physics::guidance::pointing::command;
@@ -46,6 +47,7 @@ pub struct BoresightVariables {
 
 /// An aimpoint.
 #[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
 pub struct AimpointVariables {
     /// What is aimed at.
     #[input(start = AimpointOption(None))]
@@ -78,8 +80,8 @@ pub struct AimpointVariables {
     /// Elevation in the local frame, toward up: away from the planet.
     #[input(unit = "rad", display = "deg", min = command::DOWN_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
     pub elevation: Real,
-    /// The body of the option body, by VSOP87.
-    #[input(start = AimpointBody(None))]
+    /// The body of the option body, by VSOP87; the spacecraft file's own by that file.
+    #[input(start = AimpointBody(None), items = custom_body(&setup.spacecraft))]
     pub body: Choice<AimpointBody>,
 }
 

@@ -11,6 +11,7 @@ use physics::guidance::pointing::command;
 use super::super::setup::GuidanceSetup;
 use super::choices::SubsolarMethod;
 use crate::common::choices::OrbitCenter;
+use crate::common::choices::custom_body;
 
 /// Where the flight starts.
 #[derive(Variables)]
@@ -30,7 +31,7 @@ pub struct TargetVariables {
     /// The planet that is observed, from whose centre positions count; by default orbit.center of the file's [start]. Set after
     /// packing, what nobody sets of planet.* and ephemeris.* is that body's own and reads back so once initialized; a group of
     /// which every parameter is set to its start value follows too.
-    #[parameter(start = OrbitCenter(setup.target))]
+    #[parameter(start = OrbitCenter(setup.target.data.body), items = custom_body(&setup.spacecraft))]
     pub planet: Choice<OrbitCenter>,
     /// Whether the boresight is on the aimpoint; false: clamped, constrained, or there is no such point.
     #[output]
@@ -42,22 +43,22 @@ pub struct TargetVariables {
 #[variables(setup = GuidanceSetup)]
 pub struct PlanetVariables {
     /// Radii of the ellipsoid along the planet's x, y and z.
-    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = [setup.target.data().radius_m; 3])]
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.target.radii_m)]
     pub radii: RealVector<3>,
     /// Right ascension of the planet's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data().pole_right_ascension_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data.pole_right_ascension_rad)]
     pub pole_right_ascension: Real,
     /// Declination of the planet's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data().pole_declination_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data.pole_declination_rad)]
     pub pole_declination: Real,
     /// Prime meridian at J2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data().prime_meridian_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data.prime_meridian_rad)]
     pub prime_meridian: Real,
     /// Rotation rate.
-    #[parameter(unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = setup.target.data().rotation_rate_rad_s)]
+    #[parameter(unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = setup.target.data.rotation_rate_rad_s)]
     pub rotation_rate: Real,
     /// Gravitational parameter of the planet: by the acceleration it gives, the rate of a frame that follows the velocity.
-    #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = setup.target.data().gm_m3_s2)]
+    #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = setup.target.data.gm_m3_s2)]
     pub gravitational_parameter: Real,
 }
 

@@ -7,7 +7,6 @@ use physics::enumeration::Enumerated;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements as KeplerElements;
 
-use crate::common::center;
 use crate::common::elements::ElementHandles;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
@@ -41,8 +40,8 @@ impl Center {
     /// The centre that `orbit.center` names.
     pub fn read(context: &Plan<'_>, values: &Values) -> Self {
         let (planet, orbit) = (&context.variables.planet, &context.variables.orbit);
-        let body = values.choice(orbit.center).0;
-        let (own, own_surface) = (*body.data(), center::surface(body));
+        let body = context.setup.body(values.choice(orbit.center).0);
+        let (own, own_surface) = (body.data, body.surface());
         let numbers = [
             planet.gravitational_parameter,
             planet.radius,
@@ -73,12 +72,12 @@ impl Center {
         let has_frame = given.has(orbit.frame);
         // The true anomaly follows no centre.
         let true_anomaly_rad = values.real(orbit.true_anomaly);
-        let own = KeplerElements { true_anomaly_rad, ..center::elements(body) };
+        let own = KeplerElements { true_anomaly_rad, ..body.elements() };
         Self {
             data,
             surface,
             elements: handles.read_or(given, &own),
-            frame: if has_frame { values.choice(orbit.frame).0 } else { center::frame(body) },
+            frame: if has_frame { values.choice(orbit.frame).0 } else { body.frame() },
         }
     }
 
@@ -103,7 +102,7 @@ impl Center {
 pub fn say_followed(context: &Plan<'_>, values: &Values) {
     let orbit = &context.variables.orbit;
     let body = values.choice(orbit.center).0;
-    if body == context.setup.center || values.choice(orbit.source).is_given() {
+    if body == context.setup.center.data.body || values.choice(orbit.source).is_given() {
         return;
     }
     let center = Center::read(context, values);
@@ -124,7 +123,7 @@ pub fn say_followed(context: &Plan<'_>, values: &Values) {
     if reported.is_empty() {
         return;
     }
-    let [from, to] = [context.setup.center, body].map(Body::name);
+    let [from, to] = [context.setup.center.data.body, body].map(Body::name);
     context.log.warning(&format!(
         "orbit.center is {to}, and the start values of this FMU are those about {from}: what was not set is taken as {to}'s \
          own, {}; pack with --set orbit.center={to} for start values that are {to}'s",

@@ -16,6 +16,7 @@ use physics::plant::{self, Configuration, DynamicAttitude, Motion, PanelSetting,
 use physics::spacecraft::PanelControl;
 
 use super::center::Center;
+use crate::common::center::CenterBody;
 use crate::common::ephemeris;
 use crate::common::management::check_windows;
 use crate::common::spacecraft::inertia_body_kg_m2;
@@ -77,7 +78,7 @@ pub fn read(
         attitude: attitude(variables, values, state, &orbit)?,
         orbit,
         motion: motion(variables, values, data, time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s)),
-        ephemeris: ephemeris_source(data.body, context, values, state.waiting)?,
+        ephemeris: ephemeris_source(&context.setup.body(data.body), context, values, state.waiting)?,
         light: variables.solar.read(values),
         shadow: variables.eclipse.read(values, data.radius_m, values.real(variables.sun.radius))?,
         light_and_heat: RadiationSettings {
@@ -166,7 +167,7 @@ fn motion(variables: &PlantVariables, values: &Values, center: &BodyData, given_
 }
 
 fn ephemeris_source(
-    center: Body,
+    center: &CenterBody,
     context: &Plan<'_>,
     values: &Values,
     waiting: bool,
@@ -176,7 +177,7 @@ fn ephemeris_source(
     Ok(match values.choice(variables.ephemeris.source) {
         EphemerisSource::Inputs => {
             let sun_m = Vector3::from(values.vector(variables.sun.position));
-            let at_the_planet = center.is_planet() && sun_m == Vector3::from([0.0; 3]);
+            let at_the_planet = center.data.body.is_planet() && sun_m == Vector3::from([0.0; 3]);
             if at_the_planet && !waiting {
                 return Err(Failure::new(
                     "sun.position is not set: found (0, 0, 0) m, allowed: the Sun's position from the orbit's centre, which \
@@ -198,13 +199,21 @@ fn ephemeris_source(
         }
         EphemerisSource::Chebyshev => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
             Some(carried) => {
-                ephemeris::check_onboard(carried, center, "start.epoch", epoch_s)?;
+                ephemeris::check_onboard(carried, center.data.body, "start.epoch", epoch_s)?;
                 plant::EphemerisSource::Simulated(carried.clone())
             }
-            None => plant::EphemerisSource::Vsop87,
+            None => without_table(center, "chebyshev")?,
         },
-        EphemerisSource::Vsop87 => plant::EphemerisSource::Vsop87,
+        EphemerisSource::Vsop87 => without_table(center, "vsop87")?,
     })
+}
+
+/// VSOP87, or the orbit of the body of the spacecraft's file.
+fn without_table(center: &CenterBody, source: &str) -> Result<plant::EphemerisSource, Failure> {
+    if center.data.body != Body::Custom {
+        return Ok(plant::EphemerisSource::Vsop87);
+    }
+    ephemeris::custom(center, source).map(plant::EphemerisSource::Kepler)
 }
 
 fn attitude(

@@ -7,7 +7,7 @@ use physics::guidance::modes::guidance_command;
 
 use super::choices::{AttitudeSource, CommandSource, OrbitDynamics, OrbitFrame, OrbitSource};
 use super::defaults;
-use crate::common::center;
+use crate::common::choices::custom_body;
 use crate::common::choices::{CommandKind, OrbitCenter};
 
 /// Attitude: where it comes from, and what it is.
@@ -78,7 +78,7 @@ pub struct OrbitVariables {
     /// What the spacecraft flies around. By a file that sets it in [start] the elements' and the planet's start values are of that
     /// body; set later, what nobody sets of orbit.*, planet.* and ephemeris.* is that body's own and reads back so once
     /// initialized, and a warning names the elements. A group of which every parameter is set to its start value follows too.
-    #[parameter(start = OrbitCenter(setup.center))]
+    #[parameter(start = OrbitCenter(setup.center.data.body), items = custom_body(&setup.spacecraft))]
     pub center: Choice<OrbitCenter>,
     /// Whether the orbit starts from elements, or from orbit.position and orbit.velocity, or these are where the spacecraft is.
     /// While one of the two is zero, of a held place the position, the flight waits for it: the attitude is held and nothing
@@ -98,23 +98,23 @@ pub struct OrbitVariables {
     #[parameter(unit = "s", min = 1.0, max = 1_800.0, start = 300.0)]
     pub step: Real,
     /// Frame of the elements; by default the equator of a planet, about the Sun the ecliptic.
-    #[parameter(start = OrbitFrame(center::frame(setup.center)))]
+    #[parameter(start = OrbitFrame(setup.center.frame()))]
     pub frame: Choice<OrbitFrame>,
     /// Semi-major axis; by default a period of 12 h about Mercury. About another planet the elements are by default those of a
     /// circle of three radii over the poles, about the Sun of 1 AU in the ecliptic.
-    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e13, start = center::elements(setup.center).semi_major_axis_m)]
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e13, start = setup.center.elements().semi_major_axis_m)]
     pub semi_major_axis: Real,
     /// Eccentricity.
-    #[parameter(unit = "1", min = 0.0, max = 0.99, start = center::elements(setup.center).eccentricity)]
+    #[parameter(unit = "1", min = 0.0, max = 0.99, start = setup.center.elements().eccentricity)]
     pub eccentricity: Real,
     /// Inclination.
-    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = center::elements(setup.center).inclination_rad)]
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.center.elements().inclination_rad)]
     pub inclination: Real,
     /// Longitude of the ascending node.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = center::elements(setup.center).ascending_node_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.center.elements().ascending_node_rad)]
     pub ascending_node: Real,
     /// Argument of periapsis.
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = center::elements(setup.center).periapsis_argument_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.center.elements().periapsis_argument_rad)]
     pub periapsis_argument: Real,
     /// True anomaly at the start.
     #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = 0.0)]

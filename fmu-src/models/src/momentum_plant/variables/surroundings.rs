@@ -24,22 +24,22 @@ pub struct EphemerisVariables {
 #[variables(setup = PlantSetup)]
 pub struct PlanetVariables {
     /// Gravitational parameter of the planet: by default that of orbit.center, as everything of planet.* is.
-    #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = setup.center.data().gm_m3_s2)]
+    #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = setup.center.data.gm_m3_s2)]
     pub gravitational_parameter: Real,
     /// Radius of the planet; a spacecraft below it is refused.
-    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data().radius_m)]
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data.radius_m)]
     pub radius: Real,
     /// Flattening of the centre's gravity on a disturbed orbit: second zonal harmonic, unnormalised (HgM005); 0 = none.
-    #[parameter(unit = "1", min = -1.0, max = 1.0, start = setup.center.data().j2)]
+    #[parameter(unit = "1", min = -1.0, max = 1.0, start = setup.center.data.j2)]
     pub j2: Real,
     /// Radius to which planet.j2 refers.
-    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data().j2_radius_m)]
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data.j2_radius_m)]
     pub j2_radius: Real,
     /// Right ascension of the planet's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.center.data().pole_right_ascension_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.center.data.pole_right_ascension_rad)]
     pub pole_right_ascension: Real,
     /// Declination of the planet's north pole in EME2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.center.data().pole_declination_rad)]
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.center.data.pole_declination_rad)]
     pub pole_declination: Real,
     #[group(name = "", setup = &setup.center)]
     pub surface: SurfaceVariables,

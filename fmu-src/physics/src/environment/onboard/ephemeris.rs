@@ -82,6 +82,11 @@ impl OnboardEphemeris {
                 let center = OnboardTarget::from(body.center);
                 check.report(&at.key("center"), center, "sun, which planets move about");
             }
+            if body.center == Body::Custom {
+                let allowed =
+                    "a body whose gravity everybody knows: [[body]] places what moves about another";
+                check.report(&at.key("center"), "custom", allowed);
+            }
             let error = error(&mut check, &at, body.error_m, body.error_m_s);
             let motion = coarse(&mut check, &at, body);
             found.coarse.push(FittedBody { target: body.body, center: body.center, motion, error });

@@ -23,21 +23,24 @@ pub enum OnboardTarget {
     Mars,
     /// Jupiter.
     Jupiter,
+    /// The body that the spacecraft's file describes.
+    Custom,
     /// The spacecraft.
     Spacecraft,
 }
 
 impl OnboardTarget {
     /// Those that are bodies, in their order.
-    const BODIES: [Self; Body::ALL.len()] =
-        [Self::Sun, Self::Mercury, Self::Venus, Self::Earth, Self::Mars, Self::Jupiter];
+    const BODIES: [Self; Body::COUNT] =
+        [Self::Sun, Self::Mercury, Self::Venus, Self::Earth, Self::Mars, Self::Jupiter, Self::Custom];
     /// As they are written in the file.
-    const NAMES: [&str; Body::ALL.len() + 1] =
-        ["sun", "mercury", "venus", "earth", "mars", "jupiter", "spacecraft"];
+    const NAMES: [&str; Body::COUNT + 1] =
+        ["sun", "mercury", "venus", "earth", "mars", "jupiter", "custom", "spacecraft"];
 
     /// The body; `None` for the spacecraft.
     pub fn body(self) -> Option<Body> {
-        Body::ALL.get(self as usize).copied()
+        let all = Body::ALL.into_iter().chain([Body::Custom]);
+        all.into_iter().find(|body| Self::from(*body) == self)
     }
 }
 

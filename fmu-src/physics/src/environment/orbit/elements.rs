@@ -89,10 +89,10 @@ impl Elements {
     }
 
     /// An orbit to begin with: about the Sun a circle of 1 AU, about a planet one of three radii over the poles.
-    pub fn simple_about(body: Body) -> Self {
-        match body {
+    pub fn simple_about(center: &BodyData) -> Self {
+        match center.body {
             Body::Sun => Self::circle(ASTRONOMICAL_UNIT_M, 0.0),
-            planet => Self::circle(3.0 * planet.data().radius_m, FRAC_PI_2),
+            _ => Self::circle(3.0 * center.radius_m, FRAC_PI_2),
         }
     }
 

@@ -70,7 +70,7 @@ pub struct EphemerisAtTime {
     /// The Earth, in m.
     pub earth: MovingVector,
     /// Other bodies by [`Body`], in m, where a command looks at them.
-    pub bodies: [Option<MovingVector>; Body::ALL.len()],
+    pub bodies: [Option<MovingVector>; Body::COUNT],
 }
 
 impl EphemerisAtTime {
@@ -96,7 +96,7 @@ impl EphemerisAtTime {
             velocity: moving(spacecraft.velocity_m_s, acceleration_m_s2),
             sun: of(sun),
             earth: of(earth),
-            bodies: [None; Body::ALL.len()],
+            bodies: [None; Body::COUNT],
         }
     }
 

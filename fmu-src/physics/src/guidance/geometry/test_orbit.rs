@@ -46,7 +46,7 @@ pub fn about_mercury(position: Vector3<f64>, sun: Vector3<f64>, earth: Vector3<f
         velocity: fixed(Vector3::y() * 3e3),
         sun: fixed(sun),
         earth: fixed(earth),
-        bodies: [None; Body::ALL.len()],
+        bodies: [None; Body::COUNT],
     }
 }
 

@@ -13,6 +13,8 @@ use super::reads::{
     Keys, NOTHING, TABLES, aimpoint_keys, body_roll_keys, boresight_keys, external_roll_keys, keys,
     limb_keys, own_aimpoint, tables,
 };
+use crate::bodies::Body;
+use crate::enumeration::Enumerated;
 use crate::guidance::modes::mode::Mode;
 use crate::guidance::pointing::command::{
     AimpointCommand, BodyRollCommand, BoresightCommand, BoresightOption, ExternalRollCommand, LimbCommand,
@@ -234,8 +236,18 @@ impl<'d, 'i> Commands<'d, 'i> {
             height_m: self.or_zero(&at.key("height"), &given.height, &LENGTH),
             azimuth_rad: self.or_zero(&at.key("azimuth"), &given.azimuth, &TURN),
             elevation_rad: self.or_zero(&at.key("elevation"), &given.elevation, &LATITUDE),
-            body: given.body,
+            body: self.body(&at.key("body"), given.body),
         }
+    }
+
+    /// A body that everybody knows, or the spacecraft's own.
+    fn body(&mut self, at: &Place, given: Option<Body>) -> Option<Body> {
+        if given == Some(Body::Custom) && self.spacecraft.body.is_none() {
+            let known = Body::ALL.map(Enumerated::name).join(", ");
+            let allowed = format!("{known}, and custom where the spacecraft's file has a table [body]");
+            self.check.report(at, "\"custom\"", allowed);
+        }
+        given
     }
 
     fn body_roll(&mut self, at: &Place, given: &BodyRollDescription) -> BodyRollCommand {

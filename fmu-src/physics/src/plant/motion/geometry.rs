@@ -91,5 +91,5 @@ pub(crate) fn sun_and_earth(
         EphemerisSource::Vsop87 => None,
         EphemerisSource::Kepler(planet) => Some(*planet),
     };
-    BodiesFromCenter { center: configuration.center, ellipse }.sun_and_earth(ephemeris, epoch_s)
+    BodiesFromCenter { center: configuration.center, ellipse, custom: None }.sun_and_earth(ephemeris, epoch_s)
 }

@@ -8,6 +8,7 @@ use super::describe_shapes::{
 };
 use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
 use super::describe_thermal::{SurroundingsDescription, ThermalDescription};
+use crate::spacecraft::body::InertialFrame;
 use crate::spacecraft::panel::PanelControl;
 use crate::spacecraft::start::StartTable;
 use crate::spacecraft::sun_sensors::HALF_FIELD_OF_VIEW_DEG;
@@ -15,8 +16,8 @@ use crate::spacecraft::surface::SunshadeModel;
 use crate::spacecraft::tank::HYDRAZINE_KG_M3;
 use crate::spacecraft::thermal::EMISSIVITY_REFERENCE_TEMPERATURE_K;
 use crate::toml::{
-    Emissivity, Finite, Fraction, HalfTurn, Kelvin, NonEmpty, NotNegative, Positive, QuarterTurn,
-    SpecificImpulse, SubtendedAngle, TurnEither, tables,
+    BodyRadius, Emissivity, Finite, Fraction, GravitationalParameter, HalfTurn, Kelvin, NonEmpty,
+    NotNegative, OrbitAxis, Positive, QuarterTurn, SpecificImpulse, SubtendedAngle, TurnEither, tables,
 };
 
 tables! {
@@ -65,10 +66,59 @@ struct Description {
     momentum: Option<MomentumDescription>,
     sun_keep_in: Option<SunKeepInDescription>,
     planet_map: Option<PlanetMapDescription>,
+    body: Option<BodyDescription>,
     thermal: Option<SurroundingsDescription>,
     start: Option<StartTable>,
     /// Variables that are local constants of this FMU, with their values; `heliotorque pack --fix` writes them.
     fixed: Option<StartTable>,
+}
+
+/// A body of one's own, an asteroid, a comet or a moon: with it `custom` is an item of `orbit.center` and the default there, and one
+/// of `target.planet` and `aimpoint.body`.
+struct BodyDescription {
+    /// Its name.
+    name: String,
+    /// Gravitational parameter, in m3/s2.
+    gravitational_parameter_m3_s2: GravitationalParameter,
+    /// Radii of its ellipsoid along its own x, y and z, in m; shadow and light take their mean.
+    radii_m: [BodyRadius; 3],
+    /// Second zonal harmonic of its gravity, unnormalised, for the first radius.
+    j2: f64 = 0.0,
+    /// Right ascension and declination of its north pole in EME2000, in deg.
+    pole_deg: [f64; 2] = [0.0, 90.0],
+    /// Angle of its prime meridian from the node of its equator on that of EME2000 at J2000, in deg.
+    prime_meridian_deg: TurnEither = 0.0,
+    /// Rotation rate about its pole, in rad/s.
+    rotation_rate_rad_s: f64 = 0.0,
+    /// Diffusely reflected fraction of sunlight; the default is assumed.
+    albedo: Fraction = 0.1,
+    /// Infrared emissivity; the default is assumed.
+    emissivity: Emissivity = 0.9,
+    elements: Option<BodyElementsDescription>,
+    /// Instead of elements, its position from the Sun at `epoch`, in m.
+    position_m: Option<[f64; 3]>,
+    /// Its velocity then, in m/s.
+    velocity_m_s: Option<[f64; 3]>,
+    /// When elements or state hold, a date such as "2030-01-01 TDB".
+    epoch: Option<String>,
+    /// Axes of elements or state: the ecliptic unless given.
+    frame: Option<InertialFrame>,
+}
+
+/// Its orbit about the Sun. Without it and without a state, inputs or the file of onboard ephemerides say where the body is.
+struct BodyElementsDescription {
+    /// Semi-major axis, in m.
+    semi_major_axis_m: OrbitAxis,
+    /// Eccentricity, at most 0.99.
+    eccentricity: f64,
+    /// Inclination, in deg.
+    inclination_deg: HalfTurn,
+    /// Longitude of the ascending node, in deg.
+    ascending_node_deg: TurnEither,
+    /// Argument of periapsis, in deg.
+    periapsis_argument_deg: TurnEither,
+    /// True anomaly at `epoch`, in deg.
+    true_anomaly_deg: TurnEither,
 }
 
 /// The planet's surface cell by cell, for `planetLight.method` map of DisturbanceTorque. Each key has n rows, belts of

@@ -43,6 +43,9 @@ impl Kernels {
         if spacecraft.is_some() && !targets.contains(&OnboardTarget::Spacecraft) {
             return Err("--spacecraft: allowed where --bodies names the spacecraft".into());
         }
+        if targets.contains(&OnboardTarget::Custom) && center.body != Body::Custom {
+            return Err("--bodies custom: allowed where --center is the NAIF id of that body".into());
+        }
         let spacecraft = spacecraft.unwrap_or(naif::MESSENGER);
         if targets.contains(&OnboardTarget::Spacecraft) {
             title += &format!(", spacecraft {spacecraft}");

@@ -15,6 +15,8 @@ pub const fn id(body: Body) -> i32 {
         Body::Earth => 399,
         Body::Mars => 499,
         Body::Jupiter => 599,
+        // Its own id is the centre's: the Solar System barycentre stands for none.
+        Body::Custom => 0,
     }
 }
 
@@ -37,7 +39,7 @@ pub struct Center {
     pub id: i32,
 }
 
-/// A centre by name or id. The barycentre stands for a planet of which kernels often place nothing else, but never for the
+/// A centre by name or id; another body than the known ones is `custom`, that of the spacecraft's file. The barycentre stands for a planet of which kernels often place nothing else, but never for the
 /// Earth, which the Moon carries 4700 km away from it.
 pub fn center(text: &str) -> Result<Center, String> {
     let text = text.trim().to_lowercase();
@@ -52,9 +54,17 @@ pub fn center(text: &str) -> Result<Center, String> {
             let given = text.parse().ok()?;
             (given == id || Some(given) == barycentre).then_some(Center { body, id: given })
         })
+        .or_else(|| {
+            // Ids of moons, asteroids and comets; those below are barycentres.
+            let id = text.parse().ok().filter(|id| *id > 10)?;
+            Some(Center { body: Body::Custom, id })
+        })
         .ok_or_else(|| {
             let names: Vec<String> = Body::ALL.map(|body| OnboardTarget::from(body).to_string()).into();
-            format!("allowed is one of {}, or its NAIF id", names.join(", "))
+            format!(
+                "allowed is one of {}, or its NAIF id, or that of another body, which is `custom` then",
+                names.join(", ")
+            )
         })
 }
 

@@ -24,7 +24,7 @@ fn surroundings(center: Body, sun: &CartesianState, earth: &CartesianState) -> E
 fn sun_and_earth_stand_where_the_theory_has_them() {
     let (mut ephemeris, mut worst_rad) = (Ephemeris::default(), 0.0_f64);
     for center in [Body::Mercury, Body::Venus, Body::Mars] {
-        let bodies = BodiesFromCenter { center, ellipse: None };
+        let bodies = BodiesFromCenter { center, ellipse: None, custom: None };
         let (sun, earth) = bodies.sun_and_earth(&mut ephemeris, EPOCH_S);
         let now = surroundings(center, &sun, &earth);
         let ahead = OrbitAhead::of(&now).unwrap();

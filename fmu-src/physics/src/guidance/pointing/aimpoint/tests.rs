@@ -56,7 +56,7 @@ fn an_aim_without_direction_is_none() {
     none(AimpointCommand { option: Some(AimpointOption::Vector), ..AimpointCommand::default() }, &s);
     none(
         AimpointCommand { body: Some(Body::Mars), ..command(AimpointOption::Body) },
-        &EphemerisAtTime { bodies: [None; 6], ..s },
+        &EphemerisAtTime { bodies: [None; Body::COUNT], ..s },
     );
     none(AimpointCommand { vector: Vector3::repeat(f64::NAN), ..command(AimpointOption::Vector) }, &s);
     let mut flat = s;
