@@ -19,7 +19,9 @@ const EXAMPLE: &str = include_str!("../../../../resources/examples/timeline.toml
 
 fn spacecraft() -> Spacecraft {
     let named = |name: &str| Instrument { name: name.to_owned(), boresight_body: Vector3::z() };
-    let messenger = Spacecraft::from_toml("messenger-full.toml", MESSENGER_FULL).unwrap();
+    let rock = "[body]\nname = \"Rock\"\ngravitational_parameter_m3_s2 = 7e4\nradii_m = [5e3, 5e3, 5e3]";
+    let text = format!("{MESSENGER_FULL}\n{rock}");
+    let messenger = Spacecraft::from_toml("messenger-full.toml", &text).unwrap();
     Spacecraft { instruments: vec![named("MASCS"), named("MLA")], ..messenger }
 }
 
