@@ -33,7 +33,9 @@ pub fn library(model: &str) -> &'static Library {
     static PANICKING: Library = Library { entries: &[Entry::of::<Panicking>()] };
     static MOMENTUM_PLANT: Library = Library { entries: &[Entry::of::<MomentumPlant>()] };
     static SPIN_PLANT: Library = Library { entries: &[Entry::of::<SpinPlant>()] };
-    static DISTURBANCE_TORQUE: Library = Library { entries: &[Entry::of::<DisturbanceTorque>()] };
+    // The shipped file has start values for MomentumPlant.
+    static DISTURBANCE_TORQUE: Library =
+        Library { entries: &[Entry::of::<DisturbanceTorque>(), Entry::of::<MomentumPlant>()] };
     static GUIDANCE: Library = Library { entries: &[Entry::of::<Guidance>()] };
     match model {
         "SpinPlant" => &SPIN_PLANT,

@@ -17,6 +17,7 @@ use crate::common::center::center_of;
 use crate::common::effects::check_start;
 use crate::common::spacecraft::{PreparedShapes, ReportedFace, reported_faces};
 use crate::common::start_values::{entry_of, fixed_item, item};
+use crate::common::variables::WindowDefaults;
 
 /// The momentum plant.
 pub struct MomentumPlant;
@@ -32,6 +33,9 @@ pub struct PlantSetup {
     /// What it flies about by its file, and the defaults of the parameters go by.
     #[serde(skip)]
     pub center: Body,
+    /// Start values of the downlink windows.
+    #[serde(skip)]
+    pub windows: WindowDefaults,
     /// Prepared for sunlight.
     #[serde(skip)]
     shapes: PreparedShapes,
@@ -65,6 +69,7 @@ impl PlantSetup {
         let wheel_array = WheelArray::new(&axes);
         Ok(Self {
             center: center_of(&spacecraft),
+            windows: WindowDefaults::of(&spacecraft, center_of(&spacecraft)),
             control: ControlDefaults::of(&spacecraft, wheel_array.as_ref()),
             reported_faces: reported_faces(file, &spacecraft)?,
             shapes: PreparedShapes::of(&spacecraft),

@@ -5,6 +5,7 @@ mod center_defaults;
 mod dependencies;
 mod disturbance_degenerate;
 mod disturbance_torque;
+mod downlink_windows;
 mod dynamics;
 mod fixed;
 mod guidance;

@@ -8,7 +8,9 @@
 //! axis of the panels; the origin is wherever the file's coordinates start, not the centre of mass.
 
 mod assembly;
+mod downlinks;
 mod file;
+mod hot_pole;
 mod instruments;
 mod mass;
 mod optics;
@@ -30,8 +32,10 @@ mod tests;
 
 pub use crate::toml::MOST_THRUSTERS;
 pub use assembly::{Spacecraft, SunKeepIn};
+pub use downlinks::{DownlinkWindows, TimeAfterPeriapsis};
 #[cfg(feature = "schema")]
 pub use file::schema;
+pub use hot_pole::HotPoleZone;
 pub use instruments::Instrument;
 pub(crate) use mass::steiner;
 pub use mass::{MassProperties, PanelMass, check_inertia};

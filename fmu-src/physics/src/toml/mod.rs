@@ -21,7 +21,8 @@ pub use limits::{LIMITS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUST
 pub use place::Place;
 pub use ranges::{
     AtLeastOne, Copies, Corners, Deviation, Distance, Emissivity, FieldOfView, Finite, Fraction, Frequency,
-    HalfTurn, Kelvin, NotNegative, Positive, QuarterTurn, Rings, SpecificImpulse, SubtendedAngle, TurnEither,
+    HalfTurn, Kelvin, NotNegative, Orbits, Positive, QuarterTurn, Rings, SpecificImpulse, SubtendedAngle,
+    TurnEither,
 };
 pub use reader::Findings;
 pub use spelling::{hint, nearest};

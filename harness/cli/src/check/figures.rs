@@ -13,12 +13,17 @@ pub fn report(spacecraft: &Spacecraft) -> String {
     let mut text = String::new();
     let has_wheels = !spacecraft.wheels.is_empty();
     for (name, value) in rows(&figures).into_iter().filter(|(name, _)| has_wheels || *name != "wheels") {
-        text.push_str(&format!("\n  {name:<21}{value}"));
+        text.push_str(&row(name, &value));
     }
     for warning in warnings(spacecraft, &figures) {
         text.push_str(&format!("\nwarning: {warning}"));
     }
     text
+}
+
+/// A line of the report.
+pub fn row(name: &str, value: &str) -> String {
+    format!("\n  {name:<21}{value}")
 }
 
 fn rows(figures: &Figures) -> Vec<(&'static str, String)> {

@@ -8,6 +8,7 @@ use super::options::Check;
 use crate::{
     epoch, low_orbit,
     outcome::{self, Outcome},
+    pointing,
     run::{Prepared, Run, Settings},
 };
 
@@ -31,8 +32,10 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let short = terminal::short;
     let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
-    let warnings = low_orbit::warnings(subject.description(), sets);
-    let warnings: String = warnings.iter().map(|warning| format!("\nwarning: {warning}")).collect();
+    let low = low_orbit::warnings(subject.description(), sets);
+    let windows = pointing::warnings(subject.description(), sets);
+    let warnings: String =
+        low.iter().chain(&windows).map(|warning| format!("\nwarning: {warning}")).collect();
     let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });
     Ok(format!(
         "{} flies from {begin} for {} in {} steps of {} s; {} recorded, {}, {}{warnings}",

@@ -16,6 +16,7 @@ use crate::{
     },
     low_orbit,
     outcome::{self, Outcome},
+    pointing,
 };
 
 /// Has the models of the template's library read the file, the template's own first.
@@ -56,10 +57,13 @@ pub fn run(arguments: &Check, file: &str, text: &str) -> Outcome {
             return refused(file, &described, &format!("{file}: {reason}"));
         }
         let low = low_orbit::warnings(&description, &[]);
+        let windows = pointing::warnings(&description, &[]);
+        let points =
+            pointing::sentence(&description).map_or_else(String::new, |it| figures::row("points", &it));
         let warnings: String =
-            map.iter().chain(&low).map(|warning| format!("\nwarning: {warning}")).collect();
+            map.iter().chain(&low).chain(&windows).map(|warning| format!("\nwarning: {warning}")).collect();
         return outcome::printed(&format!(
-            "{file}: ok for {}: {}; the FMU will have {} variables{}{warnings}",
+            "{file}: ok for {}: {}; the FMU will have {} variables{points}{}{warnings}",
             described.model,
             contents(text),
             description.variables.len(),

@@ -24,6 +24,7 @@ use crate::{
     low_orbit,
     outcome::Outcome,
     output::{self, Judge, Known, Outputs},
+    pointing,
 };
 pub use child::{RunInChild, run as run_in_child};
 pub use options::Run;
@@ -96,7 +97,8 @@ pub fn run(arguments: &Run) -> Outcome {
     let Prepared { simulated, subject, settings, points, mut outputs, input_copy, _scratch } = prepared;
     let arguments = &simulated.run;
     let described = subject.description();
-    let warnings = low_orbit::warnings(described, &settings.sets);
+    let mut warnings = low_orbit::warnings(described, &settings.sets);
+    warnings.extend(pointing::warnings(described, &settings.sets));
     let Settings { times, positions, limits, requested, .. } = settings;
     if !arguments.quiet {
         warnings.iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));

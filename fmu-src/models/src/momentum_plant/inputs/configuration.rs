@@ -74,7 +74,7 @@ pub fn read(
     Ok(Configuration {
         epoch_minus_time_s,
         center: data.body,
-        attitude: attitude(variables, values, state, &orbit)?,
+        attitude: attitude(context, values, state, &orbit)?,
         orbit,
         motion: motion(variables, values, data, time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s)),
         ephemeris: ephemeris_source(data.body, context, values, state.waiting)?,
@@ -208,11 +208,12 @@ fn ephemeris_source(
 }
 
 fn attitude(
-    variables: &PlantVariables,
+    context: &Plan<'_>,
     values: &Values,
     state: &PlantState,
     orbit: &TwoBodyOrbit,
 ) -> Result<plant::AttitudeSource, Failure> {
+    let variables = context.variables;
     let guided = || {
         let period_s = if values.choice(variables.orbit.center).0.is_planet() {
             orbit.period_s()
@@ -228,6 +229,7 @@ fn attitude(
         let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
         let camera = MdisRange::default();
         let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, camera)?;
+        let law = variables.guided.by_shares(context, values, &context.setup.windows, law);
         let management = &variables.momentum.management;
         let (managed, choice) =
             (values.choice(management.strategy).0 != Strategy::DumpsOnly, state.flight.sun_choice());

@@ -7,12 +7,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use client::{InProcess, NamedInstance};
 use fmi_export::{Entry, Library, Status};
 use model_description::Causality;
-use models::DisturbanceTorque;
+use models::{DisturbanceTorque, MomentumPlant};
 
 use super::super::random::RandomNumbers;
 use super::super::spacecraft::RADIATING;
 
-pub static LIBRARY: Library = Library { entries: &[Entry::of::<DisturbanceTorque>()] };
+// The shipped file has start values for MomentumPlant.
+pub static LIBRARY: Library =
+    Library { entries: &[Entry::of::<DisturbanceTorque>(), Entry::of::<MomentumPlant>()] };
 
 /// What the spacecraft with shadows starts with.
 const SHADOWED: &str = r#"

@@ -9,6 +9,7 @@ pub(super) mod planet_map;
 pub(super) mod plates;
 pub(super) mod propulsion;
 pub(super) mod swinging;
+pub(super) mod windows;
 
 mod copies;
 mod describe_shapes;
@@ -20,6 +21,7 @@ mod outline;
 mod schema;
 mod shapes;
 mod thermal;
+mod written_time;
 
 #[cfg(feature = "schema")]
 pub use schema::schema;

@@ -9,6 +9,7 @@ fn paper() -> Schedule {
         period_s: 12.0 * HOUR_S,
         downlink_start_s: 2.0 * HOUR_S,
         downlink_end_s: 10.0 * HOUR_S,
+        period_shares: [None; 2],
         every: 2,
         once: false,
     }
