@@ -48,6 +48,13 @@ pub fn check_flat(name: &str) -> Result<(), String> {
     }
 }
 
+/// Whether a variable is an element of a matrix: `x[1,3]`.
+pub fn is_of_matrix(name: &str) -> bool {
+    name.strip_suffix(']')
+        .and_then(|name| name.rsplit_once('['))
+        .is_some_and(|(_, indices)| indices.contains(','))
+}
+
 struct Scan<'a> {
     name: &'a str,
     at: usize,

@@ -188,8 +188,9 @@ fn stored_heat_allocates_nothing() {
     let text = include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml");
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("spacecraft.toml"), text).unwrap();
-    let description =
-        LIBRARY.find("MomentumPlant").unwrap().describe(Some("spacecraft.toml"), Some(text)).unwrap();
+    let description = LIBRARY
+        .describe(LIBRARY.find("MomentumPlant").unwrap(), Some("spacecraft.toml"), Some(text))
+        .unwrap();
     let names = Names::new(&description);
     let location = format!("file://{}", folder.path().display());
     let mut instance =

@@ -44,7 +44,7 @@ fn uri(folder: &Path) -> String {
 }
 
 fn guid_of(spacecraft: &str) -> String {
-    LIBRARY.find(PLANT).unwrap().describe(None, Some(spacecraft)).unwrap().guid
+    LIBRARY.describe(LIBRARY.find(PLANT).unwrap(), None, Some(spacecraft)).unwrap().guid
 }
 
 #[test]

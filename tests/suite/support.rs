@@ -26,25 +26,22 @@ pub static LIBRARY: Library = Library {
     ],
 };
 
-/// Libraries of one model each, so that instantiating one does not describe the others.
+/// Libraries of few models each, so that instantiating one does not describe all others: those that take a spacecraft's file
+/// stand together, for its `[start]` may have names of each.
 pub fn library(model: &str) -> &'static Library {
     static EMPTY: Library = Library { entries: &[Entry::of::<Empty>()] };
     static ALL_TYPES: Library = Library { entries: &[Entry::of::<AllTypes>()] };
     static PANICKING: Library = Library { entries: &[Entry::of::<Panicking>()] };
-    static MOMENTUM_PLANT: Library = Library { entries: &[Entry::of::<MomentumPlant>()] };
     static SPIN_PLANT: Library = Library { entries: &[Entry::of::<SpinPlant>()] };
-    // The shipped file has start values for MomentumPlant.
-    static DISTURBANCE_TORQUE: Library =
-        Library { entries: &[Entry::of::<DisturbanceTorque>(), Entry::of::<MomentumPlant>()] };
-    static GUIDANCE: Library = Library { entries: &[Entry::of::<Guidance>()] };
+    static OF_SPACECRAFT: Library = Library {
+        entries: &[Entry::of::<MomentumPlant>(), Entry::of::<DisturbanceTorque>(), Entry::of::<Guidance>()],
+    };
     match model {
         "SpinPlant" => &SPIN_PLANT,
-        "DisturbanceTorque" => &DISTURBANCE_TORQUE,
-        "Guidance" => &GUIDANCE,
         "Empty" => &EMPTY,
         "AllTypes" => &ALL_TYPES,
         "Panicking" => &PANICKING,
-        "MomentumPlant" => &MOMENTUM_PLANT,
+        "MomentumPlant" | "DisturbanceTorque" | "Guidance" => &OF_SPACECRAFT,
         other => panic!("no library of {other}"),
     }
 }
@@ -54,7 +51,7 @@ pub const SHIPPED: &[&str] = &["MomentumPlant", "SpinPlant", "DisturbanceTorque"
 
 /// The description of a model with its compiled-in setup.
 pub fn description(model: &str) -> Description {
-    LIBRARY.find(model).unwrap().describe(None, None).unwrap()
+    LIBRARY.describe(LIBRARY.find(model).unwrap(), None, None).unwrap()
 }
 
 /// The references of a model.

@@ -19,6 +19,8 @@ pub struct Declaration {
     pub max: Option<Expr>,
     pub nominal: Option<Expr>,
     pub start: Option<Expr>,
+    /// Items of a choice that the setup adds.
+    pub items: Option<Expr>,
 }
 
 /// `#[group(...)]`.
@@ -35,7 +37,7 @@ pub enum FieldAttribute {
 }
 
 const DECLARATION_ITEMS: &str = "constant, fixed, tunable, discrete, continuous, \
-    initial = exact|approx|calculated, start, unit, display, min, max, nominal, name";
+    initial = exact|approx|calculated, start, unit, display, min, max, nominal, name, items";
 
 /// The one declaring attribute of a field; others (`doc`, `cfg`, ...) are none of our business.
 pub fn of_field(name: &Ident, attributes: &[Attribute]) -> syn::Result<FieldAttribute> {
@@ -80,6 +82,7 @@ fn declaration(attribute: &Attribute, causality: Causality) -> syn::Result<Decla
         max: None,
         nominal: None,
         start: None,
+        items: None,
     };
     each_item(attribute, |item, word| {
         if let Some(variability) = Variability::from_word(word) {
@@ -94,6 +97,7 @@ fn declaration(attribute: &Attribute, causality: Causality) -> syn::Result<Decla
             "max" => once(&mut all.max, item, value),
             "nominal" => once(&mut all.nominal, item, value),
             "start" => once(&mut all.start, item, value),
+            "items" => once(&mut all.items, item, value),
             _ => Err(item.error(format!("unknown item `{word}`; allowed: {DECLARATION_ITEMS}"))),
         }
     })?;

@@ -16,6 +16,9 @@ pub fn declaration(declared: &Declaration, kind: Kind, field: &Ident, errors: &m
     errors.take(role(declared, kind, field));
     errors.take(unit(declared, kind, field));
     errors.take(limits(declared, kind));
+    if let Some(items) = declared.items.as_ref().filter(|_| kind != Kind::Choice) {
+        errors.push(syn::Error::new_spanned(items, "only a Choice has items"));
+    }
 }
 
 /// The variability given, or the causality's usual one.

@@ -145,7 +145,10 @@ fn declare(
         }
         Kind::Integer => quote! { #scope.integer(#spec, #start, #min, #max) },
         Kind::Boolean => quote! { #scope.boolean(#spec, #start) },
-        Kind::Choice => quote! { #scope.choice(#spec, #start) },
+        Kind::Choice => match &declared.items {
+            Some(items) => quote_spanned! { items.span()=> #scope.choice_with(#spec, #start, #items) },
+            None => quote! { #scope.choice(#spec, #start) },
+        },
         Kind::Text => {
             let start = option(declared.start.as_ref().map(borrowed).as_ref());
             quote! { #scope.text(#spec, #start) }

@@ -212,6 +212,14 @@ fn targets(
     let by_name = |name: &str| given.iter().find(|(element, _)| element == name).map(|(_, given)| *given);
     let variables: Vec<_> = elements.iter().filter_map(|index| Some((*index, own(index)?))).collect();
     let shape = || Misfit::new(entry.value.shown(), shape_of(&entry.name, &variables));
+    let is_matrix = variables.iter().any(|(_, variable)| names::is_of_matrix(&variable.name));
+    if !is_matrix && !matches!(entry.value, SetupValue::List(_)) {
+        // One value is that of every element of a vector.
+        return variables
+            .iter()
+            .map(|(index, variable)| Ok((*index, converted(description, variable, &entry.value)?)))
+            .collect();
+    }
     if given.len() != variables.len() {
         return Err(shape());
     }

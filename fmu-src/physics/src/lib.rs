@@ -8,8 +8,9 @@
 
 pub mod constants;
 pub mod enumeration;
-pub mod numerics;
 pub mod refusal;
+
+pub mod numerics;
 
 pub mod bodies;
 

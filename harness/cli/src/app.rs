@@ -13,7 +13,7 @@ use crate::{
     child::{self, Bounds, LARGE, Relayed, SMALL},
     completions, draw, ephemeris, home, info, interrupt, manual, map, new,
     outcome::Outcome,
-    pack, plan, run as simulation, schema, study, wire,
+    pack, plan, run as simulation, schema, size, study, wire,
 };
 
 /// Spacecraft disturbance torque and momentum as FMUs: show, check and simulate them, pack your own.
@@ -43,6 +43,8 @@ enum Command {
     /// Map the torque of sunlight over the Sun's azimuth and elevation: where it vanishes, what a degree is worth, what
     /// downlinks can undo
     Map(map::Map),
+    /// Size wheels and propellant of a spacecraft or a mission: momentum by source, dumps over capacity, slews, thrusters
+    Size(size::Size),
     /// Make an FMU of your own spacecraft; nothing is compiled
     Pack(pack::Pack),
     /// Fit the positions of an FMU's flight: an ephemeris that spacecraft carry, with its error
@@ -120,6 +122,7 @@ fn loading(command: &Command) -> Option<Relayed> {
         }
         Command::Pack(it) => (of_template(it.library.as_ref().or(it.template.as_ref())), it.patience, SMALL),
         Command::Map(it) => (shown(it.template.as_ref().unwrap_or(&it.spacecraft)), it.patience, SMALL),
+        Command::Size(it) => (of_template(it.template.as_ref()), it.patience, LARGE),
         Command::Ephemeris(it) => (shown(&it.simulated()), it.patience, LARGE),
         Command::Plan(plan::Plan::Spin(it)) => (of_template(it.options.fmu.as_ref()), it.patience, LARGE),
         Command::Study(it) => (it.name.clone(), it.patience, LARGE),
@@ -147,6 +150,7 @@ fn carry_out(mut command: Command) -> Outcome {
         Command::Man(arguments) => manual::run(&arguments, Arguments::command()),
         Command::Draw(arguments) => draw::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
+        Command::Size(arguments) => size::run(&arguments),
         Command::Pack(arguments) => pack::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Ephemeris(arguments) => ephemeris::run(&arguments),

@@ -1,7 +1,11 @@
-//! What kind of file a TOML text is meant as, recognised by its keys also where it is damaged.
+//! What kind of file a TOML text is meant as, recognised by its keys also where it is damaged; the wrong kind is refused by name.
+
+use std::{fmt, path::Path};
 
 use physics::toml::nearest;
 use toml::de::DeTable;
+
+use crate::carried::ephemeris;
 
 /// A kind of file that people write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,10 +16,27 @@ pub enum FileKind {
     Mission,
     /// Commands over time.
     Timeline,
+    /// Positions over time.
+    Ephemeris,
 }
 
 /// The table that every spacecraft and spinner has.
 const OF_SPACECRAFT: &str = "mass_properties";
+/// Tables that only spacecraft and spinners have, where that one is missing or misspelt.
+const OF_PARTS: [&str; 12] = [
+    "optics",
+    "plates",
+    "boxes",
+    "cylinders",
+    "discs",
+    "dishes",
+    "sunshade",
+    "panels",
+    "wheels",
+    "tanks",
+    "thrusters",
+    "groups",
+];
 /// The list that every timeline has.
 const OF_TIMELINE: &str = "command";
 /// Keys that only missions have.
@@ -37,22 +58,106 @@ const OF_MISSION: [&str; 14] = [
 ];
 
 impl FileKind {
-    /// By the keys of the text.
-    pub fn of(text: &str) -> Self {
+    /// By the keys of the text; `None` where no key tells.
+    pub fn of(text: &str) -> Option<Self> {
         let (root, _) = DeTable::parse_recoverable(text);
         let root = root.get_ref();
         let has = |key: &str| root.contains_key(key);
         let is_like = |key: &str| root.keys().any(|found| nearest(found.get_ref(), &[key]).is_some());
-        if has(OF_SPACECRAFT) {
-            Self::Spacecraft
+        if has(OF_SPACECRAFT) || OF_PARTS.into_iter().any(has) {
+            Some(Self::Spacecraft)
+        } else if ephemeris::is_meant(text) {
+            Some(Self::Ephemeris)
         } else if OF_MISSION.into_iter().any(has) {
-            Self::Mission
+            Some(Self::Mission)
         } else if is_like(OF_TIMELINE) {
-            Self::Timeline
+            Some(Self::Timeline)
         } else {
-            Self::Spacecraft
+            is_like(OF_SPACECRAFT).then_some(Self::Spacecraft)
         }
     }
+
+    /// Refuses a text that says nothing, or is of another kind.
+    ///
+    /// # Errors
+    /// What was found, and what is done with that.
+    pub fn check(self, file: &str, text: &str) -> Result<(), String> {
+        if is_blank(text) {
+            let new = if self == Self::Ephemeris { "" } else { "new " };
+            return Err(format!(
+                "{file}: found an empty file, allowed: {self}: see `heliotorque {new}{}`",
+                self.word()
+            ));
+        }
+        match Self::of(text) {
+            Some(found) if found != self => {
+                Err(format!("{file}: found {found}, allowed: {self}: {}", found.remedy(file)))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Reads a file of this kind.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is empty, or is of another kind.
+    pub fn read(self, path: &Path) -> Result<String, String> {
+        let text = files::read_text(path)?;
+        self.check(&path.display().to_string(), &text)?;
+        Ok(text)
+    }
+
+    /// What `heliotorque new` calls it.
+    fn word(self) -> &'static str {
+        match self {
+            Self::Spacecraft => "spacecraft",
+            Self::Mission => "mission",
+            Self::Timeline => "timeline",
+            Self::Ephemeris => "ephemeris",
+        }
+    }
+
+    /// What is done with a file of this kind.
+    pub fn remedy(self, file: &str) -> String {
+        match self {
+            Self::Spacecraft => format!(
+                "`heliotorque pack --spacecraft {file}` makes an FMU of it, a mission (`heliotorque new mission`) simulates it"
+            ),
+            Self::Mission => format!("run it: `heliotorque run {file}`"),
+            Self::Timeline | Self::Ephemeris => {
+                let word = self.word();
+                format!("`{word} = \"{file}\"` in a mission or `heliotorque pack --{word} {file}` takes it")
+            }
+        }
+    }
+}
+
+impl fmt::Display for FileKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let article = if *self == Self::Ephemeris { "an" } else { "a" };
+        write!(f, "{article} {}", self.word())
+    }
+}
+
+/// Whether a text has nothing but comments.
+pub fn is_blank(text: &str) -> bool {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    text.lines().all(|line| line.trim().is_empty() || line.trim_start().starts_with('#'))
+}
+
+/// Refuses a TOML file where an FMU or a system is expected, by what it is.
+///
+/// # Errors
+/// The file's kind, and what is done with that.
+pub fn check_archive(path: &Path) -> Result<(), String> {
+    if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) || !path.is_file() {
+        return Ok(());
+    }
+    let (file, text) = (path.display().to_string(), files::read_text(path)?);
+    Err(match FileKind::of(&text) {
+        Some(found) => format!("{file}: found {found}, allowed: an FMU or a system: {}", found.remedy(&file)),
+        None => format!("{file}: found a TOML file, allowed: an FMU or a system: see `heliotorque check`"),
+    })
 }
 
 #[cfg(test)]
@@ -62,16 +167,33 @@ mod tests {
     #[test]
     fn keys_tell_the_kind() {
         for (text, kind) in [
-            (include_str!("new/spacecraft.toml"), FileKind::Spacecraft),
-            (include_str!("new/spinner.toml"), FileKind::Spacecraft),
-            (include_str!("new/mission.toml"), FileKind::Mission),
-            (include_str!("new/timeline.toml"), FileKind::Timeline),
-            ("[[comand]]\nat = 0\n", FileKind::Timeline),
-            ("spacecraft = \"a.toml\"\nstop = \"torn", FileKind::Mission),
-            ("", FileKind::Spacecraft),
-            ("name = 1\n[optics.a]\n", FileKind::Spacecraft),
+            (include_str!("new/spacecraft.toml"), Some(FileKind::Spacecraft)),
+            (include_str!("new/spinner.toml"), Some(FileKind::Spacecraft)),
+            (include_str!("new/mission.toml"), Some(FileKind::Mission)),
+            (include_str!("new/timeline.toml"), Some(FileKind::Timeline)),
+            ("[[comand]]\nat = 0\n", Some(FileKind::Timeline)),
+            ("spacecraft = \"a.toml\"\nstop = \"torn", Some(FileKind::Mission)),
+            ("frame = \"eme2000\"\n[[body]]\n", Some(FileKind::Ephemeris)),
+            ("[mass_properties]\n[body]\n", Some(FileKind::Spacecraft)),
+            ("[mass_propertys]\nmass_kg = 1\n", Some(FileKind::Spacecraft)),
+            ("", None),
+            ("name = 1\n[optics.a]\n", Some(FileKind::Spacecraft)),
+            ("name = 1\n", None),
         ] {
             assert_eq!(FileKind::of(text), kind, "{text}");
         }
+    }
+
+    #[test]
+    fn another_kind_is_refused_with_what_is_done_with_it() {
+        let refused = |kind: FileKind, text: &str| kind.check("x.toml", text).unwrap_err();
+        let mission = include_str!("new/mission.toml");
+        assert_eq!(
+            refused(FileKind::Spacecraft, mission),
+            "x.toml: found a mission, allowed: a spacecraft: run it: `heliotorque run x.toml`"
+        );
+        assert!(refused(FileKind::Timeline, "\u{feff}# nothing\n\n").contains("found an empty file"));
+        assert_eq!(FileKind::Mission.check("x.toml", mission), Ok(()));
+        assert_eq!(FileKind::Spacecraft.check("x.toml", "name = 1\n"), Ok(()));
     }
 }

@@ -30,6 +30,7 @@ mod plan;
 mod pointing;
 mod run;
 mod schema;
+mod size;
 mod study;
 mod values;
 mod variables;

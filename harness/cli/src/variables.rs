@@ -1,7 +1,7 @@
 //! Variables by what people write of them: start values, settings, selections.
 
 use loader::{Error, Value};
-use model_description::{Description, value};
+use model_description::{Description, ScalarVariable, VariableKind, value};
 
 use crate::epoch;
 
@@ -41,6 +41,23 @@ pub fn assigned(description: &Description, settings: &[String]) -> Result<Vec<(S
     Ok(sets)
 }
 
+/// A warning for each name that is set more than once; `option` is where.
+pub fn repeated(option: &str, settings: &[String]) -> Vec<String> {
+    let name = |setting: &String| setting.split_once('=').map(|(name, _)| name.trim().to_lowercase());
+    let later = |at: usize| settings[at + 1..].iter().rev().find(|other| name(other) == name(&settings[at]));
+    let is_first = |at: usize| settings[..at].iter().all(|other| name(other) != name(&settings[at]));
+    (0..settings.len())
+        .filter(|at| is_first(*at))
+        .filter_map(|at| Some((&settings[at], later(at)?)))
+        .map(|(first, last)| format!("{option} {first} stands before {option} {last}, which counts"))
+        .collect()
+}
+
+/// Says so on the terminal.
+pub fn warn_of_repeated(option: &str, settings: &[String]) {
+    repeated(option, settings).iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));
+}
+
 /// Positions of everything that some patterns mean, each once; `select` says what one means.
 ///
 /// # Errors
@@ -59,7 +76,97 @@ pub fn selected(
     Ok(positions)
 }
 
+/// Elements of one vector or matrix, which differ in their start values alone; or one variable.
+pub struct Row<'d>(&'d [&'d ScalarVariable]);
+
+/// Variables in rows.
+pub fn rows<'d>(variables: &'d [&'d ScalarVariable]) -> impl Iterator<Item = Row<'d>> {
+    let without_start = |kind: &VariableKind| {
+        let mut kind = kind.clone();
+        match &mut kind {
+            VariableKind::Real { start, .. } => *start = None,
+            VariableKind::Integer { start, .. } | VariableKind::Enumeration { start, .. } => *start = None,
+            VariableKind::Boolean { start, .. } => *start = None,
+            VariableKind::String { start, .. } => *start = None,
+        }
+        kind
+    };
+    let is_alike = move |one: &&ScalarVariable, other: &&ScalarVariable| {
+        vector(&one.name).is_some()
+            && vector(&one.name) == vector(&other.name)
+            && (one.causality, one.variability) == (other.causality, other.variability)
+            && one.description == other.description
+            && without_start(&one.kind) == without_start(&other.kind)
+    };
+    variables.chunk_by(is_alike).map(Row)
+}
+
+impl<'d> Row<'d> {
+    /// The first of them.
+    pub fn first(&self) -> &'d ScalarVariable {
+        self.0[0]
+    }
+
+    /// Its name: `momentum.body[1..3]`, `spacecraft.inertia[1..3,1..3]`.
+    pub fn name(&self) -> String {
+        let [first, .., last] = self.0 else { return self.first().name.clone() };
+        let Some(vector) = vector(&first.name) else { return first.name.clone() };
+        let indices = |name: &'d str| name[vector.len() + 1..].trim_end_matches(']').split(',');
+        let ranges = indices(&first.name).zip(indices(&last.name));
+        let range =
+            |(from, to): (&str, &str)| if from == to { from.to_owned() } else { format!("{from}..{to}") };
+        format!("{vector}[{}]", ranges.map(range).collect::<Vec<_>>().join(","))
+    }
+
+    /// What `text` says of each, once where that is the same of all.
+    pub fn joined(&self, text: impl Fn(&ScalarVariable) -> String) -> String {
+        let mut texts: Vec<String> = self.0.iter().map(|variable| text(variable)).collect();
+        if texts.iter().all(|text| *text == texts[0]) {
+            texts.truncate(1);
+        }
+        texts.join(", ")
+    }
+}
+
 /// The vector that an element is of.
 pub fn vector(name: &str) -> Option<&str> {
     name.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map(|(vector, _)| vector)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elements_that_are_alike_stand_in_a_row() {
+        let variable = |name: &str, start: f64| ScalarVariable {
+            name: name.to_owned(),
+            kind: VariableKind::Real {
+                declared_type: None,
+                attributes: Default::default(),
+                start: Some(start),
+                derivative: None,
+                reinit: None,
+            },
+            ..ScalarVariable::default()
+        };
+        let names = ["a[1]", "a[2]", "b", "c[1,1]", "c[1,2]", "c[2,1]", "c[2,2]", "d[3]", "e[2].f"];
+        let all: Vec<ScalarVariable> = names.iter().map(|name| variable(name, 4.0)).collect();
+        let all: Vec<&ScalarVariable> = all.iter().collect();
+        let shown: Vec<String> = rows(&all).map(|row| row.name()).collect();
+        assert_eq!(shown, ["a[1..2]", "b", "c[1..2,1..2]", "d[3]", "e[2].f"]);
+        let [one, other] = [variable("a[1]", 1.0), variable("a[2]", 2.0)];
+        let start =
+            |variable: &ScalarVariable| value::start(variable).map_or(String::new(), |it| it.to_string());
+        let starts: Vec<String> = rows(&[&one, &other]).map(|row| row.joined(start)).collect();
+        assert_eq!(starts, ["1, 2"]);
+        assert_eq!(rows(&all[..2]).next().unwrap().joined(start), "4");
+    }
+
+    #[test]
+    fn a_name_that_is_set_twice_is_warned_of_once() {
+        let settings = ["a=1", "b=2", " A =3", "a[1]=2", "a=4"].map(str::to_owned);
+        assert_eq!(repeated("--set", &settings), ["--set a=1 stands before --set a=4, which counts"]);
+        assert!(repeated("--set", &settings[..2]).is_empty());
+    }
 }

@@ -7,7 +7,7 @@ use super::{
     legend::{Legend, ROW_HEIGHT},
     pen::{COLOURS, GREY, Pen, Pixel},
     picture::{LABEL, PANEL_HEIGHT, PLOT_LEFT, Picture, RIGHT, SHADE, TITLE_HEIGHT, WIDTH, X_AXIS_HEIGHT},
-    series::{Mark, Panel, Series},
+    series::{Mark, Panel, Series, pieces},
 };
 
 const SINGLE_HEIGHT: f64 = 420.0;
@@ -29,6 +29,8 @@ pub struct Chart {
     pub panels: Vec<Panel>,
     /// What the lines of the same place in all panels without labels are, beside the title.
     pub legend: Vec<String>,
+    /// Places of the horizontal axis with their names, such as dates, in place of numbers; empty: numbers.
+    pub x_names: Vec<(f64, String)>,
 }
 
 impl Chart {
@@ -55,6 +57,13 @@ impl Chart {
         if self.title.is_empty() && self.legend.is_empty() { TOP } else { TITLE_HEIGHT }
     }
 
+    /// The legend of each panel; the first with a band says what that is.
+    fn legends(&self) -> Vec<Legend<'_>> {
+        let with_band = self.panels.iter().position(|panel| panel.series.iter().any(Series::has_band));
+        let panels = self.panels.iter().enumerate();
+        panels.map(|(index, panel)| Legend::of(panel, with_band == Some(index))).collect()
+    }
+
     /// Of the lines of a panel with one row of legend.
     fn panel_height(&self) -> f64 {
         if self.panels.len() == 1 { SINGLE_HEIGHT } else { PANEL_HEIGHT }
@@ -68,7 +77,7 @@ impl Picture for Chart {
 
     fn height(&self) -> Option<f64> {
         self.x_range()?;
-        let panels: f64 = self.panels.iter().map(|panel| panel.height(self.panel_height())).sum();
+        let panels: f64 = self.legends().iter().map(|legend| height(legend, self.panel_height())).sum();
         Some(self.title_height() + panels + X_AXIS_HEIGHT)
     }
 
@@ -76,12 +85,12 @@ impl Picture for Chart {
         let Some(x) = self.x_range() else { return };
         let mut below = top + self.title_height();
         Legend::of_names(&self.legend).draw(pen, below - ROW_HEIGHT);
-        for (index, panel) in self.panels.iter().enumerate() {
+        for (index, (panel, legend)) in self.panels.iter().zip(self.legends()).enumerate() {
             let is_last = index + 1 == self.panels.len();
             let y = panel.y_range.map_or_else(|| panel.data_range(), |(low, high)| [low, high]);
-            let height = panel.height(self.panel_height());
-            let (left, top) = (PLOT_LEFT, below + panel.top());
-            let plot = height - panel.top() - if is_last { 0.0 } else { MARGIN };
+            let height = height(&legend, self.panel_height());
+            let (left, top) = (PLOT_LEFT, below + above(&legend));
+            let plot = height - above(&legend) - if is_last { 0.0 } else { MARGIN };
             let frame = Frame { left, top, width: PLOT_WIDTH, height: plot, x, y };
             let y_ticks = panel.ticks(y, if self.panels.len() == 1 { 8.0 } else { 5.0 });
             let axes = Axes {
@@ -89,26 +98,27 @@ impl Picture for Chart {
                 steps: [round_up((x[1] - x[0]) / 10.0), round_up((y[1] - y[0]) / y_ticks)],
                 label_px: LABEL,
                 is_whole: panel.is_whole,
+                named: [&self.x_names, &panel.names],
             };
             panel.draw(pen, &frame, &axes);
-            Legend::of(panel).draw(pen, below);
+            legend.draw(pen, below);
             below += height;
         }
     }
 }
 
+/// Height above the lines of a panel: the legend's rows, or a margin.
+fn above(legend: &Legend<'_>) -> f64 {
+    legend.height().max(MARGIN)
+}
+
+/// A panel's whole height with lines `lines_px` high.
+fn height(legend: &Legend<'_>, lines_px: f64) -> f64 {
+    // The first row of the legend counts as part of every panel, so that panels are alike.
+    lines_px + (above(legend) - ROW_HEIGHT).max(0.0)
+}
+
 impl Panel {
-    /// Height above the lines: the legend's rows, or a margin.
-    fn top(&self) -> f64 {
-        Legend::of(self).height().max(MARGIN)
-    }
-
-    /// The panel's whole height with lines `height` high.
-    fn height(&self, height: f64) -> f64 {
-        // The first row of the legend counts as part of every panel, so that panels are alike.
-        height + (self.top() - ROW_HEIGHT).max(0.0)
-    }
-
     /// How many ticks to ask for, so that their distance is one at least where only whole numbers are.
     fn ticks(&self, [low, high]: [f64; 2], ticks: f64) -> f64 {
         if self.is_whole { ticks.min((high - low).floor() + 1.0) } else { ticks }
@@ -206,11 +216,6 @@ pub(super) fn padded(low: f64, high: f64) -> [f64; 2] {
         false => 0.1 * magnitude,
     };
     [low - margin, high + margin]
-}
-
-/// The pieces between points that are not finite.
-pub(super) fn pieces(points: &[(f64, f64)]) -> impl Iterator<Item = &[(f64, f64)]> {
-    points.split(|(x, y)| !x.is_finite() || !y.is_finite()).filter(|piece| !piece.is_empty())
 }
 
 /// At most four points a column: first, lowest, highest, last, so that nothing visible is lost.

@@ -2,13 +2,18 @@
 
 use super::{
     axes::{tick_text, ticks},
-    pen::{BESIDE, Pen, Pixel, TEXT},
+    pen::{BESIDE, Pen, Pixel, TEXT, width_px},
 };
 
 /// Pixels beyond this are as good as infinitely far.
 const FAR_PX: f64 = 1e6;
 /// Points of a line nearer than this are one, in pixels.
 const NEAR_PX: f64 = 0.4;
+/// Size of the texts of ticks, and their distance from the frame, in px.
+const TICK_SIZE: f64 = 11.0;
+const BESIDE_TICK: f64 = 8.0;
+/// How far named ticks may reach beyond the right edge, in px.
+const BEYOND: f64 = 20.0;
 const GRID: &str = "stroke=\"#e3e6ea\"";
 const BORDER: &str = "stroke=\"#9aa2ac\"";
 
@@ -39,6 +44,23 @@ pub struct Axes<'a> {
     pub label_px: f64,
     /// Whether only whole numbers have a text.
     pub is_whole: bool,
+    /// Ticks with their texts in place of the multiples of a step, along and across; without any, those.
+    pub named: [&'a [(f64, String)]; 2],
+}
+
+impl Axes<'_> {
+    /// The ticks of an axis over its range, with their texts.
+    fn ticks(&self, axis: usize, range: [f64; 2]) -> Vec<(f64, String)> {
+        let step = self.steps[axis];
+        let is_whole = axis == 1 && self.is_whole;
+        if self.named[axis].is_empty() {
+            let is_shown = |value: f64| !is_whole || (value - value.round()).abs() < 1e-6;
+            let text = |value| if is_shown(value) { tick_text(value, step) } else { String::new() };
+            return ticks(range, step).into_iter().map(|value| (value, text(value))).collect();
+        }
+        let within = self.named[axis].iter().filter(|(value, _)| (range[0]..=range[1]).contains(value));
+        within.cloned().collect()
+    }
 }
 
 impl Frame {
@@ -68,8 +90,8 @@ impl Frame {
 
     /// Thin lines at the ticks of both axes.
     pub fn grid(&self, pen: &mut Pen, axes: &Axes<'_>) {
-        let across = ticks(self.y, axes.steps[1]).into_iter().map(|y| self.x.map(|x| self.at([x, y])));
-        let along = ticks(self.x, axes.steps[0]).into_iter().map(|x| self.y.map(|y| self.at([x, y])));
+        let across = axes.ticks(1, self.y).into_iter().map(|(y, _)| self.x.map(|x| self.at([x, y])));
+        let along = axes.ticks(0, self.x).into_iter().map(|(x, _)| self.y.map(|y| self.at([x, y])));
         let lines: Vec<[Pixel; 2]> = across.chain(along).collect();
         pen.lines(lines.iter().map(|line| &line[..]), GRID);
     }
@@ -78,21 +100,28 @@ impl Frame {
     pub fn axes(&self, pen: &mut Pen, axes: &Axes<'_>) {
         let [low, high] = self.corners();
         pen.rect(low, high, &format!("fill=\"none\" {BORDER}"));
-        let text = |value: f64, step: f64| {
-            let is_shown = !axes.is_whole || (value - value.round()).abs() < 1e-6;
-            if is_shown { tick_text(value, step) } else { String::new() }
-        };
         let mut marks: Vec<[Pixel; 2]> = Vec::new();
         let [x_label, y_label] = axes.labels;
-        for tick in ticks(self.x, axes.steps[0]).into_iter().filter(|_| !x_label.is_empty()) {
+        for (tick, text) in axes.ticks(0, self.x).into_iter().filter(|_| !x_label.is_empty()) {
             let (x, y) = self.at([tick, self.y[0]]);
             marks.push([(x, y), (x, y + 4.0)]);
-            pen.text((x, y + 17.0), 11.0, "middle", BESIDE, &tick_text(tick, axes.steps[0]));
+            // A long text at the right edge stays on the sheet.
+            let half = 0.5 * width_px(&text, TICK_SIZE);
+            let x = if axes.named[0].is_empty() { x } else { x.min(high.0 + BEYOND - half) };
+            pen.text((x, y + 17.0), TICK_SIZE, "middle", BESIDE, &text);
         }
-        for tick in ticks(self.y, axes.steps[1]) {
+        // Beside the label, however long a name is.
+        let room = axes.label_px - BESIDE_TICK - TICK_SIZE;
+        let mut last_y = f64::INFINITY;
+        for (tick, text) in axes.ticks(1, self.y) {
             let (x, y) = self.at([self.x[0], tick]);
             marks.push([(x - 4.0, y), (x, y)]);
-            pen.text((x - 8.0, y + 4.0), 11.0, "end", BESIDE, &text(tick, axes.steps[1]));
+            if !axes.named[1].is_empty() && last_y - y < TICK_SIZE {
+                continue;
+            }
+            last_y = y;
+            let size = TICK_SIZE * (room / width_px(&text, TICK_SIZE)).min(1.0);
+            pen.text((x - BESIDE_TICK, y + 4.0), size, "end", BESIDE, &text);
         }
         pen.lines(marks.iter().map(|mark| &mark[..]), BORDER);
         if !x_label.is_empty() {

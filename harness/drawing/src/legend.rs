@@ -22,16 +22,23 @@ enum Swatch {
     Marks,
     /// Shaded spans.
     Shades,
+    /// The extremes of an oscillation.
+    Band,
 }
+
+/// What a band is.
+const BAND: &str = "range within an oscillation";
 
 /// Labels with what stands before them, row by row.
 pub(super) struct Legend<'a>(Vec<Vec<(Swatch, &'a str)>>);
 
 impl<'a> Legend<'a> {
-    /// Of a panel's lines, marks and shades.
-    pub fn of(panel: &'a Panel) -> Self {
+    /// Of a panel's lines, marks and shades, and of its bands where they are to be named.
+    pub fn of(panel: &'a Panel, names_bands: bool) -> Self {
         let marks = (Swatch::Marks, panel.mark_label.as_str());
-        Self::rows(series(&panel.series).chain([marks, (Swatch::Shades, panel.shade_label.as_str())]))
+        let shades = (Swatch::Shades, panel.shade_label.as_str());
+        let band = names_bands.then_some((Swatch::Band, BAND));
+        Self::rows(series(&panel.series).chain([marks, shades]).chain(band))
     }
 
     /// Of lines alone.
@@ -89,19 +96,26 @@ fn width(label: &str) -> f64 {
 
 impl Swatch {
     fn draw(self, pen: &mut Pen, x: f64, y: f64) {
-        let mut line = |stroke: &str| pen.lines([&[(x, y), (x + SWATCH, y)][..]], stroke);
+        let line = |pen: &mut Pen, stroke: &str| pen.lines([&[(x, y), (x + SWATCH, y)][..]], stroke);
         match self {
             Self::Shades => pen.rect((x, y - 6.0), (x + SWATCH, y + 6.0), SHADE),
-            Self::Marks => line(&format!("stroke=\"{GREY}\" stroke-dasharray=\"7 4\"")),
+            Self::Band => {
+                let corners = [(x, y - 6.0), (x + SWATCH, y - 6.0), (x + SWATCH, y + 6.0), (x, y + 6.0)];
+                pen.polygon(&corners, &format!("fill=\"{GREY}\" fill-opacity=\"0.25\""));
+                for y in [y - 6.0, y + 6.0] {
+                    pen.lines([&[(x, y), (x + SWATCH, y)][..]], &format!("stroke=\"{GREY}\""));
+                }
+            }
+            Self::Marks => line(pen, &format!("stroke=\"{GREY}\" stroke-dasharray=\"7 4\"")),
             Self::Series(index, mark) => {
                 let colour = COLOURS[index % COLOURS.len()];
                 let middle = (x + 0.5 * SWATCH, y);
                 match mark {
                     Mark::Line | Mark::Curve | Mark::Steps => {
-                        line(&format!("stroke=\"{colour}\" stroke-width=\"3\""))
+                        line(pen, &format!("stroke=\"{colour}\" stroke-width=\"3\""))
                     }
                     Mark::Dashed => {
-                        line(&format!("stroke=\"{colour}\" stroke-width=\"3\" stroke-dasharray=\"7 4\""))
+                        line(pen, &format!("stroke=\"{colour}\" stroke-width=\"3\" stroke-dasharray=\"7 4\""))
                     }
                     Mark::Rings => pen.circle(middle, 5.0, &format!("fill=\"none\" stroke=\"{colour}\"")),
                     Mark::Dots => pen.circle(middle, 4.0, &format!("fill=\"{colour}\"")),
@@ -120,7 +134,7 @@ mod tests {
     fn long_legends_take_several_rows() {
         let series = (1..=9).map(|k| Series::line(format!("plate[{k}].temperature"), vec![])).collect();
         let panel = Panel { series, mark_label: "limit".to_owned(), ..Panel::default() };
-        let legend = Legend::of(&panel);
+        let legend = Legend::of(&panel, false);
         assert!(legend.0.len() > 1 && legend.height() == ROW_HEIGHT * legend.0.len() as f64);
         let shown: Vec<&str> = legend.0.iter().flatten().map(|(_, label)| *label).collect();
         let labels = panel.series.iter().map(|series| series.label.as_str());
@@ -129,6 +143,6 @@ mod tests {
             let wide: f64 = row.iter().map(|(_, label)| width(label)).sum();
             assert!(wide - BETWEEN <= WIDTH - PLOT_LEFT - RIGHT);
         }
-        assert_eq!(Legend::of(&Panel::default()).height(), 0.0);
+        assert_eq!(Legend::of(&Panel::default(), false).height(), 0.0);
     }
 }

@@ -2,12 +2,12 @@
 
 use super::{
     axes::round_up,
-    chart::{draw_series, pieces},
+    chart::draw_series,
     frame::{Axes, Frame},
     legend::Legend,
     pen::{Pen, Pixel, TEXT},
     picture::{LABEL, PLOT_LEFT, Picture, RIGHT, SHADE, TITLE_HEIGHT, WIDTH, X_AXIS_HEIGHT},
-    series::Series,
+    series::{Series, pieces},
 };
 
 /// Panels side by side; the legend is that of the first.
@@ -84,7 +84,8 @@ impl Picture for PlaneChart {
             let frame = Frame { left, top, width: side, height: side, x, y };
             let labels = [self.x_label.as_str(), self.y_label.as_str()];
             let step = round_up(panel.half_width / 3.0);
-            let axes = Axes { labels, steps: [step; 2], label_px: LABEL - 20.0, is_whole: false };
+            let axes =
+                Axes { labels, steps: [step; 2], label_px: LABEL - 20.0, is_whole: false, named: [&[]; 2] };
             pen.text((left + 0.5 * side, top - 8.0), 13.0, "middle", TEXT, &panel.title);
             panel.draw(pen, &frame, &axes);
         }

@@ -1,5 +1,7 @@
 //! What a chart shows: series in panels.
 
+use super::envelope;
+
 /// How a series is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Mark {
@@ -82,6 +84,13 @@ impl Series {
     }
 }
 
+impl Series {
+    /// Whether a part of it is drawn by its extremes.
+    pub(super) fn has_band(&self) -> bool {
+        self.mark == Mark::Line && pieces(&self.points).any(|piece| envelope::of(piece).is_some())
+    }
+}
+
 /// One of a chart's stacked panels.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Panel {
@@ -101,6 +110,8 @@ pub struct Panel {
     pub shade_label: String,
     /// Whether only whole numbers are ticks.
     pub is_whole: bool,
+    /// Values with their names, which stand beside the vertical axis in place of numbers; empty: numbers.
+    pub names: Vec<(f64, String)>,
 }
 
 impl Panel {
@@ -132,4 +143,9 @@ impl Panel {
     pub fn whole(self) -> Self {
         Self { is_whole: true, ..self }
     }
+}
+
+/// The pieces between points that are not finite.
+pub(super) fn pieces(points: &[(f64, f64)]) -> impl Iterator<Item = &[(f64, f64)]> {
+    points.split(|(x, y)| !x.is_finite() || !y.is_finite()).filter(|piece| !piece.is_empty())
 }

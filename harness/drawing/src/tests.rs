@@ -46,6 +46,33 @@ fn a_chart_names_its_axes_and_stays_small() {
 }
 
 #[test]
+fn ticks_can_have_names() {
+    let modes = Panel {
+        names: vec![(1.0, "operational".to_owned()), (2.0, "safeHold".to_owned())],
+        ..Panel::new("mode").with([Series::steps("", vec![(0.0, 1.0), (5.0, 2.0)])])
+    };
+    let x_names = vec![(1.0, "04-06".to_owned()), (9.0, "beyond".to_owned())];
+    let svg = svg(&[&Chart { x_names, ..Chart::new("", "UTC").with([modes]) }]).unwrap();
+    for text in [">operational<", ">safeHold<", ">04-06<"] {
+        assert!(svg.contains(text), "{text} is missing");
+    }
+    for text in [">beyond<", ">1.0<", ">1<"] {
+        assert!(!svg.contains(text), "{text} stands there");
+    }
+}
+
+#[test]
+fn a_band_is_named_once() {
+    let fast = |count: u32| {
+        let line = (0..count).map(|k| (f64::from(k), (1.3 * f64::from(k)).sin())).collect();
+        Panel::new("torque").with([Series::line("a", line)])
+    };
+    let count = |chart: Chart| svg(&[&chart]).unwrap().matches("range within an oscillation").count();
+    assert_eq!(count(Chart::new("", "time [d]").with([fast(10), fast(100_000), fast(100_000)])), 1);
+    assert_eq!(count(Chart::new("", "time [d]").with([fast(10)])), 0);
+}
+
+#[test]
 fn thinning_keeps_every_spike() {
     let mut points: Vec<(f64, f64)> = (0..100_000).map(|k| (f64::from(k), 0.0)).collect();
     points[31_415].1 = 7.0;

@@ -42,6 +42,9 @@ pub const MOST_TEXT_BYTES: u64 = 4 << 20;
 /// Largest table of numbers that is read, in bytes.
 pub const MOST_TABLE_BYTES: u64 = 64 << 20;
 
+/// First bytes of a ZIP archive.
+const ZIP: &[u8] = b"PK\x03\x04";
+
 /// Reads a regular file whole.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     read_at_most(path, u64::MAX)
@@ -69,10 +72,21 @@ fn too_large(found: impl std::fmt::Display, most_bytes: u64) -> io::Error {
     io::Error::other(format!("found {found} bytes, allowed: at most {most_bytes}"))
 }
 
-/// Reads a text file; the error names the file, and the line that is not UTF-8.
+/// Reads a text file; the error names the file, and what it is instead or the line that is not UTF-8.
 pub fn read_text(path: &Path) -> Result<String, String> {
+    let no_text = |found: &str| format!("{}: found {found}, allowed: a text saved as UTF-8", path.display());
+    let mut head = Vec::new();
+    let read = open(path).and_then(|file| file.take(ZIP.len() as u64).read_to_end(&mut head));
+    // Before its size is told: that is no text's.
+    if read.is_ok() && head == ZIP {
+        return Err(no_text("a ZIP archive, as FMUs and systems are"));
+    }
     let bytes =
         read_at_most(path, MOST_TEXT_BYTES).map_err(|error| format!("{}: {error}", path.display()))?;
+    let is_utf_16 = matches!(bytes.as_slice(), [0xff, 0xfe, ..] | [0xfe, 0xff, ..]);
+    if !is_utf_16 && bytes.contains(&0) {
+        return Err(no_text("a binary file"));
+    }
     String::from_utf8(bytes).map_err(|error| {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + good.iter().filter(|byte| **byte == b'\n').count();
@@ -94,6 +108,24 @@ fn refuse(metadata: &Metadata) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_no_text_is_named() {
+        let scratch = tempfile::tempdir().unwrap();
+        let file = scratch.path().join("file");
+        for (bytes, found) in [
+            (&b"PK\x03\x04rest"[..], "a ZIP archive"),
+            (b"a\0b", "a binary file"),
+            (b"\xff\xfea\0", "line 1 is not UTF-8 (it is UTF-16)"),
+        ] {
+            std::fs::write(&file, bytes).unwrap();
+            let refused = read_text(&file).unwrap_err();
+            assert!(
+                refused.contains(found) && refused.contains("allowed: a text saved as UTF-8"),
+                "{refused}"
+            );
+        }
+    }
 
     #[test]
     fn only_regular_files_are_read() {

@@ -1,7 +1,7 @@
 //! Values as people write them on the command line and in tables.
 
 use model_description::{
-    Description, ScalarVariable,
+    Description, ScalarVariable, names,
     value::{self, AngleMisfit},
 };
 
@@ -13,7 +13,7 @@ pub fn parse_value(description: &Description, variable: &ScalarVariable, text: &
         .map_err(|misfit| Error::Value { variable: variable.name.clone(), what: misfit.to_string() })
 }
 
-/// Reads `name=value`, or `vector=a,b,c` for a vector whose elements are `vector[1]`, `vector[2]`, ….
+/// Reads `name=value`, or `vector=a,b,c` for a vector whose elements are `vector[1]`, `vector[2]`, …; a single value is that of all.
 pub fn parse_assignment(description: &Description, text: &str) -> Result<Vec<(String, Value)>, Error> {
     let described = assignment(description, text)?;
     Ok(described.into_iter().map(|set| (set.variable.name.clone(), set.value)).collect())
@@ -41,12 +41,22 @@ pub fn assignment<'a>(description: &'a Description, text: &'a str) -> Result<Vec
     let name = name.trim();
     let elements = select::select(description, name)?;
     let is_one = matches!(*elements, [index] if description.variables.get(index).is_some_and(|it| select::is_same(&it.name, name)));
-    let parts: Vec<&str> = if is_one { vec![value] } else { value.split(',').collect() };
+    let mut parts: Vec<&str> = if is_one { vec![value] } else { value.split(',').collect() };
+    let is_matrix = elements
+        .iter()
+        .any(|index| description.variables.get(*index).is_some_and(|it| names::is_of_matrix(&it.name)));
+    if let [only] = *parts.as_slice()
+        && !is_matrix
+    {
+        // One value is that of every element of a vector.
+        parts = vec![only; elements.len()];
+    }
     if parts.len() != elements.len() {
         return Err(Error::Value {
             variable: name.to_owned(),
             what: format!(
-                "{} values given for its {} elements, allowed: as many values as elements, with commas between them",
+                "{} values given for its {} elements, allowed: one value for all, or as many values as elements, with commas between \
+                 them",
                 parts.len(),
                 elements.len()
             ),

@@ -20,6 +20,7 @@ mod simulate;
 mod structure;
 mod system;
 mod units;
+mod unread;
 mod wire;
 mod writer;
 
@@ -35,5 +36,6 @@ pub use structure::{
     ParameterSet, SSD_FILE, Signal, Structure, Written,
 };
 pub use system::{Part, System};
+pub use unread::Unread;
 pub use wire::{Left, Wired, Wiring, component_name, wire};
 pub use writer::{to_parameter_set, to_xml};

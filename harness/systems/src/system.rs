@@ -3,7 +3,7 @@
 use std::{collections::HashMap, path::Path};
 
 use loader::{Fmu, Times, Value};
-use model_description::{Causality, Description};
+use model_description::{Causality, Description, value};
 
 use crate::{
     error::Error,
@@ -14,6 +14,7 @@ use crate::{
     package::Package,
     parameter_set, parameters, reader,
     structure::{Binding, Linear, SSD_FILE, Structure},
+    unread::{Unread, unread},
 };
 
 /// A component with its FMU.
@@ -118,6 +119,30 @@ impl System {
             })?;
         }
         Ok(Self { package, structure, parts, joints, own, merged })
+    }
+
+    /// What is connected and not read, with these values of `component.name` set over the system's own.
+    pub fn unread(&self, sets: &[(String, Value)]) -> Vec<Unread> {
+        let of_part = |(number, part): (usize, &Part)| {
+            let description = part.fmu.description();
+            let ends = self.joints.iter().map(|joint| joint.to);
+            let own = self.own.iter().filter(|own| own.gives()).flat_map(|own| &own.places);
+            let connected = ends.chain(own.map(|place| place.at)).filter(|at| at.0 == number);
+            let connected: Vec<&str> =
+                connected.map(|(_, position)| description.variables[position].name.as_str()).collect();
+            let given = |option: &str| {
+                let full = format!("{}.{option}", part.name);
+                let set = sets.iter().rev().find(|(name, _)| *name == full);
+                let own = part.parameters.iter().find(|(name, _)| name == option);
+                let known = set.or(own).map(|(_, value)| value.clone());
+                match known.or_else(|| value::start(part.fmu.find(option)?))? {
+                    Value::Integer(number) => Some(number),
+                    _ => None,
+                }
+            };
+            unread(&part.name, description, &connected, given)
+        };
+        self.parts.iter().enumerate().flat_map(of_part).collect()
     }
 
     /// The path it was opened from.

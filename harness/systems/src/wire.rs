@@ -17,6 +17,7 @@ use crate::{
         ParameterSet, Signal, Structure, Written,
     },
     units::shown,
+    unread::{Unread, unread},
 };
 
 /// Inputs that take outputs of another name: input, output; vectors by their bare names, `[k]` for any index.
@@ -46,6 +47,10 @@ pub struct Wired {
     pub structure: Structure,
     /// The inputs that were left open.
     pub left: Vec<Left>,
+    /// Options that were set because their inputs are connected, `component.name=item`.
+    pub implied: Vec<String>,
+    /// What is connected and not read.
+    pub unread: Vec<Unread>,
 }
 
 /// What is requested beside the connections of equal names.
@@ -109,11 +114,16 @@ pub fn wire(
             ..Structure::default()
         },
         left: Vec::new(),
+        implied: Vec::new(),
+        unread: Vec::new(),
     };
     bind(&mut wired.structure, components, &wiring.sets)?;
     for (number, (component, fmu)) in components.iter().enumerate() {
         let inputs = fmu.description().variables.iter().filter(|it| it.causality == Causality::Input);
         for input in inputs {
+            if !wiring.without_enumerations {
+                check_items(components, number, input)?;
+            }
             let found = source(components, number, input);
             let found = found.and_then(|found| match &input.kind {
                 VariableKind::Enumeration { .. } if wiring.without_enumerations => {
@@ -135,6 +145,9 @@ pub fn wire(
             }
         }
     }
+    for number in 0..components.len() {
+        imply(&mut wired, components, number)?;
+    }
     let named = components.iter().map(|(component, fmu)| (component.as_str(), fmu));
     let merged = merge(name, Experiment::default(), named);
     list_outputs(&mut wired.structure, components, wiring, &merged)?;
@@ -143,6 +156,38 @@ pub fn wire(
         component.connectors.sort_by_key(|it| (it.kind == Kind::Output, fmu.position(&it.name)));
     }
     Ok(wired)
+}
+
+/// Sets the options of a component that its connected inputs imply, and tells what is not read all the same.
+fn imply(wired: &mut Wired, components: &[(String, Fmu)], number: usize) -> Result<(), Error> {
+    let (component, fmu) = &components[number];
+    let found = |structure: &Structure| {
+        let ends = structure.connections.iter().map(|it| &it.end);
+        let own = ends.filter(|end| end.component.as_ref() == Some(component));
+        let connected: Vec<&str> = own.map(|end| end.connector.as_str()).collect();
+        let at = |option: &str| stands_at_number(&structure.components[number], fmu, option);
+        unread(component, fmu.description(), &connected, at)
+    };
+    for Unread { option, implied, .. } in found(&wired.structure) {
+        let is_open = fmu.find(&option).is_some_and(|it| it.causality == Causality::Parameter);
+        let is_given = |parameter: &Parameter| parameter.name == option;
+        let sets = wired.structure.components[number].bindings.iter().flat_map(|binding| &binding.sets);
+        let is_given = sets.flat_map(|set| &set.parameters).any(is_given);
+        if let Some(item) = implied.filter(|_| is_open && !is_given) {
+            let set = format!("{component}.{option}={item}");
+            bind(&mut wired.structure, components, std::slice::from_ref(&set))?;
+            wired.implied.push(set);
+        }
+    }
+    wired.unread.extend(found(&wired.structure));
+    Ok(())
+}
+
+/// The number of an option's item: its parameter set's, else its start value.
+fn stands_at_number(component: &Component, fmu: &Fmu, option: &str) -> Option<i32> {
+    let variable = fmu.find(option)?;
+    let name = stands_at(component, fmu, variable);
+    value::items(fmu.description(), variable).iter().find(|item| item.name == name).map(|item| item.value)
 }
 
 /// The parameter sets of the components, in the variables' own units: not every tool converts.
@@ -189,6 +234,39 @@ fn written(description: &Description, variable: &ScalarVariable, given: value::V
             item.map_or(Written::Integer(number), |item| Written::Enumeration(item.name.clone()))
         }
     }
+}
+
+/// Inputs whose items are the names in a file, and mean something else in another file.
+const OF_FILE: [&str; 1] = ["thrust.request"];
+
+/// Refuses an input that would be joined to an output with other items, where both are the names in a file.
+fn check_items(components: &[(String, Fmu)], to: usize, input: &ScalarVariable) -> Result<(), Error> {
+    if !OF_FILE.contains(&input.name.as_str()) {
+        return Ok(());
+    }
+    let others = components.iter().enumerate().filter(|(other, _)| *other != to);
+    let mut outputs = others.filter_map(|(from, (_, fmu))| {
+        let output = fmu.find(&input.name).filter(|it| it.causality == Causality::Output)?;
+        Some((from, output))
+    });
+    let (Some((from, output)), None) = (outputs.next(), outputs.next()) else { return Ok(()) };
+    let items = |number: usize, variable: &ScalarVariable| -> Vec<String> {
+        let items = value::items(components[number].1.description(), variable).iter();
+        items.map(|item| format!("{} ({})", item.name, item.value)).collect()
+    };
+    let (given, taken) = (items(from, output), items(to, input));
+    if given == taken {
+        return Ok(());
+    }
+    Err(Error::Wire(format!(
+        "{}: found other thruster sets: {} has {}, {} has {}; allowed: the same on both sides: pack both with one spacecraft, or see \
+         --without-enumerations",
+        input.name,
+        components[from].0,
+        given.join(", "),
+        components[to].0,
+        taken.join(", ")
+    )))
 }
 
 /// What an enumeration that is not connected stands at: its parameter set's value, else its start value.

@@ -144,7 +144,7 @@ impl InProcess {
 
     /// The model `name` with its compiled-in setup, instantiated; the error is what was logged.
     pub fn of(library: &'static Library, name: &str) -> Result<Self, Vec<Message>> {
-        let described = library.find(name).map(|entry| entry.describe(None, None));
+        let described = library.find(name).map(|entry| library.describe(entry, None, None));
         let guid = match described {
             Some(Ok(description)) => description.guid,
             Some(Err(error)) => return Err(vec![error_message(error.to_string())]),

@@ -30,7 +30,8 @@ impl NamedInstance {
     pub fn of(library: &'static Library, model: &str) -> Self {
         let entry = library.find(model);
         let entry = entry.unwrap_or_else(|| panic!("no model {model}, but {}", library.names()));
-        let description = entry.describe(None, None).unwrap_or_else(|error| panic!("{model}: {error}"));
+        let description =
+            library.describe(entry, None, None).unwrap_or_else(|error| panic!("{model}: {error}"));
         let fmu = InProcess::instantiate(library, &description.guid, None);
         Self::new(fmu.unwrap_or_else(|messages| panic!("{model}: {messages:?}")), description)
     }

@@ -18,7 +18,7 @@ use crate::model::{About, Model, SetupError};
 use crate::runtime::{Runtime, Typed};
 use crate::start_values::{self, OtherReaders, Readers};
 use crate::variables::{
-    Declare, DeclareError, Element, EnumerationType, Interface, Kind, Real, Values, Variable, Variables,
+    Declare, DeclareError, DeclaredEnumeration, Element, Interface, Kind, Real, Values, Variable, Variables,
 };
 
 /// Name space of the GUIDs of this exporter.
@@ -193,11 +193,11 @@ fn kind(variable: &Variable, element: Element, start: &Values) -> VariableKind {
     }
 }
 
-fn simple_type(declared: &EnumerationType) -> SimpleType {
-    let item = |item: &crate::variables::Item| EnumerationItem {
-        name: item.name.to_owned(),
+fn simple_type(declared: &DeclaredEnumeration) -> SimpleType {
+    let item = |item: &crate::variables::DeclaredItem| EnumerationItem {
+        name: item.name.clone(),
         value: item.value,
-        description: Some(item.description.to_owned()),
+        description: Some(item.description.clone()),
     };
     SimpleType {
         name: declared.name.to_owned(),

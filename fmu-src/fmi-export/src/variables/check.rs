@@ -7,7 +7,7 @@ use model_description::{
     rules::{self, RoleFault},
 };
 
-use super::variable::{Item, Role};
+use super::variable::{DeclaredItem, Item, Role};
 
 /// Result of a check: the problem in words.
 pub type Checked = Result<(), String>;
@@ -60,7 +60,7 @@ pub fn text(what: &str, text: &str) -> Checked {
 }
 
 /// Checks the items of an enumeration type: some, with distinct names and values.
-pub fn items(items: &[Item]) -> Checked {
+pub fn items(items: &[DeclaredItem]) -> Checked {
     if items.is_empty() {
         return Err("its enumeration has no items".to_owned());
     }

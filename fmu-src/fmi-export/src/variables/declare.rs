@@ -8,7 +8,7 @@ use model_description::{BaseType, Causality, labels::LABEL_END, units};
 use super::check;
 use super::handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
 use super::interface::Interface;
-use super::variable::{Element, Kind, Role, Variable};
+use super::variable::{DeclaredEnumeration, DeclaredItem, Element, Kind, Role, Variable};
 
 /// Magnitude up to which every Real may be set that declares no limit itself, in its unit. Beyond, products of what was set are
 /// soon no finite numbers, and saved states would hold what no simulation can go on with.
@@ -180,7 +180,17 @@ impl Declare {
         spec: &ScalarSpec<'_>,
         start: Option<E>,
     ) -> Result<Choice<E>, DeclareError> {
-        let first = self.enumeration_type::<E>(spec.name)?;
+        self.choice_with(spec, start, Vec::new())
+    }
+
+    /// The same with items of the setup behind those of `E`, which makes variants of their values.
+    pub fn choice_with<E: Enumeration>(
+        &mut self,
+        spec: &ScalarSpec<'_>,
+        start: Option<E>,
+        further: Vec<DeclaredItem>,
+    ) -> Result<Choice<E>, DeclareError> {
+        let first = self.enumeration_type::<E>(spec.name, further)?;
         if spec.role.causality == Causality::Input {
             self.checked(spec.name, check::has_none(E::TYPE.items))?;
         }
@@ -196,10 +206,20 @@ impl Declare {
         Ok(Choice(at, PhantomData))
     }
 
-    /// Adds the type of `E` where it is new; the value of its first item.
-    fn enumeration_type<E: Enumeration>(&mut self, name: &str) -> Result<i32, DeclareError> {
-        let declared = E::TYPE;
-        self.checked(name, check::items(declared.items))?;
+    /// Adds the type of `E` with further items where it is new; the value of its first item.
+    fn enumeration_type<E: Enumeration>(
+        &mut self,
+        name: &str,
+        further: Vec<DeclaredItem>,
+    ) -> Result<i32, DeclareError> {
+        let mut declared = DeclaredEnumeration::from(E::TYPE);
+        declared.items.extend(further);
+        self.checked(name, check::items(&declared.items))?;
+        if let Some(item) = declared.items.iter().find(|item| E::from_value(item.value).is_none()) {
+            let problem = format!("its enumeration has no variant of the item `{}`", item.name);
+            return Err(self.error(name, problem));
+        }
+        let first = declared.items.first().map_or(1, |item| item.value);
         match self.interface.enumerations.iter().find(|known| known.name == declared.name) {
             Some(known) if *known == declared => {}
             Some(_) => {
@@ -212,7 +232,7 @@ impl Declare {
             }
             None => self.interface.enumerations.push(declared),
         }
-        Ok(declared.items.first().map_or(1, |item| item.value))
+        Ok(first)
     }
 
     /// Declares a scalar or an array with its start values row by row; the place of the first element.

@@ -129,7 +129,7 @@ impl Variable {
     }
 }
 
-/// An enumeration type.
+/// What a Rust enum says of its enumeration type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct EnumerationType {
     /// Name of the type.
@@ -149,4 +149,42 @@ pub struct Item {
     pub value: i32,
     /// What it means.
     pub description: &'static str,
+}
+
+/// An enumeration type as an interface has it: the items of its Rust type, behind them those of the setup.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct DeclaredEnumeration {
+    /// Name of the type.
+    pub name: &'static str,
+    /// What the choice is about.
+    pub description: &'static str,
+    /// The items in the order of declaration.
+    pub items: Vec<DeclaredItem>,
+}
+
+/// An item of a declared enumeration.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct DeclaredItem {
+    /// Name.
+    pub name: String,
+    /// Value.
+    pub value: i32,
+    /// What it means.
+    pub description: String,
+}
+
+impl From<EnumerationType> for DeclaredEnumeration {
+    fn from(own: EnumerationType) -> Self {
+        Self {
+            name: own.name,
+            description: own.description,
+            items: own.items.iter().map(DeclaredItem::from).collect(),
+        }
+    }
+}
+
+impl From<&Item> for DeclaredItem {
+    fn from(item: &Item) -> Self {
+        Self { name: item.name.to_owned(), value: item.value, description: item.description.to_owned() }
+    }
 }

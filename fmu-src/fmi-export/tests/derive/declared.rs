@@ -253,7 +253,7 @@ fn enumeration_items_follow_variants_and_discriminants() {
     let [source] = table.interface.enumerations.as_slice() else { panic!() };
     assert_eq!(source.name, "AttitudeSource");
     assert_eq!(source.description, "Where the attitude comes from.");
-    let items: Vec<_> = source.items.iter().map(|item| (item.name, item.value)).collect();
+    let items: Vec<_> = source.items.iter().map(|item| (item.name.as_str(), item.value)).collect();
     assert_eq!(items, [("guided", 1), ("byCommand", 4), ("freeMotion", 5)]);
     for value in -1..8 {
         let back = AttitudeSource::from_value(value).map(Enumeration::value);

@@ -1,7 +1,7 @@
 //! Choices that several models have; those that physics makes have its items.
 
 use fmi_export::Enumeration;
-use fmi_export::variables::Item;
+use fmi_export::variables::{DeclaredItem, EnumerationType, Item};
 use physics::bodies::{Body, surface};
 use physics::enumeration::Enumerated;
 use physics::environment::eclipse::ShadowModel;
@@ -160,9 +160,54 @@ choices! {
     OrbitCenter(Body);
 }
 
-optional_choices! {
-    /// Thrusters for a delta-v.
-    ThrustRequest(ThrusterSet) or "None.";
+/// Thrusters for a delta-v.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ThrustRequest(pub Option<ThrusterSet>);
+
+/// Its items are none and the spacecraft's sets.
+impl Enumeration for ThrustRequest {
+    const FIRST: Self = Self(None);
+
+    const TYPE: EnumerationType = EnumerationType {
+        name: "ThrustRequest",
+        description: "Thrusters for a delta-v.",
+        items: &[Item { name: "none", value: 0, description: "None." }],
+    };
+
+    fn from_value(value: i32) -> Option<Self> {
+        match u16::try_from(value).ok()?.checked_sub(1) {
+            None => Some(Self(None)),
+            Some(index) => Some(Self(Some(ThrusterSet(index)))),
+        }
+    }
+
+    fn value(self) -> i32 {
+        self.0.map_or(0, |ThrusterSet(index)| i32::from(index) + 1)
+    }
+}
+
+impl ThrustRequest {
+    /// The items of the spacecraft's sets.
+    pub fn sets(spacecraft: &Spacecraft) -> Vec<DeclaredItem> {
+        let item = |(index, name): (u16, &String)| {
+            let set = ThrusterSet(index);
+            let thrusters: Vec<&str> = spacecraft.thrusters_of(set).map(|it| it.name.as_str()).collect();
+            DeclaredItem {
+                name: name.clone(),
+                value: Self(Some(set)).value(),
+                description: match thrusters.is_empty() {
+                    true => "No thruster of this file.".to_owned(),
+                    false => format!("Thrusters {}.", thrusters.join(", ")),
+                },
+            }
+        };
+        (0..).zip(&spacecraft.thruster_sets).map(item).collect()
+    }
+
+    /// The first set; none without one.
+    pub fn first(spacecraft: &Spacecraft) -> Self {
+        Self((!spacecraft.thruster_sets.is_empty()).then_some(ThrusterSet(0)))
+    }
 }
 
 /// From where downlinks are counted.

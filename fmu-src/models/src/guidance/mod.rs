@@ -4,6 +4,7 @@ mod dependencies;
 mod inputs;
 mod outputs;
 mod setup;
+mod state;
 mod variables;
 
 use fmi_export::{
@@ -22,38 +23,14 @@ use physics::guidance::modes::system::{
 use physics::guidance::pointing::command::Scenario;
 use physics::management::{DumpRequests, SampledManager};
 use physics::numerics::work::Work;
-use serde::{Deserialize, Serialize};
 
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
 use crate::common::management::window_warning;
 use inputs::{Fixed, Reader, management};
 pub use setup::Guidance;
 use setup::{GuidanceSetup, Plan};
+use state::State;
 use variables::GuidanceVariables;
-
-/// What guidance remembers between steps.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct State {
-    system: GuidanceState,
-    dumps: DumpRequests,
-    /// The communication point reached, in s.
-    time_s: f64,
-    /// Epoch less time, in s.
-    epoch_minus_time_s: f64,
-    /// Whether the warning was given that places are not connected.
-    warned_unconnected: bool,
-    /// Whether the windows of the orbit phase were judged.
-    windows_are_judged: bool,
-    /// Cache, not state: the same epoch gives the same bits.
-    #[serde(skip)]
-    ephemeris: Ephemeris,
-    /// Cache likewise.
-    #[serde(skip)]
-    coarse: CoarseEphemeris,
-    /// Cache of what parameters fix.
-    #[serde(skip)]
-    fixed: Option<Fixed>,
-}
 
 impl Model for Guidance {
     const NAME: &'static str = "Guidance";
@@ -200,7 +177,8 @@ fn log_demotion(
     let has_fallen = mode.value() > mode_before.value();
     let is_requested = matches!(reason, ModeReason::Request | ModeReason::Timeline);
     let is_lost = matches!(reason, ModeReason::AttitudeLost | ModeReason::SunLost);
-    if !has_fallen && !(is_lost && reason_before != Some(reason)) {
+    let is_lost_anew = is_lost && reason_before != Some(reason);
+    if !has_fallen && !is_lost_anew {
         return;
     }
     let why = match reason {

@@ -2,10 +2,10 @@
 
 use client::{NamedInstance, StatePointer};
 use fmi_export::{Entry, Library, Status};
-use models::MomentumPlant;
+use models::{Guidance, MomentumPlant};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-static LIBRARY: Library = Library { entries: &[Entry::of::<MomentumPlant>()] };
+static LIBRARY: Library = Library { entries: &[Entry::of::<MomentumPlant>(), Entry::of::<Guidance>()] };
 
 fn momentum_plant() -> NamedInstance {
     NamedInstance::of(&LIBRARY, "MomentumPlant")

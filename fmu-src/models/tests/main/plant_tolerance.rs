@@ -3,15 +3,15 @@
 use client::InProcess;
 use fmi_export::{Entry, Library};
 use model_description::Status::Ok;
-use models::MomentumPlant;
+use models::{Guidance, MomentumPlant};
 
-static LIBRARY: Library = Library { entries: &[Entry::of::<MomentumPlant>()] };
+static LIBRARY: Library = Library { entries: &[Entry::of::<MomentumPlant>(), Entry::of::<Guidance>()] };
 
 /// A tolerance loose enough to change results.
 const LOOSE: f64 = 1e-3;
 
 fn reference(name: &str) -> u32 {
-    let variables = LIBRARY.find("MomentumPlant").unwrap().describe(None, None).unwrap().variables;
+    let variables = LIBRARY.describe(LIBRARY.find("MomentumPlant").unwrap(), None, None).unwrap().variables;
     variables.iter().find(|it| it.name == name).unwrap().value_reference
 }
 
@@ -67,7 +67,7 @@ fn the_experiments_tolerance_counts_where_the_user_set_none() {
     }
     // Masters give back the tolerance of the default experiment.
     let default_experiment =
-        LIBRARY.find("MomentumPlant").unwrap().describe(None, None).unwrap().default_experiment;
+        LIBRARY.describe(LIBRARY.find("MomentumPlant").unwrap(), None, None).unwrap().default_experiment;
     assert_eq!(flight(default_experiment.unwrap().tolerance, None, false), default);
     // No number is no tolerance, and one beyond the parameter's limits is the nearest within.
     assert_eq!(flight(Some(f64::NAN), None, false), default);

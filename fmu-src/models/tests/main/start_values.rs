@@ -5,10 +5,15 @@ use std::path::Path;
 use client::InProcess;
 use fmi_export::{Entry, Library, Model, Status};
 use model_description::{Description, VariableKind};
-use models::{DisturbanceTorque, MomentumPlant, SpinPlant};
+use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 
 static LIBRARY: Library = Library {
-    entries: &[Entry::of::<MomentumPlant>(), Entry::of::<SpinPlant>(), Entry::of::<DisturbanceTorque>()],
+    entries: &[
+        Entry::of::<MomentumPlant>(),
+        Entry::of::<SpinPlant>(),
+        Entry::of::<DisturbanceTorque>(),
+        Entry::of::<Guidance>(),
+    ],
 };
 
 /// The shipped file of a model with lines added at its end.
@@ -47,6 +52,14 @@ fn an_epoch_takes_a_date() {
     assert_eq!(past_j2000(for_this_model), 292_248_000.0);
     // A number, with its unit too, stays what it was.
     assert_eq!(past_j2000("[start]\n\"start.epoch\" = \"2000 d\""), 172_800_000.0);
+}
+
+#[test]
+fn one_value_is_that_of_every_element() {
+    let described = described::<MomentumPlant>("[start]\n\"dump.threshold\" = \"3 N.m.s\"").unwrap();
+    for k in 1..=3 {
+        assert_eq!(start(&described, &format!("dump.threshold[{k}]")), "3.0");
+    }
 }
 
 #[test]
@@ -282,8 +295,12 @@ const REFUSALS: &[(&str, &str)] = &[
         "my.toml:+2: start.\"start.momentum\": found a list of length 2, allowed: a list of length 3",
     ),
     (
-        "[start]\n\"start.momentum\" = 1",
-        "my.toml:+2: start.\"start.momentum\": found 1, allowed: a list of length 3",
+        "[start]\n\"start.momentum\" = true",
+        "my.toml:+2: start.\"start.momentum\": found true, allowed: a number, with one of the units N.m.s",
+    ),
+    (
+        "[start]\n\"spacecraft.inertia\" = 5",
+        "my.toml:+2: start.\"spacecraft.inertia\": found 5, allowed: 3 lists of length 3",
     ),
     (
         "[start]\n\"spacecraft.inertia\" = [1, 2, 3, 4, 5, 6, 7, 8, 9]",

@@ -20,4 +20,4 @@ pub use integrator::{MomentumIntegrator, Stop};
 pub use segment::Settings;
 pub use torque_model::{Effort, EventValues, Sample, TorqueModel, after_event_s};
 pub use totals::{Convention, Totals};
-pub use wheels::{WheelArray, attainable_threshold_n_m_s};
+pub use wheels::{WheelArray, WheelCapacity};

@@ -65,37 +65,44 @@ impl WheelArray {
         let each = self.rows.iter().zip(capacities_n_m_s).map(|(row, capacity)| capacity / row.abs().sum());
         each.fold(f64::INFINITY, f64::min)
     }
-
-    /// The greatest magnitude of momentum, in N m s, that no wheel has to hold more than its capacity for, whatever its
-    /// direction.
-    pub fn guaranteed_magnitude_n_m_s(&self, capacities_n_m_s: impl Iterator<Item = f64>) -> f64 {
-        let each = self.rows.iter().zip(capacities_n_m_s).map(|(row, capacity)| capacity / row.norm());
-        each.fold(f64::INFINITY, f64::min)
-    }
 }
 
-/// The greatest h, in N m s, such that some allocation holds every momentum with body components within -h .. +h, by unit spin
-/// axes and capacities in N m s; 0 unless the axes span all directions.
-///
-/// Method: momenta that the wheels can hold at all form a zonotope, the sum of the segments -c_k a_k .. c_k a_k; an allocation
-/// that makes the greatest relative load least reaches all of it. The cube lies inside it if h |n|_1 <= sum_k c_k |a_k . n|
-/// for the normal n = a_i x a_j of every face. Reference: Markley et al., "Maximum torque and momentum envelopes for
-/// reaction-wheel arrays", JGCD 33, 2010.
-pub fn attainable_threshold_n_m_s(axes_body: &[Vector3<f64>], capacities_n_m_s: &[f64]) -> f64 {
-    let mut least_n_m_s = f64::INFINITY;
-    for (first, a) in axes_body.iter().enumerate() {
-        for b in &axes_body[first + 1..] {
-            let normal = a.cross(b);
-            let wheels = axes_body.iter().zip(capacities_n_m_s);
-            let reach: f64 = wheels.map(|(axis, capacity)| capacity * axis.dot(&normal).abs()).sum();
-            let size = normal.abs().sum();
-            // Two parallel axes span no face.
-            if size > LEAST_FACE {
-                least_n_m_s = least_n_m_s.min(reach / size);
+/// What wheels hold by the three meanings of their capacity, in N m s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelCapacity {
+    /// Radius of the sphere inscribed in all momenta that some allocation holds: any direction.
+    pub sphere_n_m_s: f64,
+    /// Half the edge of the cube inscribed there: all body components at once.
+    pub box_n_m_s: f64,
+    /// Half the edge of the cube that the least-norm allocation holds, as the plant shares momentum.
+    pub least_norm_box_n_m_s: f64,
+}
+
+impl WheelCapacity {
+    /// By unit spin axes and capacities in N m s; `None` unless the axes span all directions.
+    ///
+    /// Method: momenta that the wheels can hold at all form a zonotope, the sum of the segments -c_k a_k .. c_k a_k; an allocation
+    /// that makes the greatest relative load least reaches all of it. For the normal n = a_i x a_j of every face, a sphere of
+    /// radius r lies inside it if r |n|_2 <= sum_k c_k |a_k . n|, a cube of half edge h if h |n|_1 <= that sum. Reference: Markley
+    /// et al., "Maximum torque and momentum envelopes for reaction-wheel arrays", JGCD 33, 2010.
+    pub fn of(axes_body: &[Vector3<f64>], capacities_n_m_s: &[f64]) -> Option<Self> {
+        let least_norm = WheelArray::new(axes_body)?;
+        let (mut sphere_n_m_s, mut box_n_m_s) = (f64::INFINITY, f64::INFINITY);
+        for (first, a) in axes_body.iter().enumerate() {
+            for b in &axes_body[first + 1..] {
+                let normal = a.cross(b);
+                // Two parallel axes span no face.
+                if normal.abs().sum() > LEAST_FACE {
+                    let wheels = axes_body.iter().zip(capacities_n_m_s);
+                    let reach: f64 = wheels.map(|(axis, capacity)| capacity * axis.dot(&normal).abs()).sum();
+                    sphere_n_m_s = sphere_n_m_s.min(reach / normal.norm());
+                    box_n_m_s = box_n_m_s.min(reach / normal.abs().sum());
+                }
             }
         }
+        let least_norm_box_n_m_s = least_norm.guaranteed_threshold_n_m_s(capacities_n_m_s.iter().copied());
+        Some(Self { sphere_n_m_s, box_n_m_s, least_norm_box_n_m_s })
     }
-    if least_n_m_s.is_finite() { least_n_m_s } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -4,10 +4,11 @@ use nalgebra::Vector3;
 
 use super::hull::is_outside;
 use super::surfaces::{panel_angle_rad, sun_body, surfaces};
+use super::thrusters::{ThrusterFigures, TorqueBothWays};
 use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::environment::sun::SOLAR_FLUX_W_M2;
 use crate::loads::Effect;
-use crate::momentum::WheelArray;
+use crate::momentum::WheelCapacity;
 use crate::radiation::disturbance::{DisturbanceModel, Geometry, Options, Recoil, Workspace};
 use crate::spacecraft::{MassProperties, Optics, Spacecraft, with_panels};
 
@@ -39,10 +40,16 @@ pub struct Figures {
     pub gyration_radii_m: Vector3<f64>,
     /// Root mean square distance of the mass from the planes through the centre of mass across X, Y, Z, in m.
     pub mass_spread_m: Vector3<f64>,
-    /// Torque of sunlight about the centre of mass at 1 AU, in N m.
+    /// Torque of sunlight about the centre of mass at 1 AU without shadows, in N m.
     pub solar_torque_body_n_m: Option<Vector3<f64>>,
-    /// Momentum that the wheels hold whatever its direction, in N m s; `None` where they do not span all directions.
-    pub wheels_hold_n_m_s: Option<f64>,
+    /// The same where surfaces with an outline shadow one another, in N m.
+    pub shadowed_solar_torque_body_n_m: Option<Vector3<f64>>,
+    /// What the wheels hold; `None` where they do not span all directions.
+    pub wheels: Option<WheelCapacity>,
+    /// Each thruster, in the file's order.
+    pub thrusters: Vec<ThrusterFigures>,
+    /// What those that may control the attitude do together; `None` without any.
+    pub thruster_torque: Option<TorqueBothWays>,
 }
 
 impl Figures {
@@ -71,25 +78,28 @@ impl Figures {
         let mass_properties = with_panels(&spacecraft.mass_properties, &spacecraft.panels, angle_rad);
         let center_m = mass_properties.center_of_mass_body_m;
         let tolerance_m = OUTSIDE * (greatest_body_m - least_body_m).norm();
-        let sunlit = |spacecraft: &Spacecraft| sunlight(spacecraft, &angles_rad, center_m);
+        let sunlit = |spacecraft: &Spacecraft, shadows| sunlight(spacecraft, &angles_rad, center_m, shadows);
+        let torque = |shadows| sunlit(spacecraft, shadows).map(|(_, torque_n_m)| torque_n_m);
         let moments = mass_properties.inertia_body_kg_m2.diagonal() / mass_properties.mass_kg;
         let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
-        let capacities_n_m_s = spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s);
+        let capacities_n_m_s: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s).collect();
         Self {
             least_body_m,
             greatest_body_m,
             area_toward_plus_m2: area_toward_m2[0],
             area_toward_minus_m2: area_toward_m2[1],
-            sunlit_area_m2: sunlit(&black(spacecraft))
+            sunlit_area_m2: sunlit(&black(spacecraft), true)
                 .map_or(0.0, |(force_n, _)| -force_n.dot(&sun_body()) * SPEED_OF_LIGHT_M_S / SOLAR_FLUX_W_M2),
             total_area_m2,
             mass_properties,
             center_of_mass_outside_m: is_outside(&center_m, &corners_m, tolerance_m),
             gyration_radii_m: moments.map(f64::sqrt),
             mass_spread_m: moments.map(|own| ((moments.sum() / 2.0 - own).max(0.0)).sqrt()),
-            solar_torque_body_n_m: sunlit(spacecraft).map(|(_, torque_n_m)| torque_n_m),
-            wheels_hold_n_m_s: WheelArray::new(&axes)
-                .map(|array| array.guaranteed_magnitude_n_m_s(capacities_n_m_s)),
+            solar_torque_body_n_m: torque(false),
+            shadowed_solar_torque_body_n_m: torque(true),
+            wheels: WheelCapacity::of(&axes, &capacities_n_m_s),
+            thrusters: ThrusterFigures::of_all(spacecraft, &angles_rad, &center_m),
+            thruster_torque: TorqueBothWays::of(spacecraft, &center_m),
         }
     }
 }
@@ -99,8 +109,10 @@ fn sunlight(
     spacecraft: &Spacecraft,
     panel_angles_rad: &[f64],
     center_of_mass_body_m: Vector3<f64>,
+    self_shadowing: bool,
 ) -> Option<(Vector3<f64>, Vector3<f64>)> {
-    let model = DisturbanceModel::new(spacecraft, &Options::default()).ok()?;
+    let options = Options { self_shadowing, ..Options::default() };
+    let model = DisturbanceModel::new(spacecraft, &options).ok()?;
     let sunlit = Geometry::sunlit(sun_body(), SOLAR_FLUX_W_M2);
     let geometry = Geometry { panel_angles_rad, center_of_mass_body_m, ..sunlit };
     let solar = model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).ok()?[Effect::Solar];

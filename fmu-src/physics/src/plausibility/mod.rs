@@ -4,6 +4,7 @@
 mod figures;
 mod hull;
 mod surfaces;
+mod thrusters;
 mod warnings;
 
 #[cfg(test)]
@@ -11,4 +12,5 @@ mod tests;
 
 pub use figures::Figures;
 pub use hull::is_outside;
+pub use thrusters::{ThrusterFigures, TorqueBothWays};
 pub use warnings::warnings;

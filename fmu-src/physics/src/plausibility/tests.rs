@@ -9,7 +9,6 @@ use proptest::prelude::*;
 use super::*;
 use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::environment::sun::SOLAR_FLUX_W_M2;
-use crate::momentum::WheelArray;
 use crate::spacecraft::Spacecraft;
 
 /// A solid box of 1 m by 2 m by 3 m and 600 kg, black but for a mirror on the Sun's side, with a pyramid of wheels.
@@ -42,7 +41,14 @@ fn a_solid_box_has_the_figures_of_the_textbook() {
         max_relative = 1e-14
     );
     assert_eq!(figures.center_of_mass_outside_m, None);
-    assert_eq!(figures.wheels_hold_n_m_s, None);
+    assert_eq!(figures.wheels, None);
+    // Nothing stands before the mirror.
+    assert_relative_eq!(
+        figures.shadowed_solar_torque_body_n_m.unwrap(),
+        figures.solar_torque_body_n_m.unwrap(),
+        epsilon = 1e-20,
+        max_relative = 1e-12
+    );
     // Twice the pressure along +Y on 3 m2, at the arm of the -Y face's centre from the centre of mass.
     let force_n = Vector3::y() * (2.0 * 3.0 * SOLAR_FLUX_W_M2 / SPEED_OF_LIGHT_M_S);
     let arm_m = Vector3::new(-0.1, -1.2, -0.3);
@@ -85,34 +91,6 @@ fn a_cylindrical_shade_counts_with_what_it_shows() {
 }
 
 #[test]
-fn wheels_hold_what_their_pyramid_holds_in_its_worst_direction() {
-    let c = (1.0_f64 / 3.0).sqrt();
-    let axes = [(c, c), (c, -c), (-c, -c), (-c, c)].map(|(x, z)| Vector3::new(x, c, z));
-    let array = WheelArray::new(&axes).unwrap();
-    // Each takes 3/4 of what lies along its axis.
-    let held = array.guaranteed_magnitude_n_m_s([7.5; 4].into_iter());
-    assert_relative_eq!(held, 10.0, max_relative = 1e-14);
-    let askew = [
-        Vector3::new(0.6, 0.8, 0.0),
-        Vector3::new(0.0, 0.6, 0.8),
-        Vector3::z(),
-        Vector3::new(0.8, 0.0, -0.6),
-    ];
-    let capacities = [2.0, 3.0, 1.0, 5.0];
-    let array = WheelArray::new(&askew).unwrap();
-    // Over many directions, the greatest momentum before a wheel is full.
-    let worst = (0..400_000).map(|k| {
-        let (z, azimuth) = (1.0 - (f64::from(k) + 0.5) / 200_000.0, 2.399_963 * f64::from(k));
-        let across = (1.0 - z * z).sqrt();
-        let direction = Vector3::new(across * azimuth.cos(), across * azimuth.sin(), z);
-        let each = (0..4).map(|wheel| capacities[wheel] / array.momentum_n_m_s(wheel, &direction).abs());
-        each.fold(f64::INFINITY, f64::min)
-    });
-    let worst = worst.fold(f64::INFINITY, f64::min);
-    assert_relative_eq!(array.guaranteed_magnitude_n_m_s(capacities.into_iter()), worst, max_relative = 1e-4);
-}
-
-#[test]
 fn shipped_spacecraft_look_right() {
     for text in [
         crate::spacecraft::MESSENGER_TOML,
@@ -125,6 +103,46 @@ fn shipped_spacecraft_look_right() {
     ] {
         assert_eq!(judged(text), [""; 0], "{}", text.lines().next().unwrap());
     }
+}
+
+/// Places and forces of six thrusters, each of which turns the solid box one way about an axis.
+const JETS: [([f64; 3], [i32; 3]); 6] = [
+    ([0.1, 1.0, -1.5], [0, 0, 1]),
+    ([0.1, -1.0, -1.5], [0, 0, 1]),
+    ([0.5, 0.2, 1.5], [-1, 0, 0]),
+    ([0.5, 0.2, -1.5], [-1, 0, 0]),
+    ([0.5, 1.0, 0.3], [-1, 0, 0]),
+    ([0.5, -1.0, 0.3], [-1, 0, 0]),
+];
+
+/// The solid box with thrusters whose force is that of the list times a sign.
+fn with_jets(jets: &[([f64; 3], [i32; 3])], sign: i32) -> String {
+    let tank = "[[tanks]]\nposition_m = [0, 0, 0]\npropellant_kg = 10\n";
+    let jets = jets.iter().enumerate().map(|(k, (position_m, direction))| {
+        format!(
+            "[[thrusters]]\nname = 'T{k}'\nposition_m = {position_m:?}\ndirection = {:?}\nforce_n = 2\n\
+             specific_impulse_s = 220\nplume_half_angle_deg = 20\n",
+            direction.map(|part| sign * part)
+        )
+    });
+    format!("{SOLID}{tank}{}", jets.collect::<String>())
+}
+
+#[test]
+fn thrusters_are_judged_about_the_centre_of_mass() {
+    let text = with_jets(&JETS, 1);
+    let figures = Figures::of(&spacecraft(&text));
+    // Arms of 0.8 m and 1.2 m along Y, 1.2 m and 1.8 m along Z, at 2 N; the first two turn about X alone.
+    assert_relative_eq!(figures.thrusters[0].torque_body_n_m, Vector3::new(1.6, 0.0, 0.0), epsilon = 1e-12);
+    let torque = figures.thruster_torque.unwrap();
+    assert_relative_eq!(torque.plus_n_m, Vector3::new(1.6, 3.6, 1.6), epsilon = 1e-12);
+    assert_relative_eq!(torque.minus_n_m, Vector3::new(2.4, 2.4, 2.4), epsilon = 1e-12);
+    assert_eq!(judged(&text), [""; 0]);
+    // A plate in the first jet's way.
+    let plate = "[[plates]]\nname = 'deck'\nnormal = [0, 0, 1]\narea_m2 = 0.1\ncenter_m = [0.1, 1.0, -2]\noptics = 'black'\n";
+    let figures = Figures::of(&spacecraft(&format!("{text}{plate}")));
+    let met = figures.thrusters.iter().map(|it| it.meets.as_deref()).collect::<Vec<_>>();
+    assert_eq!(met, [Some("deck"), None, None, None, None, None]);
 }
 
 #[test]
@@ -159,6 +177,22 @@ fn each_slip_has_its_warning() {
             ),
             "spread over 90",
         ),
+        (
+            SOLID.replace(inertia, "[[2460, 0, 0], [0, 1830, 0], [0, 0, 822]]"),
+            "the radius of gyration about X is 2.025 m, 0.675 of the 3.000 m across that axis",
+        ),
+        (
+            SOLID.replace(inertia, "[[12, 0, 0], [0, 12, 0], [0, 0, 12]]"),
+            "the radius of gyration about X is 0.141 m, 0.047 of the 3.000 m across that axis",
+        ),
+        (
+            format!(
+                "{SOLID}[[plates]]\nname = 'lid'\nnormal = [0, 0, 1]\narea_m2 = 20\ncenter_m = [0, 0, 1.6]\noptics = 'black'\n"
+            ),
+            "`lid` has 20.000 m2, and all around it spans 2.000 m2 across it",
+        ),
+        (with_jets(&JETS, -1), "the jets of all thrusters blow inward"),
+        (with_jets(&JETS[..5], 1), "no thruster gives torque about -Z of the centre of mass"),
     ];
     for (text, part) in slips {
         let found = judged(&text);

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::figures::Figures;
 use super::surfaces::{Surface, surfaces};
-use crate::spacecraft::Spacecraft;
+use crate::spacecraft::{Spacecraft, SunshadeModel, Thruster};
 
 /// Extents of a spacecraft, in m.
 const EXTENTS_M: [f64; 2] = [0.03, 1000.0];
@@ -30,6 +30,15 @@ const ROUNDED_M: f64 = 1e-9;
 /// A part of the extents by which a corner may lie behind what all is in front of.
 const BEHIND: f64 = 1e-3;
 
+/// A radius of gyration over the greater extent across its axis: an even box has 0.29 to 0.41, a point 0, a hoop 0.5.
+const GYRATION: [f64; 2] = [0.05, 0.6];
+
+/// An area without an outline may exceed by this factor what all other surfaces span across it: corners are squares there.
+const LARGE_AREA: f64 = 1.5;
+
+/// A jet blows inward where its force points away from the middle of the extents by more than this cosine.
+const INWARD_JET: f64 = 0.1;
+
 /// One sentence each; none where everything looks right.
 pub fn warnings(spacecraft: &Spacecraft, figures: &Figures) -> Vec<String> {
     let surfaces = surfaces(spacecraft);
@@ -38,7 +47,9 @@ pub fn warnings(spacecraft: &Spacecraft, figures: &Figures) -> Vec<String> {
     masses(figures, &mut found);
     center_of_mass(figures, &mut found);
     inward(&surfaces, figures, &mut found);
-    if spacecraft.wheels.len() >= 3 && figures.wheels_hold_n_m_s.is_none() {
+    areas(spacecraft, &surfaces, &mut found);
+    jets(spacecraft, figures, &mut found);
+    if spacecraft.wheels.len() >= 3 && figures.wheels.is_none() {
         let count = spacecraft.wheels.len();
         found.push(format!(
             "the axes of the {count} wheels lie in one plane or line: across it they give no torque and hold nothing"
@@ -93,6 +104,7 @@ fn masses(figures: &Figures, found: &mut Vec<String>) {
             figures.sunlit_area_m2
         ));
     }
+    let told = found.len();
     let center_m = figures.mass_properties.center_of_mass_body_m;
     for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
         let spread_m = figures.mass_spread_m[axis];
@@ -112,6 +124,83 @@ fn masses(figures: &Figures, found: &mut Vec<String>) {
             "by its inertia the mass lies {spread_m:.2e} m from its centre (root mean square), and the surfaces reach over \
              {:.3} m: inertia is in kg m2",
             extents_m.max()
+        ));
+    }
+    // One slip in the inertia is told once.
+    if found.len() == told {
+        gyration(figures, found);
+    }
+}
+
+/// Radii of gyration that no even body of these extents comes near.
+fn gyration(figures: &Figures, found: &mut Vec<String>) {
+    let extents_m = extents_m(figures);
+    let [least, most] = GYRATION;
+    for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
+        let across_m = extents_m[(axis + 1) % 3].max(extents_m[(axis + 2) % 3]);
+        let radius_m = figures.gyration_radii_m[axis];
+        let share = radius_m / across_m;
+        if across_m > 0.0 && !(least..=most).contains(&share) {
+            found.push(format!(
+                "the radius of gyration about {name} is {radius_m:.3} m, {share:.3} of the {across_m:.3} m across that axis, and \
+                 spacecraft have 0.1 to 0.5: inertia is in kg m2 about the centre of mass"
+            ));
+        }
+    }
+}
+
+/// Areas without an outline that are larger than all around them spans.
+fn areas(spacecraft: &Spacecraft, surfaces: &[Surface], found: &mut Vec<String>) {
+    let form = spacecraft.sunshade.as_ref().map_or(SunshadeModel::Plates, |shade| shade.model);
+    let (_, without_outline) = spacecraft.outlines(form);
+    let of_area = surfaces.iter().enumerate().filter(|(_, it)| without_outline.contains(&it.name));
+    for (index, surface) in of_area {
+        let corners = &surface.corners_m;
+        let center_m = corners.iter().sum::<Vector3<f64>>() / corners.len() as f64;
+        let others = surfaces.iter().enumerate().filter(|(other, _)| *other != index);
+        let mut around = others.flat_map(|(_, other)| other.corners_m.iter().copied()).peekable();
+        if around.peek().is_none() {
+            continue;
+        }
+        let (low_m, high_m) =
+            around.fold((center_m, center_m), |(low, high), corner| (low.inf(&corner), high.sup(&corner)));
+        let spans_m = high_m - low_m;
+        let faces_m2 = Vector3::new(spans_m.y * spans_m.z, spans_m.z * spans_m.x, spans_m.x * spans_m.y);
+        let around_m2 = surface.normal.abs().dot(&faces_m2);
+        if surface.area_m2 > LARGE_AREA * around_m2 {
+            found.push(format!(
+                "`{}` has {:.3} m2, and all around it spans {around_m2:.3} m2 across it: areas are in m2",
+                surface.name, surface.area_m2
+            ));
+        }
+    }
+}
+
+/// Jets that all blow inward, and senses about an axis in which no thruster turns.
+fn jets(spacecraft: &Spacecraft, figures: &Figures, found: &mut Vec<String>) {
+    let middle_m = (figures.least_body_m + figures.greatest_body_m) / 2.0;
+    let is_inward = |thruster: &Thruster| {
+        let outward_m = thruster.position_body_m - middle_m;
+        let (force_n, distance_m) = (thruster.force_body_n.norm(), outward_m.norm());
+        distance_m > 0.0 && thruster.force_body_n.dot(&outward_m) > INWARD_JET * force_n * distance_m
+    };
+    if !spacecraft.thrusters.is_empty() && spacecraft.thrusters.iter().all(is_inward) {
+        found.push(
+            "the jets of all thrusters blow inward: `direction` is that of the force on the spacecraft, the jet goes the other way"
+                .to_owned(),
+        );
+    }
+    let Some(torque) = figures.thruster_torque else { return };
+    let senses = ["X", "Y", "Z"].into_iter().enumerate().flat_map(|(axis, name)| {
+        [("+", torque.plus_n_m[axis]), ("-", torque.minus_n_m[axis])]
+            .map(|(sign, most_n_m)| (format!("{sign}{name}"), most_n_m))
+    });
+    let missing: Vec<String> =
+        senses.filter(|(_, most_n_m)| *most_n_m == 0.0).map(|(sense, _)| sense).collect();
+    if !missing.is_empty() {
+        found.push(format!(
+            "no thruster gives torque about {} of the centre of mass: they cannot dump or control the attitude alone",
+            missing.join(", ")
         ));
     }
 }

@@ -10,7 +10,7 @@ mod thrust_direction;
 mod thrust_law;
 mod valve;
 
-pub use plume::hits_a_surface;
+pub use plume::surface_in_plume;
 pub use propellant::PropellantState;
 pub use pulse_command::PulseCommand;
 pub use pulse_schedule::{PulseSchedule, due_s};

@@ -1,18 +1,18 @@
-//! Plume of a thruster: whether a surface stands in the cone that its exhaust fills.
+//! Plume of a thruster: which surface stands in the cone that its exhaust fills.
 
 use nalgebra::{Rotation3, Unit, Vector3};
 
-use crate::spacecraft::{Panel, Polygon, Spacecraft, Thruster};
+use crate::spacecraft::{Panel, Plate, Polygon, Spacecraft, Thruster};
 
-/// Whether a corner or the centre of a plate or panel stands in the cone of the thruster's plume, the panels at these angles (by
-/// index, in rad; none = left out). A surface that the thruster stands on is not in it.
-pub fn hits_a_surface(
-    spacecraft: &Spacecraft,
+/// The first plate or panel of which a corner or the centre stands in the cone of the thruster's plume, by name, the panels at
+/// these angles (by index, in rad; none = left out). A surface that the thruster stands on is not in it.
+pub fn surface_in_plume<'s>(
+    spacecraft: &'s Spacecraft,
     thruster: &Thruster,
     panel_angle_rad: impl Fn(usize) -> Option<f64>,
-) -> bool {
+) -> Option<&'s str> {
     if thruster.plume_half_angle_rad <= 0.0 {
-        return false;
+        return None;
     }
     let exhaust = -thruster.force_body_n.normalize();
     let least = thruster.plume_half_angle_rad.cos();
@@ -27,17 +27,23 @@ pub fn hits_a_surface(
             || outline.is_some_and(|outline| outline.vertices_m().iter().any(|vertex| is_in(&place(vertex))))
     };
     let fixed = |point: &Vector3<f64>| *point;
-    let plates =
-        spacecraft.plates.iter().any(|plate| any_in(&plate.center_m, plate.polygon.as_ref(), &fixed));
-    let shade = spacecraft.sunshade.iter().any(|shade| {
+    let is_met = |plate: &&Plate, place: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| {
+        any_in(&plate.center_m, plate.polygon.as_ref(), place)
+    };
+    let plate = spacecraft.plates.iter().find(|plate| is_met(plate, &fixed));
+    let of_shade = || {
+        let shade = spacecraft.sunshade.as_ref()?;
         let turned = |point: &Vector3<f64>| shade.dcm_body_from_shade * point;
-        shade.plates.iter().any(|plate| any_in(&plate.center_m, plate.polygon.as_ref(), &turned))
-    });
-    plates
-        || shade
-        || spacecraft.panels.iter().enumerate().any(|(k, panel)| {
-            panel_angle_rad(k).is_some_and(|angle_rad| panel_hit(panel, angle_rad, &any_in))
-        })
+        shade.plates.iter().find(|plate| is_met(plate, &turned))
+    };
+    let panel = || {
+        let numbered = spacecraft.panels.iter().enumerate();
+        let mut met = numbered.filter(|(k, panel)| {
+            panel_angle_rad(*k).is_some_and(|angle_rad| panel_hit(panel, angle_rad, &any_in))
+        });
+        met.next().map(|(_, panel)| panel.name.as_str())
+    };
+    plate.or_else(of_shade).map(|plate| plate.name.as_str()).or_else(panel)
 }
 
 type AnyIn<'a> = dyn Fn(&Vector3<f64>, Option<&Polygon>, &dyn Fn(&Vector3<f64>) -> Vector3<f64>) -> bool + 'a;
@@ -63,13 +69,13 @@ mod tests {
     #[test]
     fn a_panel_in_the_cone_is_hit() {
         let craft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
-        let hits = |thruster: &Thruster| hits_a_surface(&craft, thruster, |_| Some(0.0));
+        let hits = |thruster: &Thruster| surface_in_plume(&craft, thruster, |_| Some(0.0)) == Some("+X");
         // The panel's centre is at (2.28, 0, 0): 45 deg off the exhaust.
         let aside = |half_deg: f64| nozzle([3.28, 0.0, 1.0], [0.0, 0.0, -1.0], half_deg);
         assert!(!hits(&aside(44.9)) && hits(&aside(45.1)));
         assert!(!hits(&aside(0.0)), "no plume is given");
         assert!(!hits(&nozzle([3.28, 0.0, 1.0], [0.0, 0.0, 1.0], 80.0)));
-        let left_out = hits_a_surface(&craft, &aside(50.0), |_| None);
-        assert!(!left_out, "panels that are left out are not there");
+        let left_out = surface_in_plume(&craft, &aside(50.0), |_| None);
+        assert_eq!(left_out, None, "panels that are left out are not there");
     }
 }

@@ -13,6 +13,7 @@ use super::file::planet_map::planet_map;
 use super::file::plates::{body_plates, panel, sunshade};
 use super::file::propulsion::{tank, thruster};
 use super::file::swinging::{mode, slosh, swinging_fits};
+use super::file::thruster_sets::{set_of, thruster_sets};
 use super::file::windows::{downlinks, hot_pole};
 use super::hot_pole::HotPoleZone;
 use super::instruments::Instrument;
@@ -24,7 +25,7 @@ use super::sun_sensors::MountedSunSensor;
 use super::surface::{Plate, Sunshade, SunshadeModel};
 use super::swinging::{NamedMode, NamedSlosh};
 use super::tank::Tank;
-use super::thruster::Thruster;
+use super::thruster::{Thruster, ThrusterSet};
 use super::wheels::Wheel;
 use crate::toml::{Checker, Document, FileError, Place};
 
@@ -51,6 +52,9 @@ pub struct Spacecraft {
     pub tanks: Vec<Tank>,
     /// Thrusters.
     pub thrusters: Vec<Thruster>,
+    /// Names of the sets of thrusters, by their row; those of the models that have them enter the GUID with their items.
+    #[serde(skip)]
+    pub thruster_sets: Vec<String>,
     /// Sun sensors.
     pub sun_sensors: Vec<MountedSunSensor>,
     /// Instruments that are pointed.
@@ -136,9 +140,10 @@ impl Spacecraft {
         let tanks = list(check, &root.key("tanks"), description.tanks.as_deref(), tank);
         let tanks_kg = tanks.iter().map(|tank| Some(tank.propellant_kg));
         parts_fit(check, ("tanks", "propellant_kg"), tanks_kg, whole_kg);
+        let thruster_sets = thruster_sets(check, description);
         let thrusters =
             list(check, &root.key("thrusters"), description.thrusters.as_deref(), |check, at, index, it| {
-                thruster(check, &tanks, at, index, it)
+                thruster(check, (&tanks, &thruster_sets), at, index, it)
             });
         let mass_properties = mass(check, &root.key("mass_properties"), &description.mass_properties);
         let flexible_modes =
@@ -165,6 +170,7 @@ impl Spacecraft {
             sloshes,
             tanks,
             thrusters,
+            thruster_sets,
             sun_sensors: match description.sun_sensors.as_deref() {
                 Some(sensors) => list(check, &root.key("sun_sensors"), Some(sensors), sun_sensor),
                 None => MountedSunSensor::six(),
@@ -196,6 +202,16 @@ impl Spacecraft {
                 elevation_rad: limits.elevation_deg.0.to_radians(),
             }),
         }
+    }
+
+    /// The thrusters of a set.
+    pub fn thrusters_of(&self, set: ThrusterSet) -> impl Iterator<Item = &Thruster> + Clone {
+        self.thrusters.iter().filter(move |thruster| thruster.set == Some(set))
+    }
+
+    /// The set of this name.
+    pub fn thruster_set(&self, name: &str) -> Option<ThrusterSet> {
+        set_of(&self.thruster_sets, Some(name))
     }
 
     /// How many modal coordinates swing on it: one of each flexible mode, two of each pendulum.

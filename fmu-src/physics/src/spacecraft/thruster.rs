@@ -3,23 +3,9 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::enumeration::enumeration;
-
-enumeration! {
-    /// Thrusters that give a delta-v together (paper 001, "Delta-V").
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-    #[serde(rename_all = "lowercase")]
-    pub enum ThrusterSet {
-        /// The large velocity adjust thruster.
-        // It never controls the attitude.
-        1 => Lva,
-        /// The 22 N thrusters.
-        2 => C22,
-        /// The 4.4 N thrusters.
-        3 => Mono4,
-    }
-}
+/// Thrusters that give a delta-v together (paper 001, "Delta-V"), by their row among the spacecraft's sets, from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
+pub struct ThrusterSet(pub u16);
 
 /// How a valve opens and closes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
@@ -80,6 +66,8 @@ pub struct Thruster {
     pub scatter: f64,
     /// The delta-v that it takes part in.
     pub set: Option<ThrusterSet>,
+    /// Whether it may control the attitude and dump momentum.
+    pub attitude_control: bool,
     /// The tank that feeds it, from 0; a spinner has one for all.
     pub tank: usize,
     /// Pressure at which it has that force, in Pa; that of its tank at the start where there is none.
@@ -120,6 +108,7 @@ impl Thruster {
             valve: ValveTiming::default(),
             scatter: 0.0,
             set: None,
+            attitude_control: true,
             tank: 0,
             at_pressure_pa: None,
             plume_half_angle_rad: 0.0,

@@ -24,6 +24,7 @@ pub const LIMITS: &[(&str, usize)] = &[
     ("panels", 100),
     ("wheels", 64),
     ("tanks", 64),
+    ("sets", MOST_THRUSTERS),
     ("thrusters", MOST_THRUSTERS),
     ("thruster", MOST_THRUSTERS),
     ("flexible_modes", 64),

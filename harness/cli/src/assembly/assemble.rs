@@ -12,7 +12,10 @@ use super::{
     source::{Source, description, taker},
     start,
 };
-use crate::mission::{Craft, Mission};
+use crate::{
+    kind::FileKind,
+    mission::{Craft, Mission},
+};
 
 /// What an FMU is made of.
 #[derive(Clone, Copy, Default)]
@@ -98,7 +101,7 @@ pub struct Assembled {
 /// Whatever the library refuses, and names and values that the model does not take.
 pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn std::error::Error>> {
     parts.check_model(source)?;
-    let spacecraft = parts.spacecraft.map(files::read_text).transpose()?;
+    let spacecraft = parts.spacecraft.map(|path| FileKind::Spacecraft.read(path)).transpose()?;
     let file = parts.spacecraft.map(|path| path.display().to_string());
     let model = match parts.model {
         Some(model) => model.to_owned(),
@@ -138,9 +141,13 @@ pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn
         description.default_experiment = Some(experiment);
     }
     let mut schedules = Vec::new();
-    for (kind, path) in [(schedule::TIMELINE, parts.timeline), (schedule::EPHEMERIS, parts.ephemeris)] {
+    let given = [
+        (schedule::TIMELINE, FileKind::Timeline, parts.timeline),
+        (schedule::EPHEMERIS, FileKind::Ephemeris, parts.ephemeris),
+    ];
+    for (kind, meant, path) in given {
         let Some(path) = path else { continue };
-        let (shown, text) = (path.display().to_string(), files::read_text(path)?);
+        let (shown, text) = (path.display().to_string(), meant.read(path)?);
         let given = (shown.as_str(), text.as_str());
         let name = kind.checked(source.binary(), &described, file.as_deref(), &setup, given)?;
         schedules.push((name, text));

@@ -9,23 +9,25 @@ use physics::{
 use super::{mission, options::Check, spacecraft};
 use crate::{
     carried::{ephemeris, timeline},
-    kind::FileKind,
+    kind::{FileKind, is_blank},
     outcome::{self, Outcome},
 };
 
 /// Judges the file.
 pub fn run(arguments: &Check) -> Outcome {
     let (file, text) = (arguments.subject.display().to_string(), files::read_text(&arguments.subject)?);
-    if ephemeris::is_meant(&text) {
-        return match OnboardEphemeris::from_toml(&file, &text) {
-            Ok(read) => outcome::printed(&format!("{file}: ok: {}", ephemeris::table(&read, text.len()))),
-            Err(problems) => outcome::refused(&file, &problems.to_string(), "an ephemeris"),
-        };
+    if is_blank(&text) {
+        let allowed = "a spacecraft, a spinner, a mission, a timeline or an ephemeris: see `heliotorque new`";
+        return Err(format!("{file}: found an empty file, allowed: {allowed}").into());
     }
     match FileKind::of(&text) {
-        FileKind::Spacecraft => spacecraft::run(arguments, &file, &text),
-        FileKind::Mission => mission::run(arguments, &file),
-        FileKind::Timeline => of_timeline(&file, &text),
+        None | Some(FileKind::Spacecraft) => spacecraft::run(arguments, &file, &text),
+        Some(FileKind::Mission) => mission::run(arguments, &file),
+        Some(FileKind::Timeline) => of_timeline(&file, &text),
+        Some(FileKind::Ephemeris) => match OnboardEphemeris::from_toml(&file, &text) {
+            Ok(read) => outcome::printed(&format!("{file}: ok: {}", ephemeris::table(&read, text.len()))),
+            Err(problems) => outcome::refused(&file, &problems.to_string(), "an ephemeris"),
+        },
     }
 }
 

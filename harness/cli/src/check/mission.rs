@@ -9,7 +9,7 @@ use crate::{
     epoch, low_orbit,
     outcome::{self, Outcome},
     pointing,
-    run::{Prepared, Run, Settings},
+    run::{Prepared, Run, Settings, long_step},
 };
 
 /// Reads the file, packs what it names, finds every name and value in it and opens what it writes, as `run` does; then flies the
@@ -34,14 +34,18 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
     let low = low_orbit::warnings(subject.description(), sets);
     let windows = pointing::warnings(subject.description(), sets);
-    let warnings: String =
-        low.iter().chain(&windows).map(|warning| format!("\nwarning: {warning}")).collect();
+    let warnings = low
+        .iter()
+        .chain(&windows)
+        .chain(&long_step(times))
+        .map(|it| format!("\nwarning: {it}"))
+        .collect::<String>();
     let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });
     Ok(format!(
-        "{} flies from {begin} for {} in {} steps of {} s; {} recorded, {}, {}{warnings}",
+        "{} flies from {begin} for {} in {} of {} s; {} recorded, {}, {}{warnings}",
         subject.name(),
         span(times.stop_s - times.start_s),
-        times.steps(),
+        count(usize::try_from(times.steps()).unwrap_or(usize::MAX), "step"),
         short(times.step_s),
         count(requested.columns, "variable"),
         count(requested.plots.len(), "picture"),

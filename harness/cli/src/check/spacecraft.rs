@@ -2,21 +2,29 @@
 //!
 //! The library itself reads the file, so that what passes here passes in every FMU made from it.
 
-use loader::Described;
+use std::collections::BTreeSet;
+
+use loader::{Described, Value};
+use model_description::Description;
 use physics::{
+    environment::sun::SOLAR_FLUX_W_M2,
     spacecraft::{Spacecraft, Thruster},
     spin::spinner::Spinner,
 };
 use toml::Table;
 
-use super::{figures, options::Check};
+use super::{
+    figures::{self, Sunlight},
+    options::Check,
+};
 use crate::{
     assembly::{
         Parts, Source, assemble, can_read_map, common_keys, description, reference_flight, unused_map,
     },
+    draw::scene::dish_of,
     low_orbit,
     outcome::{self, Outcome},
-    pointing,
+    pointing, variables,
 };
 
 /// Has the models of the template's library read the file, the template's own first.
@@ -67,7 +75,8 @@ pub fn run(arguments: &Check, file: &str, text: &str) -> Outcome {
             described.model,
             contents(text),
             description.variables.len(),
-            Spacecraft::from_toml("", text).map_or_else(|_| levers(text), |it| figures::report(&it))
+            Spacecraft::from_toml("", text)
+                .map_or_else(|_| levers(text), |it| figures::report(&it, sunlight(&description)))
         ));
     }
     // The kinds of file are far apart: what the other models miss in it would hide what is wrong.
@@ -83,6 +92,15 @@ pub fn run(arguments: &Check, file: &str, text: &str) -> Outcome {
     refused(file, model, problems)
 }
 
+/// How the FMU takes sunlight as it is packed.
+fn sunlight(description: &Description) -> Sunlight {
+    let start = |name: &str| variables::start(description, &[], name);
+    Sunlight {
+        flux_w_m2: start("solar.flux").map_or(SOLAR_FLUX_W_M2, |value| value.to_f64()),
+        has_shadows: start("shadowing.enabled") == Some(Value::Boolean(true)),
+    }
+}
+
 /// Tells the problems that a model finds in the file.
 fn refused(file: &str, model: &Described, problems: &str) -> Outcome {
     outcome::refused(file, problems, &format!("a file of {}, which cannot be packed with it", model.model))
@@ -95,16 +113,17 @@ fn without_start_values(text: &str) -> Option<String> {
     Some(file.to_string())
 }
 
-/// A warning for each thruster of a spinner that turns nothing.
+/// Devices of a spinner, and a warning for each thruster that turns nothing.
 fn levers(text: &str) -> String {
     let Ok(spinner) = Spinner::parse("", text) else { return String::new() };
+    let devices = figures::of_spinner(&spinner);
     let has_none =
         |thruster: &&Thruster| thruster.torque_body_n_m.norm() <= 1e-6 * thruster.force_body_n.norm();
     let warnings = spinner.thrusters.iter().filter(has_none).map(|thruster| {
         let name = &thruster.name;
         format!("\nwarning: thruster `{name}` has no lever: it pushes through the centre of mass and turns nothing")
     });
-    warnings.collect()
+    devices + &warnings.collect::<String>()
 }
 
 /// How many of each part the file describes.
@@ -113,12 +132,18 @@ fn contents(text: &str) -> String {
     let mut count = |of: &str, count: usize| match count {
         0 => {}
         1 => parts.push(format!("1 {of}")),
+        _ if of.ends_with('h') => parts.push(format!("{count} {of}es")),
         _ => parts.push(format!("{count} {of}s")),
     };
     if let Ok(spacecraft) = Spacecraft::from_toml("", text) {
+        let dishes: BTreeSet<&str> = spacecraft.plates.iter().filter_map(|it| dish_of(&it.name)).collect();
         count("panel", spacecraft.panels.len());
-        count("plate", spacecraft.plates.len());
+        count("plate", spacecraft.plates.iter().filter(|it| dish_of(&it.name).is_none()).count());
+        count("dish", dishes.len());
         count("wheel", spacecraft.wheels.len());
+        count("thruster", spacecraft.thrusters.len());
+        count("tank", spacecraft.tanks.len());
+        count("instrument", spacecraft.instruments.len());
         if let Some(shade) = spacecraft.sunshade {
             count("sunshade plate", shade.plates.len());
             count("sunshade cylinder", usize::from(shade.cylinder.is_some()));
@@ -126,6 +151,8 @@ fn contents(text: &str) -> String {
     } else if let Ok(spinner) = Spinner::parse("", text) {
         count("group", spinner.groups.len());
         count("thruster", spinner.thrusters.len());
+        count("star tracker", 1);
+        count("Sun sensor", 1);
     }
     parts.join(", ")
 }
@@ -147,9 +174,12 @@ mod tests {
     #[test]
     fn parts_are_counted() {
         let messenger = include_str!("../../../../fmu-src/resources/messenger.toml");
-        assert_eq!(contents(messenger), "2 panels, 4 wheels, 8 sunshade plates, 1 sunshade cylinder");
+        assert_eq!(
+            contents(messenger),
+            "2 panels, 4 wheels, 4 instruments, 8 sunshade plates, 1 sunshade cylinder"
+        );
         let ace = include_str!("../../../../fmu-src/resources/ace.toml");
-        assert_eq!(contents(ace), "8 groups, 10 thrusters");
+        assert_eq!(contents(ace), "8 groups, 10 thrusters, 1 star tracker, 1 Sun sensor");
         assert_eq!(contents("no toml"), "");
     }
 }

@@ -18,6 +18,7 @@ pub fn findings(path: &Path) -> Vec<Finding> {
         system.structure().connections.len(),
         open.len()
     ))];
+    findings.extend(system.unread(&[]).iter().map(|unread| Finding::note(unread.to_string())));
     for part in parts {
         findings.push(match part.fmu.binary_path() {
             Ok(_) => Finding::good(format!("component {} has a library for this computer", part.name)),

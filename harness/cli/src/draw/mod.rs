@@ -17,6 +17,7 @@ use physics::{
 use toml::de::DeTable;
 
 use crate::{
+    kind::FileKind,
     outcome::{self, Outcome},
     output::check_svg_path,
 };
@@ -40,7 +41,7 @@ pub fn run(arguments: &Draw) -> Outcome {
     let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}.svg")));
     check_svg_path(&path, "--output")?;
     let file = named.map_or_else(|| format!("{DEFAULT_NAME}.toml"), |path| path.display().to_string());
-    let text = named.map_or_else(|| Ok(MESSENGER_TOML.to_owned()), files::read_text)?;
+    let text = named.map_or_else(|| Ok(MESSENGER_TOML.to_owned()), |path| FileKind::Spacecraft.read(path))?;
     let scene = read(&file, &text, &arguments.angle)?;
     let views: Vec<View> = View::ALL.into_iter().filter(|view| is_asked(*view, &arguments.view)).collect();
     let svg = sheet::svg(&scene, &views).ok_or_else(|| {

@@ -5,7 +5,7 @@ use drawing::{
 };
 
 use super::{
-    scene::{Axis, Scene},
+    scene::{Arrow, Axis, Scene},
     surface::TO_SUN,
 };
 
@@ -14,6 +14,8 @@ const LIGHT: Vector = Vector::new(-0.25, -0.85, 0.46);
 /// Colours of X, Y, Z and of rotations.
 const AXIS_COLOURS: [&str; 3] = ["#c0392b", "#1e8449", "#1f5fbf"];
 const ROTATION_COLOUR: &str = "#8e44ad";
+/// Radius of a tank's sign.
+const TANK_RADIUS_PX: f64 = 5.0;
 /// More names than this would not be readable.
 const MOST_NAMES: usize = 200;
 
@@ -41,7 +43,8 @@ impl Extent {
     pub fn of(scene: &Scene) -> Option<Self> {
         let [mut low_m, mut high_m] = scene.bounds_m()?;
         let ends = scene.axes.iter().flat_map(Axis::ends_m);
-        for point in ends.chain([Vector::zeros(), scene.center_of_mass_m]) {
+        let tips = scene.arrows.iter().map(|arrow| arrow.to_m);
+        for point in ends.chain(tips).chain([Vector::zeros(), scene.center_of_mass_m]) {
             (low_m, high_m) = (low_m.inf(&point), high_m.sup(&point));
         }
         let size_m = (high_m - low_m).max();
@@ -84,6 +87,14 @@ impl Pane<'_> {
         let mut labels = Labels::default();
         for axis in &self.scene.axes {
             self.rotation(pen, &mut labels, axis, &outlines);
+        }
+        for arrow in &self.scene.arrows {
+            self.arrow(pen, &mut labels, arrow, &outlines);
+        }
+        for tank_m in &self.scene.tanks_m {
+            let at = self.screen(*tank_m);
+            pen.circle(at, TANK_RADIUS_PX, "fill=\"none\" stroke=\"#262b33\" stroke-width=\"1.3\"");
+            labels.keep_off_sign(at, 2.0 * TANK_RADIUS_PX);
         }
         self.axes(pen, &mut labels, &outlines);
         let center = self.screen(self.scene.center_of_mass_m);
@@ -186,6 +197,18 @@ impl Pane<'_> {
         }
     }
 
+    /// A direction that something on the body has.
+    fn arrow(&self, pen: &mut Pen, labels: &mut Labels, arrow: &Arrow, outlines: &[Vec<Pixel>]) {
+        let (from, tip) = (self.screen(arrow.from_m), self.screen(arrow.to_m));
+        // One that points at the viewer or away has no length.
+        if direction(from, tip).is_some() {
+            let stroke = format!("stroke=\"{}\" stroke-width=\"1.4\"", arrow.colour);
+            self.line(pen, [arrow.from_m, arrow.to_m], outlines, &stroke);
+            pen.arrow_head(from, tip, arrow.colour);
+            labels.keep_off(&[from, tip]);
+        }
+    }
+
     /// A dash-dotted axis and an arrow about it.
     fn rotation(&self, pen: &mut Pen, labels: &mut Labels, axis: &Axis, outlines: &[Vec<Pixel>]) {
         let ends = axis.ends_m();
@@ -251,15 +274,16 @@ impl Pane<'_> {
         let surfaces = &self.scene.surfaces;
         for (number, part) in self.scene.parts.iter().enumerate() {
             if let Some(beside_m) = part.beside_m {
-                if !self.is_hidden(beside_m, outlines) {
+                if part.is_inside || !self.is_hidden(beside_m, outlines) {
+                    let name = if part.is_inside { &part.sign } else { &part.name };
                     let at = self.screen(beside_m);
                     // Beside all surfaces if there is room.
                     let is_bare = |at: Pixel| !outlines.iter().any(|outline| contains(outline, at));
                     let placed = labels
-                        .place(&part.name, rings(at), is_bare)
-                        .or_else(|| labels.place(&part.name, rings(at), |_| true));
+                        .place(name, rings(at), is_bare)
+                        .or_else(|| labels.place(name, rings(at), |_| true));
                     if let Some(at) = placed {
-                        pen.label(at, NAME_SIZE, INK, &part.name);
+                        pen.label(at, NAME_SIZE, INK, name);
                     }
                 }
                 continue;

@@ -153,7 +153,8 @@ fn drawn_m(scene: &Scene, reach: &Extent) -> Vec<Vector> {
     let tips = [0, 1, 2].map(|i| high[i] * Vector::ith(i, 1.0)).into_iter().chain([low.y * Vector::y()]);
     let ends = scene.axes.iter().flat_map(Axis::ends_m);
     let corners = scene.surfaces.iter().flat_map(|surface| surface.corners.iter().copied());
-    corners.chain(ends).chain(tips).collect()
+    let arrows = scene.arrows.iter().map(|arrow| arrow.to_m);
+    corners.chain(ends).chain(tips).chain(arrows).collect()
 }
 
 /// What a camera sees of some points, in m.

@@ -14,10 +14,10 @@ use model_description::{
 use systems::System;
 
 use crate::{
-    carried, epoch,
+    carried, epoch, kind,
     outcome::{self, Outcome},
     patience::Patience,
-    variables::selected,
+    variables::{Row, rows, selected, warn_of_repeated},
 };
 use experiment::times;
 
@@ -47,6 +47,7 @@ pub struct Info {
 
 /// Prints the tables.
 pub fn run(arguments: &Info) -> Outcome {
+    kind::check_archive(&arguments.fmu)?;
     let text = if systems::is_system(&arguments.fmu) {
         if arguments.coefficients {
             return Err("--coefficients is for an FMU, and this is a system".into());
@@ -65,6 +66,7 @@ pub fn run(arguments: &Info) -> Outcome {
         let fmu = Fmu::open(&arguments.fmu)?;
         let description = fmu.description();
         if arguments.coefficients {
+            warn_of_repeated("--set", &arguments.set);
             return outcome::printed(&coefficients::text(&fmu, &arguments.set)?);
         }
         match chosen(description, arguments)? {
@@ -213,19 +215,49 @@ fn enumerations(description: &Description, positions: &[usize]) -> Option<String
     (!table.is_empty()).then(|| table.to_string())
 }
 
+/// Columns from which on a description stands beside its variable, and those before it on a narrower terminal.
+const WIDE: u16 = 120;
+const INDENT: usize = 4;
+
+/// A vector is one row.
 fn variables(description: &Description, positions: &[usize]) -> String {
+    let chosen: Vec<&ScalarVariable> =
+        positions.iter().map(|&position| &description.variables[position]).collect();
+    let cells = |row: &Row<'_>| {
+        let unit = loader::unit(description, row.first()).unwrap_or_default();
+        [row.name(), causality(row.first()), row.joined(|it| start(description, it)), unit.to_owned()]
+    };
+    let says = |row: &Row<'_>| row.first().description.clone().unwrap_or_default();
+    if let Some(columns) = terminal::screen().output_columns.filter(|columns| *columns < WIDE) {
+        let lines = rows(&chosen).map(|row| below(&cells(&row), &says(&row), usize::from(columns)));
+        return lines.collect::<Vec<_>>().join("\n");
+    }
     let mut table = terminal::table(&["variable", "causality", "start", "unit", "description"]);
-    for &position in positions {
-        let variable = &description.variables[position];
-        table.add_row([
-            variable.name.clone(),
-            causality(variable),
-            start(description, variable),
-            loader::unit(description, variable).unwrap_or_default().to_owned(),
-            variable.description.clone().unwrap_or_default(),
-        ]);
+    for row in rows(&chosen) {
+        let [name, causality, start, unit] = cells(&row);
+        table.add_row([name, causality, start, unit, says(&row)]);
     }
     table.to_string()
+}
+
+/// A variable with its description below it.
+fn below([name, causality, start, unit]: &[String; 4], description: &str, columns: usize) -> String {
+    let start = if start.is_empty() { String::new() } else { format!("start {start}") };
+    let head: Vec<&str> =
+        [name.as_str(), causality, &start, unit].into_iter().filter(|text| !text.is_empty()).collect();
+    let mut lines = vec![head.join("  "), " ".repeat(INDENT)];
+    for word in description.split_whitespace() {
+        let last = lines.len() - 1;
+        let is_begun = lines[last].len() > INDENT;
+        if is_begun && lines[last].chars().count() + 1 + word.chars().count() > columns {
+            lines.push(format!("{:INDENT$}{word}", ""));
+        } else {
+            lines[last].push_str(if is_begun { " " } else { "" });
+            lines[last].push_str(word);
+        }
+    }
+    lines.retain(|line| !line.trim().is_empty());
+    lines.join("\n")
 }
 
 /// Causality, with what the variability adds to it.
@@ -260,5 +292,23 @@ pub fn start(description: &Description, variable: &ScalarVariable) -> String {
         Some(Value::Text(start)) => format!("{start:?}"),
         Some(truth) => truth.to_string(),
         None => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_narrow_terminal_has_the_description_below() {
+        let cells = ["a[1..3]", "output", "", "N.m"].map(str::to_owned);
+        assert_eq!(
+            below(&cells, "Torque about the centre of mass.", 20),
+            "a[1..3]  output  N.m\n    Torque about the\n    centre of mass."
+        );
+        assert_eq!(
+            below(&["b".to_owned(), "input".to_owned(), "4".to_owned(), String::new()], "", 20),
+            "b  input  start 4"
+        );
     }
 }

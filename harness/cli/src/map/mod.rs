@@ -14,7 +14,7 @@ use std::process::ExitCode;
 
 use planner::momentum::Mission;
 
-use crate::outcome::Outcome;
+use crate::{outcome::Outcome, variables};
 use found::Found;
 pub use options::Map;
 use outputs::Outputs;
@@ -22,6 +22,7 @@ use spacecraft::MappedSpacecraft;
 
 /// Maps a spacecraft.
 pub fn run(arguments: &Map) -> Outcome {
+    variables::warn_of_repeated("--set", &arguments.set);
     let outputs = Outputs::open(arguments)?;
     let mission = arguments.mission.as_deref().map(Mission::read).transpose()?;
     let spacecraft = MappedSpacecraft::open(arguments)?;

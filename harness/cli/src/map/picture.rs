@@ -91,7 +91,7 @@ fn torque(pen: &mut Pen, mapped: &Mapped, frame: Frame, axis: usize, steps: [f64
         pen.circle(frame.at(balance.place_deg), 5.0, BALANCE);
     }
     let labels = ["Sun azimuth [deg]", "Sun elevation [deg]"];
-    frame.axes(pen, &Axes { labels, steps, label_px: LABEL, is_whole: false });
+    frame.axes(pen, &Axes { labels, steps, label_px: LABEL, is_whole: false, named: [&[]; 2] });
     bands::scale(&frame, pen, scale, "uN.m");
 }
 
@@ -151,7 +151,7 @@ fn downlinks(pen: &mut Pen, top: f64, spacecraft: &MappedSpacecraft, found: &Fou
     }
     let steps = [x, y].map(|[low, high]| round_up((high - low) / 7.0));
     let labels = ["mean torque about X [uN.m]", "mean torque about Z [uN.m]"];
-    frame.axes(pen, &Axes { labels, steps, label_px: LABEL, is_whole: false });
+    frame.axes(pen, &Axes { labels, steps, label_px: LABEL, is_whole: false, named: [&[]; 2] });
     if let Some(mean) = mean.filter(|mean| frame.holds(*mean)) {
         pen.circle(frame.at(mean), 5.0, MISSION);
     }

@@ -14,6 +14,7 @@ use planner::torque_map::{LitSpacecraft, Rule, TurnedPanels};
 use super::options::Map;
 use crate::{
     assembly::{START, Source, description, model_of, open_template, with_values},
+    kind::FileKind,
     variables,
 };
 
@@ -60,7 +61,7 @@ fn given(arguments: &Map) -> Result<(String, String, Source), Failure> {
     let file = arguments.spacecraft.display().to_string();
     let is_toml = arguments.spacecraft.extension().is_some_and(|it| it.eq_ignore_ascii_case("toml"));
     if is_toml {
-        let text = files::read_text(&arguments.spacecraft)?;
+        let text = FileKind::Spacecraft.read(&arguments.spacecraft)?;
         return Ok((file, text, Source::of_template(open_template(&arguments.template())?)?));
     }
     if arguments.template.is_some() {

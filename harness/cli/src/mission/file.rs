@@ -114,8 +114,8 @@ impl Mission {
     /// # Errors
     /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
     pub fn read(file: &Path) -> Result<Self, String> {
-        let text = files::read_text(file)?;
-        if FileKind::of(&text) == FileKind::Spacecraft && !text.trim().is_empty() {
+        let text = FileKind::Mission.read(file)?;
+        if FileKind::of(&text).is_none() {
             return Err(format!(
                 "{}: found a file without any key of a mission, allowed: spacecraft = \"my.toml\" or fmu = \"My.fmu\", stop, step, \
                  record: see `heliotorque new mission`",

@@ -1,4 +1,4 @@
-//! The CSV of `run --output`, which grows during the simulation.
+//! The CSV of `run --output`, which grows during the simulation, and beside it what it comes from.
 
 use std::{
     error::Error,
@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use files::Growing;
+use files::{Destination, Growing};
 use loader::{Recording, csv};
 use model_description::Description;
 
@@ -23,12 +23,14 @@ pub struct Csv {
     /// Rows in the file; `None` before the header.
     rows: Option<usize>,
     bytes: Vec<u8>,
+    /// A file that is written once the table is complete, with its text.
+    beside: Option<(Destination, String)>,
 }
 
 impl Csv {
-    /// Writes the first `columns` into an empty file.
-    pub fn new(file: Growing, columns: usize) -> Self {
-        Self { file, columns, rows: None, bytes: Vec::new() }
+    /// Writes the first `columns` into an empty file; what stands `beside` it follows.
+    pub fn new(file: Growing, columns: usize, beside: Option<(Destination, String)>) -> Self {
+        Self { file, columns, rows: None, bytes: Vec::new(), beside }
     }
 }
 
@@ -66,7 +68,11 @@ impl Exporter for Csv {
         recording: &Recording,
     ) -> Result<(), Box<dyn Error>> {
         self.update(recording)?;
-        Ok(self.file.finish()?)
+        self.file.finish()?;
+        if let Some((file, text)) = self.beside {
+            file.fill(|file| file.write_all(text.as_bytes()))?;
+        }
+        Ok(())
     }
 
     fn leave(mut self: Box<Self>, _described: &Description, recording: &Recording) -> Option<PathBuf> {

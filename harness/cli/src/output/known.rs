@@ -31,6 +31,7 @@ pub struct Known {
     names: BTreeMap<String, String>,
     bounds: BTreeMap<String, (&'static str, f64)>,
     limits: BTreeMap<String, Vec<f64>>,
+    zero_epoch_s: Option<f64>,
 }
 
 impl Known {
@@ -65,6 +66,17 @@ impl Known {
             known.limits.entry(limit.name.clone()).or_default().extend(values);
         }
         known
+    }
+
+    /// With the epoch of time 0 in s past J2000 TDB, where the flight has dates.
+    #[must_use]
+    pub fn dated(self, zero_epoch_s: Option<f64>) -> Self {
+        Self { zero_epoch_s, ..self }
+    }
+
+    /// That epoch.
+    pub fn zero_epoch_s(&self) -> Option<f64> {
+        self.zero_epoch_s
     }
 
     /// The name in the file of what a variable belongs to, such as that of `wheel[2]` for `wheel[2].speed`.

@@ -1,10 +1,12 @@
 //! The outputs of `heliotorque run`: one file a format, behind one trait.
 
 mod csv;
+mod date_axis;
 mod exporter;
 mod file;
 mod known;
 mod limits;
+mod origin;
 mod shown;
 mod standing;
 mod summary;
@@ -23,12 +25,13 @@ use model_description::Description;
 use csv::Csv;
 use exporter::Exporter;
 use standing::Kind;
-use summary::{Summary, last_values};
+use summary::Summary;
 use svg::Svg;
 
 pub use file::OutputFile;
 pub use known::Known;
 pub use limits::{Judge, Limit};
+pub use origin::Origin;
 pub use svg::is_lit_fraction;
 pub use svg_path::{check_path as check_svg_path, is_svg_path};
 
@@ -59,20 +62,20 @@ pub struct Outputs {
     exporters: Vec<Box<dyn Exporter>>,
     /// Files that will be written.
     files: Vec<PathBuf>,
-    /// Whether the last values are reported: without a file the summary has them.
-    says_last: bool,
+    /// Whether the summary is told beside the files: without one it is printed.
+    sums_up: bool,
     /// How many of the recording's columns were requested, the first ones; more is for the pictures.
     columns: usize,
 }
 
 impl Outputs {
-    /// Everything requested, its files opened; without any, a summary on the terminal. `empty` is the recording before its first row;
-    /// `inputs` are not written over.
+    /// Everything requested, its files opened; without any, a summary on the terminal. `empty` is the recording before its first row,
+    /// `origin` what stands beside a table; `inputs` are not written over.
     pub fn open(
         requested: &Requested,
         empty: &Recording,
         known: &Known,
-        inputs: &[&Path],
+        (origin, inputs): (&Origin<'_>, &[&Path]),
     ) -> Result<Self, String> {
         let Requested { table, plots, columns, is_quiet } = requested;
         let open = |file: &OutputFile, kind: Kind<'_>| {
@@ -83,6 +86,15 @@ impl Outputs {
         let mut header = Vec::new();
         loader::csv::write_header(empty, *columns, &mut header).map_err(|error| error.to_string())?;
         let csv = table.as_ref().map(|file| open(file, Kind::Table(&header))).transpose()?;
+        // Nothing stands beside the standard output.
+        let beside = table.as_ref().zip(csv.as_ref().filter(|csv| !csv.is_stdout())).map(|(table, _)| {
+            let mut path = table.path.clone().into_os_string();
+            path.push(".toml");
+            let file = OutputFile { path: path.into(), ..table.clone() };
+            let names = &empty.names[..(*columns).min(empty.names.len())];
+            Ok::<_, String>((open(&file, Kind::Origin)?, origin.to_toml(names)))
+        });
+        let beside = beside.transpose()?;
         let mut pictures: Vec<Destination> = Vec::new();
         for Plot { file, .. } in plots {
             let svg = open(file, Kind::Picture)?;
@@ -99,10 +111,10 @@ impl Outputs {
         let named = table.iter().zip(&csv).chain(named);
         let files =
             named.filter(|(_, opened)| !opened.is_stdout()).map(|(file, _)| file.path.clone()).collect();
-        let says_last = !is_quiet && (csv.is_some() || !pictures.is_empty());
+        let sums_up = !is_quiet && (csv.is_some() || !pictures.is_empty());
         let mut exporters: Vec<Box<dyn Exporter>> = Vec::new();
         if let Some(csv) = csv {
-            exporters.push(Box::new(Csv::new(csv.grow(inputs)?, *columns)));
+            exporters.push(Box::new(Csv::new(csv.grow(inputs)?, *columns, beside)));
         }
         for (svg, plot) in pictures.into_iter().zip(plots) {
             exporters.push(Box::new(Svg { file: svg, names: plot.names.clone(), known: known.clone() }));
@@ -110,7 +122,7 @@ impl Outputs {
         if exporters.is_empty() && !is_quiet {
             exporters.push(Box::new(Summary));
         }
-        Ok(Self { exporters, files, says_last, columns: *columns })
+        Ok(Self { exporters, files, sums_up, columns: *columns })
     }
 
     /// Shows every output the recording so far.
@@ -123,11 +135,11 @@ impl Outputs {
         self.exporters.iter().any(|output| output.has_lost_reader())
     }
 
-    /// Completes every output and says what was written and the last values.
+    /// Completes every output, sums up and says what was written.
     pub fn finish(self, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
         self.exporters.into_iter().try_for_each(|output| output.finish(described, recording))?;
-        if self.says_last {
-            terminal::note(&last_values(described, &recording.leading(self.columns)));
+        if self.sums_up {
+            terminal::note(&summary::beside_files(described, &recording.leading(self.columns)));
             for file in &self.files {
                 terminal::note(&format!("wrote {}", file.display()));
             }
@@ -142,12 +154,12 @@ impl Outputs {
         described: &Description,
         recording: &Recording,
     ) -> Result<Vec<PathBuf>, Box<dyn Error>> {
-        let Self { exporters, mut files, says_last, columns } = self;
+        let Self { exporters, mut files, sums_up, columns } = self;
         let (beside, complete): (Vec<_>, Vec<_>) =
             exporters.into_iter().partition(|output| output.existing().is_some());
         let kept = beside.into_iter().filter_map(|output| output.leave(described, recording)).collect();
         files.retain(|file| !file.exists());
-        Self { exporters: complete, files, says_last, columns }.finish(described, recording)?;
+        Self { exporters: complete, files, sums_up, columns }.finish(described, recording)?;
         Ok(kept)
     }
 

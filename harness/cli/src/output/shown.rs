@@ -1,6 +1,6 @@
-//! How people read a recorded variable: display unit, dates beside epochs, `none` for a time that is none.
+//! How people read a recorded variable: display unit, dates beside epochs, names of items, `none` for a time that is none.
 
-use model_description::{Description, ScalarVariable, VariableKind};
+use model_description::{Description, EnumerationItem, ScalarVariable, VariableKind, value};
 
 use crate::epoch;
 
@@ -29,6 +29,8 @@ pub struct Shown<'a> {
     may_be_none: bool,
     is_epoch: bool,
     is_angle: bool,
+    /// What an Enumeration may be.
+    pub items: &'a [EnumerationItem],
 }
 
 impl<'a> Shown<'a> {
@@ -45,7 +47,8 @@ impl<'a> Shown<'a> {
         let display = loader::display_unit(description, variable).filter(|_| !is_epoch);
         let (unit, factor, offset) = display.unwrap_or((own, 1.0, 0.0));
         let is_angle = own == ANGLE_UNIT;
-        Self { unit, factor, offset, may_be_none: is_time && says_none, is_epoch, is_angle }
+        let items = value::items(description, variable);
+        Self { unit, factor, offset, may_be_none: is_time && says_none, is_epoch, is_angle, items }
     }
 
     /// A value in the shown unit, an angle of nothing but rounding as 0; `None` for a time that is none.
@@ -57,6 +60,9 @@ impl<'a> Shown<'a> {
     /// The text of a shown value.
     pub fn text(&self, shown: Option<f64>) -> String {
         let Some(shown) = shown else { return "none".to_owned() };
+        if let Some(item) = self.items.iter().find(|item| f64::from(item.value) == shown) {
+            return item.name.clone();
+        }
         match epoch::date(shown).filter(|_| self.is_epoch) {
             Some(date) => format!("{shown} ({date})"),
             None => terminal::short(shown),

@@ -4,7 +4,7 @@ use std::{io::Read, path::Path};
 
 use files::Destination;
 
-use super::file::OutputFile;
+use super::{file::OutputFile, origin};
 
 /// How much of a file is looked at.
 const HEAD: u64 = 1 << 16;
@@ -16,6 +16,8 @@ pub enum Kind<'a> {
     Table(&'a [u8]),
     /// A picture.
     Picture,
+    /// What a table comes from.
+    Origin,
 }
 
 /// Refuses what a mission's own file may not name: a place outside the mission's folder, and a file that no run wrote. What is
@@ -62,7 +64,7 @@ impl Kind<'_> {
     /// The option that gives it a place instead.
     fn option(self) -> &'static str {
         match self {
-            Self::Table(_) => "--output",
+            Self::Table(_) | Self::Origin => "--output",
             Self::Picture => "--plot",
         }
     }
@@ -74,6 +76,7 @@ impl Kind<'_> {
             _ if head.is_empty() => Standing::Same,
             Self::Table(header) if head.starts_with(header) => Standing::Same,
             Self::Table(_) if is_over_time(&text) => Standing::Alike,
+            Self::Origin if text.starts_with(origin::HEAD) => Standing::Same,
             Self::Picture if drawing::is_chart(&text) => Standing::Same,
             _ => Standing::Other,
         }

@@ -1,8 +1,8 @@
-//! The summary of a run on the terminal, where no file is named.
+//! What a run came to, on the terminal: least, greatest and last value of everything recorded, a vector in a row.
 
-use std::{collections::BTreeMap, error::Error};
+use std::error::Error;
 
-use loader::Recording;
+use loader::{Column, Recording};
 use model_description::Description;
 
 use super::{
@@ -11,119 +11,138 @@ use super::{
 };
 use crate::variables::vector;
 
-/// Rows of the table of last values at most.
-const LAST_ROWS: usize = 24;
+/// Rows of the table beside files at most.
+const ROWS_BESIDE_FILES: usize = 24;
 
-/// The summary, printed at the end.
+/// The summary, printed at the end where no file is named.
 pub struct Summary;
 
 impl Exporter for Summary {
     fn finish(self: Box<Self>, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
-        Ok(terminal::print(&summary(described, recording))?)
+        Ok(terminal::print(&table(described, recording, usize::MAX))?)
     }
 }
 
-/// First, smallest, largest and last value of everything recorded.
-fn summary(described: &Description, recording: &Recording) -> String {
-    let mut table = terminal::table(&["variable", "unit", "first", "smallest", "largest", "last"]);
-    for (name, column) in recording.names.iter().zip(&recording.columns) {
-        if let loader::Column::Text(texts) = column {
-            let [first, last] = [texts.first(), texts.last()].map(|text| text.map_or("", String::as_str));
-            table.add_row([name, "", first, "", "", last]);
-            continue;
-        }
-        let shown = Shown::of(described, name);
-        let values: Vec<Option<f64>> = column.numbers().into_iter().map(|value| shown.value(value)).collect();
-        let text = |value: Option<&Option<f64>>| shown.text(value.copied().unwrap_or(Some(f64::NAN)));
-        table.add_row([
-            name.clone(),
-            shown.unit.to_owned(),
-            text(values.first()),
-            shown.text(values.iter().flatten().copied().reduce(f64::min)),
-            shown.text(values.iter().flatten().copied().reduce(f64::max)),
-            text(values.last()),
-        ]);
-    }
-    table.to_string()
+/// The first rows of the same, for a run that writes files.
+pub fn beside_files(described: &Description, recording: &Recording) -> String {
+    table(described, recording, ROWS_BESIDE_FILES)
 }
 
-/// The last value of everything recorded, a vector in a row.
-pub fn last_values(described: &Description, recording: &Recording) -> String {
-    let mut rows: Vec<(&str, &str, Vec<String>)> = Vec::new();
-    let sizes = last_sizes(recording);
-    for (name, column) in recording.names.iter().zip(&recording.columns) {
-        let shown = Shown::of(described, name);
-        let text = match column {
-            loader::Column::Text(texts) => texts.last().cloned().unwrap_or_default(),
-            column => {
-                let last = column.numbers().last().copied().unwrap_or(f64::NAN);
-                // A component of nothing but rounding.
-                let least = vector(name).and_then(|of| sizes.get(of)).map_or(0.0, |size| ROUNDING * size);
-                shown.text(shown.value(if last.abs() < least { 0.0 } else { last }))
-            }
-        };
-        match (rows.last_mut(), vector(name)) {
-            (Some((of, _, values)), Some(vector)) if *of == vector => values.push(text),
-            (_, vector) => rows.push((vector.unwrap_or(name), shown.unit, vec![text])),
-        }
+/// A row: name, unit, and the texts of each component's least, greatest and last value.
+struct Row<'a> {
+    name: &'a str,
+    unit: &'a str,
+    components: Vec<[String; 3]>,
+}
+
+fn table(described: &Description, recording: &Recording, most: usize) -> String {
+    let rows = rows(described, recording);
+    let mut table = terminal::table(&["variable", "unit", "least", "greatest", "last"]);
+    for Row { name, unit, components } in rows.iter().take(most) {
+        let joined =
+            |k: usize| components.iter().map(|texts| texts[k].as_str()).collect::<Vec<_>>().join(", ");
+        table.add_row([*name, *unit, &joined(0), &joined(1), &joined(2)]);
     }
-    let mut table = terminal::table(&["variable", "unit", "last"]);
-    for (name, unit, values) in rows.iter().take(LAST_ROWS) {
-        table.add_row([*name, *unit, &values.join(", ")]);
-    }
-    match rows.len().saturating_sub(LAST_ROWS) {
+    match rows.len().saturating_sub(most) {
         0 => table.to_string(),
         more => format!("{table}\n{more} more"),
     }
 }
 
-/// The greatest component of every vector at the end.
-fn last_sizes(recording: &Recording) -> BTreeMap<&str, f64> {
-    let mut sizes = BTreeMap::new();
-    for (name, column) in recording.names.iter().zip(&recording.columns) {
-        if let (Some(of), loader::Column::Real(values)) = (vector(name), column) {
-            let size: &mut f64 = sizes.entry(of).or_default();
-            *size = values.last().map_or(*size, |value| size.max(value.abs()));
-        }
+fn rows<'a>(described: &'a Description, recording: &'a Recording) -> Vec<Row<'a>> {
+    let mut rows: Vec<Row<'a>> = Vec::new();
+    let columns: Vec<(&String, &Column)> = recording.names.iter().zip(&recording.columns).collect();
+    for group in columns.chunk_by(|one, other| vector(one.0).is_some() && vector(one.0) == vector(other.0)) {
+        // What is less than this part of the greatest component at any time is rounding.
+        let values = group.iter().filter(|(_, column)| matches!(column, Column::Real(_)));
+        let values = values.flat_map(|(_, column)| column.numbers());
+        let size =
+            values.filter(|value| value.is_finite()).fold(0.0, |size: f64, value| size.max(value.abs()));
+        let Some((first, _)) = group.first() else { continue };
+        let name = vector(first).filter(|_| group.len() > 1).unwrap_or(first);
+        let unit = Shown::of(described, first).unit;
+        let components = group.iter().map(|(name, column)| texts(&Shown::of(described, name), column, size));
+        rows.push(Row { name, unit, components: components.collect() });
     }
-    sizes
+    rows
+}
+
+/// Least, greatest and last value.
+fn texts(shown: &Shown<'_>, column: &Column, size: f64) -> [String; 3] {
+    if let Column::Text(texts) = column {
+        return [String::new(), String::new(), texts.last().cloned().unwrap_or_default()];
+    }
+    let rounded = |value: f64| if value.abs() < ROUNDING * size { 0.0 } else { value };
+    let values: Vec<Option<f64>> =
+        column.numbers().into_iter().map(|value| shown.value(rounded(value))).collect();
+    let known = || values.iter().flatten().copied();
+    [
+        shown.text(known().reduce(f64::min)),
+        shown.text(known().reduce(f64::max)),
+        shown.text(values.last().copied().unwrap_or(Some(f64::NAN))),
+    ]
 }
 
 #[cfg(test)]
 mod tests {
-    //! Rounding is shown as 0, whatever else is small is not.
+    //! Rounding is shown as 0, whatever else is small is not; vectors stand in a row.
     use super::*;
 
     const SHIP: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="Ship" guid="{ship}">
   <CoSimulation modelIdentifier="Ship"/>
   <UnitDefinitions><Unit name="rad"><DisplayUnit name="deg" factor="57.3"/></Unit></UnitDefinitions>
+  <TypeDefinitions><SimpleType name="Mode"><Enumeration><Item name="nadir" value="1"/><Item name="safe" value="4"/></Enumeration></SimpleType></TypeDefinitions>
   <ModelVariables>
     <ScalarVariable name="angle" valueReference="0"><Real unit="rad" displayUnit="deg"/></ScalarVariable>
+    <ScalarVariable name="mode" valueReference="1" causality="output" variability="discrete"><Enumeration declaredType="Mode"/></ScalarVariable>
   </ModelVariables>
   <ModelStructure/>
 </fmiModelDescription>"#;
 
-    /// The last values of these columns.
-    fn reported(columns: &[(&str, f64)]) -> String {
+    fn reported(columns: &[(&str, Column)]) -> String {
         let description = model_description::parse(SHIP.as_bytes()).unwrap().description;
         let recording = Recording {
-            times_s: vec![0.0],
+            times_s: columns[0].1.numbers(),
             names: columns.iter().map(|(name, _)| (*name).to_owned()).collect(),
             units: vec![String::new(); columns.len()],
-            columns: columns.iter().map(|(_, value)| loader::Column::Real(vec![*value])).collect(),
+            columns: columns.iter().map(|(_, column)| column.clone()).collect(),
         };
-        last_values(&description, &recording) + &summary(&description, &recording)
+        table(&description, &recording, 2)
+    }
+
+    fn real(values: &[f64]) -> Column {
+        Column::Real(values.to_vec())
     }
 
     #[test]
     fn rounding_is_shown_as_nothing() {
-        assert!(!reported(&[("angle", 2.8e-17)]).contains("e-"));
-        assert!(reported(&[("angle", 1e-9)]).contains("5.73e-8"));
-        assert!(reported(&[("lone", 1.5e-17)]).contains("1.5e-17"));
-        let vector = reported(&[("torque[1]", -3e-18), ("torque[2]", 2e-5), ("torque[3]", 4e-16)]);
+        let last = |columns: &[(&str, f64)]| {
+            reported(&columns.iter().map(|(name, value)| (*name, real(&[*value]))).collect::<Vec<_>>())
+        };
+        assert!(!last(&[("angle", 2.8e-17)]).contains("e-"));
+        assert!(last(&[("angle", 1e-9)]).contains("5.73e-8"));
+        assert!(last(&[("lone", 1.5e-17)]).contains("1.5e-17"));
+        let vector = last(&[("torque[1]", -3e-18), ("torque[2]", 2e-5), ("torque[3]", 4e-16)]);
         assert!(vector.contains("0, 2e-5, 4e-16"), "{vector}");
-        let small = reported(&[("torque[1]", 3e-18), ("torque[2]", 2e-18)]);
+        let small = last(&[("torque[1]", 3e-18), ("torque[2]", 2e-18)]);
         assert!(small.contains("3e-18, 2e-18"), "{small}");
+        // Against what it was at any time.
+        assert!(!reported(&[("lone", real(&[4.0, 1e-15]))]).contains("e-15"));
+    }
+
+    #[test]
+    fn a_vector_has_one_row_with_least_greatest_and_last() {
+        let columns = [
+            ("torque[1]", real(&[1.0, 7.0, 3.0])),
+            ("torque[2]", real(&[-1.0, -2.0, 5.0])),
+            ("mode", Column::Integer(vec![1, 4, 4])),
+            ("more", real(&[0.0; 3])),
+        ];
+        let text = reported(&columns);
+        let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
+        assert!(rows.contains(&vec!["variable", "unit", "least", "greatest", "last"]), "{text}");
+        assert!(rows.contains(&vec!["torque", "1,", "-2", "7,", "5", "3,", "5"]), "{text}");
+        assert!(rows.contains(&vec!["mode", "nadir", "safe", "safe"]) && text.ends_with("1 more"), "{text}");
     }
 }

@@ -16,7 +16,7 @@ use crate::{
     mission::Mission,
     outcome::{self, Outcome},
     patience::Patience,
-    pointing,
+    pointing, variables,
 };
 
 /// Shown with the help.
@@ -78,6 +78,8 @@ pub struct Pack {
 
 /// Packs the FMU.
 pub fn run(arguments: &Pack) -> Outcome {
+    variables::warn_of_repeated("--set", &arguments.set);
+    variables::warn_of_repeated("--fix", &arguments.fix);
     let mission = arguments.mission.as_deref().map(Mission::read).transpose()?;
     let given = Parts {
         spacecraft: arguments.spacecraft.as_deref(),

@@ -3,11 +3,12 @@
 mod files;
 mod picture;
 
-use std::process::ExitCode;
+use std::{path::Path, process::ExitCode};
 
 use clap::{Args, Subcommand};
+use physics::spacecraft::Spacecraft;
 
-use crate::{home, outcome::Outcome, patience::Patience};
+use crate::{home, kind::FileKind, outcome::Outcome, patience::Patience};
 
 /// `heliotorque plan`.
 #[derive(Debug, Subcommand)]
@@ -28,10 +29,22 @@ pub struct SpinPlan {
     pub patience: Patience,
 }
 
+/// Refuses a file that is no spacecraft, and a spacecraft that does not spin.
+fn check_spinner(path: &Path) -> Result<(), String> {
+    let (file, text) = (path.display().to_string(), FileKind::Spacecraft.read(path)?);
+    if Spacecraft::from_toml(&file, &text).is_err() {
+        return Ok(());
+    }
+    Err(format!("{file}: found a three-axis spacecraft, allowed: a spinner: see `heliotorque new spinner`"))
+}
+
 /// Prints the plan, and writes its files where a folder is given; a plan that breaks a limit ends with status 1.
 pub fn run(arguments: &Plan) -> Outcome {
     let Plan::Spin(arguments) = arguments;
     let mut options = arguments.options.clone();
+    if let Some(path) = &options.spacecraft {
+        check_spinner(path)?;
+    }
     if options.spacecraft.is_none() && options.fmu.is_none() && options.campaign.is_none() {
         options.fmu = home::installed().map(|_| home::fmu("SpinPlant")).filter(|fmu| fmu.is_file());
     }

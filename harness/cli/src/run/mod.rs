@@ -16,22 +16,21 @@ use std::{
 };
 
 use files::Scratch;
-use loader::{Collector, Ended, RecordedPoints};
+use loader::{Collector, Ended, RecordedPoints, Times};
 
 use crate::{
     child::Bounds,
     interrupt::INTERRUPTED,
     low_orbit,
     outcome::Outcome,
-    output::{self, Judge, Known, Outputs},
-    pointing,
+    output::{self, Judge, Known, Origin, Outputs},
+    pointing, variables,
 };
 pub use child::{RunInChild, run as run_in_child};
 pub use options::Run;
 pub use settings::Settings;
-use simulated::Simulated;
-pub use simulated::{Assemble, assemble_into};
-use subject::Subject;
+pub use simulated::{Assemble, Simulated, assemble_into};
+pub use subject::Subject;
 
 /// Why a run ends before its stop.
 const LOST_READER: &str = "nobody reads the standard output any more";
@@ -71,9 +70,19 @@ impl Prepared {
         let settings = Settings::of(&subject, &simulated, input_copy.as_deref())?;
         subject.check_libraries()?;
         let described = subject.description();
-        let known = Known::of(&subject.parts(), described, &settings.sets, &settings.limits);
+        let known = Known::of(&subject.parts(), described, &settings.sets, &settings.limits)
+            .dated(simulated.zero_epoch_s(settings.times.start_s));
         let collector = Collector::new(described, &settings.positions);
-        let outputs = Outputs::open(&settings.requested, collector.recording(), &known, &simulated.reads())?;
+        let origin = Origin {
+            file: arguments.fmu.clone(),
+            fmus: subject.fmus(),
+            described,
+            times: settings.times,
+            sets: &settings.sets,
+            input: simulated.run.input.clone(),
+        };
+        let reads = simulated.reads();
+        let outputs = Outputs::open(&settings.requested, collector.recording(), &known, (&origin, &reads))?;
         let points = RecordedPoints::new(&settings.times, simulated.run.every)?.count();
         collector.fits(points)?;
         Ok(Self { simulated, subject, settings, points, outputs, input_copy, _scratch: [packed, copy] })
@@ -91,6 +100,17 @@ fn copied_input(arguments: &Run) -> io::Result<Option<(Scratch, PathBuf)>> {
     Ok(Some((scratch, path)))
 }
 
+/// A warning where the step is longer than the run.
+pub fn long_step(times: &Times) -> Option<String> {
+    let Times { start_s, stop_s, step_s } = *times;
+    let [run, step] = [stop_s - start_s, step_s].map(terminal::short);
+    (step_s > stop_s - start_s).then(|| {
+        format!(
+            "the step of {step} s is longer than the run of {run} s, which is one step: see --step and --stop"
+        )
+    })
+}
+
 /// Runs in a child process.
 pub fn run(arguments: &Run) -> Outcome {
     let prepared = Prepared::of(arguments)?;
@@ -99,6 +119,9 @@ pub fn run(arguments: &Run) -> Outcome {
     let described = subject.description();
     let mut warnings = low_orbit::warnings(described, &settings.sets);
     warnings.extend(pointing::warnings(described, &settings.sets));
+    warnings.extend(variables::repeated("--set", &arguments.set));
+    warnings.extend(long_step(&settings.times));
+    warnings.extend(subject.unread(&settings.sets));
     let Settings { times, positions, limits, requested, .. } = settings;
     if !arguments.quiet {
         warnings.iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));
@@ -159,8 +182,7 @@ pub fn run(arguments: &Run) -> Outcome {
         terminal::note(&format!("{steps} steps to {last} s in {:.3} s", elapsed.as_secs_f64()));
     }
     if !arguments.quiet || !judge.is_kept() {
-        let zero_s = simulated.mission.as_ref().and_then(|mission| Some(mission.epoch_s.as_ref()?.it));
-        let lines = judge.report(described, zero_s.map(|zero_s| zero_s - times.start_s));
+        let lines = judge.report(described, simulated.zero_epoch_s(times.start_s));
         lines.iter().for_each(|line| terminal::note(line));
     }
     match ended {

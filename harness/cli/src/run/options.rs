@@ -30,7 +30,7 @@ pub struct Run {
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub step: Option<f64>,
     /// Set a parameter, input or start value; repeatable. Takes units ('spacecraft.centerOfMass[3]=-2.54cm'),
-    /// names of options (attitude.source=guided), whole vectors (dump.threshold=4,4,4), dates for epochs
+    /// names of options (attitude.source=guided), whole vectors (dump.threshold=4,4,4; one value is that of every element), dates for epochs
     /// ('start.epoch=2011-04-06T00:00:00 UTC')
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
@@ -57,7 +57,7 @@ pub struct Run {
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub every: Option<f64>,
     /// Write what is recorded as CSV; - is the standard output. Until the run is complete the file is <CSV>.part; it
-    /// stays if the FMU fails, crashes or hangs
+    /// stays if the FMU fails, crashes or hangs. Beside it stands <CSV>.toml: units, epoch, FMU, GUID, values, versions
     #[arg(long, value_name = "CSV")]
     pub output: Option<PathBuf>,
     /// Draw what was recorded as SVG; - is the standard output

@@ -15,6 +15,7 @@ use super::{options::Run, subject::Subject};
 use crate::{
     assembly::{Parts, Source, assemble},
     child::{self, Bounds, Relayed, SMALL, path_option},
+    kind,
     mission::{Craft, Inputs, Mission},
     outcome::Outcome,
 };
@@ -65,6 +66,11 @@ impl Simulated {
         Ok(Self { run, mission: Some(mission) })
     }
 
+    /// The epoch of time 0 in s past J2000 TDB, where the mission begins at a date.
+    pub fn zero_epoch_s(&self, start_s: f64) -> Option<f64> {
+        Some(self.mission.as_ref()?.epoch_s.as_ref()?.it - start_s)
+    }
+
     /// Opens what flies; a mission's files are packed into a temporary FMU.
     pub fn open(&self) -> Result<(Subject, Option<Scratch>), Box<dyn Error>> {
         let Some(mission) = &self.mission else { return Ok((Subject::open(&self.run.fmu)?, None)) };
@@ -74,6 +80,7 @@ impl Simulated {
                     "--template is for a mission with a spacecraft: its FMU has its own library".into()
                 );
             }
+            kind::check_archive(path)?;
             return Ok((Subject::open(path)?, None));
         }
         let folder = self.packed(mission)?;

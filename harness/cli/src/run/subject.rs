@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use loader::{Fmu, Times};
+use loader::{Fmu, Times, Value};
 use model_description::Description;
 use systems::System;
 
@@ -66,11 +66,30 @@ impl Subject {
         }
     }
 
+    /// What the variables of each FMU begin with, and its description.
+    pub fn fmus(&self) -> Vec<(String, &Description)> {
+        match self {
+            Self::Fmu(fmu) => vec![(String::new(), fmu.description())],
+            Self::System(system) => {
+                let parts = system.parts().iter();
+                parts.map(|part| (format!("{}.", part.name), part.fmu.description())).collect()
+            }
+        }
+    }
+
     /// Its variables.
     pub fn description(&self) -> &Description {
         match self {
             Self::Fmu(fmu) => fmu.description(),
             Self::System(system) => system.description(),
+        }
+    }
+
+    /// What is connected and not read, a line for each option.
+    pub fn unread(&self, sets: &[(String, Value)]) -> Vec<String> {
+        match self {
+            Self::Fmu(_) => Vec::new(),
+            Self::System(system) => system.unread(sets).iter().map(ToString::to_string).collect(),
         }
     }
 

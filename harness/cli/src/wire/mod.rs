@@ -13,7 +13,7 @@ use loader::Fmu;
 use systems::{Experiment, SSD_FILE, Wired, Wiring};
 
 use crate::{
-    home,
+    home, kind,
     outcome::Outcome,
     values::{duration, span},
     variables,
@@ -23,7 +23,7 @@ use crate::{
 const EXAMPLE: &str = "\
 Example:
   heliotorque wire guidance=dist/Guidance.fmu plant=MyCraft.fmu > loop.ssp
-  heliotorque run loop.ssp --stop 1d --set plant.attitude.source=commanded";
+  heliotorque run loop.ssp --stop 1d --set guidance.pointing.scenario=nadir";
 
 /// `heliotorque wire`.
 #[derive(Debug, Args)]
@@ -75,6 +75,7 @@ pub fn run(arguments: &Wire) -> Outcome {
     let named: Vec<(String, PathBuf)> = arguments.fmus.iter().map(|text| named(text)).collect();
     let mut components = Vec::with_capacity(named.len());
     for (name, file) in &named {
+        kind::check_archive(file)?;
         let fmu = Fmu::open(file)?;
         if file.is_dir() {
             return Err(format!("{}: found a folder, allowed: an .fmu file", file.display()).into());
@@ -91,6 +92,7 @@ pub fn run(arguments: &Wire) -> Outcome {
         without_enumerations: arguments.without_enumerations,
         sets: arguments.set.clone(),
     };
+    variables::warn_of_repeated("--set", &arguments.set);
     let wired = systems::wire(&name, &components, experiment, &wiring)?;
 
     let mut entries = Entries::default();
@@ -137,12 +139,20 @@ fn report(wired: &Wired) -> String {
     })) {
         lines.push(format!("  {from} to {to}:{}", wrapped(&names)));
     }
+    if !wired.implied.is_empty() {
+        lines.push(
+            "set because the inputs are connected (FMPy reads no parameter sets: see `pack --set`)"
+                .to_owned(),
+        );
+        lines.extend(wired.implied.iter().map(|set| format!("  {set}")));
+    }
     lines.push(format!("{} inputs left open", wired.left.len()));
     for ((component, why), names) in grouped(
         wired.left.iter().map(|left| ((left.component.clone(), left.why.clone()), vector(&left.input))),
     ) {
         lines.push(format!("  {component}, {why}:{}", wrapped(&names)));
     }
+    lines.extend(wired.unread.iter().map(|unread| format!("warning: {unread}")));
     lines.join("\n")
 }
 

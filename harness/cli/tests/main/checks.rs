@@ -265,7 +265,8 @@ fn a_spacecraft_is_judged_by_the_model_it_is_for() {
     let orbiter = fs::read_to_string(format!("{RESOURCES}/messenger-thermal.toml")).unwrap();
     let text = check(&orbiter.replace("mass_kg = 700", "mass_kg = -700"));
     assert!(text.contains("1 problem, judged as a file of MomentumPlant"), "{text}");
-    assert!(check("").contains("judged as a file of MomentumPlant"));
+    assert!(check("name = \"A\"\n").contains("judged as a file of MomentumPlant"));
+    assert!(check("").contains("found an empty file, allowed: a spacecraft, "));
 }
 
 #[test]

@@ -17,6 +17,7 @@ mod new_files;
 mod packs;
 mod plans;
 mod runs;
+mod sizes;
 mod timelines;
 mod usage;
 

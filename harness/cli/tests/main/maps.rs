@@ -377,3 +377,49 @@ fn what_cannot_be_mapped_is_refused_by_name() {
     let refused = run(&[&["map", shown(&bare)][..], &template, &["--panel-offset", "50deg"]].concat(), 1);
     assert!(refused.contains("--panel-offset") && refused.contains("no panel"), "{refused}");
 }
+
+#[test]
+fn check_map_and_run_give_one_torque_at_1_au() {
+    let Some((_room, template)) = crate::template() else { return };
+    let scratch = tempfile::tempdir().unwrap();
+    let full = "../../fmu-src/resources/messenger-full.toml";
+    // Off the centre of mass, so that there is a torque about every axis to compare.
+    let off = fs::read_to_string(full).unwrap().replacen(
+        "center_of_mass_m = [0.0, 0.0, 0.0]",
+        "center_of_mass_m = [0.02, 0.0, -0.03]",
+        1,
+    );
+    for has_shadows in [false, true] {
+        let file = scratch.path().join("craft.toml");
+        let setting = format!(
+            "\n[start.DisturbanceTorque]\n\"shadowing.enabled\" = {has_shadows}\n[start.MomentumPlant]\n\"shadowing.enabled\" = {has_shadows}\n"
+        );
+        fs::write(&file, format!("{off}{setting}")).unwrap();
+        let checked = run(&["check", shown(&file), "--template", shown(&template)], 0);
+        let line = checked.lines().find(|line| line.contains("torque at 1 AU")).unwrap();
+        let numbers = line.split_once('(').unwrap().1.split_once(')').unwrap().0;
+        let checked: Vec<f64> = numbers.split(", ").map(|part| part.parse().unwrap()).collect();
+        assert_eq!(line.contains("by sunlight with shadows"), has_shadows, "{line}");
+        let map = run(
+            &[
+                "map",
+                shown(&file),
+                "--template",
+                shown(&template),
+                "--distance",
+                "1",
+                "--no-picture",
+                "--step",
+                "10deg",
+            ],
+            0,
+        );
+        let row = map.lines().find(|line| line.contains("Sun on -Y")).unwrap();
+        let mapped: Vec<f64> =
+            row.split_whitespace().skip(5).take(3).map(|part| part.parse().unwrap()).collect();
+        for (checked, mapped) in checked.iter().zip(&mapped) {
+            // Four significant digits here, 1e-4 uN m there.
+            assert!((checked - mapped).abs() < 1e-3 * mapped.abs() + 1e-4, "{line}: {row}");
+        }
+    }
+}

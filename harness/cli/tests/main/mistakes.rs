@@ -78,6 +78,11 @@ impl Mistake {
             }
             Some("Latin-1") => text.chars().map(|c| u8::try_from(u32::from(c)).unwrap()).collect(),
             Some("empty") => Vec::new(),
+            Some("comments") => {
+                text.lines().map(|line| format!("# {line}\n")).collect::<String>().into_bytes()
+            }
+            Some("binary") => text.replace(' ', "\0").into_bytes(),
+            Some("ZIP archive") => [b"PK\x03\x04", text.as_bytes()].concat(),
             Some("folder") => {
                 let _ = fs::remove_file(path);
                 return fs::create_dir(path).unwrap();
@@ -129,4 +134,60 @@ fn every_typical_mistake_is_reported_with_file_place_finding_and_remedy() {
     }
     assert!(reported >= 50, "{reported} mistakes");
     assert!(found == fs::read_to_string(RECORDED).unwrap(), "what is said has changed: {found}");
+}
+
+/// Whatever is expected, a file of another kind is named with what is done with it.
+#[test]
+fn every_command_says_what_the_wrong_file_is() {
+    let scratch = tempfile::tempdir().unwrap();
+    for kind in ["spacecraft", "spinner", "mission", "timeline"] {
+        let file = scratch.path().join(format!("{kind}.toml"));
+        run(&["new", kind, shown(&file)], 0);
+    }
+    fs::write(scratch.path().join("empty.toml"), "").unwrap();
+    fs::write(scratch.path().join("bytes.toml"), "a\0b").unwrap();
+    fs::write(scratch.path().join("of-file.toml"), "fmu = \"spacecraft.toml\"\nstop = 1\n").unwrap();
+    let a_mission = "found a mission, allowed: a spacecraft: run it: `heliotorque run mission.toml`";
+    let a_spacecraft = "`heliotorque pack --spacecraft spacecraft.toml` makes an FMU of it";
+    for (line, said) in [
+        ("plan spin --spacecraft mission.toml", a_mission),
+        ("plan spin --spacecraft spacecraft.toml", "found a three-axis spacecraft, allowed: a spinner"),
+        ("run spacecraft.toml", a_spacecraft),
+        (
+            "run timeline.toml",
+            "found a timeline, allowed: a mission: `timeline = \"timeline.toml\"` in a mission",
+        ),
+        ("run of-file.toml", a_spacecraft),
+        (
+            "run empty.toml",
+            "empty.toml: found an empty file, allowed: a mission: see `heliotorque new mission`",
+        ),
+        ("run bytes.toml", "bytes.toml: found a binary file, allowed: a text saved as UTF-8"),
+        ("info spacecraft.toml", a_spacecraft),
+        (
+            "info mission.toml",
+            "found a mission, allowed: an FMU or a system: run it: `heliotorque run mission.toml`",
+        ),
+        ("wire spacecraft.toml --output x.ssp", a_spacecraft),
+        ("check empty.toml", "empty.toml: found an empty file, allowed: a spacecraft, a spinner, a mission"),
+        ("pack --mission spacecraft.toml", a_spacecraft),
+    ] {
+        let output = heliotorque(&crate::words(line)).current_dir(scratch.path()).output().unwrap();
+        let found = text(&output);
+        assert_eq!(output.status.code(), Some(1), "{line}: {found}");
+        assert!(found.contains(said), "{line}: {found}");
+    }
+    let Some((packed, _)) = template() else { return };
+    let template = packed.path().join("template.fmu");
+    for (line, said) in [
+        ("pack --spacecraft mission.toml", a_mission),
+        ("pack --model Guidance --timeline mission.toml", "found a mission, allowed: a timeline: run it"),
+        ("pack --ephemeris timeline.toml", "found a timeline, allowed: an ephemeris: "),
+        ("map mission.toml", a_mission),
+    ] {
+        let line = format!("{line} --template {}", shown(&template));
+        let output = heliotorque(&crate::words(&line)).current_dir(scratch.path()).output().unwrap();
+        let found = text(&output);
+        assert!(output.status.code() == Some(1) && found.contains(said), "{line}: {found}");
+    }
 }

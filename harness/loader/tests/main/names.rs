@@ -59,6 +59,8 @@ fn a_vector_is_set_whole() {
     for ((name, value), (expected, number)) in all.iter().zip(expected) {
         assert_eq!((name.as_str(), value), (expected, &Value::Real(number)));
     }
+    let same: Vec<Value> = assigned("ship.arm=2cm").unwrap().into_iter().map(|(_, value)| value).collect();
+    assert_eq!(same, vec![Value::Real(0.02); 3]);
     assert!(assigned("ship.arm=1,2").unwrap_err().contains("2 values given for its 3 elements"));
 }
 

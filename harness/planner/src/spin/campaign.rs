@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use physics::attitude::angle_between_rad;
 use physics::spin::{geometry::L1Phases, nutation::allowed_nutation_rad, spinner::Spinner, train::Shape};
 
-use super::{PlanError, Row, Task, best, evaluate, paper_plan};
+use super::{PlanError, Row, Task, best, evaluate, uniform_plan};
 
 const DAY_S: f64 = 86_400.0;
 /// Samples of Sun and Earth between two manoeuvres.
@@ -31,7 +31,7 @@ pub struct Cadence {
     pub manoeuvring_s: f64,
     /// Science lost with those trains, in s.
     pub science_lost_s: f64,
-    /// Science lost with the paper's uniform plan, in s.
+    /// Science lost with the uniform plan, in s.
     pub science_lost_uniform_s: f64,
     /// Whether Earth and Sun stay within their limits.
     pub holds: bool,
@@ -114,7 +114,7 @@ pub fn campaign(
                 sized.case.spin.rate_rad_s,
                 sun_angle_rad,
             );
-            let uniform = paper_plan(&sized)?;
+            let uniform = uniform_plan(&sized)?;
             let plan = least_nutation(&sized, &uniform)?;
             seen.count += 1;
             seen.mean_rad += size_rad;

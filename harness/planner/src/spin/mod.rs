@@ -39,5 +39,5 @@ pub use options::{Options, TimingOption};
 pub use start_values::toml as start_table;
 pub use task::{Firing, Task, TaskLimits};
 pub use text::{Answer, plan};
-pub use trade::{Row, best, evaluate, frontier, paper_plan, timing_label, trade};
+pub use trade::{Row, best, evaluate, frontier, timing_label, trade, uniform_plan};
 pub use verification::{Verification, verify};

@@ -56,7 +56,7 @@ pub fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanE
     let _ = writeln!(
         text,
         "mean, most: sizes of turns; Earth, Sun: greatest angles, all in deg; kg of propellant\n\
-         turning, lost: time in turns and without science, uniform: that of the paper's plan, in h"
+         turning, lost: time in turns and without science, uniform: that of the uniform plan, in h"
     );
     let _ = match longest {
         Some(interval_s) if interval_s >= duration_s => {

@@ -126,7 +126,7 @@ pub struct Options {
         ]
     )]
     pub campaign: Option<f64>,
-    /// Rows of the trade table, the last of them the paper's plan; 0 for no table
+    /// Rows of the trade table, the last of them the uniform plan (equal pulses of one step, once a turn); 0 for no table
     #[arg(long, value_name = "COUNT", default_value_t = 12)]
     pub rows: usize,
     /// Write the plan here: burn.csv and burn.json (pulse by pulse), start.toml (start values), burn.svg (axis and nutation)

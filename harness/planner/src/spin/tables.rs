@@ -9,42 +9,42 @@ pub fn narrow(header: &[&str]) -> Table {
     terminal::table(header).narrow()
 }
 
-/// `count` rows of a trade: the best trains, and the paper's plan as the last; `None` for no rows. `keeps` says which keep the
+/// `count` rows of a trade: the best trains, and the uniform plan as the last; `None` for no rows. `keeps` says which keep the
 /// limits of the flags and those of the file that are `judged`.
 pub fn trade(
     rows: &[&Row],
-    paper: &Row,
+    uniform: &Row,
     count: usize,
     judged: &[Judged],
     keeps: impl Fn(&Row) -> bool,
 ) -> Option<String> {
-    let with_paper = count > 1;
-    let trains = if with_paper { count - 1 } else { count };
+    let with_uniform = count > 1;
+    let trains = if with_uniform { count - 1 } else { count };
     if trains == 0 {
         return None;
     }
     let mut table = narrow(&[
         "train", "n", "ms", "min", "left deg", "peak deg", "moved", "g", "saved h", "lost h", "limits",
     ]);
-    let is_paper = |row: &Row| row.train == paper.train;
-    let others: Vec<&Row> = rows.iter().copied().filter(|row| !(with_paper && is_paper(row))).collect();
+    let is_uniform = |row: &Row| row.train == uniform.train;
+    let others: Vec<&Row> = rows.iter().copied().filter(|row| !(with_uniform && is_uniform(row))).collect();
     for row in others.iter().take(trains) {
         table.add_row(cells(row, keeps(row), ""));
     }
-    if with_paper {
-        table.add_row(cells(paper, keeps(paper), " *"));
+    if with_uniform {
+        table.add_row(cells(uniform, keeps(uniform), " *"));
     }
     let mut text = table.to_string();
     text.push_str(
         "\ntrain: shape, turns from pulse to pulse; n pulses, the first of so many ms\n\
          left, peak: worst nutation after the last pulse, at any time\n\
-         saved, lost: damping time against the paper's plan, time without science",
+         saved, lost: damping time against the uniform plan, time without science",
     );
     let names = judged.iter().filter(|judged| judged.kept.is_some()).map(|judged| judged.limit);
     text.push_str("\nlimits: ");
     text.push_str(&names.collect::<Vec<_>>().join(", "));
-    if with_paper {
-        text.push_str("\n* the paper's plan: equal pulses of one step, once a turn");
+    if with_uniform {
+        text.push_str("\n* the uniform plan: equal pulses of one step, once a turn");
     }
     Some(text)
 }

@@ -4,7 +4,9 @@ use clap::Parser;
 use physics::attitude::Inertia;
 use physics::spin::{damper::Damper, geometry::L1Phases, spinner::Spinner, train::Shape};
 
-use super::{ACE, Options, Row, Task, best, campaign, frontier, longest_interval_s, paper_plan, plan, trade};
+use super::{
+    ACE, Options, Row, Task, best, campaign, frontier, longest_interval_s, plan, trade, uniform_plan,
+};
 
 #[derive(Parser)]
 struct Line {
@@ -42,7 +44,7 @@ fn chosen(task: &Task) -> Row {
 
 #[test]
 fn the_papers_plan_is_its_114_pulses_in_22_6_min() {
-    let row = paper_plan(&task("--angle 2")).unwrap();
+    let row = uniform_plan(&task("--angle 2")).unwrap();
     assert_eq!(row.train.count(), 114);
     assert!((row.duration_s / 60.0 - 22.6).abs() < 0.01);
     assert!((row.final_rad.to_degrees() - 0.0177).abs() < 1e-4);
@@ -73,8 +75,8 @@ fn the_best_plan_keeps_every_limit_and_no_other_that_does_has_less_nutation() {
 
 #[test]
 fn a_clock_pays_for_a_spin_rate_that_is_not_known() {
-    let sun = paper_plan(&task("--angle 2 --timing sun --rate-uncertainty-rpm 0.01")).unwrap();
-    let clock = paper_plan(&task("--angle 2 --timing clock --rate-uncertainty-rpm 0.01")).unwrap();
+    let sun = uniform_plan(&task("--angle 2 --timing sun --rate-uncertainty-rpm 0.01")).unwrap();
+    let clock = uniform_plan(&task("--angle 2 --timing clock --rate-uncertainty-rpm 0.01")).unwrap();
     // 114 turns at 0.2 % are a quarter turn: the arcs fan out over it.
     assert!(sun.moved_range_rad.0 > 0.99 * sun.moved_rad);
     assert!(clock.moved_range_rad.0 < 0.95 * clock.moved_rad);
@@ -238,7 +240,7 @@ fn the_line_of_the_best_plan_says_what_it_misses_and_how_much_it_nutates() {
     let line = text.lines().find(|line| line.starts_with("Least final nutation")).unwrap();
     assert_has(
         line,
-        &["moves 1.9676 of 2.0000 deg (-1.6 %)", "peak nutation 0.14135 deg", "8.0 times the paper's"],
+        &["moves 1.9676 of 2.0000 deg (-1.6 %)", "peak nutation 0.14135 deg", "8.0 times the uniform plan's"],
     );
 }
 

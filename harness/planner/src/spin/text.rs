@@ -15,7 +15,7 @@ use super::{
     judgement::{broken, judge},
     months::months,
     options::ACE,
-    paper_plan, start_values, tables, timing_label, trade, verify,
+    start_values, tables, timing_label, trade, uniform_plan, verify,
 };
 
 /// Ratios simulated through the FMU.
@@ -96,13 +96,13 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
         task.allowed_nutation_rad.to_degrees(),
         task.sun_angle_rad.to_degrees(),
     ));
-    let paper = paper_plan(&task)?;
+    let uniform = uniform_plan(&task)?;
     let beaten_by_none = frontier(&rows);
     let others = beaten_by_none.iter().copied().filter(|row| row.train != chosen.train);
     let shown: Vec<&Row> = std::iter::once(chosen).chain(others).collect();
     let keeps =
         |row: &Row| row.fits && broken_limits(spinner, &task, row).is_ok_and(|broken| broken.is_empty());
-    if let Some(table) = tables::trade(&shown, &paper, options.rows, &judged, keeps) {
+    if let Some(table) = tables::trade(&shown, &uniform, options.rows, &judged, keeps) {
         line(table);
     }
     line(format!(
@@ -112,7 +112,7 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
     ));
     line(format!(
         "Least final nutation{}: {}, {} pulses, {:.2} min; moves {:.4} of {:.4} deg ({:+.1} %), peak nutation \
-         {:.5} deg ({:.1} times the paper's plan's)",
+         {:.5} deg ({:.1} times the uniform plan's)",
         if broken.is_empty() { " within the limits" } else { ", with the fewest limits broken" },
         chosen.label(),
         chosen.train.count(),
@@ -121,7 +121,7 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
         task.angle_rad.to_degrees(),
         100.0 * (chosen.moved_rad / task.angle_rad - 1.0),
         chosen.peak_rad.to_degrees(),
-        chosen.peak_rad / paper.peak_rad,
+        chosen.peak_rad / uniform.peak_rad,
     ));
     if !broken.is_empty() {
         line(format!(

@@ -36,7 +36,7 @@ pub struct Row {
     pub propellant_kg: f64,
     /// Damping after it until nutation is what science bears, in s.
     pub damping_s: f64,
-    /// Damping that the paper's plan (equal pulses of one step, once a turn) would need to come down to this one's final
+    /// Damping that the uniform plan (equal pulses of one step, once a turn) would need to come down to this one's final
     /// nutation, in s; negative if this one is worse.
     pub damping_saved_s: f64,
     /// Time without science: damping, and the manoeuvre itself where its peak is more than science bears, in s.
@@ -75,7 +75,7 @@ impl Row {
 /// # Errors
 /// A thruster too coarse or too weak for the angle.
 pub fn trade(task: &Task) -> Result<Vec<Row>, PlanError> {
-    let reference = paper_plan(task)?;
+    let reference = uniform_plan(task)?;
     let mut rows = Vec::new();
     for turns in [0.5_f64, 1.0, 1.5, 2.0] {
         if !task.has_opposite && turns.fract() != 0.0 {
@@ -132,11 +132,11 @@ pub fn best(rows: &[Row]) -> Result<&Row, PlanError> {
     })
 }
 
-/// The paper's plan: equal pulses of one step, once a turn, as near to the angle as whole pulses come.
+/// The uniform plan, the paper's: equal pulses of one step, once a turn, as near to the angle as whole pulses come.
 ///
 /// # Errors
 /// A step of the thruster that is longer than half a turn, or too weak.
-pub fn paper_plan(task: &Task) -> Result<Row, PlanError> {
+pub fn uniform_plan(task: &Task) -> Result<Row, PlanError> {
     let (pulse_s, half_turn_s) = (task.resolution_s, 0.5 * task.case.spin.period_s());
     evaluate(&task.with_angle(task.angle_rad), Shape::Uniform, 1, 1.0)
         .map(|row| Row { fits: row.fits && task.meets_angle(row.moved_rad), ..row })

@@ -1,6 +1,7 @@
 //! Systems as they are read, refused and wired; FMUs are descriptions without a library.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
+mod loops;
 mod refused;
 mod support;
 mod wired;

@@ -153,3 +153,15 @@ pub fn ssp(folder: &Path, ssd: &str, files: &[(&str, &str)]) -> PathBuf {
     std::fs::write(&path, entries.to_zip().unwrap()).unwrap();
     path
 }
+
+/// Writes an SSP of these components.
+pub fn write(folder: &Path, ssd: &str, components: &[(String, loader::Fmu)]) -> PathBuf {
+    let mut entries = Entries::default();
+    entries.add("SystemStructure.ssd", ssd.as_bytes().to_vec()).unwrap();
+    for (name, fmu) in components {
+        entries.add(&format!("resources/{name}.fmu"), std::fs::read(fmu.source()).unwrap()).unwrap();
+    }
+    let path = folder.join("loop.ssp");
+    std::fs::write(&path, entries.to_zip().unwrap()).unwrap();
+    path
+}

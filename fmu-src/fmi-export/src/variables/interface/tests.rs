@@ -6,7 +6,9 @@ use model_description::{Causality, Variability};
 use super::*;
 use crate::dependencies::Dependencies;
 use crate::knowns;
-use crate::variables::{Declare, Integer, Item, Kind, Real, RealSpec, RealVector, Role, ScalarSpec};
+use crate::variables::{
+    Declare, EnumerationType, Integer, Item, Kind, Real, RealSpec, RealVector, Role, ScalarSpec,
+};
 
 struct Handles {
     input: RealVector<2>,
@@ -71,7 +73,7 @@ fn every_fact_enters() {
         }),
         ("type", |it, _, _| it.variables[2].kind = Kind::Enumeration("E")),
         ("enumeration", |it, _, _| {
-            it.enumerations.push(EnumerationType { name: "E", description: "D", items: &[] });
+            it.enumerations.push(EnumerationType { name: "E", description: "D", items: &[] }.into());
         }),
         ("start of an element", |it, _, h| {
             it.start.set_real(h.input.element(1), 1.0_f64.next_up());
@@ -103,7 +105,7 @@ fn every_fact_of_an_item_enters() {
         .iter()
         .map(|items| {
             let (mut interface, table, _) = declared();
-            interface.enumerations.push(EnumerationType { name: "E", description: "D", items });
+            interface.enumerations.push(EnumerationType { name: "E", description: "D", items }.into());
             digested(&interface, &table)
         })
         .collect();

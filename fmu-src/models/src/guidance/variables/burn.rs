@@ -2,13 +2,14 @@
 
 use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Variables};
 use physics::guidance::burn::delta_v;
-use physics::spacecraft::ThrusterSet;
 
 use crate::common::choices::ThrustRequest;
+use crate::guidance::setup::GuidanceSetup;
 
 /// A burn. It begins where the scenario burn is commanded, by input or by an entry of the timeline, and its time has come; a
 /// demotion of the mode or another scenario ends it.
 #[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
 pub struct BurnVariables {
     /// Velocity to add, without gravity, EME2000; with zero, and no profile, there is no direction: the last command stays.
     #[parameter(unit = "m/s", min = -1e6, max = 1e6, start = [0.0; 3])]
@@ -21,8 +22,11 @@ pub struct BurnVariables {
     /// commanded the spacecraft turns to the burn's first direction.
     #[parameter(unit = "s", min = -1e12, max = 1e12, start = 0.0)]
     pub start: Real,
-    /// Thrusters that are requested.
-    #[parameter(start = ThrustRequest(Some(ThrusterSet::C22)))]
+    /// Thrusters that are requested; the first set of the spacecraft file unless its start table says another.
+    #[parameter(
+        start = ThrustRequest::first(&setup.spacecraft),
+        items = ThrustRequest::sets(&setup.spacecraft)
+    )]
     pub thrusters: Choice<ThrustRequest>,
     /// Nominal direction of the thrust in the body frame, of any length. Zero: along the sum of the forces of the thrusters
     /// in the spacecraft file, or +Z where they have none.
@@ -65,9 +69,10 @@ pub struct BurnVariables {
 
 /// What the thrusters are reported.
 #[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
 pub struct ThrustVariables {
     /// Thrusters that are requested, from when the scenario burn is commanded until the burn is over.
-    #[output]
+    #[output(items = ThrustRequest::sets(&setup.spacecraft))]
     pub request: Choice<ThrustRequest>,
     /// Whether they are to thrust.
     #[output]

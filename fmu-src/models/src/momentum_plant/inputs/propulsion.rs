@@ -106,8 +106,10 @@ pub fn warn(
         && settings.thrusters.iter().all(|thruster| thruster.set != Some(set))
     {
         said.no_set = true;
+        let sets = &context.setup.spacecraft.thruster_sets;
+        let name = sets.get(usize::from(set.0)).map_or("an unknown set", String::as_str);
         context.log.warning(&format!(
-            "thrust.request asks for {set:?}, which no thruster of {} belongs to (key set of [[thrusters]]): nothing fires",
+            "thrust.request asks for {name}, which no thruster of {} belongs to (key set of [[thrusters]]): nothing fires",
             context.setup.spacecraft.name
         ));
     }

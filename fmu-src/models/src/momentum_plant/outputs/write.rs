@@ -7,7 +7,7 @@ use physics::environment::time;
 use physics::loads::Effect;
 use physics::momentum::DumpEvent;
 use physics::plant::{Configuration, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report};
-use physics::propulsion::hits_a_surface;
+use physics::propulsion::surface_in_plume;
 use physics::radiation::{TorquePolynomial, polynomial_valid};
 
 use super::super::inputs::wheel_array;
@@ -156,7 +156,7 @@ fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>)
                 let enabled = v.panel.get(panel).filter(|it| values.boolean(it.enabled));
                 enabled.map(|it| values.real(it.angle_actual))
             };
-            hits_a_surface(&context.setup.spacecraft, thruster, angle)
+            surface_in_plume(&context.setup.spacecraft, thruster, angle).is_some()
         };
         values.set_real(variables.thrust, thrust_n);
         values.set_integer(variables.pulses, i32::try_from(thrusters.pulses(k)).unwrap_or(i32::MAX));

@@ -67,9 +67,10 @@ pub struct TankVariables {
 /// A delta-v, in controlled and free flight. While it lasts the other thrusters control the attitude of controlled flight, the
 /// wheels go on as they are, and no dump begins.
 #[derive(Variables)]
+#[variables(setup = PlantSetup)]
 pub struct ThrustVariables {
     /// The thrusters that fire.
-    #[input(start = ThrustRequest(None))]
+    #[input(start = ThrustRequest(None), items = ThrustRequest::sets(&setup.spacecraft))]
     pub request: Choice<ThrustRequest>,
     /// Whether they fire.
     #[input(start = false)]

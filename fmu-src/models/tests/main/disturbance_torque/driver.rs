@@ -7,14 +7,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use client::{InProcess, NamedInstance};
 use fmi_export::{Entry, Library, Status};
 use model_description::Causality;
-use models::{DisturbanceTorque, MomentumPlant};
+use models::{DisturbanceTorque, Guidance, MomentumPlant};
 
 use super::super::random::RandomNumbers;
 use super::super::spacecraft::RADIATING;
 
-// The shipped file has start values for MomentumPlant.
-pub static LIBRARY: Library =
-    Library { entries: &[Entry::of::<DisturbanceTorque>(), Entry::of::<MomentumPlant>()] };
+/// The models of a spacecraft's file, whose `[start]` may have names of each.
+pub static LIBRARY: Library = Library {
+    entries: &[Entry::of::<DisturbanceTorque>(), Entry::of::<MomentumPlant>(), Entry::of::<Guidance>()],
+};
 
 /// What the spacecraft with shadows starts with.
 const SHADOWED: &str = r#"
@@ -66,7 +67,7 @@ impl Disturbance {
     pub fn of(name: &str, text: &str) -> Self {
         let folder = resources(name, text);
         let entry = LIBRARY.find("DisturbanceTorque").unwrap();
-        let description = entry.describe(Some("spacecraft.toml"), Some(text)).unwrap();
+        let description = LIBRARY.describe(entry, Some("spacecraft.toml"), Some(text)).unwrap();
         let location = format!("file://{}", folder.display());
         let fmu = InProcess::instantiate(&LIBRARY, &description.guid, Some(&location)).unwrap();
         Self(NamedInstance::new(fmu, description))

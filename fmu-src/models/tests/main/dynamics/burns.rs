@@ -37,7 +37,8 @@ impl Spacecraft {
                 "position_m = [0.0, 0.0, 0.0]\npropellant_kg = 50.0",
                 &format!("position_m = {:?}\npropellant_kg = 150.0", self.tank_m),
             );
-        let engine = thruster(self.nozzle_m, direction, force.norm(), "set = \"lva\"");
+        let engine =
+            thruster(self.nozzle_m, direction, force.norm(), "set = \"lva\"\nattitude_control = false");
         let text = format!("{text}{engine}{}", couples(""));
         NamedModel::<MomentumPlant>::with("burns.toml", &text)
     }

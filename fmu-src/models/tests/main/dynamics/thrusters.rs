@@ -1,5 +1,7 @@
 //! Thrusters of the controlled and free plant: pulses, dumps, delta-v, attitude control, tanks.
 
+use fmi_export::fmi2::description_of;
+use model_description::SimpleTypeKind;
 use models::MomentumPlant;
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -74,11 +76,11 @@ fn a_long_thrust_follows_the_rocket_equation() {
     // Four through the centre of mass: no torque.
     let main: String = [(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)]
         .iter()
-        .map(|&(x, y)| thruster([x, y, -1.0], [0.0, 0.0, 1.0], 22.0, "set = \"c22\""))
+        .map(|&(x, y)| thruster([x, y, -1.0], [0.0, 0.0, 1.0], 22.0, "set = \"own\""))
         .collect();
     let named = craft(&(couples("") + &main));
     let mut flight = fly(&named, &[FREE, DARK]);
-    flight.set("thrust.request", 2.0);
+    flight.set("thrust.request", 1.0);
     flight.set("thrust.command", 1.0);
     flight.set("thrust.stop", 600.123_456);
     for second in 1..=700 {
@@ -94,12 +96,49 @@ fn a_long_thrust_follows_the_rocket_equation() {
 }
 
 #[test]
+fn sets_are_the_files_own_in_its_order() {
+    let along = |axis: [f64; 3], force_n: f64, more: &str| thruster([0.0; 3], axis, force_n, more);
+    let thrusters = along([0.0, 0.0, 1.0], 5.0, "name = \"F1\"\nset = \"fine\"")
+        + &along([1.0, 0.0, 0.0], 100.0, "name = \"M1\"\nset = \"main\"\nattitude_control = false")
+        + &along([0.0, 0.0, 1.0], 7.0, "name = \"F2\"\nset = \"fine\"");
+    let (fine, main) = (("fine", Vector3::z() * 12.0), ("main", Vector3::x() * 100.0));
+    let spare = ("spare", Vector3::zeros());
+    for (order, sets) in [("", vec![fine, main]), ("sets = [\"spare\", \"main\"]", vec![spare, main, fine])] {
+        let text = format!("{order}{SIMPLE}{thrusters}{}", couples(""));
+        let described = description_of::<MomentumPlant>("simple.toml", &text).unwrap();
+        let requests = described.types.iter().find(|it| it.name == "ThrustRequest").unwrap();
+        let SimpleTypeKind::Enumeration { items, .. } = &requests.kind else { panic!("{requests:?}") };
+        let names: Vec<_> = items.iter().map(|item| (item.value, item.name.as_str())).collect();
+        let expected = std::iter::once("none").chain(sets.iter().map(|(name, _)| *name));
+        assert_eq!(names, (0..).zip(expected).collect::<Vec<_>>());
+        let meanings: Vec<_> = items.iter().filter_map(|item| item.description.as_deref()).collect();
+        assert!(
+            meanings.contains(&"Thrusters F1, F2.") && meanings.contains(&"Thrusters M1."),
+            "{meanings:?}"
+        );
+        let named = NamedModel::<MomentumPlant>::with("simple.toml", &text);
+        for (item, (name, force_n)) in (1..).zip(&sets) {
+            let mut flight = fly(&named, &[FREE, DARK]);
+            flight.set("thrust.request", f64::from(item));
+            flight.set("thrust.command", 1.0);
+            flight.step_to(1.0).unwrap();
+            assert!((flight.vector("force.thruster") - force_n).norm() < 1e-9, "{name}");
+        }
+    }
+}
+
+#[test]
 fn a_tank_runs_dry_and_blowdown_weakens() {
     let file =
         format!("{SIMPLE}ullage_m3 = 0.02\ndensity_kg_m3 = 1000.0\nallowed_pressure_pa = [6e5, 3e6]\n");
     let main: String = (0..2)
         .map(|k| {
-            thruster([0.0, if k == 0 { 0.5 } else { -0.5 }, -1.0], [0.0, 0.0, 1.0], 100.0, "set = \"lva\"")
+            thruster(
+                [0.0, if k == 0 { 0.5 } else { -0.5 }, -1.0],
+                [0.0, 0.0, 1.0],
+                100.0,
+                "set = \"lva\"\nattitude_control = false",
+            )
         })
         .collect();
     let named = NamedModel::<MomentumPlant>::with("blowdown.toml", &format!("{file}{}{main}", couples("")));

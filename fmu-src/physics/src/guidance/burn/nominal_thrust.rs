@@ -52,15 +52,16 @@ mod tests {
             valve: ValveTiming::default(),
             scatter: 0.0,
             set: Some(set),
+            attitude_control: true,
             tank: 0,
             at_pressure_pa: None,
             plume_half_angle_rad: 0.0,
         };
         spacecraft.thrusters = vec![
-            thruster([13.2, 0.0, 17.6], ThrusterSet::C22),
-            thruster([-13.2, 0.0, 17.6], ThrusterSet::C22),
-            thruster([0.0, 4.4, 0.0], ThrusterSet::Mono4),
-            thruster([0.0, -4.4, 0.0], ThrusterSet::Mono4),
+            thruster([13.2, 0.0, 17.6], ThrusterSet(1)),
+            thruster([-13.2, 0.0, 17.6], ThrusterSet(1)),
+            thruster([0.0, 4.4, 0.0], ThrusterSet(2)),
+            thruster([0.0, -4.4, 0.0], ThrusterSet(2)),
         ];
         spacecraft
     }
@@ -69,10 +70,10 @@ mod tests {
     fn a_set_pushes_along_the_sum_of_its_forces() {
         let spacecraft = spacecraft();
         let mass_kg = spacecraft.mass_properties.mass_kg;
-        let canted = NominalThrust::new(&spacecraft, Some(ThrusterSet::C22), Vector3::zeros());
+        let canted = NominalThrust::new(&spacecraft, Some(ThrusterSet(1)), Vector3::zeros());
         assert_relative_eq!(canted.direction_body, Vector3::z(), epsilon = 1e-15);
         assert_relative_eq!(canted.acceleration_m_s2, 35.2 / mass_kg, max_relative = 1e-14);
-        let sideways = NominalThrust::new(&spacecraft, Some(ThrusterSet::Mono4), -Vector3::y() * 3.0);
+        let sideways = NominalThrust::new(&spacecraft, Some(ThrusterSet(2)), -Vector3::y() * 3.0);
         assert_relative_eq!(sideways.direction_body, -Vector3::y(), epsilon = 1e-15);
         assert_relative_eq!(sideways.acceleration_m_s2, 4.4 / mass_kg, max_relative = 1e-14);
     }
@@ -80,7 +81,7 @@ mod tests {
     #[test]
     fn without_thrusters_or_sum_the_direction_is_plus_z() {
         let spacecraft = spacecraft();
-        for set in [None, Some(ThrusterSet::Lva), Some(ThrusterSet::Mono4)] {
+        for set in [None, Some(ThrusterSet(0)), Some(ThrusterSet(2))] {
             let nominal = NominalThrust::new(&spacecraft, set, Vector3::zeros());
             assert_eq!(nominal.direction_body, Vector3::z());
             assert_eq!(nominal.acceleration_m_s2, 0.0);

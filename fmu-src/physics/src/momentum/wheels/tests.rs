@@ -31,14 +31,41 @@ fn wheels_sum_to_the_momentum() {
 #[test]
 fn the_most_that_any_sharing_holds_is_that_of_the_closed_form() {
     // Across the normal (-2, 2, 0)/3 of two neighbours the other two reach 4 sqrt 3/9 each, and its size is 4/3.
-    let h = attainable_threshold_n_m_s(&pyramid(), &[8.0; 4]);
-    assert_relative_eq!(h, 16.0 / 3.0_f64.sqrt(), max_relative = 1e-14);
+    let held = WheelCapacity::of(&pyramid(), &[8.0; 4]).unwrap();
+    assert_relative_eq!(held.box_n_m_s, 16.0 / 3.0_f64.sqrt(), max_relative = 1e-14);
+    // By the smallest norm each wheel takes 3/4 of what lies along its axis, and the corner of the cube lies along one.
+    assert_relative_eq!(held.least_norm_box_n_m_s, 8.0 / (0.75 * 3.0_f64.sqrt()), max_relative = 1e-14);
     let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-    assert_eq!(attainable_threshold_n_m_s(&axes, &[2.0, 3.0, 4.0]), 2.0);
+    let held = WheelCapacity::of(&axes, &[2.0, 3.0, 4.0]).unwrap();
+    assert_eq!([held.sphere_n_m_s, held.box_n_m_s, held.least_norm_box_n_m_s], [2.0; 3]);
     // In a plane, along a line, none.
-    assert_eq!(attainable_threshold_n_m_s(&axes[..2], &[2.0; 2]), 0.0);
-    assert_eq!(attainable_threshold_n_m_s(&[Vector3::x(), Vector3::x()], &[2.0; 2]), 0.0);
-    assert_eq!(attainable_threshold_n_m_s(&[], &[]), 0.0);
+    assert_eq!(WheelCapacity::of(&axes[..2], &[2.0; 2]), None);
+    assert_eq!(WheelCapacity::of(&[Vector3::x(), Vector3::x()], &[2.0; 2]), None);
+    assert_eq!(WheelCapacity::of(&[], &[]), None);
+}
+
+#[test]
+fn the_sphere_is_the_least_reach_over_all_directions() {
+    let askew = [
+        Vector3::new(0.6, 0.8, 0.0),
+        Vector3::new(0.0, 0.6, 0.8),
+        Vector3::z(),
+        Vector3::new(0.8, 0.0, -0.6),
+    ];
+    let capacities = [2.0, 3.0, 1.0, 5.0];
+    // Every wheel at its capacity, whichever way reaches farther along a direction.
+    let reach = (0..400_000).map(|k| {
+        let (z, azimuth) = (1.0 - (f64::from(k) + 0.5) / 200_000.0, 2.399_963 * f64::from(k));
+        let across = (1.0 - z * z).sqrt();
+        let direction = Vector3::new(across * azimuth.cos(), across * azimuth.sin(), z);
+        (0..4).map(|wheel| capacities[wheel] * askew[wheel].dot(&direction).abs()).sum::<f64>()
+    });
+    let least = reach.fold(f64::INFINITY, f64::min);
+    let held = WheelCapacity::of(&askew, &capacities).unwrap();
+    // The least is a kink, and samples are 0.006 rad apart.
+    assert_relative_eq!(held.sphere_n_m_s, least, max_relative = 1e-2);
+    assert!(held.sphere_n_m_s <= least);
+    assert!(held.box_n_m_s <= held.sphere_n_m_s && held.least_norm_box_n_m_s <= held.box_n_m_s);
 }
 
 #[test]

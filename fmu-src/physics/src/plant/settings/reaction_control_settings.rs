@@ -29,7 +29,7 @@ impl ReactionControlSettings {
         &self,
         center_of_mass_body_m: &Vector3<f64>,
     ) -> Result<ThrusterSelection, SelectionError> {
-        let may_fire = |k: usize| self.thrusters[k].set != Some(ThrusterSet::Lva);
+        let may_fire = |k: usize| self.thrusters[k].attitude_control;
         ThrusterSelection::of_the_finest(
             &self.thrusters,
             may_fire,
@@ -48,8 +48,8 @@ impl ReactionControlSettings {
         center_of_mass_body_m: &Vector3<f64>,
     ) -> Result<ThrusterSelection, SelectionError> {
         let may_fire = |k: usize| {
-            let set = self.thrusters[k].set;
-            set != Some(ThrusterSet::Lva) && (burning.is_none() || set != burning)
+            let Thruster { set, attitude_control, .. } = self.thrusters[k];
+            attitude_control && (burning.is_none() || set != burning)
         };
         ThrusterSelection::new(&self.thrusters, may_fire, center_of_mass_body_m, Preference::LeastOnTime)
     }

@@ -78,7 +78,7 @@ impl Thrusters {
             && self.propellant.is_valid(tanks)
             && self.valves.iter().all(Valve::is_valid)
             && self.schedule.iter().all(PulseSchedule::is_valid)
-            && self.burn.is_none_or(|it| it.stop_s > f64::NEG_INFINITY)
+            && self.burn.is_none_or(|it| it.stop_s > f64::NEG_INFINITY && self.has_thrusters(it.set))
             && self.dump.as_ref().is_none_or(PulsedDump::is_valid)
             && self.load.is_valid()
     }
@@ -98,8 +98,7 @@ impl Thrusters {
     /// Takes the command of a delta-v that holds from `time_s` on; whether it changes what was going to happen.
     pub fn command_thrust(&mut self, command: &ThrustCommand, time_s: f64) -> bool {
         // A set without thrusters gives no delta-v.
-        let has_thrusters = |set| self.settings.thrusters.iter().any(|it| it.set == Some(set));
-        let requested = command.set.filter(|set| command.stop_s > due_s(time_s) && has_thrusters(*set));
+        let requested = command.set.filter(|set| command.stop_s > due_s(time_s) && self.has_thrusters(*set));
         let before = self.burn.map(|burn| (burn.set, burn.stop_s));
         if requested.map(|set| (set, command.stop_s)) == before {
             return false;
@@ -257,6 +256,10 @@ impl Thrusters {
             totals.delta_v_inertial_m_s += attitude.inertial_from_body(&acceleration) * (weight * span_s);
         }
         totals
+    }
+
+    fn has_thrusters(&self, set: ThrusterSet) -> bool {
+        self.settings.thrusters.iter().any(|thruster| thruster.set == Some(set))
     }
 
     /// The set that gives a delta-v at hand.

@@ -15,7 +15,6 @@ use crate::spacecraft::sun_sensors::HALF_FIELD_OF_VIEW_DEG;
 use crate::spacecraft::surface::SunshadeModel;
 use crate::spacecraft::tank::HYDRAZINE_KG_M3;
 use crate::spacecraft::thermal::EMISSIVITY_REFERENCE_TEMPERATURE_K;
-use crate::spacecraft::thruster::ThrusterSet;
 use crate::toml::{
     Emissivity, Finite, Fraction, HalfTurn, Kelvin, NonEmpty, NotNegative, Orbits, Positive, QuarterTurn,
     SpecificImpulse, SubtendedAngle, TurnEither, tables,
@@ -49,6 +48,10 @@ struct Description {
     wheels: Option<NonEmpty<WheelDescription>>,
     /// Propellant tanks.
     tanks: Option<NonEmpty<TankDescription>>,
+    /// Names of the sets of thrusters in the order of their items in `thrust.request` and `burn.thrusters`, where that is not
+    /// the order of their first thruster; sets without thrusters may be among them.
+    #[cfg_attr(feature = "schema", schemars(length(max = crate::toml::MOST_THRUSTERS)))]
+    sets: Option<NonEmpty<String>>,
     /// Thrusters; they need a tank.
     #[cfg_attr(feature = "schema", schemars(length(max = crate::toml::MOST_THRUSTERS)))]
     thrusters: Option<NonEmpty<ThrusterDescription>>,
@@ -265,9 +268,10 @@ struct ThrusterDescription {
     specific_impulse_s: SpecificImpulse,
     /// Name of the tank that feeds it; the first unless given.
     tank: Option<String>,
-    /// The delta-v that it takes part in: `lva`, `c22` or `mono4`; none unless given. Those of `lva` never control the
-    /// attitude.
-    set: Option<ThrusterSet>,
+    /// Name of the set whose delta-v it takes part in: letters and digits, the first a letter; none unless given.
+    set: Option<String>,
+    /// Whether it may control the attitude and dump momentum; a main engine does not.
+    attitude_control: bool = true,
     /// Shortest time for which its valve opens, in s.
     min_on_time_s: NotNegative = 0.0,
     /// Time over which the thrust rises linearly, in s.

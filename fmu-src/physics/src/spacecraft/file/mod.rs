@@ -9,6 +9,7 @@ pub(super) mod planet_map;
 pub(super) mod plates;
 pub(super) mod propulsion;
 pub(super) mod swinging;
+pub(super) mod thruster_sets;
 pub(super) mod windows;
 
 mod copies;

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::description::{TankDescription, ThrusterDescription};
 use super::names::Named;
+use super::thruster_sets::set_of;
 use crate::constants::STANDARD_GRAVITY_M_S2;
 use crate::spacecraft::tank::{Blowdown, Tank};
 use crate::spacecraft::thruster::{Thruster, ValveTiming};
@@ -37,10 +38,10 @@ pub(crate) fn tank(check: &mut Checker<'_>, at: &Place, index: usize, descriptio
     }
 }
 
-/// A thruster that one of `tanks` feeds.
+/// A thruster that one of `tanks` feeds, of one of `sets` or none.
 pub(crate) fn thruster(
     check: &mut Checker<'_>,
-    tanks: &[Tank],
+    (tanks, sets): (&[Tank], &[String]),
     at: &Place,
     index: usize,
     description: &ThrusterDescription,
@@ -62,7 +63,8 @@ pub(crate) fn thruster(
         flow_kg_s: force_n / (description.specific_impulse_s.0 * STANDARD_GRAVITY_M_S2),
         valve,
         scatter: description.scatter(),
-        set: description.set,
+        set: set_of(sets, description.set.as_deref()),
+        attitude_control: description.attitude_control(),
         tank: tank_of(check, tanks, at, description.tank.as_deref()),
         at_pressure_pa: description.at_pressure_pa.map(f64::from),
         plume_half_angle_rad: description.plume_half_angle_deg().to_radians(),

@@ -230,6 +230,7 @@ impl Builder<'_> {
                 valve,
                 scatter: entry.scatter.map_or(0.0, f64::from),
                 set: None,
+                attitude_control: true,
                 tank: 0,
                 at_pressure_pa: None,
                 plume_half_angle_rad: 0.0,

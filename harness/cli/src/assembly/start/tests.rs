@@ -34,6 +34,7 @@ fn the_table_is_made_or_added_to() {
     assert_eq!(made, format!("{rest}\n[start]\n\"ship.mass\" = 2.0\n\"arm[1]\" = 1.0\n\"arm[2]\" = 2.5\n"));
     let added = written("[start] # here\n\"ship.mass\" = 1 # old\n[mass]\n", &["ship.mass=2", "arm[2]=3"]);
     assert_eq!(added, "[start] # here\n\"ship.mass\" = 2.0 # old\n\"arm[2]\" = 3.0\n[mass]\n");
+    assert_eq!(written("[start]\n", &["arm=3"]), "[start]\n\"arm[1]\" = 3.0\n\"arm[2]\" = 3.0\n");
     let inline = written("start = { \"ship.mass\" = 1 }\n", &["ship.mass=2"]);
     assert_eq!(inline, "start = { \"ship.mass\" = 2.0 }\n");
     assert_eq!(written("\u{feff}name = \"A\"\n", &[]), "\u{feff}name = \"A\"\n");
@@ -74,7 +75,7 @@ fn what_no_variable_takes_is_refused() {
     for (set, expected) in [
         ("ship.mas=1", "near it: ship.mass"),
         ("ship.mass=10", "ship.mass: found 10, allowed: a number up to 9"),
-        ("arm=1", "1 values given for its 2 elements"),
+        ("arm=1,2,3", "3 values given for its 2 elements"),
         ("ship.mass", "name=value"),
     ] {
         let refused = with_values("", START, "Plant", &description(), &settings(&[set])).unwrap_err();

@@ -1,8 +1,8 @@
-//! Dump thresholds by the wheels' allocation: smallest norm, as the FMU shares momentum, and least greatest load.
+//! What wheels hold: inscribed sphere, guaranteed box, and the box of least-norm sharing, as the FMU shares momentum.
 
 use loader::{Error, Fmu, Instance};
 use nalgebra::Vector3;
-use physics::momentum::attainable_threshold_n_m_s;
+use physics::momentum::WheelCapacity;
 
 /// What the wheels guarantee.
 pub fn table(fmu: &Fmu, instance: &mut Instance) -> Result<String, Error> {
@@ -16,21 +16,28 @@ pub fn table(fmu: &Fmu, instance: &mut Instance) -> Result<String, Error> {
     distinct.dedup();
     let distinct: Vec<String> = distinct.into_iter().map(terminal::short).collect();
     let guaranteed_n_m_s = instance.get_real("dump.guaranteedThreshold")?;
-    let mut table =
-        terminal::table(&["wheel capacity [N.m.s]", "smallest norm [N.m.s]", "least greatest load [N.m.s]"]);
+    let held = WheelCapacity::of(&axes_body, &capacities_n_m_s);
+    let shown = |meaning: fn(WheelCapacity) -> f64| format!("{:.4}", held.map_or(0.0, meaning));
+    let mut table = terminal::table(&[
+        "wheel capacity [N.m.s]",
+        "inscribed sphere [N.m.s]",
+        "guaranteed box [N.m.s]",
+        "least-norm sharing [N.m.s]",
+    ]);
     table.add_row([
         distinct.join(", "),
+        shown(|held| held.sphere_n_m_s),
+        shown(|held| held.box_n_m_s),
         format!("{guaranteed_n_m_s:.4}"),
-        format!("{:.4}", attainable_threshold_n_m_s(&axes_body, &capacities_n_m_s)),
     ]);
     let thresholds_n_m_s = vector(instance, "dump.threshold")?;
     // Rounding of the axes does not count.
     let beyond = thresholds_n_m_s.max() > guaranteed_n_m_s * (1.0 + 1e-9);
     let verdict = if beyond { "more than these wheels guarantee" } else { "which these wheels guarantee" };
     Ok(format!(
-        "Dump threshold the {count} wheels guarantee: whatever body components stay within it, none saturates\n\
-         (0 unless they span all directions). By smallest norm, as the FMU shares momentum (dump.guaranteedThreshold),\n\
-         and by the allocation whose greatest load is least, the most any sharing allows.\n\
+        "What the {count} wheels hold (0 unless they span all directions): in any direction (inscribed sphere), on all body\n\
+         axes at once (guaranteed box, half its edge), and on all at once by least-norm sharing, as the FMU shares momentum\n\
+         (dump.guaranteedThreshold): what dump.threshold may be.\n\
          In use: dump.threshold = {} N.m.s, {verdict}.\n{table}",
         thresholds_n_m_s.as_slice().iter().copied().map(terminal::short).collect::<Vec<_>>().join(", "),
     ))

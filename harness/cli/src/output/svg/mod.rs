@@ -11,9 +11,10 @@ use loader::{Column, Recording};
 use model_description::{Causality, Description};
 
 use super::{
+    date_axis::DateAxis,
     exporter::Exporter,
     known::Known,
-    shown::{ANGLE_UNIT, ROUNDING, find},
+    shown::{ANGLE_UNIT, ROUNDING, Shown, find},
 };
 use crate::variables::vector;
 
@@ -119,9 +120,11 @@ fn chart(described: &Description, recording: &Recording, known: &Known) -> (Char
             groups.push(Group::new(vector, y_label, scale));
             groups.len() - 1
         });
+        groups[position].name_values(described, name, &series);
         groups[position].add(series, known, |value| factor * value + offset);
     }
     groups.iter_mut().for_each(Group::still);
+    groups.iter_mut().for_each(|group| group.panel.names.sort_by(|a, b| a.0.total_cmp(&b.0)));
     let constant = leave_out_constants(&mut groups);
     if !constant.is_empty() {
         terminal::note(&format!("constant, so not drawn: {}", constant.join(", ")));
@@ -138,8 +141,13 @@ fn chart(described: &Description, recording: &Recording, known: &Known) -> (Char
     let panels = groups.into_iter().map(|group| group.labelled(vectors > 1, known)).collect();
     let legend =
         if vectors > 1 { AXES[..3].iter().map(|axis| (*axis).to_owned()).collect() } else { Vec::new() };
-    let (title, x_label) = (described.model_name.clone(), format!("time [{time_unit}]"));
-    (Chart { title, x_label, panels, legend }, seconds)
+    let title = described.model_name.clone();
+    let dates = known.zero_epoch_s().zip(ends_s).and_then(|(zero_s, (first_s, last_s))| {
+        let DateAxis { ticks, label } = DateAxis::over(zero_s + first_s, zero_s + last_s)?;
+        Some((ticks.into_iter().map(|(at_s, text)| ((at_s - zero_s) / seconds, text)).collect(), label))
+    });
+    let (x_names, x_label) = dates.unwrap_or_else(|| (Vec::new(), format!("time [{time_unit}]")));
+    (Chart { title, x_label, panels, legend, x_names }, seconds)
 }
 
 /// Components of vectors and, with the scalar last, of quaternions.
@@ -168,6 +176,18 @@ impl Group {
         self.panel.marks.extend(known.limits(&series.label).iter().map(|value| shown(*value)));
         self.panel.is_whole &= series.mark == Mark::Steps;
         self.panel.series.push(series);
+    }
+
+    /// Names the values of an Enumeration that it takes.
+    fn name_values(&mut self, described: &Description, variable: &str, series: &Series) {
+        let shown = Shown::of(described, variable);
+        for item in shown.items {
+            let value = f64::from(item.value);
+            let is_taken = series.points.iter().any(|(_, taken)| *taken == value);
+            if is_taken && self.panel.names.iter().all(|(known, _)| *known != value) {
+                self.panel.names.push((value, item.name.clone()));
+            }
+        }
     }
 
     fn values(&self) -> impl Iterator<Item = f64> {
@@ -259,7 +279,11 @@ fn leave_out_constants(groups: &mut Vec<Group>) -> Vec<String> {
             .panel
             .series
             .iter()
-            .filter_map(|series| Some(terminal::short(series.points.first()?.1)))
+            .filter_map(|series| {
+                let value = series.points.first()?.1;
+                let name = group.panel.names.iter().find(|(named, _)| *named == value);
+                Some(name.map_or_else(|| terminal::short(value), |(_, name)| name.clone()))
+            })
             .collect();
         format!("{} = {}", group.panel.y_label, values.join(", "))
     });

@@ -4,10 +4,12 @@ use super::*;
 const SHIP: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="Ship" guid="{ship}">
   <CoSimulation modelIdentifier="Ship"/>
+  <TypeDefinitions><SimpleType name="Mode"><Enumeration><Item name="nadir" value="1"/><Item name="burn" value="2"/><Item name="safe" value="4"/></Enumeration></SimpleType></TypeDefinitions>
   <ModelVariables>
 <ScalarVariable name="push[1]" valueReference="0" causality="input"><Real start="0"/></ScalarVariable>
 <ScalarVariable name="push[2]" valueReference="1" causality="input"><Real start="0"/></ScalarVariable>
 <ScalarVariable name="angle" valueReference="2" causality="output"><Real unit="rad"/></ScalarVariable>
+<ScalarVariable name="mode" valueReference="3" causality="output" variability="discrete"><Enumeration declaredType="Mode"/></ScalarVariable>
   </ModelVariables>
   <ModelStructure/>
 </fmiModelDescription>"#;
@@ -142,4 +144,23 @@ fn vectors_and_counted_quantities_are_groups() {
     ] {
         assert_eq!(group(name), expected);
     }
+}
+
+#[test]
+fn enumerations_are_drawn_by_the_names_of_the_items_that_they_take() {
+    let chart = drawn_chart(&[("mode", Column::Integer(vec![4, 1, 4]))], &Known::default());
+    assert_eq!(chart.panels[0].names, [(1.0, "nadir".to_owned()), (4.0, "safe".to_owned())]);
+    assert!(
+        drawn_chart(&[("count", Column::Integer(vec![4, 1]))], &Known::default()).panels[0].names.is_empty()
+    );
+}
+
+#[test]
+fn a_flight_with_dates_has_them_on_its_axis() {
+    let zero_epoch_s = physics::environment::dates::epoch_s("2011-04-06 UTC").ok();
+    let columns = [("moves", Column::Real((0..=10).map(f64::from).collect()))];
+    let chart = drawn_chart(&columns, &Known::default().dated(zero_epoch_s));
+    assert_eq!(chart.x_label, "UTC, from 2011-04-06");
+    assert_eq!(chart.x_names[..2], [(0.0, "04-06".to_owned()), (1.0, "00:00:01".to_owned())]);
+    assert!(drawn_chart(&columns, &Known::default()).x_names.is_empty());
 }

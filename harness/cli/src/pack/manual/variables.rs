@@ -3,7 +3,10 @@
 use model_description::{Causality, Description, ScalarVariable, SimpleTypeKind, VariableKind, escape};
 
 use super::section::{Section, list};
-use crate::info;
+use crate::{
+    info,
+    variables::{self, Row},
+};
 
 /// The sections that list variables, in reading order.
 const SECTIONS: [(Causality, &str, &str); 6] = [
@@ -19,7 +22,8 @@ const SECTIONS: [(Causality, &str, &str); 6] = [
 pub fn sections(description: &Description) -> Vec<Section> {
     let listed = SECTIONS.into_iter().filter_map(|(causality, id, heading)| {
         let of_causality = description.variables.iter().filter(|it| it.causality == causality);
-        let rows: Vec<String> = of_causality.map(|variable| row(description, variable)).collect();
+        let of_causality: Vec<&ScalarVariable> = of_causality.collect();
+        let rows: Vec<String> = variables::rows(&of_causality).map(|it| row(description, &it)).collect();
         let header: &[&str] = match causality {
             Causality::Output => &["Name", "Unit", "Kind", "Meaning"],
             _ => &["Name", "Unit", "Start", "Kind", "Meaning"],
@@ -29,14 +33,15 @@ pub fn sections(description: &Description) -> Vec<Section> {
     listed.chain(options(description)).collect()
 }
 
-fn row(description: &Description, variable: &ScalarVariable) -> String {
+fn row(description: &Description, row: &Row<'_>) -> String {
+    let variable = row.first();
     let start = match variable.causality {
         Causality::Output => String::new(),
-        _ => format!("<td class=\"v\">{}</td>", escape(&info::start(description, variable))),
+        _ => format!("<td class=\"v\">{}</td>", escape(&row.joined(|it| info::start(description, it)))),
     };
     format!(
         "<tr><td class=\"n\">{}</td><td class=\"v\">{}</td>{start}<td>{}</td><td class=\"m\">{}</td></tr>\n",
-        escape(&variable.name),
+        escape(&row.name()),
         escape(&unit(description, variable)),
         escape(&kind(description, variable)),
         escape(variable.description.as_deref().unwrap_or_default()),

@@ -1,0 +1,159 @@
+//! What is sized: the FMU of a file, its spacecraft, and the values that it flies with.
+
+use files::Scratch;
+use loader::{Fmu, InputTable, Instance, Value};
+use model_description::Description;
+use nalgebra::Vector3;
+use physics::{bodies::Body, constants::DAY_S, spacecraft::Spacecraft};
+
+use super::options::Size;
+use crate::{
+    assembly::{Parts, Source, assemble, model_of},
+    instance,
+    kind::FileKind,
+    mission::{Craft as Given, Inputs},
+    run::{Run, Settings, Simulated, Subject},
+    variables::{assigned, item, start},
+};
+
+/// Why something could not be done.
+pub type Failure = Box<dyn std::error::Error>;
+
+/// The model that is flown.
+const MODEL: &str = "MomentumPlant";
+/// A year, in s.
+pub const YEAR_S: f64 = 365.25 * DAY_S;
+
+/// A spacecraft ready to fly.
+pub struct Craft {
+    pub fmu: Fmu,
+    pub spacecraft: Spacecraft,
+    pub sets: Vec<(String, Value)>,
+    pub inputs: Option<InputTable>,
+    pub start_s: f64,
+    pub span_s: f64,
+    /// Period of the orbit at the start, in s.
+    pub period_s: f64,
+    /// What sunlight is used for where there are downlinks, by item; the first is dumps alone.
+    pub strategies: Vec<String>,
+    // The FMU's folder and a mission's packed FMU, as long as they are in use.
+    _folders: [Option<Scratch>; 2],
+}
+
+impl Craft {
+    /// Reads the file, packs it and starts it once.
+    pub fn open(arguments: &Size) -> Result<Self, Failure> {
+        let text = files::read_text(&arguments.file)?;
+        let file = arguments.file.display().to_string();
+        let is_mission = FileKind::of(&text) == Some(FileKind::Mission);
+        let (fmu, mut sets, inputs, [start_s, stop_s], folders) = match is_mission {
+            false => {
+                FileKind::Spacecraft.check(&file, &text)?;
+                let source = Source::open(arguments.template.as_deref(), None)?;
+                let parts =
+                    Parts { spacecraft: Some(&arguments.file), model: Some(MODEL), ..Parts::default() };
+                let folder = Scratch::new()?;
+                assemble(&source, &parts)?.entries.write_below(folder.path())?;
+                let fmu = Fmu::open(folder.path())?;
+                (fmu, Vec::new(), None, [0.0, YEAR_S], [Some(folder), None])
+            }
+            true => {
+                let template = arguments.template.clone();
+                let run = Run { fmu: arguments.file.clone(), template, ..Run::default() };
+                let simulated = Simulated::of(&run)?;
+                let (subject, folder) = simulated.open()?;
+                let settings = Settings::of(&subject, &simulated, None)?;
+                let is_of_its_time = simulated.mission.as_ref().is_some_and(|mission| {
+                    let Given::Files { timeline, ephemeris, .. } = &mission.craft else { return false };
+                    let has_table = matches!(mission.inputs, Some(Inputs::File(_)));
+                    timeline.is_some() || ephemeris.is_some() || has_table || settings.inputs.is_some()
+                });
+                let start_s = settings.times.start_s;
+                let stop_s = if is_of_its_time { settings.times.stop_s } else { start_s + YEAR_S };
+                let Subject::Fmu(fmu) = subject else {
+                    return Err(format!("{file}: found a system, allowed: a spacecraft or an FMU").into());
+                };
+                (fmu, settings.sets, settings.inputs, [start_s, stop_s], [folder, None])
+            }
+        };
+        let description = fmu.description();
+        sets.extend(assigned(description, &arguments.set)?);
+        check_plant(&file, description, &sets)?;
+        let mut started = instance::started(&fmu, "size", start_s, &sets)?;
+        let period_s = period_s(item(description, &sets, "orbit.center"), &mut started)?;
+        drop(started);
+        let strategies = strategies(description, &sets, period_s);
+        Ok(Self {
+            spacecraft: spacecraft(&fmu)?,
+            sets,
+            inputs,
+            start_s,
+            span_s: arguments.duration.unwrap_or(stop_s - start_s),
+            period_s,
+            strategies,
+            fmu,
+            _folders: folders,
+        })
+    }
+
+    /// An instance that has just been initialised.
+    pub fn started(&self) -> Result<Instance, loader::Error> {
+        instance::started(&self.fmu, "size", self.start_s, &self.sets)
+    }
+
+    /// What a flight comes to, scaled to a year.
+    pub fn per_year(&self, of_flight: f64) -> f64 {
+        of_flight * YEAR_S / self.span_s
+    }
+}
+
+/// A plant whose momentum is guided; in controlled and free flight a year takes too long.
+fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) -> Result<(), Failure> {
+    if item(description, sets, "attitude.source").is_none() {
+        let found = &description.model_name;
+        return Err(format!("{file}: found the model {found}, allowed: {MODEL}").into());
+    }
+    match item(description, sets, "attitude.source") {
+        Some(source @ ("controlled" | "free")) => Err(format!(
+            "{file}: attitude.source: found {source}, allowed: guided, commanded (a year of wheels at 50 Hz takes hours): \
+             --set attitude.source=guided"
+        )
+        .into()),
+        _ => Ok(()),
+    }
+}
+
+/// Of the orbit at the start.
+fn period_s(center: Option<&str>, instance: &mut Instance) -> Result<f64, loader::Error> {
+    let is_center = |body: &&Body| center.is_some_and(|it| format!("{body:?}").eq_ignore_ascii_case(it));
+    let body = Body::ALL.iter().find(is_center);
+    let gm_m3_s2 = body.copied().unwrap_or(Body::Sun).data().gm_m3_s2;
+    Ok(core::f64::consts::TAU * (instance.get_real("orbit.semiMajorAxis")?.powi(3) / gm_m3_s2).sqrt())
+}
+
+/// Dumps alone, and what sunlight can do where guided flight has downlinks with science between them.
+fn strategies(description: &Description, sets: &[(String, Value)], period_s: f64) -> Vec<String> {
+    let number = |name: &str| start(description, sets, name).map_or(0.0, |value| value.to_f64());
+    let window_s = number("guided.downlinkEnd") - number("guided.downlinkStart");
+    let has_science = (0.0..number("guided.downlinkEvery") * period_s).contains(&window_s);
+    let is_guided = item(description, sets, "attitude.source") == Some("guided");
+    let names: &[&str] =
+        if has_science && is_guided { &["dumpsOnly", "reactive", "predictive"] } else { &["dumpsOnly"] };
+    names.iter().map(|name| (*name).to_owned()).collect()
+}
+
+/// The spacecraft that the FMU holds.
+fn spacecraft(fmu: &Fmu) -> Result<Spacecraft, Failure> {
+    let binary = fmu.binary()?;
+    let model = model_of(fmu, binary.as_ref())?;
+    let setup = binary.models()?.into_iter().find(|it| it.model == model).and_then(|it| it.setup_file);
+    let setup = setup.ok_or_else(|| format!("{model} holds no spacecraft"))?;
+    let text = files::read_text(&fmu.folder().join("resources").join(&setup))?;
+    Ok(Spacecraft::from_toml(&setup, &text).map_err(|error| error.to_string())?)
+}
+
+/// Three parameters or outputs of an instance.
+pub fn vector(instance: &mut Instance, name: &str) -> Result<Vector3<f64>, loader::Error> {
+    let [x, y, z] = [1, 2, 3].map(|axis| instance.get_real(&format!("{name}[{axis}]")));
+    Ok(Vector3::new(x?, y?, z?))
+}

@@ -1,0 +1,138 @@
+//! Flights through the FMU: one without dumps for momentum by source, others by threshold and strategy for dumps.
+
+use std::{
+    sync::atomic::AtomicBool,
+    time::{Duration, Instant},
+};
+
+use loader::{Options, Recording, Value};
+use nalgebra::Vector3;
+
+use super::craft::{Craft, Failure, vector};
+use crate::{interrupt, variables::selected};
+
+/// A component that is never reached.
+const NEVER_N_M_S: f64 = 1e9;
+/// Communication points of an orbit at least, and the longest step, in s.
+const POINTS_OF_ORBIT: f64 = 48.0;
+const LONGEST_STEP_S: f64 = 600.0;
+/// Step of a flight of which only dumps count, in s; one in which several fall is cut between them.
+const STEP_OF_DUMPS_S: f64 = 21_600.0;
+/// Rows that are kept of a flight at most.
+const ROWS: f64 = 60_000.0;
+/// Thresholds that are flown, as shares of the file's: its own first, then outward.
+const SCALES: [f64; 9] = [1.0, 2.0, 0.5, 1.41, 0.71, 4.0, 0.35, 2.83, 0.25];
+
+/// Dumps of one flight, scaled to a year.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dumped {
+    pub strategy: String,
+    /// By body axis.
+    pub threshold_n_m_s: Vector3<f64>,
+    pub dumps: f64,
+    /// Sum of the magnitudes, in N m s.
+    pub impulse_n_m_s: f64,
+    pub propellant_kg: f64,
+}
+
+/// What was flown, and what the time did not suffice for.
+pub struct Sweep {
+    pub dumped: Vec<Dumped>,
+    pub left_out: usize,
+}
+
+/// Momentum by source and in the body frame, without dumps.
+pub fn undumped(craft: &Craft, is_quiet: bool) -> Result<Recording, Failure> {
+    let patterns = ["momentum.*".to_owned()];
+    let record = selected(craft.fmu.description(), &patterns, loader::select_outputs)?;
+    let bar = terminal::progress(craft.span_s as u64, "s without dumps", is_quiet);
+    let recording = fly(craft, (Vector3::repeat(NEVER_N_M_S), "dumpsOnly"), record, &mut |time_s| {
+        bar.set_position((time_s - craft.start_s) as u64);
+    });
+    bar.finish_and_clear();
+    recording
+}
+
+/// Dumps by threshold and strategy, as far as the time suffices; those of the file's own threshold in any case.
+pub fn sweep(craft: &Craft, budget_s: f64, is_quiet: bool) -> Result<Sweep, Failure> {
+    let own_n_m_s = vector(&mut craft.started()?, "dump.threshold")?;
+    let until = Instant::now() + Duration::from_secs_f64(budget_s.clamp(0.0, 1e6));
+    let cases =
+        SCALES.iter().flat_map(|scale| craft.strategies.iter().map(move |strategy| (*scale, strategy)));
+    let cases: Vec<_> = cases.collect();
+    let bar = terminal::progress(cases.len() as u64, "flights", is_quiet);
+    let mut sweep = Sweep { dumped: Vec::new(), left_out: 0 };
+    for (index, (scale, strategy)) in cases.into_iter().enumerate() {
+        if index >= craft.strategies.len() && Instant::now() >= until {
+            sweep.left_out += 1;
+            continue;
+        }
+        sweep.dumped.push(dumped(craft, own_n_m_s * scale, strategy)?);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    sweep.dumped.sort_by(|a, b| a.threshold_n_m_s.x.total_cmp(&b.threshold_n_m_s.x));
+    Ok(sweep)
+}
+
+fn dumped(craft: &Craft, threshold_n_m_s: Vector3<f64>, strategy: &str) -> Result<Dumped, Failure> {
+    let patterns = ["dump.count", "dump.impulse", "propellant.used"].map(str::to_owned);
+    let record = selected(craft.fmu.description(), &patterns, loader::select_outputs)?;
+    let flown = fly(craft, (threshold_n_m_s, strategy), record, &mut |_| {})?;
+    let column = |name: &str| -> Result<Vec<f64>, Failure> {
+        Ok(flown.column(name).ok_or_else(|| format!("the FMU has no output {name}"))?.numbers())
+    };
+    let count = column("dump.count")?;
+    let [x, y, z] = [1, 2, 3].map(|axis| column(&format!("dump.impulse[{axis}]")));
+    let (x, y, z) = (x?, y?, z?);
+    let dumps = count.windows(2).enumerate().filter(|(_, pair)| pair[1] > pair[0]);
+    let impulses_n_m_s = dumps.map(|(k, _)| Vector3::new(x[k + 1], y[k + 1], z[k + 1]).norm());
+    let last = |values: &[f64]| values.last().copied().unwrap_or(0.0);
+    Ok(Dumped {
+        strategy: strategy.to_owned(),
+        threshold_n_m_s,
+        dumps: craft.per_year(last(&count)),
+        impulse_n_m_s: craft.per_year(impulses_n_m_s.sum()),
+        propellant_kg: craft.per_year(last(&column("propellant.used")?)),
+    })
+}
+
+/// One flight; every dump has a row of its own.
+fn fly(
+    craft: &Craft,
+    (threshold_n_m_s, strategy): (Vector3<f64>, &str),
+    record: Vec<usize>,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Recording, Failure> {
+    let description = craft.fmu.description();
+    let mut sets = craft.sets.clone();
+    for axis in 0..3 {
+        sets.push((format!("dump.threshold[{}]", axis + 1), Value::Real(threshold_n_m_s[axis])));
+    }
+    sets.extend(loader::parse_assignment(description, &format!("momentum.strategy={strategy}"))?);
+    let position = |name: &str| description.variables.iter().position(|variable| variable.name == name);
+    let counts_dumps = record.iter().any(|at| Some(*at) == position("dump.count"));
+    let step_s = if counts_dumps {
+        STEP_OF_DUMPS_S
+    } else {
+        LONGEST_STEP_S.min(craft.period_s / POINTS_OF_ORBIT).max(craft.span_s / ROWS)
+    };
+    let cancel = AtomicBool::new(false);
+    let mut told = |time_s: f64| {
+        cancel.store(interrupt::raised(), std::sync::atomic::Ordering::Relaxed);
+        progress(time_s);
+    };
+    let options = Options {
+        start_s: Some(craft.start_s),
+        stop_s: Some(craft.start_s + craft.span_s),
+        step_s: Some(step_s),
+        sets,
+        inputs: craft.inputs.as_ref(),
+        record: Some(record),
+        apart: position("dump.count").filter(|_| counts_dumps),
+        progress: Some(&mut told),
+        cancel: Some(&cancel),
+        ..Options::default()
+    };
+    Ok(loader::simulate(&craft.fmu, options)?.recording)
+}

@@ -1,0 +1,71 @@
+//! `heliotorque size`: momentum, dumps, propellant, wheels, slews and thrusters of a spacecraft or mission, by flights through
+//! its FMU.
+
+mod craft;
+mod flights;
+mod momentum;
+mod needs;
+mod options;
+mod picture;
+mod table;
+
+use std::{
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+use files::Destination;
+
+use crate::{interrupt, outcome::Outcome};
+use craft::{Craft, YEAR_S};
+use needs::{SlewLimits, Wheels};
+pub use options::Size;
+use table::Found;
+
+/// Sizes a spacecraft.
+pub fn run(arguments: &Size) -> Outcome {
+    let [picture, table_file] = destinations(arguments)?;
+    let craft = Craft::open(arguments)?;
+    let flown = flights::undumped(&craft, arguments.quiet)?;
+    let slews = SlewLimits::of(&craft)?.slews();
+    let gathered = |span_s: f64| momentum::greatest_range_n_m_s(&flown, span_s);
+    let found = Found {
+        sources: momentum::by_source(&flown, craft.period_s, craft.span_s / YEAR_S),
+        wheels: Wheels::needed(&craft, gathered, &slews, arguments.margin)?,
+        slews,
+        allocations: needs::allocations(&craft),
+        sweep: flights::sweep(&craft, arguments.budget, arguments.quiet)?,
+        margin: arguments.margin,
+    };
+    if interrupt::raised() {
+        return Ok(ExitCode::from(interrupt::INTERRUPTED));
+    }
+    let svg = picture::svg(&craft, &found.sweep)?;
+    let csv = table::csv(&craft, &found.sweep);
+    if !arguments.quiet {
+        terminal::print(&table::text(&craft, &found))?;
+    }
+    for ((destination, path), content) in [(picture, svg), (table_file, csv)] {
+        destination.fill(|file| file.write_all(content.as_bytes()))?;
+        if !arguments.quiet {
+            terminal::note(&format!("wrote {}", path.display()));
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Picture and table, looked at before anything is flown.
+fn destinations(arguments: &Size) -> Result<[(Destination, PathBuf); 2], String> {
+    let stem = arguments.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let folder = arguments.output.as_deref().unwrap_or(Path::new(""));
+    let inputs = [arguments.file.as_path()];
+    let open = |ending: &str| {
+        let path = folder.join(format!("{stem}-size.{ending}"));
+        Ok::<_, String>((Destination::open(&path, "--output", &inputs)?, path))
+    };
+    if let Some(folder) = &arguments.output {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| format!("{}: {error}: see --output", folder.display()))?;
+    }
+    Ok([open("svg")?, open("csv")?])
+}

@@ -1,0 +1,73 @@
+//! Options of `heliotorque size`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::{
+    patience::Patience,
+    values::{duration, span},
+};
+
+/// Shown with the help.
+const EXAMPLE: &str = "\
+Momentum is that of MomentumPlant, flown without dumps for momentum by source, then at several thresholds, by strategy. Secular is
+the slope from end to end, cyclic the greatest distance from that line. Wheels are sized for the momentum of the longest
+dump.requiredSpacing, of a slew about every axis at control.slewRate, and the margin.
+
+Example:
+  heliotorque size my.toml                                   writes my-size.svg and my-size.csv, prints the tables
+  heliotorque size mission.toml --margin 0.5 --output sizing";
+
+/// `heliotorque size`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub struct Size {
+    /// A spacecraft, as for `pack`, or a mission, as for `run`, whose start, values and inputs count
+    pub file: PathBuf,
+    /// The folder for picture and table, in which it makes NAME-size.svg and NAME-size.csv; otherwise this one
+    #[arg(long, short, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// What wheels are larger by than the momentum and torque that they have to take
+    #[arg(long, value_name = "SHARE", value_parser = margin, allow_hyphen_values = true, default_value = "0.3")]
+    pub margin: f64,
+    /// How long each flight is; otherwise a year, with a mission that has inputs, timeline or ephemeris its own time. What is
+    /// told per year is scaled
+    #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
+    pub duration: Option<f64>,
+    /// Time for which further thresholds are flown; those that it does not come to are left out, and it says so
+    #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true, default_value = "45s")]
+    pub budget: f64,
+    /// The FMU whose library reads the file, as for `pack`; otherwise the installed program's, or dist/MomentumPlant.fmu
+    #[arg(long, value_name = "FMU")]
+    pub template: Option<PathBuf>,
+    /// Set a parameter of MomentumPlant; repeatable, written as for `run`
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// Print no table
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// How long it waits
+    #[command(flatten)]
+    pub patience: Patience,
+}
+
+fn margin(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(margin) if (0.0..=10.0).contains(&margin) => Ok(margin),
+        _ => Err("allowed is a share from 0 to 10: 0.3".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_margin_is_a_share() {
+        assert_eq!(margin("0.3"), Ok(0.3));
+        for bad in ["-0.1", "11", "30%", "nan", ""] {
+            assert!(margin(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! The tables on the screen, and the CSV of dumps by threshold.
+
+use loader::csv::Real;
+use physics::constants::DAY_S;
+
+use super::{
+    craft::Craft,
+    flights::{Dumped, Sweep},
+    momentum::SourceRow,
+    needs::{Allocation, Slew, Wheels, capacity_n_m_s},
+};
+
+/// What was found, but for pictures.
+pub struct Found {
+    pub sources: Vec<SourceRow>,
+    pub sweep: Sweep,
+    pub slews: [Slew; 3],
+    pub wheels: Wheels,
+    pub allocations: Result<Vec<Allocation>, String>,
+    pub margin: f64,
+}
+
+/// All of it.
+pub fn text(craft: &Craft, found: &Found) -> String {
+    let parts = [
+        sources(craft, &found.sources),
+        dumps(craft, &found.sweep),
+        wheels(craft, found),
+        slews(&found.slews),
+        allocations(&found.allocations),
+    ];
+    parts.join("\n\n")
+}
+
+fn sources(craft: &Craft, rows: &[SourceRow]) -> String {
+    let mut table = terminal::table(&[
+        "momentum.* [N.m.s]",
+        "secular per orbit: X, Y, Z",
+        "cyclic in an orbit",
+        "secular per year",
+        "cyclic in the flight",
+    ]);
+    for row in rows.iter().filter(|row| !is_nothing(row)) {
+        table.add_row([
+            row.source.clone(),
+            triple(row.secular_per_orbit_n_m_s),
+            triple(row.cyclic_per_orbit_n_m_s),
+            triple(row.secular_per_year_n_m_s),
+            triple(row.cyclic_per_year_n_m_s),
+        ]);
+    }
+    format!(
+        "{}: momentum without dumps, {} of flight, orbits of {}; body frame, by momentum.convention, momentum.inertial in EME2000\n{table}",
+        craft.spacecraft.name,
+        time(craft.span_s),
+        time(craft.period_s)
+    )
+}
+
+/// Sources that are off.
+fn is_nothing(row: &SourceRow) -> bool {
+    let all = row.secular_per_year_n_m_s.iter().chain(&row.cyclic_per_year_n_m_s);
+    all.chain(&row.cyclic_per_orbit_n_m_s).all(|part| *part == 0.0)
+}
+
+fn dumps(craft: &Craft, sweep: &Sweep) -> String {
+    let mut table = terminal::table(&[
+        "strategy",
+        "dump.threshold [N.m.s]",
+        "capacity of each wheel [N.m.s]",
+        "dumps a year",
+        "impulse a year [N.m.s]",
+        "propellant a year [kg]",
+    ]);
+    for it in &sweep.dumped {
+        table.add_row([
+            it.strategy.clone(),
+            triple(it.threshold_n_m_s.into()),
+            short(capacity(craft, it)),
+            short(it.dumps),
+            short(it.impulse_n_m_s),
+            short(it.propellant_kg),
+        ]);
+    }
+    let left_out = match sweep.left_out {
+        0 => String::new(),
+        count => format!("\n{count} more flights were left out: see --budget"),
+    };
+    format!(
+        "Dumps by threshold; the wheels' capacity is that whose least-norm sharing holds it\n{table}{left_out}"
+    )
+}
+
+/// Of each wheel, by the greatest threshold.
+pub fn capacity(craft: &Craft, dumped: &Dumped) -> f64 {
+    capacity_n_m_s(&craft.spacecraft, dumped.threshold_n_m_s.max())
+}
+
+fn wheels(craft: &Craft, found: &Found) -> String {
+    let wheels = &found.wheels;
+    let mut table = terminal::table(&["wheels", "capacity of each [N.m.s]", "torque of each [N.m]"]);
+    for it in &wheels.geometries {
+        table.add_row([it.name.clone(), short(it.capacity_n_m_s), short(it.torque_n_m)]);
+    }
+    let own = craft.spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s).reduce(f64::min);
+    let own = own.map_or_else(|| "none".to_owned(), |capacity| format!("{} N.m.s each", short(capacity)));
+    format!(
+        "Wheels for {} N.m.s and {} N.m about every axis at once: {} N.m.s gathered in {} (dump.requiredSpacing, at least an \
+         orbit) in the room between dumps, a slew, and a margin of {}; the file has {own}\n{table}",
+        short(wheels.needed_n_m_s),
+        short(wheels.needed_n_m),
+        triple(wheels.gathered_n_m_s),
+        time(wheels.spacing_s),
+        short(found.margin)
+    )
+}
+
+fn slews(slews: &[Slew; 3]) -> String {
+    let mut table =
+        terminal::table(&["slew about", "torque [N.m]", "momentum [N.m.s]", "90 deg [s]", "180 deg [s]"]);
+    for slew in slews {
+        let [quarter, half] =
+            slew.times_s.map(|time_s| if time_s.is_finite() { short(time_s) } else { "no limit".to_owned() });
+        table.add_row([
+            slew.axis.to_owned(),
+            short(slew.torque_n_m),
+            short(slew.momentum_n_m_s),
+            quarter,
+            half,
+        ]);
+    }
+    format!("Slews from rest to rest by control.slewRate and control.slewAcceleration\n{table}")
+}
+
+fn allocations(found: &Result<Vec<Allocation>, String>) -> String {
+    let rows = match found {
+        Ok(rows) => rows,
+        Err(reason) => return reason.clone(),
+    };
+    let mut table = terminal::table(&[
+        "torque about",
+        "lever [m]",
+        "least impulse [N.m.s]",
+        "propellant [g per N.m.s]",
+        "seconds of full thrust for 1 N.m.s",
+    ]);
+    for row in rows {
+        let shares = row.shares.iter().map(|(name, on_time_s)| format!("{name} {}", short(*on_time_s)));
+        table.add_row([
+            row.sense.clone(),
+            short(row.lever_m),
+            short(row.least_impulse_n_m_s),
+            short(row.propellant_g_per_n_m_s),
+            shares.collect::<Vec<_>>().join(", "),
+        ]);
+    }
+    format!(
+        "Thrusters as dumps use them: the weakest that turn both ways, couples where there are some\n{table}"
+    )
+}
+
+/// Dumps by threshold and strategy, SI, as CSV.
+pub fn csv(craft: &Craft, sweep: &Sweep) -> String {
+    let mut text = String::from(
+        "strategy,threshold_x_n_m_s,threshold_y_n_m_s,threshold_z_n_m_s,wheel_capacity_n_m_s,dumps_per_year,\
+         impulse_n_m_s_per_year,propellant_kg_per_year\n",
+    );
+    for it in &sweep.dumped {
+        let [x, y, z]: [f64; 3] = it.threshold_n_m_s.into();
+        let numbers = [x, y, z, capacity(craft, it), it.dumps, it.impulse_n_m_s, it.propellant_kg];
+        let numbers: Vec<String> = numbers.into_iter().map(|value| Real(value).to_string()).collect();
+        text.push_str(&format!("{},{}\n", it.strategy, numbers.join(",")));
+    }
+    text
+}
+
+/// Four significant digits, rounding noise as 0.
+fn short(value: f64) -> String {
+    if value.abs() < 1e-9 {
+        return "0".to_owned();
+    }
+    terminal::short(format!("{value:.3e}").parse().unwrap_or(value))
+}
+
+fn triple(values: [f64; 3]) -> String {
+    values.map(short).join(", ")
+}
+
+/// In the largest unit that it has more than two of.
+fn time(span_s: f64) -> String {
+    const UNITS: [(f64, &str); 3] = [(DAY_S, "d"), (3600.0, "h"), (60.0, "min")];
+    let unit = UNITS.into_iter().find(|(unit_s, _)| span_s >= 2.0 * unit_s);
+    let (unit_s, unit) = unit.unwrap_or((1.0, "s"));
+    format!("{} {unit}", short(span_s / unit_s))
+}

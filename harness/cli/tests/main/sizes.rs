@@ -1,0 +1,135 @@
+//! `size`: momentum by source as a flight of the same FMU gives it, dumps that fall with capacity, wheels by hand, refusals.
+
+use std::fs;
+
+use crate::{built, heliotorque, run, says, shown, text};
+
+const MESSENGER_FULL: &str = "../../fmu-src/resources/messenger-full.toml";
+
+/// Rows of a CSV by column.
+fn table(path: &std::path::Path) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(path).unwrap();
+    text.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn a_spacecraft_is_sized_by_flights_of_its_fmu() {
+    let Some(dist) = built("HELIOTORQUE_DIST") else { return };
+    let template = dist.join("MomentumPlant.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let folder = scratch.path().join("sizing");
+    let shown_template = shown(&template);
+    let arguments = [
+        "size",
+        MESSENGER_FULL,
+        "--template",
+        shown_template,
+        "--duration",
+        "90d",
+        "--output",
+        shown(&folder),
+    ];
+    let text = run(&[&arguments[..], &["--budget", "0s"]].concat(), 0);
+    says(
+        &text,
+        &["dumpsOnly", "predictive", "24 more flights were left out", "Slews from rest to rest", "+X", "-Z"],
+    );
+    let rows = table(&folder.join("messenger-full-size.csv"));
+    assert_eq!(rows.len(), 3, "each strategy at the file's own threshold: {rows:?}");
+    assert!(fs::read_to_string(folder.join("messenger-full-size.svg")).unwrap().starts_with("<svg"));
+
+    // The same flight by `run`: dumps and propellant are those of 90 days, scaled to a year.
+    let fmu = scratch.path().join("full.fmu");
+    run(&["pack", "--spacecraft", MESSENGER_FULL, "--template", shown_template, "--output", shown(&fmu)], 0);
+    let output = scratch.path().join("run.csv");
+    run(
+        &[
+            "run",
+            shown(&fmu),
+            "--stop",
+            "90d",
+            "--record",
+            "dump.count,propellant.used",
+            "--output",
+            shown(&output),
+        ],
+        0,
+    );
+    let flown = table(&output);
+    let last: Vec<f64> = flown.last().unwrap().iter().map(|cell| cell.parse().unwrap()).collect();
+    let own: Vec<f64> = rows[0][5..].iter().map(|cell| cell.parse().unwrap()).collect();
+    assert!((own[0] - last[1] * 365.25 / 90.0).abs() < 1e-9, "{own:?}, {last:?}");
+    assert!((own[2] - last[2] * 365.25 / 90.0).abs() < 1e-9 * own[2].max(1.0), "{own:?}, {last:?}");
+    // The file's wheels hold 6.158 N m s of 8 by least-norm sharing.
+    let capacity: f64 = rows[0][4].parse().unwrap();
+    assert!(
+        (capacity - rows[0][1].parse::<f64>().unwrap() * 0.75 * 3.0_f64.sqrt()).abs() < 1e-4,
+        "{capacity}"
+    );
+}
+
+#[test]
+fn more_capacity_takes_fewer_dumps_and_more_margin_larger_wheels() {
+    let Some(dist) = built("HELIOTORQUE_DIST") else { return };
+    let template = dist.join("MomentumPlant.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let sized = |margin: &str| {
+        let folder = scratch.path().join(margin);
+        let text = run(
+            &[
+                "size",
+                "../../docs/src/tutorial/venus.toml",
+                "--template",
+                shown(&template),
+                "--duration",
+                "60d",
+                "--margin",
+                margin,
+                "--output",
+                shown(&folder),
+                "--set",
+                "guided.downlinkEvery=1",
+            ],
+            0,
+        );
+        (text, table(&folder.join("venus-size.csv")))
+    };
+    let (small, rows) = sized("0");
+    let of_dumps_only: Vec<(f64, f64)> = rows
+        .iter()
+        .filter(|row| row[0] == "dumpsOnly")
+        .map(|row| (row[1].parse().unwrap(), row[5].parse().unwrap()))
+        .collect();
+    assert!(
+        of_dumps_only.windows(2).all(|pair| pair[0].0 < pair[1].0 && pair[0].1 >= pair[1].1),
+        "{of_dumps_only:?}"
+    );
+    let capacity = |text: &str| -> f64 {
+        let line = text.lines().find(|line| line.contains("three along X, Y, Z")).unwrap();
+        line.split_whitespace().nth(5).unwrap().parse().unwrap()
+    };
+    let (large, _) = sized("0.5");
+    assert!((capacity(&large) / capacity(&small) - 1.5).abs() < 1e-3, "{small}\n{large}");
+}
+
+#[test]
+fn what_cannot_be_sized_is_refused_by_name() {
+    let Some(dist) = built("HELIOTORQUE_DIST") else { return };
+    let template = dist.join("MomentumPlant.fmu");
+    let scratch = tempfile::tempdir().unwrap();
+    let refused = |file: &str, more: &[&str], part: &str| {
+        let arguments =
+            [&["size", file, "--template", shown(&template), "--output", shown(scratch.path())], more]
+                .concat();
+        let output = heliotorque(&arguments).output().unwrap();
+        let text = text(&output);
+        assert!(!output.status.success() && text.contains(part), "{text}");
+    };
+    refused(
+        MESSENGER_FULL,
+        &["--set", "attitude.source=controlled"],
+        "attitude.source: found controlled, allowed: guided",
+    );
+    refused(MESSENGER_FULL, &["--margin", "-1"], "allowed is a share from 0 to 10");
+    refused("../../fmu-src/resources/examples/timeline.toml", &[], "found a timeline, allowed: a spacecraft");
+}
