@@ -207,6 +207,23 @@ fn ephemeris_source(
     })
 }
 
+/// The orbit phase's own guidance on this orbit, unmanaged.
+pub fn guidance_law(context: &Plan<'_>, values: &Values, orbit: &TwoBodyOrbit) -> Result<Guided, Failure> {
+    let variables = context.variables;
+    let is_planet = values.choice(variables.orbit.center).0.is_planet();
+    let period_s = if is_planet { orbit.period_s() } else { f64::INFINITY };
+    let keep_in = KeepIn {
+        axis_body: Vector3::new(0.0, -1.0, 0.0),
+        azimuth_rad: values.real(variables.keep_in.azimuth),
+        elevation_rad: values.real(variables.keep_in.elevation),
+        method: KeepInMethod::Nearest,
+    };
+    let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
+    let camera = MdisRange::default();
+    let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, camera)?;
+    Ok(variables.guided.by_shares(context, values, &context.setup.windows, law))
+}
+
 fn attitude(
     context: &Plan<'_>,
     values: &Values,
@@ -215,21 +232,7 @@ fn attitude(
 ) -> Result<plant::AttitudeSource, Failure> {
     let variables = context.variables;
     let guided = || {
-        let period_s = if values.choice(variables.orbit.center).0.is_planet() {
-            orbit.period_s()
-        } else {
-            f64::INFINITY
-        };
-        let keep_in = KeepIn {
-            axis_body: Vector3::new(0.0, -1.0, 0.0),
-            azimuth_rad: values.real(variables.keep_in.azimuth),
-            elevation_rad: values.real(variables.keep_in.elevation),
-            method: KeepInMethod::Nearest,
-        };
-        let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
-        let camera = MdisRange::default();
-        let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, camera)?;
-        let law = variables.guided.by_shares(context, values, &context.setup.windows, law);
+        let law = guidance_law(context, values, orbit)?;
         let management = &variables.momentum.management;
         let (managed, choice) =
             (values.choice(management.strategy).0 != Strategy::DumpsOnly, state.flight.sun_choice());
