@@ -105,12 +105,13 @@ fn resource_folders_of_any_name_are_found() {
 fn a_spacecraft_file_that_cannot_be_used_is_named_by_file_and_key() {
     let good = MomentumPlant::DEFAULT_SETUP;
     let damaged = &good[..good.find("[sunshade.cylinder]").unwrap() + 8];
+    let place_of_damage = format!("spacecraft.toml:{}", damaged.lines().count());
     let unknown = good.replace("mass_kg = 700.0", "mass_kg = 700.0\ncolour = \"red\"");
     let negative = good.replacen("area_m2 = 1.169", "area_m2 = -1.169", 1);
     let infinite = good.replace("mass_kg = 700.0", "mass_kg = inf");
     let wrong_type = good.replace("mass_kg = 700.0", "mass_kg = \"heavy\"");
     let cases: [(&str, &[&str]); 6] = [
-        (damaged, &["spacecraft.toml:32", "unclosed table"]),
+        (damaged, &[&place_of_damage, "unclosed table"]),
         (&unknown, &["colour"]),
         (&negative, &["plates[1].area_m2", "-1.169", "above 0"]),
         (&infinite, &["mass_kg", "inf"]),

@@ -1,11 +1,13 @@
 //! Any text is a spacecraft, spinner or timeline, or refused with what is wrong; what is accepted describes a lawful FMU.
 #![no_main]
 
+use std::sync::OnceLock;
+
 use heliotorque_fuzz::library;
 use libfuzzer_sys::fuzz_target;
 use model_description::{Severity, validate};
 use physics::guidance::timeline::Timeline;
-use physics::spacecraft::Spacecraft;
+use physics::spacecraft::{MESSENGER_TOML, Spacecraft};
 use physics::toml::FileError;
 use physics::spin::spinner::Spinner;
 
@@ -17,8 +19,14 @@ fn read<T>(outcome: Result<T, FileError>) -> bool {
     outcome.is_ok()
 }
 
+/// A timeline is read for this spacecraft.
+fn messenger() -> &'static Spacecraft {
+    static MESSENGER: OnceLock<Spacecraft> = OnceLock::new();
+    MESSENGER.get_or_init(|| Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap())
+}
+
 fuzz_target!(|text: &str| {
-    read(Timeline::from_toml("any.toml", text, &[]));
+    read(Timeline::from_toml("any.toml", text, messenger()));
     let models = [
         ("MomentumPlant", read(Spacecraft::from_toml("any.toml", text))),
         ("SpinPlant", read(Spinner::parse("any.toml", text))),

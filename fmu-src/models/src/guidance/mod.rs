@@ -15,12 +15,13 @@ use physics::enumeration::Enumerated;
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
-use physics::guidance::burn::delta_v::{BurnPhase, BurnState};
+use physics::guidance::burn::delta_v::{BurnPhase, BurnSettings, BurnState, Interruption};
 use physics::guidance::modes::mode::{Mode, ModeReason};
 use physics::guidance::modes::system::{
     GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs, TimedEntries,
 };
 use physics::guidance::pointing::command::Scenario;
+use physics::guidance::timeline::TimelineClock;
 use physics::management::{DumpRequests, SampledManager};
 use physics::numerics::work::Work;
 
@@ -92,6 +93,7 @@ impl Model for Guidance {
         let mut state = State {
             system: GuidanceState::new(inputs::start_attitude(context, values)?, start_s),
             dumps: DumpRequests::default(),
+            burn_entry: None,
             time_s: start_s,
             epoch_minus_time_s: time::epoch_minus_time_s(epoch_s, start_s),
             warned_unconnected: false,
@@ -108,7 +110,8 @@ impl Model for Guidance {
         shown.sample(context, values, &fixed, &settings, InputsOverTime::held())?;
         state.ephemeris = shown.ephemeris.clone();
         state.coarse = shown.coarse.clone();
-        outputs::write(context, values, &shown, &fixed.burn, epoch_s);
+        let burn = shown.burn_settings(context, &fixed.burn);
+        outputs::write(context, values, &shown, &burn, epoch_s);
         state.fixed = Some(fixed);
         Ok(state)
     }
@@ -137,12 +140,13 @@ impl Model for Guidance {
             let (burn, sampled_s) = (*state.system.burn(), state.system.next_sample_s());
             let before = (state.system.mode(), state.system.mode_reason());
             work.spend(0, state.sample(context, values, &fixed, &settings, step.inputs)?);
-            warn_of_missed_burn(context, &burn, state.system.burn());
+            warn_of_missed_burn(context, &burn, state.system.burn(), sampled_s);
             log_demotion(context, sampled_s, before, (state.system.mode(), state.system.mode_reason()));
         }
         let epoch_s = time::epoch_at_s(step.end_s, state.epoch_minus_time_s);
         state.time_s = step.end_s;
-        outputs::write(context, values, state, &fixed.burn, epoch_s);
+        let burn = state.burn_settings(context, &fixed.burn);
+        outputs::write(context, values, state, &burn, epoch_s);
         state.fixed = Some(fixed);
         Ok(StepEnd::at(step.end_s))
     }
@@ -211,12 +215,26 @@ fn log_demotion(
 }
 
 /// Warns where the burn is missed at this sample and was not at the one before.
-fn warn_of_missed_burn(context: &Plan<'_>, before: &BurnState, now: &BurnState) {
+fn warn_of_missed_burn(context: &Plan<'_>, before: &BurnState, now: &BurnState, time_s: f64) {
+    let is_anew = matches!(now.phase(), BurnPhase::Waiting { .. } | BurnPhase::Burning { .. });
+    match now.interruption() {
+        Some(Interruption::CutOff) => {
+            let [x, y, z]: [f64; 3] = (*before.velocity_m_s()).into();
+            context.log.warning(&format!(
+                "burn: cut off at {time_s} s by the end of its command, by another command or by another mode; until a second \
+                 before, it had added ({x:.3}, {y:.3}, {z:.3}) m/s"
+            ));
+        }
+        Some(Interruption::BeforeThrust) if is_anew => {
+            context.log.warning("burn.timedOut: the burn ended before it began: another one was commanded");
+        }
+        _ => {}
+    }
     match (before.phase(), now.phase()) {
         (BurnPhase::Waiting { refused: true, .. }, BurnPhase::Waiting { .. }) => {}
         (_, BurnPhase::Waiting { refused: true, .. }) => context.log.warning(
             "burn.timedOut: the burn is due and does not begin: the constraints keep its thrust off the aim, or burn.deltaV and \
-             burn.profile give it no direction; it waits for burn.timeout at most",
+             burn.profile give it no direction; it waits for burn.timeout at most, one with a table in a timeline until its command ends",
         ),
         (BurnPhase::None | BurnPhase::Waiting { .. }, BurnPhase::Ended { timed_out: true }) => context.log.warning(
             "burn.timedOut: the burn ended before it began, by another scenario or mode or after waiting for burn.timeout",
@@ -232,6 +250,20 @@ impl OutputRates for Guidance {
 }
 
 impl State {
+    /// The burn at hand or the last one, where `parameters` are the parameters'.
+    fn burn_settings(&self, context: &Plan<'_>, parameters: &BurnSettings) -> BurnSettings {
+        let timeline = context.setup.timeline.as_ref();
+        let found = timeline.zip(self.burn_entry).and_then(|(timeline, line)| {
+            let burn = timeline.entry_on_line(line)?.burn?;
+            let clock_minus_time_s = match timeline.clock() {
+                TimelineClock::Epoch => self.epoch_minus_time_s,
+                TimelineClock::FmiTime => 0.0,
+            };
+            Some(burn.settings(parameters, clock_minus_time_s))
+        });
+        found.unwrap_or(*parameters)
+    }
+
     /// Takes the sample that is due; units of work that it took beside its own.
     fn sample(
         &mut self,
@@ -248,6 +280,9 @@ impl State {
         let mut settings = *settings;
         let given = reader.command();
         let mut command = given;
+        if command.scenario == Some(Scenario::Burn) {
+            self.burn_entry = None;
+        }
         if let Some(entry) = entry {
             command = command.over(&entry.command);
             let operational = &mut settings.modes.operational;
@@ -255,11 +290,17 @@ impl State {
         }
         let line = entry.map(|entry| entry.line);
         let names_a_scenario = entry.is_some_and(|entry| entry.command.scenario.is_some());
-        let entries = TimedEntries {
+        let mut entries = TimedEntries {
             scan: line.filter(|_| given.scan.frame.is_none()),
             scenario: line.filter(|_| given.scenario.is_none() && names_a_scenario),
             mode: line.filter(|_| !reader.asks_for_a_mode()),
+            burn_is_over: false,
         };
+        if entries.scenario.is_some() && command.scenario == Some(Scenario::Burn) {
+            self.burn_entry = line.filter(|_| entry.is_some_and(|entry| entry.burn.is_some()));
+        }
+        entries.burn_is_over = self.burn_entry.is_some() && self.burn_entry != line;
+        settings.burn = self.burn_settings(context, &fixed.burn);
         let command = self.system.continued(&command);
         let places = reader.places(fixed, &command, (&mut self.ephemeris, &mut self.coarse), epoch_s);
         if !places.are_known() && !self.warned_unconnected {

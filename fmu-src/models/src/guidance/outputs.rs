@@ -63,8 +63,8 @@ pub fn write(context: &Plan<'_>, values: &mut Values, state: &State, burn: &Burn
 /// Writes what a burn tells the thrusters and what it found.
 fn burn(context: &Plan<'_>, values: &mut Values, state: &BurnState, settings: &BurnSettings) {
     let (burn, thrust) = (&context.variables.burn, &context.variables.thrust);
-    let thrusters = if state.is_requested() { values.choice(burn.thrusters) } else { ThrustRequest(None) };
-    values.set_choice(thrust.request, thrusters);
+    let thrusters = settings.thrusters.filter(|_| state.is_requested());
+    values.set_choice(thrust.request, ThrustRequest(thrusters));
     let stop_s = state.stop_s();
     values.set_boolean(thrust.command, stop_s.is_some());
     values.set_real(thrust.stop, stop_s.unwrap_or(NO_STOP_S));

@@ -71,7 +71,7 @@ impl GuidanceSetup {
 
     /// Takes the commands of a timeline.
     pub fn take_timeline(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
-        let timeline = Timeline::from_toml(file, text, &self.spacecraft.instruments);
+        let timeline = Timeline::from_toml(file, text, &self.spacecraft);
         self.timeline = Some(timeline.map_err(|error| SetupError(error.to_string()))?);
         Ok(())
     }

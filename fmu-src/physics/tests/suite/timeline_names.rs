@@ -12,10 +12,15 @@ use physics::guidance::pointing::command::{
     Scenario,
 };
 use physics::guidance::timeline::Timeline;
+use physics::spacecraft::{MESSENGER_TOML, Spacecraft};
 
 fn variables(file: &str) -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/src/guidance/variables");
     fs::read_to_string(folder.join(file)).unwrap()
+}
+
+fn messenger() -> Spacecraft {
+    Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap()
 }
 
 /// The names of an enumeration's items.
@@ -43,7 +48,7 @@ fn inputs(source: &str, group: &str) -> BTreeSet<String> {
 
 /// What is allowed where a file has a word or key that nobody knows.
 fn allowed(text: &str) -> BTreeSet<String> {
-    let error = Timeline::from_toml("t.toml", text, &[]).unwrap_err();
+    let error = Timeline::from_toml("t.toml", text, &messenger()).unwrap_err();
     let unknown = |found: &str| found.contains("unknown") && found.contains("zzzzzzzzzzzzzzzz");
     let problem = error.problems.iter().find(|problem| unknown(&problem.found)).expect(text);
     problem.allowed.split(", ").map(str::to_owned).collect()

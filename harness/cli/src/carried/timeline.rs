@@ -16,7 +16,7 @@ pub fn read(resources: &Path) -> Result<String, String> {
     let text = |file: &str| files::read_text(&resources.join(file));
     let spacecraft = Spacecraft::from_toml("spacecraft.toml", &text("spacecraft.toml")?)
         .map_err(|error| error.to_string())?;
-    let timeline = Timeline::from_toml(FILE, &text(FILE)?, &spacecraft.instruments);
+    let timeline = Timeline::from_toml(FILE, &text(FILE)?, &spacecraft);
     timeline.map(|timeline| summary(&timeline)).map_err(|error| error.to_string())
 }
 

@@ -31,16 +31,18 @@ pub fn run(arguments: &Check) -> Outcome {
     }
 }
 
-/// Whether Guidance can carry out the commands, read with the instruments of its own spacecraft.
+/// Whether Guidance can carry out the commands, read with instruments and sets of thrusters of its own spacecraft.
 fn of_timeline(file: &str, text: &str) -> Outcome {
-    let instruments =
-        Spacecraft::from_toml("", MESSENGER_TOML).map_or_else(|_| Vec::new(), |it| it.instruments);
-    let names: Vec<&str> = instruments.iter().map(|instrument| instrument.name.as_str()).collect();
-    match Timeline::from_toml(file, text, &instruments) {
+    let spacecraft =
+        Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).map_err(|error| error.to_string())?;
+    let instruments: Vec<&str> = spacecraft.instruments.iter().map(|it| it.name.as_str()).collect();
+    match Timeline::from_toml(file, text, &spacecraft) {
         Ok(read) => outcome::printed(&format!(
-            "{file}: ok: {}; with the instruments of Guidance's own spacecraft, {}; `pack --timeline` judges it for yours",
+            "{file}: ok: {}; with the instruments of Guidance's own spacecraft, {}, and its sets of thrusters, {}; \
+             `pack --timeline` judges it for yours",
             timeline::summary(&read),
-            names.join(", ")
+            instruments.join(", "),
+            spacecraft.thruster_sets.join(", ")
         )),
         Err(problems) => outcome::refused(file, &problems.to_string(), "a timeline"),
     }

@@ -45,7 +45,7 @@ pub struct Fixed {
     bodies: BodiesFromCenter,
     /// The panels as they are commanded; tunable, and set anew with every step.
     pub panels: Vec<PanelSetting>,
-    /// The burn of the scenario burn.
+    /// The burn of the scenario burn by the parameters.
     pub burn: BurnSettings,
 }
 
@@ -136,7 +136,9 @@ fn burn(context: &Plan<'_>, values: &Values) -> Result<BurnSettings, Failure> {
     let given_m_s2 = Some(real(v.acceleration)).filter(|it| *it > 0.0);
     Ok(BurnSettings {
         path: path.map_err(|error| Failure::new(format!("burn.profile: {error} of burn.deltaV")))?,
+        thrusters,
         start_s: real(v.start),
+        awaits_attitude: false,
         look_ahead_s: real(v.look_ahead),
         gain: real(v.gain),
         predictive: values.boolean(v.predictive),
@@ -144,6 +146,7 @@ fn burn(context: &Plan<'_>, values: &Values) -> Result<BurnSettings, Failure> {
         thrust_body: nominal.direction_body,
         acceleration_m_s2: given_m_s2.unwrap_or(nominal.acceleration_m_s2),
         timeout_s: real(v.timeout),
+        wait_s: real(v.timeout),
     })
 }
 

@@ -6,8 +6,8 @@ use physics::guidance::burn::delta_v;
 use crate::common::choices::ThrustRequest;
 use crate::guidance::setup::GuidanceSetup;
 
-/// A burn. It begins where the scenario burn is commanded, by input or by an entry of the timeline, and its time has come; a
-/// demotion of the mode or another scenario ends it.
+/// A burn. It begins where the scenario burn is commanded, by the input or by a command of the timeline without a table `burn`,
+/// and its time has come; a demotion of the mode or another scenario ends it.
 #[derive(Variables)]
 #[variables(setup = GuidanceSetup)]
 pub struct BurnVariables {

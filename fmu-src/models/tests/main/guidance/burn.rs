@@ -167,3 +167,79 @@ fn a_burn_that_is_refused_or_ends_before_it_began_says_so() {
     assert!(ended.boolean("burn.timedOut") && ended.integer("thrust.request") == 0);
     assert_eq!(reported(&named, "before it began"), 1);
 }
+
+/// By timelines alone.
+fn planned() -> Vec<(&'static str, f64)> {
+    BURN.iter().copied().filter(|(name, _)| *name != "pointing.scenario").collect()
+}
+
+#[test]
+fn burns_of_a_timeline_have_their_own_velocity_set_and_start() {
+    let timeline = "[[command]]\nat = 2\nscenario = \"burn\"\n\
+                    burn = { deltaV = [0, 2, 0], thrusters = \"mono4\", start = \"5 s\" }\n\
+                    [[command]]\nat = 30\nscenario = \"burn\"\n\
+                    burn = { deltaV = [1, 0, 0], thrusters = \"lva\" }\n\
+                    [[command]]\nat = 50\nscenario = \"burn\"\n";
+    let named = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", timeline);
+    let mut began = Vec::new();
+    let mut was_on = false;
+    fly(&named, &with(&[PLACED, FREE, &planned()]), 1, false, |second, flight| {
+        let (request, is_on) = (flight.integer("thrust.request"), flight.boolean("thrust.command"));
+        if is_on && !was_on {
+            began.push((second, request));
+        }
+        was_on = is_on;
+        let done = flight.vector("burn.velocity");
+        match second {
+            29 => assert!((done - Vector3::new(0.0, 2.0, 0.0)).norm() < 0.02, "{done}"),
+            49 => assert!((done - Vector3::new(1.0, 0.0, 0.0)).norm() < 0.02, "{done}"),
+            _ => {}
+        }
+        assert!(!matches!(second, 29 | 49) || flight.vector("burn.velocityError").norm() < 0.02, "{second}");
+    });
+    // After its command and 5 s; a second after its command, when the attitude is there; as the parameters say.
+    assert_eq!(began, [(7, 3), (31, 1), (50, 2)]);
+    assert!(named.warnings().is_empty(), "{:?}", named.warnings());
+}
+
+#[test]
+fn a_burn_is_cut_off_with_a_warning_where_its_command_ends() {
+    let burn = "[[command]]\nat = 2\nscenario = \"burn\"\n";
+    let table = "burn = { deltaV = [30, 0, 0], thrusters = \"c22\" }\n";
+    let next = [
+        "until = 20\n",
+        "[[command]]\nat = 20\nkeepIn = { enabled = false }\n",
+        "[[command]]\nat = 20\nscenario = \"nadir\"\n",
+        "[[command]]\nat = 20\nscenario = \"burn\"\nburn = { deltaV = [0, 0, 1], thrusters = \"lva\" }\n",
+    ];
+    for end in next {
+        let timeline = format!("{burn}{table}{end}");
+        let named = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", &timeline);
+        let mut last = None;
+        fly(&named, &with(&[PLACED, FREE, &planned()]), 1, false, |second, flight| {
+            if flight.boolean("thrust.command") && flight.integer("thrust.request") == 2 {
+                last = Some(second);
+            }
+        });
+        assert_eq!(last, Some(19), "{end}");
+        let said = named.warnings().iter().filter(|it| it.starts_with("burn: cut off at 20 s")).count();
+        assert_eq!(said, 1, "{end}: {:?}", named.warnings());
+    }
+}
+
+#[test]
+fn a_burn_without_start_waits_until_the_attitude_is_reached() {
+    let timeline =
+        "[[command]]\nat = 2\nscenario = \"burn\"\nburn = { deltaV = [1, 0, 0], thrusters = \"c22\" }\n";
+    let named = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", timeline);
+    let mut flight = named.fly(0.0, &with(&[PLACED, FREE, &planned()])).unwrap();
+    let held = flight.quaternion("command.q");
+    for second in 0..60 {
+        // The spacecraft turns at 25 s.
+        let q = if second < 25 { held } else { flight.quaternion("command.q") };
+        flight.set_elements("estimate.q", &q);
+        flight.step_to(f64::from(second + 1)).unwrap();
+        assert_eq!(flight.boolean("thrust.command"), second >= 25, "{second}");
+        assert!(!flight.boolean("burn.timedOut"));
+    }
+}

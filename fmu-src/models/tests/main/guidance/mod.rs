@@ -1,6 +1,7 @@
 //! Guidance through the functions a master calls.
 
 mod burn;
+mod burn_week;
 mod controlled;
 mod cuts;
 mod ephemeris;

@@ -20,7 +20,9 @@ use serde::{Deserialize, Serialize};
 
 use super::velocity_path::VelocityPath;
 use crate::attitude::{Attitude, angle_between_rad};
-use crate::guidance::geometry::moving::{MovingVector, moving};
+use crate::constants::DEG_RAD;
+use crate::guidance::geometry::moving::{MovingVector, moving, value};
+use crate::spacecraft::ThrusterSet;
 
 /// Look-ahead, assumed; paper 001 gives none.
 pub const LOOK_AHEAD_S: f64 = 10.0;
@@ -34,13 +36,21 @@ const LEAST_SHARE: f64 = 0.1;
 /// Where there is no nominal one: least acceleration that counts as thrust, in m/s2.
 const LEAST_ACCELERATION_M_S2: f64 = 1e-3;
 
-/// What parameters say of a burn.
+/// How near the estimated attitude brings the thrust to its aim where a burn begins with that, in rad: it costs 2e-4 of the
+/// first seconds' delta-v along the path, and the reactive correction takes back what it puts across.
+const ATTITUDE_REACHED_RAD: f64 = DEG_RAD;
+
+/// What parameters or a timeline say of a burn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BurnSettings {
     /// The velocity to add; `None` where that has no direction.
     pub path: Option<VelocityPath>,
+    /// The thrusters that are requested.
+    pub thrusters: Option<ThrusterSet>,
     /// Earliest time at which thrust begins, in s.
     pub start_s: f64,
+    /// Whether it begins when the estimated attitude has the thrust on its aim, and not before.
+    pub awaits_attitude: bool,
     /// How far ahead the path is aimed at, in s at the estimated acceleration.
     pub look_ahead_s: f64,
     /// Share of a measured direction that the predictive correction takes over each second.
@@ -55,6 +65,8 @@ pub struct BurnSettings {
     pub acceleration_m_s2: f64,
     /// Longest time that thrust may last, in s.
     pub timeout_s: f64,
+    /// Longest time that a burn which is due waits for its aim, in s.
+    pub wait_s: f64,
 }
 
 /// What a sample knows of the motion.
@@ -119,6 +131,16 @@ pub struct BurnState {
     thrust_body: Option<Vector3<f64>>,
     /// Of the last two intervals, the later one first, in m/s2.
     accelerations_m_s2: [f64; 2],
+    interruption: Option<Interruption>,
+}
+
+/// How a burn ended that was not over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Interruption {
+    /// It had not begun.
+    BeforeThrust,
+    /// Its thrust was cut off before its stop.
+    CutOff,
 }
 
 impl BurnSettings {
@@ -177,34 +199,51 @@ impl BurnState {
     /// ends, what is commanded anew begins anew.
     pub fn command(&mut self, is_commanded: bool, is_new: bool, time_s: f64) {
         let begins = is_commanded && (is_new || !self.is_commanded);
+        self.interruption = None;
         self.is_commanded = is_commanded;
         if begins {
+            self.end(time_s);
             let phase = BurnPhase::Waiting { since_s: time_s, refused: false };
-            *self = Self { phase, is_commanded, last: self.last, ..Self::default() };
+            let Self { last, interruption, .. } = *self;
+            *self = Self { phase, is_commanded, last, interruption, ..Self::default() };
         } else if !is_commanded {
-            self.end();
+            self.end(time_s);
         }
     }
 
-    /// Ends what is commanded or under way; it does not begin again by itself.
-    pub fn end(&mut self) {
+    /// Ends at `time_s` what is commanded or under way; it does not begin again by itself.
+    pub fn end(&mut self, time_s: f64) {
+        self.interruption = match self.phase {
+            BurnPhase::Waiting { .. } => Some(Interruption::BeforeThrust),
+            BurnPhase::Burning { stop_s, .. } if time_s < stop_s => Some(Interruption::CutOff),
+            _ => self.interruption,
+        };
         if self.is_requested() {
             self.phase = BurnPhase::Ended { timed_out: matches!(self.phase, BurnPhase::Waiting { .. }) };
         }
     }
 
-    /// Begins thrust at `time_s` where a burn waits, its time has come and `is_aimed` says that the thrust is on its aim.
+    /// What the last sample did to a burn that was not over.
+    pub fn interruption(&self) -> Option<Interruption> {
+        self.interruption
+    }
+
+    /// Begins thrust at `time_s` where a burn waits, its time has come and `is_aimed` says that the commanded attitude has the
+    /// thrust on its aim.
     pub fn begin(&mut self, settings: &BurnSettings, time_s: f64, is_aimed: bool) {
         let BurnPhase::Waiting { since_s, .. } = self.phase else { return };
         if time_s < settings.start_s {
             return;
         }
         self.phase = match settings.path.filter(|_| is_aimed) {
+            Some(_) if settings.awaits_attitude && !self.is_reached(settings) => {
+                BurnPhase::Waiting { since_s, refused: false }
+            }
             Some(path) => {
                 let stop_s = self.predicted_stop_s(settings, &path, time_s, time_s);
                 BurnPhase::Burning { since_s: time_s, stop_s }
             }
-            None if time_s >= since_s.max(settings.start_s) + settings.timeout_s => {
+            None if time_s >= since_s.max(settings.start_s) + settings.wait_s => {
                 BurnPhase::Ended { timed_out: true }
             }
             None => BurnPhase::Waiting { since_s, refused: true },
@@ -254,6 +293,14 @@ impl BurnState {
         Some(BurnAim {
             boresight_body: self.thrust_body(settings),
             direction: moving(turn * here.tangent, turn * here.curvature_s_m * speed_m_s2),
+        })
+    }
+
+    /// Whether the attitude estimated at the last sample has the thrust on its aim.
+    fn is_reached(&self, settings: &BurnSettings) -> bool {
+        self.last.zip(self.aim(settings)).is_some_and(|(motion, aim)| {
+            let thrust = motion.attitude.to_inertial(&aim.boresight_body);
+            angle_between_rad(&thrust, &value(&aim.direction)) <= ATTITUDE_REACHED_RAD
         })
     }
 

@@ -247,7 +247,7 @@ fn no_thrust_without_direction_or_off_the_aim() {
 #[test]
 fn a_burn_that_cannot_begin_says_so_and_times_out() {
     let toward_sun = crate::guidance::geometry::moving::value(&surroundings().to_sun()).normalize() * 10.0;
-    let burn = BurnSettings { timeout_s: 20.0, ..settings(toward_sun) };
+    let burn = BurnSettings { timeout_s: 20.0, wait_s: 20.0, ..settings(toward_sun) };
     let none = BurnSettings { path: None, ..burn };
     for burn in [burn, none] {
         let mut all = guidance_settings(burn);
@@ -263,7 +263,7 @@ fn a_burn_that_cannot_begin_says_so_and_times_out() {
         assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: true });
     }
     // The zone gives way while the burn waits.
-    let mut all = guidance_settings(BurnSettings { timeout_s: 1e3, ..burn });
+    let mut all = guidance_settings(BurnSettings { timeout_s: 1e3, wait_s: 1e3, ..burn });
     let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
     for second in 0..12 {
         all.modes.operational.keep_in = (second < 9).then_some(all.keep_in);

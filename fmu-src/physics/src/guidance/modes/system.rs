@@ -85,6 +85,8 @@ pub struct TimedEntries {
     pub scenario: Option<usize>,
     /// The mode that is requested.
     pub mode: Option<usize>,
+    /// Whether the burn is one of an entry that is no longer in force; its attitude is held.
+    pub burn_is_over: bool,
 }
 
 /// State of the sampled system.
@@ -256,7 +258,7 @@ impl GuidanceState {
             self.hot_pole_turn = None;
         }
         if self.modes.mode != Mode::Operational {
-            self.burn.end();
+            self.burn.end(time_s);
             self.downlink_sun.end();
         }
         is_chosen
@@ -344,7 +346,8 @@ impl GuidanceState {
             self.limb = None;
         }
         let is_new = entries.scenario.is_some() && entries.scenario != self.entries.scenario;
-        self.burn.command(command.scenario == Some(Scenario::Burn), is_new, time_s);
+        let is_burn = command.scenario == Some(Scenario::Burn) && !entries.burn_is_over;
+        self.burn.command(is_burn, is_new, time_s);
         if entries.mode != self.entries.mode {
             self.modes.renew_request();
         }

@@ -83,7 +83,9 @@ pub fn surroundings() -> EphemerisAtTime {
 pub fn settings(delta_v_m_s: Vector3<f64>) -> BurnSettings {
     BurnSettings {
         path: VelocityPath::linear(delta_v_m_s),
+        thrusters: None,
         start_s: 5.0,
+        awaits_attitude: false,
         look_ahead_s: LOOK_AHEAD_S,
         gain: GAIN,
         predictive: true,
@@ -91,6 +93,7 @@ pub fn settings(delta_v_m_s: Vector3<f64>) -> BurnSettings {
         thrust_body: Vector3::z(),
         acceleration_m_s2: 0.088,
         timeout_s: 3600.0,
+        wait_s: 3600.0,
     }
 }
 

@@ -1,13 +1,14 @@
 //! The timeline, from its file: times in order, each command checked.
 
+use super::burn::{Span, burn as burn_of};
 use super::commands::Commands;
 use super::description::{CommandDescription, Description};
 use super::entry::{TimelineClock, TimelineEntry};
-use super::quantity::{Quantity, TIME};
+use super::instant::instant;
+use super::quantity::Quantity;
 use super::scans::scan;
-use crate::environment::dates::{self, ALLOWED_DATE};
-use crate::guidance::pointing::command::PointingCommand;
-use crate::spacecraft::Instrument;
+use crate::guidance::pointing::command::{PointingCommand, Scenario};
+use crate::spacecraft::Spacecraft;
 use crate::toml::{Checker, Document, FileError, Place};
 
 /// Commands one after the other.
@@ -19,16 +20,17 @@ pub struct Timeline {
 }
 
 impl Timeline {
-    /// Reads a timeline from TOML text; `file` only names it in errors, `instruments` are those of the spacecraft.
+    /// Reads a timeline from TOML text; `file` only names it in errors; instruments and sets of thrusters are
+    /// those of `spacecraft`.
     ///
     /// # Errors
     ///
     /// Text that is not TOML, or all unknown, missing and ill-typed keys, all commands that cannot be carried out and all
     /// times that are out of order, each with line, key, what was found and what is allowed.
-    pub fn from_toml(file: &str, text: &str, instruments: &[Instrument]) -> Result<Self, FileError> {
+    pub fn from_toml(file: &str, text: &str, spacecraft: &Spacecraft) -> Result<Self, FileError> {
         let document = Document::parse(file, text)?;
         let (description, findings) = document.read::<Description>()?;
-        let mut commands = Commands::new(Checker::new(&document, findings), instruments);
+        let mut commands = Commands::new(Checker::new(&document, findings), spacecraft);
         let place = Place::root().key("command");
         let list = &description.command;
         if list.is_empty() {
@@ -36,9 +38,15 @@ impl Timeline {
         }
         let (clock, times) = times(&mut commands.check, &place, list);
         let mut entries = Vec::with_capacity(list.len());
-        for ((index, description), [at_s, until_s]) in list.iter().enumerate().zip(times) {
+        for (index, (description, [at_s, until_s])) in list.iter().zip(times.iter().copied()).enumerate() {
             let at = place.item(index);
             let command = commands.pointing(&at, description);
+            let next_s = times.iter().skip(index + 1).find_map(|[next_s, _]| *next_s);
+            let end_s = until_s.or(next_s).unwrap_or(f64::INFINITY);
+            let span = Span { clock, at_s: at_s.unwrap_or(f64::NAN), end_s };
+            let burns = command.scenario == Some(Scenario::Burn);
+            let burn = description.burn.as_ref().filter(|_| burns);
+            let burn = burn.map(|given| burn_of(&mut commands, &at.key("burn"), given, span));
             let scan = scan(&mut commands, &at, description, &command);
             entries.push(TimelineEntry {
                 line: commands.check.line(&at),
@@ -47,6 +55,7 @@ impl Timeline {
                 command: PointingCommand { scan, ..command },
                 keep_in: commands.keep_in(&at, description.keep_in.as_ref()),
                 mode: description.mode,
+                burn,
             });
         }
         commands.check.finish(Self { clock, entries })
@@ -60,6 +69,11 @@ impl Timeline {
     /// The commands in the order of their times.
     pub fn entries(&self) -> &[TimelineEntry] {
         &self.entries
+    }
+
+    /// The command that begins on this line of the file.
+    pub fn entry_on_line(&self, line: usize) -> Option<&TimelineEntry> {
+        self.entries.get(self.entries.binary_search_by_key(&line, |entry| entry.line).ok()?)
     }
 
     /// The command in force at a time of the simulation, which is this epoch: the last one that began, unless it ended.
@@ -127,33 +141,4 @@ fn times(
         }
     }
     (clock.unwrap_or(TimelineClock::FmiTime), times)
-}
-
-/// A date or FMI time.
-fn instant(check: &mut Checker<'_>, at: &Place, quantity: &Quantity) -> Option<(TimelineClock, f64)> {
-    let date = match quantity {
-        Quantity::Text(text) => Some(text).filter(|text| is_date(text)),
-        _ => None,
-    };
-    if let Some(text) = date {
-        return match dates::epoch_s(text) {
-            Ok(time_s) => Some((TimelineClock::Epoch, time_s)),
-            Err(error) => {
-                check.report(at, format_args!("{quantity}, {error}"), ALLOWED_DATE);
-                None
-            }
-        };
-    }
-    let time_s = quantity.si(&TIME);
-    if time_s.is_none() {
-        let allowed =
-            format!("{ALLOWED_DATE}; or FMI time: a number in s or a string with a unit (\"90 min\")");
-        check.report(at, quantity, allowed);
-    }
-    let time_s = check.finite(at, time_s?);
-    time_s.is_finite().then_some((TimelineClock::FmiTime, time_s))
-}
-
-fn is_date(text: &str) -> bool {
-    dates::looks_like_date(text) || ["UTC", "TDB"].iter().any(|scale| text.trim_end().ends_with(scale))
 }

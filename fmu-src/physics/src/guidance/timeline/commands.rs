@@ -18,7 +18,7 @@ use crate::guidance::pointing::command::{
     AimpointCommand, BodyRollCommand, BoresightCommand, BoresightOption, ExternalRollCommand, LimbCommand,
     PointingCommand, Scenario,
 };
-use crate::spacecraft::Instrument;
+use crate::spacecraft::Spacecraft;
 use crate::toml::{Checker, Place, nearest};
 
 const BORESIGHT: &[&str] = &["option", "vector", "azimuth", "elevation", "angle", "instrument"];
@@ -38,15 +38,15 @@ const AIMPOINT: &[&str] = &[
 /// Builds commands and gathers what is wrong with them.
 pub(super) struct Commands<'d, 'i> {
     pub check: Checker<'d>,
-    instruments: &'i [Instrument],
+    pub spacecraft: &'i Spacecraft,
     /// The scenario of the current command, for messages.
     scenario: String,
 }
 
 impl<'d, 'i> Commands<'d, 'i> {
-    /// For a spacecraft with these instruments.
-    pub fn new(check: Checker<'d>, instruments: &'i [Instrument]) -> Self {
-        Self { check, instruments, scenario: String::new() }
+    /// For this spacecraft.
+    pub fn new(check: Checker<'d>, spacecraft: &'i Spacecraft) -> Self {
+        Self { check, spacecraft, scenario: String::new() }
     }
 
     /// Where a command points, without its scan.
@@ -189,7 +189,8 @@ impl<'d, 'i> Commands<'d, 'i> {
 
     /// The number of an instrument given by name or number.
     fn instrument(&mut self, at: &Place, given: &Quantity) -> u32 {
-        let names: Vec<&str> = self.instruments.iter().map(|instrument| instrument.name.as_str()).collect();
+        let names: Vec<&str> =
+            self.spacecraft.instruments.iter().map(|instrument| instrument.name.as_str()).collect();
         let (found, hint) = match given {
             Quantity::Text(text) => {
                 let found = names.iter().position(|name| name == text).map(|index| index + 1);
@@ -270,7 +271,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// A quantity, in SI.
-    fn quantity(&mut self, at: &Place, given: &Quantity, kind: &Kind) -> f64 {
+    pub fn quantity(&mut self, at: &Place, given: &Quantity, kind: &Kind) -> f64 {
         let Some(value) = given.si(kind) else {
             self.check.report(at, given, kind);
             return 0.0;

@@ -40,6 +40,7 @@ pub(super) struct CommandDescription {
     pub external_roll: Option<ExternalRollDescription>,
     pub limb: Option<LimbDescription>,
     pub scan: Option<ScanDescription>,
+    pub burn: Option<BurnDescription>,
     pub keep_in: Option<KeepInDescription>,
     /// A mode requested when the command begins; Safe Hold follows downlink alone.
     pub mode: Option<Mode>,
@@ -151,6 +152,25 @@ pub(super) struct ScanDescription {
     pub segments: Option<[u32; 3]>,
     /// Whether every second motion of an axis goes back; false unless given.
     pub reverse: Option<[bool; 3]>,
+}
+
+/// The burn of the scenario burn, instead of the FMU's parameters. It is cut off where the command ends.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct BurnDescription {
+    /// Velocity to add, without gravity, EME2000.
+    #[serde(rename = "deltaV")]
+    pub delta_v: [Quantity; 3],
+    /// Name of a set of thrusters in the spacecraft file.
+    pub thrusters: String,
+    /// When thrust begins: a date, or a time after the command's `at`; when the attitude is reached unless given.
+    pub start: Option<Quantity>,
+    /// Longest time that thrust may last; burn.timeout unless given.
+    pub duration: Option<Quantity>,
+    /// Powered turn: row i holds what the powers 1, 2 and 3 of the progress, from 0 to 1, add to component i of the velocity;
+    /// the sums are deltaV. Straight along deltaV unless given.
+    pub profile: Option<[[Quantity; 3]; 3]>,
 }
 
 /// The Sun keep-in zone while the command lasts, instead of the FMU's parameters.

@@ -1,8 +1,13 @@
 //! A command of a timeline: when, where to point, what else it changes.
 
+use crate::guidance::burn::delta_v::BurnSettings;
+use crate::guidance::burn::nominal_thrust::NominalThrust;
+use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::modes::mode::Mode;
 use crate::guidance::pointing::command::PointingCommand;
+use crate::numerics::spacing::spacing;
+use crate::spacecraft::ThrusterSet;
 
 /// By which clock a timeline counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +33,43 @@ pub struct TimelineEntry {
     pub keep_in: KeepInOverride,
     /// A mode requested when it begins.
     pub mode: Option<Mode>,
+    /// The burn of its scenario; `None`: that of the parameters.
+    pub burn: Option<TimelineBurn>,
+}
+
+/// A burn of a timeline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimelineBurn {
+    /// The velocity to add; of a timeline that was read, some.
+    pub path: Option<VelocityPath>,
+    /// The thrusters that are requested.
+    pub thrusters: Option<ThrusterSet>,
+    /// Their thrust by the spacecraft file.
+    pub nominal: NominalThrust,
+    /// When it begins, in s of the timeline's clock; `None` when the attitude is reached.
+    pub start_s: Option<f64>,
+    /// Longest time that thrust may last, in s; `None` as by the parameters.
+    pub duration_s: Option<f64>,
+}
+
+impl TimelineBurn {
+    /// As it acts where `parameters` say how to steer, its clock being `clock_minus_time_s` ahead of FMI time.
+    pub fn settings(&self, parameters: &BurnSettings, clock_minus_time_s: f64) -> BurnSettings {
+        // Rounding of the epoch takes no second away.
+        let start_s = self.start_s.map(|it| it - clock_minus_time_s - 4.0 * spacing(it));
+        BurnSettings {
+            path: self.path,
+            thrusters: self.thrusters,
+            start_s: start_s.unwrap_or(f64::NEG_INFINITY),
+            awaits_attitude: start_s.is_none(),
+            thrust_body: self.nominal.direction_body,
+            acceleration_m_s2: self.nominal.acceleration_m_s2,
+            timeout_s: self.duration_s.unwrap_or(parameters.timeout_s),
+            // It waits until its command ends.
+            wait_s: f64::INFINITY,
+            ..*parameters
+        }
+    }
 }
 
 /// What takes the place of the Sun keep-in zone's parameters; `None` leaves them.

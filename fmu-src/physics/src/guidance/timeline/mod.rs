@@ -4,9 +4,11 @@
 //! variables; numbers are SI, or strings with a unit.
 
 mod build;
+mod burn;
 mod commands;
 mod description;
 mod entry;
+mod instant;
 mod quantity;
 mod reads;
 mod scans;
@@ -17,6 +19,6 @@ mod schema;
 mod tests;
 
 pub use build::Timeline;
-pub use entry::{KeepInOverride, TimelineClock, TimelineEntry};
+pub use entry::{KeepInOverride, TimelineBurn, TimelineClock, TimelineEntry};
 #[cfg(feature = "schema")]
 pub use schema::schema;

@@ -34,7 +34,7 @@ const CELESTIAL: Keys = keys(&["rightAscension", "declination"], &[]);
 
 /// Tables of a command that a scenario may read.
 pub(super) const TABLES: &[&str] =
-    &["boresight", "aimpoint", "secondAimpoint", "bodyRoll", "externalRoll", "limb", "scan"];
+    &["boresight", "aimpoint", "secondAimpoint", "bodyRoll", "externalRoll", "limb", "scan", "burn"];
 
 /// Tables that a scenario reads.
 pub(super) fn tables(scenario: Scenario) -> Keys {
@@ -47,7 +47,8 @@ pub(super) fn tables(scenario: Scenario) -> Keys {
         Scenario::Downlink => keys(&[], &["boresight", "aimpoint"]),
         Scenario::LimbTerminator => keys(&[], &["boresight", "limb", "scan"]),
         Scenario::LimbGeneric => keys(&["limb"], &["boresight", "scan"]),
-        Scenario::Burn | Scenario::OrbitPhase => NOTHING,
+        Scenario::Burn => keys(&[], &["burn"]),
+        Scenario::OrbitPhase => NOTHING,
     }
 }
 

@@ -9,19 +9,22 @@ use super::*;
 use crate::bodies::Body;
 use crate::constants::DEG_RAD;
 use crate::enumeration::Enumerated;
+use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::modes::mode::Mode;
 use crate::guidance::pointing::command::*;
 use crate::spacecraft::{Instrument, MESSENGER_TOML, Spacecraft};
 
+const MESSENGER_FULL: &str = include_str!("../../../../resources/messenger-full.toml");
 const EXAMPLE: &str = include_str!("../../../../resources/examples/timeline.toml");
 
-fn instruments() -> Vec<Instrument> {
+fn spacecraft() -> Spacecraft {
     let named = |name: &str| Instrument { name: name.to_owned(), boresight_body: Vector3::z() };
-    vec![named("MASCS"), named("MLA")]
+    let messenger = Spacecraft::from_toml("messenger-full.toml", MESSENGER_FULL).unwrap();
+    Spacecraft { instruments: vec![named("MASCS"), named("MLA")], ..messenger }
 }
 
 fn read(text: &str) -> Timeline {
-    Timeline::from_toml("t.toml", text, &instruments()).unwrap_or_else(|error| panic!("{error}"))
+    Timeline::from_toml("t.toml", text, &spacecraft()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// One command at 0 s.
@@ -32,7 +35,7 @@ fn command(text: &str) -> TimelineEntry {
 #[test]
 fn the_example_is_a_day_at_mercury() {
     let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
-    let timeline = Timeline::from_toml("timeline.toml", EXAMPLE, &spacecraft.instruments).unwrap();
+    let timeline = Timeline::from_toml("timeline.toml", EXAMPLE, &spacecraft).unwrap();
     assert_eq!(timeline.clock(), TimelineClock::Epoch);
     let [first, .., last] = timeline.entries() else { panic!("too few") };
     let start_s = crate::environment::dates::epoch_s("2011-04-06T00:00:00 UTC").unwrap();
@@ -297,10 +300,10 @@ proptest! {
         if EXAMPLE.is_char_boundary(at) && EXAMPLE.is_char_boundary(at + 1) {
             let mut text = EXAMPLE.to_owned();
             text.replace_range(at..at + 1, &byte.to_string());
-            let _ = Timeline::from_toml("t.toml", &text, &[]).map_err(|error| error.to_string());
+            let _ = Timeline::from_toml("t.toml", &text, &spacecraft()).map_err(|error| error.to_string());
         }
         if let Some(torn) = EXAMPLE.get(..cut) {
-            let _ = Timeline::from_toml("t.toml", torn, &[]).map_err(|error| error.to_string());
+            let _ = Timeline::from_toml("t.toml", torn, &spacecraft()).map_err(|error| error.to_string());
         }
     }
 }
@@ -319,7 +322,7 @@ fn bad_timelines_are_reported() {
         .collect();
     assert!(cases.len() > 50);
     let reported = |text: &String| {
-        let error = Timeline::from_toml("t.toml", text, &instruments()).map(|_| text).unwrap_err();
+        let error = Timeline::from_toml("t.toml", text, &spacecraft()).map(|_| text).unwrap_err();
         error.to_string().lines().fold(text.clone(), |reported, line| format!("{reported}    {line}\n"))
     };
     let found = cases.iter().map(reported).collect::<Vec<_>>().join("----\n");
@@ -327,4 +330,30 @@ fn bad_timelines_are_reported() {
         std::fs::write(&path, &found).unwrap();
     }
     assert!(found == expected, "{} is out of step: see UPDATE_SNAPSHOT=1\n{found}", path.display());
+}
+
+#[test]
+fn a_burn_is_read_with_its_set_and_times() {
+    let nominal = |newton: f64| newton / spacecraft().mass_properties.mass_kg;
+    let fmi = command(
+        "scenario = \"burn\"\nburn = { deltaV = [\"1 km/s\", 2, -3], thrusters = \"lva\", start = \"2 min\", duration = \"1 h\" }",
+    );
+    let burn = fmi.burn.unwrap();
+    assert_eq!(burn.path, VelocityPath::linear(Vector3::new(1000.0, 2.0, -3.0)));
+    assert_eq!((burn.start_s, burn.duration_s), (Some(120.0), Some(3600.0)));
+    assert_eq!(burn.thrusters, spacecraft().thruster_set("lva"));
+    assert!((burn.nominal.acceleration_m_s2 / nominal(660.0) - 1.0).abs() < 1e-12);
+    let plain = "scenario = \"burn\"\nburn = { deltaV = [0, 0, 1], thrusters = \"mono4\" }";
+    assert_eq!(command(plain).burn.map(|burn| (burn.start_s, burn.duration_s)), Some((None, None)));
+    assert_eq!(command("scenario = \"burn\"").burn, None);
+    // A date has the clock's own time.
+    let dated = read(
+        "[[command]]\nat = \"2011-04-06T00:00:00 UTC\"\nscenario = \"burn\"\n\
+         burn = { deltaV = [0, 0, 1], thrusters = \"c22\", start = \"2011-04-06T00:10:00 UTC\" }",
+    );
+    let entry = dated.entries()[0];
+    assert!((entry.burn.unwrap().start_s.unwrap() - entry.at_s - 600.0).abs() < 1e-3);
+    let turn = "scenario = \"burn\"\nburn = { deltaV = [1, 1, 0], profile = [[1, 0, 0], [0, 1, 0], [0, 0, 0]], thrusters = \"c22\" }";
+    let curved = VelocityPath::cubic([Vector3::x(), Vector3::y(), Vector3::zeros()]);
+    assert_eq!(command(turn).burn.unwrap().path, curved);
 }
