@@ -108,6 +108,13 @@ impl PlantSetup {
         let ephemeris = fixed_item::<EphemerisSource>(start, MomentumPlant::NAME, "ephemeris.source");
         let has_places = matches!(orbit, Some(OrbitSource::Elements))
             && !matches!(ephemeris, None | Some(EphemerisSource::Inputs));
+        let is_given = |name: &str| {
+            let for_this = start
+                .iter()
+                .filter(|it| it.model.as_deref().is_none_or(|model| model == MomentumPlant::NAME));
+            for_this.into_iter().any(|it| it.name == name || it.name.starts_with(&format!("{name}[")))
+        };
+        let begins_pointed = !is_given("start.q");
         OpenChoices {
             ideal: matches!(source, None | Some(Guided | Commanded)),
             guided: match source {
@@ -115,6 +122,10 @@ impl PlantSetup {
                 Some(Commanded | Controlled) => !is_inputs,
                 Some(Free) => false,
             },
+            begins_guided: begins_pointed && matches!(source, Some(Free)),
+            begins_commanded: begins_pointed
+                && matches!(source, Some(Controlled))
+                && !matches!(command, Some(CommandSource::Guidance)),
             waits: !has_places,
         }
     }
@@ -127,6 +138,10 @@ pub struct OpenChoices {
     pub ideal: bool,
     /// The orbit phase's own guidance sets the attitude, if only where a flight by torque begins.
     pub guided: bool,
+    /// It gives the attitude where a free flight begins, for the file has none.
+    pub begins_guided: bool,
+    /// The command gives the attitude where a controlled flight begins, likewise.
+    pub begins_commanded: bool,
     /// Orbit or Sun may come by inputs: until they do, the attitude is the commanded one in any flight.
     pub waits: bool,
 }

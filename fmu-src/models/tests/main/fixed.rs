@@ -55,6 +55,14 @@ fn a_fixed_choice_is_a_local_constant_and_no_command_acts_at_once() {
         assert!(!after.iter().any(|name| name.starts_with("command.")), "{output}: {after:?}");
     }
     assert!(acts_on(&fixed, "wheel[1].torque").iter().any(|name| name == "command.q[1]"));
+    // It is where the flight begins, unless the file says where that is.
+    let begins_commanded = |description: &Description| {
+        begins_with(description, "attitude.q[1]").iter().any(|name| name == "command.q[1]")
+    };
+    assert!(begins_commanded(&fixed));
+    let given = "\"attitude.source\" = \"controlled\"\n\"command.source\" = \"inputs\"\n\"orbit.source\" = \"elements\"\n\
+                 \"ephemeris.source\" = \"vsop87\"\n\"start.q[4]\" = 1";
+    assert!(!begins_commanded(&with(given)));
     let listed = fixed.structure.initial_unknowns.iter().flat_map(|it| it.dependencies.iter().flatten());
     for known in listed {
         let known = &fixed.variables[*known as usize - 1];
@@ -72,7 +80,9 @@ fn a_body_that_guidance_never_turns_begins_without_it() {
     for unknown in ["attitude.q[1]", "estimate.q[1]", "force.solar[1]"] {
         assert!(begins_guided("", unknown) && begins_guided(&controlled("guidance"), unknown), "{unknown}");
         assert!(!begins_guided(&controlled("inputs"), unknown), "{unknown}");
-        assert!(!begins_guided("\"attitude.source\" = \"free\"", unknown), "{unknown}");
+        let free = "\"attitude.source\" = \"free\"";
+        assert!(begins_guided(free, unknown), "{unknown}");
+        assert!(!begins_guided(&format!("{free}\n\"start.q[4]\" = 1"), unknown), "{unknown}");
     }
 }
 

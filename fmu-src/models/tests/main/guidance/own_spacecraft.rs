@@ -147,6 +147,8 @@ fn the_link_is_there_in_its_windows() {
             linked_s += f64::from(u8::from(wired.guidance.boolean("link.available")));
         }
         println!("{planet}: {linked_s} s of link");
-        assert!(linked_s > 0.4 * wired.plant.time_s, "{planet}: {linked_s} s");
+        // About the Earth the antennas change twice an orbit, and the body turns from one to the other.
+        let least = if planet == "earth" { 0.3 } else { 0.45 };
+        assert!(linked_s > least * wired.plant.time_s, "{planet}: {linked_s} s");
     }
 }
