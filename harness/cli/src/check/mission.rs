@@ -33,7 +33,7 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
     let low = low_orbit::warnings(subject.description(), sets);
-    let windows = pointing::warnings(subject.description(), sets);
+    let windows = pointing::warnings(subject.description(), sets, &pointing::windows_in(&subject.parts()));
     let warnings = low
         .iter()
         .chain(&windows)

@@ -80,7 +80,11 @@ pub fn run(arguments: &Check) -> Outcome {
         Section::new("modelDescription.xml", conformance::description(&fmu)),
     ];
     let mut low = low_orbit::warnings(fmu.description(), &[]);
-    low.extend(pointing::warnings(fmu.description(), &[]));
+    low.extend(pointing::warnings(
+        fmu.description(),
+        &[],
+        &pointing::windows_in(&[(String::new(), fmu.folder().to_owned())]),
+    ));
     if !low.is_empty() {
         sections.push(Section::new("orbit", low.into_iter().map(Finding::note).collect()));
     }

@@ -65,9 +65,10 @@ pub fn run(arguments: &Check, file: &str, text: &str) -> Outcome {
             return refused(file, &described, &format!("{file}: {reason}"));
         }
         let low = low_orbit::warnings(&description, &[]);
-        let windows = pointing::warnings(&description, &[]);
-        let points =
-            pointing::sentence(&description).map_or_else(String::new, |it| figures::row("points", &it));
+        let windows = pointing::windows_of(text);
+        let points = pointing::sentence(&description, windows.as_slice())
+            .map_or_else(String::new, |it| figures::row("points", &it));
+        let windows = pointing::warnings(&description, &[], windows.as_slice());
         let warnings: String =
             map.iter().chain(&low).chain(&windows).map(|warning| format!("\nwarning: {warning}")).collect();
         return outcome::printed(&format!(

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use physics::{
     bodies::Body,
     constants::ASTRONOMICAL_UNIT_M as AU_M,
-    spacecraft::{Panel, PanelControl, Spacecraft},
+    spacecraft::{DownlinkWindows, Panel, PanelControl, Spacecraft, TimeAfterPeriapsis},
 };
 use planner::torque_map::{LitSpacecraft, Rule, TurnedPanels};
 
@@ -127,7 +127,7 @@ impl MappedSpacecraft {
             name: spacecraft.name,
             lit: LitSpacecraft { fmu, panels, distance_m, source: arguments.source.name() },
             zone_rad,
-            downlink: downlink(&default_simulated, &simulated),
+            downlink: downlink(&default_simulated, &simulated, spacecraft.downlinks),
             panels_left_out: panels_left_out(&simulated),
             threshold_n_m_s: [1, 2, 3]
                 .map(|axis| real(&simulated, &format!("dump.threshold[{axis}]")).unwrap_or(f64::INFINITY)),
@@ -215,12 +215,18 @@ fn center(simulated: &Description) -> Body {
     Body::ALL.iter().find(is_named).copied().unwrap_or(Body::Mercury)
 }
 
-fn downlink(default: &Description, simulated: &Description) -> Downlink {
+fn downlink(default: &Description, simulated: &Description, windows: Option<DownlinkWindows>) -> Downlink {
     let [start_s, end_s] =
         ["guided.downlinkStart", "guided.downlinkEnd"].map(|name| real(simulated, name).unwrap_or(0.0));
     let every = start_of(simulated, "guided.downlinkEvery").map_or(0.0, |value| value.to_f64());
     let axis_m = semi_major_axis_m(default, simulated);
     let period_s = core::f64::consts::TAU * (axis_m.powi(3) / center(simulated).data().gm_m3_s2).sqrt();
+    let in_orbit_s =
+        |time: TimeAfterPeriapsis, start_s| time.period_share().map_or(start_s, |it| it * period_s);
+    let [start_s, end_s] = match windows {
+        Some(windows) => [in_orbit_s(windows.start, start_s), in_orbit_s(windows.stop, end_s)],
+        None => [start_s, end_s],
+    };
     Downlink { length_h: (end_s - start_s).max(0.0) / 3600.0, every_h: every * period_s / 3600.0 }
 }
 

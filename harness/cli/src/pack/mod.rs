@@ -120,7 +120,7 @@ pub fn run(arguments: &Pack) -> Outcome {
     let files = [parts.spacecraft, parts.timeline, parts.ephemeris].into_iter().flatten();
     let of_mission = arguments.mission.as_deref();
     let inputs: Vec<&Path> = [source.path()].into_iter().chain(files).chain(of_mission).collect();
-    let windows = pointing::warnings(&description, &[]);
+    let windows = pointing::warnings(&description, &[], pointing::windows_of(&setup).as_slice());
     for warning in unused_map(&setup, &described.model, &description).iter().chain(&windows) {
         terminal::note(&format!("warning: {warning}"));
     }

@@ -1,8 +1,15 @@
 //! How a plant points while it guides itself, by the start values of its variables: in a sentence, and what is odd about it.
 
+use std::path::PathBuf;
+
 use loader::Value;
 use model_description::Description;
-use physics::{bodies::Body, enumeration::Enumerated, environment::orbit::period_s};
+use physics::{
+    bodies::Body,
+    enumeration::Enumerated,
+    environment::orbit::period_s,
+    spacecraft::{DownlinkWindows, Spacecraft, TimeAfterPeriapsis},
+};
 use terminal::short;
 
 use crate::variables::{item, real, start};
@@ -16,22 +23,48 @@ const EVERYWHERE_DEG: f64 = 89.999;
 struct Plant<'a> {
     description: &'a Description,
     sets: &'a [(String, Value)],
+    /// The file's own, of which shares of the period follow the orbit.
+    windows: Option<DownlinkWindows>,
     prefix: &'a str,
 }
 
+/// What a plant's variables begin with, and the windows of its spacecraft's file.
+pub type Windows = (String, DownlinkWindows);
+
+/// The windows of a spacecraft's file, if it has any.
+pub fn windows_of(text: &str) -> Option<Windows> {
+    Some((String::new(), Spacecraft::from_toml("", text).ok()?.downlinks?))
+}
+
+/// The windows of the files in FMUs that are unpacked in these folders, each after what its variables begin with.
+pub fn windows_in(parts: &[(String, PathBuf)]) -> Vec<Windows> {
+    let windows = parts.iter().filter_map(|(prefix, folder)| {
+        let text = files::read_text(&folder.join("resources").join("spacecraft.toml")).ok()?;
+        Some((prefix.clone(), windows_of(&text)?.1))
+    });
+    windows.collect()
+}
+
 /// A warning for each plant whose downlinks are always or never open.
-pub fn warnings(description: &Description, sets: &[(String, Value)]) -> Vec<String> {
-    plants(description, sets).filter_map(|plant| plant.window_warning()).collect()
+pub fn warnings(description: &Description, sets: &[(String, Value)], windows: &[Windows]) -> Vec<String> {
+    plants(description, sets, windows).filter_map(|plant| plant.window_warning()).collect()
 }
 
 /// How the plant points; `None` of what is no plant.
-pub fn sentence(description: &Description) -> Option<String> {
-    plants(description, &[]).next()?.sentence()
+pub fn sentence(description: &Description, windows: &[Windows]) -> Option<String> {
+    plants(description, &[], windows).next()?.sentence()
 }
 
-fn plants<'a>(description: &'a Description, sets: &'a [(String, Value)]) -> impl Iterator<Item = Plant<'a>> {
+fn plants<'a>(
+    description: &'a Description,
+    sets: &'a [(String, Value)],
+    windows: &'a [Windows],
+) -> impl Iterator<Item = Plant<'a>> {
     let prefixes = description.variables.iter().filter_map(|variable| variable.name.strip_suffix(CENTER));
-    prefixes.map(move |prefix| Plant { description, sets, prefix })
+    prefixes.map(move |prefix| {
+        let windows = windows.iter().find(|(of, _)| of == prefix).map(|(_, windows)| *windows);
+        Plant { description, sets, windows, prefix }
+    })
 }
 
 impl Plant<'_> {
@@ -60,8 +93,21 @@ impl Plant<'_> {
         }
     }
 
+    /// Begin and end as shares of the period, where the file gives them so and nothing sets them.
+    fn shares(&self) -> [Option<f64>; 2] {
+        let Some(windows) = self.windows else { return [None; 2] };
+        let is_set = |name: &str| self.sets.iter().any(|(set, _)| *set == self.name(name));
+        let share = |time: TimeAfterPeriapsis, name| time.period_share().filter(|_| !is_set(name));
+        [share(windows.start, "guided.downlinkStart"), share(windows.stop, "guided.downlinkEnd")]
+    }
+
     fn window_s(&self) -> Option<[f64; 2]> {
-        Some([self.real("guided.downlinkStart")?, self.real("guided.downlinkEnd")?])
+        let time_s = |share: Option<f64>, name: &str| match (share, self.period_s()) {
+            (Some(share), Some(period_s)) if period_s.is_finite() => Some(share * period_s),
+            _ => self.real(name),
+        };
+        let [start, end] = self.shares();
+        Some([time_s(start, "guided.downlinkStart")?, time_s(end, "guided.downlinkEnd")?])
     }
 
     /// Between two periapses, in s; `None` where that is not known before the flight, infinite about the Sun.
@@ -135,7 +181,12 @@ impl Plant<'_> {
 
     fn downlinks(&self) -> Option<String> {
         let ([begin_s, end_s], every) = (self.window_s()?, self.every()?);
-        let window = format!("from {} to {}", hours(begin_s), hours(end_s));
+        let written = |share: Option<f64>, time_s: f64| match share {
+            Some(share) => format!("{} %", short((share * 1e5).round() / 1e3)),
+            None => hours(time_s),
+        };
+        let [start, end] = self.shares();
+        let window = format!("from {} to {}", written(start, begin_s), written(end, end_s));
         let is_once = self.item("guided.downlinkReference") == Some("start");
         Some(match every {
             _ if begin_s >= end_s => "no downlinks".to_owned(),

@@ -3,6 +3,10 @@
 use super::*;
 
 fn said(sets: &[(&str, f64)]) -> (String, Vec<String>) {
+    said_of(sets, None)
+}
+
+fn said_of(sets: &[(&str, f64)], windows: Option<DownlinkWindows>) -> (String, Vec<String>) {
     let xml = include_str!("../../../../modelDescription/golden/MomentumPlant.xml");
     let description = model_description::parse(xml.as_bytes()).unwrap().description;
     let sets = sets.iter().map(|(name, value)| {
@@ -10,8 +14,9 @@ fn said(sets: &[(&str, f64)]) -> (String, Vec<String>) {
         ((*name).to_owned(), if is_real { Value::Real(*value) } else { Value::Integer(*value as i32) })
     });
     let sets: Vec<_> = sets.collect();
-    let sentence = plants(&description, &sets).next().unwrap().sentence().unwrap();
-    (sentence, warnings(&description, &sets))
+    let windows: Vec<Windows> = windows.map(|windows| (String::new(), windows)).into_iter().collect();
+    let sentence = plants(&description, &sets, &windows).next().unwrap().sentence().unwrap();
+    (sentence, warnings(&description, &sets, &windows))
 }
 
 const HOUR_S: f64 = 3600.0;
@@ -48,4 +53,20 @@ fn a_window_as_long_as_its_cycle_is_warned_of_where_the_plant_guides_itself() {
     for silent in [("guided.downlinkEvery", 0.0), ("attitude.source", 4.0), ("orbit.center", 2.0)] {
         assert!(warned(&[end(26.1), silent]).is_empty(), "{silent:?}");
     }
+}
+
+#[test]
+fn shares_of_the_period_follow_the_orbit_that_is_set() {
+    let share = TimeAfterPeriapsis::PeriodShare;
+    let windows = |stop: f64| Some(DownlinkWindows { start: share(0.2), stop: share(stop), every: 1 });
+    let low = [("orbit.center", 3.0), ("orbit.semiMajorAxis", 6551.8e3), ("guided.downlinkEvery", 1.0)];
+    let (sentence, warned) = said_of(&low, windows(0.5));
+    assert!(sentence.ends_with("downlink from 20 % to 50 % after every periapsis"), "{sentence}");
+    assert!(warned.is_empty(), "{warned:?}");
+    let (_, warned) = said_of(&low, windows(1.3));
+    assert!(warned.len() == 1 && warned[0].contains("always open"), "{warned:?}");
+    // Set, a time is that.
+    let (sentence, warned) = said_of(&[&low[..], &[("guided.downlinkEnd", 7200.0)]].concat(), windows(0.5));
+    assert!(sentence.ends_with("from 20 % to 2 h after every periapsis"), "{sentence}");
+    assert!(warned.is_empty(), "{warned:?}");
 }
