@@ -141,6 +141,7 @@ impl<T: Section> From<&T> for Knowns {
 pub struct Dependencies {
     at_steps: BTreeMap<Element, Knowns>,
     at_start: BTreeMap<Element, Knowns>,
+    inputs_at_start: BTreeMap<Element, Knowns>,
 }
 
 impl Dependencies {
@@ -163,6 +164,11 @@ impl Dependencies {
         insert(&mut self.at_start, &outputs, &at_start.into());
     }
 
+    /// Outputs whose value after initialization these inputs can change too, though in steps they do not at once.
+    pub fn begins(&mut self, outputs: impl Into<Knowns>, inputs: impl Into<Knowns>) {
+        insert(&mut self.inputs_at_start, &outputs.into(), &inputs.into());
+    }
+
     /// Calculated parameters, every element alike, and the parameters they are calculated from.
     pub fn calculated(&mut self, parameters: impl Into<Knowns>, at_start: impl Into<Knowns>) {
         insert(&mut self.at_start, &parameters.into(), &at_start.into());
@@ -171,6 +177,11 @@ impl Dependencies {
     /// The inputs that count for each output.
     pub(crate) fn at_steps(&self) -> &BTreeMap<Element, Knowns> {
         &self.at_steps
+    }
+
+    /// The inputs that count for an output after initialization beside those.
+    pub(crate) fn inputs_at_start(&self) -> &BTreeMap<Element, Knowns> {
+        &self.inputs_at_start
     }
 
     /// The parameters that count for each output and calculated parameter after initialization.

@@ -27,6 +27,7 @@ mod output;
 mod pack;
 mod patience;
 mod plan;
+mod pointing;
 mod run;
 mod schema;
 mod size;

@@ -16,7 +16,9 @@ pub const MODELS: [&str; 6] =
 pub fn library(model: &str) -> &'static Library {
     static MOMENTUM_PLANT: Library = Library { entries: &[Entry::of::<MomentumPlant>()] };
     static SPIN_PLANT: Library = Library { entries: &[Entry::of::<SpinPlant>()] };
-    static DISTURBANCE_TORQUE: Library = Library { entries: &[Entry::of::<DisturbanceTorque>()] };
+    // The shipped file has start values for MomentumPlant.
+    static DISTURBANCE_TORQUE: Library =
+        Library { entries: &[Entry::of::<DisturbanceTorque>(), Entry::of::<MomentumPlant>()] };
     static GUIDANCE: Library = Library { entries: &[Entry::of::<Guidance>()] };
     static ALL_TYPES: Library = Library { entries: &[Entry::of::<AllTypes>()] };
     static EMPTY: Library = Library { entries: &[Entry::of::<Empty>()] };

@@ -38,8 +38,12 @@ pub(crate) fn structure(
         let parameters = lists.row(unknown, dependencies.at_start())?;
         let mut indices = lists.indices(parameters, &lists.is_exact_parameter)?;
         if variables[unknown.index as usize - 1].causality == Causality::Output {
-            let inputs = lists.row(unknown, dependencies.at_steps())?;
-            indices.extend(lists.indices(inputs, &lists.is_input)?);
+            let at_once = lists.row(unknown, dependencies.at_steps())?;
+            let inputs = match lists.keys[unknown.index as usize - 1] {
+                Some(key) => dependencies.inputs_at_start().get(&key).map(|more| more.clone().and(at_once)),
+                None => None,
+            };
+            indices.extend(lists.indices(inputs.as_ref().unwrap_or(at_once), &lists.is_input)?);
             indices.sort_unstable();
         }
         unknown.dependencies = Some(indices);

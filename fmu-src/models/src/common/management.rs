@@ -2,7 +2,7 @@
 
 use fmi_export::{Choice, Failure, Integer, RealVector, Values, Variables};
 use nalgebra::Vector3;
-use physics::guidance::Schedule;
+use physics::guidance::{NoCycle, Schedule};
 use physics::management::{self, Manager, Strategy, TargetAxes, Targeting, TargetingMethod};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 
@@ -99,4 +99,20 @@ pub fn check_windows(schedule: &Schedule) -> Result<(), Failure> {
         "momentum.strategy, guided.downlinkStart, guided.downlinkEnd, guided.downlinkEvery: found a strategy with {found}, from \
          {downlink_start_s:?} s to {downlink_end_s:?} s, allowed: dumpsOnly, or downlinks with science between them"
     )))
+}
+
+/// What is wrong with windows that are requested, whatever the strategy; `None` where nothing is.
+pub fn window_warning(schedule: &Schedule) -> Option<String> {
+    let Schedule { downlink_start_s, downlink_end_s, every, .. } = *schedule;
+    let names = "guided.downlinkStart, guided.downlinkEnd, guided.downlinkEvery";
+    match schedule.check_windows().err()? {
+        NoCycle::Overlap { every_s } => Some(format!(
+            "{names}: a window from {downlink_start_s} s to {downlink_end_s} s every {every_s} s is always open: the spacecraft \
+             is in downlink for ever and never observes"
+        )),
+        NoCycle::Never if every > 0 && schedule.period_s.is_finite() => Some(format!(
+            "{names}: a window from {downlink_start_s} s to {downlink_end_s} s is never open: there is no downlink"
+        )),
+        NoCycle::Never => None,
+    }
 }

@@ -6,12 +6,13 @@ use fmi_export::{
 use physics::attitude::SunAngles;
 use physics::bodies::surface::PlanetSurface;
 use physics::environment::eclipse::{Shadow, ShadowModel};
-use physics::environment::orbit::Elements as KeplerElements;
+use physics::environment::orbit::{self, Elements as KeplerElements};
 use physics::environment::sun::SOLAR_FLUX_W_M2;
 use physics::guidance::constraints::keep_in::KeepIn;
 use physics::guidance::pointing::boresight::MdisRange;
 use physics::guidance::{self, Guided, Schedule};
 use physics::plant::SunLight;
+use physics::spacecraft::{Spacecraft, TimeAfterPeriapsis};
 
 use super::center::CenterBody;
 use super::choices::{DayTemperature, DownlinkReference, EclipseMethod, ScienceRule};
@@ -157,11 +158,47 @@ impl WorkLimit {
     }
 }
 
-/// Science and downlink in turn, as a Mercury orbiter flies them.
+/// Latest begin and end of a downlink, in s.
+const LATEST_WINDOW_S: f64 = 1e9;
+
+/// Start values of the downlink windows by a spacecraft's file; without any in it there is no downlink.
+#[derive(Clone, Copy, Debug)]
+pub struct WindowDefaults {
+    /// Begin after periapsis, in s.
+    pub start_s: f64,
+    /// End after periapsis, in s.
+    pub end_s: f64,
+    /// A downlink after every how many periapses.
+    pub every: i32,
+    /// Begin and end as shares of the period, where the file gives them so.
+    pub period_shares: [Option<f64>; 2],
+}
+
+impl WindowDefaults {
+    /// Of a file; shares of the period are shown in the orbit that one about `center` begins with.
+    pub fn of(spacecraft: &Spacecraft, center: &CenterBody) -> Self {
+        let Some(windows) = &spacecraft.downlinks else {
+            return Self { start_s: 0.0, end_s: 0.0, every: 0, period_shares: [None; 2] };
+        };
+        let axis_m = center.elements().semi_major_axis_m;
+        let period_s = orbit::period_s(center.data.gm_m3_s2, axis_m);
+        let times = [windows.start, windows.stop];
+        let [start_s, end_s] = times.map(|time| time.in_orbit_s(period_s).min(LATEST_WINDOW_S));
+        Self {
+            start_s,
+            end_s,
+            every: i32::try_from(windows.every).unwrap_or(i32::MAX),
+            period_shares: times.map(TimeAfterPeriapsis::period_share),
+        }
+    }
+}
+
+/// Science and downlink in turn.
 #[derive(Variables)]
+#[variables(setup = WindowDefaults)]
 pub struct GuidedVariables {
     /// How the spacecraft stands while it observes.
-    #[parameter(start = ScienceRule::Scaled)]
+    #[parameter(start = ScienceRule::Nadir)]
     pub science_rule: Choice<ScienceRule>,
     /// Whether science off-points to unload momentum by sunlight (paper 001, MDIS pointing): the Sun's place in the keep-in zone is
     /// chosen where science begins, or the flight or the scenario in it, for the momentum target of momentum.strategy at its end, and
@@ -175,14 +212,15 @@ pub struct GuidedVariables {
     /// Sun elevation per (Sun-nadir angle - 90 deg) under the scaled rule; 0.25 is fitted to paper 000's Table 2.
     #[parameter(unit = "1", min = 0.0, max = 1.0, start = 0.25)]
     pub science_gain: Real,
-    /// Begin of downlink after periapsis, or after the start.
-    #[parameter(unit = "s", display = "h", min = 0.0, max = 1e9, start = 7_200.0)]
+    /// Begin of downlink after periapsis, or after the start. By a file whose [downlinks] gives it as a share of the period the one
+    /// of the present orbit counts unless this is set.
+    #[parameter(unit = "s", display = "h", min = 0.0, max = LATEST_WINDOW_S, start = setup.start_s)]
     pub downlink_start: Real,
-    /// End of downlink after periapsis, or after the start.
-    #[parameter(unit = "s", display = "h", min = 0.0, max = 1e9, start = 36_000.0)]
+    /// End of downlink after periapsis, or after the start; likewise.
+    #[parameter(unit = "s", display = "h", min = 0.0, max = LATEST_WINDOW_S, start = setup.end_s)]
     pub downlink_end: Real,
-    /// A downlink after every how many periapses; 0 = never.
-    #[parameter(min = 0, max = 1_000, start = 2)]
+    /// A downlink after every how many periapses; 0 = never. With guided.downlinkReference = start there is one window all the same.
+    #[parameter(min = 0, max = 1_000, start = setup.every)]
     pub downlink_every: Integer,
     /// From where downlinks are counted.
     #[parameter(start = DownlinkReference::Periapsis)]
@@ -248,6 +286,24 @@ impl EllipseVariables {
 }
 
 impl GuidedVariables {
+    /// The law with begin and end of its windows as shares of the period, where the file gives them so and nobody set them.
+    pub fn by_shares<M: Model>(
+        &self,
+        context: &Context<'_, M>,
+        values: &Values,
+        defaults: &WindowDefaults,
+        law: Guided,
+    ) -> Guided {
+        let given = context.given(values, &[self.downlink_start.into(), self.downlink_end.into()]);
+        let [start, end] = defaults.period_shares;
+        let period_shares = [
+            start.filter(|_| !given.has(self.downlink_start)),
+            end.filter(|_| !given.has(self.downlink_end)),
+        ];
+        let schedule = Schedule { period_shares, ..law.schedule };
+        Guided { schedule: schedule.in_orbit(schedule.period_s), ..law }
+    }
+
     /// Refuses science that unloads without a strategy that chooses the Sun's place.
     ///
     /// # Errors
@@ -277,19 +333,20 @@ impl GuidedVariables {
         camera: MdisRange,
     ) -> Result<Guided, Failure> {
         let [start_s, end_s] = [self.downlink_start, self.downlink_end].map(|time| values.real(time));
-        if values.integer(self.downlink_every) != 0 && start_s > end_s {
+        let once = matches!(values.choice(self.downlink_reference), DownlinkReference::Start);
+        if (values.integer(self.downlink_every) != 0 || once) && start_s > end_s {
             return Err(Failure::new(format!(
                 "guided.downlinkStart, guided.downlinkEnd: found {start_s:?} s and {end_s:?} s, allowed: a start not \
                  after the end; guided.downlinkEvery = 0 for no downlink"
             )));
         }
-        let once = matches!(values.choice(self.downlink_reference), DownlinkReference::Start);
         Ok(Guided {
             schedule: Schedule {
                 periapsis_s: if once { start_epoch_s } else { periapsis_s },
                 period_s: if once { f64::INFINITY } else { period_s },
                 downlink_start_s: start_s,
                 downlink_end_s: end_s,
+                period_shares: [None; 2],
                 every: values.integer(self.downlink_every).unsigned_abs(),
                 once,
             },

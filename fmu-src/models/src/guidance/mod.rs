@@ -26,6 +26,7 @@ use physics::management::{DumpRequests, SampledManager};
 use physics::numerics::work::Work;
 
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
+use crate::common::management::window_warning;
 use inputs::{Fixed, Reader, management};
 pub use setup::Guidance;
 use setup::{GuidanceSetup, Plan};
@@ -96,12 +97,13 @@ impl Model for Guidance {
             time_s: start_s,
             epoch_minus_time_s: time::epoch_minus_time_s(epoch_s, start_s),
             warned_unconnected: false,
+            windows_are_judged: false,
             ephemeris: Ephemeris::default(),
             coarse: CoarseEphemeris::default(),
             fixed: None,
         };
         // Masters that connect inputs one by one look before all of them are set: the first step says what is missing.
-        let mut shown = State { warned_unconnected: true, ..state.clone() };
+        let mut shown = State { warned_unconnected: true, windows_are_judged: true, ..state.clone() };
         let mut fixed = Fixed::read(context, values)?;
         management::set_panels(context, values, &mut fixed.panels);
         let settings = inputs::settings(context, values, &fixed)?;
@@ -322,6 +324,15 @@ impl State {
         let keep_in = settings.modes.operational.keep_in.unwrap_or(settings.keep_in);
         let manager = management::manager(context, values, &fixed.panels, &keep_in)?;
         let manager = SampledManager { momentum_body_n_m_s, ..manager };
+        if command.scenario == Some(Scenario::OrbitPhase)
+            && !self.windows_are_judged
+            && let Some(windows) = self.system.windows(&settings.orbit_phase, &places)
+        {
+            self.windows_are_judged = true;
+            if let Some(warning) = window_warning(&windows) {
+                context.log.warning(&warning);
+            }
+        }
         let inputs = SampleInputs { command, entries, places, sensed, delta_v_body_m_s };
         let is_chosen = self.system.sample(&settings, &inputs, |start| manager.choose(start));
         Ok(if is_chosen { manager.work(settings.orbit_phase.science.unloads()) } else { 0 })

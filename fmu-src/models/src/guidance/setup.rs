@@ -8,11 +8,12 @@ use physics::environment::onboard::OnboardEphemeris;
 use physics::guidance::timeline::Timeline;
 use physics::momentum::WheelArray;
 use physics::plant::ControlDefaults;
-use physics::spacecraft::{Spacecraft, SunKeepIn};
+use physics::spacecraft::{HotPoleZone, Spacecraft, SunKeepIn};
 use serde::Serialize;
 
 use crate::common::center::{CenterBody, target_of};
 use crate::common::spacecraft::{PreparedShapes, dump_threshold_n_m_s};
+use crate::common::variables::WindowDefaults;
 
 /// Guidance.
 pub struct Guidance;
@@ -28,6 +29,9 @@ pub struct GuidanceSetup {
     /// The planet that is observed by the file, and the defaults of the parameters go by.
     #[serde(skip)]
     pub target: CenterBody,
+    /// Start values of the downlink windows.
+    #[serde(skip)]
+    pub windows: WindowDefaults,
     /// Prepared for sunlight.
     #[serde(skip)]
     pub shapes: PreparedShapes,
@@ -43,8 +47,10 @@ impl GuidanceSetup {
     /// From TOML text.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
+        let target = target_of(file, &spacecraft, Guidance::NAME)?;
         Ok(Self {
-            target: target_of(file, &spacecraft, Guidance::NAME)?,
+            target,
+            windows: WindowDefaults::of(&spacecraft, &target),
             shapes: PreparedShapes::of(&spacecraft),
             spacecraft,
             ephemeris: None,
@@ -84,6 +90,11 @@ impl GuidanceSetup {
         use core::f64::consts::FRAC_PI_2;
         let half = SunKeepIn { azimuth_rad: FRAC_PI_2, elevation_rad: FRAC_PI_2 };
         self.spacecraft.sun_keep_in.map_or(half, |zone| zone.within(&half))
+    }
+
+    /// The hot pole of the file; without one in it no place.
+    pub fn hot_pole(&self) -> HotPoleZone {
+        self.spacecraft.hot_pole.unwrap_or(HotPoleZone { altitude_m: 0.0, angle_rad: 0.0, cone_rad: 0.0 })
     }
 
     /// The greatest number of an instrument.

@@ -14,7 +14,22 @@ pub fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
     loads(&mut table, v, inputs, parameters);
     momentum(&mut table, v, inputs, parameters);
     actuators(&mut table, v, inputs, parameters);
+    if choice.begins_commanded {
+        table.begins(turned(v), &v.command);
+    }
     table
+}
+
+/// Outputs that follow the attitude.
+fn turned(v: &PlantVariables) -> Knowns {
+    let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
+    let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
+    let seen = knowns![&v.attitude, sun, others, v.sunshade.polynomial_valid, &v.panel];
+    let sensed = knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid, &v.control];
+    let loads = knowns![&v.torque, &v.force, &v.plate, v.acceleration, v.delta_v, v.accelerometer.delta_v];
+    let spent = knowns![v.mass, &v.propellant, &v.tank, v.center_of_mass, &v.dump];
+    let moved = knowns![&v.momentum, &v.wheel, &v.thrust, &v.thruster, &v.flexible_mode, &v.slosh];
+    knowns![seen, sensed, loads, spent, moved]
 }
 
 /// Inputs by what they act on directly, over the values of `attitude.source` and `command.source` that are open.
@@ -75,7 +90,7 @@ impl Parameters {
         // Guidance balances torques against the momentum.
         let aimed = &knowns![&v.guided, &v.momentum, &v.solar, &v.spacecraft, wheels.collect::<Knowns>()];
         let turned = knowns![&orbit, &v.attitude, &v.command, &v.keep_in, &v.sunshade, &v.panel];
-        let attitude = knowns![turned, aimed.clone().only_if(choice.guided)];
+        let attitude = knowns![turned, aimed.clone().only_if(choice.guided || choice.begins_guided)];
         let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, &v.noise, v.control.rate];
         let light = knowns![
             &attitude,

@@ -17,6 +17,7 @@ use crate::common::center::{CenterBody, center_of};
 use crate::common::effects::check_start;
 use crate::common::spacecraft::{PreparedShapes, ReportedFace, reported_faces};
 use crate::common::start_values::{entry_of, fixed_item, item};
+use crate::common::variables::WindowDefaults;
 
 /// The momentum plant.
 pub struct MomentumPlant;
@@ -32,6 +33,9 @@ pub struct PlantSetup {
     /// What it flies about by its file, and the defaults of the parameters go by.
     #[serde(skip)]
     pub center: CenterBody,
+    /// Start values of the downlink windows.
+    #[serde(skip)]
+    pub windows: WindowDefaults,
     /// Prepared for sunlight.
     #[serde(skip)]
     shapes: PreparedShapes,
@@ -63,8 +67,10 @@ impl PlantSetup {
         check_start(file, &spacecraft, MomentumPlant::NAME)?;
         let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
         let wheel_array = WheelArray::new(&axes);
+        let center = center_of(file, &spacecraft)?;
         Ok(Self {
-            center: center_of(file, &spacecraft)?,
+            center,
+            windows: WindowDefaults::of(&spacecraft, &center),
             control: ControlDefaults::of(&spacecraft, wheel_array.as_ref()),
             reported_faces: reported_faces(file, &spacecraft)?,
             shapes: PreparedShapes::of(&spacecraft),
@@ -111,6 +117,13 @@ impl PlantSetup {
         let ephemeris = fixed_item::<EphemerisSource>(start, MomentumPlant::NAME, "ephemeris.source");
         let has_places = matches!(orbit, Some(OrbitSource::Elements))
             && !matches!(ephemeris, None | Some(EphemerisSource::Inputs));
+        let is_given = |name: &str| {
+            let for_this = start
+                .iter()
+                .filter(|it| it.model.as_deref().is_none_or(|model| model == MomentumPlant::NAME));
+            for_this.into_iter().any(|it| it.name == name || it.name.starts_with(&format!("{name}[")))
+        };
+        let begins_pointed = !is_given("start.q");
         OpenChoices {
             ideal: matches!(source, None | Some(Guided | Commanded)),
             guided: match source {
@@ -118,6 +131,10 @@ impl PlantSetup {
                 Some(Commanded | Controlled) => !is_inputs,
                 Some(Free) => false,
             },
+            begins_guided: begins_pointed && matches!(source, Some(Free)),
+            begins_commanded: begins_pointed
+                && matches!(source, Some(Controlled))
+                && !matches!(command, Some(CommandSource::Guidance)),
             waits: !has_places,
         }
     }
@@ -130,6 +147,10 @@ pub struct OpenChoices {
     pub ideal: bool,
     /// The orbit phase's own guidance sets the attitude, if only where a flight by torque begins.
     pub guided: bool,
+    /// It gives the attitude where a free flight begins, for the file has none.
+    pub begins_guided: bool,
+    /// The command gives the attitude where a controlled flight begins, likewise.
+    pub begins_commanded: bool,
     /// Orbit or Sun may come by inputs: until they do, the attitude is the commanded one in any flight.
     pub waits: bool,
 }

@@ -173,6 +173,13 @@ impl PlantState {
         Ok(())
     }
 
+    /// The command by inputs, where it gives an attitude.
+    pub fn attitude_command(&self) -> Option<Command> {
+        let given = &self.last.command;
+        let is_given = matches!(given.kind(), Kind::Attitude) && !is_zero(&given.q);
+        (self.inputs.source.is_commanded && is_given).then_some(self.command)
+    }
+
     /// The controller tracks the command in effect.
     fn track(&mut self) {
         self.inputs.dynamics.tracked = match self.last.command.kind() {

@@ -7,6 +7,7 @@ use super::inputs::{self, Reading, propulsion};
 use super::outputs::{self, failure, log_dump};
 use super::setup::Plan;
 use super::state::PlantState;
+use crate::common::management::window_warning;
 
 /// The flight begins at `time_s`, or waits.
 pub fn start(
@@ -82,6 +83,10 @@ fn begin(
     time_s: f64,
 ) -> Result<Undo, Failure> {
     propulsion::check(&state.flight)?;
+    let guided = state.flight.configuration().and_then(|it| it.attitude.guided());
+    if let Some(warning) = guided.and_then(|law| window_warning(&law.schedule)) {
+        context.log.warning(&warning);
+    }
     let is_dynamic = state.inputs.source.is_dynamic;
     if is_dynamic && state.flight.configuration().is_some_and(|it| it.momentum.policy.begins_none()) {
         let reported = "dump.threshold is not set: in free flight dumps come on dump.request alone";

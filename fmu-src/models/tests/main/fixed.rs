@@ -1,17 +1,18 @@
 //! What a spacecraft file fixes is a local constant, and dependencies are those of that choice.
 
 use fmi_export::Model;
-use fmi_export::fmi2::description_of;
 use fmi_export::model_description::{
     Causality, Description, Initial, ScalarVariable, Unknown, Variability, VariableKind, rules,
 };
 use models::{MomentumPlant, SpinPlant};
 
+use super::named_model::described;
+
 const FULL: &str = include_str!("../../../resources/messenger-full.toml");
 
 fn with(entries: &str) -> Description {
     let text = format!("{}\n[fixed]\n{entries}\n", MomentumPlant::DEFAULT_SETUP);
-    description_of::<MomentumPlant>("my.toml", &text).unwrap()
+    described::<MomentumPlant>("my.toml", &text).unwrap()
 }
 
 fn variable<'a>(description: &'a Description, name: &str) -> &'a ScalarVariable {
@@ -38,7 +39,7 @@ fn begins_with(description: &Description, unknown: &str) -> Vec<String> {
 
 #[test]
 fn a_fixed_choice_is_a_local_constant_and_no_command_acts_at_once() {
-    let open = description_of::<MomentumPlant>("my.toml", MomentumPlant::DEFAULT_SETUP).unwrap();
+    let open = described::<MomentumPlant>("my.toml", MomentumPlant::DEFAULT_SETUP).unwrap();
     let fixed = with(
         "\"attitude.source\" = \"controlled\"\n\"command.source\" = \"inputs\"\n\"orbit.source\" = \"elements\"\n\
          \"ephemeris.source\" = \"vsop87\"",
@@ -54,6 +55,14 @@ fn a_fixed_choice_is_a_local_constant_and_no_command_acts_at_once() {
         assert!(!after.iter().any(|name| name.starts_with("command.")), "{output}: {after:?}");
     }
     assert!(acts_on(&fixed, "wheel[1].torque").iter().any(|name| name == "command.q[1]"));
+    // It is where the flight begins, unless the file says where that is.
+    let begins_commanded = |description: &Description| {
+        begins_with(description, "attitude.q[1]").iter().any(|name| name == "command.q[1]")
+    };
+    assert!(begins_commanded(&fixed));
+    let given = "\"attitude.source\" = \"controlled\"\n\"command.source\" = \"inputs\"\n\"orbit.source\" = \"elements\"\n\
+                 \"ephemeris.source\" = \"vsop87\"\n\"start.q[4]\" = 1";
+    assert!(!begins_commanded(&with(given)));
     let listed = fixed.structure.initial_unknowns.iter().flat_map(|it| it.dependencies.iter().flatten());
     for known in listed {
         let known = &fixed.variables[*known as usize - 1];
@@ -71,7 +80,9 @@ fn a_body_that_guidance_never_turns_begins_without_it() {
     for unknown in ["attitude.q[1]", "estimate.q[1]", "force.solar[1]"] {
         assert!(begins_guided("", unknown) && begins_guided(&controlled("guidance"), unknown), "{unknown}");
         assert!(!begins_guided(&controlled("inputs"), unknown), "{unknown}");
-        assert!(!begins_guided("\"attitude.source\" = \"free\"", unknown), "{unknown}");
+        let free = "\"attitude.source\" = \"free\"";
+        assert!(begins_guided(free, unknown), "{unknown}");
+        assert!(!begins_guided(&format!("{free}\n\"start.q[4]\" = 1"), unknown), "{unknown}");
     }
 }
 
@@ -79,7 +90,7 @@ fn a_body_that_guidance_never_turns_begins_without_it() {
 fn where_no_dump_is_at_once_light_begins_without_thrusters() {
     let begins_fired = |fixed: &str| {
         let description =
-            description_of::<MomentumPlant>("my.toml", &format!("{FULL}\n[fixed]\n{fixed}\n")).unwrap();
+            described::<MomentumPlant>("my.toml", &format!("{FULL}\n[fixed]\n{fixed}\n")).unwrap();
         begins_with(&description, "torque.solar[1]").iter().any(|name| name.starts_with("thruster[1]."))
     };
     assert!(begins_fired("") && begins_fired("\"attitude.source\" = \"commanded\""));
@@ -92,10 +103,10 @@ fn the_guid_follows_what_is_fixed() {
     // The default, fixed, is another FMU too.
     let default = with("\"attitude.source\" = \"guided\"").guid;
     let fixed = with(entry).guid;
-    let open = description_of::<MomentumPlant>("my.toml", MomentumPlant::DEFAULT_SETUP).unwrap().guid;
+    let open = described::<MomentumPlant>("my.toml", MomentumPlant::DEFAULT_SETUP).unwrap().guid;
     assert!(open != default && default != fixed && fixed != open);
     assert!(
-        description_of::<SpinPlant>("my.toml", &format!("{}\n[fixed]\nseed = 3\n", SpinPlant::DEFAULT_SETUP))
+        described::<SpinPlant>("my.toml", &format!("{}\n[fixed]\nseed = 3\n", SpinPlant::DEFAULT_SETUP))
             .is_ok_and(|it| variable(&it, "seed").causality == Causality::Local)
     );
 }
@@ -103,6 +114,6 @@ fn the_guid_follows_what_is_fixed() {
 #[test]
 fn what_no_model_has_is_refused_with_its_line() {
     let text = format!("{}\n[fixed]\n\"attitude.sourc\" = 3\n", MomentumPlant::DEFAULT_SETUP);
-    let refused = description_of::<MomentumPlant>("my.toml", &text).unwrap_err().to_string();
+    let refused = described::<MomentumPlant>("my.toml", &text).unwrap_err();
     assert!(refused.contains("fixed.\"attitude.sourc\"") && refused.contains("attitude.source"), "{refused}");
 }

@@ -6,6 +6,7 @@ mod custom_body;
 mod dependencies;
 mod disturbance_degenerate;
 mod disturbance_torque;
+mod downlink_windows;
 mod dynamics;
 mod fixed;
 mod guidance;

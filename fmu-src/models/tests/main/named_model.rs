@@ -4,12 +4,31 @@ use fmi_export::model::Log;
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 
-use fmi_export::fmi2::{description_of, references, scalar_variables};
+use fmi_export::fmi2::{references, scalar_variables};
 use fmi_export::model::InputDerivative;
 use fmi_export::model_description::{Causality, Description, VariableKind};
-use fmi_export::{BaseType, Context, Declare, Failure, InputsOverTime, Model, Step, Values, Variables};
+use fmi_export::{
+    BaseType, Context, Declare, Entry, Failure, InputsOverTime, Library, Model, Step, Values, Variables,
+};
+use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 use nalgebra::{Quaternion, UnitQuaternion};
 use physics::numerics::intervals::next_multiple_s;
+
+/// Every model: a file may give start values to another than the one that is described.
+static LIBRARY: Library = Library {
+    entries: &[
+        Entry::of::<MomentumPlant>(),
+        Entry::of::<SpinPlant>(),
+        Entry::of::<DisturbanceTorque>(),
+        Entry::of::<Guidance>(),
+    ],
+};
+
+/// The description of a model with this setup.
+pub fn described<M: Model>(file: &str, text: &str) -> Result<Description, String> {
+    let entry = LIBRARY.find(M::NAME).unwrap();
+    LIBRARY.describe(entry, Some(file), Some(text)).map_err(|error| error.to_string())
+}
 
 /// Keeps warnings.
 #[derive(Default)]
@@ -103,7 +122,7 @@ impl<M: Model> NamedModel<M> {
             }
         });
         // Start values for another model are no names that this one alone knows.
-        let described = description_of::<M>(file, text);
+        let described = described::<M>(file, text);
         let start =
             described.map_or_else(|_| interface.start.clone(), |it| with_file_starts(&interface.start, &it));
         let names: Vec<Named> = names.collect();

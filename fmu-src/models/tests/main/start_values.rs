@@ -180,16 +180,16 @@ const REFUSALS: &[(&str, &str)] = &[
     (
         "[start]\n\"orbit.centre\" = \"sun\"",
         "my.toml:+2: start.\"orbit.centre\": found the unknown name \"orbit.centre\" (did you mean \"orbit.center\"?), \
-         allowed: a parameter or an input of MomentumPlant or DisturbanceTorque",
+         allowed: a parameter or an input of MomentumPlant or DisturbanceTorque or Guidance",
     ),
     (
         "[start]\n\"burn.count\" = 3",
-        "my.toml:+2: start.\"burn.count\": found the unknown name \"burn.count\", allowed: a parameter or an input of MomentumPlant or DisturbanceTorque",
+        "my.toml:+2: start.\"burn.count\": found the unknown name \"burn.count\" (did you mean \"burn.gain\"?), allowed: a parameter or an input of MomentumPlant or DisturbanceTorque or Guidance",
     ),
     (
         "[start]\n\"planetLight.belt\" = 3",
         "my.toml:+2: start.\"planetLight.belt\": found the unknown name \"planetLight.belt\" (did you mean \
-         \"planetLight.belts\"?), allowed: a parameter or an input of MomentumPlant or DisturbanceTorque",
+         \"planetLight.belts\"?), allowed: a parameter or an input of MomentumPlant or DisturbanceTorque or Guidance",
     ),
     (
         "[start.MomentumPlant]\n\"planetLight.belts\" = 3",
@@ -204,18 +204,18 @@ const REFUSALS: &[(&str, &str)] = &[
     (
         "[start.MomentumPlnat]\n\"dump.threshold\" = [1, 1, 1]",
         "my.toml:+2: start.MomentumPlnat.\"dump.threshold\": found the unknown model \"MomentumPlnat\" (did you mean \
-         \"MomentumPlant\"?), allowed: MomentumPlant, DisturbanceTorque, which read this file; the name of a variable \
+         \"MomentumPlant\"?), allowed: MomentumPlant, DisturbanceTorque, Guidance, which read this file; the name of a variable \
          stands in quotes as a whole",
     ),
     (
         "[start.SpinPlant]\nseed = 3",
         "my.toml:+2: start.SpinPlant.seed: found the unknown model \"SpinPlant\", allowed: MomentumPlant, \
-         DisturbanceTorque, which read this file; the name of a variable stands in quotes as a whole",
+         DisturbanceTorque, Guidance, which read this file; the name of a variable stands in quotes as a whole",
     ),
     (
         "[start]\norbit.center = \"sun\"",
         "my.toml:+2: start.orbit.center: found the unknown model \"orbit\", allowed: MomentumPlant, DisturbanceTorque, \
-         which read this file; the name of a variable stands in quotes as a whole",
+         Guidance, which read this file; the name of a variable stands in quotes as a whole",
     ),
     (
         "[start.MomentumPlant]\norbit.center = \"sun\"",

@@ -85,7 +85,8 @@ fn ideal_wheels_turn_by_the_torque_that_is_shown() {
 #[test]
 fn controlled_wheels_turn_by_the_torque_that_is_shown() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut flight = fly(&named, &[("attitude.source", 3.0), ("command.q[1]", 0.1), ("command.q[4]", 0.99)]);
+    let turned = [("start.q[4]", 1.0), ("command.q[1]", 0.1), ("command.q[4]", 0.99)];
+    let mut flight = fly(&named, &[&[("attitude.source", 3.0)][..], &turned].concat());
     let mut moved = false;
     for sample in 1..=500 {
         let before = axial(&flight);

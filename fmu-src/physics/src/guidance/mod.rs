@@ -18,6 +18,6 @@ pub use orbit_phase::attitudes::{
 };
 pub use orbit_phase::guided::{Guided, GuidedAttitude};
 pub use orbit_phase::orbit_ahead::{OrbitAhead, lines_of_sight};
-pub use orbit_phase::schedule::{Activity, Schedule, Window};
+pub use orbit_phase::schedule::{Activity, NoCycle, Schedule, Window};
 pub use orbit_phase::science_course::{CoursePoint, ScienceCourse};
 pub use pointing::law::{Pointing, PointingVectors};

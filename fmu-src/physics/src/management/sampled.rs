@@ -11,7 +11,7 @@ use super::targeting::{DownlinkState, ScienceAim};
 use crate::attitude::angle_between_rad;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::{
-    Activity, ChosenPlace, CoursePoint, Guided, OrbitAhead, Schedule, ScienceCourse, ScienceRule, WindowStart,
+    Activity, ChosenPlace, CoursePoint, Guided, OrbitAhead, ScienceCourse, ScienceRule, WindowStart,
 };
 use crate::momentum::{Convention, DumpPolicy, Totals};
 use crate::numerics::intervals::sampled_range;
@@ -117,7 +117,7 @@ impl SampledManager<'_> {
             return None;
         }
         let orbit = OrbitAhead::of(start.surroundings)?;
-        let schedule = Schedule { period_s: orbit.period_s(), ..start.law.schedule };
+        let schedule = start.law.schedule.in_orbit(orbit.period_s());
         let mut forecast = SampledForecast {
             orbit,
             law: Guided { schedule, ..start.law },

@@ -44,7 +44,7 @@ pub use settings::configuration::{
 };
 pub use settings::control_defaults::ControlDefaults;
 pub use settings::dynamics_settings::{
-    Control, DynamicsInputs, DynamicsSettings, StartMotion, ThrusterControl, Tracked,
+    Control, DynamicsInputs, DynamicsSettings, StartMotion, StartPointing, ThrusterControl, Tracked,
 };
 pub use settings::error::PlantError;
 pub use settings::ideal_settings::IdealSettings;

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use super::body::CustomBody;
+use super::downlinks::DownlinkWindows;
 use super::file::body::body;
 use super::file::description::Description;
 use super::file::devices::{instrument, sun_sensor, wheel};
@@ -15,6 +16,8 @@ use super::file::plates::{body_plates, panel, sunshade};
 use super::file::propulsion::{tank, thruster};
 use super::file::swinging::{mode, slosh, swinging_fits};
 use super::file::thruster_sets::{set_of, thruster_sets};
+use super::file::windows::{downlinks, hot_pole};
+use super::hot_pole::HotPoleZone;
 use super::instruments::Instrument;
 use super::mass::MassProperties;
 use super::panel::Panel;
@@ -62,6 +65,10 @@ pub struct Spacecraft {
     pub dump_threshold_n_m_s: Option<Vector3<f64>>,
     /// Directions the Sun may have.
     pub sun_keep_in: Option<SunKeepIn>,
+    /// When it talks to the Earth; `None`: never by its file.
+    pub downlinks: Option<DownlinkWindows>,
+    /// Where -Z does not look at the planet.
+    pub hot_pole: Option<HotPoleZone>,
     /// Whether models report temperature and force of every face.
     pub per_plate_outputs: bool,
     /// Temperature of the space that surfaces see, in K.
@@ -148,6 +155,7 @@ impl Spacecraft {
             list(check, &root.key("flexible_modes"), description.flexible_modes.as_deref(), mode);
         let sloshes = list(check, &root.key("slosh"), description.slosh.as_deref(), slosh);
         swinging_fits(check, &flexible_modes, &sloshes, &mass_properties);
+        let start = start_entries(check, description.start.as_ref(), description.fixed.as_ref());
         Self {
             name: description.name.clone(),
             mass_properties,
@@ -189,7 +197,12 @@ impl Spacecraft {
                 .as_ref()
                 .and_then(|map| planet_map(check, &root.key("planet_map"), map)),
             body: description.body.as_ref().map(|own| body(check, &root.key("body"), own)),
-            start: start_entries(check, description.start.as_ref(), description.fixed.as_ref()),
+            downlinks: description
+                .downlinks
+                .as_ref()
+                .map(|it| downlinks(check, &root.key("downlinks"), it, &start)),
+            hot_pole: description.hot_pole.as_ref().map(hot_pole),
+            start,
             sun_keep_in: description.sun_keep_in.as_ref().map(|limits| SunKeepIn {
                 azimuth_rad: limits.azimuth_deg.0.to_radians(),
                 elevation_rad: limits.elevation_deg.0.to_radians(),

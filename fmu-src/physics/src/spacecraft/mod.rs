@@ -9,7 +9,9 @@
 
 mod assembly;
 mod body;
+mod downlinks;
 mod file;
+mod hot_pole;
 mod instruments;
 mod mass;
 mod optics;
@@ -32,8 +34,10 @@ mod tests;
 pub use crate::toml::MOST_THRUSTERS;
 pub use assembly::{Spacecraft, SunKeepIn};
 pub use body::{BodyMotion, BodyOrbit, CustomBody, InertialFrame};
+pub use downlinks::{DownlinkWindows, TimeAfterPeriapsis};
 #[cfg(feature = "schema")]
 pub use file::schema;
+pub use hot_pole::HotPoleZone;
 pub use instruments::Instrument;
 pub(crate) use mass::steiner;
 pub use mass::{MassProperties, PanelMass, check_inertia};

@@ -22,8 +22,8 @@ pub use limits::{LIMITS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUST
 pub use place::Place;
 pub use ranges::{
     AtLeastOne, BodyRadius, Copies, Corners, Deviation, Distance, Emissivity, FieldOfView, Finite, Fraction,
-    Frequency, GravitationalParameter, HalfTurn, Kelvin, NotNegative, OrbitAxis, Positive, QuarterTurn,
-    Rings, SpecificImpulse, SubtendedAngle, TurnEither,
+    Frequency, GravitationalParameter, HalfTurn, Kelvin, NotNegative, OrbitAxis, Orbits, Positive,
+    QuarterTurn, Rings, SpecificImpulse, SubtendedAngle, TurnEither,
 };
 pub use reader::Findings;
 pub use spelling::{hint, nearest};

@@ -109,6 +109,7 @@ ranges! {
     Deviation(f64): 0.0, 180.0, "a standard deviation from 0 to 180 deg";
     AtLeastOne(u32): 1.0, GREATEST, "at least 1";
     Copies(u32): 2.0, 100.0, "a whole number from 2 to 100";
+    Orbits(u32): 0.0, 1000.0, "a whole number of orbits from 0 to 1000";
     Corners(u32): 3.0, 128.0, "a whole number from 3 to 128";
     Rings(u32): 1.0, 32.0, "a whole number from 1 to 32";
 }

@@ -78,6 +78,7 @@ pub(crate) fn guided(orbit: &TwoBodyOrbit) -> AttitudeSource {
             period_s: orbit.period_s(),
             downlink_start_s: 7200.0,
             downlink_end_s: 36_000.0,
+            period_shares: [None; 2],
             every: 2,
             once: false,
         },

@@ -24,11 +24,16 @@ pub struct Sunlight {
 pub fn report(spacecraft: &Spacecraft, sunlight: Sunlight) -> String {
     let figures = Figures::of(spacecraft);
     let rows = body(&figures, sunlight).into_iter().chain(devices(spacecraft, &figures));
-    let mut text: String = rows.map(|(name, value)| format!("\n  {name:<21}{value}")).collect();
+    let mut text: String = rows.map(|(name, value)| row(name, &value)).collect();
     for warning in warnings(spacecraft, &figures) {
         text.push_str(&format!("\nwarning: {warning}"));
     }
     text
+}
+
+/// A line of the report.
+pub fn row(name: &str, value: &str) -> String {
+    format!("\n  {name:<21}{value}")
 }
 
 /// Lines of what a spinner carries.
@@ -49,7 +54,7 @@ pub fn of_spinner(spinner: &Spinner) -> String {
     let names = core::iter::once("thrusters").chain(core::iter::repeat(""));
     let thrusters: Vec<String> = thrusters.map(|it| thruster(&it)).collect();
     let rows = names.zip(thrusters).chain([("star tracker", tracker), ("Sun sensor", sensor)]);
-    rows.map(|(name, value)| format!("\n  {name:<21}{value}")).collect()
+    rows.map(|(name, value)| row(name, &value)).collect()
 }
 
 /// Extents, areas, mass and torque.

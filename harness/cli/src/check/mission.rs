@@ -8,6 +8,7 @@ use super::options::Check;
 use crate::{
     epoch, low_orbit,
     outcome::{self, Outcome},
+    pointing,
     run::{Prepared, Run, Settings, long_step},
 };
 
@@ -32,8 +33,13 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
     let low = low_orbit::warnings(subject.description(), sets);
-    let warnings: String =
-        low.iter().chain(&long_step(times)).map(|warning| format!("\nwarning: {warning}")).collect();
+    let windows = pointing::warnings(subject.description(), sets, &pointing::windows_in(&subject.parts()));
+    let warnings = low
+        .iter()
+        .chain(&windows)
+        .chain(&long_step(times))
+        .map(|it| format!("\nwarning: {it}"))
+        .collect::<String>();
     let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });
     Ok(format!(
         "{} flies from {begin} for {} in {} of {} s; {} recorded, {}, {}{warnings}",

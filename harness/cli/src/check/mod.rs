@@ -19,7 +19,7 @@ use std::{
 use conformance::{Finding, PROBES, Probe as Probed, Trial, Verdict};
 use loader::Fmu;
 
-use crate::{carried, low_orbit, outcome::Outcome};
+use crate::{carried, low_orbit, outcome::Outcome, pointing};
 pub use child::{Probe, run_probe};
 pub use options::Check;
 
@@ -79,7 +79,12 @@ pub fn run(arguments: &Check) -> Outcome {
         Section::new("archive", conformance::archive(&fmu)),
         Section::new("modelDescription.xml", conformance::description(&fmu)),
     ];
-    let low = low_orbit::warnings(fmu.description(), &[]);
+    let mut low = low_orbit::warnings(fmu.description(), &[]);
+    low.extend(pointing::warnings(
+        fmu.description(),
+        &[],
+        &pointing::windows_in(&[(String::new(), fmu.folder().to_owned())]),
+    ));
     if !low.is_empty() {
         sections.push(Section::new("orbit", low.into_iter().map(Finding::note).collect()));
     }

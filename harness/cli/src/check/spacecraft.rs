@@ -24,7 +24,7 @@ use crate::{
     draw::scene::dish_of,
     low_orbit,
     outcome::{self, Outcome},
-    variables,
+    pointing, variables,
 };
 
 /// Has the models of the template's library read the file, the template's own first.
@@ -65,10 +65,14 @@ pub fn run(arguments: &Check, file: &str, text: &str) -> Outcome {
             return refused(file, &described, &format!("{file}: {reason}"));
         }
         let low = low_orbit::warnings(&description, &[]);
+        let windows = pointing::windows_of(text);
+        let points = pointing::sentence(&description, windows.as_slice())
+            .map_or_else(String::new, |it| figures::row("points", &it));
+        let windows = pointing::warnings(&description, &[], windows.as_slice());
         let warnings: String =
-            map.iter().chain(&low).map(|warning| format!("\nwarning: {warning}")).collect();
+            map.iter().chain(&low).chain(&windows).map(|warning| format!("\nwarning: {warning}")).collect();
         return outcome::printed(&format!(
-            "{file}: ok for {}: {}; the FMU will have {} variables{}{warnings}",
+            "{file}: ok for {}: {}; the FMU will have {} variables{points}{}{warnings}",
             described.model,
             contents(text),
             description.variables.len(),

@@ -8,7 +8,7 @@ use physics::{
     bodies::Body,
     constants::ASTRONOMICAL_UNIT_M as AU_M,
     enumeration::Enumerated,
-    spacecraft::{Panel, PanelControl, Spacecraft},
+    spacecraft::{DownlinkWindows, Panel, PanelControl, Spacecraft, TimeAfterPeriapsis},
 };
 use planner::torque_map::{LitSpacecraft, Rule, TurnedPanels};
 
@@ -128,7 +128,7 @@ impl MappedSpacecraft {
             name: spacecraft.name,
             lit: LitSpacecraft { fmu, panels, distance_m, source: arguments.source.name() },
             zone_rad,
-            downlink: downlink(&simulated),
+            downlink: downlink(&simulated, spacecraft.downlinks),
             panels_left_out: panels_left_out(&simulated),
             threshold_n_m_s: [1, 2, 3]
                 .map(|axis| real(&simulated, &format!("dump.threshold[{axis}]")).unwrap_or(f64::INFINITY)),
@@ -205,7 +205,7 @@ fn center(simulated: &Description) -> Body {
     item.map_or(Body::Mercury, |item| item.variant)
 }
 
-fn downlink(simulated: &Description) -> Downlink {
+fn downlink(simulated: &Description, windows: Option<DownlinkWindows>) -> Downlink {
     let [start_s, end_s] =
         ["guided.downlinkStart", "guided.downlinkEnd"].map(|name| real(simulated, name).unwrap_or(0.0));
     let every = start_of(simulated, "guided.downlinkEvery").map_or(0.0, |value| value.to_f64());
@@ -215,6 +215,12 @@ fn downlink(simulated: &Description) -> Downlink {
         _ => real(simulated, "planet.gravitationalParameter").unwrap_or(0.0),
     };
     let period_s = core::f64::consts::TAU * (axis_m.powi(3) / gm_m3_s2).sqrt();
+    let in_orbit_s =
+        |time: TimeAfterPeriapsis, start_s| time.period_share().map_or(start_s, |it| it * period_s);
+    let [start_s, end_s] = match windows {
+        Some(windows) => [in_orbit_s(windows.start, start_s), in_orbit_s(windows.stop, end_s)],
+        None => [start_s, end_s],
+    };
     Downlink { length_h: (end_s - start_s).max(0.0) / 3600.0, every_h: every * period_s / 3600.0 }
 }
 

@@ -16,7 +16,7 @@ use crate::{
     mission::Mission,
     outcome::{self, Outcome},
     patience::Patience,
-    variables,
+    pointing, variables,
 };
 
 /// Shown with the help.
@@ -120,7 +120,8 @@ pub fn run(arguments: &Pack) -> Outcome {
     let files = [parts.spacecraft, parts.timeline, parts.ephemeris].into_iter().flatten();
     let of_mission = arguments.mission.as_deref();
     let inputs: Vec<&Path> = [source.path()].into_iter().chain(files).chain(of_mission).collect();
-    if let Some(warning) = unused_map(&setup, &described.model, &description) {
+    let windows = pointing::warnings(&description, &[], pointing::windows_of(&setup).as_slice());
+    for warning in unused_map(&setup, &described.model, &description).iter().chain(&windows) {
         terminal::note(&format!("warning: {warning}"));
     }
     let destination = Destination::open(&path, "--output", &inputs)?;

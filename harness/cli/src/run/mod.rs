@@ -24,7 +24,7 @@ use crate::{
     low_orbit,
     outcome::Outcome,
     output::{self, Judge, Known, Origin, Outputs},
-    variables,
+    pointing, variables,
 };
 pub use child::{RunInChild, run as run_in_child};
 pub use options::Run;
@@ -118,6 +118,7 @@ pub fn run(arguments: &Run) -> Outcome {
     let arguments = &simulated.run;
     let described = subject.description();
     let mut warnings = low_orbit::warnings(described, &settings.sets);
+    warnings.extend(pointing::warnings(described, &settings.sets, &pointing::windows_in(&subject.parts())));
     warnings.extend(variables::repeated("--set", &arguments.set));
     warnings.extend(long_step(&settings.times));
     warnings.extend(subject.unread(&settings.sets));

@@ -342,3 +342,37 @@ fn a_map_that_nothing_reads_is_reported() {
     let reported = pack("DisturbanceTorque", &["--set", "planetLight.method=map"]);
     assert!(!reported.contains("warning"), "{reported}");
 }
+
+#[test]
+fn a_downlink_for_ever_is_warned_of_by_every_command_and_the_log() {
+    let Some(library) = library() else { return };
+    let scratch = tempfile::tempdir().unwrap();
+    let file = scratch.path().join("busy.toml");
+    let windows = "[downlinks]\nstart = \"20 %\"\nstop = \"130 %\"\nevery = 1\n";
+    let text = include_str!("../../../../docs/src/tutorial/venus.toml");
+    fs::write(&file, format!("{text}\n{windows}")).unwrap();
+    let fmu = scratch.path().join("busy.fmu");
+    let pack =
+        ["pack", "--library", shown(&library), "--model", "MomentumPlant", "--spacecraft", shown(&file)];
+    let always = ["warning", "guided.downlinkStart", "always open"];
+    says(&run(&[&pack[..], &["--output", shown(&fmu)]].concat(), 0), &always);
+    says(&run(&["check", shown(&file), "--template", shown(&fmu)], 0), &always);
+    let flown = run(&["run", shown(&fmu), "--stop", "1h", "--step", "10min", "--record", "sun.elevation"], 0);
+    says(&flown, &always);
+    // By a value of the run alone, whatever the strategy.
+    let rare =
+        ["--set", "guided.downlinkEvery=2", "--stop", "1h", "--step", "10min", "--record", "sun.elevation"];
+    let silent = run(&[&["run", shown(&fmu)][..], &rare].concat(), 0);
+    assert!(!silent.contains("always open"), "{silent}");
+    let sets = [
+        "--set",
+        "guided.downlinkEvery=2",
+        "--set",
+        "guided.downlinkEnd=1d",
+        "--stop",
+        "1h",
+        "--step",
+        "10min",
+    ];
+    says(&run(&[&["run", shown(&fmu), "--record", "sun.elevation"][..], &sets].concat(), 0), &always);
+}

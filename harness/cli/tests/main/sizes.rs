@@ -88,7 +88,7 @@ fn more_capacity_takes_fewer_dumps_and_more_margin_larger_wheels() {
                 "--output",
                 shown(&folder),
                 "--set",
-                "guided.downlinkEvery=1",
+                "guided.scienceRule=scaled",
             ],
             0,
         );

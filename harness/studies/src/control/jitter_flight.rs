@@ -63,7 +63,7 @@ impl Flight {
                 .set("command.q", q)
                 .set("starTracker.noise", [tracker; 3]);
         } else {
-            case = case.set("attitude.source", "free");
+            case = at_rest(case);
         }
         let recorded = case.simulate(fmu, &["attitude.rate"])?;
         let axes: Vec<Spectrum> =
@@ -75,12 +75,16 @@ impl Flight {
     }
 }
 
+/// In free flight, begun at rest.
+fn at_rest(case: Case) -> Case {
+    case.set("attitude.source", "free").set("start.q", [0.0, 0.0, 0.0, 1.0])
+}
+
 /// Jitter while the wheel is run up: its speed in Hz, and the amplitude over windows of some seconds in rad.
 pub fn run_up(fmu: &Fmu, structure: &Structure) -> Result<Vec<(f64, f64)>, StudyError> {
     const WINDOW: usize = 400;
     let torque_n_m = structure.rotor_kg_m2 * std::f64::consts::TAU * FASTEST_HZ / RUN_UP_S;
-    let case =
-        dark("run-up", RUN_UP_S).set("attitude.source", "free").set("wheel[1].torqueCommand", torque_n_m);
+    let case = at_rest(dark("run-up", RUN_UP_S)).set("wheel[1].torqueCommand", torque_n_m);
     let recorded = case.simulate(fmu, &["attitude.rate", "wheel[1].speed"])?;
     let windows = recorded.times_s.len() / (WINDOW / 4);
     let points = (0..windows.saturating_sub(4)).map(|window| {

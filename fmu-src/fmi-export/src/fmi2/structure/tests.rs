@@ -120,6 +120,16 @@ fn what_acts_in_steps_acts_at_the_start() {
 }
 
 #[test]
+fn what_acts_at_the_start_alone_is_not_listed_for_steps() {
+    let (variables, handles) = declared();
+    let mut table = table(&handles);
+    table.begins(handles.count, handles.force.element(2));
+    let structure = structure(&table, &variables).unwrap();
+    assert_eq!(structure.outputs[1].dependencies, Some(vec![2]));
+    assert_eq!(structure.initial_unknowns[0].dependencies, Some(vec![1, 2, 5]));
+}
+
+#[test]
 fn a_handle_of_no_variable_is_named() {
     let found = refusal(|table, v| table.output(v.size, Real(77), v.force));
     assert_eq!(found, "the model's dependencies name Real(77), which is no element of a variable");

@@ -227,7 +227,12 @@ pub fn settings<'a>(
         keep_in,
         keep_in_distance_m: real(v.keep_in.distance),
         link: LinkLimits { sun_separation_rad: real(v.link.sun_exclusion), coverage_rad: real(v.link.beam) },
-        orbit_phase: v.guided.read(values, 0.0, f64::INFINITY, real(v.start.epoch), keep_in, mdis)?,
+        orbit_phase: v.guided.by_shares(
+            context,
+            values,
+            &context.setup.windows,
+            v.guided.read(values, 0.0, f64::INFINITY, real(v.start.epoch), keep_in, mdis)?,
+        ),
         burn: fixed.burn,
     })
 }

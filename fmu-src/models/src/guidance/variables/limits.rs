@@ -4,7 +4,6 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
 use physics::constants::HALF_TURNS_RAD;
-use physics::guidance::constraints::hot_pole;
 use physics::guidance::constraints::keep_in;
 use physics::guidance::downlink::sun_place;
 use physics::guidance::modes::transitions;
@@ -60,20 +59,21 @@ pub struct SafeHoldVariables {
     pub keep_in: SafeHoldZoneVariables,
 }
 
-/// Hot-pole keep-out. Paper 001 prints no numbers: all three are assumed.
+/// Hot-pole keep-out, by the file's [hot_pole].
 #[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
 pub struct HotPoleVariables {
-    /// Whether -Z is kept away from the planet over the subsolar region.
-    #[parameter(tunable, start = true)]
+    /// Whether -Z is kept away from the planet over the subsolar region; false unless the file has [hot_pole].
+    #[parameter(tunable, start = setup.spacecraft.hot_pole.is_some())]
     pub enabled: Boolean,
-    /// Below this height above the ellipsoid, along the radius, it can be in force (assumed).
-    #[parameter(tunable, unit = "m", display = "km", min = 0.0, max = 1e10, start = hot_pole::ALTITUDE_M)]
+    /// Below this height above the ellipsoid, along the radius, it can be in force; 0 without [hot_pole].
+    #[parameter(tunable, unit = "m", display = "km", min = 0.0, max = 1e10, start = setup.hot_pole().altitude_m)]
     pub altitude: Real,
-    /// Within this angle from the subsolar point it can be in force (assumed).
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = hot_pole::REGION_RAD)]
+    /// Within this angle from the subsolar point it can be in force.
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = setup.hot_pole().angle_rad)]
     pub angle: Real,
-    /// While it is in force -Z stays at least so far from the direction to the planet's centre (assumed).
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = hot_pole::CONE_RAD)]
+    /// While it is in force -Z stays at least so far from the direction to the planet's centre.
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = setup.hot_pole().cone_rad)]
     pub cone: Real,
 }
 

@@ -67,7 +67,7 @@ pub struct GuidanceVariables {
     pub earth_acquisition: EarthAcquisitionVariables,
     #[group]
     pub sun_search: SunSearchVariables,
-    #[group]
+    #[group(setup = &setup.windows)]
     pub guided: GuidedVariables,
     #[group]
     pub pointing: PointingVariables,

@@ -75,7 +75,7 @@ pub fn read(
     Ok(Configuration {
         epoch_minus_time_s,
         center: data.body,
-        attitude: attitude(variables, values, state, &orbit)?,
+        attitude: attitude(context, values, state, &orbit)?,
         orbit,
         motion: motion(variables, values, data, time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s)),
         ephemeris: ephemeris_source(&context.setup.body(data.body), context, values, state.waiting)?,
@@ -216,27 +216,32 @@ fn without_table(center: &CenterBody, source: &str) -> Result<plant::EphemerisSo
     ephemeris::custom(center, source).map(plant::EphemerisSource::Kepler)
 }
 
+/// The orbit phase's own guidance on this orbit, unmanaged.
+pub fn guidance_law(context: &Plan<'_>, values: &Values, orbit: &TwoBodyOrbit) -> Result<Guided, Failure> {
+    let variables = context.variables;
+    let is_planet = values.choice(variables.orbit.center).0.is_planet();
+    let period_s = if is_planet { orbit.period_s() } else { f64::INFINITY };
+    let keep_in = KeepIn {
+        axis_body: Vector3::new(0.0, -1.0, 0.0),
+        azimuth_rad: values.real(variables.keep_in.azimuth),
+        elevation_rad: values.real(variables.keep_in.elevation),
+        method: KeepInMethod::Nearest,
+    };
+    let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
+    let camera = MdisRange::default();
+    let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, camera)?;
+    Ok(variables.guided.by_shares(context, values, &context.setup.windows, law))
+}
+
 fn attitude(
-    variables: &PlantVariables,
+    context: &Plan<'_>,
     values: &Values,
     state: &PlantState,
     orbit: &TwoBodyOrbit,
 ) -> Result<plant::AttitudeSource, Failure> {
+    let variables = context.variables;
     let guided = || {
-        let period_s = if values.choice(variables.orbit.center).0.is_planet() {
-            orbit.period_s()
-        } else {
-            f64::INFINITY
-        };
-        let keep_in = KeepIn {
-            axis_body: Vector3::new(0.0, -1.0, 0.0),
-            azimuth_rad: values.real(variables.keep_in.azimuth),
-            elevation_rad: values.real(variables.keep_in.elevation),
-            method: KeepInMethod::Nearest,
-        };
-        let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
-        let camera = MdisRange::default();
-        let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, camera)?;
+        let law = guidance_law(context, values, orbit)?;
         let management = &variables.momentum.management;
         let (managed, choice) =
             (values.choice(management.strategy).0 != Strategy::DumpsOnly, state.flight.sun_choice());

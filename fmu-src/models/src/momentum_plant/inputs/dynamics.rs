@@ -10,11 +10,13 @@ use physics::attitude::{
 };
 use physics::momentum::{Convention, WheelArray};
 use physics::plant::{
-    Configuration, Control, DynamicsSettings, IdealSettings, ModeSettings, StartMotion, ThrusterControl,
-    WheelControlSettings,
+    Configuration, Control, DynamicsSettings, IdealSettings, ModeSettings, StartMotion, StartPointing,
+    ThrusterControl, WheelControlSettings,
 };
 
+use super::configuration::guidance_law;
 use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::state::PlantState;
 use crate::momentum_plant::variables::choices::AttitudeSource;
 
 /// Zero stands for none.
@@ -27,10 +29,13 @@ pub fn settings(
     context: &Plan<'_>,
     values: &Values,
     configuration: &Configuration,
-    is_dynamic: bool,
+    state: &PlantState,
 ) -> Result<ModeSettings, Failure> {
-    Ok(match is_dynamic {
-        true => ModeSettings::Dynamic(dynamics_settings(context, values, configuration)?.into()),
+    Ok(match state.inputs.source.is_dynamic && !state.waiting {
+        true => {
+            let start = start_motion(context, values, configuration, state)?;
+            ModeSettings::Dynamic(dynamics_settings(context, values, configuration, start)?.into())
+        }
         false => ModeSettings::Ideal(ideal_settings(context, values)?),
     })
 }
@@ -40,6 +45,7 @@ fn dynamics_settings(
     context: &Plan<'_>,
     values: &Values,
     configuration: &Configuration,
+    start: StartMotion,
 ) -> Result<DynamicsSettings, Failure> {
     let v = context.variables;
     let real = |handle: Real| values.real(handle);
@@ -131,7 +137,7 @@ fn dynamics_settings(
         },
         grid_s: real(v.solver.dynamics_step),
         panels_have_mass: context.setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some()),
-        start: start_motion(context, values, configuration.attitude.guided().is_some())?,
+        start,
     })
 }
 
@@ -261,18 +267,29 @@ fn appendages(context: &Plan<'_>, values: &Values) -> Result<Appendages, Failure
     })
 }
 
-/// What start.q, start.rate and wheel[k].startMomentum say of the motion at the start.
-fn start_motion(context: &Plan<'_>, values: &Values, guides_itself: bool) -> Result<StartMotion, Failure> {
+/// What start.q, start.rate and wheel[k].startMomentum say of the motion at the start. Left alone they are those of the internal
+/// guidance, in free flight too, or of the command.
+fn start_motion(
+    context: &Plan<'_>,
+    values: &Values,
+    configuration: &Configuration,
+    state: &PlantState,
+) -> Result<StartMotion, Failure> {
     let start = &context.variables.start;
     let q = values.vector(start.q);
     let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
     let given = context.given(values, &[start.q.into(), start.rate.into()]);
-    let attitude_is_guided = guides_itself && !given.has(start.q);
+    let pointing = match configuration.attitude.guided() {
+        _ if given.has(start.q) => None,
+        Some(law) => Some(StartPointing::Guidance(*law)),
+        None if state.inputs.source.is_commanded => state.attitude_command().map(StartPointing::Command),
+        None => Some(StartPointing::Guidance(guidance_law(context, values, &configuration.orbit)?)),
+    };
     Ok(StartMotion {
         attitude,
         rate_body_rad_s: Vector3::from(values.vector(start.rate)),
-        attitude_is_guided,
-        rate_is_guided: attitude_is_guided && !given.has(start.rate),
+        pointing,
+        rate_is_pointed: !given.has(start.rate),
         wheels_n_m_s: context.variables.wheel.iter().map(|it| values.real(it.start_momentum)).collect(),
     })
 }

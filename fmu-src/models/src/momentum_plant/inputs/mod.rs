@@ -131,7 +131,7 @@ fn configured(
     let moving = (over_time, state.flight.take_panels());
     let configuration = configuration::read(context, values, state, &center, moving)?;
     let settings = if is_anew || is_dynamic {
-        Some(dynamics::settings(context, values, &configuration, is_dynamic)?)
+        Some(dynamics::settings(context, values, &configuration, state)?)
     } else {
         None
     };

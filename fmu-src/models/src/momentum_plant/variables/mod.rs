@@ -42,7 +42,7 @@ pub struct PlantVariables {
     pub attitude: AttitudeVariables,
     #[group]
     pub command: CommandVariables,
-    #[group]
+    #[group(setup = &setup.windows)]
     pub guided: GuidedVariables,
     #[group]
     pub start: StartVariables,

@@ -56,12 +56,13 @@ pub struct StartVariables {
     /// Epoch at the start time, seconds past J2000 TDB; the default is 2009-04-06 00:00.
     #[parameter(unit = "s", display = "d", min = defaults::EARLIEST_EPOCH_S, max = defaults::VALID_EPOCH_S, start = defaults::EPOCH_TDB_S)]
     pub epoch: Real,
-    /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it. With internal
-    /// guidance a controlled flight starts as guided unless this is set, be it to the identity (start.q and start.rate both set to
-    /// their start values count as not set, as some tools set everything).
+    /// Attitude quaternion at the start, scalar last, from EME2000 to body; used until a command changes it. Unless this is set, be
+    /// it to the identity, a controlled flight starts in the first attitude that command.q or the internal guidance commands, and a
+    /// free one as the internal guidance points (start.q and start.rate both set to their start values count as not set, as some
+    /// tools set everything).
     #[parameter(unit = "1", start = [0.0, 0.0, 0.0, 1.0])]
     pub q: RealVector<4>,
-    /// Body rate at the start in controlled and free flight; with internal guidance that of the guidance unless start.q or this
+    /// Body rate at the start in controlled and free flight; that of the command or the internal guidance unless start.q or this
     /// is set.
     #[parameter(unit = "rad/s", display = "deg/s", min = -1e3, max = 1e3, start = [0.0; 3])]
     pub rate: RealVector<3>,

@@ -2,12 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use fmi_export::fmi2::description_of;
 use fmi_export::model::Log;
 use fmi_export::model_description::{Description, Unknown};
 use fmi_export::{Context, Declare, InputsOverTime, Model, Step, Values, Variables};
 
-use super::super::named_model::{Tables, with_file_starts};
+use super::super::named_model::{Tables, described, with_file_starts};
 use super::super::random::RandomNumbers;
 use super::variable::{Base, Variable, natural, variables};
 
@@ -70,7 +69,7 @@ impl<M: Model> Bench<M> {
         let setup = M::parse_setup("spacecraft.toml", text).unwrap();
         let mut scope = Declare::new();
         let handles = M::Variables::declare(&mut scope, &setup, 0).unwrap();
-        let description = description_of::<M>("spacecraft.toml", text).unwrap();
+        let description = described::<M>("spacecraft.toml", text).unwrap();
         let start = with_file_starts(&scope.finish().start, &description);
         let variables = variables(&description);
         let by_name = variables.iter().enumerate().map(|(at, v)| (v.name.clone(), at)).collect();

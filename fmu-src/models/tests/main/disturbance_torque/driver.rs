@@ -35,6 +35,16 @@ fn resources(name: &str, text: &str) -> std::path::PathBuf {
     folder
 }
 
+/// A model of the spacecraft of a TOML text, in a folder of its own.
+pub fn instance(model: &str, name: &str, text: &str) -> NamedInstance {
+    let folder = resources(name, text);
+    let entry = LIBRARY.find(model).unwrap();
+    let description = LIBRARY.describe(entry, Some("spacecraft.toml"), Some(text)).unwrap();
+    let location = format!("file://{}", folder.display());
+    let fmu = InProcess::instantiate(&LIBRARY, &description.guid, Some(&location)).unwrap();
+    NamedInstance::new(fmu, description)
+}
+
 /// The model through FMI's functions.
 pub struct Disturbance(NamedInstance);
 
@@ -65,12 +75,7 @@ impl Disturbance {
 
     /// The spacecraft of a TOML text, in a folder of its own.
     pub fn of(name: &str, text: &str) -> Self {
-        let folder = resources(name, text);
-        let entry = LIBRARY.find("DisturbanceTorque").unwrap();
-        let description = LIBRARY.describe(entry, Some("spacecraft.toml"), Some(text)).unwrap();
-        let location = format!("file://{}", folder.display());
-        let fmu = InProcess::instantiate(&LIBRARY, &description.guid, Some(&location)).unwrap();
-        Self(NamedInstance::new(fmu, description))
+        Self(instance("DisturbanceTorque", name, text))
     }
 
     /// With light of the planet by cells in so many belts.

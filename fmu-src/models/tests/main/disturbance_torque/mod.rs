@@ -4,4 +4,4 @@ mod driver;
 mod laws;
 mod slopes;
 
-pub use driver::Disturbance;
+pub use driver::{Disturbance, instance};

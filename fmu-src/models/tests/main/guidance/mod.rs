@@ -7,6 +7,7 @@ mod cuts;
 mod ephemeris;
 mod modes;
 mod momentum;
+mod own_spacecraft;
 mod pointing;
 mod predictive;
 mod same_law;

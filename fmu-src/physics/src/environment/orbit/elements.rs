@@ -75,6 +75,11 @@ pub fn semi_major_axis_m(mu_m3_s2: f64, period_s: f64) -> f64 {
     libm::cbrt(mu_m3_s2 / (mean_motion_rad_s * mean_motion_rad_s))
 }
 
+/// Period of an ellipse of this semi-major axis, s (Kepler's third law).
+pub fn period_s(mu_m3_s2: f64, semi_major_axis_m: f64) -> f64 {
+    TAU * (semi_major_axis_m / mu_m3_s2).sqrt() * semi_major_axis_m
+}
+
 impl Elements {
     /// A circle of `radius_m` whose node lies on the first axis.
     pub const fn circle(radius_m: f64, inclination_rad: f64) -> Self {

@@ -9,5 +9,5 @@ pub mod kepler;
 mod two_body;
 
 pub use disturbed::{DisturbedOrbit, Flattening, Gravity, OrbitIntegrationError, OrbitMethod, tide_m_s2};
-pub use elements::{Elements, OrbitError, semi_major_axis_m};
+pub use elements::{Elements, OrbitError, period_s, semi_major_axis_m};
 pub use two_body::TwoBodyOrbit;

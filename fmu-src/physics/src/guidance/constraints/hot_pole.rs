@@ -16,13 +16,6 @@ use crate::guidance::geometry::moving::{Moving, PARALLEL_RAD, fixed, unit, value
 use crate::guidance::pointing::law::Pointing;
 use crate::numerics::scalar::Scalar;
 
-/// Height below which it counts, assumed: paper 001 prints no number of this constraint.
-pub const ALTITUDE_M: f64 = 2.0e6;
-/// Angle from the subsolar point within which it counts, assumed.
-pub const REGION_RAD: f64 = core::f64::consts::FRAC_PI_6;
-/// Least angle between -Z and the planet's centre, assumed.
-pub const CONE_RAD: f64 = core::f64::consts::FRAC_PI_2;
-
 /// The axis that must not look at the planet, body frame.
 const TOP_DECK_BODY: Vector3<f64> = Vector3::new(0.0, 0.0, -1.0);
 

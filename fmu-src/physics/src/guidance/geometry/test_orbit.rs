@@ -23,6 +23,7 @@ pub fn guided(science: ScienceRule, period_s: f64, [start_s, end_s]: [f64; 2], e
         period_s,
         downlink_start_s: start_s,
         downlink_end_s: end_s,
+        period_shares: [None; 2],
         every,
         once: false,
     };

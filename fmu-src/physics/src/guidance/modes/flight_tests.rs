@@ -9,7 +9,7 @@ use super::test_burn::{guidance_settings, sample_inputs, settings, still_inputs}
 use crate::attitude::{Attitude, SunAngles};
 use crate::constants::DEG_RAD;
 use crate::guidance::constraints::constrained::Constraints;
-use crate::guidance::constraints::hot_pole::{CONE_RAD, HotPole};
+use crate::guidance::constraints::hot_pole::HotPole;
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::downlink::sun_place::SunPlace;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
@@ -39,7 +39,7 @@ fn law(science: ScienceRule, slew_rate_rad_s: f64) -> Guided {
 
 fn flight_settings(orbit_phase: Guided) -> GuidanceSettings<'static> {
     // Wide enough for every pass over the day side.
-    let hot_pole = HotPole { altitude_m: 1e7, angle_rad: 80.0 * DEG_RAD, cone_rad: CONE_RAD };
+    let hot_pole = HotPole { altitude_m: 1e7, angle_rad: 80.0 * DEG_RAD, cone_rad: 90.0 * DEG_RAD };
     let mut all = guidance_settings(settings(Vector3::x()));
     all.hardware = hardware();
     all.keep_in = zone();

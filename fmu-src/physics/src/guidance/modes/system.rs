@@ -24,8 +24,9 @@ use crate::guidance::downlink::sun_place::{ChosenPlace, LinkLimits, SunPlace, li
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{MovingVector, value};
 use crate::guidance::orbit_phase::guided::Guided;
+use crate::guidance::orbit_phase::orbit_ahead::ellipse_of;
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
-use crate::guidance::orbit_phase::schedule::Activity;
+use crate::guidance::orbit_phase::schedule::{Activity, Schedule};
 use crate::guidance::pointing::antenna::{Antenna, AntennaAzimuth, Beam};
 use crate::guidance::pointing::command::{
     BoresightOption, LimbCommand, PointingCommand, ScanCommand, Scenario,
@@ -179,6 +180,12 @@ impl GuidanceState {
         &self.downlink_sun
     }
 
+    /// The windows of the orbit phase where the spacecraft is; `None` where that is not known.
+    pub fn windows(&self, law: &Guided, places: &BodyPositions) -> Option<Schedule> {
+        let mut periapses = self.periapses;
+        self.modes.surroundings(places).map(|surroundings| periapses.windows(&law.schedule, surroundings))
+    }
+
     /// When the next sample is due, in s.
     pub fn next_sample_s(&self) -> f64 {
         self.next_sample_s
@@ -266,7 +273,8 @@ impl GuidanceState {
         attitude: Attitude,
         choose: impl Fn(&WindowStart<'_>) -> Option<ChosenPlace>,
     ) -> bool {
-        let (windows, epoch_s) = (&settings.orbit_phase.schedule, surroundings.epoch_s);
+        let epoch_s = surroundings.epoch_s;
+        let windows = &in_present_orbit(&settings.orbit_phase.schedule, surroundings);
         let found = match command.scenario {
             _ if self.modes.mode != Mode::Operational => None,
             Some(scenario @ Scenario::Downlink) => {
@@ -457,6 +465,16 @@ impl GuidanceState {
     ) {
         self.command = self.command.followed_by_rate(kind, error, rate_body_rad_s, time_s);
         self.status = CommandStatus::NOTHING;
+    }
+}
+
+/// The windows, of which shares of the period follow the orbit that the spacecraft is on.
+fn in_present_orbit(windows: &Schedule, surroundings: &EphemerisAtTime) -> Schedule {
+    match ellipse_of(surroundings) {
+        Some(orbit) if windows.period_shares != [None; 2] => {
+            Schedule { period_s: windows.period_s, ..windows.in_orbit(orbit.period_s()) }
+        }
+        _ => *windows,
     }
 }
 

@@ -41,8 +41,7 @@ impl PeriapsisCount {
         surroundings: &EphemerisAtTime,
     ) -> (Option<TwoBodyOrbit>, Schedule) {
         let orbit = ellipse_of(surroundings).filter(|_| !windows.once);
-        let schedule = orbit
-            .map_or(Schedule { period_s: f64::INFINITY, ..*windows }, |orbit| self.schedule(windows, &orbit));
+        let schedule = orbit.map_or(windows.in_orbit(f64::INFINITY), |orbit| self.schedule(windows, &orbit));
         (orbit, schedule)
     }
 
@@ -51,6 +50,6 @@ impl PeriapsisCount {
         let first_s = *self.first_epoch_s.get_or_insert(nearest_s);
         let every = f64::from(windows.every.max(1));
         let since = ((nearest_s - first_s) / period_s).round().rem_euclid(every);
-        Schedule { periapsis_s: nearest_s - since * period_s, period_s, ..*windows }
+        Schedule { periapsis_s: nearest_s - since * period_s, ..windows.in_orbit(period_s) }
     }
 }

@@ -25,9 +25,11 @@ pub struct Schedule {
     pub downlink_start_s: f64,
     /// End of downlink, in s after periapsis.
     pub downlink_end_s: f64,
+    /// Begin and end as shares of the period, where they are given so: they follow it.
+    pub period_shares: [Option<f64>; 2],
     /// A window after every how many periapses; 0 = never.
     pub every: u32,
-    /// Whether the first window is the only one.
+    /// Whether the first window is the only one, whatever `every` says.
     pub once: bool,
 }
 
@@ -57,6 +59,21 @@ pub struct Window {
 }
 
 impl Schedule {
+    /// The same in an orbit of this period, in s.
+    #[must_use]
+    pub fn in_orbit(self, period_s: f64) -> Self {
+        let time_s = |share: Option<f64>, given_s: f64| {
+            share.map_or(given_s, |share| if period_s.is_finite() { share * period_s } else { given_s })
+        };
+        let [start, end] = self.period_shares;
+        Self {
+            period_s,
+            downlink_start_s: time_s(start, self.downlink_start_s),
+            downlink_end_s: time_s(end, self.downlink_end_s),
+            ..self
+        }
+    }
+
     /// Activity at `time_s`, in the time scale of `periapsis_s`. Edges belong to what follows them.
     pub fn window(&self, time_s: f64) -> Window {
         let cycle_s = f64::from(self.every) * self.period_s;
@@ -115,7 +132,7 @@ impl Schedule {
     /// as long as requested; the next one ends it. Before the first window all is science.
     pub fn window_after(&self, periapses_s: &[f64], time_s: f64) -> Window {
         let length_s = self.downlink_end_s - self.downlink_start_s;
-        if self.every == 0 || length_s.is_nan() || length_s <= 0.0 {
+        if (self.every == 0 && !self.once) || length_s.is_nan() || length_s <= 0.0 {
             return Window::NEVER;
         }
         let starts_s = || periapses_s.iter().map(|at_s| at_s + self.downlink_start_s);

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::attitude::{Attitude, BodyMotion, GyrostatMotion, MovingFrame};
-use crate::guidance::{Activity, Schedule, ScienceRule, Window};
+use crate::guidance::{Activity, Guided, Schedule, ScienceRule, Window};
 use crate::momentum::{DumpEvent, TorqueModel, Totals};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
@@ -57,12 +57,12 @@ pub(crate) struct ConfiguredFlight<'a> {
 }
 
 impl ConfiguredFlight<'_> {
-    /// Frame and rate that the orbit phase's own guidance commands where the flight begins; `None` without it.
-    pub fn guided_start(&mut self, time_s: f64) -> Result<Option<MovingFrame>, PlantError> {
+    /// Frame and rate that this guidance commands where the flight begins.
+    pub fn frame_by(&mut self, law: &Guided, time_s: f64) -> Result<MovingFrame, PlantError> {
         self.world.begin_work(self.given.work_limit);
         let mut plant = self.plant();
         plant.prepare(time_s, time_s)?;
-        Ok(plant.kinematics.guided_attitude(time_s).map(|guided| guided.frame))
+        Ok(plant.kinematics.attitude_by(law, time_s).frame)
     }
 
     /// Chooses the Sun's place where a downlink has begun at `time_s`, or began right there and its momentum is another since;

@@ -22,7 +22,9 @@ use crate::plant::disturbances::disturbance_interval::{DisturbanceInterval, Line
 use crate::plant::disturbances::evaluation::{Evaluation, Plant};
 use crate::plant::mass::MassState;
 use crate::plant::motion::panel_motion::PanelMotion;
-use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings, StartMotion};
+use crate::plant::settings::dynamics_settings::{
+    DynamicsInputs, DynamicsSettings, StartMotion, StartPointing,
+};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::work::Cost;
 use crate::plant::thrusters::reaction_control::Thrusters;
@@ -49,11 +51,14 @@ impl AttitudeDynamics {
         craft: &mut ConfiguredFlight<'_>,
         time_s: f64,
     ) -> Result<Self, PlantError> {
-        let StartMotion { mut attitude, mut rate_body_rad_s, attitude_is_guided, rate_is_guided, .. } =
-            settings.start;
-        if attitude_is_guided && let Some(frame) = craft.guided_start(time_s)? {
+        let StartMotion { mut attitude, mut rate_body_rad_s, pointing, rate_is_pointed, .. } = settings.start;
+        if let Some(pointing) = pointing {
+            let frame = match pointing {
+                StartPointing::Guidance(law) => craft.frame_by(&law, time_s)?,
+                StartPointing::Command(command) => command.frame_at(time_s),
+            };
             attitude = Attitude::from_rotation(&frame.inertial_from_body);
-            if rate_is_guided {
+            if rate_is_pointed {
                 rate_body_rad_s = frame.rate_body_rad_s;
             }
         }

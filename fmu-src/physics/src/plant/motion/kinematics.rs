@@ -169,9 +169,13 @@ impl Kinematics<'_> {
     /// What guidance commands at `time_s`; `None` where there is none.
     pub fn guided_attitude(&mut self, time_s: f64) -> Option<GuidedAttitude> {
         let configuration = self.configuration;
-        let guided = configuration.attitude.guided()?;
+        configuration.attitude.guided().map(|law| self.attitude_by(law, time_s))
+    }
+
+    /// What this guidance commands at `time_s`.
+    pub fn attitude_by(&mut self, law: &Guided, time_s: f64) -> GuidedAttitude {
         let geometry = self.geometry(time_s);
-        Some(self.guided(guided, time_s, &geometry))
+        self.guided(law, time_s, &geometry)
     }
 
     /// Least and greatest angle between Sun and Earth from one time to a later one, in rad, the spacecraft going on along the

@@ -6,6 +6,7 @@ use crate::attitude::control::{
     AccelerometerSettings, ControllerSettings, SensorHealth, SensorSettings, SunSensor,
 };
 use crate::attitude::{Attitude, Gyrostat};
+use crate::guidance::Guided;
 use crate::propulsion::PulseCommand;
 use crate::spacecraft::MassProperties;
 
@@ -43,12 +44,21 @@ pub struct StartMotion {
     pub attitude: Attitude,
     /// Body rate, in rad/s.
     pub rate_body_rad_s: Vector3<f64>,
-    /// Whether internal guidance gives the attitude.
-    pub attitude_is_guided: bool,
-    /// Whether internal guidance gives the rate too.
-    pub rate_is_guided: bool,
+    /// What gives the attitude instead, if anything does.
+    pub pointing: Option<StartPointing>,
+    /// Whether that gives the rate too.
+    pub rate_is_pointed: bool,
     /// Momentum of each wheel, in N m s.
     pub wheels_n_m_s: Vec<f64>,
+}
+
+/// What a flight is pointed by where it begins.
+#[derive(Clone, Copy, Debug)]
+pub enum StartPointing {
+    /// The orbit phase's own guidance.
+    Guidance(Guided),
+    /// A command.
+    Command(Command),
 }
 
 impl DynamicsSettings {

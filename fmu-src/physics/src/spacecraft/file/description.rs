@@ -8,6 +8,7 @@ use super::describe_shapes::{
 };
 use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
 use super::describe_thermal::{SurroundingsDescription, ThermalDescription};
+use super::written_time::WrittenTime;
 use crate::spacecraft::body::InertialFrame;
 use crate::spacecraft::panel::PanelControl;
 use crate::spacecraft::start::StartTable;
@@ -17,7 +18,8 @@ use crate::spacecraft::tank::HYDRAZINE_KG_M3;
 use crate::spacecraft::thermal::EMISSIVITY_REFERENCE_TEMPERATURE_K;
 use crate::toml::{
     BodyRadius, Emissivity, Finite, Fraction, GravitationalParameter, HalfTurn, Kelvin, NonEmpty,
-    NotNegative, OrbitAxis, Positive, QuarterTurn, SpecificImpulse, SubtendedAngle, TurnEither, tables,
+    NotNegative, OrbitAxis, Orbits, Positive, QuarterTurn, SpecificImpulse, SubtendedAngle, TurnEither,
+    tables,
 };
 
 tables! {
@@ -65,6 +67,8 @@ struct Description {
     instruments: Option<NonEmpty<InstrumentDescription>>,
     momentum: Option<MomentumDescription>,
     sun_keep_in: Option<SunKeepInDescription>,
+    downlinks: Option<DownlinksDescription>,
+    hot_pole: Option<HotPoleDescription>,
     planet_map: Option<PlanetMapDescription>,
     body: Option<BodyDescription>,
     thermal: Option<SurroundingsDescription>,
@@ -361,5 +365,27 @@ struct SunKeepInDescription {
     azimuth_deg: HalfTurn,
     /// Greatest elevation from the XY plane toward -Z, in deg.
     elevation_deg: QuarterTurn,
+}
+
+/// When an antenna looks at the Earth, counted from periapsis; left out, there are no downlinks. The start values of
+/// `guided.downlinkStart|End|Every`, which `[start]` does not have beside it.
+struct DownlinksDescription {
+    /// Begin after periapsis: s, a string with a unit ("2 h"), or a share of the orbital period ("20 %").
+    start: WrittenTime,
+    /// End, after the begin, likewise.
+    stop: WrittenTime,
+    /// A downlink after every how many periapses; 0 is none.
+    every: Orbits = 0,
+}
+
+/// Where the top deck, -Z, does not look at the planet: low above its subsolar point, which is hot. Guidance keeps it; left
+/// out, `hotPole.enabled` is false.
+struct HotPoleDescription {
+    /// Below this height above the ellipsoid, in km.
+    altitude_km: NotNegative,
+    /// Within this angle from the subsolar point, in deg.
+    angle_deg: HalfTurn,
+    /// Least angle between -Z and the direction to the planet's centre, in deg.
+    cone_deg: HalfTurn,
 }
 }

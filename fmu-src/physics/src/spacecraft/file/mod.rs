@@ -11,6 +11,7 @@ pub(super) mod plates;
 pub(super) mod propulsion;
 pub(super) mod swinging;
 pub(super) mod thruster_sets;
+pub(super) mod windows;
 
 mod copies;
 mod describe_shapes;
@@ -22,6 +23,7 @@ mod outline;
 mod schema;
 mod shapes;
 mod thermal;
+mod written_time;
 
 #[cfg(feature = "schema")]
 pub use schema::schema;

@@ -9,6 +9,7 @@ fn paper() -> Schedule {
         period_s: 12.0 * HOUR_S,
         downlink_start_s: 2.0 * HOUR_S,
         downlink_end_s: 10.0 * HOUR_S,
+        period_shares: [None; 2],
         every: 2,
         once: false,
     }
@@ -84,6 +85,7 @@ fn a_window_begun_now_lasts_its_length() {
             period_s: 12.0 * HOUR_S,
             downlink_start_s: start_s,
             downlink_end_s: start_s + 8.0 * HOUR_S,
+            period_shares: [None; 2],
             every: 2,
             once: false,
         };

@@ -1,0 +1,44 @@
+//! Downlink windows and the hot pole, from their descriptions.
+
+use super::description::{DownlinksDescription, HotPoleDescription};
+use super::written_time::{ALLOWED_TIME, WrittenTime};
+use crate::spacecraft::downlinks::{DownlinkWindows, TimeAfterPeriapsis};
+use crate::spacecraft::hot_pole::HotPoleZone;
+use crate::spacecraft::start::StartEntry;
+use crate::toml::{Checker, Place};
+
+pub(crate) fn downlinks(
+    check: &mut Checker<'_>,
+    at: &Place,
+    description: &DownlinksDescription,
+    start: &[StartEntry],
+) -> DownlinkWindows {
+    let mut time = |key: &str, written: &WrittenTime| {
+        written.read().unwrap_or_else(|| {
+            check.report(&at.key(key), written.found(), ALLOWED_TIME);
+            TimeAfterPeriapsis::Seconds(0.0)
+        })
+    };
+    let (begin, end) = (time("start", &description.start), time("stop", &description.stop));
+    let is_backwards = match (begin, end) {
+        (TimeAfterPeriapsis::Seconds(begin), TimeAfterPeriapsis::Seconds(end))
+        | (TimeAfterPeriapsis::PeriodShare(begin), TimeAfterPeriapsis::PeriodShare(end)) => end <= begin,
+        _ => false,
+    };
+    if is_backwards && !check.has_reported(&at.key("start")) && !check.has_reported(&at.key("stop")) {
+        check.report(&at.key("stop"), description.stop.found(), "a time after the start");
+    }
+    if let Some(entry) = start.iter().find(|it| !it.is_fixed && it.name.starts_with("guided.downlink")) {
+        let allowed = format!("one of both: [downlinks], or {} in [start]", entry.name);
+        check.report(at, format!("[downlinks] beside {}", entry.key), allowed);
+    }
+    DownlinkWindows { start: begin, stop: end, every: description.every() }
+}
+
+pub(crate) fn hot_pole(description: &HotPoleDescription) -> HotPoleZone {
+    HotPoleZone {
+        altitude_m: description.altitude_km.0 * 1e3,
+        angle_rad: description.angle_deg.0.to_radians(),
+        cone_rad: description.cone_deg.0.to_radians(),
+    }
+}
