@@ -324,8 +324,9 @@ def test_coefficients_and_thresholds_are_those_of_info(heliotorque, momentum_pla
     wheels = []
     for capacity in (4, 8, 12):
         sets = [text for wheel in (1, 2, 3, 4) for text in ("--set", f"wheel[{wheel}].capacity={capacity}")]
-        wheels += re.findall(rf"^ *{capacity} +([\d.]+) +([\d.]+) *$", info(*sets), re.MULTILINE)
-    by_norm, by_load = zip(*wheels)
+        wheels += re.findall(rf"^ *{capacity} +([\d.]+) +([\d.]+) +([\d.]+) *$", info(*sets), re.MULTILINE)
+    # Inscribed sphere, box that the least greatest load guarantees, box of the smallest norm.
+    _, by_load, by_norm = zip(*wheels)
     published = "4, 5.5, 7 N.m.s"
     smallest, least = (", ".join(f"{float(value):.1f}" for value in values) + " N.m.s" for values in (by_norm, by_load))
     assert line(

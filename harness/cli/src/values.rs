@@ -1,5 +1,7 @@
 //! What times and angles on the command line mean.
 
+use physics::environment::dates;
+
 /// Seconds, or a number with a unit of time.
 pub fn duration(text: &str) -> Result<f64, String> {
     const UNITS: [(&str, f64); 6] =
@@ -12,6 +14,26 @@ pub fn duration(text: &str) -> Result<f64, String> {
         Ok(number) if (number * factor).is_finite() => Ok(number * factor),
         _ => Err("a time is a number of seconds or carries a unit: 600, 10min, 0.5h, 90d".to_owned()),
     }
+}
+
+/// A time of the simulation, or a date.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Instant {
+    /// In s.
+    Time(f64),
+    /// In s past J2000 TDB.
+    Epoch(f64),
+}
+
+/// A time or a date.
+pub fn instant(text: &str) -> Result<Instant, String> {
+    let ends = ["UTC", "TDB"].iter().any(|scale| text.trim_end().ends_with(scale));
+    if !ends && !dates::looks_like_date(text) {
+        return Ok(Instant::Time(duration(text)?));
+    }
+    dates::epoch_s(text)
+        .map(Instant::Epoch)
+        .map_err(|error| format!("{error}; allowed: {}", dates::ALLOWED_DATE))
 }
 
 /// A time that passes, so more than 0 s.
@@ -44,6 +66,9 @@ mod tests {
         for bad in ["", "d", "ten", "1e999", "nan", "3w"] {
             assert!(duration(bad).is_err(), "{bad}");
         }
+        assert_eq!(instant("2 h"), Ok(Instant::Time(7200.0)));
+        assert_eq!(instant("2009-04-06 TDB"), Ok(Instant::Epoch(292_248_000.0)));
+        assert!(instant("2009-04-06").unwrap_err().contains("UTC or TDB"));
         assert_eq!(span("1 h"), Ok(3600.0));
         for bad in ["0", "-5", "-1d", "soon"] {
             assert!(span(bad).is_err(), "{bad}");

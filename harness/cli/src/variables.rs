@@ -3,7 +3,7 @@
 use loader::{Error, Value};
 use model_description::{Description, ScalarVariable, VariableKind, value};
 
-use crate::epoch;
+use crate::epoch::Dates;
 
 /// The value of a variable at the start, the last one that was set or the description's.
 pub fn start(description: &Description, sets: &[(String, Value)], name: &str) -> Option<Value> {
@@ -34,9 +34,21 @@ pub fn item<'a>(description: &'a Description, sets: &[(String, Value)], name: &s
 /// # Errors
 /// What is no variable, and what it does not take.
 pub fn assigned(description: &Description, settings: &[String]) -> Result<Vec<(String, Value)>, Error> {
+    assigned_by(&Dates::new(description, settings.iter().map(String::as_str), None), description, settings)
+}
+
+/// The same where dates are counted by more than the settings.
+///
+/// # Errors
+/// What is no variable, and what it does not take.
+pub fn assigned_by(
+    dates: &Dates<'_>,
+    description: &Description,
+    settings: &[String],
+) -> Result<Vec<(String, Value)>, Error> {
     let mut sets = Vec::new();
     for setting in settings {
-        sets.extend(loader::parse_assignment(description, &epoch::in_seconds(description, setting)?)?);
+        sets.extend(loader::parse_assignment(description, &dates.in_seconds(setting)?)?);
     }
     Ok(sets)
 }

@@ -53,6 +53,22 @@ impl Chart {
         Some(if low < high { [low, high] } else { padded(low, high) })
     }
 
+    /// The axes of a panel with the vertical label beside its ticks, and its vertical range.
+    fn axes(&self, index: usize, x: [f64; 2]) -> (Axes<'_>, [f64; 2]) {
+        let panel = &self.panels[index];
+        let y = panel.y_range.map_or_else(|| panel.data_range(), |(low, high)| [low, high]);
+        let y_ticks = panel.ticks(y, if self.panels.len() == 1 { 8.0 } else { 5.0 });
+        let is_last = index + 1 == self.panels.len();
+        let axes = Axes {
+            labels: [if is_last { &self.x_label } else { "" }, &panel.y_label],
+            steps: [round_up((x[1] - x[0]) / 10.0), round_up((y[1] - y[0]) / y_ticks)],
+            label_px: LABEL,
+            is_whole: panel.is_whole,
+            named: [&self.x_names, &panel.names],
+        };
+        (axes.beside(y), y)
+    }
+
     fn title_height(&self) -> f64 {
         if self.title.is_empty() && self.legend.is_empty() { TOP } else { TITLE_HEIGHT }
     }
@@ -84,23 +100,20 @@ impl Picture for Chart {
     fn draw(&self, pen: &mut Pen, top: f64) {
         let Some(x) = self.x_range() else { return };
         let mut below = top + self.title_height();
+        let axes: Vec<(Axes<'_>, [f64; 2])> =
+            (0..self.panels.len()).map(|index| self.axes(index, x)).collect();
+        // One below the other, whatever their ticks are.
+        let label_px = axes.iter().map(|(axes, _)| axes.label_px).fold(0.0, f64::max);
         Legend::of_names(&self.legend).draw(pen, below - ROW_HEIGHT);
-        for (index, (panel, legend)) in self.panels.iter().zip(self.legends()).enumerate() {
+        for (index, ((panel, legend), (axes, y))) in
+            self.panels.iter().zip(self.legends()).zip(axes).enumerate()
+        {
             let is_last = index + 1 == self.panels.len();
-            let y = panel.y_range.map_or_else(|| panel.data_range(), |(low, high)| [low, high]);
             let height = height(&legend, self.panel_height());
             let (left, top) = (PLOT_LEFT, below + above(&legend));
             let plot = height - above(&legend) - if is_last { 0.0 } else { MARGIN };
             let frame = Frame { left, top, width: PLOT_WIDTH, height: plot, x, y };
-            let y_ticks = panel.ticks(y, if self.panels.len() == 1 { 8.0 } else { 5.0 });
-            let axes = Axes {
-                labels: [if is_last { &self.x_label } else { "" }, &panel.y_label],
-                steps: [round_up((x[1] - x[0]) / 10.0), round_up((y[1] - y[0]) / y_ticks)],
-                label_px: LABEL,
-                is_whole: panel.is_whole,
-                named: [&self.x_names, &panel.names],
-            };
-            panel.draw(pen, &frame, &axes);
+            panel.draw(pen, &frame, &Axes { label_px, ..axes });
             legend.draw(pen, below);
             below += height;
         }

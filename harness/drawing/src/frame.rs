@@ -40,7 +40,7 @@ pub struct Axes<'a> {
     pub labels: [&'a str; 2],
     /// Spacing of ticks; 0 for none.
     pub steps: [f64; 2],
-    /// Distance of the vertical label from the frame in px.
+    /// Distance of the vertical label from the frame in px; of [`Axes::beside`] the greatest.
     pub label_px: f64,
     /// Whether only whole numbers have a text.
     pub is_whole: bool,
@@ -49,6 +49,14 @@ pub struct Axes<'a> {
 }
 
 impl Axes<'_> {
+    /// With the vertical label beside the texts of its ticks over this range.
+    #[must_use]
+    pub fn beside(self, y: [f64; 2]) -> Self {
+        let widths = self.ticks(1, y).into_iter().map(|(_, text)| width_px(&text, TICK_SIZE));
+        let label_px = widths.fold(0.0, f64::max) + BESIDE_TICK + TICK_SIZE;
+        Self { label_px: self.label_px.min(label_px), ..self }
+    }
+
     /// The ticks of an axis over its range, with their texts.
     fn ticks(&self, axis: usize, range: [f64; 2]) -> Vec<(f64, String)> {
         let step = self.steps[axis];

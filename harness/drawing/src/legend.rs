@@ -9,6 +9,7 @@ use super::{
 /// Height of a row.
 pub(super) const ROW_HEIGHT: f64 = 26.0;
 const SIZE: f64 = 12.0;
+const TITLE_SIZE: f64 = 13.0;
 const SWATCH: f64 = 18.0;
 const GAP: f64 = 6.0;
 const BETWEEN: f64 = 20.0;
@@ -29,8 +30,11 @@ enum Swatch {
 /// What a band is.
 const BAND: &str = "range within an oscillation";
 
-/// Labels with what stands before them, row by row.
-pub(super) struct Legend<'a>(Vec<Vec<(Swatch, &'a str)>>);
+/// Labels with what stands before them, row by row, and what stands at the left of the first.
+pub(super) struct Legend<'a> {
+    title: &'a str,
+    rows: Vec<Vec<(Swatch, &'a str)>>,
+}
 
 impl<'a> Legend<'a> {
     /// Of a panel's lines, marks and shades, and of its bands where they are to be named.
@@ -38,22 +42,26 @@ impl<'a> Legend<'a> {
         let marks = (Swatch::Marks, panel.mark_label.as_str());
         let shades = (Swatch::Shades, panel.shade_label.as_str());
         let band = names_bands.then_some((Swatch::Band, BAND));
-        Self::rows(series(&panel.series).chain([marks, shades]).chain(band))
+        Self::rows(&panel.title, series(&panel.series).chain([marks, shades]).chain(band))
     }
 
     /// Of lines alone.
     pub fn of_series(all: &'a [Series]) -> Self {
-        Self::rows(series(all))
+        Self::rows("", series(all))
     }
 
     /// Of lines of these names in the order of colours.
     pub fn of_names(names: &'a [String]) -> Self {
         let lines = names.iter().enumerate();
-        Self::rows(lines.map(|(k, name)| (Swatch::Series(k, Mark::Line), name.as_str())))
+        Self::rows("", lines.map(|(k, name)| (Swatch::Series(k, Mark::Line), name.as_str())))
     }
 
-    fn rows(entries: impl Iterator<Item = (Swatch, &'a str)>) -> Self {
+    fn rows(title: &'a str, entries: impl Iterator<Item = (Swatch, &'a str)>) -> Self {
         let (mut rows, mut used): (Vec<Vec<_>>, f64) = (Vec::new(), 0.0);
+        if !title.is_empty() {
+            rows.push(Vec::new());
+            used = width_px(title, TITLE_SIZE) + BETWEEN;
+        }
         for entry in entries.filter(|(_, label)| !label.is_empty()) {
             let width = width(entry.1);
             match rows.last_mut() {
@@ -65,15 +73,19 @@ impl<'a> Legend<'a> {
             }
             used += width;
         }
-        Self(rows)
+        Self { title, rows }
     }
 
     pub fn height(&self) -> f64 {
-        ROW_HEIGHT * self.0.len() as f64
+        ROW_HEIGHT * self.rows.len() as f64
     }
 
     pub fn draw(&self, pen: &mut Pen, top: f64) {
-        for (index, row) in self.0.iter().enumerate() {
+        if !self.title.is_empty() {
+            let at = (PLOT_LEFT, top + 0.5 * ROW_HEIGHT + 4.0);
+            pen.text(at, TITLE_SIZE, "start", TEXT, self.title);
+        }
+        for (index, row) in self.rows.iter().enumerate() {
             let y = top + ROW_HEIGHT * (index as f64 + 0.5);
             let mut x = WIDTH - RIGHT + BETWEEN - row.iter().map(|(_, label)| width(label)).sum::<f64>();
             for (swatch, label) in row {
@@ -135,14 +147,24 @@ mod tests {
         let series = (1..=9).map(|k| Series::line(format!("plate[{k}].temperature"), vec![])).collect();
         let panel = Panel { series, mark_label: "limit".to_owned(), ..Panel::default() };
         let legend = Legend::of(&panel, false);
-        assert!(legend.0.len() > 1 && legend.height() == ROW_HEIGHT * legend.0.len() as f64);
-        let shown: Vec<&str> = legend.0.iter().flatten().map(|(_, label)| *label).collect();
+        assert!(legend.rows.len() > 1 && legend.height() == ROW_HEIGHT * legend.rows.len() as f64);
+        let shown: Vec<&str> = legend.rows.iter().flatten().map(|(_, label)| *label).collect();
         let labels = panel.series.iter().map(|series| series.label.as_str());
         assert_eq!(shown, labels.chain(["limit"]).collect::<Vec<_>>());
-        for row in legend.0 {
+        for row in legend.rows {
             let wide: f64 = row.iter().map(|(_, label)| width(label)).sum();
             assert!(wide - BETWEEN <= WIDTH - PLOT_LEFT - RIGHT);
         }
         assert_eq!(Legend::of(&Panel::default(), false).height(), 0.0);
+    }
+
+    #[test]
+    fn a_title_has_its_own_room_in_the_first_row() {
+        let few = Panel::new("").titled("by approximation").with([Series::line("a", vec![])]);
+        assert_eq!(Legend::of(&few, false).height(), ROW_HEIGHT);
+        let wide = "a".repeat(90);
+        let with = |title: &str| Panel::new("").titled(title).with([Series::line(wide.clone(), vec![])]);
+        assert_eq!(Legend::of(&with(""), false).height(), ROW_HEIGHT);
+        assert_eq!(Legend::of(&with("sampled every 8 spins"), false).height(), 2.0 * ROW_HEIGHT);
     }
 }

@@ -12,6 +12,7 @@ mod pen;
 mod picture;
 mod plane;
 mod series;
+mod shading;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -26,4 +27,5 @@ pub use pen::{BESIDE, COLOURS, GREY, HEADING, INK, Pen, Pixel, TEXT, png, width_
 pub use picture::{DrawingError, Picture, is_chart, svg};
 pub use plane::{PlaneChart, PlanePanel};
 pub use series::{Mark, Panel, Series};
+pub use shading::{Shading, mixed};
 pub use surface::{Finish, Surface, Vector, unit};

@@ -4,10 +4,12 @@ use super::{
     axes::round_up,
     chart::draw_series,
     frame::{Axes, Frame},
+    labels::{Labels, NAME_SIZE},
     legend::Legend,
-    pen::{Pen, Pixel, TEXT},
+    pen::{INK, Pen, Pixel, TEXT, width_px},
     picture::{LABEL, PLOT_LEFT, Picture, RIGHT, SHADE, TITLE_HEIGHT, WIDTH, X_AXIS_HEIGHT},
     series::{Series, pieces},
+    shading::{SCALE_WIDTH, Shading},
 };
 
 /// Panels side by side; the legend is that of the first.
@@ -21,6 +23,8 @@ pub struct PlaneChart {
     pub y_label: String,
     /// The panels, left to right. Series of the same place have the same colour.
     pub panels: Vec<PlanePanel>,
+    /// What the panels' cells show, with a scale to the right.
+    pub shading: Option<Shading>,
 }
 
 /// One square of the plane.
@@ -30,12 +34,16 @@ pub struct PlanePanel {
     pub title: String,
     /// Polygons, shaded, under the series.
     pub areas: Vec<Vec<(f64, f64)>>,
+    /// Polygons with the value that each is shaded by, under the series.
+    pub cells: Vec<(Vec<(f64, f64)>, f64)>,
     /// Thin lines under the series, such as meridians; a point that is not finite interrupts them.
     pub grid: Vec<(f64, f64)>,
     /// Curves of any course and dots.
     pub series: Vec<Series>,
     /// Short texts and the points they are centred on.
     pub texts: Vec<((f64, f64), String)>,
+    /// Names of points, each beside its own inside the panel, where it covers no other.
+    pub names: Vec<((f64, f64), String)>,
     /// Its middle.
     pub centre: (f64, f64),
     /// Half its side.
@@ -49,7 +57,8 @@ const PANEL_TITLE_HEIGHT: f64 = 26.0;
 impl PlaneChart {
     /// Width that a panel takes with its axis.
     fn panel_width(&self) -> f64 {
-        (WIDTH - 14.0 - RIGHT) / self.panels.len().max(1) as f64
+        let scale = if self.shading.is_some() { SCALE_WIDTH } else { 0.0 };
+        (WIDTH - 14.0 - RIGHT - scale) / self.panels.len().max(1) as f64
     }
 
     fn side(&self) -> f64 {
@@ -86,18 +95,26 @@ impl Picture for PlaneChart {
             let step = round_up(panel.half_width / 3.0);
             let axes =
                 Axes { labels, steps: [step; 2], label_px: LABEL - 20.0, is_whole: false, named: [&[]; 2] };
+            let axes = axes.beside(y);
             pen.text((left + 0.5 * side, top - 8.0), 13.0, "middle", TEXT, &panel.title);
-            panel.draw(pen, &frame, &axes);
+            panel.draw(pen, &frame, &axes, self.shading.as_ref());
+            if let Some(shading) = self.shading.as_ref().filter(|_| index + 1 == self.panels.len()) {
+                shading.draw_scale(pen, &frame);
+            }
         }
     }
 }
 
 impl PlanePanel {
-    fn draw(&self, pen: &mut Pen, frame: &Frame, axes: &Axes<'_>) {
+    fn draw(&self, pen: &mut Pen, frame: &Frame, axes: &Axes<'_>, shading: Option<&Shading>) {
         let at = |points: &[(f64, f64)]| -> Vec<Pixel> {
             points.iter().map(|(x, y)| frame.at([*x, *y])).collect()
         };
         let [low, high] = frame.corners();
+        if let Some(shading) = shading {
+            let cells: Vec<_> = self.cells.iter().map(|(corners, value)| (at(corners), *value)).collect();
+            shading.draw(pen, &cells);
+        }
         pen.within(low, high, |pen| self.areas.iter().for_each(|area| pen.polygon(&at(area), SHADE)));
         frame.grid(pen, axes);
         frame.axes(pen, axes);
@@ -111,6 +128,38 @@ impl PlanePanel {
         for ((x, y), text) in self.texts.iter().filter(|((x, y), _)| frame.holds([*x, *y])) {
             let (x, y) = frame.at([*x, *y]);
             pen.text((x, y + 4.0), 11.0, "middle", TEXT, text);
+        }
+        self.draw_names(pen, frame);
+    }
+}
+
+impl PlanePanel {
+    /// Names above, below or beside their points; one without a free place has the first.
+    fn draw_names(&self, pen: &mut Pen, frame: &Frame) {
+        const AWAY: f64 = 13.0;
+        let shown: Vec<_> = self.names.iter().filter(|((x, y), _)| frame.holds([*x, *y])).collect();
+        let [low, high] = frame.corners();
+        let is_inside = |(x, y): Pixel| x > low.0 && x < high.0 && y > low.1 && y < high.1;
+        let mut taken = Labels::default();
+        for ((x, y), _) in &shown {
+            taken.keep_off_sign(frame.at([*x, *y]), 10.0);
+        }
+        for ((x, y), name) in shown {
+            let (x, y) = frame.at([*x, *y]);
+            let across = 0.5 * width_px(name, NAME_SIZE) + AWAY;
+            let around = [
+                (0.0, -1.0),
+                (0.0, 1.0),
+                (1.0, 0.0),
+                (-1.0, 0.0),
+                (1.0, -1.0),
+                (-1.0, -1.0),
+                (1.0, 1.0),
+                (-1.0, 1.0),
+            ];
+            let candidates = around.map(|(right, down)| (x + right * across, y + down * AWAY));
+            let (x, y) = taken.place(name, candidates, is_inside).unwrap_or(candidates[0]);
+            pen.label((x, y), NAME_SIZE, INK, name);
         }
     }
 }
@@ -127,5 +176,37 @@ mod tests {
         let svg = crate::svg(&[&chart]).unwrap();
         assert!(svg.contains(" width=\"960\" ") && svg.matches("left").count() == 2);
         assert!(crate::svg(&[&PlaneChart::default()]).is_err());
+    }
+
+    #[test]
+    fn names_stay_inside_the_panel_and_off_one_another() {
+        let names: Vec<_> = [(-1.98, 0.0), (1.98, 1.98), (0.0, 0.0), (0.02, 0.0)]
+            .into_iter()
+            .zip(["left", "corner", "here", "beside"])
+            .map(|(at, name)| (at, name.to_owned()))
+            .collect();
+        let panel = PlanePanel { half_width: 2.0, names, ..PlanePanel::default() };
+        let svg = crate::svg(&[&PlaneChart { panels: vec![panel], ..PlaneChart::default() }]).unwrap();
+        let number = |tag: &str, key: &str| -> f64 {
+            tag.split(&format!(" {key}=\"")).nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
+        };
+        let frame = svg.split("<rect ").find(|tag| tag.contains("fill=\"none\"")).unwrap();
+        let frame = format!(" {frame}");
+        let (left, width) = (number(&frame, "x"), number(&frame, "width"));
+        let (top, height) = (number(&frame, "y"), number(&frame, "height"));
+        let placed = ["left", "corner", "here", "beside"].map(|name| {
+            let tag = svg.split("<text").find(|tag| tag.contains(&format!(">{name}<"))).unwrap();
+            let half = 0.5 * width_px(name, NAME_SIZE);
+            let (x, y) = (number(tag, "x"), number(tag, "y"));
+            assert!(x - half >= left && x + half <= left + width, "{name}: {x}");
+            assert!(y - NAME_SIZE >= top && y <= top + height, "{name}: {y}");
+            (x, y, half)
+        });
+        for (k, (x, y, half)) in placed.iter().enumerate() {
+            for (other_x, other_y, other_half) in &placed[..k] {
+                let is_apart = (x - other_x).abs() >= half + other_half || (y - other_y).abs() >= NAME_SIZE;
+                assert!(is_apart, "{placed:?}");
+            }
+        }
     }
 }

@@ -94,6 +94,8 @@ impl Series {
 /// One of a chart's stacked panels.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Panel {
+    /// Above its lines, to the left; empty for none.
+    pub title: String,
     /// Label of the vertical axis, with its unit in brackets.
     pub y_label: String,
     /// The lines.
@@ -118,6 +120,12 @@ impl Panel {
     /// An empty panel.
     pub fn new(y_label: impl Into<String>) -> Self {
         Self { y_label: y_label.into(), ..Self::default() }
+    }
+
+    /// With a title.
+    #[must_use]
+    pub fn titled(self, title: impl Into<String>) -> Self {
+        Self { title: title.into(), ..self }
     }
 
     /// With these lines.

@@ -62,6 +62,21 @@ fn ticks_can_have_names() {
 }
 
 #[test]
+fn labels_stand_beside_the_numbers_of_their_axes_in_one_line() {
+    let panel =
+        |most: f64| Panel::new("y").range(0.0, most).with([Series::line("", vec![(0.0, 0.0), (1.0, most)])]);
+    let labels = |panels: &[f64]| -> Vec<f64> {
+        let svg = svg(&[&Chart::new("", "x").with(panels.iter().copied().map(panel))]).unwrap();
+        let turned = svg.split("rotate(-90 ").skip(1);
+        turned.map(|rest| rest.split(' ').next().unwrap().parse().unwrap()).collect()
+    };
+    // Room for `4`, for `40000`, and for both where one stands above the other.
+    let (near, far) = (labels(&[5.0])[0], labels(&[5e4])[0]);
+    assert!(far < near - 4.0 * 5.0 && near > picture::PLOT_LEFT - 40.0, "{near}, {far}");
+    assert_eq!(labels(&[5.0, 5e4]), [far, far]);
+}
+
+#[test]
 fn a_band_is_named_once() {
     let fast = |count: u32| {
         let line = (0..count).map(|k| (f64::from(k), (1.3 * f64::from(k)).sin())).collect();

@@ -6,23 +6,74 @@ use physics::{
     spacecraft::{StartEntry, StartValue as FileValue},
 };
 
+use super::choices::DownlinkReference;
+
 /// The variable that takes a date: in s past J2000 TDB.
 const EPOCH: &str = "start.epoch";
 
-/// The entries of a file's `[start]` and `[fixed]` as start values of variables.
-pub fn start_values(entries: &[StartEntry]) -> Vec<StartValue> {
+/// The time of the simulation at which a burn begins.
+const BURN: &str = "burn.start";
+/// Times after the start, where downlinks are counted from there.
+const DOWNLINKS: [&str; 2] = ["guided.downlinkStart", "guided.downlinkEnd"];
+/// From where downlinks are counted.
+const REFERENCE: &str = "guided.downlinkReference";
+
+/// The entries of a file's `[start]` and `[fixed]` as start values of variables of `model`, in which times count from
+/// `default_epoch_s` unless the file says another epoch; `None`: the model has none.
+pub fn start_values(entries: &[StartEntry], model: &str, default_epoch_s: Option<f64>) -> Vec<StartValue> {
+    let value = |entry: &StartEntry| {
+        let FileValue::Text(text) = &entry.value else { return given(&entry.value) };
+        let is_of_model = entry.model.as_deref().is_none_or(|of| of == model);
+        match entry.name.as_str() {
+            _ if !dates::looks_like_date(text) => given(&entry.value),
+            EPOCH => date(text),
+            name if is_of_model && (name == BURN || DOWNLINKS.contains(&name)) => match default_epoch_s {
+                Some(default_epoch_s) => time(entries, model, entry, (text, default_epoch_s)),
+                None => given(&entry.value),
+            },
+            _ => given(&entry.value),
+        }
+    };
     let convert = |entry: &StartEntry| StartValue {
         key: entry.key.clone(),
         line: Some(entry.line),
         model: entry.model.clone(),
         is_fixed: entry.is_fixed,
         name: entry.name.clone(),
-        value: match &entry.value {
-            FileValue::Text(text) if entry.name == EPOCH && dates::looks_like_date(text) => date(text),
-            value => given(value),
-        },
+        value: value(entry),
     };
     entries.iter().map(convert).collect()
+}
+
+/// The time of a date after the start, which is FMI time 0 in whatever starts there.
+fn time(
+    entries: &[StartEntry],
+    model: &str,
+    entry: &StartEntry,
+    (text, default_epoch_s): (&str, f64),
+) -> SetupValue {
+    let refused = |found: String, allowed: String| SetupValue::Refused { found, allowed };
+    let of_model = |name: &str| entry_of(entries, model, name).map(|entry| &entry.value);
+    let is_from_start = of_model(REFERENCE).and_then(item) == Some(DownlinkReference::Start);
+    if DOWNLINKS.contains(&entry.name.as_str()) && !is_from_start {
+        let found = format!("the date {text:?}, while downlinks count from periapsis");
+        return refused(found, format!("a time after periapsis, or \"{REFERENCE}\" = \"start\" beside it"));
+    }
+    let epoch_s = match of_model(EPOCH).map_or(Ok(SetupValue::Number(default_epoch_s)), |value| match value {
+        FileValue::Text(written) => dates::epoch_s(written).map(SetupValue::Number),
+        value => Ok(given(value)),
+    }) {
+        Ok(SetupValue::Number(epoch_s)) => epoch_s,
+        Ok(SetupValue::Integer(epoch_s)) => epoch_s as f64,
+        _ => {
+            let found = format!("the date {text:?}, while {EPOCH} is neither a date nor a number in s");
+            return refused(found, format!("{EPOCH} as one of them, or a time"));
+        }
+    };
+    match date(text) {
+        SetupValue::Number(at_s) => SetupValue::Number(dates::span_s(epoch_s, at_s)),
+        refused => refused,
+    }
 }
 
 fn date(text: &str) -> SetupValue {

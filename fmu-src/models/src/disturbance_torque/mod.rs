@@ -53,7 +53,7 @@ impl Model for DisturbanceTorque {
     }
 
     fn start_values(setup: &DisturbanceSetup) -> Vec<StartValue> {
-        crate::common::start_values::start_values(&setup.spacecraft.start)
+        crate::common::start_values::start_values(&setup.spacecraft.start, Self::NAME, None)
     }
 
     fn about(setup: &DisturbanceSetup) -> About {

@@ -65,7 +65,11 @@ impl Model for Guidance {
     }
 
     fn start_values(setup: &GuidanceSetup) -> Vec<StartValue> {
-        crate::common::start_values::start_values(&setup.spacecraft.start)
+        crate::common::start_values::start_values(
+            &setup.spacecraft.start,
+            Self::NAME,
+            Some(time::MOMENTUM_STUDY_START_S),
+        )
     }
 
     fn about(setup: &GuidanceSetup) -> About {

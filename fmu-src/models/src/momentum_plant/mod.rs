@@ -49,7 +49,11 @@ impl Model for MomentumPlant {
     }
 
     fn start_values(setup: &PlantSetup) -> Vec<StartValue> {
-        crate::common::start_values::start_values(&setup.spacecraft.start)
+        crate::common::start_values::start_values(
+            &setup.spacecraft.start,
+            Self::NAME,
+            Some(physics::environment::time::MOMENTUM_STUDY_START_S),
+        )
     }
 
     fn about(setup: &PlantSetup) -> About {

@@ -55,6 +55,40 @@ fn an_epoch_takes_a_date() {
 }
 
 #[test]
+fn times_take_dates_that_count_from_the_epoch_beside_them() {
+    let guidance = |lines: &str| described::<Guidance>(lines);
+    let seconds =
+        |description: &Description, name: &str| -> f64 { start(description, name).parse().unwrap() };
+    // A leap second ends 2016.
+    let lines = "[start]\n\"start.epoch\" = \"2016-12-31T23:00:00 UTC\"\n\"burn.start\" = \"2017-01-01T01:00:00 UTC\"\n\
+                 \"guided.downlinkReference\" = \"start\"\n\"guided.downlinkStart\" = \"2017-01-01T00:00:00 UTC\"\n\
+                 \"guided.downlinkEnd\" = \"9 h\"";
+    let found = guidance(lines).unwrap();
+    assert_eq!(seconds(&found, "burn.start"), 7201.0);
+    assert_eq!(seconds(&found, "guided.downlinkStart"), 3601.0);
+    assert_eq!(seconds(&found, "guided.downlinkEnd"), 32_400.0);
+    // The model's own epoch is 2009-04-06 TDB.
+    let found = guidance("[start]\n\"burn.start\" = \"2009-04-07 TDB\"").unwrap();
+    assert_eq!(seconds(&found, "burn.start"), 86_400.0);
+    // From periapsis no date counts.
+    let refused =
+        described::<MomentumPlant>("[start]\n\"guided.downlinkStart\" = \"2009-04-07 TDB\"").unwrap_err();
+    for part in [
+        "my.toml:",
+        "guided.downlinkStart",
+        "2009-04-07 TDB",
+        "periapsis",
+        "\"guided.downlinkReference\" = \"start\"",
+    ] {
+        assert!(refused.contains(part), "{part} is missing in: {refused}");
+    }
+    let refused = guidance("[start]\n\"burn.start\" = \"2009-04-07\"").unwrap_err();
+    assert!(refused.contains("burn.start") && refused.contains("UTC or TDB"), "{refused}");
+    // A model without an epoch counts from none.
+    assert!(described::<SpinPlant>("[start]\n\"burn.start\" = \"2009-04-07 TDB\"").is_err());
+}
+
+#[test]
 fn one_value_is_that_of_every_element() {
     let described = described::<MomentumPlant>("[start]\n\"dump.threshold\" = \"3 N.m.s\"").unwrap();
     for k in 1..=3 {

@@ -93,6 +93,15 @@ pub fn epoch_s(text: &str) -> Result<f64, DateError> {
     Ok(before.to_tdb_seconds() + 1.0)
 }
 
+/// The time from one epoch to another, in s: whole seconds of UTC are whole seconds, although TDB runs up to 1.7 ms ahead of TT or
+/// behind it in the course of a year, and a step of less than that would be left over.
+pub fn span_s(from_epoch_s: f64, to_epoch_s: f64) -> f64 {
+    const ANNUAL_TERMS_S: f64 = 4e-3;
+    let span_s = to_epoch_s - from_epoch_s;
+    let rounded_s = span_s.round();
+    if (span_s - rounded_s).abs() < ANNUAL_TERMS_S { rounded_s } else { span_s }
+}
+
 /// The UTC date of an epoch after 1972, to the millisecond, as [`epoch_s`] reads it.
 pub fn utc(epoch_s: f64) -> String {
     // Half a millisecond more, for what follows is cut off.

@@ -115,8 +115,15 @@ pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn
     let mut setup = spacecraft.unwrap_or_else(|| described.default_setup.clone());
     let mut settings = Vec::new();
     if let Some(mission) = parts.mission {
-        mission.resolve(&description)?;
+        mission.resolve(&description, parts.sets, None)?;
         settings.extend(mission.settings(&description));
+    }
+    if let Some(epoch) = parts.origin.filter(|_| parts.mission.is_none()).and_then(|it| it.epoch_s.as_ref())
+        && start::has_dates(&setup)
+    {
+        // Dates in the file count from the epoch that the mission starts at.
+        let at = parts.origin.map(|mission| mission.place(epoch)).unwrap_or_default();
+        settings.push((at, format!("{}={}", crate::epoch::START, epoch.it)));
     }
     settings.extend(parts.sets.iter().map(|set| (format!("--set {set}"), set.clone())));
     let fixed = parts.fixes.iter().map(|fix| (format!("--fix {fix}"), fix.clone())).collect();

@@ -1,6 +1,6 @@
 //! Bands of a signed quantity: their edges at round values, and their colours from blue over white to red.
 
-use drawing::round_up;
+use drawing::{mixed, round_up};
 
 /// Bands on each side of zero, about.
 const BANDS: f64 = 7.0;
@@ -43,12 +43,7 @@ impl Bands {
     /// The colour of a band.
     pub fn colour(&self, number: i32) -> String {
         let place = (f64::from(number) + 0.5) / f64::from(self.count);
-        let at = (0.5 * (place + 1.0)).clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
-        let below = (at.floor() as usize).min(SCALE.len() - 2);
-        let part = at - below as f64;
-        let [red, green, blue] = [0, 1, 2]
-            .map(|k| (SCALE[below][k] + part * (SCALE[below + 1][k] - SCALE[below][k])).round() as u8);
-        format!("#{red:02x}{green:02x}{blue:02x}")
+        mixed(&SCALE, 0.5 * (place + 1.0))
     }
 }
 

@@ -39,7 +39,10 @@ pub fn svg(spacecraft: &MappedSpacecraft, found: &Found) -> String {
     );
     let height = if found.zone.is_some() { HEIGHT_OF_PLOT } else { HEIGHT_OF_ONLY_PLOT };
     let row = height + AROUND_PLOT;
-    let mut pen = Pen::new(WIDTH, HEAD + 3.0 * row + LAST_ROW, &title);
+    // Without a window nothing is undone.
+    let has_downlinks = spacecraft.downlink.share() > 0.0;
+    let last_row = if has_downlinks { LAST_ROW } else { 0.0 };
+    let mut pen = Pen::new(WIDTH, HEAD + 3.0 * row + last_row, &title);
     pen.text((LEFT, 36.0), 20.0, "start", HEADING, &title);
     legend(&mut pen, found.zone.is_some());
     for (axis, name) in NAMES.into_iter().enumerate() {
@@ -64,7 +67,9 @@ pub fn svg(spacecraft: &MappedSpacecraft, found: &Found) -> String {
         torque(&mut pen, zone, in_zone, axis, steps);
         least(&mut pen, in_zone, found);
     }
-    downlinks(&mut pen, HEAD + 3.0 * row, spacecraft, found);
+    if has_downlinks {
+        downlinks(&mut pen, HEAD + 3.0 * row, spacecraft, found);
+    }
     pen.finish()
 }
 
@@ -91,7 +96,8 @@ fn torque(pen: &mut Pen, mapped: &Mapped, frame: Frame, axis: usize, steps: [f64
         pen.circle(frame.at(balance.place_deg), 5.0, BALANCE);
     }
     let labels = ["Sun azimuth [deg]", "Sun elevation [deg]"];
-    frame.axes(pen, &Axes { labels, steps, label_px: LABEL, is_whole: false, named: [&[]; 2] });
+    let axes = Axes { labels, steps, label_px: LABEL, is_whole: false, named: [&[]; 2] };
+    frame.axes(pen, &axes.beside(frame.y));
     bands::scale(&frame, pen, scale, "uN.m");
 }
 
@@ -151,7 +157,8 @@ fn downlinks(pen: &mut Pen, top: f64, spacecraft: &MappedSpacecraft, found: &Fou
     }
     let steps = [x, y].map(|[low, high]| round_up((high - low) / 7.0));
     let labels = ["mean torque about X [uN.m]", "mean torque about Z [uN.m]"];
-    frame.axes(pen, &Axes { labels, steps, label_px: LABEL, is_whole: false, named: [&[]; 2] });
+    let axes = Axes { labels, steps, label_px: LABEL, is_whole: false, named: [&[]; 2] };
+    frame.axes(pen, &axes.beside(frame.y));
     if let Some(mean) = mean.filter(|mean| frame.holds(*mean)) {
         pen.circle(frame.at(mean), 5.0, MISSION);
     }

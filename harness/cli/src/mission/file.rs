@@ -396,7 +396,7 @@ impl Builder<'_> {
                     allowed,
                 );
             }
-            return self.epoch_s.map(|zero_s| whole(epoch_s - zero_s));
+            return self.epoch_s.map(|zero_s| dates::span_s(zero_s, epoch_s));
         }
         let number = matches!(written, Written::Number(_) | Written::Integer(_) | Written::Text(_));
         let time_s = written.setting().filter(|_| number).and_then(|text| values::duration(&text).ok());
@@ -418,14 +418,6 @@ impl Builder<'_> {
     ) -> Option<f64> {
         read.map_err(|error| self.check.report(place, format_args!("{written}, {error}"), ALLOWED_DATE)).ok()
     }
-}
-
-/// The time between two dates: whole seconds of UTC are whole seconds of the simulation, although TDB runs up to 1.7 ms ahead of TT
-/// or behind it in the course of a year, and a step of less than that would be left over.
-fn whole(span_s: f64) -> f64 {
-    const ANNUAL_TERM_S: f64 = 4e-3;
-    let rounded_s = span_s.round();
-    if (span_s - rounded_s).abs() < ANNUAL_TERM_S { rounded_s } else { span_s }
 }
 
 /// The epoch, if it looks like a date.

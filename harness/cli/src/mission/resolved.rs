@@ -7,10 +7,10 @@ use model_description::{Causality, Description, ScalarVariable, VariableKind, va
 use physics::toml::MOST_PROBLEMS;
 
 use super::file::{At, Bounds, Inputs, Mission};
-use crate::{epoch, output::Limit};
-
-/// The epoch of the start.
-const EPOCH: &str = "start.epoch";
+use crate::{
+    epoch::{self, Dates},
+    output::Limit,
+};
 
 /// What a mission means in an FMU.
 #[derive(Debug, Default)]
@@ -28,12 +28,20 @@ pub struct Resolved {
 }
 
 impl Mission {
-    /// Finds every name and reads every value.
+    /// Finds every name and reads every value. `later` is set after it, as for `--set`, and `start_s` where the run starts.
     ///
     /// # Errors
     /// Everything that the FMU does not have or take, a line for each problem.
-    pub fn resolve(&self, described: &Description) -> Result<Resolved, String> {
-        let mut resolver = Resolver { mission: self, described, problems: Vec::new() };
+    pub fn resolve(
+        &self,
+        described: &Description,
+        later: &[String],
+        start_s: Option<f64>,
+    ) -> Result<Resolved, String> {
+        let settings = self.settings(described);
+        let together = settings.iter().map(|(_, setting)| setting).chain(later).map(String::as_str);
+        let dates = Dates::new(described, together, start_s.or(self.start_s));
+        let mut resolver = Resolver { mission: self, described, dates: &dates, problems: Vec::new() };
         let resolved = Resolved {
             sets: resolver.sets(),
             inputs: resolver.inputs(),
@@ -49,7 +57,7 @@ impl Mission {
     /// Its values as `--set` would take them, the date of its start among them, each with the place that it stands in.
     pub fn settings(&self, described: &Description) -> Vec<(String, String)> {
         let epochs = self.epoch_s.iter().flat_map(|at| {
-            let names = described.variables.iter().map(|it| &it.name).filter(|name| is_epoch(name));
+            let names = described.variables.iter().map(|it| &it.name).filter(|name| epoch::is_start(name));
             names.map(move |name| (self.place(at), format!("{name}={}", at.it)))
         });
         let sets = self.sets.iter().map(|at| (self.place(at), format!("{}={}", at.it.0, at.it.1)));
@@ -57,18 +65,14 @@ impl Mission {
     }
 }
 
-/// Whether a variable is the epoch of the start, its own or a component's.
-fn is_epoch(name: &str) -> bool {
-    name.strip_suffix(EPOCH).is_some_and(|component| component.is_empty() || component.ends_with('.'))
-}
-
-struct Resolver<'m> {
+struct Resolver<'m, 's> {
     mission: &'m Mission,
     described: &'m Description,
+    dates: &'s Dates<'s>,
     problems: Vec<(usize, String)>,
 }
 
-impl<'m> Resolver<'m> {
+impl<'m> Resolver<'m, '_> {
     fn report<T>(&mut self, at: &At<T>, what: &str) {
         self.problems.push((at.line, self.mission.problem(at, what)));
     }
@@ -94,10 +98,11 @@ impl<'m> Resolver<'m> {
     fn sets(&mut self) -> Vec<(String, Value)> {
         let mut sets = Vec::new();
         if let Some(at) = &self.mission.epoch_s {
-            let names = self.described.variables.iter().map(|it| &it.name).filter(|name| is_epoch(name));
+            let names =
+                self.described.variables.iter().map(|it| &it.name).filter(|name| epoch::is_start(name));
             sets.extend(names.map(|name| (name.clone(), Value::Real(at.it))));
             if sets.is_empty() {
-                let found = format!("found a date, but the FMU has no variable {EPOCH}");
+                let found = format!("found a date, but the FMU has no variable {}", epoch::START);
                 self.report(at, &format!("{found}, allowed: simulation time, 0 or \"10 d\""));
             }
         }
@@ -125,7 +130,9 @@ impl<'m> Resolver<'m> {
 
     fn assigned<T>(&mut self, at: &At<T>, name: &str, written: &str) -> Vec<(&'m ScalarVariable, Value)> {
         let setting = format!("{name}={written}");
-        let read = epoch::in_seconds(self.described, &setting)
+        let read = self
+            .dates
+            .in_seconds(&setting)
             .and_then(|setting| loader::parse_assignment(self.described, &setting));
         let values = read.map_err(|error| self.refuse(at, error)).unwrap_or_default().into_iter();
         let variable = |name: &str| self.described.variables.iter().find(|variable| variable.name == name);

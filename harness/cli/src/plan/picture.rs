@@ -10,6 +10,10 @@ use planner::spin::{PlannedBurn, right_ascension_declination_deg};
 const POINTS: u32 = 180;
 /// Half the side of the panel that shows the whole sphere, in deg.
 const WHOLE_DEG: f64 = 186.0;
+/// Neighbours on a curve are no farther apart on the map, in deg, unless they are nearer than this on the sphere, in rad: there the
+/// curve goes through the rim.
+const FAR_DEG: f64 = 8.0;
+const THROUGH_RAD: f64 = 1e-3;
 /// The close view is so many times the turn's angle wide, and at least so many deg.
 const CLOSE: f64 = 0.75;
 const LEAST_CLOSE_DEG: f64 = 0.05;
@@ -43,16 +47,42 @@ impl Map {
         if across > 0.0 { (angle_deg * x / across, angle_deg * y / across) } else { (angle_deg, 0.0) }
     }
 
-    /// A curve; broken where it jumps over the rim, which is one point of the sphere.
+    /// A curve, so fine that it follows the rim, which is one point of the sphere; it ends there and begins anew across it where it
+    /// goes through that point.
     fn curve(&self, points: impl IntoIterator<Item = Vector3<f64>>) -> Vec<(f64, f64)> {
         let mut curve: Vec<(f64, f64)> = Vec::new();
-        for (x, y) in points.into_iter().map(|point| self.place(&point)) {
-            if curve.last().is_some_and(|last| (last.0 - x).hypot(last.1 - y) > 60.0) {
-                curve.push((f64::NAN, f64::NAN));
+        let mut before: Option<Vector3<f64>> = None;
+        for point in points {
+            if let Some(before) = before {
+                self.between(&mut curve, &before, &point);
             }
-            curve.push((x, y));
+            curve.push(self.place(&point));
+            before = Some(point);
         }
         curve
+    }
+
+    /// Points between two neighbours of a curve, until none is far from the next.
+    fn between(&self, curve: &mut Vec<(f64, f64)>, from: &Vector3<f64>, to: &Vector3<f64>) {
+        let (from_place, to_place) = (self.place(from), self.place(to));
+        if (from_place.0 - to_place.0).hypot(from_place.1 - to_place.1) <= FAR_DEG {
+            return;
+        }
+        if (from - to).norm() < THROUGH_RAD {
+            curve.extend([self.on_rim(from), (f64::NAN, f64::NAN), self.on_rim(to)]);
+            return;
+        }
+        let middle = (from + to).normalize();
+        self.between(curve, from, &middle);
+        curve.push(self.place(&middle));
+        self.between(curve, &middle, to);
+    }
+
+    /// Where a direction near the rim meets it.
+    fn on_rim(&self, direction: &Vector3<f64>) -> (f64, f64) {
+        let (x, y) = (self.east.dot(direction), self.north.dot(direction));
+        let scale = 180.0 / x.hypot(y).max(f64::MIN_POSITIVE);
+        (x * scale, y * scale)
     }
 }
 
@@ -71,7 +101,9 @@ fn circle(about: &Vector3<f64>, radius_rad: f64) -> impl Iterator<Item = Vector3
 
 /// Meridians and parallels every 30 deg.
 fn graticule(map: &Map) -> Vec<(f64, f64)> {
-    let mut lines = Vec::new();
+    let rim = shares().map(|share| (TAU * share).sin_cos());
+    let mut lines: Vec<_> = rim.map(|(sine, cosine)| (180.0 * cosine, 180.0 * sine)).collect();
+    lines.push((f64::NAN, f64::NAN));
     let direction = |right_ascension_rad: f64, declination_rad: f64| {
         let (sine, cosine) = right_ascension_rad.sin_cos();
         Vector3::new(cosine * declination_rad.cos(), sine * declination_rad.cos(), declination_rad.sin())
@@ -124,16 +156,12 @@ fn sphere(burn: &PlannedBurn) -> PlaneChart {
     ];
     let close_deg = (CLOSE * angle_rad.to_degrees()).max(LEAST_CLOSE_DEG);
     let panel = |title: &str, half_width: f64, named: Vec<(&str, Vector3<f64>)>| {
-        let above = |direction: Vector3<f64>| {
-            let (x, y) = map.place(&direction);
-            (x, y + 0.055 * half_width)
-        };
-        let named = named.into_iter().map(|(name, direction)| (above(direction), name.to_owned()));
+        let named = named.into_iter().map(|(name, direction)| (map.place(&direction), name.to_owned()));
         PlanePanel {
             title: title.to_owned(),
             grid: graticule(&map),
             series: series.clone(),
-            texts: named.collect(),
+            names: named.collect(),
             half_width,
             ..PlanePanel::default()
         }
@@ -152,6 +180,7 @@ fn sphere(burn: &PlannedBurn) -> PlaneChart {
         x_label: "east [deg]".to_owned(),
         y_label: "north [deg]".to_owned(),
         panels: vec![whole, near],
+        shading: None,
     }
 }
 
@@ -180,4 +209,36 @@ fn nutation(burn: &PlannedBurn) -> Chart {
         .fold(0.0_f64, |highest, (_, angle_deg)| highest.max(*angle_deg));
     let panel = Panel::new("nutation [deg]").range(0.0, 1.08 * highest.max(1e-9)).with(series);
     Chart::new(String::new(), "time [min]").with([panel])
+}
+
+#[cfg(test)]
+mod tests {
+    //! Curves reach the rim of the map and follow it.
+    use super::*;
+
+    #[test]
+    fn a_curve_has_no_gap_before_the_rim() {
+        let map = Map::about(Vector3::new(0.3, -0.5, 0.8).normalize());
+        // A great circle through the middle's antipode, one past it by a deg, and one far from it.
+        for off_deg in [0.0, 1.0, 40.0_f64] {
+            let (sine, cosine) = off_deg.to_radians().sin_cos();
+            let pole = map.east * cosine + map.middle * sine;
+            let circle = Map::about(pole);
+            let points = shares().map(|share| {
+                let (sine, cosine) = (TAU * share + 0.1).sin_cos();
+                circle.east * cosine + circle.north * sine
+            });
+            let curve = map.curve(points);
+            let gap = |(a, b): (&(f64, f64), &(f64, f64))| (a.0 - b.0).hypot(a.1 - b.1);
+            let widest =
+                curve.iter().zip(&curve[1..]).map(gap).filter(|gap| gap.is_finite()).fold(0.0, f64::max);
+            assert!(widest <= FAR_DEG, "{off_deg} deg: {widest} deg");
+            let breaks = curve.iter().filter(|(x, _)| x.is_nan()).count();
+            assert_eq!(breaks, usize::from(off_deg == 0.0), "{off_deg} deg");
+            let farthest =
+                curve.iter().map(|(x, y)| x.hypot(*y)).filter(|it| it.is_finite()).fold(0.0, f64::max);
+            let expected_deg = 180.0 - off_deg;
+            assert!((farthest - expected_deg).abs() < 0.2, "{off_deg} deg: {farthest} deg");
+        }
+    }
 }

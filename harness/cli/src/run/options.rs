@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::values::{duration, span};
+use crate::values::{Instant, duration, instant, span};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
@@ -23,15 +23,16 @@ pub struct Run {
     /// Start time, in s or with a unit (s, min, h, d); otherwise the FMU's default
     #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
     pub start: Option<f64>,
-    /// Stop time, in s or with a unit: 90d; otherwise the FMU's default
-    #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
-    pub stop: Option<f64>,
+    /// Stop time, in s or with a unit: 90d; or a date ('2011-04-16T00:00:00 UTC'), which start.epoch is counted to; otherwise the
+    /// FMU's default
+    #[arg(long, value_name = "TIME", value_parser = instant, allow_hyphen_values = true)]
+    pub stop: Option<Instant>,
     /// Communication step, in s or with a unit: 10min; otherwise the FMU's default
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub step: Option<f64>,
     /// Set a parameter, input or start value; repeatable. Takes units ('spacecraft.centerOfMass[3]=-2.54cm'),
     /// names of options (attitude.source=guided), whole vectors (dump.threshold=4,4,4; one value is that of every element), dates for epochs
-    /// ('start.epoch=2011-04-06T00:00:00 UTC')
+    /// and times ('start.epoch=2011-04-06T00:00:00 UTC', burn.start, guided.downlinkStart)
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
     /// For a system: jacobi, all components take the outputs of the step's beginning; or gaussSeidel, one after another,

@@ -13,9 +13,10 @@ use super::{
     subject::Subject,
 };
 use crate::{
+    epoch::Dates,
     mission::{self, Resolved},
     output::{self, Limit, OutputFile, Plot, Requested},
-    variables::{assigned, selected},
+    variables::{assigned_by, selected},
 };
 
 /// What the arguments mean for an FMU or a system.
@@ -44,11 +45,14 @@ impl Settings {
         let Simulated { run: arguments, mission } = simulated;
         let described = subject.description();
         let resolved = match mission {
-            Some(mission) => mission.resolve(described)?,
+            Some(mission) => mission.resolve(described, &arguments.set, arguments.start)?,
             None => Resolved::default(),
         };
-        let times = subject.times(arguments)?;
-        let sets = [resolved.sets, assigned(described, &arguments.set)?].concat();
+        let in_mission = mission.as_ref().map_or_else(Vec::new, |mission| mission.settings(described));
+        let together = in_mission.iter().map(|(_, setting)| setting).chain(&arguments.set);
+        let dates = Dates::new(described, together.map(String::as_str), arguments.start);
+        let times = subject.times(arguments, &dates)?;
+        let sets = [resolved.sets, assigned_by(&dates, described, &arguments.set)?].concat();
         let inputs = arguments.input.as_deref();
         let inputs =
             inputs.map(|path| read_table(described, path, input_copy.unwrap_or(path))).transpose()?;
@@ -121,7 +125,7 @@ impl Settings {
     ) -> Result<(Ended, Vec<LogMessage>), loader::Error> {
         let options = Options {
             start_s: arguments.start,
-            stop_s: arguments.stop,
+            stop_s: Some(self.times.stop_s),
             step_s: arguments.step,
             record_every_s: arguments.every,
             sets: self.sets.clone(),

@@ -18,6 +18,7 @@ use crate::{
     kind,
     mission::{Craft, Inputs, Mission},
     outcome::Outcome,
+    values::Instant,
 };
 
 /// `heliotorque assemble`.
@@ -57,7 +58,7 @@ impl Simulated {
         let mission = Mission::read(&arguments.fmu)?;
         let mut run = arguments.clone();
         run.start = run.start.or(mission.start_s);
-        run.stop = run.stop.or(mission.stop_s);
+        run.stop = run.stop.or(mission.stop_s.map(Instant::Time));
         run.step = run.step.or(mission.step_s);
         run.every = run.every.or(mission.every_s);
         if let (None, Some(Inputs::File(path))) = (&run.input, &mission.inputs) {

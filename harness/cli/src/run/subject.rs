@@ -10,6 +10,7 @@ use model_description::Description;
 use systems::System;
 
 use super::options::Run;
+use crate::{epoch::Dates, values::Instant};
 
 /// What is run.
 pub enum Subject {
@@ -119,11 +120,18 @@ impl Subject {
     }
 
     /// The times of a run.
-    pub fn times(&self, arguments: &Run) -> Result<Times, loader::Error> {
+    pub fn times(&self, arguments: &Run, dates: &Dates<'_>) -> Result<Times, Box<dyn Error>> {
         let Run { start, stop, step, .. } = *arguments;
-        match self {
-            Self::Fmu(fmu) => Times::of(fmu, start, stop, step),
-            Self::System(system) => system.times(start, stop, step),
-        }
+        let stop_s = match stop {
+            Some(Instant::Epoch(epoch_s)) => {
+                Some(dates.simulation_s(epoch_s).map_err(|why| format!("--stop: found a date, {why}"))?)
+            }
+            Some(Instant::Time(time_s)) => Some(time_s),
+            None => None,
+        };
+        Ok(match self {
+            Self::Fmu(fmu) => Times::of(fmu, start, stop_s, step)?,
+            Self::System(system) => system.times(start, stop_s, step)?,
+        })
     }
 }

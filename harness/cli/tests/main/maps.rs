@@ -364,8 +364,14 @@ fn what_cannot_be_mapped_is_refused_by_name() {
     let (lines, svg) = (room.path().join("lines.csv"), room.path().join("bare.svg"));
     let files = ["--lines", shown(&lines), "--output", shown(&svg)];
     run(&[&["map", shown(&bare)][..], &template[..4], &files].concat(), 0);
-    assert!(!fs::read_to_string(lines).unwrap().contains("zone"));
-    assert!(!fs::read_to_string(svg).unwrap().contains("keep-in"));
+    assert!(!fs::read_to_string(&lines).unwrap().contains("zone"));
+    let drawn = || fs::read_to_string(&svg).unwrap();
+    assert!(!drawn().contains("keep-in"));
+    // What downlinks can undo is drawn where there are any.
+    assert!(drawn().contains("downlinks can undo"));
+    let none = ["--set", "guided.downlinkStart=3h", "--set", "guided.downlinkEnd=3h"];
+    run(&[&["map", shown(&bare)][..], &template[..4], &files, &none].concat(), 0);
+    assert!(!drawn().contains("downlinks can undo") && drawn().contains("About Z"));
     for zone in [["--zone", "20deg,10deg"], ["--set", "keepIn.azimuth=20deg"]] {
         let reported = run(&[&["map", shown(&bare)][..], &template, &zone].concat(), 0);
         says(&reported, &["Sun keep-in zone: 20 deg of azimuth", "in the zone"]);

@@ -152,6 +152,46 @@ fn patterns_take_outputs_and_whole_vectors() {
 }
 
 #[test]
+fn times_take_dates_that_count_from_the_epoch_of_the_start() {
+    let Some(dist) = built("HELIOTORQUE_DIST") else { return };
+    let (scratch, fmu) = (tempfile::tempdir().unwrap(), dist.join("MomentumPlant.fmu"));
+    let table = scratch.path().join("out.csv");
+    let simulate = |more: &[&str], status: i32| {
+        let always = ["run", shown(&fmu), "--step", "600", "--output", shown(&table)];
+        run(&[&always[..], more].concat(), status)
+    };
+    let last_s = || csv(&table).1.last().unwrap()[0];
+    let epoch = ["--set", "start.epoch=2016-12-31T23:00:00 UTC"];
+    // With the leap second.
+    simulate(&[&epoch[..], &["--stop", "2017-01-01T01:00:00 UTC"]].concat(), 0);
+    assert_eq!(last_s(), 7201.0);
+    simulate(&[&epoch[..], &["--start", "600", "--stop", "2017-01-01T00:00:00 UTC"]].concat(), 0);
+    assert_eq!(last_s(), 600.0 + 3601.0);
+    // The FMU's own epoch is 2009-04-06 TDB.
+    simulate(&["--stop", "2009-04-06T01:00:00 TDB"], 0);
+    assert_eq!(last_s(), 3600.0);
+    let text = simulate(&["--stop", "2009-04-06T01:00:00"], 2);
+    assert!(text.contains("UTC or TDB"), "{text}");
+    let text = simulate(&["--stop", "2009-04-05 TDB"], 1);
+    assert!(text.contains("must be later than the start time"), "{text}");
+    let Some((_room, other)) = packed("AllTypes") else { return };
+    let text = run(&["run", shown(&other), "--stop", "2009-04-07 TDB"], 1);
+    assert!(text.contains("--stop") && text.contains("no start.epoch"), "{text}");
+    // Windows count from the start here, and from periapsis by default.
+    let dated = "guided.downlinkStart=2009-04-06T00:10:00 TDB";
+    let text = simulate(&["--stop", "1 h", "--set", dated], 1);
+    assert!(text.contains("guided.downlinkReference is periapsis"), "{text}");
+    let flown = |start: &str, end: &str| {
+        let sets = ["--set", "guided.downlinkReference=start", "--set", start, "--set", end];
+        simulate(&[&sets[..], &["--stop", "2 h", "--record", "attitude.q"]].concat(), 0);
+        csv(&table).1
+    };
+    let by_dates = flown(dated, "guided.downlinkEnd=2009-04-06T00:50:00 TDB");
+    assert_eq!(by_dates, flown("guided.downlinkStart=10 min", "guided.downlinkEnd=50 min"));
+    assert_ne!(by_dates, flown("guided.downlinkStart=60 min", "guided.downlinkEnd=100 min"));
+}
+
+#[test]
 fn a_time_that_is_none_is_shown_so() {
     let Some(dist) = built("HELIOTORQUE_DIST") else { return };
     let (scratch, fmu) = (tempfile::tempdir().unwrap(), dist.join("MomentumPlant.fmu"));

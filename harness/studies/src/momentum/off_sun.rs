@@ -159,16 +159,26 @@ fn within_the_zone(run: &mut Run<'_>, few: &Simulated, whole: &Simulated) -> Out
         .zip(&whole.samples)
         .map(|((few, _), (whole, _))| row![few.time_s / DAY_S, few.momentum_n_m_s, whole.momentum_n_m_s]);
     run.csv("off-sun-momentum.csv", header, rows)?;
-    let points = |simulated: &Simulated, axis: usize| -> Vec<(f64, f64)> {
-        simulated.samples.iter().map(|(it, _)| (it.time_s / DAY_S, it.momentum_n_m_s[axis])).collect()
+    let days = |(sample, _): &(Sample, Vec<Vector>)| sample.time_s / DAY_S;
+    let lines = |of: &dyn Fn(usize) -> Vector| {
+        ["X", "Y", "Z"]
+            .into_iter()
+            .enumerate()
+            .map(|(axis, name)| {
+                let points = whole.samples.iter().enumerate().map(|(k, it)| (days(it), of(k)[axis]));
+                Series::line(name, points.collect())
+            })
+            .collect::<Vec<_>>()
     };
-    let chart =
-        Chart::new("Inertial momentum within the keep-in zone", "time [d]").with((0..3).map(|axis| {
-            Panel::new(format!("H_{} [N.m.s]", ["x", "y", "z"][axis])).with([
-                Series::line("shade and panels", points(few, axis)),
-                Series::line("whole", points(whole, axis)),
-            ])
-        }));
+    let momentum = |simulated: &Simulated, k: usize| {
+        simulated.samples.get(k).map_or(Vector::repeat(f64::NAN), |(it, _)| it.momentum_n_m_s)
+    };
+    // The two lie on each other: their difference shows what they do not share.
+    let difference = |k: usize| 1e3 * (momentum(whole, k) - momentum(few, k));
+    let chart = Chart::new("Inertial momentum within the keep-in zone", "time [d]").with([
+        Panel::new("momentum [N.m.s]").titled("the whole spacecraft").with(lines(&|k| momentum(whole, k))),
+        Panel::new("momentum [mN.m.s]").titled("the whole less shade and panels").with(lines(&difference)),
+    ]);
     run.picture("off-sun-momentum.svg", &chart)
 }
 

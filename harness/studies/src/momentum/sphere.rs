@@ -8,7 +8,7 @@ use crate::StudyError;
 use crate::attitude::{Vector, body_direction};
 use crate::case::{Case, Row};
 use crate::settings::{Settings, set};
-use drawing::{PlaneChart, PlanePanel, Series};
+use drawing::{PlaneChart, PlanePanel, Shading};
 
 /// Between neighbouring directions, in deg.
 const SPACING_DEG: i32 = 5;
@@ -60,30 +60,12 @@ fn direction(at_deg: [f64; 2]) -> Vector {
     body_direction(azimuth_rad, elevation_rad)
 }
 
-/// The sphere as two discs, from -Y and from +Y, a degree of which is everywhere as long toward their middle; dots are coloured
-/// by six bands of `size`, whose unit is `unit`.
+/// The sphere as two discs, from -Y and from +Y, a degree of which is everywhere as long toward their middle; around each direction
+/// a cell is shaded by `size`, whose unit is `unit`.
 pub fn picture(title: &str, unit: &str, found: &[Lit], size: impl Fn(&Lit) -> Vector) -> PlaneChart {
-    const BANDS: usize = 6;
-    let most = found.iter().map(|lit| size(lit).norm()).fold(0.0, f64::max);
-    let band = |lit: &Lit| ((size(lit).norm() / most * BANDS as f64) as usize).min(BANDS - 1);
-    let place = |lit: &Lit, side: f64| {
-        let [x, y, z] = direction([lit.azimuth_deg, lit.elevation_deg]).into();
-        let away_rad = (y * side).clamp(-1.0, 1.0).acos();
-        let scale = if away_rad > 0.0 { away_rad.to_degrees() / x.hypot(z) } else { 0.0 };
-        (away_rad <= FRAC_PI_2 + 1e-9).then_some((x * scale, z * scale))
-    };
     let panel = |title: &str, side: f64| PlanePanel {
         title: title.to_owned(),
-        series: (0..BANDS)
-            .map(|number| {
-                let step = most / BANDS as f64;
-                let label =
-                    format!("{:.1} to {:.1} {unit}", number as f64 * step, (number + 1) as f64 * step);
-                let points = found.iter().filter(|lit| band(lit) == number);
-                Series::dots(label, points.filter_map(|lit| place(lit, side)).collect())
-            })
-            .collect(),
-        centre: (0.0, 0.0),
+        cells: found.iter().filter_map(|lit| Some((cell(lit, side)?, size(lit).norm()))).collect(),
         half_width: 92.0,
         ..PlanePanel::default()
     };
@@ -92,5 +74,26 @@ pub fn picture(title: &str, unit: &str, found: &[Lit], size: impl Fn(&Lit) -> Ve
         x_label: "Sun toward X [deg]".to_owned(),
         y_label: "Sun toward Z [deg]".to_owned(),
         panels: vec![panel("Sun on the side of -Y", -1.0), panel("Sun on the side of +Y", 1.0)],
+        shading: Some(Shading {
+            greatest: found.iter().map(|lit| size(lit).norm()).fold(0.0, f64::max),
+            unit: unit.to_owned(),
+        }),
     }
+}
+
+/// The corners around a direction on the disc of a side, in deg, cut at its rim; `None` on the other side.
+fn cell(lit: &Lit, side: f64) -> Option<Vec<(f64, f64)>> {
+    const RIM: f64 = 1e-9;
+    let half_deg = 0.5 * f64::from(SPACING_DEG);
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(right, up)| {
+        let elevation_deg = (lit.elevation_deg + up * half_deg).clamp(-90.0, 90.0);
+        direction([lit.azimuth_deg + right * half_deg, elevation_deg])
+    });
+    let place = |direction: Vector| {
+        let [x, y, z] = direction.into();
+        let (away_rad, across) = ((y * side).clamp(-1.0, 1.0).acos().min(FRAC_PI_2), x.hypot(z));
+        let scale = if across > 0.0 { away_rad.to_degrees() / across } else { 0.0 };
+        (x * scale, z * scale)
+    };
+    corners.iter().any(|corner| corner.y * side > RIM).then(|| corners.map(place).to_vec())
 }

@@ -17,7 +17,7 @@ pub struct View {
 /// A chart of discs.
 pub fn disc_chart(title: &str, panels: Vec<PlanePanel>) -> PlaneChart {
     let [x_label, y_label] = ["downtrack of nadir [deg]", "left of the track [deg]"].map(str::to_owned);
-    PlaneChart { title: title.to_owned(), x_label, y_label, panels }
+    PlaneChart { title: title.to_owned(), x_label, y_label, panels, ..PlaneChart::default() }
 }
 
 const POINTS: u32 = 720;

@@ -185,7 +185,7 @@ pub fn figure7(run: &mut Run<'_>) -> Outcome {
             [vec![format!("{:.4}", p.rate_rpm)], numbers.to_vec()].concat()
         }),
     )?;
-    let panel = |y_label: &str, time: fn(&Point) -> f64| {
+    let panel = |method: &str, time: fn(&Point) -> f64| {
         // A line ends where it leaves the picture.
         let inside = |time_min: f64| if time_min <= TALLEST_MIN { time_min } else { f64::NAN };
         let mut series: Vec<Series> = ratios
@@ -197,11 +197,9 @@ pub fn figure7(run: &mut Run<'_>) -> Outcome {
             })
             .collect();
         series.push(Series::dashed("30 min", vec![(4.9, LONG_MIN), (5.1, LONG_MIN)]));
-        Panel::new(y_label).range(0.0, TALLEST_MIN).with(series)
+        Panel::new("observation time [min]").titled(method).range(0.0, TALLEST_MIN).with(series)
     };
-    let chart = Chart::new("Nutation observation time", "spin rate [rpm]").with([
-        panel("by approximation [min]", |p| p.eq20_min),
-        panel("sampled every 8 spins [min]", |p| p.spins_min),
-    ]);
+    let chart = Chart::new("Nutation observation time", "spin rate [rpm]")
+        .with([panel("by equation 20", |p| p.eq20_min), panel("sampled every 8 spins", |p| p.spins_min)]);
     run.picture("figure7.svg", &chart)
 }

@@ -1,7 +1,7 @@
 //! Guidance through the functions a master calls.
 
 mod burn;
-mod burn_week;
+mod burn_timeline;
 mod controlled;
 mod cuts;
 mod ephemeris;

@@ -3,9 +3,10 @@
 
 use loader::{Assigned, assignment};
 use model_description::{Causality, Description, VariableKind, value};
+use physics::environment::dates;
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
-use crate::epoch;
+use crate::epoch::{self, Dates};
 
 /// The table of start values in a setup file.
 pub const START: &str = "start";
@@ -33,9 +34,10 @@ pub fn with_values(
     if start.contains_key(model) {
         start = table(start, model)?;
     }
+    let counted = Dates::new(description, settings.iter().map(|(_, set)| set.as_str()), None);
     for (at, set) in settings {
         let in_set = |error: loader::Error| format!("{at}: {error}");
-        let setting = epoch::in_seconds(description, set).map_err(in_set)?;
+        let setting = counted.in_seconds(set).map_err(in_set)?;
         for assigned in assignment(description, &setting).map_err(in_set)? {
             let value = checked(description, &assigned)
                 .map_err(|misfit| format!("{at}: {}: {misfit}", assigned.variable.name))?;
@@ -50,6 +52,20 @@ pub fn with_values(
         }
     }
     Ok(file.to_string())
+}
+
+/// Whether a time in the tables of start values is a date.
+pub fn has_dates(text: &str) -> bool {
+    fn within(table: &dyn TableLike) -> bool {
+        table.iter().any(|(key, item)| match item.as_table_like() {
+            Some(table) => within(table),
+            None => epoch::is_time(key) && item.as_str().is_some_and(dates::looks_like_date),
+        })
+    }
+    let file: Option<DocumentMut> = text.strip_prefix('\u{feff}').unwrap_or(text).parse().ok();
+    let tables =
+        file.iter().flat_map(|file| [START, FIXED].into_iter().filter_map(move |name| file.get(name)));
+    tables.filter_map(Item::as_table_like).any(within)
 }
 
 fn table<'t>(within: &'t mut dyn TableLike, key: &str) -> Result<&'t mut dyn TableLike, String> {

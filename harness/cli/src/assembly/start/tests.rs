@@ -57,6 +57,45 @@ fn an_epoch_takes_a_date() {
 }
 
 #[test]
+fn a_time_takes_a_date_that_counts_from_the_epoch_set_beside_it() {
+    let mut description = description();
+    for (variable, (name, says)) in description.variables.iter_mut().zip([
+        ("start.epoch", "Epoch, seconds past J2000 TDB."),
+        ("burn.start", "Time."),
+        ("arm[2]", ""),
+    ]) {
+        variable.name = name.to_owned();
+        variable.description = Some(says.to_owned());
+        if let VariableKind::Real { attributes, .. } = &mut variable.kind {
+            *attributes = RealAttributes { unit: Some("s".to_owned()), ..RealAttributes::default() };
+        }
+    }
+    let written = |sets: &[&str]| with_values("", START, "Plant", &description, &settings(sets));
+    let text = written(&["burn.start=2009-04-06T02:00:00 TDB", "start.epoch=2009-04-06 TDB"]).unwrap();
+    assert_eq!(text, "[start]\n\"burn.start\" = 7200.0\n\"start.epoch\" = 292248000.0\n");
+    // Its own start value is J2000.
+    assert_eq!(
+        written(&["burn.start=2000-01-02T12:00:00 TDB"]).unwrap(),
+        "[start]\n\"burn.start\" = 86400.0\n"
+    );
+    let refused = written(&["burn.start=2009-04-06"]).unwrap_err().to_string();
+    assert!(refused.contains("does not end in UTC or TDB"), "{refused}");
+    description.variables[0].name = "other".to_owned();
+    let refused = with_values("", START, "Plant", &description, &settings(&["burn.start=2009-04-06 TDB"]));
+    let refused = refused.unwrap_err().to_string();
+    assert!(refused.contains("no start.epoch"), "{refused}");
+}
+
+#[test]
+fn dates_of_times_are_found_in_both_tables() {
+    let has = |text: &str| has_dates(text);
+    assert!(has("[start]\n\"burn.start\" = \"2009-04-06 TDB\""));
+    assert!(has("[start.Guidance]\n\"guided.downlinkEnd\" = \"2009-04-06 TDB\""));
+    assert!(has("[fixed]\n\"guided.downlinkStart\" = \"2009-04-06 TDB\""));
+    assert!(!has("[start]\n\"start.epoch\" = \"2009-04-06 TDB\"\n\"burn.start\" = \"2 h\""));
+}
+
+#[test]
 fn a_table_for_the_model_alone_is_the_one_that_counts() {
     let text = "[start]\n\"ship.mass\" = 1\n[start.Plant]\n\"ship.mass\" = 3\n";
     assert_eq!(
