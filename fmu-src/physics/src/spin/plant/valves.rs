@@ -70,8 +70,9 @@ impl Valves {
     /// The first edge of a commanded pulse clearly before `end_s`, in s: one at the end of a step waits for the next step's
     /// command, which may go on with the pulse.
     pub(super) fn edge_before_s(&self, end_s: f64) -> f64 {
-        let edges = self.schedule.iter().flat_map(|it| [it.opens_s(), it.closes_s()]);
-        edges.filter(|edge_s| due_s(*edge_s) < end_s).fold(f64::INFINITY, f64::min)
+        let edges = self.schedule.iter().filter(|it| !it.is_idle()).map(PulseSchedule::next_edge_s);
+        let edge_s = edges.fold(f64::INFINITY, f64::min);
+        if due_s(edge_s) < end_s { edge_s } else { f64::INFINITY }
     }
 
     /// Thrusters for which the last step commanded a pulse that does not open their valves, bit by bit.
