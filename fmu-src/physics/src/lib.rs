@@ -8,6 +8,7 @@
 
 pub mod constants;
 pub mod enumeration;
+pub mod math;
 pub mod numerics;
 
 pub mod bodies;
