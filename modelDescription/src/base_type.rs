@@ -1,44 +1,23 @@
 //! The four base types of the C interface.
 
 use crate::VariableKind;
+use crate::words::words;
 
-/// A base type of the C interface; an Enumeration is an Integer there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum BaseType {
-    /// `fmi2Real`.
-    Real,
-    /// `fmi2Integer`, Enumerations included.
-    Integer,
-    /// `fmi2Boolean`.
-    Boolean,
-    /// `fmi2String`.
-    String,
-}
-
-impl BaseType {
-    /// Every base type.
-    pub const ALL: [Self; 4] = [Self::Real, Self::Integer, Self::Boolean, Self::String];
-
-    /// The standard's word.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Real => "Real",
-            Self::Integer => "Integer",
-            Self::Boolean => "Boolean",
-            Self::String => "String",
-        }
+words! {
+    /// A base type of the C interface; an Enumeration is an Integer there.
+    pub enum BaseType, name {
+        /// `fmi2Real`.
+        Real => "Real",
+        /// `fmi2Integer`, Enumerations included.
+        Integer => "Integer",
+        /// `fmi2Boolean`.
+        Boolean => "Boolean",
+        /// `fmi2String`.
+        String => "String",
     }
 }
 
 impl VariableKind {
-    /// The standard's word.
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Self::Enumeration { .. } => "Enumeration",
-            other => other.base_type().name(),
-        }
-    }
-
     /// The base type at the C interface.
     pub const fn base_type(&self) -> BaseType {
         match self {

@@ -4,6 +4,7 @@
 //! harness's call checker and the generated documentation; the tests hold it against a second one.
 
 use crate::rules::effective_initial;
+use crate::words::words;
 use crate::{Causality, Initial, ScalarVariable, Status, Variability};
 use Access::{Allowed, Conditional, Forbidden};
 use Condition::{
@@ -11,60 +12,34 @@ use Condition::{
     SettableBeforeInitialization, SettableInInitialization,
 };
 
-/// The state of a co-simulation slave.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[repr(u8)]
-pub enum State {
-    /// After `fmi2Instantiate` or `fmi2Reset`.
-    Instantiated,
-    /// Between `fmi2EnterInitializationMode` and `fmi2ExitInitializationMode`.
-    InitializationMode,
-    /// Between steps.
-    StepComplete,
-    /// `fmi2DoStep` answered `fmi2Pending`.
-    StepInProgress,
-    /// `fmi2DoStep` answered `fmi2Discard`.
-    StepFailed,
-    /// `fmi2CancelStep` ended a step in progress.
-    StepCanceled,
-    /// After `fmi2Terminate`.
-    Terminated,
-    /// A function answered `fmi2Error`.
-    Error,
-    /// A function answered `fmi2Fatal`, here or in another instance.
-    Fatal,
+words! {
+    /// The state of a co-simulation slave; in the order of the table's columns.
+    #[repr(u8)]
+    pub enum State, name {
+        /// After `fmi2Instantiate` or `fmi2Reset`.
+        Instantiated => "instantiated",
+        /// Between `fmi2EnterInitializationMode` and `fmi2ExitInitializationMode`.
+        InitializationMode => "Initialization Mode",
+        /// Between steps.
+        StepComplete => "stepComplete",
+        /// `fmi2DoStep` answered `fmi2Pending`.
+        StepInProgress => "stepInProgress",
+        /// `fmi2DoStep` answered `fmi2Discard`.
+        StepFailed => "stepFailed",
+        /// `fmi2CancelStep` ended a step in progress.
+        StepCanceled => "stepCanceled",
+        /// After `fmi2Terminate`.
+        Terminated => "terminated",
+        /// A function answered `fmi2Error`.
+        Error => "error",
+        /// A function answered `fmi2Fatal`, here or in another instance.
+        Fatal => "fatal",
+    }
 }
 
 impl State {
     /// Number of states.
-    pub const COUNT: usize = 9;
-    /// Every state, in the order of the table's columns.
-    pub const ALL: [Self; Self::COUNT] = [
-        Self::Instantiated,
-        Self::InitializationMode,
-        Self::StepComplete,
-        Self::StepInProgress,
-        Self::StepFailed,
-        Self::StepCanceled,
-        Self::Terminated,
-        Self::Error,
-        Self::Fatal,
-    ];
-
-    /// The standard's name of the state.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Instantiated => "instantiated",
-            Self::InitializationMode => "Initialization Mode",
-            Self::StepComplete => "stepComplete",
-            Self::StepInProgress => "stepInProgress",
-            Self::StepFailed => "stepFailed",
-            Self::StepCanceled => "stepCanceled",
-            Self::Terminated => "terminated",
-            Self::Error => "error",
-            Self::Fatal => "fatal",
-        }
-    }
+    pub const COUNT: usize = Self::ALL.len();
 }
 
 /// Whether a function may be called.
@@ -78,34 +53,30 @@ pub enum Access {
     Conditional(Condition),
 }
 
-/// The notes under the standard's table; the numbers are the standard's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Condition {
-    /// 1: variability is not constant, and initial is exact or approx.
-    SettableBeforeInitialization,
-    /// 2: an output, or listed under `InitialUnknowns`.
-    OutputOrInitialUnknown,
-    /// 3: variability is not constant, and initial is exact or the variable is an input.
-    SettableInInitialization,
-    /// 6: an input or a tunable parameter.
-    InputOrTunable,
-    /// 7: the values are for debugging only.
-    Debugging,
-    /// 8: the values are for debugging only, unless the status `fmi2Terminated` is true.
-    DebuggingUnlessTerminated,
+words! {
+    /// The notes under the standard's table, in words; the numbers are the standard's.
+    pub enum Condition, text {
+        /// Note 1.
+        SettableBeforeInitialization = 1
+            => "variables whose variability is not constant and whose initial is exact or approx",
+        /// Note 2.
+        OutputOrInitialUnknown = 2 => "outputs and variables listed under InitialUnknowns",
+        /// Note 3.
+        SettableInInitialization = 3
+            => "variables whose variability is not constant, and whose initial is exact or which are inputs",
+        /// Note 6.
+        InputOrTunable = 6 => "inputs and tunable parameters",
+        /// Note 7.
+        Debugging = 7 => "for debugging only",
+        /// Note 8.
+        DebuggingUnlessTerminated = 8 => "for debugging only, unless the status fmi2Terminated is true",
+    }
 }
 
 impl Condition {
     /// The number of the note.
     pub const fn number(self) -> u32 {
-        match self {
-            SettableBeforeInitialization => 1,
-            OutputOrInitialUnknown => 2,
-            SettableInInitialization => 3,
-            InputOrTunable => 6,
-            Debugging => 7,
-            DebuggingUnlessTerminated => 8,
-        }
+        self as u32
     }
 
     /// Whether a variable meets the condition; `initial_unknown` is whether `InitialUnknowns` lists it. The conditions on
@@ -127,22 +98,6 @@ impl Condition {
                 _ => false,
             },
             Debugging | DebuggingUnlessTerminated => true,
-        }
-    }
-
-    /// The condition in words.
-    pub const fn text(self) -> &'static str {
-        match self {
-            SettableBeforeInitialization => {
-                "variables whose variability is not constant and whose initial is exact or approx"
-            }
-            OutputOrInitialUnknown => "outputs and variables listed under InitialUnknowns",
-            SettableInInitialization => {
-                "variables whose variability is not constant, and whose initial is exact or which are inputs"
-            }
-            InputOrTunable => "inputs and tunable parameters",
-            Debugging => "for debugging only",
-            DebuggingUnlessTerminated => "for debugging only, unless the status fmi2Terminated is true",
         }
     }
 }

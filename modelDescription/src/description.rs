@@ -1,118 +1,118 @@
 //! The content of a `modelDescription.xml` as plain values (FMI 2.0.5, section 2.2).
 
-/// A whole model description of a co-simulation FMU.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct Description {
-    /// `modelName`: what tools show.
-    pub model_name: String,
-    /// `guid`: ties the XML to the binary.
-    pub guid: String,
-    /// `description`: one sentence about the model.
-    pub description: Option<String>,
-    /// `author`.
-    pub author: Option<String>,
-    /// `version` of the model.
-    pub version: Option<String>,
-    /// `copyright`.
-    pub copyright: Option<String>,
-    /// `license`: name or one-line text.
-    pub license: Option<String>,
-    /// `generationTool`.
-    pub generation_tool: Option<String>,
-    /// `generationDateAndTime`; ours never write it, so that archives are byte-identical.
-    pub generation_date_and_time: Option<String>,
-    /// `variableNamingConvention`.
-    pub variable_naming: NamingConvention,
-    /// `numberOfEventIndicators` (model exchange only; read, never written by us).
-    pub number_of_event_indicators: Option<u32>,
-    /// The `CoSimulation` element.
-    pub co_simulation: Option<CoSimulation>,
-    /// The `ModelExchange` element; read, never written by our exporter.
-    pub model_exchange: Option<ModelExchange>,
-    /// `UnitDefinitions`.
-    pub units: Vec<Unit>,
-    /// `TypeDefinitions`.
-    pub types: Vec<SimpleType>,
-    /// `LogCategories`.
-    pub log_categories: Vec<LogCategory>,
-    /// `DefaultExperiment`.
-    pub default_experiment: Option<DefaultExperiment>,
-    /// `ModelVariables`, in order: index 1 is the first.
-    pub variables: Vec<ScalarVariable>,
-    /// `ModelStructure`.
-    pub structure: ModelStructure,
+use crate::element::{element, elements};
+use crate::{Causality, DependencyKind, Initial, NamingConvention, Variability};
+
+element! {
+    /// A whole model description of a co-simulation FMU.
+    #[derive(Default)]
+    pub struct Description {
+        /// What tools show.
+        model_name: String = required "modelName",
+        /// Ties the XML to the binary.
+        guid: String = required "guid",
+        /// One sentence about the model.
+        description: Option<String> = optional "description",
+        author: Option<String> = optional "author",
+        /// Of the model.
+        version: Option<String> = optional "version",
+        copyright: Option<String> = optional "copyright",
+        /// Name or one-line text.
+        license: Option<String> = optional "license",
+        generation_tool: Option<String> = optional "generationTool",
+        /// Ours never write it, so that archives are byte-identical.
+        generation_date_and_time: Option<String> = optional "generationDateAndTime",
+        variable_naming: NamingConvention = or(NamingConvention::Flat) "variableNamingConvention",
+        /// Model exchange only; read, never written by us.
+        number_of_event_indicators: Option<u32> = optional "numberOfEventIndicators",
+        ;
+        /// The `CoSimulation` element.
+        co_simulation: Option<CoSimulation>,
+        /// The `ModelExchange` element; read, never written by our exporter.
+        model_exchange: Option<ModelExchange>,
+        /// `UnitDefinitions`.
+        units: Vec<Unit>,
+        /// `TypeDefinitions`.
+        types: Vec<SimpleType>,
+        /// `LogCategories`.
+        log_categories: Vec<LogCategory>,
+        /// `DefaultExperiment`.
+        default_experiment: Option<DefaultExperiment>,
+        /// `ModelVariables`, in order: index 1 is the first.
+        variables: Vec<ScalarVariable>,
+        /// `ModelStructure`.
+        structure: ModelStructure,
+    }
 }
 
-/// `variableNamingConvention` (2.2.9).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum NamingConvention {
-    /// Any text.
-    #[default]
-    Flat,
-    /// `a.b[1].c`.
-    Structured,
+element! {
+    /// The `CoSimulation` element and its capability flags (4.3.1).
+    #[derive(Eq, Default)]
+    pub struct CoSimulation {
+        model_identifier: String = required "modelIdentifier",
+        needs_execution_tool: bool = or(false) "needsExecutionTool",
+        can_handle_variable_communication_step_size: bool = or(false) "canHandleVariableCommunicationStepSize",
+        can_interpolate_inputs: bool = or(false) "canInterpolateInputs",
+        max_output_derivative_order: u32 = or(0) "maxOutputDerivativeOrder",
+        can_run_asynchronuously: bool = or(false) "canRunAsynchronuously",
+        can_be_instantiated_only_once_per_process: bool = or(false) "canBeInstantiatedOnlyOncePerProcess",
+        can_not_use_memory_management_functions: bool = or(false) "canNotUseMemoryManagementFunctions",
+        can_get_and_set_fmu_state: bool = or(false) "canGetAndSetFMUstate",
+        can_serialize_fmu_state: bool = or(false) "canSerializeFMUstate",
+        provides_directional_derivative: bool = or(false) "providesDirectionalDerivative",
+        ;
+        /// `SourceFiles`; never written by our exporter.
+        source_files: Vec<String>,
+    }
 }
 
-/// The `CoSimulation` element and its capability flags (4.3.1).
-#[derive(Clone, Debug, PartialEq, Eq, Default)]
-#[allow(missing_docs, reason = "the fields are the standard's own attribute names")]
-pub struct CoSimulation {
-    pub model_identifier: String,
-    pub needs_execution_tool: bool,
-    pub can_handle_variable_communication_step_size: bool,
-    pub can_interpolate_inputs: bool,
-    pub max_output_derivative_order: u32,
-    pub can_run_asynchronuously: bool,
-    pub can_be_instantiated_only_once_per_process: bool,
-    pub can_not_use_memory_management_functions: bool,
-    pub can_get_and_set_fmu_state: bool,
-    pub can_serialize_fmu_state: bool,
-    pub provides_directional_derivative: bool,
-    /// `SourceFiles`; never written by our exporter.
-    pub source_files: Vec<String>,
+element! {
+    /// The `ModelExchange` element and its capability flags (3.3.1).
+    #[derive(Eq, Default)]
+    pub struct ModelExchange {
+        model_identifier: String = required "modelIdentifier",
+        needs_execution_tool: bool = or(false) "needsExecutionTool",
+        completed_integrator_step_not_needed: bool = or(false) "completedIntegratorStepNotNeeded",
+        can_be_instantiated_only_once_per_process: bool = or(false) "canBeInstantiatedOnlyOncePerProcess",
+        can_not_use_memory_management_functions: bool = or(false) "canNotUseMemoryManagementFunctions",
+        can_get_and_set_fmu_state: bool = or(false) "canGetAndSetFMUstate",
+        can_serialize_fmu_state: bool = or(false) "canSerializeFMUstate",
+        provides_directional_derivative: bool = or(false) "providesDirectionalDerivative",
+        ;
+        /// `SourceFiles`.
+        source_files: Vec<String>,
+    }
 }
 
-/// The `ModelExchange` element and its capability flags (3.3.1).
-#[derive(Clone, Debug, PartialEq, Eq, Default)]
-#[allow(missing_docs, reason = "the fields are the standard's own attribute names")]
-pub struct ModelExchange {
-    pub model_identifier: String,
-    pub needs_execution_tool: bool,
-    pub completed_integrator_step_not_needed: bool,
-    pub can_be_instantiated_only_once_per_process: bool,
-    pub can_not_use_memory_management_functions: bool,
-    pub can_get_and_set_fmu_state: bool,
-    pub can_serialize_fmu_state: bool,
-    pub provides_directional_derivative: bool,
-    /// `SourceFiles`.
-    pub source_files: Vec<String>,
+element! {
+    /// One `Unit` with its base unit and display units (2.2.2).
+    #[derive(Default)]
+    pub struct Unit {
+        /// As used in `unit="…"`.
+        name: String = required "name",
+        ;
+        /// Exponents of the SI base units; `None` where the XML gives no `BaseUnit`.
+        base: Option<BaseUnit>,
+        /// Units for people.
+        display_units: Vec<DisplayUnit>,
+    }
 }
 
-/// One `Unit` with its base unit and display units (2.2.2).
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct Unit {
-    /// Name as used in `unit="…"`.
-    pub name: String,
-    /// Exponents of the SI base units; `None` where the XML gives no `BaseUnit`.
-    pub base: Option<BaseUnit>,
-    /// Units for people.
-    pub display_units: Vec<DisplayUnit>,
-}
-
-/// `BaseUnit`: value_si = factor * value + offset.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs, reason = "the fields are the SI base units' own symbols")]
-pub struct BaseUnit {
-    pub kg: i32,
-    pub m: i32,
-    pub s: i32,
-    pub a: i32,
-    pub k: i32,
-    pub mol: i32,
-    pub cd: i32,
-    pub rad: i32,
-    pub factor: f64,
-    pub offset: f64,
+element! {
+    /// `BaseUnit`: value_si = factor * value + offset.
+    #[derive(Copy)]
+    pub struct BaseUnit {
+        kg: i32 = or(0) "kg",
+        m: i32 = or(0) "m",
+        s: i32 = or(0) "s",
+        a: i32 = or(0) "A",
+        k: i32 = or(0) "K",
+        mol: i32 = or(0) "mol",
+        cd: i32 = or(0) "cd",
+        rad: i32 = or(0) "rad",
+        factor: f64 = or(1.0) "factor",
+        offset: f64 = or(0.0) "offset",
+    }
 }
 
 impl Default for BaseUnit {
@@ -121,205 +121,205 @@ impl Default for BaseUnit {
     }
 }
 
-/// `DisplayUnit`: value_display = factor * value_unit + offset.
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs, reason = "the fields are the standard's own attribute names")]
-pub struct DisplayUnit {
-    pub name: String,
-    pub factor: f64,
-    pub offset: f64,
+impl BaseUnit {
+    /// The SI base units' symbols with their exponents.
+    pub fn exponents(&self) -> [(&'static str, i32); 8] {
+        [
+            ("kg", self.kg),
+            ("m", self.m),
+            ("s", self.s),
+            ("A", self.a),
+            ("K", self.k),
+            ("mol", self.mol),
+            ("cd", self.cd),
+            ("rad", self.rad),
+        ]
+    }
+
+    /// Of exponents that are read by their symbols.
+    pub fn of<E>(
+        mut exponent: impl FnMut(&'static str) -> Result<i32, E>,
+        factor: f64,
+        offset: f64,
+    ) -> Result<Self, E> {
+        Ok(Self {
+            kg: exponent("kg")?,
+            m: exponent("m")?,
+            s: exponent("s")?,
+            a: exponent("A")?,
+            k: exponent("K")?,
+            mol: exponent("mol")?,
+            cd: exponent("cd")?,
+            rad: exponent("rad")?,
+            factor,
+            offset,
+        })
+    }
 }
 
-/// A `SimpleType` (2.2.3).
-#[derive(Clone, Debug, PartialEq)]
-pub struct SimpleType {
-    /// Name as used in `declaredType="…"`.
-    pub name: String,
-    /// What it means.
-    pub description: Option<String>,
-    /// Kind and attributes.
-    pub kind: SimpleTypeKind,
+element! {
+    /// `DisplayUnit`: value_display = factor * value_unit + offset.
+    pub struct DisplayUnit {
+        name: String = required "name",
+        factor: f64 = or(1.0) "factor",
+        offset: f64 = or(0.0) "offset",
+    }
+}
+
+element! {
+    /// A `SimpleType` (2.2.3).
+    #[derive(Default)]
+    pub struct SimpleType {
+        /// As used in `declaredType="…"`.
+        name: String = required "name",
+        /// What it means.
+        description: Option<String> = optional "description",
+        ;
+        /// Kind and attributes.
+        kind: SimpleTypeKind,
+    }
 }
 
 /// What a `SimpleType` is.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Default)]
+#[allow(missing_docs, reason = "the fields are the standard's own attribute names")]
 pub enum SimpleTypeKind {
     /// Real with its attributes.
     Real(RealAttributes),
     /// Integer with limits and quantity.
-    Integer {
-        /// `quantity`.
-        quantity: Option<String>,
-        /// `min`.
-        min: Option<i32>,
-        /// `max`.
-        max: Option<i32>,
-    },
+    Integer { quantity: Option<String>, min: Option<i32>, max: Option<i32> },
     /// Boolean.
+    #[default]
     Boolean,
     /// String.
     String,
     /// Enumeration with its items.
-    Enumeration {
-        /// `quantity`.
-        quantity: Option<String>,
-        /// The items.
-        items: Vec<EnumerationItem>,
-    },
+    Enumeration { quantity: Option<String>, items: Vec<EnumerationItem> },
 }
 
-/// `Item` of an enumeration.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the fields are the standard's own attribute names")]
-pub struct EnumerationItem {
-    pub name: String,
-    pub value: i32,
-    pub description: Option<String>,
+impl SimpleTypeKind {
+    /// The element's name.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Real(_) => "Real",
+            Self::Integer { .. } => "Integer",
+            Self::Boolean => "Boolean",
+            Self::String => "String",
+            Self::Enumeration { .. } => "Enumeration",
+        }
+    }
 }
 
-/// `Category` of `LogCategories`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the fields are the standard's own attribute names")]
-pub struct LogCategory {
-    pub name: String,
-    pub description: Option<String>,
+element! {
+    /// `Item` of an enumeration.
+    #[derive(Eq)]
+    pub struct EnumerationItem {
+        name: String = required "name",
+        value: i32 = required "value",
+        description: Option<String> = optional "description",
+    }
 }
 
-/// `DefaultExperiment`; times in seconds.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-#[allow(missing_docs, reason = "the fields are the standard's own attribute names")]
-pub struct DefaultExperiment {
-    pub start_time: Option<f64>,
-    pub stop_time: Option<f64>,
-    pub tolerance: Option<f64>,
-    pub step_size: Option<f64>,
+element! {
+    /// `Category` of `LogCategories`.
+    #[derive(Eq)]
+    pub struct LogCategory {
+        name: String = required "name",
+        description: Option<String> = optional "description",
+    }
 }
 
-/// `causality` (2.2.7).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, PartialOrd, Ord)]
-#[allow(missing_docs, reason = "the standard's own words")]
-pub enum Causality {
-    Parameter,
-    CalculatedParameter,
-    Input,
-    Output,
-    #[default]
-    Local,
-    Independent,
+element! {
+    /// `DefaultExperiment`; times in seconds.
+    #[derive(Copy, Default)]
+    pub struct DefaultExperiment {
+        start_time: Option<f64> = optional "startTime",
+        stop_time: Option<f64> = optional "stopTime",
+        tolerance: Option<f64> = optional "tolerance",
+        step_size: Option<f64> = optional "stepSize",
+    }
 }
 
-/// `variability` (2.2.7).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, PartialOrd, Ord)]
-#[allow(missing_docs, reason = "the standard's own words")]
-pub enum Variability {
-    Constant,
-    Fixed,
-    Tunable,
-    Discrete,
-    #[default]
-    Continuous,
+element! {
+    /// One `ScalarVariable`.
+    #[derive(Default)]
+    pub struct ScalarVariable {
+        /// Unique name.
+        name: String = required "name",
+        /// Dense per base type in ours.
+        value_reference: u32 = required "valueReference",
+        /// What it means, with frame and convention.
+        description: Option<String> = optional "description",
+        causality: Causality = or(Causality::Local) "causality",
+        variability: Variability = or(Variability::Continuous) "variability",
+        /// As written; `None` means the table's default (see `rules`).
+        initial: Option<Initial> = optional "initial",
+        can_handle_multiple_set_per_time_instant: Option<bool> = optional "canHandleMultipleSetPerTimeInstant",
+        ;
+        /// Base type and its attributes.
+        kind: VariableKind,
+    }
 }
 
-/// `initial` (2.2.7).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[allow(missing_docs, reason = "the standard's own words")]
-pub enum Initial {
-    Exact,
-    Approx,
-    Calculated,
+elements! {
+    /// Base type of a variable with its attributes.
+    pub enum VariableKind {
+        Real {
+            declared_type: Option<String> = optional "declaredType",
+            /// Unit, limits and the rest.
+            attributes: RealAttributes = nested,
+            start: Option<f64> = optional "start",
+            /// 1-based index of the variable this one differentiates.
+            derivative: Option<u32> = optional "derivative",
+            /// Model exchange only.
+            reinit: Option<bool> = optional "reinit",
+        }
+        Integer {
+            declared_type: Option<String> = optional "declaredType",
+            quantity: Option<String> = optional "quantity",
+            min: Option<i32> = optional "min",
+            max: Option<i32> = optional "max",
+            start: Option<i32> = optional "start",
+        }
+        Boolean {
+            declared_type: Option<String> = optional "declaredType",
+            start: Option<bool> = optional "start",
+        }
+        String {
+            declared_type: Option<String> = optional "declaredType",
+            start: Option<String> = optional "start",
+        }
+        /// Its values are Integers at the interface.
+        Enumeration {
+            declared_type: String = required "declaredType",
+            quantity: Option<String> = optional "quantity",
+            min: Option<i32> = optional "min",
+            max: Option<i32> = optional "max",
+            start: Option<i32> = optional "start",
+        }
+    }
 }
 
-/// One `ScalarVariable`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ScalarVariable {
-    /// Unique name.
-    pub name: String,
-    /// Value reference, dense per base type in ours.
-    pub value_reference: u32,
-    /// What it means, with frame and convention.
-    pub description: Option<String>,
-    /// Causality.
-    pub causality: Causality,
-    /// Variability.
-    pub variability: Variability,
-    /// `initial` as written; `None` means the table's default (see `rules`).
-    pub initial: Option<Initial>,
-    /// `canHandleMultipleSetPerTimeInstant`.
-    pub can_handle_multiple_set_per_time_instant: Option<bool>,
-    /// Base type and its attributes.
-    pub kind: VariableKind,
+impl Default for VariableKind {
+    /// `<Boolean/>`.
+    fn default() -> Self {
+        Self::Boolean { start: None, declared_type: None }
+    }
 }
 
-/// Base type of a variable with its attributes.
-#[derive(Clone, Debug, PartialEq)]
-pub enum VariableKind {
-    /// `Real`.
-    Real {
-        /// `start`.
-        start: Option<f64>,
-        /// `declaredType`.
-        declared_type: Option<String>,
-        /// Unit, limits and the rest.
-        attributes: RealAttributes,
-        /// `derivative`: 1-based index of the variable this one differentiates.
-        derivative: Option<u32>,
-        /// `reinit` (model exchange only).
-        reinit: Option<bool>,
-    },
-    /// `Integer`.
-    Integer {
-        /// `start`.
-        start: Option<i32>,
-        /// `declaredType`.
-        declared_type: Option<String>,
-        /// `quantity`.
-        quantity: Option<String>,
-        /// `min`.
-        min: Option<i32>,
-        /// `max`.
-        max: Option<i32>,
-    },
-    /// `Boolean`.
-    Boolean {
-        /// `start`.
-        start: Option<bool>,
-        /// `declaredType`.
-        declared_type: Option<String>,
-    },
-    /// `String`.
-    String {
-        /// `start`.
-        start: Option<String>,
-        /// `declaredType`.
-        declared_type: Option<String>,
-    },
-    /// `Enumeration`; its values are Integers at the interface.
-    Enumeration {
-        /// `start`.
-        start: Option<i32>,
-        /// `declaredType`, required.
-        declared_type: String,
-        /// `quantity`.
-        quantity: Option<String>,
-        /// `min`.
-        min: Option<i32>,
-        /// `max`.
-        max: Option<i32>,
-    },
-}
-
-/// Attributes shared by Real variables and Real types (2.2.3).
-#[derive(Clone, Debug, PartialEq, Default)]
-#[allow(missing_docs, reason = "the fields are the standard's own attribute names")]
-pub struct RealAttributes {
-    pub quantity: Option<String>,
-    pub unit: Option<String>,
-    pub display_unit: Option<String>,
-    pub relative_quantity: bool,
-    pub min: Option<f64>,
-    pub max: Option<f64>,
-    pub nominal: Option<f64>,
-    pub unbounded: bool,
+element! {
+    /// Attributes shared by Real variables and Real types (2.2.3).
+    #[derive(Default)]
+    pub struct RealAttributes {
+        quantity: Option<String> = optional "quantity",
+        unit: Option<String> = optional "unit",
+        display_unit: Option<String> = optional "displayUnit",
+        relative_quantity: bool = or(false) "relativeQuantity",
+        min: Option<f64> = optional "min",
+        max: Option<f64> = optional "max",
+        nominal: Option<f64> = optional "nominal",
+        unbounded: bool = or(false) "unbounded",
+    }
 }
 
 /// `ModelStructure` (2.2.8).
@@ -331,24 +331,15 @@ pub struct ModelStructure {
     pub initial_unknowns: Vec<Unknown>,
 }
 
-/// `Unknown` of the model structure.
-#[derive(Clone, Debug, PartialEq, Eq, Default)]
-pub struct Unknown {
-    /// 1-based index into the variables.
-    pub index: u32,
-    /// What it depends on; `None` (absent) means everything, an empty list nothing.
-    pub dependencies: Option<Vec<u32>>,
-    /// `dependenciesKind`, as long as `dependencies` when present.
-    pub dependencies_kind: Option<Vec<DependencyKind>>,
-}
-
-/// One entry of `dependenciesKind`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the standard's own words")]
-pub enum DependencyKind {
-    Dependent,
-    Constant,
-    Fixed,
-    Tunable,
-    Discrete,
+element! {
+    /// `Unknown` of the model structure.
+    #[derive(Eq, Default)]
+    pub struct Unknown {
+        /// 1-based index into the variables.
+        index: u32 = required "index",
+        /// What it depends on; `None` (absent) means everything, an empty list nothing.
+        dependencies: Option<Vec<u32>> = optional "dependencies",
+        /// As long as `dependencies` when present.
+        dependencies_kind: Option<Vec<DependencyKind>> = optional "dependenciesKind",
+    }
 }

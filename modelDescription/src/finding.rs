@@ -2,43 +2,28 @@
 
 use core::fmt;
 
-/// How bad a finding is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Severity {
-    /// Legal or harmless, but probably not meant.
-    Warning,
-    /// Against the standard or its XML schema.
-    Error,
-}
+use crate::words::words;
 
-impl fmt::Display for Severity {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::Warning => "warning",
-            Self::Error => "error",
-        })
+words! {
+    /// How bad a finding is.
+    pub enum Severity, as_str {
+        /// Legal or harmless, but probably not meant.
+        Warning => "warning",
+        /// Against the standard or its XML schema.
+        Error => "error",
     }
 }
 
 macro_rules! codes {
     ($($variant:ident $word:literal $severity:ident $rule:literal)+) => {
-        /// What is wrong; the word never changes its meaning.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum Code {
-            $(#[doc = $rule] $variant),+
+        words! {
+            /// What is wrong; the word never changes its meaning.
+            pub enum Code, as_str {
+                $(#[doc = $rule] $variant => $word,)+
+            }
         }
 
         impl Code {
-            /// Every code.
-            pub const ALL: &[Self] = &[$(Self::$variant),+];
-
-            /// The stable short word.
-            pub const fn as_str(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $word),+
-                }
-            }
-
             /// How bad it is.
             pub const fn severity(self) -> Severity {
                 match self {
@@ -143,12 +128,6 @@ codes! {
     DependencyKindAlone "dependency-kind-alone" Error "dependenciesKind needs dependencies (2.2.8)."
     DependencyKindInitial "dependency-kind-initial" Error "Kinds of InitialUnknowns are dependent or constant (2.2.8)."
     DependencyKindReal "dependency-kind-real" Warning "Kinds other than dependent are for Real unknowns (2.2.8)."
-}
-
-impl fmt::Display for Code {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.as_str())
-    }
 }
 
 /// One thing that is wrong.

@@ -29,18 +29,14 @@ pub fn of_groups(description: &Description) -> BTreeMap<&str, &str> {
 mod tests {
     //! Labels are found with colons in them, and only where all descriptions of a group agree on one.
     use super::*;
-    use crate::{Causality, ScalarVariable, Variability, VariableKind};
+    use crate::ScalarVariable;
 
     fn described(variables: &[(&str, &str)]) -> Description {
         let variable = |(at, (name, text)): (usize, &(&str, &str))| ScalarVariable {
             name: (*name).to_owned(),
             value_reference: at as u32,
             description: Some((*text).to_owned()),
-            causality: Causality::Local,
-            variability: Variability::Discrete,
-            initial: None,
-            can_handle_multiple_set_per_time_instant: None,
-            kind: VariableKind::Boolean { start: None, declared_type: None },
+            ..ScalarVariable::default()
         };
         Description {
             variables: variables.iter().enumerate().map(variable).collect(),

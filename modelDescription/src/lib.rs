@@ -7,10 +7,11 @@ mod base_type;
 pub mod call_table;
 pub mod describe;
 mod description;
-mod document;
+mod element;
 mod finding;
 pub mod functions;
 pub mod labels;
+mod lexical;
 pub mod names;
 #[cfg(feature = "reader")]
 mod reader;
@@ -24,13 +25,14 @@ mod write;
 
 pub use base_type::BaseType;
 pub use description::{
-    BaseUnit, Causality, CoSimulation, DefaultExperiment, DependencyKind, Description, DisplayUnit,
-    EnumerationItem, Initial, LogCategory, ModelExchange, ModelStructure, NamingConvention, RealAttributes,
-    ScalarVariable, SimpleType, SimpleTypeKind, Unit, Unknown, Variability, VariableKind,
+    BaseUnit, CoSimulation, DefaultExperiment, Description, DisplayUnit, EnumerationItem, LogCategory,
+    ModelExchange, ModelStructure, RealAttributes, ScalarVariable, SimpleType, SimpleTypeKind, Unit, Unknown,
+    VariableKind,
 };
 pub use finding::{Code, Finding, Lines, Severity};
 #[cfg(feature = "reader")]
 pub use reader::{MAX_BYTES, Parsed, ReadError, Start, Xml, parse};
 pub use status::Status;
 pub use validate::validate;
+pub use words::{Causality, DependencyKind, Initial, NamingConvention, Variability};
 pub use write::{escape, to_xml};

@@ -189,16 +189,7 @@ mod tests {
 
     #[test]
     fn a_bare_name_means_the_elements_of_one_vector_or_matrix() {
-        let named = |name: &str| ScalarVariable {
-            name: name.to_owned(),
-            value_reference: 0,
-            description: None,
-            causality: crate::Causality::Parameter,
-            variability: crate::Variability::Fixed,
-            initial: None,
-            can_handle_multiple_set_per_time_instant: None,
-            kind: crate::VariableKind::Boolean { start: None, declared_type: None },
-        };
+        let named = |name: &str| ScalarVariable { name: name.to_owned(), ..ScalarVariable::default() };
         let all =
             ["a[1]", "a[2]", "a.b", "ab[1]", "m[1,1]", "m[1,2]", "wheel[1].axis[1]", "wheel[1].axis[2]"]
                 .map(named);

@@ -3,8 +3,8 @@
 use core::fmt;
 
 use crate::{
-    Description, EnumerationItem, RealAttributes, ScalarVariable, SimpleTypeKind, VariableKind,
-    names::similar,
+    BaseType, Description, DisplayUnit, EnumerationItem, RealAttributes, ScalarVariable, SimpleTypeKind,
+    VariableKind, names::similar,
 };
 
 /// A value of a variable; Enumerations are Integers at the interface.
@@ -33,6 +33,16 @@ impl fmt::Display for Value {
 }
 
 impl Value {
+    /// The type it is of.
+    pub const fn base_type(&self) -> BaseType {
+        match self {
+            Self::Real(_) => BaseType::Real,
+            Self::Integer(_) => BaseType::Integer,
+            Self::Boolean(_) => BaseType::Boolean,
+            Self::Text(_) => BaseType::String,
+        }
+    }
+
     /// As a number: Booleans are 0 and 1, texts NaN.
     pub fn to_f64(&self) -> f64 {
         match self {
@@ -86,27 +96,29 @@ pub fn display_unit<'a>(
         .display_unit
         .as_deref()
         .or_else(|| real_type(description, declared_type.as_deref()?)?.display_unit.as_deref())?;
-    let unit = unit(description, variable)?;
-    let unit = description.units.iter().find(|candidate| candidate.name == unit)?;
-    let display = unit.display_units.iter().find(|candidate| candidate.name == name)?;
+    let displays = display_units(description, unit(description, variable)?);
+    let display = displays.iter().find(|candidate| candidate.name == name)?;
     Some((name, display.factor, display.offset))
 }
 
 fn real_type<'a>(description: &'a Description, name: &str) -> Option<&'a RealAttributes> {
-    description.types.iter().find(|candidate| candidate.name == name).and_then(|found| match &found.kind {
+    match type_named(description, name)? {
         SimpleTypeKind::Real(attributes) => Some(attributes),
         _ => None,
-    })
+    }
+}
+
+fn type_named<'a>(description: &'a Description, name: &str) -> Option<&'a SimpleTypeKind> {
+    description.types.iter().find(|candidate| candidate.name == name).map(|found| &found.kind)
 }
 
 /// The items of an Enumeration; none of any other variable.
 pub fn items<'a>(description: &'a Description, variable: &ScalarVariable) -> &'a [EnumerationItem] {
     let VariableKind::Enumeration { declared_type, .. } = &variable.kind else { return &[] };
-    let found = description.types.iter().find_map(|candidate| match &candidate.kind {
-        SimpleTypeKind::Enumeration { items, .. } if candidate.name == *declared_type => Some(items),
-        _ => None,
-    });
-    found.map(Vec::as_slice).unwrap_or_default()
+    match type_named(description, declared_type) {
+        Some(SimpleTypeKind::Enumeration { items, .. }) => items,
+        _ => &[],
+    }
 }
 
 /// What may be written for a variable, in words.
@@ -131,9 +143,13 @@ pub fn allowed(description: &Description, variable: &ScalarVariable) -> String {
 /// The unit of a Real and its display units.
 fn units(description: &Description, variable: &ScalarVariable) -> Vec<String> {
     let Some(name) = unit(description, variable) else { return Vec::new() };
-    let known = description.units.iter().find(|candidate| candidate.name == name);
-    let displays = known.map(|unit| unit.display_units.as_slice()).unwrap_or_default();
-    core::iter::once(name.to_owned()).chain(displays.iter().map(|display| display.name.clone())).collect()
+    let displays = display_units(description, name).iter().map(|display| display.name.clone());
+    core::iter::once(name.to_owned()).chain(displays).collect()
+}
+
+fn display_units<'a>(description: &'a Description, unit: &str) -> &'a [DisplayUnit] {
+    let known = description.units.iter().find(|candidate| candidate.name == unit);
+    known.map(|unit| unit.display_units.as_slice()).unwrap_or_default()
 }
 
 /// Reads `text` as a value of `variable`.
@@ -200,9 +216,7 @@ fn read_real(description: &Description, variable: &ScalarVariable, text: &str) -
     if suffix == unit_name {
         return Ok(number);
     }
-    let unit = description.units.iter().find(|candidate| candidate.name == unit_name);
-    let displays = unit.map(|unit| unit.display_units.as_slice()).unwrap_or_default();
-    match displays.iter().find(|display| display.name == suffix) {
+    match display_units(description, unit_name).iter().find(|display| display.name == suffix) {
         Some(display) => Ok((number - display.offset) / display.factor),
         None => Err(misfit(format!("{text:?} with the unknown unit {suffix:?}"))),
     }
@@ -224,10 +238,8 @@ pub fn check(description: &Description, variable: &ScalarVariable, value: &Value
         }
     };
     let range = match (&variable.kind, value) {
-        (VariableKind::Real { declared_type, attributes, .. }, Value::Real(number)) => {
-            let of_type = declared_type.as_deref().and_then(|name| real_type(description, name));
-            let min = attributes.min.or_else(|| of_type?.min);
-            let max = attributes.max.or_else(|| of_type?.max);
+        (VariableKind::Real { .. }, Value::Real(number)) => {
+            let (min, max) = limits(description, variable);
             if number.is_finite()
                 && min.is_none_or(|min| *number >= min)
                 && max.is_none_or(|max| *number <= max)

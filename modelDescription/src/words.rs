@@ -1,69 +1,125 @@
-//! The standard's words for causality, variability and the like: one table for writer, reader and messages.
+//! The standard's words: enumerations whose variants stand beside their words, one table for writer, reader and messages.
 
-use crate::{Causality, DependencyKind, Initial, NamingConvention, Variability};
-
+/// Declares an enumeration; `$method` gives a variant's word.
 macro_rules! words {
-    ($type:ident, $what:literal, $($variant:ident => $word:literal),+ $(,)?) => {
-        impl $type {
-            #[doc = concat!("Every ", $what, ", in the standard's order.")]
-            pub const ALL: &[Self] = &[$(Self::$variant),+];
+    (
+        $(#[$meta:meta])*
+        pub enum $type:ident, $method:ident {
+            $($(#[$doc:meta])* $variant:ident $(= $value:literal)? => $word:literal,)+
+        }
+    ) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum $type {
+            $($(#[$doc])* $variant $(= $value)?),+
+        }
 
-            /// The word as it stands in the XML.
-            pub const fn as_str(self) -> &'static str {
+        impl $type {
+            /// Every variant, in the standard's order.
+            pub const ALL: [Self; [$($word),+].len()] = [$(Self::$variant),+];
+
+            /// The word.
+            pub const fn $method(self) -> &'static str {
                 match self {
                     $(Self::$variant => $word),+
-                }
-            }
-
-            #[doc = concat!("The ", $what, " of an XML word.")]
-            pub fn from_word(word: &str) -> Option<Self> {
-                match word {
-                    $($word => Some(Self::$variant),)+
-                    _ => None,
                 }
             }
         }
 
         impl core::fmt::Display for $type {
             fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-                formatter.write_str(self.as_str())
+                formatter.write_str(self.$method())
+            }
+        }
+    };
+}
+pub(crate) use words;
+
+/// [`words!`] that are values of attributes in the XML.
+macro_rules! attribute_words {
+    ($(#[$meta:meta])* pub enum $type:ident { $($rest:tt)* }) => {
+        words! {
+            $(#[$meta])*
+            #[allow(missing_docs, reason = "the standard's own words")]
+            pub enum $type, as_str { $($rest)* }
+        }
+
+        impl $type {
+            /// The variant of a word.
+            pub fn from_word(word: &str) -> Option<Self> {
+                Self::ALL.into_iter().find(|known| known.as_str() == word)
+            }
+        }
+
+        impl crate::lexical::Lexical for $type {
+            fn allowed() -> String {
+                format!("one of {}", Self::ALL.map(Self::as_str).join(", "))
+            }
+
+            fn parse(text: &str) -> Option<Self> {
+                Self::from_word(text)
+            }
+
+            fn text(&self) -> std::borrow::Cow<'_, str> {
+                self.as_str().into()
             }
         }
     };
 }
 
-words!(Causality, "causality",
-    Parameter => "parameter",
-    CalculatedParameter => "calculatedParameter",
-    Input => "input",
-    Output => "output",
-    Local => "local",
-    Independent => "independent",
-);
+attribute_words! {
+    /// `variableNamingConvention` (2.2.9).
+    #[derive(Default)]
+    pub enum NamingConvention {
+        #[default]
+        Flat => "flat",
+        Structured => "structured",
+    }
+}
 
-words!(Variability, "variability",
-    Constant => "constant",
-    Fixed => "fixed",
-    Tunable => "tunable",
-    Discrete => "discrete",
-    Continuous => "continuous",
-);
+attribute_words! {
+    /// `causality` (2.2.7).
+    #[derive(Default)]
+    pub enum Causality {
+        Parameter => "parameter",
+        CalculatedParameter => "calculatedParameter",
+        Input => "input",
+        Output => "output",
+        #[default]
+        Local => "local",
+        Independent => "independent",
+    }
+}
 
-words!(Initial, "initial",
-    Exact => "exact",
-    Approx => "approx",
-    Calculated => "calculated",
-);
+attribute_words! {
+    /// `variability` (2.2.7).
+    #[derive(Default)]
+    pub enum Variability {
+        Constant => "constant",
+        Fixed => "fixed",
+        Tunable => "tunable",
+        Discrete => "discrete",
+        #[default]
+        Continuous => "continuous",
+    }
+}
 
-words!(DependencyKind, "dependency kind",
-    Dependent => "dependent",
-    Constant => "constant",
-    Fixed => "fixed",
-    Tunable => "tunable",
-    Discrete => "discrete",
-);
+attribute_words! {
+    /// `initial` (2.2.7).
+    pub enum Initial {
+        Exact => "exact",
+        Approx => "approx",
+        Calculated => "calculated",
+    }
+}
 
-words!(NamingConvention, "naming convention",
-    Flat => "flat",
-    Structured => "structured",
-);
+attribute_words! {
+    /// One entry of `dependenciesKind`.
+    pub enum DependencyKind {
+        Dependent => "dependent",
+        Constant => "constant",
+        Fixed => "fixed",
+        Tunable => "tunable",
+        Discrete => "discrete",
+    }
+}

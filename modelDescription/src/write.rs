@@ -1,17 +1,20 @@
 //! The XML writer: UTF-8, two spaces a level, attributes left out where they equal their default.
 
-use crate::Description;
-use crate::document::{Sink, walk};
+use crate::element::Element;
+use crate::lexical::Lexical;
+use crate::{Description, ScalarVariable, SimpleType, SimpleTypeKind, Unit, Unknown};
 
 /// The `modelDescription.xml` of a description, in the order of the FMI 2.0.5 schema.
 ///
 /// The same description gives the same bytes. Characters that XML 1.0 cannot carry, not even escaped (most
 /// control characters), become U+FFFD.
 pub fn to_xml(description: &Description) -> String {
-    let mut sink = Xml { text: String::new(), open: Vec::new(), in_tag: false };
-    sink.text.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    walk(description, &mut sink);
-    sink.text
+    written(description).text
+}
+
+/// The attributes that hold what XML cannot carry: element, name, the first such character.
+pub(crate) fn illegal_characters(description: &Description) -> Vec<(&'static str, &'static str, char)> {
+    written(description).illegal
 }
 
 /// `text` as the content of a double-quoted attribute; tab and line breaks survive attribute normalisation.
@@ -42,50 +45,141 @@ fn push_escaped(out: &mut String, text: &str) {
     }
 }
 
-struct Xml {
+fn written(description: &Description) -> Writer {
+    let mut out = Writer::default();
+    out.text.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    out.element("fmiModelDescription", |out| {
+        out.attribute("fmiVersion", &"2.0".to_owned());
+        description.write(out);
+        if let Some(flags) = &description.model_exchange {
+            out.interface("ModelExchange", flags, &flags.source_files);
+        }
+        if let Some(flags) = &description.co_simulation {
+            out.interface("CoSimulation", flags, &flags.source_files);
+        }
+        out.list("UnitDefinitions", &description.units, Writer::unit);
+        out.list("TypeDefinitions", &description.types, Writer::simple_type);
+        out.list("LogCategories", &description.log_categories, |out, it| out.leaf("Category", it));
+        if let Some(experiment) = &description.default_experiment {
+            out.leaf("DefaultExperiment", experiment);
+        }
+        out.element("ModelVariables", |out| description.variables.iter().for_each(|it| out.variable(it)));
+        out.element("ModelStructure", |out| {
+            let unknown = |out: &mut Writer, it: &Unknown| out.leaf("Unknown", it);
+            out.list("Outputs", &description.structure.outputs, unknown);
+            out.list("Derivatives", &description.structure.derivatives, unknown);
+            out.list("InitialUnknowns", &description.structure.initial_unknowns, unknown);
+        });
+    });
+    out
+}
+
+/// The document so far.
+#[derive(Default)]
+pub(crate) struct Writer {
     text: String,
     open: Vec<&'static str>,
     in_tag: bool,
+    illegal: Vec<(&'static str, &'static str, char)>,
 }
 
-impl Xml {
+impl Writer {
     fn indent(&mut self) {
         for _ in 0..self.open.len() {
             self.text.push_str("  ");
         }
     }
-}
 
-impl Sink for Xml {
-    fn open(&mut self, element: &'static str) {
+    fn element(&mut self, name: &'static str, content: impl FnOnce(&mut Self)) {
         if self.in_tag {
             self.text.push_str(">\n");
         }
         self.indent();
         self.text.push('<');
-        self.text.push_str(element);
-        self.open.push(element);
-        self.in_tag = true;
-    }
-
-    fn attribute(&mut self, name: &'static str, text: &str) {
-        self.text.push(' ');
         self.text.push_str(name);
-        self.text.push_str("=\"");
-        push_escaped(&mut self.text, text);
-        self.text.push('"');
-    }
-
-    fn close(&mut self) {
-        let Some(element) = self.open.pop() else { return };
+        self.open.push(name);
+        self.in_tag = true;
+        content(self);
+        self.open.pop();
         if self.in_tag {
             self.text.push_str("/>\n");
         } else {
             self.indent();
             self.text.push_str("</");
-            self.text.push_str(element);
+            self.text.push_str(name);
             self.text.push_str(">\n");
         }
         self.in_tag = false;
+    }
+
+    /// An attribute of the element last opened, before its content.
+    pub(crate) fn attribute(&mut self, name: &'static str, value: &impl Lexical) {
+        let text = value.text();
+        if let Some(c) = text.chars().find(|c| !is_xml_char(*c)) {
+            self.illegal.push((self.open.last().copied().unwrap_or_default(), name, c));
+        }
+        self.text.push(' ');
+        self.text.push_str(name);
+        self.text.push_str("=\"");
+        push_escaped(&mut self.text, &text);
+        self.text.push('"');
+    }
+
+    fn leaf(&mut self, name: &'static str, element: &impl Element) {
+        self.element(name, |out| element.write(out));
+    }
+
+    fn list<T>(&mut self, name: &'static str, items: &[T], mut item: impl FnMut(&mut Self, &T)) {
+        if !items.is_empty() {
+            self.element(name, |out| items.iter().for_each(|value| item(out, value)));
+        }
+    }
+
+    fn interface(&mut self, name: &'static str, flags: &impl Element, source_files: &[String]) {
+        self.element(name, |out| {
+            flags.write(out);
+            out.list("SourceFiles", source_files, |out, file| {
+                out.element("File", |out| out.attribute("name", file));
+            });
+        });
+    }
+
+    fn unit(&mut self, unit: &Unit) {
+        self.element("Unit", |out| {
+            unit.write(out);
+            unit.base.iter().for_each(|base| out.leaf("BaseUnit", base));
+            unit.display_units.iter().for_each(|display| out.leaf("DisplayUnit", display));
+        });
+    }
+
+    fn simple_type(&mut self, simple_type: &SimpleType) {
+        self.element("SimpleType", |out| {
+            simple_type.write(out);
+            out.element(simple_type.kind.name(), |out| match &simple_type.kind {
+                SimpleTypeKind::Real(attributes) => attributes.write(out),
+                SimpleTypeKind::Integer { quantity, min, max } => {
+                    out.optional("quantity", quantity);
+                    out.optional("min", min);
+                    out.optional("max", max);
+                }
+                SimpleTypeKind::Boolean | SimpleTypeKind::String => {}
+                SimpleTypeKind::Enumeration { quantity, items } => {
+                    out.optional("quantity", quantity);
+                    items.iter().for_each(|item| out.leaf("Item", item));
+                }
+            });
+        });
+    }
+
+    /// An attribute that may be left out.
+    pub(crate) fn optional(&mut self, name: &'static str, value: &Option<impl Lexical>) {
+        value.iter().for_each(|value| self.attribute(name, value));
+    }
+
+    fn variable(&mut self, variable: &ScalarVariable) {
+        self.element("ScalarVariable", |out| {
+            variable.write(out);
+            out.element(variable.kind.name(), |out| variable.kind.write(out));
+        });
     }
 }

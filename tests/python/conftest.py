@@ -30,6 +30,10 @@ def _path(variable):
     return pathlib.Path(value)
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "long: runs in `cargo xtask test --long` alone")
+
+
 def pytest_collection_modifyitems(items):
     """A worker has all tests of a file, and one all that share the studies."""
     for item in items:

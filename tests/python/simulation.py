@@ -21,12 +21,6 @@ PAPER = {
 # Its Table 2, rows "thruster dumps only", for the cylinder: dumps in 90 days by threshold in N.m.s, one for each offset.
 PAPER_COUNTS = {4.0: (4, 9, 14), 7.0: (2, 6, 8)}
 
-# Ours, by where a dump leaves a component: at the opposite threshold as the paper's, and at 0.9 of it, the default.
-COUNTS = {
-    "1.0": {4.0: (4, 9, 15), 7.0: (2, 6, 10)},
-    "0.9": {4.0: (4, 7, 14), 7.0: (2, 4, 8)},
-}
-
 
 def vector(name):
     return [f"{name}[{i}]" for i in (1, 2, 3)]

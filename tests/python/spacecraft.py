@@ -1,5 +1,6 @@
 """Spacecraft of our own: writing, packing and the flat-plate law summed in plain numpy."""
 
+import functools
 import pathlib
 import subprocess
 import tomllib
@@ -59,26 +60,53 @@ def urchin(plates):
 
 def solar_torque(text, sun, pressure, angles=()):
     """Torque about the centre of mass: the flat-plate law over every face of the file (paper 000, eq 1)."""
+    return solar_loads(text, sun, pressure, angles)[1]
+
+
+def solar_loads(text, sun, pressure, angles=(), center_of_mass=None):
+    """Force, torque about the centre of mass, and the sum of the faces' forces without their directions."""
+    if center_of_mass is None:
+        center_of_mass = tomllib.loads(text)["mass_properties"]["center_of_mass_m"]
+    force, torque, size = np.zeros(3), np.zeros(3), 0.0
+    for area, center, normal, specular, diffuse in _faces(text, tuple(angles)):
+        cosine = normal @ sun
+        if cosine > 0.0:
+            push = (1.0 - specular) * sun + 2.0 * (specular * cosine + diffuse / 3.0) * normal
+            push *= -pressure * area * cosine
+            force, torque = force + push, torque + np.cross(center - np.array(center_of_mass), push)
+            size += np.linalg.norm(push)
+    return force, torque, size
+
+
+@functools.cache
+def _faces(text, angles):
+    """Area, centre, outward normal, specular and diffuse share of every face of plates and panels, fronts and backs."""
     spacecraft = tomllib.loads(text)
-    center_of_mass = np.array(spacecraft["mass_properties"]["center_of_mass_m"], dtype=float)
-    faces = [(p, np.array(p["normal"], dtype=float), np.array(p["center_m"], dtype=float)) for p in spacecraft.get("plates", [])]
+    placed = [(plate, np.array(plate["normal"], dtype=float), np.eye(3)) for plate in spacecraft.get("plates", [])]
     for panel, angle in zip(spacecraft.get("panels", []), angles, strict=True):
-        turn = _turn(*np.radians(panel.get("rotation_deg", [0.0, 0.0, 0.0])))
         axis, zero = np.array(panel["axis"], dtype=float), np.array(panel["zero_normal"], dtype=float)
-        normal = np.cos(angle) * zero + np.sin(angle) * np.cross(axis, zero)
-        faces.append((panel, turn @ normal, turn @ np.array(panel["center_m"], dtype=float)))
-    torque = np.zeros(3)
-    for face, normal, center in faces:
-        normal = normal / np.linalg.norm(normal)
-        for side, key in ((normal, "optics"), (-normal, "rear_optics")):
-            cosine = side @ sun
-            if cosine <= 0.0 or key not in face:
-                continue
-            optics = spacecraft["optics"][face[key]]
-            specular, diffuse = optics["specular"], optics["diffuse"]
-            force = (1.0 - specular) * sun + 2.0 * (specular * cosine + diffuse / 3.0) * side
-            torque += np.cross(center - center_of_mass, -pressure * face["area_m2"] * cosine * force)
-    return torque
+        turn = _turn(*np.radians(panel.get("rotation_deg", [0.0, 0.0, 0.0])))
+        placed.append((panel, turn @ (np.cos(angle) * zero + np.sin(angle) * np.cross(axis, zero)), turn))
+    faces = []
+    for surface, normal, turn in placed:
+        area, center = _outlined(surface) if "polygon_m" in surface else (None, None)
+        area, center = surface.get("area_m2", area), turn @ np.array(surface.get("center_m", center), dtype=float)
+        for side, key in ((1.0, "optics"), (-1.0, "rear_optics")):
+            if key in surface:
+                optics = spacecraft["optics"][surface[key]]
+                faces.append((area, center, side * normal / np.linalg.norm(normal), optics["specular"], optics["diffuse"]))
+    return faces
+
+
+def _outlined(surface):
+    """Area and centre of a flat outline."""
+    corners = np.array(surface["polygon_m"])
+    parts = [(corners[0], a, b) for a, b in zip(corners[1:], corners[2:])]
+    vectors = [np.cross(a - o, b - o) / 2.0 for o, a, b in parts]
+    whole = sum(vectors)
+    area = np.linalg.norm(whole)
+    weights = [vector @ whole / area for vector in vectors]
+    return area, sum(w * (o + a + b) / 3.0 for w, (o, a, b) in zip(weights, parts)) / area
 
 
 def _turn(x, y, z):

@@ -210,33 +210,6 @@ def test_the_template_is_not_overwritten(heliotorque, dist, tmp_path):
     assert template.read_bytes() == (dist / "MomentumPlant.fmu").read_bytes()
 
 
-def test_coefficients_show_the_cylinders_key_values(heliotorque, momentum_plant):
-    """Paper 000's eq 5 with Table 1 and the centre of mass at the origin, as checked against 4000 facets."""
-    shown = call(heliotorque, "info", momentum_plant, "--coefficients", "--set", "sunshade.shape=cylinder")
-    assert shown.returncode == 0, shown.stderr
-    rows = {line[:6].strip(): line.split()[-3:] for line in shown.stdout.splitlines()}
-    assert rows["y z"][0] == "-3.0930789"
-    assert rows["x z"][1] == "1.3310557"
-    assert rows["x y"][2] == "1.7620232"
-    assert "torque.solar" in shown.stdout and "torque.gravityGradient" in shown.stdout
-
-
-def test_thresholds_are_those_of_the_corners(heliotorque, momentum_plant):
-    """What wheels hold is proportional to their capacity, however they share."""
-    found = []
-    for capacity in ("4", "8", "12"):
-        sets = [text for wheel in (1, 2, 3, 4) for text in ("--set", f"wheel[{wheel}].capacity={capacity}")]
-        shown = call(heliotorque, "info", momentum_plant, "--coefficients", *sets).stdout
-        found += re.findall(rf"^ *({capacity}) +([\d.]+) +([\d.]+) *$", shown, re.MULTILINE)
-    assert [f"{float(threshold):.1f}" for _, threshold, _ in found] == ["3.1", "6.2", "9.2"]
-    assert [f"{float(threshold):.1f}" for _, _, threshold in found] == ["4.6", "9.2", "13.9"]
-
-
-def test_three_wheels_leave_nothing_to_share(heliotorque, sailer):
-    shown = call(heliotorque, "info", sailer, "--coefficients").stdout
-    assert re.search(r"^ *2 +2\.0000 +2\.0000 *$", shown, re.MULTILINE), shown
-
-
 def test_the_schema_of_a_spinner_is_the_committed_one_and_knows_the_shipped_file(heliotorque):
     schema = json.loads(call(heliotorque, "schema", "spinner").stdout)
     assert schema == json.loads((RESOURCES / "spinner.schema.json").read_text(encoding="utf-8"))

@@ -99,26 +99,6 @@ def level(row):
     return downtrack, np.cross(up, downtrack), up
 
 
-def limb_point(row, side, to_planet):
-    """The limb point in the plane of the local vertical and `side`: eq 21 along the ellipse from below, by bisection."""
-    to = to_planet(row)
-    up, side = to @ unit(position(row)), to @ side
-    r = to @ position(row)
-
-    def surface(angle):
-        direction = math.cos(angle) * up + math.sin(angle) * side
-        return direction / np.linalg.norm(direction / TRIAXIAL_M)
-
-    low, high = 0.0, math.pi / 2
-    for _ in range(80):
-        middle = 0.5 * (low + high)
-        if (surface(middle) * r / TRIAXIAL_M**2).sum() > 1.0:
-            low = middle
-        else:
-            high = middle
-    return to.T @ surface(low)
-
-
 def closest_m(row, direction, to_planet):
     """How far a line from the spacecraft passes outside the ellipsoid, in units of the radii times their mean."""
     origin, ray = (to_planet(row) @ v / TRIAXIAL_M for v in (position(row), direction))
@@ -148,22 +128,6 @@ def test_limb_points_lie_at_their_azimuths_and_touch_the_ellipsoid(limb, to_plan
     # The disc is no circle to better than its triaxiality, and not to worse.
     angles = [float(row["off_nadir_deg"]) for row in rows]
     assert 1e-4 < max(angles) / min(angles) - 1.0 < 2e-3
-
-
-def test_the_scan_raises_the_boresight_along_the_radius_of_the_moving_limb_point(limb, to_planet):
-    rows = table(limb[1], "limb-scan.csv")
-    assert [float(row["time_s"]) for row in rows] == list(range(301))
-    azimuth = math.radians(60.0)
-    for row in rows[::20]:
-        height = 1000.0 * float(row["time_s"])
-        assert float(row["commanded_height_m"]) == height
-        assert abs(float(row["height_m"]) - height) < 1e-6
-        downtrack, left, _ = level(row)
-        point = limb_point(row, math.cos(azimuth) * downtrack + math.sin(azimuth) * left, to_planet)
-        raised = point + height * unit(point)
-        assert off(attitude(row).T @ Z, raised - position(row)) < 1e-14
-    # A line that passes 300 km over the limb along its radius is somewhat nearer to the ellipsoid than that.
-    assert 0.9 * 3e5 < closest_m(rows[-1], attitude(rows[-1]).T @ Z, to_planet) < 3e5
 
 
 def terminator_points(row, to_planet):
@@ -290,47 +254,6 @@ def test_coverage_is_that_of_points_scattered_over_the_disc(mosaic, to_planet):
         assert covered == pytest.approx(100.0 * (count > 0).mean(), abs=1.0), name
         assert twice == pytest.approx(100.0 * (count > 1).sum() / (count > 0).sum(), abs=1.5), name
         assert line.rstrip().endswith(f"0 of {duration + 1:.0f} s")
-
-
-@pytest.mark.parametrize("name, fast_m, slow_m", [("inertial", 2.0e6, 1.4e6), ("planet", 3.7e5, 3.7e5)])
-def test_lines_of_sight_less_the_steps_of_the_scan_share_one_aim(mosaic, to_planet, name, fast_m, slow_m):
-    rows = mosaic[1][name]
-    assert len(rows) == {"inertial": 6, "planet": 10}[name]
-    spreads = {}
-    for fast in range(3):
-        for slow in {0, 1, 2} - {fast}:
-            normal, right = np.zeros((3, 3)), np.zeros(3)
-            lines = []
-            for k, row in enumerate(rows):
-                axes = to_planet(row) if name == "planet" else np.eye(3)
-                offset = np.zeros(3)
-                # Forth and back along a row, on to the next row at every second frame.
-                offset[fast], offset[slow] = fast_m * ((k + 1) % 2), slow_m * (k // 2 + 1)
-                start = axes @ position(row) - offset
-                direction = unit(axes @ attitude(row).T @ camera_axes(row)[0])
-                across = np.eye(3) - np.outer(direction, direction)
-                normal, right = normal + across, right + across @ start
-                lines.append((start, across))
-            aim = np.linalg.solve(normal, right)
-            spreads[fast, slow] = max(np.linalg.norm(across @ (aim - start)) for start, across in lines)
-    least, second = sorted(spreads.values())[:2]
-    assert least < 1e-3 < 1e4 < second, spreads
-
-
-def test_the_body_scan_turns_the_boresight_and_leaves_it_on_nadir(mosaic):
-    rows = mosaic[1]["body"]
-    assert len(rows) == 36
-    # Rows of 15 deg about Y in 120 s with pauses of 20 s, three of them 1.3 deg apart about X.
-    boresight = about(0, math.radians(2.6)) @ about(1, math.radians(7.5)) @ Z
-    for row in rows:
-        time = float(row["time_s"])
-        motion, elapsed = divmod(time, 140.0)
-        along = min(elapsed, 120.0) / 120.0
-        turn_y = math.radians(15.0 * (along if motion % 2 == 0 else 1.0 - along))
-        turn_x = math.radians(1.3 * (motion + min(elapsed / 10.0, 1.0)))
-        # Active rotations, about X first.
-        turned = about(1, turn_y).T @ about(0, turn_x).T @ boresight
-        assert off(attitude(row).T @ turned, -position(row)) < 1e-12, time
 
 
 # Transition

@@ -1,4 +1,4 @@
-"""SpinPlant in FMPy: it validates, runs paper 002's manoeuvre on any grid, and the tapered train beats the paper's."""
+"""SpinPlant in FMPy: it validates, runs paper 002's manoeuvre, and plans and studies of it hold."""
 
 import csv
 import pathlib
@@ -7,43 +7,13 @@ import subprocess
 
 import numpy as np
 import pytest
-from fmpy import extract, read_model_description, simulate_fmu
+from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 
 REPOSITORY = pathlib.Path(__file__).parents[2]
-SPIN_KG_M2 = 353.82
-RATE = np.pi / 6
-PERIOD_S = 12.0
-TORQUE_N_M = 4.448 * 0.40
-
-
 @pytest.fixture(scope="module")
 def spin_plant(dist):
     return str(dist / "SpinPlant.fmu")
-
-
-@pytest.fixture(scope="module")
-def loaded(spin_plant):
-    return extract(spin_plant), read_model_description(spin_plant)
-
-
-def body(ratio, **more):
-    transverse = SPIN_KG_M2 / ratio
-    start = {"inertia[1]": transverse, "inertia[2]": transverse, "inertia[3]": SPIN_KG_M2, "damper.timeConstant": 0.0}
-    return start | more
-
-
-def simulate(spin_plant, loaded, stop_s, step_s, start, output):
-    folder, description = loaded
-    return simulate_fmu(
-        folder,
-        model_description=description,
-        stop_time=stop_s,
-        step_size=step_s,
-        output_interval=step_s,
-        start_values=start,
-        output=output,
-    )
 
 
 def test_fmpy_has_nothing_to_report(spin_plant):
@@ -56,51 +26,6 @@ def test_it_runs_as_it_comes(spin_plant):
     result = simulate_fmu(spin_plant)
     assert result["burn.pulsesFired"][-1] == 114
     assert np.degrees(result["momentum.displacement"][-1]) == pytest.approx(2.0, abs=0.02)
-
-
-@pytest.mark.parametrize("ratio", [1.471, 1.483, 1.5])
-@pytest.mark.parametrize("turns, width_s, count", [(1.0, 0.032, 114), (0.5, 0.032, 114), (1.0, 1.0, 11), (0.5, 1.0, 11)])
-def test_nutation_follows_eq_8_pulse_by_pulse(spin_plant, loaded, ratio, turns, width_s, count):
-    """Eq 8 summed as a series of kicks of the differential equation h' = i lambda h + T, which is not how it is simulated."""
-    start = body(ratio, **{"burn.turnsPerPulse": turns, "burn.pulseWidth": width_s, "burn.count": count})
-    step_s = turns * PERIOD_S / 4
-    names = ["nutation.angle", "burn.pulsesFired", "burn.active", "thruster[8].active", "thruster[10].active"]
-    result = simulate(spin_plant, loaded, (count * turns + 2) * PERIOD_S, step_s, start, names)
-    rate = (ratio - 1) * RATE
-    kick = TORQUE_N_M * 2 * np.sin(rate * width_s / 2) / rate / (SPIN_KG_M2 * RATE)
-    steps = np.exp(2j * np.pi * ratio * turns * np.arange(count))
-    expected = np.arctan(kick * np.abs(np.cumsum(steps)))
-    coasting = ~(result["thruster[8].active"] | result["thruster[10].active"]) & (result["burn.pulsesFired"] > 0)
-    seen = result["nutation.angle"][coasting]
-    theory = expected[result["burn.pulsesFired"][coasting] - 1]
-    error = np.abs(seen - theory)
-    assert np.all((error < 5e-5 * theory) | (error < np.radians(1e-6)))
-    assert set(result["burn.pulsesFired"]) == set(range(count + 1))
-
-
-def test_the_tapered_train_ends_without_nutation_anywhere_in_the_range(spin_plant, loaded):
-    """2 deg in 11.4 min with less than 0.0033 deg of nutation left for any ratio from begin to end of life."""
-    for ratio in np.linspace(1.471, 1.494, 24):
-        for count in (57, 58):
-            start = body(ratio, **{"burn.plan": 2, "burn.count": count})
-            names = ["nutation.angle", "momentum.displacement", "burn.done", "burn.active"]
-            result = simulate(spin_plant, loaded, 720.0, 1.0, start, names)
-            assert result["burn.done"][-1]
-            assert np.degrees(result["nutation.angle"][-1]) < 0.0033
-            if count == 58:
-                # Active points are a second apart, so the duration is known to a second or two.
-                duration_min = np.count_nonzero(result["burn.active"]) / 60
-                assert duration_min == pytest.approx(11.4, abs=0.05)
-                assert np.degrees(result["momentum.displacement"][-1]) == pytest.approx(2.0, abs=0.01)
-
-
-def test_the_damper_takes_nutation_and_leaves_the_momentum(spin_plant, loaded):
-    start = {"burn.plan": 4, "start.nutation": np.radians(0.5)}
-    names = ["nutation.angle", "momentum.inertial[1]", "momentum.inertial[3]", "energy"]
-    result = simulate(spin_plant, loaded, 9.5 * 3600, 3600 / 4, start, names)
-    assert result["nutation.angle"][-1] == pytest.approx(np.radians(0.5) / np.e, rel=1e-9)
-    assert np.ptp(result["momentum.inertial[1]"]) == 0 and np.ptp(result["momentum.inertial[3]"]) == 0
-    assert np.all(np.diff(result["energy"]) < 0)
 
 
 def own_spacecraft(heliotorque, spin_plant, folder, change):

@@ -1,4 +1,4 @@
-"""Every study in `study list` runs and leaves whole tables and pictures; a short one prints the same on one thread and on four."""
+"""Every study in `study list` runs and leaves whole tables and pictures, and prints the same on one thread and on four."""
 
 import re
 import subprocess
@@ -27,13 +27,17 @@ def test_these_are_all(heliotorque):
 ALL = [name for name in NAMES if not re.fullmatch(r"momentum/table\d", name)]
 # Flown by the same means as momentum/assumptions, for half a minute of one core and more.
 LONG = {"momentum/tables", "momentum/dump-targets", "momentum/wheels", "momentum/sensitivity"}
+# One of every means by which threads share the work.
+EVERY_RUN = {"control/slew", "momentum/figure5", "pointing/limb", "spin/figure3", "thermal/table7"}
 
 
-@pytest.mark.parametrize("name", ALL)
-def test_results_are_whole_and_do_not_depend_on_the_number_of_threads(studied, heliotorque, dist, tmp_path, name):
-    text, files = studied(name)
-    if name not in LONG:
-        assert study(heliotorque, dist, tmp_path, name, 1) == (text, files)
+def long_unless(daily, names):
+    return [name if name in daily else pytest.param(name, marks=pytest.mark.long) for name in names]
+
+
+@pytest.mark.parametrize("name", long_unless(set(ALL) - LONG, ALL))
+def test_results_are_whole(studied, name):
+    _, files = studied(name)
     own = name.split("/")[1]
     wanted = {f"table{number}.csv" for number in (2, 3, 4, 5)} if own == "tables" else {f"{own}.csv"}
     assert wanted <= files.keys() and (f"{own}.svg" in files or not own.startswith("figure"))
@@ -42,3 +46,8 @@ def test_results_are_whole_and_do_not_depend_on_the_number_of_threads(studied, h
             table(files, file)
         else:
             assert ElementTree.fromstring(files[file]).tag.endswith("svg")
+
+
+@pytest.mark.parametrize("name", long_unless(EVERY_RUN, [name for name in ALL if name not in LONG]))
+def test_results_do_not_depend_on_the_number_of_threads(studied, heliotorque, dist, tmp_path, name):
+    assert study(heliotorque, dist, tmp_path, name, 1) == studied(name)

@@ -10,19 +10,6 @@ TABLE_8 = {1: (8.45, 0.20, 3.66, 23.78), 2: (5.51, 4.40, 25.22, 20.43), 3: (3.72
 # The least albedo, infrared and recoil; of solar the paper prints none.
 TABLE_7_LEAST = {1: (0.02, 0.18, 23.44), 2: (0.00, 0.01, 18.80), 3: (0.01, 0.14, 18.81), 4: (0.00, 0.00, 17.93)}
 TABLE_8_LEAST = {1: (0.00, 0.17, 23.31), 2: (0.00, 0.02, 18.46), 3: (0.01, 0.08, 16.89), 4: (0.00, 0.00, 17.74)}
-# Ours, greatest and least, as the studies print them.
-OURS_7 = {
-    1: ("8.450 / 8.448", "0.32 / 0.02", "6.39 / 0.18", "25.06 / 23.36"),
-    2: ("5.516 / 5.512", "2.38 / 0.00", "14.11 / 0.01", "24.61 / 18.92"),
-    3: ("3.711 / 3.711", "0.94 / 0.01", "18.90 / 0.14", "22.16 / 20.98"),
-    4: ("6.226 / 6.222", "6.52 / 0.00", "27.00 / 0.00", "25.01 / 14.53"),
-}
-OURS_8 = {
-    1: ("8.448 / 8.416", "0.35 / 0.02", "6.73 / 0.18", "25.05 / 23.29"),
-    2: ("5.509 / 5.431", "2.35 / 0.00", "13.95 / 0.01", "24.24 / 18.62"),
-    3: ("3.719 / 3.711", "0.94 / 0.01", "18.86 / 0.14", "22.24 / 20.94"),
-    4: ("6.325 / 6.225", "6.42 / 0.00", "26.58 / 0.00", "25.07 / 14.30"),
-}
 # What counts as the paper's, in %: solar, albedo, infrared, recoil.
 ALLOWED_7, ALLOWED_8 = (0.15, 2.0, 5.0, 3.0), (0.15, 2.0, 8.0, 3.0)
 # Cases and effects that do not.
@@ -53,20 +40,20 @@ def cells(rows):
 
 
 @pytest.mark.parametrize(
-    "name, printed, printed_least, ours, allowed, far",
+    "name, printed, printed_least, allowed, far",
     [
-        ("table7", TABLE_7, TABLE_7_LEAST, OURS_7, ALLOWED_7, FAR_7),
-        ("table8", TABLE_8, TABLE_8_LEAST, OURS_8, ALLOWED_8, FAR_8),
+        ("table7", TABLE_7, TABLE_7_LEAST, ALLOWED_7, FAR_7),
+        ("table8", TABLE_8, TABLE_8_LEAST, ALLOWED_8, FAR_8),
     ],
 )
-def test_tables_carry_the_papers_numbers_and_verdicts_that_follow(study, name, printed, printed_least, ours, allowed, far):
+def test_tables_carry_the_papers_numbers_and_verdicts_that_follow(study, name, printed, printed_least, allowed, far):
     text, rows = study(name)
     rows = cells(rows)
     assert len(rows) == 16
     for case, numbers in printed.items():
-        for effect, number, found, percent in zip(EFFECTS, numbers, ours[case], allowed):
+        for effect, number, percent in zip(EFFECTS, numbers, allowed):
             row = rows[case, effect]
-            assert row["ours"] == found and found in text, row
+            assert row["ours"] in text, row
             assert greatest(row["paper"]) == number
             off = greatest(row["ours"]) / number - 1.0
             stated = float(row["difference of the greatest"].split()[0]) / 100.0

@@ -16,9 +16,9 @@ pub fn folder(base: &Path, model: &str, library: &Path) -> Fmu {
     let binaries = folder.join("binaries").join(platform_folders()[0]);
     fs::create_dir_all(&binaries).unwrap();
     let entry = LIBRARY.find(model).unwrap();
-    if let Some(file) = entry.setup_file() {
+    if let Some(file) = entry.setup_file {
         fs::create_dir_all(folder.join("resources")).unwrap();
-        fs::write(folder.join("resources").join(file), entry.default_setup()).unwrap();
+        fs::write(folder.join("resources").join(file), entry.default_setup).unwrap();
     }
     fs::write(folder.join("modelDescription.xml"), model_description::to_xml(&description(model))).unwrap();
     fs::copy(library, binaries.join(format!("{model}{}", std::env::consts::DLL_SUFFIX))).unwrap();

@@ -68,7 +68,7 @@ pub fn fresh(model: &str) -> InProcess {
 /// The GUID of a model with its compiled-in setup.
 pub fn guid(model: &str) -> &'static str {
     static GUIDS: OnceLock<BTreeMap<&str, String>> = OnceLock::new();
-    let all = || LIBRARY.entries.iter().map(|entry| (entry.name(), description(entry.name()).guid)).collect();
+    let all = || LIBRARY.entries.iter().map(|entry| (entry.name, description(entry.name).guid)).collect();
     &GUIDS.get_or_init(all)[model]
 }
 

@@ -1,6 +1,7 @@
 //! `cargo xtask bench`: medians as `bench <name> <value> <unit>` lines.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Instant;
 
 use crate::build::{self, Built};
@@ -10,16 +11,14 @@ use crate::test::compile_c;
 
 /// Kernel benchmarks, as examples of `physics`.
 const EXAMPLES: &[&str] = &["bench_solar", "bench_radiation"];
-/// The study is simulated this often; the median counts.
-const STUDY_RUNS: usize = 3;
-/// The system is simulated this often; the median counts.
-const SYSTEM_RUNS: usize = 3;
+/// Studies and systems are simulated this often; the median counts.
+const RUNS: usize = 3;
 
 /// Kernels (Rust examples of `physics`), the C interface, a system, a whole study.
 pub fn all() -> Outcome {
     let built = dist::dist()?;
     for example in EXAMPLES {
-        run(&mut cargo(&["run", "--locked", "--quiet", "--release", "-p", "physics", "--example", example]))?;
+        run(cargo("run --locked --quiet --release -p physics --example").arg(example))?;
     }
     if need("gcc", "the benchmark through the C interface")? {
         let scratch = build::scratch("bench")?;
@@ -40,20 +39,14 @@ pub fn all() -> Outcome {
 /// Guidance and plant in a loop of 20 ms: simulated over elapsed time, the start of the process with it.
 fn system(built: &Built) -> Outcome {
     const SPAN_S: f64 = 20_000.0;
-    let mut seconds = Vec::new();
-    for _ in 0..SYSTEM_RUNS {
-        let begin = Instant::now();
-        output(
-            command(&built.heliotorque)
-                .arg("run")
-                .arg(root().join("dist").join("MessengerLoop.ssp"))
-                .args(["--quiet", "--step", "20ms", "--every", "600", "--record", "plant.momentum.body"])
-                .args(["--stop", &SPAN_S.to_string(), "--output", "-"]),
-        )?;
-        seconds.push(begin.elapsed().as_secs_f64());
-    }
-    seconds.sort_by(f64::total_cmp);
-    let fast = SPAN_S / seconds[SYSTEM_RUNS / 2];
+    let seconds = median_s(
+        command(&built.heliotorque)
+            .arg("run")
+            .arg(root().join("dist").join("MessengerLoop.ssp"))
+            .args(["--quiet", "--step", "20ms", "--every", "600", "--record", "plant.momentum.body"])
+            .args(["--stop", &SPAN_S.to_string(), "--output", "-"]),
+    )?;
+    let fast = SPAN_S / seconds;
     println!("bench messenger_loop_50_hz_over_real_time {fast:.0} times");
     Ok(())
 }
@@ -77,19 +70,25 @@ fn spacecraft_folders(scratch: &Path) -> Result<[PathBuf; 2], String> {
 /// Paper 000's Table 2 with the FMU's own dumps: every shade, convention, threshold and offset, on all cores.
 fn study(built: &Built) -> Outcome {
     let folder = build::scratch("bench")?.join("study");
+    let seconds = median_s(
+        command(&built.heliotorque)
+            .args(["study", "momentum/table2", "--quiet", "--only", "to 0.9", "--dist"])
+            .arg(root().join("dist"))
+            .arg("--output")
+            .arg(&folder),
+    )?;
+    println!("bench study_momentum_table2_30_simulations {seconds:.2} s");
+    Ok(())
+}
+
+/// How long a command takes, in s: the median of several runs.
+fn median_s(command: &mut Command) -> Result<f64, String> {
     let mut seconds = Vec::new();
-    for _ in 0..STUDY_RUNS {
+    for _ in 0..RUNS {
         let begin = Instant::now();
-        output(
-            command(&built.heliotorque)
-                .args(["study", "momentum/table2", "--quiet", "--only", "to 0.9", "--dist"])
-                .arg(root().join("dist"))
-                .arg("--output")
-                .arg(&folder),
-        )?;
+        output(command)?;
         seconds.push(begin.elapsed().as_secs_f64());
     }
     seconds.sort_by(f64::total_cmp);
-    println!("bench study_momentum_table2_30_simulations {:.2} s", seconds[STUDY_RUNS / 2]);
-    Ok(())
+    Ok(seconds[RUNS / 2])
 }

@@ -17,12 +17,12 @@ pub struct Built {
 }
 
 /// Programs and tests have the same features, so that hardly a crate is compiled twice.
-pub const TESTS: [&str; 4] = ["--locked", "--release", "--workspace", "--all-features"];
+pub const TESTS: &str = "--locked --release --workspace --all-features";
 
 /// Builds the shared libraries and the command line.
 pub fn build() -> Result<Built, String> {
     run(&mut libraries())?;
-    run(&mut cargo(&["build", "--locked", "--release", "-p", "heliotorque", "--all-features"]))?;
+    run(&mut cargo("build --locked --release -p heliotorque --all-features"))?;
     Ok(built())
 }
 
@@ -78,7 +78,7 @@ fn built_in(target: &Path) -> Built {
 
 /// Builds the shared library and the probe's, whole-program optimised.
 pub fn libraries() -> Command {
-    cargo(&["build", "--locked", "--profile", "fmu", "-p", "component", "-p", "probe"])
+    cargo("build --locked --profile fmu -p component -p probe")
 }
 
 /// The environment in which tests find what was built.

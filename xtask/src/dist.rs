@@ -5,57 +5,26 @@ use std::path::{Path, PathBuf};
 
 use crate::build::{Built, build, portable, scratch};
 use crate::shell::{Outcome, command, root, run, target};
-use crate::systems::{self, GUIDED_AT_START};
+use crate::systems;
 
 /// An FMU: file name, model, spacecraft, further options of `pack`.
-struct Shipped {
-    name: &'static str,
-    model: &'static str,
-    spacecraft: &'static str,
-    options: &'static [&'static str],
-}
-
-const fn plain(name: &'static str, model: &'static str, spacecraft: &'static str) -> Shipped {
-    Shipped { name, model, spacecraft, options: &[] }
-}
+type Shipped = (&'static str, &'static str, &'static str, &'static str);
 
 const SHIPPED: &[Shipped] = &[
-    plain("MomentumPlant", "MomentumPlant", "messenger.toml"),
-    plain("SpinPlant", "SpinPlant", "ace.toml"),
-    plain("DisturbanceTorque", "DisturbanceTorque", "messenger-thermal.toml"),
-    plain("Guidance", "Guidance", "messenger.toml"),
-    plain("FlexibleCraft", "MomentumPlant", "examples/flexible-craft.toml"),
+    ("MomentumPlant", "MomentumPlant", "messenger.toml", ""),
+    ("SpinPlant", "SpinPlant", "ace.toml", ""),
+    ("DisturbanceTorque", "DisturbanceTorque", "messenger-thermal.toml", ""),
+    ("Guidance", "Guidance", "messenger.toml", ""),
+    ("FlexibleCraft", "MomentumPlant", "examples/flexible-craft.toml", ""),
     // Controlled by its own guidance, from the attitude that it commands first.
-    Shipped {
-        name: "MessengerFull",
-        model: "MomentumPlant",
-        spacecraft: "messenger-full.toml",
-        options: &[
-            "--set",
-            "attitude.source=controlled",
-            "--set",
-            "command.source=guidance",
-            "--set",
-            "shadowing.enabled=true",
-            "--set",
-            "solver.dynamicsStep=10",
-            "--per-plate",
-            "--set",
-            GUIDED_AT_START[0],
-            "--set",
-            GUIDED_AT_START[1],
-            "--set",
-            GUIDED_AT_START[2],
-            "--set",
-            GUIDED_AT_START[3],
-        ],
-    },
-    Shipped {
-        name: "MessengerLight",
-        model: "DisturbanceTorque",
-        spacecraft: "messenger-full.toml",
-        options: &["--set", "shadowing.enabled=true"],
-    },
+    (
+        "MessengerFull",
+        "MomentumPlant",
+        "messenger-full.toml",
+        "--set attitude.source=controlled --set command.source=guidance --set shadowing.enabled=true \
+         --set solver.dynamicsStep=10 --per-plate --set GUIDED_AT_START",
+    ),
+    ("MessengerLight", "DisturbanceTorque", "messenger-full.toml", "--set shadowing.enabled=true"),
 ];
 
 /// Builds, then packs everything that is shipped.
@@ -96,15 +65,14 @@ fn stamp() -> PathBuf {
 }
 
 fn pack(built: &Built) -> Outcome {
-    for Shipped { name, model, spacecraft, options } in SHIPPED {
+    SHIPPED.iter().try_for_each(|(name, model, spacecraft, options)| {
         run(command(&built.heliotorque)
             .args(["pack", "--name", name, "--model", model, "--library"])
             .arg(&built.library)
             .arg("--spacecraft")
             .arg(root().join("fmu-src").join("resources").join(spacecraft))
-            .args(*options)
+            .args(systems::options(options))
             .arg("--output")
-            .arg(root().join("dist").join(format!("{name}.fmu"))))?;
-    }
-    Ok(())
+            .arg(root().join("dist").join(format!("{name}.fmu"))))
+    })
 }

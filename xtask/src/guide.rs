@@ -6,27 +6,27 @@ use crate::shell::{Outcome, cargo, root, run, target};
 
 /// Builds it into `target/guide`; says where its first page is.
 pub fn build() -> Outcome {
-    run(&mut in_workspace(&["run", "--locked", "--quiet"]))
+    run(&mut in_workspace("run --locked --quiet"))
 }
 
 /// Checks the form of its builder's code.
 pub fn check_format() -> Outcome {
-    run(&mut in_workspace(&["fmt", "--check"]))
+    run(&mut in_workspace("fmt --check"))
 }
 
 /// Lints its builder's code.
 pub fn lint() -> Outcome {
-    run(&mut in_workspace(&["clippy", "--locked", "--all-targets", "--quiet", "--", "-D", "warnings"]))
+    run(&mut in_workspace("clippy --locked --all-targets --quiet -- -D warnings"))
 }
 
 /// Builds it and checks its links, commands and completeness.
 pub fn test(environment: impl IntoIterator<Item = (&'static str, impl Into<OsString>)>) -> Outcome {
     let environment = environment.into_iter().map(|(name, value)| (name, value.into()));
-    run(in_workspace(&["test", "--locked"]).envs(environment))
+    run(in_workspace("test --locked").envs(environment))
 }
 
 /// Cargo in the folder of the guide's builder; what it builds stands beside everything else's.
-fn in_workspace(arguments: &[&str]) -> std::process::Command {
+fn in_workspace(arguments: &str) -> std::process::Command {
     let mut command = cargo(arguments);
     command.current_dir(root().join("tests").join("guide")).env("CARGO_TARGET_DIR", target());
     command

@@ -1,5 +1,5 @@
 //! `cargo xtask test --long`: fuzzing, sanitizers, Miri, failing allocations, failing writes, dependencies at
-//! many states.
+//! many states, long tests in Python.
 
 use std::fs;
 use std::path::Path;
@@ -7,14 +7,15 @@ use std::process::Command;
 
 use crate::build::{self, Built};
 use crate::dist;
-use crate::shell::{Outcome, available, command, root, run, target};
-use crate::test;
-use crate::test::compile_c_with;
+use crate::shell::{Outcome, available, cargo, command, root, run, target};
+use crate::test::{self, compile_c_with};
 
 /// Fuzz targets, in `tests/fuzz/targets`.
 const TARGETS: &[&str] = &["spacecraft", "model_description", "state", "calls", "zip"];
 /// How long each target runs, in s; another number by this variable.
 const SECONDS: &str = "60";
+/// Of each input: time, memory, length.
+const LIMITS: &str = "-timeout=20 -rss_limit_mb=2048 -max_len=32768 -len_control=0 -print_final_stats=1";
 const SECONDS_VARIABLE: &str = "HELIOTORQUE_FUZZ_SECONDS";
 /// Parts to run, by name; all, and `cargo xtask test` before them, if it is not set.
 const PARTS_VARIABLE: &str = "HELIOTORQUE_LONG";
@@ -35,6 +36,7 @@ const PARTS: &[Part] = &[
     ("allocations", allocations),
     ("writes", writes),
     ("dependencies", dependencies),
+    ("python", python),
 ];
 
 /// Everything `cargo xtask test` runs, then the longer searches for faults; stops at the first that fails.
@@ -54,10 +56,14 @@ pub fn all() -> Outcome {
     Ok(())
 }
 
+/// The tests in Python that take minutes.
+fn python() -> Outcome {
+    test::python(test::current_environment()?, "long")
+}
+
 /// What acts is declared, at many more states.
 fn dependencies() -> Outcome {
-    let test = ["test", "--locked", "--release", "-p", "models", "--all-features", "dependencies::"];
-    run(command("cargo").args(test).args(["--", "--ignored"]))
+    run(&mut cargo("test --locked --release -p models --all-features dependencies:: -- --ignored"))
 }
 
 fn skipped(what: &str, missing: &str) -> Outcome {
@@ -66,14 +72,10 @@ fn skipped(what: &str, missing: &str) -> Outcome {
 }
 
 /// `cargo +nightly`; the outer cargo's own choice of toolchain must not reach it.
-fn nightly(arguments: &[&str]) -> Command {
+fn nightly(arguments: &str) -> Command {
     let mut nightly = command("cargo");
-    nightly
-        .env_remove("CARGO")
-        .env_remove("RUSTUP_TOOLCHAIN")
-        .env_remove("RUSTC")
-        .arg("+nightly")
-        .args(arguments);
+    nightly.env_remove("CARGO").env_remove("RUSTUP_TOOLCHAIN").env_remove("RUSTC");
+    nightly.arg("+nightly").args(arguments.split_whitespace());
     nightly
 }
 
@@ -83,17 +85,17 @@ fn answers(program: &mut Command) -> bool {
 
 /// Each target for its time, on a copy of its corpus: what is found stays under `target/`.
 fn fuzz() -> Outcome {
-    if !answers(&mut nightly(&["--version"])) {
+    if !answers(&mut nightly("--version")) {
         return skipped("fuzzing", "nightly toolchain: `rustup toolchain install nightly`");
     }
-    if !answers(&mut nightly(&["fuzz", "--version"])) {
+    if !answers(&mut nightly("fuzz --version")) {
         return skipped("fuzzing", "cargo-fuzz: `cargo install cargo-fuzz`");
     }
     let package = root().join("tests").join("fuzz");
     let seconds = std::env::var(SECONDS_VARIABLE).unwrap_or_else(|_| SECONDS.to_owned());
     for name in TARGETS {
         let found = build::scratch(&format!("fuzz/{name}"))?;
-        run(nightly(&["fuzz", "run", "--fuzz-dir"])
+        run(nightly("fuzz run --fuzz-dir")
             .arg(&package)
             .arg("--target-dir")
             .arg(target().join("fuzz"))
@@ -106,13 +108,7 @@ fn fuzz() -> Outcome {
                 "-artifact_prefix={}/",
                 build::scratch(&format!("fuzz/{name}-artifacts"))?.display()
             ))
-            .args([
-                "-timeout=20",
-                "-rss_limit_mb=2048",
-                "-max_len=32768",
-                "-len_control=0",
-                "-print_final_stats=1",
-            ]))?;
+            .args(LIMITS.split_whitespace()))?;
     }
     Ok(())
 }
@@ -142,11 +138,9 @@ fn sanitizers() -> Outcome {
             &[&flag, "-fno-omit-frame-pointer"],
         )?;
         // Older thread sanitizers do not work with addresses as random as newer kernels make them.
-        let mut launched = match available("setarch") {
-            true => command("setarch"),
-            false => command(&client),
-        };
+        let mut launched = command(&client);
         if available("setarch") {
+            launched = command("setarch");
             launched.arg("--addr-no-randomize").arg(&client);
         }
         run(launched.arg(&built.library).arg(&built.probe).arg("--short").current_dir(&scratch))?;
@@ -157,10 +151,10 @@ fn sanitizers() -> Outcome {
 /// The exporter's unit tests in Miri. Not those of its interface: Miri refuses a logger of fixed arguments behind the
 /// variadic type, which stable Rust cannot define, and describes a model for minutes. Nor what starts a process.
 fn miri() -> Outcome {
-    if !answers(&mut nightly(&["miri", "--version"])) {
+    if !answers(&mut nightly("miri --version")) {
         return skipped("Miri", "Miri: `rustup component add --toolchain nightly miri rust-src`");
     }
-    run(nightly(&["miri", "test", "--locked", "-p", "fmi-export", "--lib", "--target-dir"])
+    run(nightly("miri test --locked -p fmi-export --lib --target-dir")
         .arg(target().join("miri"))
         .args(["--", "--skip", "what_is_no_regular_file_is_refused_by_name"])
         .env("MIRIFLAGS", "-Zmiri-disable-isolation"))
@@ -206,10 +200,7 @@ fn writes() -> Outcome {
             "Own.fmu",
         ),
     ];
-    for (arguments, option, file) in commands {
-        on_a_full_disk(&built, &scratch, &full_disk, (arguments, option, file))?;
-    }
-    Ok(())
+    commands.into_iter().try_for_each(|command| on_a_full_disk(&built, &scratch, &full_disk, command))
 }
 
 /// What stood in the target before.
@@ -265,11 +256,9 @@ fn on_a_full_disk(
             return fault("it left what it unpacked");
         }
         // A recording in progress stays as far as it came.
-        let left = fs::read_dir(&target_folder)
-            .map_err(at_target)?
-            .filter_map(Result::ok)
-            .map(|entry| entry.file_name());
-        if let Some(left) = left.into_iter().find(|name| name != file && *name != *format!("{file}.part")) {
+        let mut left =
+            fs::read_dir(&target_folder).map_err(at_target)?.flatten().map(|entry| entry.file_name());
+        if let Some(left) = left.find(|name| name != file && *name != *format!("{file}.part")) {
             return fault(&format!("it left {}", left.display()));
         }
     }

@@ -57,14 +57,8 @@ pub fn write() -> Outcome {
 /// The notices as the lock file and the crates' own files give them.
 fn text() -> Result<String, String> {
     let crates = linked()?;
-    let metadata = shell::output(&mut cargo(&[
-        "metadata",
-        "--locked",
-        "--format-version",
-        "1",
-        "--filter-platform",
-        TARGET,
-    ]))?;
+    let metadata = "metadata --locked --format-version 1 --filter-platform";
+    let metadata = shell::output(cargo(metadata).arg(TARGET))?;
     let mut text = HEAD.to_owned();
     let mut texts: BTreeMap<String, Vec<&Crate>> = BTreeMap::new();
     for it in &crates {
@@ -86,20 +80,9 @@ fn text() -> Result<String, String> {
 
 /// Crates in the library that are not ours, by name.
 fn linked() -> Result<Vec<Crate>, String> {
-    let tree = shell::output(&mut cargo(&[
-        "tree",
-        "--locked",
-        "--package",
-        "component",
-        "--edges",
-        "normal,no-proc-macro",
-        "--prefix",
-        "none",
-        "--target",
-        TARGET,
-        "--format",
-        "{p}|{l}",
-    ]))?;
+    let tree =
+        "tree --locked --package component --edges normal,no-proc-macro --prefix none --format {p}|{l}";
+    let tree = shell::output(cargo(tree).args(["--target", TARGET]))?;
     let mut crates: Vec<Crate> = tree.lines().filter_map(crate_of).collect();
     crates.sort();
     crates.dedup();

@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command};
+use std::process::{Child, Command, ExitStatus};
 
 /// What a task ends with; the text says what went wrong.
 pub type Outcome = Result<(), String>;
@@ -36,10 +36,10 @@ pub fn command(program: impl AsRef<OsStr>) -> Command {
     command
 }
 
-/// `cargo` with the arguments.
-pub fn cargo(arguments: &[&str]) -> Command {
+/// `cargo` with the words of a text as arguments.
+pub fn cargo(arguments: &str) -> Command {
     let mut command = command(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    command.args(arguments);
+    command.args(arguments.split_whitespace());
     command
 }
 
@@ -48,6 +48,10 @@ pub fn run(command: &mut Command) -> Outcome {
     let shown = show(command);
     eprintln!("+ {shown}");
     let status = command.status().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
+    ended(&shown, status)
+}
+
+fn ended(shown: &str, status: ExitStatus) -> Outcome {
     if status.success() { Ok(()) } else { Err(format!("`{shown}` ended with {status}")) }
 }
 
@@ -69,7 +73,7 @@ impl Beside {
     /// Waits for its end and expects success.
     pub fn finish(mut self) -> Outcome {
         let status = self.child.wait().map_err(|error| format!("`{}`: {error}", self.shown))?;
-        if status.success() { Ok(()) } else { Err(format!("`{}` ended with {status}", self.shown)) }
+        ended(&self.shown, status)
     }
 }
 

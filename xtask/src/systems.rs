@@ -9,24 +9,18 @@ use crate::shell::{Outcome, command, root, run};
 
 /// The attitude that the orbit phase's guidance commands at the start of `MessengerLoop.ssp`: from any other the first slew would
 /// lead the Sun out of its zone.
-pub const GUIDED_AT_START: [&str; 4] = [
-    "start.q[1]=0.4133464981480585",
-    "start.q[2]=0.895282817659325",
-    "start.q[3]=0.1473540549832279",
-    "start.q[4]=0.07681231250728458",
-];
+const GUIDED_AT_START: &str = "\
+    start.q[1]=0.4133464981480585 --set start.q[2]=0.895282817659325 --set start.q[3]=0.1473540549832279 \
+    --set start.q[4]=0.07681231250728458";
 
-/// An FMU of a system: component, model, whether it is one of the probe's, spacecraft, start values, constants, whether it starts
-/// in the attitude that guidance commands.
-struct Component {
-    name: &'static str,
-    model: &'static str,
-    is_probe: bool,
-    spacecraft: Option<&'static str>,
-    start: &'static [&'static str],
-    fixed: &'static [&'static str],
-    starts_guided: bool,
+/// Options of `pack` in a text, with the attitude that guidance commands at the start by the name of its constant.
+pub fn options(text: &str) -> Vec<String> {
+    let text = text.replace("GUIDED_AT_START", GUIDED_AT_START);
+    text.split_whitespace().map(str::to_owned).collect()
 }
+
+/// An FMU of a system: component, model, spacecraft (without one it is one of the probe's models), further options of `pack`.
+type Component = (&'static str, &'static str, Option<&'static str>, &'static str);
 
 /// A system: file, that without enumerations if there is one, stop and step of its default experiment, components, further outputs
 /// that its connectors show, and connectors of the system itself, which libcosim refuses: a file that it reads has none.
@@ -48,31 +42,22 @@ const SYSTEMS: &[System] = &[
         stop: "1d",
         step: "1s",
         components: &[
-            Component {
-                name: "guidance",
-                model: "Guidance",
-                is_probe: false,
-                spacecraft: Some("messenger.toml"),
-                start: &["pointing.scenario=orbitPhase"],
-                fixed: &[],
-                starts_guided: true,
-            },
-            Component {
-                name: "plant",
-                model: "MomentumPlant",
-                is_probe: false,
-                spacecraft: Some("messenger-full.toml"),
-                // Forces and torques every 10 s: shadows then cost what a second without them does.
-                start: &["shadowing.enabled=true", "solver.dynamicsStep=10"],
-                // No command turns the body at once, nor while it waits for orbit or Sun: there is no algebraic loop.
-                fixed: &[
-                    "attitude.source=controlled",
-                    "command.source=inputs",
-                    "orbit.source=elements",
-                    "ephemeris.source=vsop87",
-                ],
-                starts_guided: true,
-            },
+            (
+                "guidance",
+                "Guidance",
+                Some("messenger.toml"),
+                "--set pointing.scenario=orbitPhase --set GUIDED_AT_START",
+            ),
+            // Forces and torques every 10 s: shadows then cost what a second without them does. No command turns the body at once,
+            // nor while it waits for orbit or Sun: there is no algebraic loop.
+            (
+                "plant",
+                "MomentumPlant",
+                Some("messenger-full.toml"),
+                "--set shadowing.enabled=true --set solver.dynamicsStep=10 --set GUIDED_AT_START \
+                 --fix attitude.source=controlled --fix command.source=inputs --fix orbit.source=elements \
+                 --fix ephemeris.source=vsop87",
+            ),
         ],
         outputs: "plant.attitude.q,plant.attitude.rate,plant.momentum.body,plant.momentum.inertial,plant.dump.count,\
                   guidance.mode.active",
@@ -89,24 +74,8 @@ const SYSTEMS: &[System] = &[
         stop: "12h",
         step: "10s",
         components: &[
-            Component {
-                name: "disturbance",
-                model: "DisturbanceTorque",
-                is_probe: false,
-                spacecraft: Some("messenger-thermal.toml"),
-                start: &[],
-                fixed: &[],
-                starts_guided: false,
-            },
-            Component {
-                name: "body",
-                model: "RigidBody",
-                is_probe: true,
-                spacecraft: None,
-                start: &[],
-                fixed: &[],
-                starts_guided: false,
-            },
+            ("disturbance", "DisturbanceTorque", Some("messenger-thermal.toml"), ""),
+            ("body", "RigidBody", None, ""),
         ],
         outputs: "body.attitude.q,body.attitude.rate",
         exports: None,
@@ -119,7 +88,7 @@ pub fn pack(built: &Built, scratch: &Path) -> Outcome {
         let mut fmus = Vec::new();
         for component in system.components {
             let fmu = pack_component(built, component, scratch)?;
-            fmus.push(format!("{}={}", component.name, fmu.display()));
+            fmus.push(format!("{}={}", component.0, fmu.display()));
         }
         let exports = system.exports.map_or_else(Vec::new, |exports| vec!["--export", exports]);
         let whole = [(system.file, exports)].into_iter();
@@ -153,20 +122,14 @@ fn record(built: &Built, file: &str) -> Outcome {
 }
 
 fn pack_component(built: &Built, component: &Component, scratch: &Path) -> Result<PathBuf, String> {
-    let fmu = scratch.join(format!("{}.fmu", component.name));
-    let library = if component.is_probe { &built.probe } else { &built.library };
+    let (name, model, spacecraft, further) = component;
+    let fmu = scratch.join(format!("{name}.fmu"));
+    let library = if spacecraft.is_some() { &built.library } else { &built.probe };
     let mut pack = command(&built.heliotorque);
-    pack.args(["pack", "--model", component.model, "--library"]).arg(library);
-    if let Some(spacecraft) = component.spacecraft {
+    pack.args(["pack", "--model", model, "--library"]).arg(library);
+    if let Some(spacecraft) = spacecraft {
         pack.arg("--spacecraft").arg(root().join("fmu-src").join("resources").join(spacecraft));
     }
-    let attitude = GUIDED_AT_START.iter().filter(|_| component.starts_guided);
-    for start in component.start.iter().chain(attitude) {
-        pack.args(["--set", start]);
-    }
-    for fixed in component.fixed {
-        pack.args(["--fix", fixed]);
-    }
-    run(pack.arg("--output").arg(&fmu))?;
+    run(pack.args(options(further)).arg("--output").arg(&fmu))?;
     Ok(fmu)
 }

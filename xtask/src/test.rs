@@ -12,31 +12,20 @@ const DRAWS: &str = "PROPTEST_RNG_SEED";
 /// Runs everything; stops at the first that fails.
 pub fn all() -> Outcome {
     if need("rustfmt", "the format check")? {
-        run(&mut cargo(&["fmt", "--all", "--check"]))?;
+        run(&mut cargo("fmt --all --check"))?;
         guide::check_format()?;
     }
     // Most of it is optimised on one core: lints and the tests' own build go on beside it.
     let library = Beside::start(&mut build::libraries())?;
-    if shell::output(&mut cargo(&["clippy", "--version"])).is_ok() {
-        run(&mut cargo(&[
-            "clippy",
-            "--locked",
-            "--release",
-            "--workspace",
-            "--all-targets",
-            "--all-features",
-            "--quiet",
-            "--",
-            "-D",
-            "warnings",
-        ]))?;
+    if shell::output(&mut cargo("clippy --version")).is_ok() {
+        run(&mut cargo(&format!("clippy {TESTS} --all-targets --quiet -- -D warnings")))?;
         guide::lint()?;
     } else if std::env::var_os("CI").is_some() {
         return Err("`cargo clippy` is missing".to_owned());
     } else {
         eprintln!("skipped: lints (no `cargo clippy` on this machine)");
     }
-    run(cargo(&["test", "--no-run"]).args(TESTS))?;
+    run(&mut cargo(&format!("test --no-run {TESTS}")))?;
     library.finish()?;
     let built = build::built();
     dist::pack_all(&built)?;
@@ -45,11 +34,12 @@ pub fn all() -> Outcome {
     std::thread::scope(|scope| {
         // It waits for one core, as some of the tests do.
         let client = scope.spawn(|| c_client(&built));
-        run(cargo(&["test"]).args(TESTS).envs(environment.clone()).envs(locale))?;
+        run(cargo(&format!("test {TESTS}")).envs(environment.clone()).envs(locale))?;
         client.join().map_err(|_| "the C client's thread panicked".to_owned())?
     })?;
     guide::test(environment.clone())?;
-    python(environment)
+    python(environment.clone(), "not long")?;
+    pytest(environment, &[INSTALLATION])
 }
 
 /// Where the tests find what was built, and the seed of their draws.
@@ -65,7 +55,7 @@ pub fn environment(built: &Built) -> Result<Vec<(&'static str, PathBuf)>, String
 /// The same, after building and packing what is stale.
 pub fn current_environment() -> Result<Vec<(&'static str, PathBuf)>, String> {
     run(&mut build::libraries())?;
-    run(cargo(&["test", "--no-run", "--quiet"]).args(TESTS))?;
+    run(&mut cargo(&format!("test --no-run --quiet {TESTS}")))?;
     let built = build::built();
     dist::pack_stale(&built)?;
     environment(&built)
@@ -79,19 +69,21 @@ pub fn print_environment() -> Outcome {
     Ok(())
 }
 
-/// Runs the tests in Python on up to four processes; the one that builds and packs anew after all that read what is there.
-fn python(environment: Vec<(&'static str, PathBuf)>) -> Outcome {
-    const INSTALLATION: &str = "tests/python/test_install.py";
-    let pytest = |arguments: &[&str]| {
-        run(command(python::interpreter()?)
-            .args(["-m", "pytest", "-q"])
-            .args(arguments)
-            .env("PYTHONDONTWRITEBYTECODE", "1")
-            .envs(environment.clone()))
-    };
+/// It builds and packs anew, so it runs after all that read what is there.
+const INSTALLATION: &str = "tests/python/test_install.py";
+
+fn pytest(environment: Vec<(&'static str, PathBuf)>, arguments: &[&str]) -> Outcome {
+    run(command(python::interpreter()?)
+        .args(["-m", "pytest", "-q"])
+        .args(arguments)
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .envs(environment))
+}
+
+/// Runs the tests in Python of a mark on up to four processes.
+pub fn python(environment: Vec<(&'static str, PathBuf)>, mark: &str) -> Outcome {
     let several = ["--numprocesses=auto", "--maxprocesses=4", "--dist=loadgroup"];
-    pytest(&[&several[..], &["--ignore", INSTALLATION, "tests/python"]].concat())?;
-    pytest(&[INSTALLATION])
+    pytest(environment, &[&several[..], &["-m", mark, "--ignore", INSTALLATION, "tests/python"]].concat())
 }
 
 /// An FMU whose library others built: FMPy's container around our plant.
@@ -110,25 +102,23 @@ fn c_client(built: &Built) -> Outcome {
         return Ok(());
     }
     let scratch = build::scratch("c-client")?;
-    let client = compile_c(&scratch, "client")?;
-    let unload = compile_c(&scratch, "unload")?;
-    run(command(&unload).arg(&built.library).arg(&built.probe).arg("1000").current_dir(&scratch))?;
-    run(command(&client).arg(&built.library).arg(&built.probe).current_dir(&scratch))?;
-    if need("valgrind", "the memory check of the C client")? {
-        run(command("valgrind")
-            .args(["--quiet", "--leak-check=full", "--errors-for-leak-kinds=definite", "--error-exitcode=9"])
-            .arg(&client)
-            .arg(&built.library)
-            .arg(&built.probe)
-            .arg("--short")
-            .current_dir(&scratch))?;
-        run(command("valgrind")
-            .args(["--quiet", "--leak-check=full", "--errors-for-leak-kinds=definite", "--error-exitcode=9"])
-            .arg(&unload)
-            .arg(&built.library)
-            .arg(&built.probe)
-            .arg("3")
-            .current_dir(&scratch))?;
+    let has_valgrind = need("valgrind", "the memory check of the C client")?;
+    // Of each program what it is told beside the libraries, alone and under valgrind, where it is slow.
+    for (name, whole, short) in [("unload", &["1000"][..], "3"), ("client", &[], "--short")] {
+        let program = compile_c(&scratch, name)?;
+        run(command(&program).arg(&built.library).arg(&built.probe).args(whole).current_dir(&scratch))?;
+        if has_valgrind {
+            run(command("valgrind")
+                .args(
+                    "--quiet --leak-check=full --errors-for-leak-kinds=definite --error-exitcode=9"
+                        .split(' '),
+                )
+                .arg(&program)
+                .arg(&built.library)
+                .arg(&built.probe)
+                .arg(short)
+                .current_dir(&scratch))?;
+        }
     }
     Ok(())
 }

@@ -82,7 +82,7 @@ fn declaration(attribute: &Attribute, causality: Causality) -> syn::Result<Decla
         start: None,
     };
     each_item(attribute, |item, word| {
-        if let Some(variability) = variability(word) {
+        if let Some(variability) = Variability::from_word(word) {
             return once(&mut all.variability, item, |_| Ok(variability));
         }
         match word {
@@ -170,26 +170,10 @@ fn value<T: syn::parse::Parse>(item: &ParseNestedMeta<'_>) -> syn::Result<T> {
     item.value()?.parse()
 }
 
-fn variability(word: &str) -> Option<Variability> {
-    Some(match word {
-        "constant" => Variability::Constant,
-        "fixed" => Variability::Fixed,
-        "tunable" => Variability::Tunable,
-        "discrete" => Variability::Discrete,
-        "continuous" => Variability::Continuous,
-        _ => return None,
-    })
-}
-
 fn initial(item: &ParseNestedMeta<'_>) -> syn::Result<Initial> {
     let word: Ident = value(item)?;
-    match word.to_string().as_str() {
-        "exact" => Ok(Initial::Exact),
-        "approx" => Ok(Initial::Approx),
-        "calculated" => Ok(Initial::Calculated),
-        other => Err(syn::Error::new(
-            word.span(),
-            format!("unknown initial `{other}`; allowed: exact, approx, calculated"),
-        )),
-    }
+    Initial::from_word(&word.to_string()).ok_or_else(|| {
+        let allowed = Initial::ALL.map(Initial::as_str).join(", ");
+        syn::Error::new(word.span(), format!("unknown initial `{word}`; allowed: {allowed}"))
+    })
 }

@@ -2,7 +2,7 @@
 
 use model_description::{
     Causality, Variability, names,
-    rules::{self, StartRule},
+    rules::{self, RoleFault},
     units,
 };
 use syn::{Expr, Ident, LitStr, spanned::Spanned};
@@ -28,37 +28,18 @@ pub fn variability(declared: &Declaration, kind: Kind) -> Variability {
 }
 
 fn role(declared: &Declaration, kind: Kind, field: &Ident) -> syn::Result<()> {
-    let at = |problem: String| Err(syn::Error::new(declared.span, problem));
-    let (causality, variability) = (declared.causality, variability(declared, kind));
-    if variability == Variability::Continuous && !kind.is_real() {
-        return at("only a Real can be continuous".to_owned());
-    }
-    let Some(rule) = rules::initial(causality, variability) else {
-        let allowed = list(rules::legal_variabilities(causality));
-        return at(format!("{causality} cannot be {variability}; allowed: {allowed}"));
-    };
-    if let Some(initial) = declared.initial
-        && !rule.allowed.contains(&initial)
-    {
-        let allowed = list(rule.allowed);
-        return at(format!("{variability} {causality} cannot have initial {initial}; allowed: {allowed}"));
-    }
-    let effective = rules::effective(causality, variability, declared.initial);
-    match (rules::start(causality, effective), &declared.start) {
-        (StartRule::Required, None) => {
-            Err(syn::Error::new(field.span(), format!("`{field}` needs a start value")))
-        }
-        (StartRule::Forbidden, Some(start)) => {
-            let problem = format!("`{field}` is calculated and cannot have a start value");
-            Err(syn::Error::new_spanned(start, problem))
-        }
-        _ => Ok(()),
-    }
-}
-
-fn list<T: core::fmt::Display>(all: impl IntoIterator<Item = T>) -> String {
-    let words: Vec<_> = all.into_iter().map(|word| word.to_string()).collect();
-    if words.is_empty() { "none".to_owned() } else { words.join(", ") }
+    let variability = variability(declared, kind);
+    let Declaration { causality, initial, start, .. } = declared;
+    let is_real = kind.is_real();
+    rules::check_role(*causality, variability, *initial, is_real, start.is_some()).map_err(
+        |fault| match fault {
+            RoleFault::Role(problem) => syn::Error::new(declared.span, problem),
+            RoleFault::StartMissing(problem) => syn::Error::new(field.span(), format!("`{field}` {problem}")),
+            RoleFault::StartForbidden(problem) => {
+                syn::Error::new_spanned(start, format!("`{field}` {problem}"))
+            }
+        },
+    )
 }
 
 fn unit(declared: &Declaration, kind: Kind, field: &Ident) -> syn::Result<()> {
@@ -88,7 +69,7 @@ fn unit(declared: &Declaration, kind: Kind, field: &Ident) -> syn::Result<()> {
     };
     match &declared.display {
         Some(display) if !known.has_display(&display.value()) => {
-            let allowed = list(known.display.iter().map(|(name, _)| *name));
+            let allowed = rules::listed(known.display.iter().map(|(name, _)| *name));
             Err(syn::Error::new(
                 display.span(),
                 format!("`{}` is no display unit of `{}`; allowed: {allowed}", display.value(), known.name),
@@ -109,25 +90,16 @@ fn limits(declared: &Declaration, kind: Kind) -> syn::Result<()> {
         |expression: &Option<Expr>| expression.as_ref().and_then(literal_numbers).unwrap_or_default();
     let (lows, highs, starts) = (literal(min), literal(max), literal(start));
     let above = |low: &[f64], high: &[f64]| low.iter().any(|low| high.iter().any(|high| low > high));
-    let error = |place: &Option<Expr>, problem: &str| {
-        Err(match place {
-            Some(place) => syn::Error::new_spanned(place, problem),
-            None => syn::Error::new(declared.span, problem),
-        })
-    };
-    if above(&lows, &highs) {
-        return error(min, "`min` is above `max`");
+    let faults = [
+        (above(&lows, &highs), min, "`min` is above `max`"),
+        (above(&lows, &starts), start, "`start` is below `min`"),
+        (above(&starts, &highs), start, "`start` is above `max`"),
+        (literal(nominal).iter().any(|value| *value <= 0.0), nominal, "`nominal` must be above 0"),
+    ];
+    match faults.into_iter().find(|(holds, ..)| *holds) {
+        Some((_, place, problem)) => Err(syn::Error::new_spanned(place, problem)),
+        None => Ok(()),
     }
-    if above(&lows, &starts) {
-        return error(start, "`start` is below `min`");
-    }
-    if above(&starts, &highs) {
-        return error(start, "`start` is above `max`");
-    }
-    if literal(nominal).iter().any(|value| *value <= 0.0) {
-        return error(nominal, "`nominal` must be above 0");
-    }
-    Ok(())
 }
 
 /// Checks a structured name (FMI 2.0.5, 2.2.9) and that it is new among `known`.

@@ -1,8 +1,8 @@
 //! The code behind `#[derive(Variables)]`: one call of the builder a field.
 
-use model_description::{Causality, Initial, Variability};
+use model_description::Variability;
 use proc_macro2::{Span, TokenStream};
-use quote::{format_ident, quote, quote_spanned};
+use quote::{ToTokens, format_ident, quote, quote_spanned};
 use syn::{Data, DeriveInput, Expr, Field, Fields, Ident, Type, spanned::Spanned};
 
 use crate::attribute::{self, Declaration, FieldAttribute, Group};
@@ -40,10 +40,7 @@ pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     }
     errors.finish()?;
 
-    let label = label.map(|label| {
-        let borrowed = quote_spanned! { label.span()=> ::core::convert::AsRef::<str>::as_ref(&#label) };
-        quote! { #scope.label(#borrowed); }
-    });
+    let label = label.as_ref().map(borrowed).map(|label| quote! { #scope.label(#label); });
     let struct_name = &input.ident;
     let (own_generics, type_generics, where_clause) = input.generics.split_for_impl();
     let mut generics = input.generics.clone();
@@ -123,19 +120,13 @@ fn declare(
     Some(match kind {
         Kind::Real | Kind::RealVector | Kind::RealMatrix => {
             let unit = declared.unit.as_ref().map(syn::LitStr::value);
-            let display = match &declared.display {
-                Some(display) => quote! { ::core::option::Option::Some(#display) },
-                None => quote! { ::core::option::Option::None },
-            };
+            let display = option(declared.display.as_ref());
             let nominal = option(declared.nominal.as_ref());
-            let method = format_ident!(
-                "{}",
-                match kind {
-                    Kind::RealVector => "real_vector",
-                    Kind::RealMatrix => "real_matrix",
-                    _ => "real",
-                }
-            );
+            let method = match kind {
+                Kind::RealVector => quote! { real_vector },
+                Kind::RealMatrix => quote! { real_matrix },
+                _ => quote! { real },
+            };
             quote! {
                 #scope.#method(
                     &::fmi_export::variables::RealSpec {
@@ -155,14 +146,10 @@ fn declare(
         Kind::Integer => quote! { #scope.integer(#spec, #start, #min, #max) },
         Kind::Boolean => quote! { #scope.boolean(#spec, #start) },
         Kind::Choice => quote! { #scope.choice(#spec, #start) },
-        Kind::Text => match &declared.start {
-            Some(start) => {
-                let borrowed =
-                    quote_spanned! { start.span()=> ::core::convert::AsRef::<str>::as_ref(&#start) };
-                quote! { #scope.text(#spec, ::core::option::Option::Some(#borrowed)) }
-            }
-            None => quote! { #scope.text(#spec, ::core::option::Option::None) },
-        },
+        Kind::Text => {
+            let start = option(declared.start.as_ref().map(borrowed).as_ref());
+            quote! { #scope.text(#spec, #start) }
+        }
     })
 }
 
@@ -204,7 +191,12 @@ fn declare_element(element: &Type, setup: Option<&Expr>, scope: &Ident) -> Token
     }
 }
 
-fn option(expression: Option<&Expr>) -> TokenStream {
+/// The text of an expression.
+fn borrowed(text: &Expr) -> TokenStream {
+    quote_spanned! { text.span()=> ::core::convert::AsRef::<str>::as_ref(&#text) }
+}
+
+fn option(expression: Option<&(impl Spanned + ToTokens)>) -> TokenStream {
     match expression {
         Some(expression) => quote_spanned! { expression.span()=> ::core::option::Option::Some(#expression) },
         None => quote! { ::core::option::Option::None },
@@ -212,32 +204,10 @@ fn option(expression: Option<&Expr>) -> TokenStream {
 }
 
 fn role_tokens(declared: &Declaration, variability: Variability) -> TokenStream {
-    let word = |text: &str| Ident::new(text, Span::call_site());
-    let causality = word(match declared.causality {
-        Causality::Parameter => "Parameter",
-        Causality::CalculatedParameter => "CalculatedParameter",
-        Causality::Input => "Input",
-        Causality::Output => "Output",
-        Causality::Local => "Local",
-        Causality::Independent => "Independent",
-    });
-    let variability = word(match variability {
-        Variability::Constant => "Constant",
-        Variability::Fixed => "Fixed",
-        Variability::Tunable => "Tunable",
-        Variability::Discrete => "Discrete",
-        Variability::Continuous => "Continuous",
-    });
-    let initial = match declared.initial {
-        Some(Initial::Exact) => {
-            quote! { ::core::option::Option::Some(::fmi_export::variables::Initial::Exact) }
-        }
-        Some(Initial::Approx) => {
-            quote! { ::core::option::Option::Some(::fmi_export::variables::Initial::Approx) }
-        }
-        Some(Initial::Calculated) => {
-            quote! { ::core::option::Option::Some(::fmi_export::variables::Initial::Calculated) }
-        }
+    let variant = |name: &dyn core::fmt::Debug| Ident::new(&format!("{name:?}"), Span::call_site());
+    let (causality, variability) = (variant(&declared.causality), variant(&variability));
+    let initial = match declared.initial.map(|initial| variant(&initial)) {
+        Some(initial) => quote! { ::core::option::Option::Some(::fmi_export::variables::Initial::#initial) },
         None => quote! { ::core::option::Option::None },
     };
     quote! {

@@ -8,9 +8,10 @@
 
 use std::collections::BTreeMap;
 
+use model_description::BaseType;
 use serde::Serialize;
 
-use crate::variables::{Boolean, Choice, Element, Elements, Integer, Real, RealMatrix, RealVector, Text};
+use crate::variables::{Element, Elements};
 
 /// A set of scalar variables of any type: for each table of values one bit a place, in words up to the last that is not
 /// zero.
@@ -45,10 +46,10 @@ impl Knowns {
     /// The elements in ascending order.
     pub(crate) fn elements(&self) -> impl Iterator<Item = Element> + '_ {
         let bits = |word: u64| (0..u64::BITS).filter(move |bit| word >> bit & 1 == 1);
-        self.0.iter().enumerate().flat_map(move |(table, words)| {
+        BaseType::ALL.into_iter().zip(&self.0).flat_map(move |(base, words)| {
             let places =
                 (0..).zip(words).flat_map(move |(at, &word)| bits(word).map(move |bit| at * u64::BITS + bit));
-            places.filter_map(move |place| Element::of_table(table, place))
+            places.map(move |place| Element { base, place })
         })
     }
 
@@ -68,10 +69,10 @@ impl Knowns {
         }
     }
 
-    fn span(Elements { first, count }: Elements) -> Self {
+    pub(crate) fn span(Elements { first, count }: Elements) -> Self {
         let mut set = Self::default();
         let words = &mut set.0[first.table()];
-        for place in (first.place()..).take(count) {
+        for place in (first.place..).take(count) {
             let at = (place / u64::BITS) as usize;
             if words.len() <= at {
                 words.resize(at + 1, 0);
@@ -109,36 +110,6 @@ impl<T: Section> Section for Vec<T> {
 impl<T: Section> From<&T> for Knowns {
     fn from(group: &T) -> Self {
         group.section()
-    }
-}
-
-macro_rules! from_scalar {
-    ($($handle:ty),*) => { $(
-        impl From<$handle> for Knowns {
-            fn from(handle: $handle) -> Self {
-                Self::span(handle.into())
-            }
-        }
-    )* };
-}
-
-from_scalar!(Real, Integer, Boolean, Text);
-
-impl<E> From<Choice<E>> for Knowns {
-    fn from(handle: Choice<E>) -> Self {
-        Self::span(handle.into())
-    }
-}
-
-impl<const N: usize> From<RealVector<N>> for Knowns {
-    fn from(handle: RealVector<N>) -> Self {
-        Self::span(handle.into())
-    }
-}
-
-impl<const R: usize, const C: usize> From<RealMatrix<R, C>> for Knowns {
-    fn from(handle: RealMatrix<R, C>) -> Self {
-        Self::span(handle.into())
     }
 }
 

@@ -24,7 +24,7 @@ pub mod model;
 mod panics;
 mod runtime;
 mod start_values;
-pub mod state_bytes;
+mod state_bytes;
 pub mod time;
 pub mod variables;
 
@@ -34,7 +34,7 @@ pub use fmi_export_derive::{Enumeration, Variables};
 pub use library::{Entry, Library};
 pub use model::{
     About, Context, Differentiable, Extensions, Failure, InputDerivative, InputsOverTime, Manual, Model,
-    OutputRates, SetupError, SetupValue, Source, StartValue, Step, StepEnd,
+    OutputRates, SetupError, SetupValue, StartValue, Step, StepEnd,
 };
 pub use model_description::{self, BaseType, Status};
 pub use variables::{

@@ -1,23 +1,29 @@
 //! The models of one shared library, and how an importer's GUID finds its model.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 
 use crate::fmi2::description::{DescribeError, Prepared, prepare, start_names};
-use crate::location::{self, Resources};
-use crate::model::{Manual, Model, SetupError, Source};
+use crate::location;
+use crate::model::{Manual, Model, SetupError};
 use crate::panics::contain;
 use crate::start_values::{OtherReaders, Reader};
 
 /// One model of a library, its type erased.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
-    name: &'static str,
-    setup_file: Option<&'static str>,
-    schedule_files: &'static [&'static str],
-    default_setup: &'static str,
-    reference_inputs: &'static str,
-    manual: Manual,
-    sources: &'static [Source],
+    /// The model's name.
+    pub name: &'static str,
+    /// The file under `resources/` that holds the setup.
+    pub setup_file: Option<&'static str>,
+    /// The files under `resources/` that may hold schedules.
+    pub schedule_files: &'static [&'static str],
+    /// The compiled-in setup text.
+    pub default_setup: &'static str,
+    /// The inputs of its reference flight.
+    pub reference_inputs: &'static str,
+    /// The beginning of its manual.
+    pub manual: Manual,
     prepare: fn(&str, &str, OtherReaders<'_>) -> Result<Prepared, DescribeError>,
     start_names: fn(&str, &str) -> Option<BTreeSet<String>>,
 }
@@ -32,45 +38,9 @@ impl Entry {
             default_setup: M::DEFAULT_SETUP,
             reference_inputs: M::REFERENCE_INPUTS,
             manual: M::MANUAL,
-            sources: M::SOURCES,
             prepare: prepare::<M>,
             start_names: start_names::<M>,
         }
-    }
-
-    /// The model's name.
-    pub const fn name(&self) -> &'static str {
-        self.name
-    }
-
-    /// The file under `resources/` that holds the setup.
-    pub const fn setup_file(&self) -> Option<&'static str> {
-        self.setup_file
-    }
-
-    /// The files under `resources/` that may hold schedules.
-    pub const fn schedule_files(&self) -> &'static [&'static str] {
-        self.schedule_files
-    }
-
-    /// The compiled-in setup text.
-    pub const fn default_setup(&self) -> &'static str {
-        self.default_setup
-    }
-
-    /// The inputs of its reference flight.
-    pub const fn reference_inputs(&self) -> &'static str {
-        self.reference_inputs
-    }
-
-    /// The beginning of its manual.
-    pub const fn manual(&self) -> &Manual {
-        &self.manual
-    }
-
-    /// By what the model computes.
-    pub const fn sources(&self) -> &'static [Source] {
-        self.sources
     }
 
     /// Describes the model for a setup text, the compiled-in one if `None`; `file` names it in errors. Start values for
@@ -83,12 +53,6 @@ impl Entry {
         self.prepare(file, setup_text, &[]).map(|prepared| prepared.description)
     }
 
-    /// The names that start values in this setup text may have for this model; `None` if it cannot take the text.
-    fn start_names(&self, file: &str, setup_text: &str) -> Option<BTreeSet<String>> {
-        self.setup_file?;
-        (self.start_names)(file, setup_text)
-    }
-
     pub(crate) fn prepare(
         &self,
         file: Option<&str>,
@@ -98,7 +62,8 @@ impl Entry {
         let file = file.or(self.setup_file).unwrap_or("the built-in setup");
         let text = setup_text.unwrap_or(self.default_setup);
         let reader = |other: &Self| {
-            let names = contain(|| other.start_names(file, text)).ok().flatten()?;
+            other.setup_file?;
+            let names = contain(|| (other.start_names)(file, text)).ok().flatten()?;
             Some(Reader { model: other.name, names })
         };
         let others = || library.iter().filter(|other| other.name != self.name).filter_map(reader).collect();
@@ -110,9 +75,9 @@ impl Entry {
     fn with_schedules_at(
         &self,
         mut prepared: Prepared,
-        resources: &Result<Resources, String>,
+        resources: &Result<Option<PathBuf>, String>,
     ) -> Result<Prepared, String> {
-        let Ok(Resources::Folder(folder)) = resources else { return Ok(prepared) };
+        let Ok(Some(folder)) = resources else { return Ok(prepared) };
         for file in self.schedule_files {
             if let Some(text) = location::read_if_there(folder, file)? {
                 Self::take_schedule(&mut prepared, file, file, &text).map_err(|error| error.to_string())?;
@@ -191,16 +156,16 @@ impl Library {
         let mut tried = Vec::new();
         for entry in self.entries {
             let text = match (entry.setup_file, &resources) {
-                (None, _) | (_, Ok(Resources::None)) => Ok(None),
+                (None, _) | (_, Ok(None)) => Ok(None),
                 (Some(_), Err(problem)) => Err(problem.clone()),
-                (Some(file), Ok(Resources::Folder(folder))) => texts
+                (Some(file), Ok(Some(folder))) => texts
                     .entry(file)
                     .or_insert_with(|| location::read(folder, file))
                     .as_ref()
                     .map(|text| Some(text.as_str()))
                     .map_err(Clone::clone),
             };
-            let file = entry.setup_file.filter(|_| !matches!(resources, Ok(Resources::None)));
+            let file = entry.setup_file.filter(|_| !matches!(resources, Ok(None)));
             let was_read = text.is_ok();
             let outcome = match text.map(|text| entry.prepare(None, text, self.entries)) {
                 Ok(Ok(prepared)) if prepared.description.guid == guid => {
@@ -249,7 +214,11 @@ fn refusal(guid: &str, mut tried: Vec<Tried>) -> String {
     let with_file = || tried.iter().filter(|it| it.file.is_some());
     let lead = if let Some(index) = tried.iter().position(|it| it.is_changed(guid)) {
         tried = vec![tried.swap_remove(index)];
-        tried.iter().map(|it| changed(guid, it)).collect()
+        let (file, name) = (tried[0].file.unwrap_or_default(), tried[0].entry.name);
+        format!(
+            "{file}: the file was changed after packing: pack the FMU again (the requested GUID {guid} is that of {name} \
+             with its original {file})"
+        )
     } else if with_file().next().is_some() && with_file().all(|it| !it.was_read) {
         let reasons: BTreeSet<String> = with_file().filter_map(|it| it.outcome.clone().err()).collect();
         tried.retain(|it| it.file.is_none());
@@ -278,14 +247,6 @@ fn refusal(guid: &str, mut tried: Vec<Tried>) -> String {
         }
     }
     verdicts.iter().fold(lead, |text, (names, verdict)| format!("{text}; {names} {verdict}"))
-}
-
-fn changed(guid: &str, it: &Tried) -> String {
-    let (file, name) = (it.file.unwrap_or_default(), it.entry.name);
-    format!(
-        "{file}: the file was changed after packing: pack the FMU again (the requested GUID {guid} is that of {name} \
-         with its original {file})"
-    )
 }
 
 fn joined(texts: BTreeSet<String>, separator: &str) -> String {

@@ -13,23 +13,14 @@ use percent_encoding::percent_decode;
 /// No file is larger than this.
 const MAX_BYTES: u64 = 64 << 20;
 
-/// What the location gave.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Resources {
-    /// NULL or empty: the compiled-in setup is used.
-    None,
-    /// A folder that exists.
-    Folder(PathBuf),
-}
-
-/// The folder a resource location means; the error shows the location and what is wrong with it.
-pub(crate) fn resolve(location: &[u8]) -> Result<Resources, String> {
+/// The folder a resource location means, `None` where that is empty: the compiled-in setup is used then. The error shows the location and what is wrong with it.
+pub(crate) fn resolve(location: &[u8]) -> Result<Option<PathBuf>, String> {
     if location.is_empty() {
-        return Ok(Resources::None);
+        return Ok(None);
     }
     let candidates = paths(location, cfg!(windows))?;
     match candidates.iter().find(|path| path.is_dir()) {
-        Some(folder) => Ok(Resources::Folder(folder.clone())),
+        Some(folder) => Ok(Some(folder.clone())),
         None => Err(format!(
             "the resource location `{}` means the folder `{}`, which does not exist",
             String::from_utf8_lossy(location),

@@ -28,49 +28,42 @@ impl Category {
     /// Every category, in the order of the XML.
     pub const ALL: [Self; 5] = [Self::Events, Self::Warning, Self::Discard, Self::Error, Self::All];
 
-    /// Name in the XML and at the C interface.
-    pub const fn name(self) -> &'static CStr {
+    /// Name in the XML and at the C interface, and description.
+    const fn row(self) -> (&'static CStr, &'static str) {
         match self {
-            Self::Events => c"logEvents",
-            Self::Warning => c"logStatusWarning",
-            Self::Discard => c"logStatusDiscard",
-            Self::Error => c"logStatusError",
-            Self::All => c"logAll",
-        }
-    }
-
-    /// The category's description.
-    pub const fn description(self) -> &'static str {
-        match self {
-            Self::Events => {
-                "events inside the model, with their times, and what an importer does beyond the standard"
+            Self::Events => (
+                c"logEvents",
+                "events inside the model, with their times, and what an importer does beyond the standard",
+            ),
+            Self::Warning => {
+                (c"logStatusWarning", "something odd that the simulation goes on with; logged always")
             }
-            Self::Warning => "something odd that the simulation goes on with; logged always",
-            Self::Discard => "values or steps that were not accepted; logged always",
-            Self::Error => "calls that failed; logged always",
-            Self::All => "all messages",
+            Self::Discard => (c"logStatusDiscard", "values or steps that were not accepted; logged always"),
+            Self::Error => (c"logStatusError", "calls that failed; logged always"),
+            Self::All => (c"logAll", "all messages"),
         }
     }
 
     /// The category of a name.
     pub fn from_name(name: &CStr) -> Option<Self> {
-        Self::ALL.into_iter().find(|category| category.name() == name)
+        Self::ALL.into_iter().find(|category| category.row().0 == name)
     }
 
     /// The `LogCategories` of the XML.
     pub fn declared() -> Vec<LogCategory> {
         Self::ALL
             .into_iter()
-            .map(|category| LogCategory {
-                name: category.name().to_string_lossy().into_owned(),
-                description: Some(category.description().to_owned()),
+            .map(Self::row)
+            .map(|(name, description)| LogCategory {
+                name: name.to_string_lossy().into_owned(),
+                description: Some(description.to_owned()),
             })
             .collect()
     }
 
     /// The names, for messages.
     pub(crate) fn names() -> String {
-        Self::ALL.map(|category| category.name().to_string_lossy().into_owned()).join(", ")
+        Self::ALL.map(|category| category.row().0.to_string_lossy().into_owned()).join(", ")
     }
 
     const fn bit(self) -> u8 {
@@ -128,11 +121,6 @@ impl Logger {
         });
     }
 
-    /// Enables no category; what is always logged still passes.
-    pub(crate) fn enable_nothing(&self) {
-        self.enabled.set(0);
-    }
-
     /// Back to the setting with which the instance was made.
     pub(crate) fn reset(&self) {
         self.enabled.set(self.initially);
@@ -164,7 +152,7 @@ impl Logger {
         let _ = Escaped(buffer).write_fmt(message);
         buffer.push('\0');
         if let Ok(text) = CStr::from_bytes_with_nul(buffer.as_bytes()) {
-            self.sink.write(&self.instance_name, status, Category::of_status(status).name(), text);
+            self.sink.write(&self.instance_name, status, Category::of_status(status).row().0, text);
         }
     }
 }

@@ -24,19 +24,17 @@ pub trait Model: Sized + 'static {
     /// Raised whenever the meaning of `State` changes; part of the GUID.
     const STATE_VERSION: u32;
     /// File under `resources/` that holds the setup, or `None` for a model without resources.
-    const SETUP_FILE: Option<&'static str>;
+    const SETUP_FILE: Option<&'static str> = None;
     /// Files under `resources/` that hold schedules, what is commanded or known over time, each of which may be there beside
     /// the setup. A schedule does not enter the GUID: one FMU flies many.
     const SCHEDULE_FILES: &'static [&'static str] = &[];
     /// The compiled-in setup text, used when an importer gives no resource location.
-    const DEFAULT_SETUP: &'static str;
+    const DEFAULT_SETUP: &'static str = "";
     /// Inputs of the reference flight that a packed FMU carries: CSV whose first column, `time`, counts steps of the default
     /// experiment. Columns that a setup has no input for are left out.
     const REFERENCE_INPUTS: &'static str = "";
     /// What the model is and how it is used, for its manual.
     const MANUAL: Manual = Manual::NONE;
-    /// By what the model computes, for its manual.
-    const SOURCES: &'static [Source] = &[];
     /// The optional traits that the model has beside this one.
     const EXTENSIONS: Extensions<Self> = Extensions::none();
 
@@ -270,7 +268,13 @@ impl<'a> InputsOverTime<'a> {
     /// An input at `time_s`.
     #[inline]
     pub fn real(&self, values: &Values, input: Real, time_s: f64) -> f64 {
-        let mut sum = values.real(input);
+        self.from_held(values.real(input), input, time_s)
+    }
+
+    /// An input that has the value `held` where the derivatives hold, at `time_s`.
+    #[inline]
+    pub fn from_held(&self, held: f64, input: Real, time_s: f64) -> f64 {
+        let mut sum = held;
         for &InputDerivative { input: of, order, value } in self.derivatives {
             if of == input {
                 let dt_s = time_s - self.start_s;
@@ -383,15 +387,6 @@ pub enum SetupValue {
     },
 }
 
-/// By what a quantity of a model is computed, or what a name of a source stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Source {
-    /// The quantity or the name.
-    pub what: &'static str,
-    /// Paper and equation, method, title.
-    pub by: &'static str,
-}
-
 /// The beginning of a model's manual.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Manual {
@@ -403,11 +398,34 @@ pub struct Manual {
     pub closed_loop: &'static str,
     /// Frames and units, in HTML with a drawing.
     pub frames: &'static str,
+    /// By what the model computes, in blocks between empty lines: a quantity or the name of a source, then lines with paper
+    /// and equation, method or title.
+    pub sources: &'static str,
+    /// Blocks that several models have: one without lines in `sources` has those that it has here.
+    pub shared_sources: &'static str,
 }
 
 impl Manual {
     /// Of a model without.
-    pub const NONE: Self = Self { about: "", example: "", closed_loop: "", frames: "" };
+    pub const NONE: Self =
+        Self { about: "", example: "", closed_loop: "", frames: "", sources: "", shared_sources: "" };
+
+    /// What is computed, or named, and by what.
+    pub fn sources(&self) -> impl Iterator<Item = (&'static str, String)> {
+        let shared = self.shared_sources;
+        blocks(self.sources).map(move |(what, by)| {
+            let is_shared = |(known, _): &(&str, String)| by.is_empty() && *known == what;
+            blocks(shared).find(is_shared).unwrap_or((what, by))
+        })
+    }
+}
+
+/// First line and joined rest of every block of a text.
+fn blocks(text: &'static str) -> impl Iterator<Item = (&'static str, String)> {
+    text.split("\n\n").filter_map(|block| {
+        let mut lines = block.lines().map(str::trim);
+        Some((lines.next()?, lines.collect::<Vec<_>>().join(" ")))
+    })
 }
 
 /// Why a model cannot go on; the text reaches the log.

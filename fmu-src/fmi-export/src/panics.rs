@@ -23,7 +23,7 @@ thread_local! {
 
 /// For a shared library, whose every panic is contained: nothing goes to standard error. The standard hook, if RUST_BACKTRACE
 /// is set, would also map the library's file into memory for good.
-pub(crate) fn silence() {
+pub fn silence() {
     static ONCE: Once = Once::new();
     // Neither captures anything, so nothing is allocated that an unloaded library would leak.
     ONCE.call_once(|| set_hook(Box::new(note)));

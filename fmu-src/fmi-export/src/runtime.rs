@@ -18,8 +18,6 @@ pub(crate) trait Runtime: Send {
     /// Writes parameters as they act.
     fn settle_parameters(&self, values: &mut Values, log: &dyn Log);
     fn step(&mut self, values: &mut Values, step: &Step<'_>, log: &dyn Log) -> Result<StepEnd, Failure>;
-    /// Whether the model knows how fast its outputs change.
-    fn has_output_rates(&self) -> bool;
     fn output_rate(&self, values: &Values, output: Real, log: &dyn Log) -> Result<f64, Failure>;
     fn jacobian_vector_product(
         &self,
@@ -29,8 +27,6 @@ pub(crate) trait Runtime: Send {
         products: &mut [f64],
         log: &dyn Log,
     ) -> Result<(), Failure>;
-    /// The parameter that the experiment's tolerance stands in for.
-    fn tolerance(&self) -> Option<Real>;
     /// Forgets the state.
     fn clear(&mut self);
     /// A copy of the state, in `reuse` where its type allows.
@@ -94,10 +90,6 @@ impl<M: Model> Runtime for Typed<M> {
         M::step(&context, values, state, step)
     }
 
-    fn has_output_rates(&self) -> bool {
-        M::EXTENSIONS.output_rate.is_some()
-    }
-
     fn output_rate(&self, values: &Values, output: Real, log: &dyn Log) -> Result<f64, Failure> {
         let state = self.state.as_ref().ok_or_else(not_initialized)?;
         let rate = M::EXTENSIONS.output_rate.and_then(|rate| rate(&self.context(log), values, state, output));
@@ -117,10 +109,6 @@ impl<M: Model> Runtime for Typed<M> {
             return Err(Failure::new("this model provides no directional derivatives"));
         };
         product(&self.context(log), values, state, unknowns, seeds, products)
-    }
-
-    fn tolerance(&self) -> Option<Real> {
-        M::tolerance(&self.variables)
     }
 
     fn clear(&mut self) {

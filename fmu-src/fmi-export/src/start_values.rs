@@ -147,14 +147,8 @@ pub(crate) fn apply(
 
 /// How many variables of the same base type are declared before this one.
 fn position_in_table(variables: &[ScalarVariable], index: usize) -> usize {
-    let base = |variable: &ScalarVariable| match variable.kind {
-        VariableKind::Real { .. } => 0,
-        VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => 1,
-        VariableKind::Boolean { .. } => 2,
-        VariableKind::String { .. } => 3,
-    };
-    let own = variables.get(index).map(base);
-    variables.iter().take(index).filter(|variable| Some(base(variable)) == own).count()
+    let base = variables.get(index).map(|variable| variable.kind.base_type());
+    variables.iter().take(index).filter(|variable| Some(variable.kind.base_type()) == base).count()
 }
 
 /// The variables, by position, that an entry sets, with their values; none if it is for other models.

@@ -3,6 +3,8 @@
 //! Layout, little endian: mark (8), layout version (4), GUID digest (16), payload length (8), checksum of the payload
 //! (8), payload.
 
+use core::fmt::Display;
+
 use uuid::Uuid;
 
 use crate::model::Failure;
@@ -12,53 +14,24 @@ const LAYOUT: u32 = 3;
 /// Bytes before the payload.
 pub(crate) const HEADER: usize = 8 + 4 + 16 + 8 + 8;
 
-/// Why an FMU state or its bytes are refused.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum StateMismatch {
-    /// Not produced by this export tool.
-    #[error("these bytes are no FMU state of this tool: they do not begin with its mark")]
-    Mark,
-    /// A layout this library does not know.
-    #[error("the FMU state has layout version {found}, this library reads {expected}")]
-    Version {
-        /// In the bytes.
-        found: u32,
-        /// What can be read.
-        expected: u32,
-    },
-    /// Another model, or the same model with another setup.
-    #[error(
-        "the FMU state belongs to another model or another setup (GUID digest {found}, expected {expected})"
-    )]
-    Guid {
-        /// In the state.
-        found: uuid::Uuid,
-        /// Of this instance.
-        expected: uuid::Uuid,
-    },
-    /// Cut short or padded.
-    #[error("the FMU state has {found} bytes, expected {expected}")]
-    Length {
-        /// Bytes given.
-        found: u64,
-        /// Bytes announced or needed.
-        expected: u64,
-    },
-    /// Damaged.
-    #[error("the FMU state is damaged: its checksum does not match")]
-    Checksum,
-    /// Of a flight with numbers that no simulation can go on with.
-    #[error("the FMU state cannot be written, because it could not be read: {0}")]
-    Unreadable(String),
-    /// Well sealed, but its content makes no sense for this model.
-    #[error("the FMU state is damaged: {0}")]
-    Content(String),
+/// Why an FMU state is refused: it is well sealed, but its content makes no sense for this model.
+pub(crate) fn damaged(what: impl Display) -> Failure {
+    Failure::new(format!("the FMU state is damaged: {what}"))
 }
 
-impl From<Failure> for StateMismatch {
-    fn from(failure: Failure) -> Self {
-        Self::Content(failure.to_string())
+/// The refusal of bytes that are cut short.
+pub(crate) fn wrong_length(found: usize, expected: u64) -> Failure {
+    Failure::new(format!("the FMU state has {found} bytes, expected {expected}"))
+}
+
+/// Refuses the state of another model, or of the same model with another setup.
+pub(crate) fn check_digest(found: Uuid, expected: Uuid) -> Result<(), Failure> {
+    if found == expected {
+        return Ok(());
     }
+    Err(Failure::new(format!(
+        "the FMU state belongs to another model or another setup (GUID digest {found}, expected {expected})"
+    )))
 }
 
 /// Writes the header of a payload.
@@ -77,31 +50,33 @@ pub(crate) fn seal(header: &mut [u8], digest: Uuid, payload: &[u8]) {
 }
 
 /// The payload behind a valid header of this digest.
-pub(crate) fn unsealed(bytes: &[u8], expected: Uuid) -> Result<&[u8], StateMismatch> {
-    let short = || StateMismatch::Length { found: bytes.len() as u64, expected: HEADER as u64 };
+pub(crate) fn unsealed(bytes: &[u8], expected: Uuid) -> Result<&[u8], Failure> {
+    let short = || wrong_length(bytes.len(), HEADER as u64);
     let (mark, rest) = bytes.split_first_chunk::<8>().ok_or_else(short)?;
     if *mark != MARK {
-        return Err(StateMismatch::Mark);
+        return Err(Failure::new(
+            "these bytes are no FMU state of this tool: they do not begin with its mark",
+        ));
     }
     let (layout, rest) = rest.split_first_chunk::<4>().ok_or_else(short)?;
     let found = u32::from_le_bytes(*layout);
     if found != LAYOUT {
-        return Err(StateMismatch::Version { found, expected: LAYOUT });
+        return Err(Failure::new(format!(
+            "the FMU state has layout version {found}, this library reads {LAYOUT}"
+        )));
     }
     let (digest, rest) = rest.split_first_chunk::<16>().ok_or_else(short)?;
-    let found = Uuid::from_bytes(*digest);
-    if found != expected {
-        return Err(StateMismatch::Guid { found, expected });
-    }
+    check_digest(Uuid::from_bytes(*digest), expected)?;
     let (length, rest) = rest.split_first_chunk::<8>().ok_or_else(short)?;
     let (sum, rest) = rest.split_first_chunk::<8>().ok_or_else(short)?;
     let length = u64::from_le_bytes(*length);
     // A buffer may be longer than the state, never shorter.
-    let payload = usize::try_from(length).ok().and_then(|length| rest.get(..length)).ok_or_else(|| {
-        let expected = length.saturating_add(HEADER as u64);
-        StateMismatch::Length { found: bytes.len() as u64, expected }
-    })?;
-    if checksum(payload) == u64::from_le_bytes(*sum) { Ok(payload) } else { Err(StateMismatch::Checksum) }
+    let payload = usize::try_from(length).ok().and_then(|length| rest.get(..length));
+    let payload = payload.ok_or_else(|| wrong_length(bytes.len(), length.saturating_add(HEADER as u64)))?;
+    match checksum(payload) == u64::from_le_bytes(*sum) {
+        true => Ok(payload),
+        false => Err(damaged("its checksum does not match")),
+    }
 }
 
 /// FNV-1a, 64 bits: guards against damage, not against intent.

@@ -1,17 +1,13 @@
 //! When two times count as the same.
 
-/// Largest difference between two communication points that are meant to be the same, in s, for a step of
-/// `step_size_s` at `time_s`: a few roundings of the larger of the two, and a millionth of the step.
+/// Whether `time_s` is `expected_s` for a step of `step_size_s`: they differ by a few roundings of the larger of the times and the
+/// step, and a millionth of the step. False for anything that is not finite.
 ///
 /// Masters compute communication points as sums, as products or from integer nanoseconds; all of these agree
 /// to within this, and no real mistake does.
-pub fn tolerance_s(time_s: f64, step_size_s: f64) -> f64 {
-    16.0 * f64::EPSILON * time_s.abs().max(step_size_s.abs()) + 1e-6 * step_size_s.abs()
-}
-
-/// Whether `time_s` is `expected_s` for a step of `step_size_s`; false for anything that is not finite.
 pub fn is_same(time_s: f64, expected_s: f64, step_size_s: f64) -> bool {
-    (time_s - expected_s).abs() <= tolerance_s(time_s.abs().max(expected_s.abs()), step_size_s)
+    let greatest_s = time_s.abs().max(expected_s.abs()).max(step_size_s.abs());
+    (time_s - expected_s).abs() <= 16.0 * f64::EPSILON * greatest_s + 1e-6 * step_size_s.abs()
 }
 
 #[cfg(test)]

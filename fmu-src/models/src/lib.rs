@@ -5,7 +5,6 @@ mod disturbance_torque;
 mod guidance;
 mod manuals;
 mod momentum_plant;
-mod sources;
 mod spin_plant;
 
 pub use disturbance_torque::{DisturbanceSetup, DisturbanceTorque};

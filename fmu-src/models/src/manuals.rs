@@ -9,6 +9,8 @@ macro_rules! manual {
             example: include_str!(concat!("../../resources/manual/", $model, "/example.py")),
             closed_loop: include_str!(concat!("../../resources/manual/", $model, "/closed_loop.py")),
             frames: include_str!(concat!("../../resources/manual/", $frame, ".html")),
+            sources: include_str!(concat!("../../resources/manual/", $model, "/sources.txt")),
+            shared_sources: include_str!("../../resources/manual/sources.txt"),
         }
     };
 }
@@ -21,3 +23,18 @@ pub const DISTURBANCE_TORQUE: Manual = manual!("DisturbanceTorque", "body_frame"
 pub const SPIN_PLANT: Manual = manual!("SpinPlant", "spin_frame");
 /// Of Guidance.
 pub const GUIDANCE: Manual = manual!("Guidance", "body_frame");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_source_says_by_what() {
+        for manual in [MOMENTUM_PLANT, DISTURBANCE_TORQUE, SPIN_PLANT, GUIDANCE] {
+            assert!(manual.sources().count() > 10);
+            for (what, by) in manual.sources() {
+                assert!(!by.is_empty(), "{what}");
+            }
+        }
+    }
+}

@@ -23,9 +23,7 @@ use physics::radiation::flat_plate::force_per_area_pa;
 use physics::radiation::grid::PlanetGrid;
 use physics::radiation::ring::{PlanetView, RingRule};
 use physics::radiation::shadow::{Outline, ShadowScene, ShadowWorkspace};
-use physics::spacecraft::{
-    MESSENGER_THERMAL_TOML, Optics, Plate, Polygon, PolygonError, Spacecraft, Thermal,
-};
+use physics::spacecraft::{MESSENGER_THERMAL_TOML, Optics, Plate, Polygon, Spacecraft};
 
 const RUNS: usize = 301;
 
@@ -216,10 +214,6 @@ fn evaluations(
         let angles = [T::constant(0.0); 2];
         let sun = constant_vector::<T>(&-Vector3::y());
         let geometry = Geometry {
-            sun_direction_body: sun,
-            sun_sine: T::constant(0.0),
-            sun_flux_w_m2: T::constant(flux_w_m2),
-            lit_fraction: T::constant(1.0),
             planet: position_m.map(|position_m| PlanetGeometry {
                 position_body_m: constant_vector(&-position_m),
                 sun_from_planet_body_m: sun,
@@ -227,7 +221,7 @@ fn evaluations(
                 pole_body: constant_vector(&-Vector3::z()),
             }),
             panel_angles_rad: &angles,
-            center_of_mass_body_m: Vector3::zeros(),
+            ..Geometry::sunlit(sun, T::constant(flux_w_m2))
         };
         let found = model.evaluate(&geometry, Recoil::Balance, workspace);
         found.map_or(0.0, |found| found.total().force_body_n.y.value())
@@ -246,12 +240,16 @@ fn evaluations(
     Ok(())
 }
 
-fn rectangle(center: Vector3<f64>, u: Vector3<f64>, v: Vector3<f64>) -> Result<Polygon, PolygonError> {
+fn rectangle(
+    center: Vector3<f64>,
+    u: Vector3<f64>,
+    v: Vector3<f64>,
+) -> Result<Polygon, physics::refusal::Refusal> {
     Polygon::new(vec![center - u - v, center + u - v, center + u + v, center - u + v])
 }
 
 /// A drum of `hull` staves, and around it `shaded` pairs of a plate and a smaller shade half a metre sunward of it.
-fn drum(hull: usize, shaded: usize) -> Result<Vec<Polygon>, PolygonError> {
+fn drum(hull: usize, shaded: usize) -> Result<Vec<Polygon>, physics::refusal::Refusal> {
     let mut polygons = Vec::new();
     for i in 0..hull {
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), i as f64 * TAU / hull as f64);
@@ -279,16 +277,7 @@ fn shadows(hull: usize, shaded: usize) -> Result<(), Failure> {
         .enumerate()
         .map(|(i, polygon)| {
             let rear = (i >= hull).then_some(optics);
-            Plate {
-                name: format!("polygon {}", i + 1),
-                area_m2: polygon.area_m2(),
-                center_m: polygon.centroid_m(),
-                normal: polygon.normal(),
-                optics,
-                rear_optics: rear,
-                thermal: Thermal::insulated(&optics, rear.as_ref()),
-                polygon: Some(polygon.clone()),
-            }
+            Plate::outlined(format!("polygon {}", i + 1), polygon.clone(), optics, rear)
         })
         .collect();
     let scene = ShadowScene::new(
@@ -320,15 +309,7 @@ fn shadows(hull: usize, shaded: usize) -> Result<(), Failure> {
     let model = DisturbanceModel::new(&spacecraft, &Options::default())?;
     let mut workspace = Workspace::default();
     let all_s = report(&format!("shadow_drum_{count}_force_torque_recoil"), |i| {
-        let geometry = Geometry {
-            sun_direction_body: sun(i),
-            sun_sine: 0.0,
-            sun_flux_w_m2: 9000.0,
-            lit_fraction: 1.0,
-            planet: None,
-            panel_angles_rad: &[],
-            center_of_mass_body_m: Vector3::zeros(),
-        };
+        let geometry = Geometry::sunlit(sun(i), 9000.0);
         let found = model.evaluate(&geometry, Recoil::Balance, &mut workspace);
         found.map_or(0.0, |found| found.total().force_body_n.z)
     });

@@ -10,6 +10,7 @@ pub mod constants;
 pub mod enumeration;
 pub mod math;
 pub mod numerics;
+pub mod refusal;
 
 pub mod bodies;
 

@@ -3,27 +3,88 @@
 use std::{
     ffi::OsString,
     path::{Path, PathBuf},
-    process::ExitCode,
 };
 
-use clap::Parser;
+use clap::{Args, CommandFactory, Parser, Subcommand};
 use terminal::Screen;
 
 use crate::{
-    args::{Arguments, Command, InChild, Plan, SchemaKind},
     check,
     child::{self, Bounds, LARGE, Relayed, SMALL},
     completions, draw, ephemeris, home, info, interrupt, manual, map, new,
     outcome::Outcome,
-    pack, plan, run as simulation, study, wire,
+    pack, plan, run as simulation, schema, study, wire,
 };
 
-// JSON Schemas, kept in step with their readers by tests of `physics` and of the mission.
-const SPACECRAFT_SCHEMA: &str = include_str!("../../../fmu-src/resources/spacecraft.schema.json");
-const SPINNER_SCHEMA: &str = include_str!("../../../fmu-src/resources/spinner.schema.json");
-const MISSION_SCHEMA: &str = include_str!("../../../fmu-src/resources/mission.schema.json");
-const TIMELINE_SCHEMA: &str = include_str!("../../../fmu-src/resources/timeline.schema.json");
-const EPHEMERIS_SCHEMA: &str = include_str!("../../../fmu-src/resources/ephemeris.schema.json");
+/// Spacecraft disturbance torque and momentum as FMUs: show, check and simulate them, pack your own.
+#[derive(Debug, Parser)]
+#[command(version, max_term_width = 100)]
+struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Show what an FMU is, what it takes and gives, and what its sunshade and wheels come to; or what a system joins
+    Info(info::Info),
+    /// Check an FMU, a system, or a spacecraft before it is packed: what is wrong, what it comes to, what looks odd
+    Check(check::Check),
+    /// Run an FMU, a system of FMUs (SSP) or a mission from start to stop
+    Run(simulation::Run),
+    /// Connect FMUs by the names and units of their variables: a system (SSP) that any tool for SSP runs
+    Wire(wire::Wire),
+    /// Write a commented file that works unchanged: spacecraft, spinner, mission or timeline
+    New(new::New),
+    /// Draw a spacecraft's file: front, side, top and perspective, with axes, Sun, names, centre of mass, panel axes
+    Draw(draw::Draw),
+    /// Map the torque of sunlight over the Sun's azimuth and elevation: where it vanishes, what a degree is worth, what
+    /// downlinks can undo
+    Map(map::Map),
+    /// Make an FMU of your own spacecraft; nothing is compiled
+    Pack(pack::Pack),
+    /// Fit the positions of an FMU's flight: an ephemeris that spacecraft carry, with its error
+    Ephemeris(ephemeris::Ephemeris),
+    /// Print the JSON Schema of a file, for editors that complete and check TOML
+    Schema(schema::Schema),
+    /// Run a study of the papers, or list them
+    Study(study::Study),
+    /// Find an optimal plan
+    #[command(subcommand)]
+    Plan(plan::Plan),
+    /// Print what a shell needs to complete commands and options
+    Completions(completions::Completions),
+    /// Print the manual's page of the program or of a command
+    Man(manual::Manual),
+    /// Runs one probe of `check` in a process of its own
+    #[command(hide = true, name = "probe-in-child")]
+    Probe(check::Probe),
+    /// Runs an FMU for `run` in a process of its own
+    #[command(hide = true)]
+    RunInChild(simulation::RunInChild),
+    /// Carries out a command that loads a library in a process of its own
+    #[command(hide = true)]
+    InChild(InChild),
+    /// Puts the FMU of a mission's files together for `run`
+    #[command(hide = true)]
+    Assemble(simulation::Assemble),
+}
+
+/// `heliotorque in-child`.
+#[derive(Debug, Args)]
+struct InChild {
+    /// Columns of the terminal that shows the output
+    #[arg(long)]
+    output_columns: Option<u16>,
+    /// Columns of the terminal that shows notes
+    #[arg(long)]
+    note_columns: Option<u16>,
+    /// The command
+    #[arg(last = true)]
+    arguments: Vec<OsString>,
+}
 
 /// Parses the arguments and runs the command.
 pub fn run() -> Outcome {
@@ -37,8 +98,7 @@ pub fn run() -> Outcome {
             return child::serve(screen, || carry_out(Arguments::parse_from(given).command));
         }
         // What was recorded until then is written.
-        Command::Run(_) => interrupt::listen(true)?,
-        _ => interrupt::listen(false)?,
+        command => interrupt::listen(matches!(command, Command::Run(_)), child::end_all)?,
     }
     match loading(&command) {
         Some(relayed) => relayed.run(std::env::args_os().skip(1)),
@@ -49,41 +109,31 @@ pub fn run() -> Outcome {
 /// What a command that loads a library in its own process may take; no FMU's code runs in the program's own.
 fn loading(command: &Command) -> Option<Relayed> {
     let shown = |path: &Path| path.display().to_string();
-    let of_call = |timeout_s: f64| Bounds { call_s: Some(timeout_s), ..Bounds::default() };
     let of_template =
         |template: Option<&PathBuf>| template.map_or_else(|| "the library".to_owned(), |it| shown(it));
-    let (name, bounds, limits) = match command {
-        Command::Info(it) if it.coefficients => (shown(&it.fmu), of_call(it.patience.timeout), SMALL),
-        Command::Check(it) if check::is_file(it) => {
+    let (name, patience, limits) = match command {
+        Command::Info(it) if it.coefficients => (shown(&it.fmu), it.patience, SMALL),
+        Command::Check(it) if it.is_file() => {
             // One time for all of it.
-            let bounds = Bounds { deadline: Some(check::deadline(it)), ..Bounds::default() };
-            (of_template(it.template.as_ref()), bounds, SMALL)
+            let bounds = Bounds { deadline: Some(it.deadline()), ..Bounds::default() };
+            return Some(Relayed { name: of_template(it.template.as_ref()), bounds, limits: SMALL });
         }
-        Command::Pack(it) => {
-            (of_template(it.library.as_ref().or(it.template.as_ref())), of_call(it.patience.timeout), SMALL)
-        }
-        Command::Map(it) => {
-            (shown(it.template.as_ref().unwrap_or(&it.spacecraft)), of_call(it.patience.timeout), SMALL)
-        }
-        Command::Ephemeris(it) => (shown(&it.simulated()), of_call(it.patience.timeout), LARGE),
-        Command::Plan(Plan::Spin(it)) => {
-            (of_template(it.options.fmu.as_ref()), of_call(it.patience.timeout), LARGE)
-        }
-        Command::Study(it) => (it.name.clone(), of_call(it.patience.timeout), LARGE),
+        Command::Pack(it) => (of_template(it.library.as_ref().or(it.template.as_ref())), it.patience, SMALL),
+        Command::Map(it) => (shown(it.template.as_ref().unwrap_or(&it.spacecraft)), it.patience, SMALL),
+        Command::Ephemeris(it) => (shown(&it.simulated()), it.patience, LARGE),
+        Command::Plan(plan::Plan::Spin(it)) => (of_template(it.options.fmu.as_ref()), it.patience, LARGE),
+        Command::Study(it) => (it.name.clone(), it.patience, LARGE),
         _ => return None,
     };
-    Some(Relayed { name, bounds, limits })
+    Some(Relayed { name, bounds: Bounds::of_calls(patience.timeout), limits })
 }
 
 fn carry_out(mut command: Command) -> Outcome {
-    let read = match &mut command {
-        Command::Info(arguments) => Some(&mut arguments.fmu),
-        Command::Check(arguments) => Some(&mut arguments.subject),
-        Command::Run(arguments) => Some(&mut arguments.fmu),
-        Command::Map(arguments) => Some(&mut arguments.spacecraft),
-        _ => None,
-    };
-    if let Some(file) = read {
+    if let Command::Info(info::Info { fmu: file, .. })
+    | Command::Check(check::Check { subject: file, .. })
+    | Command::Run(simulation::Run { fmu: file, .. })
+    | Command::Map(map::Map { spacecraft: file, .. }) = &mut command
+    {
         *file = home::found(std::mem::take(file));
     }
     match command {
@@ -94,26 +144,26 @@ fn carry_out(mut command: Command) -> Outcome {
         Command::Wire(arguments) => wire::run(&arguments),
         Command::RunInChild(arguments) => simulation::run_in_child(&arguments),
         Command::New(arguments) => new::run(&arguments),
-        Command::Man(arguments) => manual::run(&arguments),
+        Command::Man(arguments) => manual::run(&arguments, Arguments::command()),
         Command::Draw(arguments) => draw::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
         Command::Pack(arguments) => pack::run(&arguments),
-        Command::Schema(arguments) => {
-            let schema = match arguments.kind {
-                SchemaKind::Spacecraft => SPACECRAFT_SCHEMA,
-                SchemaKind::Spinner => SPINNER_SCHEMA,
-                SchemaKind::Mission => MISSION_SCHEMA,
-                SchemaKind::Timeline => TIMELINE_SCHEMA,
-                SchemaKind::Ephemeris => EPHEMERIS_SCHEMA,
-            };
-            terminal::print(schema.trim_end())?;
-            Ok(ExitCode::SUCCESS)
-        }
+        Command::Schema(arguments) => schema::run(&arguments),
         Command::Ephemeris(arguments) => ephemeris::run(&arguments),
-        Command::Completions(arguments) => completions::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments, &Arguments::command()),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
-        Command::Assemble(arguments) => simulation::simulated::assemble_into(&arguments),
+        Command::Assemble(arguments) => simulation::assemble_into(&arguments),
         Command::InChild(_) => Err("in-child: found another one in it, allowed: a command".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_well_formed() {
+        Arguments::command().debug_assert();
     }
 }

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use loader::Error;
 use model_description::{Description, ScalarVariable, VariableKind, value};
 use physics::environment::dates;
+pub use planner::ephemeris::utc_date as date;
 
 /// What the description of an epoch says.
 const SAYS_EPOCH: &str = "past J2000 TDB";
@@ -14,12 +15,6 @@ pub fn is_epoch(description: &Description, variable: &ScalarVariable) -> bool {
     matches!(variable.kind, VariableKind::Real { .. })
         && value::unit(description, variable) == Some("s")
         && variable.description.as_deref().is_some_and(|text| text.contains(SAYS_EPOCH))
-}
-
-/// The UTC date of an epoch; `None` where UTC has no leap seconds yet.
-pub fn date(epoch_s: f64) -> Option<String> {
-    let date = dates::utc(epoch_s);
-    dates::epoch_s(&date).is_ok_and(|read_s| (read_s - epoch_s).abs() <= 1e-3).then_some(date)
 }
 
 /// A setting `name=value` with seconds for a date, where the variable is an epoch; any other as it is.

@@ -5,19 +5,17 @@ use std::{
     sync::atomic::{AtomicBool, Ordering},
 };
 
-use crate::child;
-
 /// The usual exit status of a program that Ctrl-C ended.
 pub const INTERRUPTED: u8 = 130;
 
 static RAISED: AtomicBool = AtomicBool::new(false);
 
-/// From now on SIGINT, SIGTERM and SIGHUP end the program and its children and leave no temporary files. A patient
-/// command is notified the first time only: see [`raised`].
-pub fn listen(patient: bool) -> Result<(), ctrlc::Error> {
+/// From now on SIGINT, SIGTERM and SIGHUP end the program, its children by `end_children`, and leave no temporary files. A
+/// patient command is notified the first time only: see [`raised`].
+pub fn listen(patient: bool, end_children: fn()) -> Result<(), ctrlc::Error> {
     ctrlc::set_handler(move || {
         if RAISED.swap(true, Ordering::Relaxed) || !patient {
-            child::end_all();
+            end_children();
             files::remove_temporaries();
             process::exit(i32::from(INTERRUPTED));
         }

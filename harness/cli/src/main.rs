@@ -4,16 +4,17 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod app;
-mod args;
+mod assembly;
+mod carried;
 mod check;
 mod child;
-mod coefficients;
 mod completions;
 mod draw;
 mod ephemeris;
 mod epoch;
 mod home;
 mod info;
+mod instance;
 mod interrupt;
 mod kind;
 mod low_orbit;
@@ -27,10 +28,10 @@ mod pack;
 mod patience;
 mod plan;
 mod run;
-mod start_value;
+mod schema;
 mod study;
-mod timeline;
 mod values;
+mod variables;
 mod wire;
 
 use std::process::ExitCode;

@@ -1,4 +1,4 @@
-//! What times on the command line mean.
+//! What times and angles on the command line mean.
 
 /// Seconds, or a number with a unit of time.
 pub fn duration(text: &str) -> Result<f64, String> {
@@ -20,6 +20,15 @@ pub fn span(text: &str) -> Result<f64, String> {
         span_s if span_s > 0.0 => Ok(span_s),
         _ => Err("allowed is more than 0 s".to_owned()),
     }
+}
+
+/// An angle with its unit, in rad.
+pub fn angle(text: &str) -> Result<f64, String> {
+    let number = |unit: &str| text.trim().strip_suffix(unit)?.trim_end().parse::<f64>().ok();
+    let angle_rad = number("deg").map(f64::to_radians).or_else(|| number("rad"));
+    angle_rad
+        .filter(|angle_rad| angle_rad.is_finite())
+        .ok_or_else(|| "an angle carries its unit: 60deg, 1.2rad".to_owned())
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! What the probes share: an instance brought to a state, and all its values as bits.
 
 use loader::{Checking, Error, Fmu, Instance, InstanceOptions, Times};
+use model_description::Causality;
 use model_description::call_table::State;
-use model_description::{Causality, VariableKind};
 
 /// Steps of a short simulation.
 pub const STEPS: u64 = 12;
@@ -22,35 +22,13 @@ pub fn times(fmu: &Fmu) -> Result<Times, Error> {
     Times::of(fmu, None, None, None)
 }
 
-/// The value references of one causality by base type.
-#[derive(Default)]
-pub struct References {
-    /// Reals.
-    pub reals: Vec<u32>,
-    /// Integers and Enumerations.
-    pub integers: Vec<u32>,
-    /// Booleans.
-    pub booleans: Vec<u32>,
-    /// Strings.
-    pub strings: Vec<u32>,
-}
-
-impl References {
-    /// Of all variables of this causality.
-    pub fn of(fmu: &Fmu, causality: Causality) -> Self {
-        let mut references = Self::default();
-        for variable in fmu.description().variables.iter().filter(|it| it.causality == causality) {
-            match variable.kind {
-                VariableKind::Real { .. } => references.reals.push(variable.value_reference),
-                VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => {
-                    references.integers.push(variable.value_reference);
-                }
-                VariableKind::Boolean { .. } => references.booleans.push(variable.value_reference),
-                VariableKind::String { .. } => references.strings.push(variable.value_reference),
-            }
-        }
-        references
+/// The value references of all variables of a causality: Reals, Integers and Enumerations, Booleans, Strings.
+pub fn references(fmu: &Fmu, causality: Causality) -> [Vec<u32>; 4] {
+    let mut references: [Vec<u32>; 4] = Default::default();
+    for variable in fmu.description().variables.iter().filter(|it| it.causality == causality) {
+        references[variable.kind.base_type() as usize].push(variable.value_reference);
     }
+    references
 }
 
 /// Every output as bits, so that equal means equal to the bit.
@@ -59,18 +37,19 @@ pub struct Bits(Vec<u64>, Vec<i32>, Vec<String>);
 
 /// Reads every output.
 pub fn outputs(instance: &mut Instance) -> Result<Bits, Error> {
-    let references = References::of(instance.fmu(), Causality::Output);
+    let [reals, integers, booleans, strings] = references(instance.fmu(), Causality::Output);
     let mut bits = Bits::default();
-    let mut reals = vec![0.0; references.reals.len()];
-    instance.get_reals(&references.reals, &mut reals)?;
-    bits.0.extend(reals.iter().map(|real| real.to_bits()));
-    let mut integers = vec![0; references.integers.len()];
-    instance.get_integers(&references.integers, &mut integers)?;
-    let mut booleans = vec![0; references.booleans.len()];
-    instance.get_booleans(&references.booleans, &mut booleans)?;
-    bits.1.extend(integers.into_iter().chain(booleans.into_iter().map(|flag| i32::from(flag != 0))));
-    if !references.strings.is_empty() {
-        bits.2 = instance.get_strings(&references.strings)?;
+    let mut values = vec![0.0; reals.len()];
+    instance.get_reals(&reals, &mut values)?;
+    bits.0.extend(values.iter().map(|real| real.to_bits()));
+    let mut values = vec![0; integers.len()];
+    instance.get_integers(&integers, &mut values)?;
+    bits.1.append(&mut values);
+    let mut values = vec![0; booleans.len()];
+    instance.get_booleans(&booleans, &mut values)?;
+    bits.1.extend(values.into_iter().map(|flag| i32::from(flag != 0)));
+    if !strings.is_empty() {
+        bits.2 = instance.get_strings(&strings)?;
     }
     Ok(bits)
 }

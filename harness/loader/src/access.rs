@@ -1,39 +1,22 @@
 //! Which conditions of the call table the variables of an FMU meet.
 
-use bitflags::bitflags;
 use model_description::{BaseType, Description, call_table::Condition};
 
-bitflags! {
-    /// Which of the call table's conditions a variable meets.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub struct Conditions: u8 {
-        const SETTABLE_BEFORE_INITIALIZATION = 1;
-        const OUTPUT_OR_INITIAL_UNKNOWN = 1 << 1;
-        const SETTABLE_IN_INITIALIZATION = 1 << 2;
-        const INPUT_OR_TUNABLE = 1 << 3;
-    }
-}
-
-impl From<Condition> for Conditions {
-    fn from(condition: Condition) -> Self {
-        match condition {
-            Condition::SettableBeforeInitialization => Self::SETTABLE_BEFORE_INITIALIZATION,
-            Condition::OutputOrInitialUnknown => Self::OUTPUT_OR_INITIAL_UNKNOWN,
-            Condition::SettableInInitialization => Self::SETTABLE_IN_INITIALIZATION,
-            Condition::InputOrTunable => Self::INPUT_OR_TUNABLE,
-            // These restrict what the values are good for, not which variables may be read.
-            Condition::Debugging | Condition::DebuggingUnlessTerminated => Self::empty(),
-        }
-    }
-}
-
-/// The conditions that restrict which variables may be set or read.
+/// The conditions that restrict which variables may be set or read; of others it is the values' worth that they restrict.
 const RESTRICTING: [Condition; 4] = [
     Condition::SettableBeforeInitialization,
     Condition::OutputOrInitialUnknown,
     Condition::SettableInInitialization,
     Condition::InputOrTunable,
 ];
+
+/// Which of them a variable meets, one bit each.
+pub(crate) type Conditions = u8;
+
+/// The bit of a condition; 0 of one that any variable meets.
+pub(crate) fn bit(condition: Condition) -> Conditions {
+    RESTRICTING.iter().position(|it| *it == condition).map_or(0, |place| 1 << place)
+}
 
 /// For every value reference, by base type: which of the table's conditions it meets.
 pub(crate) struct AccessTable([Table; 4]);
@@ -87,8 +70,7 @@ impl AccessTable {
             let met = RESTRICTING
                 .into_iter()
                 .filter(|condition| condition.admits(variable, listed))
-                .map(Conditions::from)
-                .collect();
+                .fold(0, |met, condition| met | bit(condition));
             tables[variable.kind.base_type() as usize].push((variable.value_reference, met));
         }
         for table in &mut tables {

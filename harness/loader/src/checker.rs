@@ -5,7 +5,7 @@ use std::cell::Cell;
 use model_description::BaseType;
 use model_description::call_table::{Access, Function, Next, State, after, allowed};
 
-use crate::{Fmu, Status, abi::StateKey, access::Conditions};
+use crate::{Fmu, Status, abi::StateKey, access::bit};
 
 /// Whether forbidden calls are refused by the harness.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -51,7 +51,7 @@ impl Checker {
         base: BaseType,
     ) -> Result<(), String> {
         let Access::Conditional(condition) = self.access(function)? else { return Ok(()) };
-        let needed = Conditions::from(condition);
+        let needed = bit(condition);
         for &reference in references {
             let Some(met) = self.fmu.access().met(base, reference) else {
                 return Err(format!(
@@ -59,12 +59,12 @@ impl Checker {
                     base.name()
                 ));
             };
-            if !met.contains(needed) {
+            if met & needed != needed {
                 return Err(format!(
                     "in state {} it takes only {}, and {} is none",
                     self.state.get().map_or("unknown", State::name),
                     condition.text(),
-                    self.name_of(base, reference)
+                    self.fmu.name_of(base, reference)
                 ));
             }
         }
@@ -83,13 +83,6 @@ impl Checker {
             return Err("fmi2SetupExperiment comes first".to_owned());
         }
         Ok(access)
-    }
-
-    fn name_of(&self, base: BaseType, reference: u32) -> String {
-        let mut variables = self.fmu.description().variables.iter();
-        variables
-            .find(|variable| variable.value_reference == reference && variable.kind.base_type() == base)
-            .map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone())
     }
 
     /// Follows the answer of a call that was made.

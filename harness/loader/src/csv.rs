@@ -8,7 +8,7 @@ use std::{
     ops::Range,
 };
 
-use crate::{Column, Recording};
+use crate::{Recording, Value};
 
 /// The cells of all lines.
 ///
@@ -49,24 +49,21 @@ pub fn write_rows(
     for row in rows {
         write!(to, "{}", Real(recording.times_s.get(row).copied().unwrap_or(f64::NAN)))?;
         for column in recording.columns.iter().take(columns) {
-            write!(to, ",")?;
-            write_value(column, row, to)?;
+            write!(to, ",{}", cell(column.value(row).as_ref()))?;
         }
         writeln!(to)?;
     }
     Ok(())
 }
 
-fn write_value(column: &Column, row: usize, to: &mut dyn Write) -> io::Result<()> {
-    match column {
-        Column::Real(values) => write!(to, "{}", Real(values.get(row).copied().unwrap_or(f64::NAN))),
-        Column::Integer(values) => write!(to, "{}", values.get(row).copied().unwrap_or_default()),
-        Column::Boolean(values) => {
-            write!(to, "{}", u8::from(values.get(row).copied().unwrap_or_default()))
-        }
-        Column::Text(values) => {
-            write!(to, "{}", csv_field(values.get(row).map_or("", String::as_str)))
-        }
+/// A value as the cell of a table; one that is not there is NaN.
+fn cell(value: Option<&Value>) -> String {
+    match value {
+        Some(Value::Real(value)) => Real(*value).to_string(),
+        Some(Value::Boolean(value)) => u8::from(*value).to_string(),
+        Some(Value::Text(text)) => csv_field(text).into_owned(),
+        Some(Value::Integer(value)) => value.to_string(),
+        None => Real(f64::NAN).to_string(),
     }
 }
 
@@ -98,6 +95,7 @@ fn csv_field(text: &str) -> std::borrow::Cow<'_, str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Column;
 
     #[test]
     fn csv_reads_back_to_the_same_bits() {

@@ -145,36 +145,29 @@ pub struct CallError {
 }
 
 /// How a call failed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Outcome {
     /// The FMU's answer.
+    #[error("answered {0}")]
     Status(Status),
     /// The FMU answered a number that is no status of FMI 2.0.
+    #[error("answered status {0}, which FMI 2.0 does not have")]
     UnknownStatus(i32),
     /// The library does not export the function.
+    #[error("the library does not export this function")]
     Missing,
     /// `fmi2Instantiate` gave NULL.
+    #[error("gave no instance")]
     NoInstance,
     /// The call checker refused the call: the FMI state, or why.
+    #[error("not made: {0}")]
     NotAllowed(String),
     /// The arguments make no sense before any call is made.
+    #[error("not made: {0}")]
     BadArguments(String),
     /// The answer was good but its number is NaN, at this time in s.
+    #[error("answered NaN at {0} s")]
     NotANumber(f64),
-}
-
-impl std::fmt::Display for Outcome {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Status(status) => write!(f, "answered {status}"),
-            Self::UnknownStatus(code) => write!(f, "answered status {code}, which FMI 2.0 does not have"),
-            Self::Missing => write!(f, "the library does not export this function"),
-            Self::NoInstance => write!(f, "gave no instance"),
-            Self::NotAllowed(why) => write!(f, "not made: {why}"),
-            Self::BadArguments(why) => write!(f, "not made: {why}"),
-            Self::NotANumber(time_s) => write!(f, "answered NaN at {time_s} s"),
-        }
-    }
 }
 
 impl CallError {

@@ -7,7 +7,7 @@ use std::{
 };
 
 use files::Scratch;
-use model_description::{CoSimulation, Description, MAX_BYTES, Parsed, ScalarVariable};
+use model_description::{BaseType, CoSimulation, Description, MAX_BYTES, Parsed, ScalarVariable};
 
 use crate::{
     Binary, Error,
@@ -56,26 +56,16 @@ impl Fmu {
             let entries = archive::unpack(&source, temporary.path(), archive::Limits::default())?;
             (temporary.path().to_owned(), entries, Some(temporary))
         };
-        Self::from_folder(source, folder, entries, temporary)
-    }
-
-    fn from_folder(
-        source: PathBuf,
-        folder: PathBuf,
-        entries: Vec<String>,
-        temporary: Option<Scratch>,
-    ) -> Result<Self, Error> {
         let xml_path = folder.join("modelDescription.xml");
         let xml = files::read_at_most(&xml_path, MAX_BYTES as u64).map_err(|error| match error.kind() {
             std::io::ErrorKind::NotFound => Error::Description {
                 path: source.clone(),
-                what: match temporary {
-                    Some(_) => "it is a ZIP archive that holds no modelDescription.xml, so it is no FMU",
-                    None => {
-                        "it is a folder that holds no modelDescription.xml, so no FMU was unpacked into it"
-                    }
-                }
-                .to_owned(),
+                what: if metadata.is_dir() {
+                    "it is a folder that holds no modelDescription.xml, so no FMU was unpacked into it"
+                        .to_owned()
+                } else {
+                    "it is a ZIP archive that holds no modelDescription.xml, so it is no FMU".to_owned()
+                },
             },
             _ => Error::File { path: xml_path.clone(), source: error },
         })?;
@@ -83,13 +73,8 @@ impl Fmu {
             path: source.clone(),
             what: format!("modelDescription.xml: {}", Error::chain(&error)),
         })?;
-        let positions = parsed
-            .description
-            .variables
-            .iter()
-            .enumerate()
-            .map(|(position, variable)| (variable.name.clone(), position))
-            .collect();
+        let names = parsed.description.variables.iter().map(|variable| variable.name.clone());
+        let positions = names.zip(0..).collect();
         let access = AccessTable::of(&parsed.description);
         Ok(Self(Arc::new(Inner {
             source,
@@ -141,12 +126,8 @@ impl Fmu {
 
     /// The `CoSimulation` element, or an error for a model-exchange FMU.
     pub fn co_simulation(&self) -> Result<&CoSimulation, Error> {
-        self.0
-            .parsed
-            .description
-            .co_simulation
-            .as_ref()
-            .ok_or_else(|| Error::NoCoSimulation { path: self.0.source.clone() })
+        let found = self.description().co_simulation.as_ref();
+        found.ok_or_else(|| Error::NoCoSimulation { path: self.0.source.clone() })
     }
 
     /// The variable called `name`.
@@ -177,11 +158,9 @@ impl Fmu {
                 return Ok(path);
             }
         }
-        let mut found: Vec<String> = std::fs::read_dir(self.0.folder.join("binaries"))
-            .map(|entries| {
-                entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
-            })
-            .unwrap_or_default();
+        let folders = std::fs::read_dir(self.0.folder.join("binaries")).into_iter().flatten().flatten();
+        let mut found: Vec<String> =
+            folders.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
         found.sort();
         Err(Error::NoBinary {
             path: self.0.source.clone(),
@@ -199,6 +178,14 @@ impl Fmu {
         let binary = Arc::new(Binary::load(&self.binary_path()?)?);
         *slot = Some(Arc::clone(&binary));
         Ok(binary)
+    }
+
+    /// The name behind a value reference, for errors.
+    pub(crate) fn name_of(&self, base: BaseType, reference: u32) -> String {
+        let mut variables = self.description().variables.iter();
+        variables
+            .find(|variable| variable.value_reference == reference && variable.kind.base_type() == base)
+            .map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone())
     }
 
     pub(crate) fn access(&self) -> &AccessTable {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use model_description::{Causality, Description, ScalarVariable, Variability, VariableKind};
 
-use crate::{Error, Value, parse_value};
+use crate::{Error, Value, parse_value, select};
 
 /// Values of inputs (and tunable parameters) over time.
 ///
@@ -39,17 +39,8 @@ impl InputTable {
         if time.as_ref().trim() != "time" {
             return Err(wrong(format!("the first column is {:?} and must be time, in s", time.as_ref())));
         }
-        let variables: Vec<(usize, &ScalarVariable)> = names
-            .iter()
-            .map(|name| {
-                let name = name.as_ref().trim();
-                let position = crate::select::named(description, name)
-                    .ok_or_else(|| crate::select::unknown(description, name))?;
-                let variable = &description.variables[position];
-                check_settable(variable)?;
-                Ok((position, variable))
-            })
-            .collect::<Result<_, Error>>()?;
+        let variables = names.iter().map(|name| settable(description, name.as_ref().trim()));
+        let variables: Vec<(usize, &ScalarVariable)> = variables.collect::<Result<_, _>>()?;
         for (index, (position, variable)) in variables.iter().enumerate() {
             if variables[..index].iter().any(|(earlier, _)| earlier == position) {
                 return Err(wrong(format!("column {} stands twice", variable.name)));
@@ -105,10 +96,7 @@ impl InputTable {
         name: &str,
         rows: Vec<(f64, Value)>,
     ) -> Result<(), Error> {
-        let position = crate::select::named(description, name)
-            .ok_or_else(|| crate::select::unknown(description, name))?;
-        let variable = &description.variables[position];
-        check_settable(variable)?;
+        let (position, variable) = settable(description, name)?;
         if self.positions().any(|other| other == position) {
             return Err(Error::Inputs(format!("{name} stands twice")));
         }
@@ -165,13 +153,14 @@ fn is_linear(variable: &ScalarVariable) -> bool {
         && variable.variability == Variability::Continuous
 }
 
-fn check_settable(variable: &ScalarVariable) -> Result<(), Error> {
+/// Position and variable of a name, one that can change during a run.
+fn settable<'a>(description: &'a Description, name: &str) -> Result<(usize, &'a ScalarVariable), Error> {
+    let position = select::named(description, name).ok_or_else(|| select::unknown(description, name))?;
+    let variable = &description.variables[position];
     let tunable = variable.causality == Causality::Parameter && variable.variability == Variability::Tunable;
     if variable.causality == Causality::Input || tunable {
-        return Ok(());
+        return Ok((position, variable));
     }
-    Err(Error::Inputs(format!(
-        "{} cannot change during a run: only inputs and tunable parameters can",
-        variable.name
-    )))
+    let what = "cannot change during a run: only inputs and tunable parameters can";
+    Err(Error::Inputs(format!("{} {what}", variable.name)))
 }

@@ -44,7 +44,8 @@ pub use recording::{Column, Recording};
 pub use requirements::Requirements;
 pub use select::{select, select_outputs};
 pub use simulate::{
-    Ended, Options, RecordedPoints, Simulation, Stopped, Times, outputs, set_early, simulate, simulate_into,
+    Ended, Options, RecordedPoints, Simulation, Stopped, Times, initialize, outputs, set_early, simulate,
+    simulate_into,
 };
 pub use status::LogMessage;
 pub use uri::file_uri;

@@ -1,6 +1,6 @@
 //! Takes the rows of a recording from an instance, and bounds how many there may be.
 
-use model_description::{Description, VariableKind};
+use model_description::{BaseType, Description, value::unit};
 
 use crate::{Column, Error, Fmu, Instance, Recording, Value};
 
@@ -59,14 +59,9 @@ fn groups(description: &Description, positions: &[usize]) -> [Group; 4] {
     let mut groups: [Group; 4] = Default::default();
     for (column, &position) in positions.iter().enumerate() {
         let variable = &description.variables[position];
-        let group = match variable.kind {
-            VariableKind::Real { .. } => 0,
-            VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => 1,
-            VariableKind::Boolean { .. } => 2,
-            VariableKind::String { .. } => 3,
-        };
-        groups[group].columns.push(column);
-        groups[group].references.push(variable.value_reference);
+        let group = &mut groups[variable.kind.base_type() as usize];
+        group.columns.push(column);
+        group.references.push(variable.value_reference);
     }
     groups
 }
@@ -85,16 +80,12 @@ impl Collector {
         for &position in positions {
             let variable = &description.variables[position];
             recording.names.push(variable.name.clone());
-            recording
-                .units
-                .push(model_description::value::unit(description, variable).unwrap_or_default().to_owned());
-            recording.columns.push(match variable.kind {
-                VariableKind::Real { .. } => Column::Real(Vec::new()),
-                VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => {
-                    Column::Integer(Vec::new())
-                }
-                VariableKind::Boolean { .. } => Column::Boolean(Vec::new()),
-                VariableKind::String { .. } => Column::Text(Vec::new()),
+            recording.units.push(unit(description, variable).unwrap_or_default().to_owned());
+            recording.columns.push(match variable.kind.base_type() {
+                BaseType::Real => Column::Real(Vec::new()),
+                BaseType::Integer => Column::Integer(Vec::new()),
+                BaseType::Boolean => Column::Boolean(Vec::new()),
+                BaseType::String => Column::Text(Vec::new()),
             });
         }
         Self { recording, columns: groups(description, positions).map(|group| group.columns), text_bytes: 0 }
@@ -111,7 +102,7 @@ impl Collector {
 
     /// How many values of each base type a row has: Reals, Integers, Booleans, Strings.
     pub fn widths(&self) -> [usize; 4] {
-        std::array::from_fn(|group| self.columns[group].len())
+        self.columns.each_ref().map(Vec::len)
     }
 
     /// The recording so far.
@@ -134,26 +125,19 @@ impl Rows for Collector {
         self.recording.times_s.push(row.time_s);
         let columns = &mut self.recording.columns;
         let [reals, integers, booleans, texts] = &self.columns;
-        for (&column, &value) in reals.iter().zip(row.reals) {
-            if let Column::Real(values) = &mut columns[column] {
-                values.push(value);
-            }
+        macro_rules! push {
+            ($kind:ident, $places:ident, $values:expr) => {
+                for (&column, value) in $places.iter().zip($values) {
+                    if let Column::$kind(values) = &mut columns[column] {
+                        values.push(value);
+                    }
+                }
+            };
         }
-        for (&column, &value) in integers.iter().zip(row.integers) {
-            if let Column::Integer(values) = &mut columns[column] {
-                values.push(value);
-            }
-        }
-        for (&column, &value) in booleans.iter().zip(row.booleans) {
-            if let Column::Boolean(values) = &mut columns[column] {
-                values.push(value != 0);
-            }
-        }
-        for (&column, value) in texts.iter().zip(row.texts) {
-            if let Column::Text(values) = &mut columns[column] {
-                values.push(value.clone());
-            }
-        }
+        push!(Real, reals, row.reals.iter().copied());
+        push!(Integer, integers, row.integers.iter().copied());
+        push!(Boolean, booleans, row.booleans.iter().map(|value| *value != 0));
+        push!(Text, texts, row.texts.iter().cloned());
         Ok(())
     }
 }
@@ -169,7 +153,7 @@ pub(crate) struct Reader {
 impl Reader {
     pub fn new(fmu: &Fmu, positions: &[usize]) -> Self {
         let groups = groups(fmu.description(), positions);
-        let [reals, integers, booleans, _] = std::array::from_fn(|group| groups[group].columns.len());
+        let [reals, integers, booleans, _] = groups.each_ref().map(|group| group.columns.len());
         Self { groups, reals: vec![0.0; reals], integers: vec![0; integers], booleans: vec![0; booleans] }
     }
 
@@ -182,11 +166,10 @@ impl Reader {
                 return Err(instance.not_a_number(reals.references[at], time_s));
             }
         }
-        let texts = if strings.columns.is_empty() {
-            Vec::new()
-        } else {
-            instance.get_strings(&strings.references)?
-        };
+        let mut texts = Vec::new();
+        if !strings.columns.is_empty() {
+            texts = instance.get_strings(&strings.references)?;
+        }
         if !integers.columns.is_empty() {
             instance.get_integers(&integers.references, &mut self.integers)?;
         }

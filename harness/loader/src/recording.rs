@@ -1,5 +1,7 @@
 //! A recorded simulation: time and one typed column per recorded variable.
 
+use crate::Value;
+
 /// Values of one variable at every recorded time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Column {
@@ -14,24 +16,24 @@ pub enum Column {
 }
 
 impl Column {
+    /// The value of a row; `None` beyond the last.
+    pub fn value(&self, row: usize) -> Option<Value> {
+        match self {
+            Self::Real(values) => values.get(row).copied().map(Value::Real),
+            Self::Integer(values) => values.get(row).copied().map(Value::Integer),
+            Self::Boolean(values) => values.get(row).copied().map(Value::Boolean),
+            Self::Text(values) => values.get(row).cloned().map(Value::Text),
+        }
+    }
+
     /// The value of a row as a number: Booleans are 0 and 1, texts NaN.
     pub fn number(&self, row: usize) -> f64 {
-        match self {
-            Self::Real(values) => values.get(row).copied().unwrap_or(f64::NAN),
-            Self::Integer(values) => values.get(row).map_or(f64::NAN, |value| f64::from(*value)),
-            Self::Boolean(values) => values.get(row).map_or(f64::NAN, |value| f64::from(u8::from(*value))),
-            Self::Text(_) => f64::NAN,
-        }
+        self.value(row).map_or(f64::NAN, |value| value.to_f64())
     }
 
     /// All values as numbers.
     pub fn numbers(&self) -> Vec<f64> {
-        match self {
-            Self::Real(values) => values.clone(),
-            Self::Integer(values) => values.iter().map(|value| f64::from(*value)).collect(),
-            Self::Boolean(values) => values.iter().map(|value| f64::from(u8::from(*value))).collect(),
-            Self::Text(values) => vec![f64::NAN; values.len()],
-        }
+        (0..).map_while(|row| self.value(row)).map(|value| value.to_f64()).collect()
     }
 }
 

@@ -99,13 +99,23 @@ impl Times {
         stop_s: Option<f64>,
         step_s: Option<f64>,
     ) -> Result<Self, Error> {
-        let default = fmu.description().default_experiment.unwrap_or_default();
+        let times = Self::of_default(fmu.description(), start_s, stop_s, step_s)?;
+        times.fit(fmu)?;
+        Ok(times)
+    }
+
+    /// The same of a description alone, whatever steps its FMUs take.
+    pub fn of_default(
+        description: &Description,
+        start_s: Option<f64>,
+        stop_s: Option<f64>,
+        step_s: Option<f64>,
+    ) -> Result<Self, Error> {
+        let default = description.default_experiment.unwrap_or_default();
         let start_s = start_s.or(default.start_time).unwrap_or(0.0);
         let stop_s = stop_s.or(default.stop_time).unwrap_or(start_s + 1.0);
         let step_s = step_s.or(default.step_size).unwrap_or((stop_s - start_s) / 100.0);
-        let times = Self::new(start_s, stop_s, step_s)?;
-        times.fit(fmu)?;
-        Ok(times)
+        Self::new(start_s, stop_s, step_s)
     }
 
     /// Of what makes a run.
@@ -238,17 +248,7 @@ fn run_steps(
 ) -> Result<Ended, Error> {
     let tolerance = fmu.description().default_experiment.and_then(|default| default.tolerance);
     instance.setup_experiment(tolerance, times.start_s, Some(times.stop_s))?;
-    for (name, value) in &options.sets {
-        if set_early(fmu.variable(name)?)? {
-            instance.set(name, value)?;
-        }
-    }
-    instance.enter_initialization_mode()?;
-    for (name, value) in &options.sets {
-        if !set_early(fmu.variable(name)?)? {
-            instance.set(name, value)?;
-        }
-    }
+    initialize(instance, options.sets.iter().map(|(name, value)| (name, value)))?;
     let mut inputs = options.inputs.map(|table| InputSetter::new(fmu, table, options.input_derivatives));
     if let Some(inputs) = &mut inputs {
         inputs.set(instance, times.start_s, true)?;
@@ -296,6 +296,28 @@ fn run_steps(
     Ok(Ended::AtStop)
 }
 
+/// Enters initialization mode with these values set, before it or in it.
+///
+/// # Errors
+/// A call that fails, a variable that cannot be set.
+pub fn initialize<'v>(
+    instance: &mut Instance,
+    sets: impl Iterator<Item = (&'v String, &'v Value)> + Clone,
+) -> Result<(), Error> {
+    let fmu = instance.fmu().clone();
+    for early in [true, false] {
+        for (name, value) in sets.clone() {
+            if set_early(fmu.variable(name)?)? == early {
+                instance.set(name, value)?;
+            }
+        }
+        if early {
+            instance.enter_initialization_mode()?;
+        }
+    }
+    Ok(())
+}
+
 /// Positions of all outputs in `ModelVariables`.
 pub fn outputs(description: &Description) -> Vec<usize> {
     let variables = &description.variables;
@@ -326,9 +348,6 @@ struct InputSetter<'a> {
     variables: Vec<&'a ScalarVariable>,
     last: Vec<Option<Value>>,
     slopes: bool,
-    references: Vec<u32>,
-    orders: Vec<i32>,
-    values: Vec<f64>,
 }
 
 impl<'a> InputSetter<'a> {
@@ -337,15 +356,7 @@ impl<'a> InputSetter<'a> {
             table.positions().map(|position| &fmu.description().variables[position]).collect();
         let last = vec![None; variables.len()];
         let can = fmu.description().co_simulation.as_ref().is_some_and(|it| it.can_interpolate_inputs);
-        Self {
-            table,
-            variables,
-            last,
-            slopes: slopes && can,
-            references: Vec::new(),
-            orders: Vec::new(),
-            values: Vec::new(),
-        }
+        Self { table, variables, last, slopes: slopes && can }
     }
 
     fn set(&mut self, instance: &mut Instance, time_s: f64, initializing: bool) -> Result<(), Error> {
@@ -363,23 +374,16 @@ impl<'a> InputSetter<'a> {
         Ok(())
     }
 
-    fn set_slopes(&mut self, instance: &mut Instance, time_s: f64) -> Result<(), Error> {
-        if !self.slopes {
+    fn set_slopes(&self, instance: &mut Instance, time_s: f64) -> Result<(), Error> {
+        let slope = |(column, variable): (usize, &&ScalarVariable)| {
+            let slope = self.table.slope(column, time_s).filter(|slope| self.slopes && *slope != 0.0)?;
+            Some((variable.value_reference, slope))
+        };
+        let (references, values): (Vec<u32>, Vec<f64>) =
+            self.variables.iter().enumerate().filter_map(slope).unzip();
+        if references.is_empty() {
             return Ok(());
         }
-        self.references.clear();
-        self.orders.clear();
-        self.values.clear();
-        for (column, variable) in self.variables.iter().enumerate() {
-            if let Some(slope) = self.table.slope(column, time_s).filter(|slope| *slope != 0.0) {
-                self.references.push(variable.value_reference);
-                self.orders.push(1);
-                self.values.push(slope);
-            }
-        }
-        if self.references.is_empty() {
-            return Ok(());
-        }
-        instance.set_input_derivatives(&self.references, &self.orders, &self.values)
+        instance.set_input_derivatives(&references, &vec![1; references.len()], &values)
     }
 }

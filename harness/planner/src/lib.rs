@@ -1,8 +1,9 @@
-//! Optimal plans, and how long downlinks can hold the momentum of a mission.
+//! Optimal plans, ephemerides to carry, and how long downlinks can hold the momentum of a mission.
 //!
 //! The planner is the only part of the harness that uses the physics directly: it searches with the fast linear
 //! theory, then runs what it found through the FMU, which knows nothing of the planner.
 
+pub mod ephemeris;
 pub mod momentum;
 pub mod spin;
 pub mod torque_map;

@@ -1,6 +1,6 @@
 //! Compares a recording with a table of what was recorded before.
 
-use loader::{Column, Recording};
+use loader::{Column, Recording, Value};
 
 /// Where a column deviates most.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +39,7 @@ pub fn deviations(
             name: name.clone(),
             time_s: recording.times_s.get(lines[row]).copied().unwrap_or(f64::NAN),
             expected: cells[row].to_owned(),
-            found: shown(column, lines[row]),
+            found: column.value(lines[row]).as_ref().map_or(String::new(), shown),
             deviation,
         })
     };
@@ -90,12 +90,10 @@ fn is_same(column: &Column, cell: &str, line: usize) -> bool {
     }
 }
 
-fn shown(column: &Column, line: usize) -> String {
-    match column {
-        Column::Real(values) => values[line].to_string(),
-        Column::Integer(values) => values[line].to_string(),
-        Column::Boolean(values) => u8::from(values[line]).to_string(),
-        Column::Text(values) => values[line].clone(),
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Boolean(truth) => u8::from(*truth).to_string(),
+        other => other.to_string(),
     }
 }
 

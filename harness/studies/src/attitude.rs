@@ -13,6 +13,11 @@ pub(crate) fn angle_rad(a: &Vector, b: &Vector) -> f64 {
     a.cross(b).norm().atan2(a.dot(b))
 }
 
+/// The greatest magnitude; 0 of none.
+pub(crate) fn greatest(values: impl Iterator<Item = f64>) -> f64 {
+    values.map(f64::abs).fold(0.0, f64::max)
+}
+
 /// The part of v across the unit vector `axis`.
 pub(crate) fn across(v: &Vector, axis: &Vector) -> Vector {
     v - axis * v.dot(axis)

@@ -1,14 +1,13 @@
-//! The scaffold of every study: cases chosen by their labels, simulated on all cores, their recorded columns.
+//! One simulation of a study: what is set, how long and how finely, and its recorded columns.
 
 use loader::{Fmu, Rows, Value};
 use model_description::{BaseType, Description};
 use nalgebra::SVector;
-use rayon::prelude::*;
 use systems::{FirstExchange, Master, System};
 
-use crate::attitude::{Attitude, Vector};
-use crate::settings::{Settings, elements, flag, item, number, real};
-use crate::{Options, StudyError};
+use crate::StudyError;
+use crate::attitude::Attitude;
+use crate::settings::{Setting, Settings};
 
 /// One simulation: what is set, how long and how finely.
 #[derive(Clone, Debug)]
@@ -23,40 +22,36 @@ pub(crate) struct Case {
 }
 
 /// What is simulated: one FMU, or a system, whose variables are named `component.variable`.
-#[derive(Clone, Copy)]
-pub(crate) enum Model<'a> {
-    Fmu(&'a Fmu),
-    System(&'a System),
+pub(crate) trait Model {
+    fn description(&self) -> &Description;
+    fn simulate_into(&self, options: loader::Options<'_>, rows: &mut dyn Rows) -> Result<(), loader::Error>;
 }
 
-impl<'a> From<&'a Fmu> for Model<'a> {
-    fn from(fmu: &'a Fmu) -> Self {
-        Self::Fmu(fmu)
-    }
-}
-
-impl<'a> From<&'a System> for Model<'a> {
-    fn from(system: &'a System) -> Self {
-        Self::System(system)
-    }
-}
-
-impl Model<'_> {
+impl Model for Fmu {
     fn description(&self) -> &Description {
-        match self {
-            Self::Fmu(fmu) => fmu.description(),
-            Self::System(system) => system.description(),
-        }
+        self.description()
     }
 
-    /// Positions of the variables that names of variables and vectors mean, in this order.
-    fn positions<S: AsRef<str>>(&self, names: &[S]) -> Result<Vec<usize>, loader::Error> {
-        let select = |name: &S| match self {
-            Self::Fmu(fmu) => fmu.select(name.as_ref()),
-            Self::System(system) => loader::select(system.description(), name.as_ref()),
-        };
-        Ok(names.iter().map(select).collect::<Result<Vec<_>, _>>()?.concat())
+    fn simulate_into(&self, options: loader::Options<'_>, rows: &mut dyn Rows) -> Result<(), loader::Error> {
+        loader::simulate_into(self, options, rows).map(|_| ())
     }
+}
+
+impl Model for System {
+    fn description(&self) -> &Description {
+        self.description()
+    }
+
+    fn simulate_into(&self, options: loader::Options<'_>, rows: &mut dyn Rows) -> Result<(), loader::Error> {
+        let way = (Master::default(), FirstExchange::Separate);
+        systems::simulate_into(self, way, options, rows).map(|_| ())
+    }
+}
+
+/// Positions of the variables that names of variables and vectors mean, in this order.
+fn positions<S: AsRef<str>>(model: &dyn Model, names: &[S]) -> Result<Vec<usize>, loader::Error> {
+    let select = |name: &S| loader::select(model.description(), name.as_ref());
+    Ok(names.iter().map(select).collect::<Result<Vec<_>, _>>()?.concat())
 }
 
 /// Recorded columns, in the order of the names, and the recorded points.
@@ -85,14 +80,19 @@ impl Recorded {
         Row { time_s, row, columns: self.columns[column..].iter() }
     }
 
-    /// The vectors in three columns from one on.
-    pub fn vectors(&self, column: usize) -> Vec<Vector> {
-        (0..self.times_s.len()).map(|row| self.row(row, column).vector()).collect()
+    /// The values of the first point.
+    pub fn first<T: Recordable>(&self) -> T {
+        self.row(0, 0).read()
     }
 
-    /// All points.
-    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        (0..self.times_s.len()).map(|row| self.row(row, 0))
+    /// Those of the last point.
+    pub fn last_row(&self) -> Row<'_> {
+        self.row(self.times_s.len().saturating_sub(1), 0)
+    }
+
+    /// What stands in the columns from one on.
+    pub fn all<T: Recordable>(&self, column: usize) -> Vec<T> {
+        (0..self.times_s.len()).map(|row| self.row(row, column).read()).collect()
     }
 }
 
@@ -105,26 +105,98 @@ pub(crate) struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// The next; not a number beyond the last.
-    pub fn real(&mut self) -> f64 {
-        self.columns.next().and_then(|column| column.get(self.row)).copied().unwrap_or(f64::NAN)
-    }
-
-    /// The next `N`.
-    pub fn vector<const N: usize>(&mut self) -> SVector<f64, N> {
-        SVector::from_fn(|_, _| self.real())
-    }
-
-    /// The next four.
-    pub fn attitude(&mut self) -> Attitude {
-        Attitude::new_unchecked(self.vector::<4>().into())
-    }
-
-    /// Whether the next is true.
-    pub fn flag(&mut self) -> bool {
-        self.real() != 0.0
+    /// The next.
+    pub fn read<T: Recordable>(&mut self) -> T {
+        T::read(self)
     }
 }
+
+/// What stands in one column, or in several beside each other.
+pub(crate) trait Recordable {
+    /// Takes its columns; not a number beyond the last.
+    fn read(row: &mut Row<'_>) -> Self;
+}
+
+impl Recordable for f64 {
+    fn read(row: &mut Row<'_>) -> Self {
+        row.columns.next().and_then(|column| column.get(row.row)).copied().unwrap_or(f64::NAN)
+    }
+}
+
+impl Recordable for i32 {
+    fn read(row: &mut Row<'_>) -> Self {
+        row.read::<f64>() as i32
+    }
+}
+
+impl Recordable for bool {
+    fn read(row: &mut Row<'_>) -> Self {
+        row.read::<f64>() != 0.0
+    }
+}
+
+impl<const N: usize> Recordable for SVector<f64, N> {
+    fn read(row: &mut Row<'_>) -> Self {
+        Self::from_fn(|_, _| row.read())
+    }
+}
+
+impl<T: Recordable, const N: usize> Recordable for [T; N] {
+    fn read(row: &mut Row<'_>) -> Self {
+        std::array::from_fn(|_| row.read())
+    }
+}
+
+/// All that are left.
+impl<T: Recordable> Recordable for Vec<T> {
+    fn read(row: &mut Row<'_>) -> Self {
+        let mut all = Self::new();
+        while row.columns.len() > 0 {
+            all.push(row.read());
+        }
+        all
+    }
+}
+
+impl<A: Recordable, B: Recordable> Recordable for (A, B) {
+    fn read(row: &mut Row<'_>) -> Self {
+        (row.read(), row.read())
+    }
+}
+
+impl Recordable for Attitude {
+    fn read(row: &mut Row<'_>) -> Self {
+        Self::new_unchecked(row.read::<SVector<f64, 4>>().into())
+    }
+}
+
+/// A struct of what is recorded: each field with its variable, vector or quaternion; `@` is the time.
+macro_rules! recorded {
+    ($(#[$doc:meta])* $scope:vis struct $name:ident {
+        $(@$time:ident,)?
+        $($(#[$about:meta])* $field_scope:vis $field:ident: $type:ty = $($variable:literal)+,)+
+    }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        $scope struct $name {
+            $(/// In s.
+            pub $time: f64,)?
+            $($(#[$about])* $field_scope $field: $type,)+
+        }
+
+        impl $name {
+            /// What is recorded, in the order of the fields.
+            pub const NAMES: &[&str] = &[$($($variable),+),+];
+        }
+
+        impl $crate::case::Recordable for $name {
+            fn read(row: &mut $crate::case::Row<'_>) -> Self {
+                Self { $($time: row.time_s,)? $($field: row.read(),)+ }
+            }
+        }
+    };
+}
+pub(crate) use recorded;
 
 /// Keeps rows and sets what is answered to each.
 struct Steered<'a> {
@@ -188,157 +260,53 @@ impl Case {
         self
     }
 
-    /// Sets a Real.
-    pub fn real(self, name: &str, value: f64) -> Self {
-        self.with([real(name, value)])
-    }
-
-    /// Sets an Integer.
-    pub fn integer(self, name: &str, value: i32) -> Self {
-        self.with([number(name, value)])
-    }
-
-    /// Sets an Enumeration to an item.
-    pub fn item(self, name: &str, value: &str) -> Self {
-        self.with([item(name, value)])
-    }
-
-    /// Sets a Boolean.
-    pub fn boolean(self, name: &str, value: bool) -> Self {
-        self.with([flag(name, value)])
-    }
-
-    /// Sets a vector or quaternion.
-    pub fn elements(self, name: &str, values: impl IntoIterator<Item = f64>) -> Self {
-        self.with(elements(name, values))
-    }
-
-    /// The error of this case.
-    pub fn failed(&self, source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> StudyError {
-        StudyError::Simulation { case: self.label.clone(), source: source.into() }
+    /// Sets a variable, by its item's name an Enumeration, a vector or a quaternion.
+    pub fn set(self, name: &str, value: impl Setting) -> Self {
+        self.with(value.of(name))
     }
 
     /// Simulates it and returns the columns of `names`, of variables and vectors.
-    pub fn simulate<'m, S: AsRef<str>>(
-        &self,
-        model: impl Into<Model<'m>>,
-        names: &[S],
-    ) -> Result<Recorded, StudyError> {
+    pub fn simulate<S: AsRef<str>>(&self, model: &dyn Model, names: &[S]) -> Result<Recorded, StudyError> {
         self.steer(model, names, &mut |_| Settings::new())
     }
 
     /// As [`Self::simulate`]; what `steer` answers to a recorded point is set there.
-    pub fn steer<'m, S: AsRef<str>>(
+    pub fn steer<S: AsRef<str>>(
         &self,
-        model: impl Into<Model<'m>>,
+        model: &dyn Model,
         names: &[S],
         steer: &mut dyn FnMut(Row<'_>) -> Settings,
     ) -> Result<Recorded, StudyError> {
-        self.run(model.into(), names, steer).map_err(|error| self.failed(error))
+        let failed = |error| StudyError::Simulation { case: self.label.clone(), source: Box::new(error) };
+        self.run(model, names, steer).map_err(failed)
     }
 
     fn run<S: AsRef<str>>(
         &self,
-        model: Model<'_>,
+        model: &dyn Model,
         names: &[S],
         steer: &mut dyn FnMut(Row<'_>) -> Settings,
     ) -> Result<Recorded, loader::Error> {
-        let positions = model.positions(names)?;
-        let variables = &model.description().variables;
-        let types: Vec<_> = positions.iter().map(|position| variables[*position].kind.base_type()).collect();
-        let columns = vec![Vec::new(); types.len()];
-        let mut rows = Steered { recorded: Recorded { columns, ..Recorded::default() }, types, steer };
+        let record = positions(model, names)?;
+        let base_type = |position: &usize| model.description().variables[*position].kind.base_type();
+        let types: Vec<_> = record.iter().map(base_type).collect();
+        let recorded = Recorded { times_s: Vec::new(), columns: vec![Vec::new(); types.len()] };
+        let mut rows = Steered { recorded, types, steer };
         let options = loader::Options {
             stop_s: Some(self.stop_s),
             step_s: Some(self.step_s),
             record_every_s: self.every_s,
             sets: self.sets.clone(),
-            record: Some(positions),
-            apart: model.positions(self.apart.as_slice())?.first().copied(),
+            record: Some(record),
+            apart: positions(model, self.apart.as_slice())?.first().copied(),
             ..loader::Options::default()
         };
-        match model {
-            Model::Fmu(fmu) => loader::simulate_into(fmu, options, &mut rows)?,
-            Model::System(system) => {
-                let way = (Master::default(), FirstExchange::Separate);
-                systems::simulate_into(system, way, options, &mut rows)?
-            }
-        };
+        model.simulate_into(options, &mut rows)?;
         Ok(rows.recorded)
     }
 }
 
 /// The values of variables and vectors at the start, as nobody sets them.
-pub(crate) fn at_start<'m, S: AsRef<str>>(
-    model: impl Into<Model<'m>>,
-    names: &[S],
-) -> Result<Recorded, StudyError> {
+pub(crate) fn at_start<S: AsRef<str>>(model: &dyn Model, names: &[S]) -> Result<Recorded, StudyError> {
     Case::new("start values", 1.0, 1.0).simulate(model, names)
-}
-
-/// Those of `cases` whose label the options name; an error if none.
-pub(crate) fn chosen<T>(
-    study: &'static str,
-    options: &Options,
-    cases: impl IntoIterator<Item = T>,
-    label: impl Fn(&T) -> String,
-) -> Result<Vec<T>, StudyError> {
-    let only = options.only.as_deref().unwrap_or_default();
-    let (mut chosen, mut known) = (Vec::new(), Vec::new());
-    for case in cases {
-        known.push(label(&case));
-        if known.last().is_some_and(|label| label.contains(only)) {
-            chosen.push(case);
-        }
-    }
-    if chosen.is_empty() {
-        let known = listed(&known.iter().map(String::as_str).collect::<Vec<_>>());
-        return Err(StudyError::NothingLeft { study, only: only.to_owned(), known });
-    }
-    Ok(chosen)
-}
-
-/// Runs every case on all cores behind a progress bar; the order of results is that of the cases.
-pub(crate) fn run_all<T: Sync, R: Send>(
-    options: &Options,
-    cases: &[T],
-    run: impl Fn(&T) -> Result<R, StudyError> + Sync,
-) -> Result<Vec<R>, StudyError> {
-    let bar = terminal::progress(cases.len() as u64, "cases", !options.progress);
-    let results = cases
-        .par_iter()
-        .map(|case| {
-            let result = run(case);
-            bar.inc(1);
-            result
-        })
-        .collect();
-    bar.finish_and_clear();
-    results
-}
-
-/// Most labels that are listed one by one.
-const MOST_LISTED: usize = 12;
-
-/// The labels one below the other; of many the first and the last.
-fn listed(labels: &[&str]) -> String {
-    if labels.len() <= MOST_LISTED {
-        return labels.join("\n  ");
-    }
-    let ends = [&labels[..2], &["..."], &labels[labels.len() - 1..]].concat();
-    format!("{} ({} of them)", ends.join(", "), labels.len())
-}
-
-#[cfg(test)]
-mod tests {
-    //! The error of a filter that leaves nothing lists the cases, in a few lines.
-    use super::*;
-
-    #[test]
-    fn many_cases_are_not_listed_one_by_one() {
-        assert_eq!(listed(&["a", "b"]), "a\n  b");
-        let labels: Vec<String> = (1..=120).map(|n| format!("n = {n}")).collect();
-        let text = listed(&labels.iter().map(String::as_str).collect::<Vec<_>>());
-        assert_eq!(text, "n = 1, n = 2, ..., n = 120 (120 of them)");
-    }
 }

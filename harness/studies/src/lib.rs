@@ -5,6 +5,7 @@
 
 mod attitude;
 mod case;
+mod cells;
 mod control;
 mod momentum;
 mod options;
@@ -17,6 +18,7 @@ mod verdict;
 
 pub use options::{Extra, Options, StudyError};
 pub use report::Report;
+use report::{Outcome, Run};
 
 /// One study.
 pub struct Study {
@@ -28,8 +30,7 @@ pub struct Study {
     pub title: &'static str,
     /// Options that not every study takes.
     pub takes: &'static [Extra],
-    /// Runs it.
-    pub run: fn(&Options) -> Result<Report, StudyError>,
+    run: fn(&mut Run<'_>) -> Outcome,
 }
 
 /// A row: name, papers, function, further options, title.
@@ -121,5 +122,7 @@ pub fn run(name: &str, options: &Options) -> Result<Report, StudyError> {
         known: STUDIES.iter().map(|study| study.name).collect::<Vec<_>>().join(", "),
     })?;
     options.check(study.name, study.takes)?;
-    (study.run)(options)
+    let mut run = Run { study: study.name, options, report: Report::default() };
+    (study.run)(&mut run)?;
+    Ok(run.report)
 }

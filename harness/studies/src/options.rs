@@ -31,22 +31,12 @@ pub enum Extra {
     Step,
 }
 
-impl Extra {
-    /// On the command line.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Angle => "--angle",
-            Self::Step => "--step",
-        }
-    }
-}
-
 impl Options {
     /// Refuses what the study does not take.
     pub(crate) fn check(&self, study: &'static str, takes: &[Extra]) -> Result<(), StudyError> {
-        let given = [(Extra::Angle, self.angle_rad.is_some()), (Extra::Step, self.step_s.is_some())];
-        match given.iter().find(|(extra, is_given)| *is_given && !takes.contains(extra)) {
-            Some((extra, _)) => Err(StudyError::Option { study, option: extra.name() }),
+        let given = [("--angle", Extra::Angle, self.angle_rad), ("--step", Extra::Step, self.step_s)];
+        match given.iter().find(|(_, extra, value)| value.is_some() && !takes.contains(extra)) {
+            Some((option, ..)) => Err(StudyError::Option { study, option }),
             None => Ok(()),
         }
     }

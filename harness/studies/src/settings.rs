@@ -1,46 +1,59 @@
-//! Names and values that a study sets, and how it writes numbers.
+//! Names and values that a study sets.
 
 use loader::Value;
+
+use crate::attitude::{Attitude, Vector};
 
 /// Names and values to be set.
 pub(crate) type Settings = Vec<(String, Value)>;
 
-/// The elements of a vector or quaternion as settings.
-pub(crate) fn elements(name: &str, values: impl IntoIterator<Item = f64>) -> Settings {
-    (1..).zip(values).map(|(i, value)| real(&format!("{name}[{i}]"), value)).collect()
+/// What a variable is set to; of a vector or quaternion the elements.
+pub(crate) trait Setting {
+    /// The settings of what is called `name`.
+    fn of(self, name: &str) -> Settings;
 }
 
-/// A Real as a setting.
-pub(crate) fn real(name: &str, value: f64) -> (String, Value) {
-    (name.to_owned(), Value::Real(value))
+/// Sets a variable, by its item's name an Enumeration, a vector or a quaternion.
+pub(crate) fn set(name: &str, value: impl Setting) -> Settings {
+    value.of(name)
 }
 
-/// An Integer as a setting.
-pub(crate) fn number(name: &str, value: i32) -> (String, Value) {
-    (name.to_owned(), Value::Integer(value))
+macro_rules! scalar {
+    ($($type:ty: $value:expr;)+) => {$(
+        impl Setting for $type {
+            fn of(self, name: &str) -> Settings {
+                vec![(name.to_owned(), $value(self))]
+            }
+        }
+    )+};
 }
 
-/// An item of an Enumeration as a setting.
-pub(crate) fn item(name: &str, item: &str) -> (String, Value) {
-    (name.to_owned(), Value::Text(item.to_owned()))
+scalar! {
+    f64: Value::Real;
+    i32: Value::Integer;
+    bool: Value::Boolean;
+    &str: |item: &str| Value::Text(item.to_owned());
 }
 
-/// A Boolean as a setting.
-pub(crate) fn flag(name: &str, value: bool) -> (String, Value) {
-    (name.to_owned(), Value::Boolean(value))
+impl<const N: usize> Setting for [f64; N] {
+    fn of(self, name: &str) -> Settings {
+        (1..).zip(self).map(|(i, value)| (format!("{name}[{i}]"), Value::Real(value))).collect()
+    }
+}
+
+impl Setting for Vector {
+    fn of(self, name: &str) -> Settings {
+        <[f64; 3]>::from(self).of(name)
+    }
+}
+
+impl Setting for Attitude {
+    fn of(self, name: &str) -> Settings {
+        <[f64; 4]>::from(self.coords).of(name)
+    }
 }
 
 /// The settings of a component.
 pub(crate) fn of(component: &str, settings: Settings) -> Settings {
     settings.into_iter().map(|(name, value)| (format!("{component}.{name}"), value)).collect()
-}
-
-/// All digits that a number has.
-pub(crate) fn digits(x: f64) -> String {
-    format!("{x:?}")
-}
-
-/// All digits of every number.
-pub(crate) fn cells(numbers: &[&[f64]]) -> Vec<String> {
-    numbers.iter().flat_map(|numbers| numbers.iter().copied().map(digits)).collect()
 }

@@ -76,67 +76,70 @@ pub fn boolean(start: &Start, name: &str) -> Result<Option<bool>, ReadError> {
     }
 }
 
+/// Reads every child of `parent`, each of which has to be an element `name`.
+pub fn list<T>(
+    xml: &mut Xml<'_>,
+    parent: &Start,
+    name: &str,
+    mut read: impl FnMut(&mut Xml<'_>, &Start) -> Result<T, ReadError>,
+) -> Result<Vec<T>, ReadError> {
+    let mut all = Vec::new();
+    while let Some(element) = xml.child(parent)? {
+        if local(&element) != name {
+            return Err(unknown(&element, parent, name));
+        }
+        all.push(read(xml, &element)?);
+    }
+    Ok(all)
+}
+
+/// Reads the children of this name, which hold nothing themselves; others are left alone.
+pub fn leaves<T>(
+    xml: &mut Xml<'_>,
+    parent: &Start,
+    name: &str,
+    mut read: impl FnMut(&Start) -> Result<T, ReadError>,
+) -> Result<Vec<T>, ReadError> {
+    let mut all = Vec::new();
+    while let Some(child) = xml.child(parent)? {
+        if local(&child) == name {
+            all.push(read(&child)?);
+        }
+        xml.skip(&child)?;
+    }
+    Ok(all)
+}
+
 /// Reads `Units`.
 pub fn units(xml: &mut Xml<'_>, parent: &Start) -> Result<Vec<Unit>, ReadError> {
-    let mut units: Vec<Unit> = Vec::new();
-    while let Some(element) = xml.child(parent)? {
-        if local(&element) != "Unit" {
-            return Err(unknown(&element, parent, "Unit"));
-        }
-        let name = required(&element, "name")?;
-        let mut base = None;
-        while let Some(child) = xml.child(&element)? {
-            if local(&child) == "BaseUnit" {
-                base = Some(base_unit(&child)?);
-            }
-            xml.skip(&child)?;
-        }
+    list(xml, parent, "Unit", |xml, element| {
+        let name = required(element, "name")?;
+        let base = leaves(xml, element, "BaseUnit", base_unit)?.pop();
         if base.is_none() {
-            return Err(refuse(&element, format!("unit {name:?} has no BaseUnit")));
+            return Err(refuse(element, format!("unit {name:?} has no BaseUnit")));
         }
-        units.push(Unit { name, base, display_units: Vec::new() });
-    }
-    Ok(units)
+        Ok(Unit { name, base, display_units: Vec::new() })
+    })
 }
 
 fn base_unit(start: &Start) -> Result<BaseUnit, ReadError> {
-    let exponent = |name: &str| Ok::<i32, ReadError>(integer(start, name)?.unwrap_or(0));
     let factor = number(start, "factor")?.unwrap_or(1.0);
     if factor == 0.0 {
         return Err(refuse(start, "attribute `factor`: found 0, allowed: any other number".to_owned()));
     }
-    Ok(BaseUnit {
-        kg: exponent("kg")?,
-        m: exponent("m")?,
-        s: exponent("s")?,
-        a: exponent("A")?,
-        k: exponent("K")?,
-        mol: exponent("mol")?,
-        cd: exponent("cd")?,
-        rad: exponent("rad")?,
-        factor,
-        offset: number(start, "offset")?.unwrap_or(0.0),
-    })
+    let offset = number(start, "offset")?.unwrap_or(0.0);
+    BaseUnit::of(|symbol| Ok(integer(start, symbol)?.unwrap_or(0)), factor, offset)
 }
 
 /// Reads `Enumerations`.
 pub fn enumerations(xml: &mut Xml<'_>, parent: &Start) -> Result<Vec<Enumeration>, ReadError> {
-    let mut enumerations = Vec::new();
-    while let Some(element) = xml.child(parent)? {
-        if local(&element) != "Enumeration" {
-            return Err(unknown(&element, parent, "Enumeration"));
-        }
-        let mut items = Vec::new();
-        let name = required(&element, "name")?;
-        while let Some(child) = xml.child(&element)? {
-            if local(&child) == "Item" {
-                let value = integer(&child, "value")?
-                    .ok_or_else(|| refuse(&child, "attribute `value` is missing".to_owned()))?;
-                items.push(EnumerationItem { name: required(&child, "name")?, value, description: None });
-            }
-            xml.skip(&child)?;
-        }
-        enumerations.push(Enumeration { name, items });
-    }
-    Ok(enumerations)
+    list(xml, parent, "Enumeration", |xml, element| {
+        let name = required(element, "name")?;
+        let items = leaves(xml, element, "Item", |item| {
+            let value = integer(item, "value")?
+                .ok_or_else(|| refuse(item, "attribute `value` is missing".to_owned()))?;
+            Ok(EnumerationItem { name: required(item, "name")?, value, description: None })
+        })?;
+        Ok(Enumeration { name, items })
+    })
 }

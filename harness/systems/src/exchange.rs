@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use loader::{Error, Instance};
-use model_description::VariableKind;
+use model_description::BaseType;
 
 use crate::{joint::Joint, structure::Linear, system::System};
 
@@ -74,15 +74,6 @@ pub struct Ports {
     outputs: [Outputs; 3],
 }
 
-/// The base type of a connected variable.
-fn group(kind: &VariableKind) -> usize {
-    match kind {
-        VariableKind::Real { .. } => 0,
-        VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => 1,
-        VariableKind::Boolean { .. } | VariableKind::String { .. } => 2,
-    }
-}
-
 /// The ports of every component, and the signals between them, all zero.
 pub fn ports(system: &System) -> (Vec<Ports>, Signals) {
     let variable =
@@ -95,7 +86,7 @@ pub fn ports(system: &System) -> (Vec<Ports>, Signals) {
         for (group_number, outputs) in ports.outputs.iter_mut().enumerate() {
             let first = sizes[group_number];
             let here = system.joints().iter().map(|joint| joint.from).filter(|from| from.0 == number);
-            for from in here.filter(|from| group(&variable(*from).kind) == group_number) {
+            for from in here.filter(|from| variable(*from).kind.base_type() as usize == group_number) {
                 if !places.iter().any(|(known, _)| *known == from) {
                     places.push((from, sizes[group_number]));
                     outputs.references.push(variable(from).value_reference);
@@ -109,10 +100,10 @@ pub fn ports(system: &System) -> (Vec<Ports>, Signals) {
         let Some((_, signal)) = places.iter().find(|(known, _)| known == from) else { continue };
         let link = Link { signal: *signal, linear: *linear };
         let (target, of) = (variable(*to), &mut ports[to.0]);
-        match group(&target.kind) {
-            0 => of.reals.add(target.value_reference, 0.0, link),
-            1 => of.integers.add(target.value_reference, 0, link),
-            _ => of.booleans.add(target.value_reference, 0, link),
+        match target.kind.base_type() {
+            BaseType::Real => of.reals.add(target.value_reference, 0.0, link),
+            BaseType::Integer => of.integers.add(target.value_reference, 0, link),
+            BaseType::Boolean | BaseType::String => of.booleans.add(target.value_reference, 0, link),
         }
     }
     let [reals, integers, booleans] = sizes;

@@ -1,7 +1,7 @@
 //! Connections held against the FMUs they join: names, roles, types, items, units.
 
 use loader::Fmu;
-use model_description::{Causality, ScalarVariable, names::similar, value};
+use model_description::{Causality, EnumerationItem, ScalarVariable, names::similar, value};
 
 use crate::{
     structure::{Connection, Connector, End, Kind, Linear, Signal, Structure},
@@ -199,8 +199,15 @@ fn joint(structure: &Structure, fmus: &[Fmu], connection: &Connection) -> Result
     if one == "String" {
         return Err("found type String, allowed: Real, Integer, Boolean, Enumeration".to_owned());
     }
-    if let Some(text) = foreign_item(&start, &end) {
-        return Err(text);
+    let [given, taken] = [&start, &end].map(|it| value::items(it.fmu.description(), it.variable));
+    if let Some(foreign) = foreign_item(given, taken) {
+        let allowed: Vec<String> = taken.iter().map(|it| format!("{} {}", it.value, it.name)).collect();
+        return Err(format!(
+            "the output may be item {} {}, which the input does not have, allowed: {}",
+            foreign.value,
+            foreign.name,
+            allowed.join(", ")
+        ));
     }
     if one != "Real" && connection.transformation.is_some() {
         return Err(format!("found a LinearTransformation of type {one}, allowed: Real"));
@@ -212,19 +219,17 @@ fn joint(structure: &Structure, fmus: &[Fmu], connection: &Connection) -> Result
     Ok(Joint { from: start.at, to: end.at, linear: (linear != Linear::IDENTITY).then_some(linear) })
 }
 
+/// Whether both items have one number and one name.
+pub fn is_same_item(one: &EnumerationItem, other: &EnumerationItem) -> bool {
+    one.value == other.value && one.name == other.name
+}
+
 /// An item of the output's Enumeration that the input's does not have.
-fn foreign_item(start: &Joined<'_>, end: &Joined<'_>) -> Option<String> {
-    let allowed = value::items(end.fmu.description(), end.variable);
-    let items = value::items(start.fmu.description(), start.variable);
-    let foreign =
-        items.iter().find(|item| !allowed.iter().any(|it| it.value == item.value && it.name == item.name))?;
-    let allowed: Vec<String> = allowed.iter().map(|it| format!("{} {}", it.value, it.name)).collect();
-    Some(format!(
-        "the output may be item {} {}, which the input does not have, allowed: {}",
-        foreign.value,
-        foreign.name,
-        allowed.join(", ")
-    ))
+pub fn foreign_item<'a>(
+    given: &'a [EnumerationItem],
+    taken: &[EnumerationItem],
+) -> Option<&'a EnumerationItem> {
+    given.iter().find(|item| !taken.iter().any(|it| is_same_item(it, item)))
 }
 
 /// What a Real goes through from variable to variable: to the connector's unit, to the other connector's unit, through the

@@ -28,7 +28,7 @@ pub use joint::{Joint, Place};
 pub use master::{FirstExchange, Master};
 pub use own::Own;
 pub use package::{MOST_BYTES, is_system};
-pub use reader::MOST_COMPONENTS;
+pub use reader::{MOST_COMPONENTS, read as read_structure};
 pub use simulate::simulate_into;
 pub use structure::{
     Binding, Component, Connection, Connector, End, Enumeration, Experiment, Kind, Linear, Parameter,
@@ -37,11 +37,3 @@ pub use structure::{
 pub use system::{Part, System};
 pub use wire::{Left, Wired, Wiring, component_name, wire};
 pub use writer::{to_parameter_set, to_xml};
-
-/// Reads the bytes of a `SystemStructure.ssd`.
-///
-/// # Errors
-/// XML that is not well-formed, and what cannot be simulated here.
-pub fn read_structure(bytes: &[u8]) -> Result<Structure, model_description::ReadError> {
-    reader::read(bytes)
-}

@@ -68,21 +68,11 @@ impl Running {
         for (number, part) in system.parts().iter().enumerate() {
             let own = sets.iter().filter(|(of, ..)| *of == number).map(|(_, name, value)| (name, value));
             let given = part.parameters.iter().map(|(name, value)| (name, value));
-            let all: Vec<(&String, &Value)> = given.chain(own).collect();
             record_instance(number);
             let instance = &mut running.instances[number];
             let tolerance = part.fmu.description().default_experiment.and_then(|it| it.tolerance);
             instance.setup_experiment(tolerance, times.start_s, Some(times.stop_s))?;
-            for early in [true, false] {
-                for (name, value) in &all {
-                    if loader::set_early(part.fmu.variable(name)?)? == early {
-                        instance.set(name, value)?;
-                    }
-                }
-                if early {
-                    instance.enter_initialization_mode()?;
-                }
-            }
+            loader::initialize(instance, given.chain(own))?;
         }
         if first == FirstExchange::Initial {
             running.settle()?;

@@ -3,7 +3,7 @@
 use model_description::{ReadError, Start, Xml};
 
 use crate::{
-    elements::{attribute, boolean, integer, local, number, refuse, required, units, unknown},
+    elements::{attribute, boolean, integer, list, local, number, refuse, required, units, unknown},
     structure::{Parameter, ParameterSet, Written},
 };
 
@@ -25,14 +25,7 @@ pub fn element(xml: &mut Xml<'_>, start: &Start) -> Result<ParameterSet, ReadErr
         ParameterSet { name: attribute(start, "name").unwrap_or_default().to_owned(), ..Default::default() };
     while let Some(child) = xml.child(start)? {
         match local(&child) {
-            "Parameters" => {
-                while let Some(element) = xml.child(&child)? {
-                    if local(&element) != "Parameter" {
-                        return Err(unknown(&element, &child, "Parameter"));
-                    }
-                    set.parameters.push(parameter(xml, &element)?);
-                }
-            }
+            "Parameters" => set.parameters.extend(list(xml, &child, "Parameter", parameter)?),
             "Units" => set.units = units(xml, &child)?,
             "Enumerations" | "Annotations" => xml.skip(&child)?,
             _ => return Err(unknown(&child, start, "Parameters, Enumerations, Units, Annotations")),

@@ -82,15 +82,18 @@ fn read(
 ) -> Result<Value, String> {
     loader::set_early(variable).map_err(|error| error.to_string())?;
     let description = fmu.description();
-    let mismatch = |found: &str| format!("found type {found}, allowed: {}", variable.kind.name());
+    let (found, allowed) = (parameter.value.word(), variable.kind.name());
+    if found != allowed {
+        return Err(format!("found type {found}, allowed: {allowed}"));
+    }
     let value = match &parameter.value {
-        Written::Real { value, unit } if variable.kind.name() == "Real" => {
+        Written::Real { value, unit } => {
             Value::Real(in_own_unit(fmu, variable, *value, unit.as_deref(), units)?)
         }
-        Written::Integer(value) if variable.kind.name() == "Integer" => Value::Integer(*value),
-        Written::Boolean(value) if variable.kind.name() == "Boolean" => Value::Boolean(*value),
-        Written::Text(value) if variable.kind.name() == "String" => Value::Text(value.clone()),
-        Written::Enumeration(name) if variable.kind.name() == "Enumeration" => {
+        Written::Integer(value) => Value::Integer(*value),
+        Written::Boolean(value) => Value::Boolean(*value),
+        Written::Text(value) => Value::Text(value.clone()),
+        Written::Enumeration(name) => {
             let items = value::items(description, variable);
             let item = items.iter().find(|item| item.name == *name).ok_or_else(|| {
                 let all = items.iter().map(|item| item.name.as_str());
@@ -98,11 +101,6 @@ fn read(
             })?;
             Value::Integer(item.value)
         }
-        Written::Real { .. } => return Err(mismatch("Real")),
-        Written::Integer(_) => return Err(mismatch("Integer")),
-        Written::Boolean(_) => return Err(mismatch("Boolean")),
-        Written::Text(_) => return Err(mismatch("String")),
-        Written::Enumeration(_) => return Err(mismatch("Enumeration")),
     };
     value::check(description, variable, &value).map_err(|misfit| misfit.to_string())?;
     Ok(value)

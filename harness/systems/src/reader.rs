@@ -4,7 +4,10 @@ use files::ANNOTATION;
 use model_description::{ReadError, Start, Xml};
 
 use crate::{
-    elements::{attribute, boolean, enumerations, local, number, parsed, refuse, required, units, unknown},
+    elements::{
+        attribute, boolean, enumerations, leaves, list, local, number, parsed, refuse, required, units,
+        unknown,
+    },
     parameter_set,
     structure::{
         Binding, Component, Connection, Connector, End, Experiment, Kind, Linear, Signal, Structure,
@@ -19,7 +22,10 @@ const FMU_TYPE: &str = "application/x-fmu-sharedlibrary";
 const SSV_TYPE: &str = "application/x-ssp-parameter-set";
 const CONNECTOR_TYPES: &str = "Real, Integer, Boolean, String, Enumeration, Binary";
 
-/// Reads the bytes of a file.
+/// Reads the bytes of a `SystemStructure.ssd`.
+///
+/// # Errors
+/// XML that is not well-formed, and what cannot be simulated here.
 pub fn read(bytes: &[u8]) -> Result<Structure, ReadError> {
     let mut xml = Xml::new(bytes)?;
     let root = xml.root()?;
@@ -60,16 +66,9 @@ fn system(xml: &mut Xml<'_>, start: &Start, structure: &mut Structure) -> Result
     while let Some(child) = xml.child(start)? {
         match local(&child) {
             "Elements" => elements(xml, &child, structure)?,
-            "Connections" => {
-                while let Some(element) = xml.child(&child)? {
-                    if local(&element) != "Connection" {
-                        return Err(unknown(&element, &child, "Connection"));
-                    }
-                    structure.connections.push(connection(xml, &element)?);
-                }
-            }
-            "ParameterBindings" => structure.bindings = bindings(xml, &child)?,
-            "Connectors" => structure.connectors = connectors(xml, &child)?,
+            "Connections" => structure.connections.extend(list(xml, &child, "Connection", connection)?),
+            "ParameterBindings" => structure.bindings = list(xml, &child, "ParameterBinding", binding)?,
+            "Connectors" => structure.connectors = list(xml, &child, "Connector", connector)?,
             "SignalDictionaries" => {
                 return Err(refuse(&child, "signal dictionaries are not simulated here".to_owned()));
             }
@@ -115,8 +114,8 @@ fn component(xml: &mut Xml<'_>, start: &Start) -> Result<Component, ReadError> {
     let mut component = Component { name, source, line: start.line, ..Component::default() };
     while let Some(child) = xml.child(start)? {
         match local(&child) {
-            "Connectors" => component.connectors = connectors(xml, &child)?,
-            "ParameterBindings" => component.bindings = bindings(xml, &child)?,
+            "Connectors" => component.connectors = list(xml, &child, "Connector", connector)?,
+            "ParameterBindings" => component.bindings = list(xml, &child, "ParameterBinding", binding)?,
             "ElementGeometry" | "Annotations" => xml.skip(&child)?,
             _ => {
                 let allowed = "Connectors, ParameterBindings, ElementGeometry, Annotations";
@@ -125,17 +124,6 @@ fn component(xml: &mut Xml<'_>, start: &Start) -> Result<Component, ReadError> {
         }
     }
     Ok(component)
-}
-
-fn connectors(xml: &mut Xml<'_>, start: &Start) -> Result<Vec<Connector>, ReadError> {
-    let mut connectors: Vec<Connector> = Vec::new();
-    while let Some(element) = xml.child(start)? {
-        if local(&element) != "Connector" {
-            return Err(unknown(&element, start, "Connector"));
-        }
-        connectors.push(connector(xml, &element)?);
-    }
-    Ok(connectors)
 }
 
 fn connector(xml: &mut Xml<'_>, start: &Start) -> Result<Connector, ReadError> {
@@ -195,61 +183,45 @@ fn connection(xml: &mut Xml<'_>, start: &Start) -> Result<Connection, ReadError>
     Ok(connection)
 }
 
-fn bindings(xml: &mut Xml<'_>, start: &Start) -> Result<Vec<Binding>, ReadError> {
-    let mut bindings = Vec::new();
-    while let Some(element) = xml.child(start)? {
-        if local(&element) != "ParameterBinding" {
-            return Err(unknown(&element, start, "ParameterBinding"));
+fn binding(xml: &mut Xml<'_>, start: &Start) -> Result<Binding, ReadError> {
+    for (key, allowed) in [("type", SSV_TYPE), ("sourceBase", "SSD")] {
+        if let Some(found) = attribute(start, key).filter(|found| *found != allowed) {
+            return Err(refuse(start, format!("{key} {found:?} is not read, allowed: {allowed}")));
         }
-        for (key, allowed) in [("type", SSV_TYPE), ("sourceBase", "SSD")] {
-            if let Some(found) = attribute(&element, key).filter(|found| *found != allowed) {
-                return Err(refuse(&element, format!("{key} {found:?} is not read, allowed: {allowed}")));
-            }
-        }
-        let mut binding = Binding {
-            source: attribute(&element, "source").map(str::to_owned),
-            prefix: attribute(&element, "prefix").unwrap_or_default().to_owned(),
-            sets: Vec::new(),
-            line: element.line,
-        };
-        while let Some(child) = xml.child(&element)? {
-            match local(&child) {
-                "ParameterValues" => {
-                    while let Some(set) = xml.child(&child)? {
-                        if local(&set) != "ParameterSet" {
-                            return Err(unknown(&set, &child, "ParameterSet"));
-                        }
-                        binding.sets.push(parameter_set::element(xml, &set)?);
-                    }
-                }
-                "Annotations" => xml.skip(&child)?,
-                _ => return Err(unknown(&child, &element, "ParameterValues, Annotations")),
-            }
-        }
-        bindings.push(binding);
     }
-    Ok(bindings)
+    let mut binding = Binding {
+        source: attribute(start, "source").map(str::to_owned),
+        prefix: attribute(start, "prefix").unwrap_or_default().to_owned(),
+        sets: Vec::new(),
+        line: start.line,
+    };
+    while let Some(child) = xml.child(start)? {
+        match local(&child) {
+            "ParameterValues" => {
+                binding.sets.extend(list(xml, &child, "ParameterSet", parameter_set::element)?);
+            }
+            "Annotations" => xml.skip(&child)?,
+            _ => return Err(unknown(&child, start, "ParameterValues, Annotations")),
+        }
+    }
+    Ok(binding)
 }
 
 fn experiment(xml: &mut Xml<'_>, start: &Start) -> Result<Experiment, ReadError> {
     let mut experiment =
         Experiment { start_s: number(start, "startTime")?, stop_s: number(start, "stopTime")?, step_s: None };
-    while let Some(annotations) = xml.child(start)? {
-        if local(&annotations) != "Annotations" {
-            return Err(unknown(&annotations, start, "Annotations"));
-        }
-        while let Some(annotation) = xml.child(&annotations)? {
+    list(xml, start, "Annotations", |xml, annotations| {
+        while let Some(annotation) = xml.child(annotations)? {
             if attribute(&annotation, "type") != Some(ANNOTATION) {
                 xml.skip(&annotation)?;
                 continue;
             }
-            while let Some(child) = xml.child(&annotation)? {
-                if local(&child) == "Step" {
-                    experiment.step_s = parsed(&child, "size", "a number of seconds")?;
-                }
-                xml.skip(&child)?;
+            let size = |step: &Start| parsed(step, "size", "a number of seconds");
+            if let Some(size_s) = leaves(xml, &annotation, "Step", size)?.pop() {
+                experiment.step_s = size_s;
             }
         }
-    }
+        Ok(())
+    })?;
     Ok(experiment)
 }

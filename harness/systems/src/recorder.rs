@@ -1,7 +1,7 @@
 //! Rows of a system's recording: every component read by one call a base type.
 
 use loader::{Error, Instance, Row, Rows};
-use model_description::{Causality, VariableKind};
+use model_description::Causality;
 
 use crate::{joint::Place, structure::Linear, system::System};
 
@@ -32,12 +32,7 @@ impl Recorder {
         let mut sizes = [0; 4];
         for &position in positions {
             let variable = &system.description().variables[position];
-            let base = match variable.kind {
-                VariableKind::Real { .. } => 0,
-                VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => 1,
-                VariableKind::Boolean { .. } => 2,
-                VariableKind::String { .. } => 3,
-            };
+            let base = variable.kind.base_type() as usize;
             let Some(&Place { at: (number, _), linear }) = system.places(position).first() else { continue };
             let group = &mut groups[number][base];
             group.references.push(variable.value_reference);

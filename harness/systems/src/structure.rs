@@ -223,6 +223,19 @@ pub enum Written {
     Enumeration(String),
 }
 
+impl Written {
+    /// The standard's word for its type.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Real { .. } => "Real",
+            Self::Integer(_) => "Integer",
+            Self::Boolean(_) => "Boolean",
+            Self::Text(_) => "String",
+            Self::Enumeration(_) => "Enumeration",
+        }
+    }
+}
+
 /// When a run starts and stops, and its step, in s.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Experiment {

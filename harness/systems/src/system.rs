@@ -187,11 +187,7 @@ impl System {
         stop_s: Option<f64>,
         step_s: Option<f64>,
     ) -> Result<Times, loader::Error> {
-        let default = self.merged.description.default_experiment.unwrap_or_default();
-        let start_s = start_s.or(default.start_time).unwrap_or(0.0);
-        let stop_s = stop_s.or(default.stop_time).unwrap_or(start_s + 1.0);
-        let step_s = step_s.or(default.step_size).unwrap_or((stop_s - start_s) / 100.0);
-        let times = Times::new(start_s, stop_s, step_s)?;
+        let times = Times::of_default(&self.merged.description, start_s, stop_s, step_s)?;
         self.parts.iter().try_for_each(|part| times.fit(&part.fmu))?;
         Ok(times)
     }

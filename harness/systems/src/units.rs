@@ -11,8 +11,7 @@ pub fn base(name: &str, lists: &[&[Unit]]) -> Option<BaseUnit> {
 
 /// Whether both are of one dimension.
 pub fn is_same_dimension(one: &BaseUnit, other: &BaseUnit) -> bool {
-    let exponents = |it: &BaseUnit| [it.kg, it.m, it.s, it.a, it.k, it.mol, it.cd, it.rad];
-    exponents(one) == exponents(other)
+    one.exponents() == other.exponents()
 }
 
 /// From a number in one unit to the number in another of the same dimension: both are `factor x + offset` in base units.

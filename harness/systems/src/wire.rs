@@ -4,12 +4,13 @@ use std::path::Path;
 
 use loader::Fmu;
 use model_description::{
-    Causality, Description, ScalarVariable, SimpleTypeKind, Unit, VariableKind, names, value,
+    Causality, Description, EnumerationItem, ScalarVariable, Unit, VariableKind, names, value,
 };
 
 use crate::{
     error::Error,
     experiment::complete,
+    joint::{foreign_item, is_same_item},
     merged::{Merged, merge},
     structure::{
         Binding, Component, Connection, Connector, End, Enumeration, Experiment, Kind, Parameter,
@@ -134,8 +135,10 @@ pub fn wire(
             }
         }
     }
-    list_outputs(&mut wired.structure, components, wiring)?;
-    export(&mut wired, components, wiring)?;
+    let named = components.iter().map(|(component, fmu)| (component.as_str(), fmu));
+    let merged = merge(name, Experiment::default(), named);
+    list_outputs(&mut wired.structure, components, wiring, &merged)?;
+    export(&mut wired, components, wiring, &merged)?;
     for (component, (_, fmu)) in wired.structure.components.iter_mut().zip(components) {
         component.connectors.sort_by_key(|it| (it.kind == Kind::Output, fmu.position(&it.name)));
     }
@@ -267,11 +270,7 @@ fn fits(
         let (given, taken) = (unit(from, output), unit(to, input));
         return Err(format!("other unit: {} to {}", shown(given), shown(taken)));
     }
-    let taken = value::items(to, input);
-    let foreign = value::items(from, output)
-        .iter()
-        .find(|item| !taken.iter().any(|it| it.value == item.value && it.name == item.name));
-    match foreign {
+    match foreign_item(value::items(from, output), value::items(to, input)) {
         Some(item) => Err(format!("other items: {} {} is none of its own", item.value, item.name)),
         None => Ok(()),
     }
@@ -289,13 +288,12 @@ fn connect(
         component: Some(components[number].0.clone()),
         connector: variable.name.clone(),
     };
-    structure.connections.push(Connection {
-        start: end(from, output),
-        end: end(to, input),
-        transformation: None,
-        suppress_unit_conversion: false,
-        line: 0,
-    });
+    structure.connections.push(connection(end(from, output), end(to, input)));
+}
+
+/// With nothing on the way.
+fn connection(start: End, end: End) -> Connection {
+    Connection { start, end, transformation: None, suppress_unit_conversion: false, line: 0 }
 }
 
 /// Lists a variable as a connector, with what its type needs, once.
@@ -328,7 +326,8 @@ fn add_connector(
         VariableKind::Boolean { .. } => Signal::Boolean,
         VariableKind::String { .. } => Signal::Text,
         VariableKind::Enumeration { declared_type, .. } => {
-            Signal::Enumeration { name: enumeration(structure, component, description, declared_type) }
+            let name = enumeration(structure, component, (description, variable), declared_type);
+            Signal::Enumeration { name }
         }
     };
     let connector = Connector { name: variable.name.clone(), kind, signal: Some(signal), line: 0 };
@@ -339,19 +338,13 @@ fn add_connector(
 fn enumeration(
     structure: &mut Structure,
     component: &str,
-    description: &Description,
+    (description, variable): (&Description, &ScalarVariable),
     declared_type: &str,
 ) -> String {
-    let items = description.types.iter().find_map(|it| match &it.kind {
-        SimpleTypeKind::Enumeration { items, .. } if it.name == declared_type => Some(items.clone()),
-        _ => None,
-    });
-    let items = items.unwrap_or_default();
+    let items = value::items(description, variable).to_vec();
     let is_same = |known: &Enumeration| {
-        let numbers = |items: &[model_description::EnumerationItem]| -> Vec<(String, i32)> {
-            items.iter().map(|item| (item.name.clone(), item.value)).collect()
-        };
-        numbers(&known.items) == numbers(&items)
+        let same = |(one, other): (&EnumerationItem, &EnumerationItem)| is_same_item(one, other);
+        known.items.len() == items.len() && known.items.iter().zip(&items).all(same)
     };
     let mut name = declared_type.to_owned();
     if structure.enumerations.iter().any(|known| known.name == name && !is_same(known)) {
@@ -368,11 +361,10 @@ fn list_outputs(
     structure: &mut Structure,
     components: &[(String, Fmu)],
     wiring: &Wiring,
+    Merged { description, origins }: &Merged,
 ) -> Result<(), Error> {
-    let named = components.iter().map(|(component, fmu)| (component.as_str(), fmu));
-    let Merged { description, origins } = merge(&structure.name, Experiment::default(), named);
     for pattern in &wiring.outputs {
-        for position in loader::select_outputs(&description, pattern)? {
+        for position in loader::select_outputs(description, pattern)? {
             let (number, at) = origins[position];
             let variable = &components[number].1.description().variables[at];
             if variable.causality != Causality::Output {
@@ -395,10 +387,13 @@ fn identifier(name: &str) -> String {
 }
 
 /// Makes variables that patterns name connectors of the system.
-fn export(wired: &mut Wired, components: &[(String, Fmu)], wiring: &Wiring) -> Result<(), Error> {
-    let named = components.iter().map(|(component, fmu)| (component.as_str(), fmu));
-    let Merged { description, origins } = merge(&wired.structure.name, Experiment::default(), named);
-    let selected = wiring.exports.iter().map(|pattern| loader::select_outputs(&description, pattern));
+fn export(
+    wired: &mut Wired,
+    components: &[(String, Fmu)],
+    wiring: &Wiring,
+    Merged { description, origins }: &Merged,
+) -> Result<(), Error> {
+    let selected = wiring.exports.iter().map(|pattern| loader::select_outputs(description, pattern));
     for position in selected.collect::<Result<Vec<_>, _>>()?.concat() {
         let (number, at) = origins[position];
         let variable = &components[number].1.description().variables[at];
@@ -435,13 +430,7 @@ fn export(wired: &mut Wired, components: &[(String, Fmu)], wiring: &Wiring) -> R
         wired
             .left
             .retain(|left| end.component.as_ref() != Some(&left.component) || left.input != end.connector);
-        structure.connections.push(Connection {
-            start,
-            end,
-            transformation: None,
-            suppress_unit_conversion: false,
-            line: 0,
-        });
+        structure.connections.push(connection(start, end));
     }
     Ok(())
 }

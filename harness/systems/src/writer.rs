@@ -33,18 +33,17 @@ pub fn to_parameter_set(set: &ParameterSet) -> String {
     );
     for parameter in &set.parameters {
         let value = match &parameter.value {
-            Written::Real { value, unit } => {
-                let unit =
-                    unit.as_ref().map(|unit| format!(" unit=\"{}\"", escape(unit))).unwrap_or_default();
-                format!("Real value=\"{value}\"{unit}")
-            }
-            Written::Integer(value) => format!("Integer value=\"{value}\""),
-            Written::Boolean(value) => format!("Boolean value=\"{value}\""),
-            Written::Text(value) => format!("String value=\"{}\"", escape(value)),
-            Written::Enumeration(item) => format!("Enumeration value=\"{}\"", escape(item)),
+            Written::Real { value, unit: Some(unit) } => format!("{value}\" unit=\"{}", escape(unit)),
+            Written::Real { value, unit: None } => value.to_string(),
+            Written::Integer(value) => value.to_string(),
+            Written::Boolean(value) => value.to_string(),
+            Written::Text(text) | Written::Enumeration(text) => escape(text),
         };
+        let word = parameter.value.word();
         let name = escape(&parameter.name);
-        text.push_str(&format!("    <ssv:Parameter name=\"{name}\"><ssv:{value}/></ssv:Parameter>\n"));
+        text.push_str(&format!(
+            "    <ssv:Parameter name=\"{name}\"><ssv:{word} value=\"{value}\"/></ssv:Parameter>\n"
+        ));
     }
     text.push_str("  </ssv:Parameters>\n</ssv:ParameterSet>\n");
     text
@@ -202,16 +201,7 @@ fn write_connection(to: &mut String, connection: &Connection) -> std::fmt::Resul
 fn write_unit(to: &mut String, unit: &Unit) -> std::fmt::Result {
     write!(to, "    <ssc:Unit name=\"{}\"><ssc:BaseUnit", escape(&unit.name))?;
     let base = unit.base.unwrap_or_default();
-    for (name, exponent) in [
-        ("kg", base.kg),
-        ("m", base.m),
-        ("s", base.s),
-        ("A", base.a),
-        ("K", base.k),
-        ("mol", base.mol),
-        ("cd", base.cd),
-        ("rad", base.rad),
-    ] {
+    for (name, exponent) in base.exponents() {
         if exponent != 0 {
             write!(to, " {name}=\"{exponent}\"")?;
         }

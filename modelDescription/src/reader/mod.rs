@@ -11,11 +11,12 @@ mod fields;
 mod variables;
 mod xml;
 
+use crate::element::Element;
 use crate::finding::{Code, Finding, Lines};
-use crate::{Description, NamingConvention, validate};
+use crate::{CoSimulation, Description, ModelExchange, validate};
 
 pub use error::ReadError;
-use fields::{Fields, words};
+pub(crate) use fields::Fields;
 pub use xml::{MAX_BYTES, Start, Xml};
 
 /// What was read.
@@ -40,7 +41,7 @@ impl Parsed {
 }
 
 /// The children of the root in schema order; those marked are required.
-const SECTIONS: &[(&str, bool)] = &[
+const SECTIONS: [(&str, bool); 9] = [
     ("ModelExchange", false),
     ("CoSimulation", false),
     ("UnitDefinitions", false),
@@ -80,50 +81,20 @@ impl Read<'_> {
         }
         self.lines.root = root.line;
         let mut fields = Fields::of(root);
-        let version = fields.required("fmiVersion")?;
+        let version: String = fields.required("fmiVersion")?;
         if version != "2.0" {
             let message = format!("fmiVersion is `{version}`; allowed is `2.0`");
             return Err(ReadError::new(Code::Version, root.line, &root.name, message));
         }
-        let description = &mut self.description;
-        description.model_name = fields.required("modelName")?;
-        description.guid = fields.required("guid")?;
-        description.description = fields.text("description");
-        description.author = fields.text("author");
-        description.version = fields.text("version");
-        description.copyright = fields.text("copyright");
-        description.license = fields.text("license");
-        description.generation_tool = fields.text("generationTool");
-        description.generation_date_and_time = fields.text("generationDateAndTime");
-        let allowed = words(NamingConvention::ALL, NamingConvention::as_str);
-        description.variable_naming = fields
-            .value("variableNamingConvention", &allowed, NamingConvention::from_word)?
-            .unwrap_or_default();
-        description.number_of_event_indicators = fields.unsigned("numberOfEventIndicators")?;
+        self.description = Description::read(&mut fields)?;
         fields.finish(&mut self.xml);
         Ok(())
     }
 
     fn sections(&mut self, root: &Start) -> Result<(), ReadError> {
-        let mut seen = [false; SECTIONS.len()];
-        let mut last = 0;
-        while let Some(mut start) = self.xml.child(root)? {
-            let Some(rank) = SECTIONS.iter().position(|(name, _)| *name == start.name) else {
-                self.unknown(&start)?;
-                continue;
-            };
-            if seen[rank] {
-                return Err(twice(&start));
-            }
-            seen[rank] = true;
-            // Either of ModelExchange and CoSimulation may come first.
-            if rank < last && last > 1 {
-                let message = format!("stands after <{}>; the schema requires it before", SECTIONS[last].0);
-                self.xml.warn(Code::ElementOrder, start.line, &start.name, message);
-            }
-            last = last.max(rank);
-            self.section(&mut start)?;
-        }
+        let names = SECTIONS.map(|(name, _)| name);
+        // Either of ModelExchange and CoSimulation may come first.
+        let seen = self.ordered(root, names, 2, |read, _, start| read.section(start))?;
         for ((name, required), seen) in SECTIONS.iter().zip(seen) {
             if *required && !seen {
                 return Err(lacks(root, name));
@@ -132,14 +103,64 @@ impl Read<'_> {
         Ok(())
     }
 
+    /// Reads the children of `parent` with `child`, which gets the place of each in `names`; those after the first `free` should
+    /// stand in this order. Says which there were.
+    fn ordered<const N: usize>(
+        &mut self,
+        parent: &Start,
+        names: [&str; N],
+        free: usize,
+        mut child: impl FnMut(&mut Self, usize, &mut Start) -> Result<(), ReadError>,
+    ) -> Result<[bool; N], ReadError> {
+        let mut seen = [false; N];
+        let mut last = 0;
+        while let Some(mut start) = self.xml.child(parent)? {
+            let Some(rank) = names.iter().position(|name| *name == start.name) else {
+                self.unknown(&start)?;
+                continue;
+            };
+            if core::mem::replace(&mut seen[rank], true) {
+                return Err(twice(&start));
+            }
+            if rank < last && last >= free {
+                let message = format!("stands after <{}>; the schema requires it before", names[last]);
+                self.xml.warn(Code::ElementOrder, start.line, &start.name, message);
+            }
+            last = last.max(rank);
+            child(self, rank, &mut start)?;
+        }
+        Ok(seen)
+    }
+
     fn section(&mut self, start: &mut Start) -> Result<(), ReadError> {
         match start.name.as_str() {
-            "ModelExchange" => self.model_exchange(start),
-            "CoSimulation" => self.co_simulation(start),
+            "ModelExchange" => {
+                self.lines.model_exchange = start.line;
+                let flags = self.attributes(start)?;
+                let source_files = self.source_files(start)?;
+                self.description.model_exchange = Some(ModelExchange { source_files, ..flags });
+                Ok(())
+            }
+            "CoSimulation" => {
+                self.lines.co_simulation = start.line;
+                let flags = self.attributes(start)?;
+                let source_files = self.source_files(start)?;
+                self.description.co_simulation = Some(CoSimulation { source_files, ..flags });
+                Ok(())
+            }
             "UnitDefinitions" => self.list(start, "Unit", Self::unit),
             "TypeDefinitions" => self.list(start, "SimpleType", Self::simple_type),
-            "LogCategories" => self.list(start, "Category", Self::category),
-            "DefaultExperiment" => self.default_experiment(start),
+            "LogCategories" => self.list(start, "Category", |read, start| {
+                read.lines.log_categories.push(start.line);
+                let category = read.leaf(start)?;
+                read.description.log_categories.push(category);
+                Ok(())
+            }),
+            "DefaultExperiment" => {
+                self.lines.default_experiment = start.line;
+                self.description.default_experiment = Some(self.leaf(start)?);
+                Ok(())
+            }
             "VendorAnnotations" => self.annotations(start),
             "ModelVariables" => {
                 self.lines.model_variables = start.line;
@@ -174,8 +195,23 @@ impl Read<'_> {
         Ok(())
     }
 
-    /// Reads past an element that holds nothing FMI knows.
-    fn leaf(&mut self, start: &Start) -> Result<(), ReadError> {
+    /// The attributes of an element; others give warnings.
+    fn attributes<T: Element>(&mut self, start: &mut Start) -> Result<T, ReadError> {
+        let mut fields = Fields::of(start);
+        let read = T::read(&mut fields)?;
+        fields.finish(&mut self.xml);
+        Ok(read)
+    }
+
+    /// An element that has attributes only.
+    fn leaf<T: Element>(&mut self, start: &mut Start) -> Result<T, ReadError> {
+        let read = self.attributes(start)?;
+        self.end(start)?;
+        Ok(read)
+    }
+
+    /// Reads past an element that holds nothing more that FMI knows.
+    fn end(&mut self, start: &Start) -> Result<(), ReadError> {
         while let Some(child) = self.xml.child(start)? {
             self.unknown(&child)?;
         }

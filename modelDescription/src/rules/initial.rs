@@ -1,6 +1,6 @@
 //! `initial` and `start` by causality and variability (2.2.7, tables of pages 48 and 49).
 
-use crate::{Causality, Initial, ScalarVariable, Variability, VariableKind};
+use crate::{Causality, Initial, ScalarVariable, Variability, value};
 
 /// What `initial` may be for one pair of causality and variability.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,10 +112,52 @@ pub fn start_required(variable: &ScalarVariable) -> bool {
 
 /// Whether the variable carries a start value.
 pub fn has_start(variable: &ScalarVariable) -> bool {
-    match &variable.kind {
-        VariableKind::Real { start, .. } => start.is_some(),
-        VariableKind::Integer { start, .. } | VariableKind::Enumeration { start, .. } => start.is_some(),
-        VariableKind::Boolean { start, .. } => start.is_some(),
-        VariableKind::String { start, .. } => start.is_some(),
+    value::start(variable).is_some()
+}
+
+/// What of a declaration does not fit the standard's tables, in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RoleFault {
+    /// Causality, variability and initial do not fit each other or the type.
+    Role(String),
+    /// There is no start value, and there must be one.
+    StartMissing(&'static str),
+    /// There is a start value, and there must be none.
+    StartForbidden(&'static str),
+}
+
+/// Checks the causality, variability, initial and start value of a declaration; only a Real may be continuous.
+pub fn check_role(
+    causality: Causality,
+    variability: Variability,
+    written: Option<Initial>,
+    is_real: bool,
+    has_start: bool,
+) -> Result<(), RoleFault> {
+    if variability == Variability::Continuous && !is_real {
+        return Err(RoleFault::Role("only a Real can be continuous".to_owned()));
     }
+    let Some(rule) = initial(causality, variability) else {
+        let allowed = listed(legal_variabilities(causality).map(Variability::as_str));
+        return Err(RoleFault::Role(format!("{causality} cannot be {variability}; allowed: {allowed}")));
+    };
+    if let Some(written) = written.filter(|written| !rule.allowed.contains(written)) {
+        let allowed = listed(rule.allowed.iter().map(|initial| initial.as_str()));
+        return Err(RoleFault::Role(format!(
+            "{variability} {causality} cannot have initial {written}; allowed: {allowed}"
+        )));
+    }
+    match start(causality, effective(causality, variability, written)) {
+        StartRule::Required if !has_start => Err(RoleFault::StartMissing("needs a start value")),
+        StartRule::Forbidden if has_start => {
+            Err(RoleFault::StartForbidden("is calculated and cannot have a start value"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Words with commas between, or `none`.
+pub fn listed<'a>(words: impl Iterator<Item = &'a str>) -> String {
+    let words: Vec<_> = words.collect();
+    if words.is_empty() { "none".to_owned() } else { words.join(", ") }
 }

@@ -7,7 +7,7 @@ mod initial;
 mod structure;
 
 pub use initial::{
-    INITIAL_TABLE, InitialRow, InitialRule, StartRule, effective, effective_initial, has_start, initial,
-    legal_variabilities, start, start_required,
+    INITIAL_TABLE, InitialRow, InitialRule, RoleFault, StartRule, check_role, effective, effective_initial,
+    has_start, initial, legal_variabilities, listed, start, start_required,
 };
 pub use structure::{initial_unknowns, outputs, structure};

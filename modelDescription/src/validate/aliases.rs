@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 use super::{Check, Place, some_of};
 use crate::finding::Code;
 use crate::rules;
-use crate::{Causality, ScalarVariable, SimpleTypeKind, Variability, VariableKind};
+use crate::value;
+use crate::{BaseType, Causality, ScalarVariable, SimpleTypeKind, Variability, VariableKind};
 
 impl<'a> Check<'a> {
     pub(super) fn aliases(&mut self) {
-        let mut sets: BTreeMap<(u8, u32), Vec<usize>> = BTreeMap::new();
+        let mut sets: BTreeMap<(BaseType, u32), Vec<usize>> = BTreeMap::new();
         for (index, variable) in self.description.variables.iter().enumerate() {
-            sets.entry((table(&variable.kind), variable.value_reference)).or_default().push(index);
+            sets.entry((variable.kind.base_type(), variable.value_reference)).or_default().push(index);
         }
         for members in sets.values().filter(|members| members.len() > 1) {
             self.alias_set(members);
@@ -34,7 +35,7 @@ impl<'a> Check<'a> {
                                    allowed are all constant or none"
             );
             self.add(Code::AliasConstant, place, message);
-        } else if constants > 0 && set.windows(2).any(|pair| !same_start(&pair[0].kind, &pair[1].kind)) {
+        } else if constants > 0 && set.windows(2).any(|pair| value::start(pair[0]) != value::start(pair[1])) {
             let message = format!(
                 "constants with value reference {reference} ({names}) differ in start; \
                                    allowed is one value"
@@ -77,29 +78,5 @@ impl<'a> Check<'a> {
             _ => None,
         };
         attributes.unit.as_deref().or(inherited)
-    }
-}
-
-/// Which table of values a reference indexes: one for each pair of get and set functions.
-fn table(kind: &VariableKind) -> u8 {
-    match kind {
-        VariableKind::Real { .. } => 0,
-        VariableKind::Integer { .. } | VariableKind::Enumeration { .. } => 1,
-        VariableKind::Boolean { .. } => 2,
-        VariableKind::String { .. } => 3,
-    }
-}
-
-fn same_start(one: &VariableKind, other: &VariableKind) -> bool {
-    use VariableKind::{Boolean, Enumeration, Integer, Real, String};
-    match (one, other) {
-        (Real { start: one, .. }, Real { start: other, .. }) => one == other,
-        (
-            Integer { start: one, .. } | Enumeration { start: one, .. },
-            Integer { start: other, .. } | Enumeration { start: other, .. },
-        ) => one == other,
-        (Boolean { start: one, .. }, Boolean { start: other, .. }) => one == other,
-        (String { start: one, .. }, String { start: other, .. }) => one == other,
-        _ => true,
     }
 }

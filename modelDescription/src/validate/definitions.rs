@@ -1,8 +1,8 @@
 //! Units, types and log categories.
 
 use super::{Check, Place, some_of};
-use crate::document::double;
 use crate::finding::Code;
+use crate::lexical::double;
 use crate::{RealAttributes, SimpleTypeKind};
 
 impl Check<'_> {

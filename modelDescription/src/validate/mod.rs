@@ -74,54 +74,43 @@ impl<'a> Check<'a> {
     }
 
     fn add(&mut self, code: Code, place: Place, message: String) {
-        let finding = Finding { code, subject: self.subject(place), line: self.line(place), message };
-        self.findings.push(finding);
+        let (subject, line) = self.locate(place);
+        let line = line.copied().filter(|line| *line > 0);
+        self.findings.push(Finding { code, subject, line, message });
     }
 
-    fn line(&self, place: Place) -> Option<u32> {
-        let lines = self.lines;
-        let at = |list: &[u32], index: usize| list.get(index).copied().unwrap_or(0);
-        let line = match place {
-            Place::Root => lines.root,
-            Place::ModelExchange => lines.model_exchange,
-            Place::CoSimulation => lines.co_simulation,
-            Place::Unit(index) => at(&lines.units, index),
-            Place::Type(index) => at(&lines.types, index),
-            Place::Category(index) => at(&lines.log_categories, index),
-            Place::Experiment => lines.default_experiment,
-            Place::Variables => lines.model_variables,
-            Place::Variable(index) => at(&lines.variables, index),
-            Place::Output(index) => at(&lines.outputs, index),
-            Place::Derivative(index) => at(&lines.derivatives, index),
-            Place::InitialUnknown(index) => at(&lines.initial_unknowns, index),
-        };
-        (line > 0).then_some(line)
-    }
-
-    fn subject(&self, place: Place) -> String {
-        let all = self.description;
-        let named =
-            |what: &str, name: Option<&String>| format!("{what} `{}`", name.map_or("", String::as_str));
+    /// The element in words, and its line.
+    fn locate(&self, place: Place) -> (String, Option<&'a u32>) {
+        let (all, lines) = (self.description, self.lines);
+        let named = |what: &str, name: Option<&String>| format!("{what} `{}`", name.map_or("", |it| it));
         let entry = |list: &str, unknowns: &[Unknown], at: usize| {
-            let name = unknowns.get(at).and_then(|u| self.variable(u.index)).map(|v| v.name.as_str());
-            match name {
-                Some(name) => format!("ModelStructure/{list} entry {} (`{name}`)", at + 1),
-                None => format!("ModelStructure/{list} entry {}", at + 1),
-            }
+            let variable = unknowns.get(at).and_then(|unknown| self.variable(unknown.index));
+            let name = variable.map(|variable| format!(" (`{}`)", variable.name)).unwrap_or_default();
+            format!("ModelStructure/{list} entry {}{name}", at + 1)
         };
+        let structure = &all.structure;
         match place {
-            Place::Root => "fmiModelDescription".to_owned(),
-            Place::ModelExchange => "ModelExchange".to_owned(),
-            Place::CoSimulation => "CoSimulation".to_owned(),
-            Place::Unit(at) => named("unit", all.units.get(at).map(|unit| &unit.name)),
-            Place::Type(at) => named("type", all.types.get(at).map(|known| &known.name)),
-            Place::Category(at) => named("log category", all.log_categories.get(at).map(|c| &c.name)),
-            Place::Experiment => "DefaultExperiment".to_owned(),
-            Place::Variables => "ModelVariables".to_owned(),
-            Place::Variable(at) => named("variable", all.variables.get(at).map(|v| &v.name)),
-            Place::Output(at) => entry("Outputs", &all.structure.outputs, at),
-            Place::Derivative(at) => entry("Derivatives", &all.structure.derivatives, at),
-            Place::InitialUnknown(at) => entry("InitialUnknowns", &all.structure.initial_unknowns, at),
+            Place::Root => ("fmiModelDescription".to_owned(), Some(&lines.root)),
+            Place::ModelExchange => ("ModelExchange".to_owned(), Some(&lines.model_exchange)),
+            Place::CoSimulation => ("CoSimulation".to_owned(), Some(&lines.co_simulation)),
+            Place::Experiment => ("DefaultExperiment".to_owned(), Some(&lines.default_experiment)),
+            Place::Variables => ("ModelVariables".to_owned(), Some(&lines.model_variables)),
+            Place::Unit(at) => (named("unit", all.units.get(at).map(|it| &it.name)), lines.units.get(at)),
+            Place::Type(at) => (named("type", all.types.get(at).map(|it| &it.name)), lines.types.get(at)),
+            Place::Category(at) => {
+                let name = all.log_categories.get(at).map(|it| &it.name);
+                (named("log category", name), lines.log_categories.get(at))
+            }
+            Place::Variable(at) => {
+                (named("variable", all.variables.get(at).map(|it| &it.name)), lines.variables.get(at))
+            }
+            Place::Output(at) => (entry("Outputs", &structure.outputs, at), lines.outputs.get(at)),
+            Place::Derivative(at) => {
+                (entry("Derivatives", &structure.derivatives, at), lines.derivatives.get(at))
+            }
+            Place::InitialUnknown(at) => {
+                (entry("InitialUnknowns", &structure.initial_unknowns, at), lines.initial_unknowns.get(at))
+            }
         }
     }
 

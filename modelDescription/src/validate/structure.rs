@@ -7,6 +7,12 @@ use crate::finding::Code;
 use crate::rules;
 use crate::{Causality, DependencyKind, Initial, ScalarVariable, Unknown, VariableKind};
 
+/// Whether a variable, with its index, may be depended on.
+type Known<'k> = &'k dyn Fn(u32, &ScalarVariable) -> bool;
+
+/// A list of unknowns: where each stands, what it may depend on, and that in words.
+type List<'l> = (&'l [Unknown], fn(usize) -> Place, Known<'l>, &'l str);
+
 impl Check<'_> {
     pub(super) fn structure(&mut self) {
         let structure = &self.description.structure;
@@ -128,33 +134,28 @@ impl Check<'_> {
         };
         let step_rule = "inputs, continuous states and the independent variable";
         let start_rule = "inputs, variables with initial exact and the independent variable";
-        for (at, unknown) in structure.outputs.iter().enumerate() {
-            self.unknown(unknown, Place::Output(at), &at_steps, step_rule);
-        }
-        for (at, unknown) in structure.derivatives.iter().enumerate() {
-            self.unknown(unknown, Place::Derivative(at), &at_steps, step_rule);
+        let lists: [List<'_>; 3] = [
+            (&structure.outputs, Place::Output, &at_steps, step_rule),
+            (&structure.derivatives, Place::Derivative, &at_steps, step_rule),
+            (&structure.initial_unknowns, Place::InitialUnknown, &at_start, start_rule),
+        ];
+        for (unknowns, place, known, rule) in lists {
+            for (at, unknown) in unknowns.iter().enumerate() {
+                self.unknown(unknown, place(at), known, rule);
+            }
         }
         for (at, unknown) in structure.initial_unknowns.iter().enumerate() {
-            let place = Place::InitialUnknown(at);
-            self.unknown(unknown, place, &at_start, start_rule);
-            let kinds = unknown.dependencies_kind.as_deref().unwrap_or_default();
-            let bad = kinds
-                .iter()
-                .find(|kind| !matches!(kind, DependencyKind::Dependent | DependencyKind::Constant));
-            if let Some(bad) = bad {
+            let mut kinds = unknown.dependencies_kind.iter().flatten();
+            if let Some(bad) =
+                kinds.find(|kind| !matches!(kind, DependencyKind::Dependent | DependencyKind::Constant))
+            {
                 let message = format!("dependenciesKind has {bad}; allowed are dependent and constant");
-                self.add(Code::DependencyKindInitial, place, message);
+                self.add(Code::DependencyKindInitial, Place::InitialUnknown(at), message);
             }
         }
     }
 
-    fn unknown(
-        &mut self,
-        unknown: &Unknown,
-        place: Place,
-        known: &dyn Fn(u32, &ScalarVariable) -> bool,
-        rule: &str,
-    ) {
+    fn unknown(&mut self, unknown: &Unknown, place: Place, known: Known<'_>, rule: &str) {
         let Some(dependencies) = &unknown.dependencies else {
             if unknown.dependencies_kind.is_some() {
                 let message =

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::{Check, Place, declared_type, some_of};
-use crate::document::double;
 use crate::finding::Code;
+use crate::lexical::double;
 use crate::rules::{self, StartRule};
 use crate::{
     Causality, EnumerationItem, Initial, RealAttributes, ScalarVariable, SimpleTypeKind, Variability,
@@ -98,13 +98,7 @@ impl Check<'_> {
             self.add(Code::DeclaredTypeUndefined, place, message);
             return;
         };
-        let type_name = match kind {
-            SimpleTypeKind::Real(_) => "Real",
-            SimpleTypeKind::Integer { .. } => "Integer",
-            SimpleTypeKind::Boolean => "Boolean",
-            SimpleTypeKind::String => "String",
-            SimpleTypeKind::Enumeration { .. } => "Enumeration",
-        };
+        let type_name = kind.name();
         let own = variable.kind.name();
         if type_name != own {
             let message =

@@ -206,87 +206,62 @@ fn with_unit(kind: SimpleTypeKind, units: &[Unit], i: usize) -> SimpleTypeKind {
     }
 }
 
-#[derive(Debug)]
-struct Role {
-    row: usize,
-    kind: u8,
-    bits: u16,
-    start: f64,
-    around: (f64, f64),
-    integer: i32,
-    text: String,
-    description: Option<String>,
-}
+/// Row of the table, kind, bits for the rest, start, what lies around it, an integer, a text, a description.
+type Role = (usize, u8, u16, f64, (f64, f64), i32, String, Option<String>);
 
 fn role() -> impl Strategy<Value = Role> {
-    (
-        0..rules::INITIAL_TABLE.len(),
-        0..5u8,
-        any::<u16>(),
-        finite(),
-        (finite(), finite()),
-        any::<i32>(),
-        text(),
-        option::of(text()),
-    )
-        .prop_map(|(row, kind, bits, start, around, integer, text, description)| Role {
-            row,
-            kind,
-            bits,
-            start,
-            around,
-            integer,
-            text,
-            description,
-        })
+    let row = 0..rules::INITIAL_TABLE.len();
+    let description = option::of(text());
+    (row, 0..5u8, any::<u16>(), finite(), (finite(), finite()), any::<i32>(), text(), description)
 }
 
 fn variable(i: usize, role: Role, so_far: &Description) -> ScalarVariable {
-    let mut row = rules::INITIAL_TABLE[role.row];
+    let (row, kind, bits, start, around, integer, text, description) = role;
+    let mut row = rules::INITIAL_TABLE[row];
     let independent_exists = so_far.variables.iter().any(|v| v.causality == Causality::Independent);
     if row.causality == Causality::Independent && independent_exists {
         row = rules::INITIAL_TABLE[0];
     }
-    let bit = |i: u32| role.bits >> i & 1 == 1;
-    let initial = row.rule.allowed.get(role.bits as usize % (row.rule.allowed.len() + 1)).copied();
+    let bit = |i: u32| bits >> i & 1 == 1;
+    let initial = row.rule.allowed.get(bits as usize % (row.rule.allowed.len() + 1)).copied();
     let effective = rules::effective(row.causality, row.variability, initial);
     let started = rules::start(row.causality, effective) == rules::StartRule::Required;
     let of_kind = |is_kind: fn(&SimpleTypeKind) -> bool| {
-        so_far.types.iter().filter(|known| is_kind(&known.kind)).nth(role.bits as usize % 2)
+        so_far.types.iter().filter(|known| is_kind(&known.kind)).nth(bits as usize % 2)
     };
     let name_of = |known: Option<&SimpleType>| known.map(|known| known.name.clone());
     let enumeration = of_kind(|kind| matches!(kind, SimpleTypeKind::Enumeration { .. }));
-    let kind = if row.variability == Variability::Continuous { 0 } else { role.kind };
+    let kind = if row.variability == Variability::Continuous { 0 } else { kind };
     let kind = match (kind, enumeration.map(|known| (&known.name, &known.kind))) {
         (1, _) => VariableKind::Integer {
-            start: started.then_some(role.integer),
+            start: started.then_some(integer),
             declared_type: None,
-            quantity: bit(1).then(|| role.text.clone()),
-            min: bit(2).then_some(role.integer.min(-5)),
-            max: bit(3).then_some(role.integer.max(5)),
+            quantity: bit(1).then(|| text.clone()),
+            min: bit(2).then_some(integer.min(-5)),
+            max: bit(3).then_some(integer.max(5)),
         },
         (2, _) => VariableKind::Boolean {
             start: started.then_some(bit(1)),
             declared_type: name_of(of_kind(|kind| *kind == SimpleTypeKind::Boolean)),
         },
         (3, _) => VariableKind::String {
-            start: started.then(|| role.text.clone()),
+            start: started.then(|| text.clone()),
             declared_type: name_of(of_kind(|kind| *kind == SimpleTypeKind::String)),
         },
         (4, Some((name, SimpleTypeKind::Enumeration { items, .. }))) => VariableKind::Enumeration {
             start: started.then(|| items[0].value),
             declared_type: name.clone(),
-            quantity: bit(1).then(|| role.text.clone()),
+            quantity: bit(1).then(|| text.clone()),
             min: bit(2).then(|| items[0].value),
             max: bit(3).then(|| items[items.len() - 1].value),
         },
         _ => {
             let mut attributes = RealAttributes {
-                quantity: bit(1).then(|| role.text.clone()),
+                quantity: bit(1).then(|| text.clone()),
                 relative_quantity: bit(2),
                 unbounded: bit(3),
-                min: bit(4).then_some(role.start.min(role.around.0)),
-                max: bit(5).then_some(role.start.max(role.around.1)),
+                min: bit(4).then_some(start.min(around.0)),
+                max: bit(5).then_some(start.max(around.1)),
                 nominal: bit(6).then_some(2.5e-3),
                 ..RealAttributes::default()
             };
@@ -297,15 +272,20 @@ fn variable(i: usize, role: Role, so_far: &Description) -> ScalarVariable {
                 attributes.display_unit = unit.display_units.last().map(|display| display.name.clone());
             }
             let declared_type = name_of(of_kind(|kind| matches!(kind, SimpleTypeKind::Real(_))));
-            let start = started.then_some(role.start);
-            VariableKind::Real { start, declared_type, attributes, derivative: None, reinit: None }
+            VariableKind::Real {
+                start: started.then_some(start),
+                declared_type,
+                attributes,
+                derivative: None,
+                reinit: None,
+            }
         }
     };
     let model_exchange = so_far.model_exchange.is_some();
     ScalarVariable {
         name: format!("group[{i}].'x {i}'"),
         value_reference: i as u32,
-        description: role.description,
+        description,
         causality: row.causality,
         variability: row.variability,
         initial,

@@ -205,51 +205,33 @@ fn encodings_other_than_utf8_are_named() {
 
 #[test]
 fn errors_name_line_and_element() {
+    const ROOT: &str = "fmiModelDescription";
+    const VARIABLE: &str = "ScalarVariable";
+    use Code::{BadValue, DuplicateElement, Malformed, MissingAttribute, MissingElement, Version};
     let cases: &[(&str, &str, Code, u32, &str, &str)] = &[
-        ("<Real/>", "<Real", Code::Malformed, 6, "Real", ""),
-        ("</ScalarVariable>", "</Scalar>", Code::Malformed, 7, "ScalarVariable", ""),
-        ("</fmiModelDescription>", "", Code::Malformed, 14, "fmiModelDescription", "ends inside"),
-        ("</fmiModelDescription>", "</fmiModelDescription><a/>", Code::Malformed, 13, "", "follows the end"),
-        (
-            "guid=\"g\"",
-            "guid=\"g\" guid=\"h\"",
-            Code::Malformed,
-            2,
-            "fmiModelDescription",
-            "`guid` stands twice",
-        ),
-        ("guid=\"g\"", "guid=\"<\"", Code::Malformed, 2, "fmiModelDescription", "`&lt;`"),
-        ("guid=\"g\"", "guid=\"&bomb;\"", Code::Malformed, 2, "fmiModelDescription", "`guid`"),
-        ("guid=\"g\"", "", Code::MissingAttribute, 2, "fmiModelDescription", "`guid` is missing"),
-        (
-            "fmiVersion=\"2.0\"",
-            "fmiVersion=\"3.0\"",
-            Code::Version,
-            2,
-            "fmiModelDescription",
-            "allowed is `2.0`",
-        ),
+        ("<Real/>", "<Real", Malformed, 6, "Real", ""),
+        ("</ScalarVariable>", "</Scalar>", Malformed, 7, VARIABLE, ""),
+        ("</fmiModelDescription>", "", Malformed, 14, ROOT, "ends inside"),
+        ("</fmiModelDescription>", "</fmiModelDescription><a/>", Malformed, 13, "", "follows the end"),
+        ("guid=\"g\"", "guid=\"g\" guid=\"h\"", Malformed, 2, ROOT, "`guid` stands twice"),
+        ("guid=\"g\"", "guid=\"<\"", Malformed, 2, ROOT, "`&lt;`"),
+        ("guid=\"g\"", "guid=\"&bomb;\"", Malformed, 2, ROOT, "`guid`"),
+        ("guid=\"g\"", "", MissingAttribute, 2, ROOT, "`guid` is missing"),
+        ("fmiVersion=\"2.0\"", "fmiVersion=\"3.0\"", Version, 2, ROOT, "allowed is `2.0`"),
         (
             "causality=\"output\"",
             "causality=\"exit\"",
-            Code::BadValue,
+            BadValue,
             5,
-            "ScalarVariable",
+            VARIABLE,
             "`exit`; allowed is one of parameter, ",
         ),
-        (
-            "valueReference=\"0\"",
-            "valueReference=\"-1\"",
-            Code::BadValue,
-            5,
-            "ScalarVariable",
-            "0 to 4294967295",
-        ),
-        ("<Real/>", "", Code::MissingElement, 5, "ScalarVariable", "<Real, Integer"),
-        ("<Real/>", "<Real/><Integer/>", Code::DuplicateElement, 6, "Integer", "second time"),
-        ("<Real/>", "<Enumeration/>", Code::MissingAttribute, 6, "Enumeration", "`declaredType`"),
-        ("dependencies=\"\"", "dependencies=\"1 x\"", Code::BadValue, 11, "Unknown", "`1 x`"),
-        ("<CoSimulation", "\u{1}<CoSimulation", Code::Malformed, 3, "", "U+0001"),
+        ("valueReference=\"0\"", "valueReference=\"-1\"", BadValue, 5, VARIABLE, "0 to 4294967295"),
+        ("<Real/>", "", MissingElement, 5, VARIABLE, "<Real, Integer"),
+        ("<Real/>", "<Real/><Integer/>", DuplicateElement, 6, "Integer", "second time"),
+        ("<Real/>", "<Enumeration/>", MissingAttribute, 6, "Enumeration", "`declaredType`"),
+        ("dependencies=\"\"", "dependencies=\"1 x\"", BadValue, 11, "Unknown", "`1 x`"),
+        ("<CoSimulation", "\u{1}<CoSimulation", Malformed, 3, "", "U+0001"),
     ];
     for (from, to, code, line, element, part) in cases {
         let problem = error(&edited(from, to));

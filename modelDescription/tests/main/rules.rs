@@ -25,8 +25,8 @@ fn forbidden(causality: Causality, variability: Variability) -> bool {
 
 #[test]
 fn exactly_the_forbidden_pairs_are_missing_and_no_pair_stands_twice() {
-    for &causality in Causality::ALL {
-        for &variability in Variability::ALL {
+    for causality in Causality::ALL {
+        for variability in Variability::ALL {
             let rows = rules::INITIAL_TABLE
                 .iter()
                 .filter(|row| row.causality == causality && row.variability == variability)

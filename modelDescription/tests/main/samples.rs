@@ -12,12 +12,10 @@ pub fn variable(
     ScalarVariable {
         name: name.to_owned(),
         value_reference,
-        description: None,
         causality,
         variability,
-        initial: None,
-        can_handle_multiple_set_per_time_instant: None,
         kind,
+        ..ScalarVariable::default()
     }
 }
 
@@ -60,6 +58,13 @@ pub fn rich() -> Description {
     let mut approximate =
         variable("guess", 2, Causality::CalculatedParameter, Variability::Fixed, real(Some(1e300), None));
     approximate.initial = Some(Initial::Approx);
+    let item = |name: &str, value, description: Option<&str>| EnumerationItem {
+        name: name.to_owned(),
+        value,
+        description: description.map(str::to_owned),
+    };
+    let items = vec![item("elements", 1, None), item("inputs", 2, Some("From inputs"))];
+    let plain_type = |name: &str, kind| SimpleType { name: name.to_owned(), kind, ..SimpleType::default() };
     let variables = vec![
         variable("time", 9, Causality::Independent, Variability::Continuous, real(None, Some("s"))),
         angle,
@@ -105,7 +110,6 @@ pub fn rich() -> Description {
         generation_tool: Some("heliotorque".to_owned()),
         generation_date_and_time: Some("2026-01-02T03:04:05Z".to_owned()),
         variable_naming: NamingConvention::Structured,
-        number_of_event_indicators: None,
         co_simulation: Some(CoSimulation {
             model_identifier: "Rich".to_owned(),
             can_handle_variable_communication_step_size: true,
@@ -117,7 +121,6 @@ pub fn rich() -> Description {
             source_files: vec!["a.c".to_owned(), "b/c.c".to_owned()],
             ..CoSimulation::default()
         }),
-        model_exchange: None,
         units: ["rad", "s", "N.m"].iter().map(|name| units::find(name).unwrap().to_unit()).collect(),
         types: vec![
             SimpleType {
@@ -130,28 +133,10 @@ pub fn rich() -> Description {
                     ..RealAttributes::default()
                 }),
             },
-            SimpleType {
-                name: "Count".to_owned(),
-                description: None,
-                kind: SimpleTypeKind::Integer { quantity: None, min: Some(0), max: None },
-            },
-            SimpleType { name: "Flag".to_owned(), description: None, kind: SimpleTypeKind::Boolean },
-            SimpleType { name: "Text".to_owned(), description: None, kind: SimpleTypeKind::String },
-            SimpleType {
-                name: "Source".to_owned(),
-                description: None,
-                kind: SimpleTypeKind::Enumeration {
-                    quantity: None,
-                    items: vec![
-                        EnumerationItem { name: "elements".to_owned(), value: 1, description: None },
-                        EnumerationItem {
-                            name: "inputs".to_owned(),
-                            value: 2,
-                            description: Some("From inputs".to_owned()),
-                        },
-                    ],
-                },
-            },
+            plain_type("Count", SimpleTypeKind::Integer { quantity: None, min: Some(0), max: None }),
+            plain_type("Flag", SimpleTypeKind::Boolean),
+            plain_type("Text", SimpleTypeKind::String),
+            plain_type("Source", SimpleTypeKind::Enumeration { quantity: None, items }),
         ],
         log_categories: vec![LogCategory {
             name: "logEvents".to_owned(),
@@ -170,10 +155,11 @@ pub fn rich() -> Description {
                     dependencies: Some(vec![1, 2]),
                     dependencies_kind: Some(vec![DependencyKind::Dependent, DependencyKind::Tunable]),
                 },
-                Unknown { index: 6, dependencies: Some(Vec::new()), dependencies_kind: None },
+                Unknown { index: 6, dependencies: Some(Vec::new()), ..Unknown::default() },
             ],
             ..rules::structure(&variables)
         },
         variables,
+        ..Description::default()
     }
 }

@@ -4,7 +4,7 @@ use model_description::*;
 use proptest::prelude::*;
 
 use crate::arbitrary;
-use crate::samples::rich;
+use crate::samples::{real, rich, variable};
 
 proptest! {
     #[test]
@@ -36,30 +36,13 @@ fn findings_say_what_was_found_and_what_is_allowed() {
 /// The standard restricts the kinds by the unknown alone (2.2.8).
 #[test]
 fn a_real_may_have_a_factor_for_a_known_of_any_type() {
-    let variable = |name: &str, causality, variability, kind| ScalarVariable {
-        name: name.to_owned(),
-        value_reference: u32::from(causality == Causality::Output),
-        description: None,
-        causality,
-        variability,
-        initial: None,
-        can_handle_multiple_set_per_time_instant: None,
-        kind,
-    };
-    let real = |start| VariableKind::Real {
-        start,
-        declared_type: None,
-        attributes: RealAttributes::default(),
-        derivative: None,
-        reinit: None,
-    };
     let boolean = |start| VariableKind::Boolean { start, declared_type: None };
     let codes = |known: VariableKind, unknown: VariableKind, kind| {
         let entry = Unknown { index: 2, dependencies: Some(vec![1]), dependencies_kind: Some(vec![kind]) };
         let described = Description {
             variables: vec![
-                variable("u", Causality::Input, Variability::Discrete, known),
-                variable("y", Causality::Output, Variability::Discrete, unknown),
+                variable("u", 0, Causality::Input, Variability::Discrete, known),
+                variable("y", 1, Causality::Output, Variability::Discrete, unknown),
             ],
             structure: ModelStructure {
                 outputs: vec![entry],
@@ -72,8 +55,8 @@ fn a_real_may_have_a_factor_for_a_known_of_any_type() {
     };
     use DependencyKind::{Constant, Dependent, Discrete, Fixed, Tunable};
     for kind in [Dependent, Constant, Fixed, Tunable, Discrete] {
-        assert_eq!(codes(boolean(Some(true)), real(None), kind), [], "{kind}");
-        assert_eq!(codes(real(Some(0.0)), real(None), kind), [], "{kind}");
+        assert_eq!(codes(boolean(Some(true)), real(None, None), kind), [], "{kind}");
+        assert_eq!(codes(real(Some(0.0), None), real(None, None), kind), [], "{kind}");
         let of_boolean = codes(boolean(Some(true)), boolean(None), kind);
         let reported = [(Code::DependencyKindReal, Severity::Warning)];
         assert_eq!(of_boolean, if kind == Dependent { &reported[..0] } else { &reported[..] }, "{kind}");

@@ -176,15 +176,21 @@ impl InProcess {
 
     /// `fmi2SetupExperiment` without a tolerance.
     pub fn setup_experiment(&mut self, start_s: f64, stop_s: Option<f64>) -> Status {
-        let (defined, stop) = (c_int::from(stop_s.is_some()), stop_s.unwrap_or(0.0));
-        // SAFETY: a live instance.
-        status(unsafe { c::fmi2SetupExperiment(self.component, 0, 0.0, start_s, defined, stop) })
+        self.setup(None, start_s, stop_s)
     }
 
     /// `fmi2SetupExperiment` with a tolerance.
     pub fn setup_experiment_with_tolerance(&mut self, tolerance: f64, start_s: f64) -> Status {
+        self.setup(Some(tolerance), start_s, None)
+    }
+
+    fn setup(&mut self, tolerance: Option<f64>, start_s: f64, stop_s: Option<f64>) -> Status {
+        let [has_tolerance, has_stop] = [tolerance, stop_s].map(|it| c_int::from(it.is_some()));
+        let [tolerance, stop_s] = [tolerance, stop_s].map(Option::unwrap_or_default);
         // SAFETY: a live instance.
-        status(unsafe { c::fmi2SetupExperiment(self.component, 1, tolerance, start_s, 0, 0.0) })
+        status(unsafe {
+            c::fmi2SetupExperiment(self.component, has_tolerance, tolerance, start_s, has_stop, stop_s)
+        })
     }
 
     /// `fmi2DoStep`.
@@ -337,36 +343,16 @@ impl InProcess {
         let code = unsafe { c::fmi2GetBooleanStatus(self.component, TERMINATED, &raw mut value) };
         (status(code), value == 1)
     }
-
-    /// `fmi2GetStatus`.
-    pub fn get_status(&mut self, kind: i32) -> Status {
-        let mut value = 0;
-        // SAFETY: a live instance.
-        status(unsafe { c::fmi2GetStatus(self.component, kind, &raw mut value) })
-    }
-
-    /// `fmi2GetIntegerStatus`.
-    pub fn get_integer_status(&mut self, kind: i32) -> Status {
-        let mut value = 0;
-        // SAFETY: a live instance.
-        status(unsafe { c::fmi2GetIntegerStatus(self.component, kind, &raw mut value) })
-    }
-
-    /// `fmi2GetStringStatus`.
-    pub fn get_string_status(&mut self, kind: i32) -> Status {
-        let mut value = core::ptr::null();
-        // SAFETY: a live instance.
-        status(unsafe { c::fmi2GetStringStatus(self.component, kind, &raw mut value) })
-    }
 }
 
 macro_rules! simple {
-    ($($name:ident, $symbol:ident;)*) => {
+    ($($name:ident, $symbol:ident $(of $kind:ident into $value:expr)?;)*) => {
         impl InProcess { $(
             #[doc = concat!("`", stringify!($symbol), "`.")]
-            pub fn $name(&mut self) -> Status {
-                // SAFETY: a live instance.
-                status(unsafe { c::$symbol(self.component) })
+            pub fn $name(&mut self $(, $kind: i32)?) -> Status {
+                $(let mut value = $value;)?
+                // SAFETY: a live instance, and a place for the value.
+                status(unsafe { c::$symbol(self.component $(, $kind, &raw mut value)?) })
             }
         )* }
     };
@@ -378,6 +364,9 @@ simple! {
     terminate, fmi2Terminate;
     reset, fmi2Reset;
     cancel_step, fmi2CancelStep;
+    get_status, fmi2GetStatus of kind into 0;
+    get_integer_status, fmi2GetIntegerStatus of kind into 0;
+    get_string_status, fmi2GetStringStatus of kind into core::ptr::null();
 }
 
 macro_rules! access {

@@ -18,8 +18,6 @@ pub struct EmptyVariables {
 impl Model for Empty {
     const NAME: &'static str = "Empty";
     const STATE_VERSION: u32 = 1;
-    const SETUP_FILE: Option<&'static str> = None;
-    const DEFAULT_SETUP: &'static str = "";
 
     type Setup = ();
     type Variables = EmptyVariables;
@@ -32,7 +30,6 @@ impl Model for Empty {
     fn about(_setup: &()) -> About {
         About {
             description: "Nothing but a clock.".to_owned(),
-            start_time_s: 0.0,
             stop_time_s: 1.0,
             step_size_s: 0.1,
             tolerance: 1e-6,

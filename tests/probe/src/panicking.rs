@@ -201,7 +201,6 @@ impl Model for Panicking {
         setup.panic_if(Place::About);
         About {
             description: "Panics or fails where `fault` says.".to_owned(),
-            start_time_s: 0.0,
             stop_time_s: 1.0,
             step_size_s: 0.1,
             tolerance: 1e-6,

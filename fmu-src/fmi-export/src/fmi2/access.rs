@@ -3,11 +3,12 @@
 //! The arrays run parallel to the flat value tables, so a get or set costs a subtraction, one byte and one pair of
 //! limits.
 
-use model_description::call_table::Condition;
+use model_description::call_table::{Condition, State};
 use model_description::{
-    BaseType, Causality, Description, ScalarVariable, SimpleTypeKind, Unknown, Variability, VariableKind,
+    BaseType, Causality, Description, ScalarVariable, Unknown, Variability, VariableKind, value,
 };
 
+use super::problem::Problem;
 use super::references;
 use crate::variables::Values;
 
@@ -95,13 +96,18 @@ impl AccessTable {
                 self.integer_items.push(None);
             }
             VariableKind::Enumeration { declared_type, .. } => {
-                let mut items = items_of(description, declared_type)
-                    .ok_or_else(|| format!("variable `{}`: no type `{declared_type}`", variable.name))?;
+                let items = value::items(description, variable);
+                let mut items: Vec<i32> = items.iter().map(|item| item.value).collect();
                 items.sort_unstable();
                 items.dedup();
                 let limits = match (items.first(), items.last()) {
                     (Some(&first), Some(&last)) => (first, last),
-                    _ => return Err(format!("type `{declared_type}` has no items")),
+                    _ => {
+                        return Err(format!(
+                            "variable `{}`: no items of the type `{declared_type}`",
+                            variable.name
+                        ));
+                    }
                 };
                 let gapless = i64::from(limits.1) - i64::from(limits.0) + 1 == items.len() as i64;
                 self.integer_limits.push(limits);
@@ -161,6 +167,73 @@ impl AccessTable {
         Some(indices.iter().filter_map(reference).collect())
     }
 
+    /// A variable for messages.
+    pub(crate) fn named(&self, base: BaseType, reference: u32) -> String {
+        match self.name(base, reference) {
+            Some(name) => format!("`{name}` ({base} value reference {reference})"),
+            None => format!("{base} value reference {reference}"),
+        }
+    }
+
+    /// The refusal of a reference that no variable of this type has.
+    #[cold]
+    pub(crate) fn unknown(&self, base: BaseType, reference: u32) -> Problem {
+        let other = references::base_type(reference).filter(|other| self.name(*other, reference).is_some());
+        let (first, count) = (references::first(base), self.flags(base).len());
+        match (other, count) {
+            (Some(other), _) => Problem::error(format_args!("{} is no {base}", self.named(other, reference))),
+            (None, 0) => Problem::error(format_args!(
+                "unknown value reference {reference}: this model has no {base} variables"
+            )),
+            (None, _) => Problem::error(format_args!(
+                "unknown {base} value reference {reference}: this model has {first} to {}",
+                first as usize + count - 1
+            )),
+        }
+    }
+
+    /// The refusal of a set in a state that does not admit it.
+    #[cold]
+    pub(crate) fn not_settable(&self, base: BaseType, reference: u32, state: State) -> Problem {
+        let flags = self.flags(base).get(references::index(base, reference)).copied().unwrap_or(0);
+        let when = match flags {
+            f if f & (SET_STEP | INPUT) != 0 => "before a step",
+            f if f & (SET_INSTANTIATED | SET_INITIALIZATION) != 0 => "before the end of Initialization Mode",
+            _ => "never",
+        };
+        let name = self.named(base, reference);
+        Problem::error(format_args!("{name} may not be set in the state {state}: it may be set {when}"))
+    }
+
+    /// The refusal of a Real outside its limits, or not finite.
+    #[cold]
+    pub(crate) fn real_out_of_range(&self, reference: u32, value: f64) -> Problem {
+        let name = self.named(BaseType::Real, reference);
+        let limits = self.real_limits.get(references::index(BaseType::Real, reference)).copied();
+        let allowed = match limits.unwrap_or((f64::MIN, f64::MAX)) {
+            (f64::MIN, f64::MAX) => "any finite value".to_owned(),
+            (min, f64::MAX) => format!("any finite value from {min:?} up"),
+            (f64::MIN, max) => format!("any finite value up to {max:?}"),
+            (min, max) => format!("{min:?} to {max:?}"),
+        };
+        Problem::discard(format_args!("{name} was set to {value:?}, allowed is {allowed}"))
+    }
+
+    /// The refusal of an Integer outside its limits, or of an unknown item.
+    #[cold]
+    pub(crate) fn integer_out_of_range(&self, reference: u32, value: i32) -> Problem {
+        let index = references::index(BaseType::Integer, reference);
+        let allowed = match (self.integer_items.get(index), self.integer_limits.get(index)) {
+            (Some(Some(items)), _) => format!("allowed are {items:?}"),
+            (_, Some((min, max))) => format!("allowed is {min} to {max}"),
+            _ => "allowed is any".to_owned(),
+        };
+        Problem::discard(format_args!(
+            "{} was set to {value}, {allowed}",
+            self.named(BaseType::Integer, reference)
+        ))
+    }
+
     /// The name behind a value reference of whatever type.
     pub(crate) fn any_name(&self, reference: u32) -> Option<&str> {
         self.name(references::base_type(reference)?, reference)
@@ -170,13 +243,6 @@ impl AccessTable {
     pub(crate) fn name(&self, base: BaseType, reference: u32) -> Option<&str> {
         self.names[base as usize].get(references::index(base, reference)).map(String::as_str)
     }
-}
-
-fn items_of(description: &Description, type_name: &str) -> Option<Vec<i32>> {
-    description.types.iter().find(|known| known.name == type_name).and_then(|known| match &known.kind {
-        SimpleTypeKind::Enumeration { items, .. } => Some(items.iter().map(|item| item.value).collect()),
-        _ => None,
-    })
 }
 
 fn flags_of(variable: &ScalarVariable, initial_unknown: bool) -> u8 {

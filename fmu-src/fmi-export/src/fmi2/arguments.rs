@@ -2,19 +2,20 @@
 
 use core::ffi::{CStr, c_char, c_int};
 
-use super::problem::{ArgumentError, Problem};
+use super::problem::Problem;
 
-fn wrong(name: &'static str, what: ArgumentError) -> Problem {
-    Problem::Argument { name, what }
+/// For an argument that must not be NULL.
+pub(super) fn null(name: &str) -> Problem {
+    Problem::argument(name, "is NULL")
 }
 
-fn check<T>(pointer: *const T, length: usize, name: &'static str) -> Result<(), Problem> {
+fn check<T>(pointer: *const T, length: usize, name: &str) -> Result<(), Problem> {
     if pointer.is_null() {
-        return Err(wrong(name, ArgumentError::Null));
+        return Err(null(name));
     }
     // No array is larger than half the address space; a length that says so is a negative number.
     if length > isize::MAX as usize / size_of::<T>() {
-        return Err(wrong(name, ArgumentError::TooLong { given: length }));
+        return Err(Problem::argument(name, format_args!("cannot have {length} elements")));
     }
     Ok(())
 }
@@ -24,11 +25,7 @@ fn check<T>(pointer: *const T, length: usize, name: &'static str) -> Result<(), 
 /// # Safety
 /// A `pointer` that is not NULL points to `length` readable elements for the time of the call.
 #[inline]
-pub(super) unsafe fn slice<'a, T>(
-    pointer: *const T,
-    length: usize,
-    name: &'static str,
-) -> Result<&'a [T], Problem> {
+pub(super) unsafe fn slice<'a, T>(pointer: *const T, length: usize, name: &str) -> Result<&'a [T], Problem> {
     if length == 0 {
         return Ok(&[]);
     }
@@ -45,7 +42,7 @@ pub(super) unsafe fn slice<'a, T>(
 pub(super) unsafe fn slice_mut<'a, T>(
     pointer: *mut T,
     length: usize,
-    name: &'static str,
+    name: &str,
 ) -> Result<&'a mut [T], Problem> {
     if length == 0 {
         return Ok(&mut []);
@@ -59,18 +56,18 @@ pub(super) unsafe fn slice_mut<'a, T>(
 ///
 /// # Safety
 /// As [`slice_mut`], for one element.
-pub(super) unsafe fn place<'a, T>(pointer: *mut T, name: &'static str) -> Result<&'a mut T, Problem> {
+pub(super) unsafe fn place<'a, T>(pointer: *mut T, name: &str) -> Result<&'a mut T, Problem> {
     // SAFETY: the caller's promise.
-    unsafe { pointer.as_mut() }.ok_or_else(|| wrong(name, ArgumentError::Null))
+    unsafe { pointer.as_mut() }.ok_or_else(|| null(name))
 }
 
 /// The C string at `pointer`.
 ///
 /// # Safety
 /// A `pointer` that is not NULL points to a NUL-terminated string that is valid during the call.
-pub(super) unsafe fn text<'a>(pointer: *const c_char, name: &'static str) -> Result<&'a CStr, Problem> {
+pub(super) unsafe fn text<'a>(pointer: *const c_char, name: &str) -> Result<&'a CStr, Problem> {
     if pointer.is_null() {
-        return Err(wrong(name, ArgumentError::Null));
+        return Err(null(name));
     }
     // SAFETY: not NULL; the rest is the caller's promise.
     Ok(unsafe { CStr::from_ptr(pointer) })
@@ -78,10 +75,13 @@ pub(super) unsafe fn text<'a>(pointer: *const c_char, name: &'static str) -> Res
 
 /// A `fmi2Boolean`.
 #[inline]
-pub(super) fn flag(value: c_int, name: &'static str) -> Result<bool, Problem> {
+pub(super) fn flag(value: c_int, name: &str) -> Result<bool, Problem> {
     match value {
         0 => Ok(false),
         1 => Ok(true),
-        other => Err(wrong(name, ArgumentError::NotZeroOrOne(other))),
+        other => Err(Problem::argument(
+            name,
+            format_args!("is {other}, allowed are 0 (fmi2False) and 1 (fmi2True)"),
+        )),
     }
 }

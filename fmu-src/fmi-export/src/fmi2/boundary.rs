@@ -10,9 +10,10 @@ use model_description::Status;
 use model_description::call_table::Function;
 use model_description::functions::types::{CallbackLogger, Component, FmuState};
 
+use super::arguments::null;
 use super::instance::Instance;
 use super::instance::saved::SavedState;
-use super::problem::{ArgumentError, Problem};
+use super::problem::Problem;
 use crate::logger::LogSink;
 use crate::panics::contain;
 
@@ -120,7 +121,12 @@ fn concluded(
     body: impl FnOnce(&mut Inner) -> Result<(), Problem>,
 ) -> Status {
     let usable = !inner.instance.is_poisoned() || function == Function::FreeFmuState;
-    let result = if usable { body(inner) } else { Err(Problem::Poisoned) };
+    let result = match usable {
+        true => inner.instance.guard(function).and_then(|()| body(inner)),
+        false => Err(Problem::error(
+            "a panic ended this instance before; only fmi2FreeInstance and fmi2FreeFMUstate still work",
+        )),
+    };
     inner.instance.conclude(function, result)
 }
 
@@ -169,13 +175,13 @@ pub(super) fn state_handle_of(saved: SavedState) -> FmuState {
 ///
 /// # Safety
 /// A `state` that is not NULL points to a live FMU state, of whatever FMU, that nobody else uses meanwhile.
-pub(super) unsafe fn saved<'a>(state: FmuState, name: &'static str) -> Result<&'a mut SavedState, Problem> {
+pub(super) unsafe fn saved<'a>(state: FmuState) -> Result<&'a mut SavedState, Problem> {
     if state.is_null() {
-        return Err(Problem::Argument { name, what: ArgumentError::Null });
+        return Err(null("FMUstate"));
     }
     // SAFETY: the caller's promise; a foreign state is larger than the mark that is read.
     if unsafe { state.cast::<*const u8>().read() } != state_mark() {
-        return Err(Problem::Argument { name, what: ArgumentError::NotOurs });
+        return Err(Problem::argument("FMUstate", "was not made by this library"));
     }
     // SAFETY: ours and live.
     Ok(unsafe { &mut (*state.cast::<StateHandle>()).saved })
@@ -187,7 +193,7 @@ pub(super) unsafe fn saved<'a>(state: FmuState, name: &'static str) -> Result<&'
 /// As [`saved`]; the state is not used again.
 pub(super) unsafe fn free_state(state: FmuState) -> Result<(), Problem> {
     // SAFETY: the caller's promise.
-    unsafe { saved(state, "FMUstate") }?;
+    unsafe { saved(state) }?;
     // SAFETY: ours, made by `state_handle_of`, and never used again.
     drop(unsafe { Box::from_raw(state.cast::<StateHandle>()) });
     Ok(())

@@ -23,27 +23,27 @@ impl Sender {
     }
 
     fn introduce(&self, entry: &Entry) {
-        self.send(kind::MODEL, entry.name());
-        if let Some(file) = entry.setup_file() {
+        self.send(kind::MODEL, entry.name);
+        if let Some(file) = entry.setup_file {
             self.send(kind::SETUP_FILE, file);
         }
-        for file in entry.schedule_files() {
+        for file in entry.schedule_files {
             self.send(kind::SCHEDULE_FILE, file);
         }
-        self.send(kind::SETUP_TEXT, entry.default_setup());
-        self.send(kind::REFERENCE_INPUTS, entry.reference_inputs());
-        let Manual { about, example, closed_loop, frames } = *entry.manual();
-        let manual = [
+        let Manual { about, example, closed_loop, frames, .. } = entry.manual;
+        let texts = [
+            (kind::SETUP_TEXT, entry.default_setup),
+            (kind::REFERENCE_INPUTS, entry.reference_inputs),
             (kind::ABOUT, about),
             (kind::EXAMPLE, example),
             (kind::CLOSED_LOOP, closed_loop),
             (kind::FRAMES, frames),
         ];
-        for (kind, text) in manual {
+        for (kind, text) in texts {
             self.send(kind, text);
         }
-        for source in entry.sources() {
-            self.send(kind::SOURCE, &format!("{}\t{}", source.what, source.by));
+        for (what, by) in entry.manual.sources() {
+            self.send(kind::SOURCE, &format!("{what}\t{by}"));
         }
     }
 
@@ -88,7 +88,7 @@ pub unsafe fn describe(
             )
         };
         let entry = found(library, model.unwrap_or_default())?;
-        let description = library.describe(entry, file, setup).map_err(|error| said(entry.name(), &error))?;
+        let description = library.describe(entry, file, setup).map_err(|error| said(entry.name, &error))?;
         sender.introduce(entry);
         sender.send(kind::XML, &model_description::to_xml(&description));
         Ok(())
@@ -129,7 +129,7 @@ pub unsafe fn check_schedule(
         let text = text.ok_or("argument schedule_text is NULL")?;
         library
             .check_schedule(entry, file, setup, schedule, schedule_file, text)
-            .map_err(|error| said(entry.name(), &error))
+            .map_err(|error| said(entry.name, &error))
     })
 }
 

@@ -18,7 +18,7 @@ use crate::model::{About, Model, SetupError};
 use crate::runtime::{Runtime, Typed};
 use crate::start_values::{self, OtherReaders, Readers};
 use crate::variables::{
-    Declare, DeclareError, Element, EnumerationType, Interface, Kind, Values, Variable, Variables,
+    Declare, DeclareError, Element, EnumerationType, Interface, Kind, Real, Values, Variable, Variables,
 };
 
 /// Name space of the GUIDs of this exporter.
@@ -63,6 +63,8 @@ pub(crate) struct Prepared {
     pub(crate) start: Arc<Values>,
     pub(crate) runtime: Box<dyn Runtime>,
     pub(crate) digest: Uuid,
+    /// The parameter that the experiment's tolerance stands in for.
+    pub(crate) tolerance: Option<Real>,
 }
 
 /// The names that start values may have, if the model takes the setup text.
@@ -121,8 +123,9 @@ pub(crate) fn prepare<M: Model>(
     let digest = digest_of::<M>((&interface, &fixed), &dependencies, &about, &setup)?;
     description.guid = format!("{{{digest}}}");
     let access = AccessTable::of(&description).map_err(DescribeError::Table)?;
+    let tolerance = M::tolerance(&variables);
     let runtime = Box::new(Typed::<M> { setup, variables, start: Arc::clone(&start), state: None });
-    Ok(Prepared { description, access, start, runtime, digest })
+    Ok(Prepared { description, access, start, runtime, digest, tolerance })
 }
 
 /// The elements of every variable, in order, with their start values.
@@ -148,7 +151,7 @@ fn kind(variable: &Variable, element: Element, start: &Values) -> VariableKind {
     let role = variable.role;
     let effective = rules::effective(role.causality, role.variability, role.initial);
     let has_start = rules::start(role.causality, effective) == rules::StartRule::Required;
-    let at = Some(element.place() as usize).filter(|_| has_start);
+    let at = Some(element.place as usize).filter(|_| has_start);
     let integer = at.and_then(|at| start.integers.get(at).copied());
     match &variable.kind {
         Kind::Real { unit, display_unit, min, max, nominal } => VariableKind::Real {

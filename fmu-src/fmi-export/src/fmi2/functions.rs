@@ -15,15 +15,14 @@ use core::ffi::{CStr, c_char, c_int};
 use model_description::Status;
 use model_description::call_table::Function;
 use model_description::functions::{
-    CO_SIMULATION,
+    CO_SIMULATION, LAST_SUCCESSFUL_TIME, TERMINATED,
     types::{self, CallbackFunctions, Component, FmuState},
 };
 
-use super::arguments::{flag, place, slice, slice_mut, text};
+use super::arguments::{flag, null, place, slice, slice_mut, text};
 use super::boundary::{self, ImporterLogger, call, saved, state_handle_of};
 use super::instance::Instance;
-use super::instance::stepping::StatusKind;
-use super::problem::{ArgumentError, Problem};
+use super::problem::Problem;
 use crate::library::Library;
 use crate::logger::{Category, Logger};
 use crate::panics::contain;
@@ -119,7 +118,7 @@ pub unsafe fn instantiate(
 }
 
 fn explained<T>(result: Result<T, Problem>) -> Result<T, String> {
-    result.map_err(|problem| problem.explain(&Default::default()).to_string())
+    result.map_err(|problem| problem.text)
 }
 
 /// Frees an instance and the strings that `fmi2GetString` gave; NULL is no error. The instance is not used again; its saved states
@@ -138,7 +137,7 @@ functions! {
         let on = flag(logging_on, "loggingOn")?;
         let categories = slice(categories, count, "categories")?;
         if categories.iter().any(|category| category.is_null()) {
-            return Err(Problem::Argument { name: "categories", what: ArgumentError::Null });
+            return Err(null("categories"));
         }
         let named = |index: usize| Category::from_name(CStr::from_ptr(categories[index]));
         inner.instance.set_debug_logging(on, categories.len(), named)
@@ -160,12 +159,13 @@ functions! {
         inner.instance.exit_initialization_mode()
     }
     /// Ends the simulation; values can be read further.
-    Terminate fmi2Terminate(inner) {
-        inner.instance.terminate()
+    Terminate fmi2Terminate(_inner) {
+        Ok(())
     }
     /// Back to the state after `fmi2Instantiate`. Saved states stay valid.
     Reset fmi2Reset(inner) {
-        inner.instance.reset()
+        inner.instance.reset();
+        Ok(())
     }
     /// Copies the values of Reals into `value`.
     GetReal fmi2GetReal(inner, references: *const u32, count: usize, values: *mut f64) {
@@ -214,7 +214,7 @@ functions! {
     /// overwrites that state of this library and needs no new memory for values.
     GetFmuState fmi2GetFMUstate(inner, state: *mut FmuState) {
         let state = place(state, "FMUstate")?;
-        let reuse = if state.is_null() { None } else { Some(saved(*state, "FMUstate")?) };
+        let reuse = if state.is_null() { None } else { Some(saved(*state)?) };
         if let Some(new) = inner.instance.save(reuse)? {
             *state = state_handle_of(new);
         }
@@ -222,14 +222,13 @@ functions! {
     }
     /// Takes over a saved state of this model with this setup; the state stays the caller's and can be used again.
     SetFmuState fmi2SetFMUstate(inner, state: FmuState) {
-        inner.instance.restore(saved(state, "FMUstate")?)
+        inner.instance.restore(saved(state)?)
     }
     /// Frees a saved state and writes NULL to `*state`; NULL, and a pointer to NULL, are no errors.
-    FreeFmuState fmi2FreeFMUstate(inner, state: *mut FmuState) {
-        inner.instance.guard(Function::FreeFmuState)?;
+    FreeFmuState fmi2FreeFMUstate(_inner, state: *mut FmuState) {
         match state.as_mut() {
             Some(state) if !state.is_null() => {
-                saved(*state, "FMUstate")?;
+                saved(*state)?;
                 // NULL before the drop, which may panic: it must not be freed twice.
                 boundary::free_state(core::mem::replace(state, core::ptr::null_mut()))
             }
@@ -239,14 +238,14 @@ functions! {
     /// Writes to `*size` how many bytes `fmi2SerializeFMUstate` needs for the state.
     SerializedFmuStateSize fmi2SerializedFMUstateSize(inner, state: FmuState, size: *mut usize) {
         let size = place(size, "size")?;
-        *size = inner.instance.serialized_size(saved(state, "FMUstate")?)?;
+        *size = inner.instance.serialized_size(saved(state)?)?;
         Ok(())
     }
     /// Writes a saved state into the caller's `bytes`; what lies beyond its size is left as it was. The state stays the
     /// caller's.
     SerializeFmuState fmi2SerializeFMUstate(inner, state: FmuState, bytes: *mut c_char, size: usize) {
         let bytes = slice_mut(bytes.cast::<u8>(), size, "serializedState")?;
-        inner.instance.serialize(saved(state, "FMUstate")?, bytes)
+        inner.instance.serialize(saved(state)?, bytes)
     }
     /// Makes a new state from bytes of any instance of this model with this setup, in whatever process; it is the caller's
     /// until `fmi2FreeFMUstate`. Whatever the bytes, the answer is a state or an error.
@@ -290,34 +289,40 @@ functions! {
         inner.instance.do_step(point, step_size, no_return)
     }
     /// No step is ever pending: an error in every state that is reached.
-    CancelStep fmi2CancelStep(inner) {
-        inner.instance.cancel_step()
+    CancelStep fmi2CancelStep(_inner) {
+        Ok(())
     }
     /// Only a pending step has this status: answers `fmi2Discard`.
-    GetStatus fmi2GetStatus(inner, kind: c_int, value: *mut c_int) {
+    GetStatus fmi2GetStatus(_inner, kind: c_int, value: *mut c_int) {
         place(value, "value")?;
-        inner.instance.no_status(Function::GetStatus, StatusKind::from_code(kind))
+        Err(Problem::no_status(kind))
     }
     /// Writes `fmi2LastSuccessfulTime` to `*value`.
     GetRealStatus fmi2GetRealStatus(inner, kind: c_int, value: *mut f64) {
         let value = place(value, "value")?;
-        *value = inner.instance.real_status(StatusKind::from_code(kind))?;
+        match kind {
+            LAST_SUCCESSFUL_TIME => *value = inner.instance.state.time_s,
+            _ => return Err(Problem::no_status(kind)),
+        }
         Ok(())
     }
     /// Only a pending step has this status: answers `fmi2Discard`.
-    GetIntegerStatus fmi2GetIntegerStatus(inner, kind: c_int, value: *mut c_int) {
+    GetIntegerStatus fmi2GetIntegerStatus(_inner, kind: c_int, value: *mut c_int) {
         place(value, "value")?;
-        inner.instance.no_status(Function::GetIntegerStatus, StatusKind::from_code(kind))
+        Err(Problem::no_status(kind))
     }
     /// Writes `fmi2Terminated` to `*value`.
     GetBooleanStatus fmi2GetBooleanStatus(inner, kind: c_int, value: *mut c_int) {
         let value = place(value, "value")?;
-        *value = c_int::from(inner.instance.boolean_status(StatusKind::from_code(kind))?);
+        match kind {
+            TERMINATED => *value = c_int::from(inner.instance.state.terminated),
+            _ => return Err(Problem::no_status(kind)),
+        }
         Ok(())
     }
     /// Only a pending step has this status: answers `fmi2Discard`.
-    GetStringStatus fmi2GetStringStatus(inner, kind: c_int, value: *mut *const c_char) {
+    GetStringStatus fmi2GetStringStatus(_inner, kind: c_int, value: *mut *const c_char) {
         place(value, "value")?;
-        inner.instance.no_status(Function::GetStringStatus, StatusKind::from_code(kind))
+        Err(Problem::no_status(kind))
     }
 }

@@ -22,12 +22,8 @@ pub mod references;
 mod structure;
 
 pub use crate::model::{SetupValue, StartValue};
+pub use crate::panics::silence as silence_panics;
 pub use describe::{check_schedule, describe};
 pub use description::{DescribeError, description_of, scalar_variables};
 pub use functions::*;
 pub use instance::MAX_INPUT_DERIVATIVE_ORDER;
-
-/// For a shared library: its panics, which are all contained, write nothing to standard error.
-pub fn silence_panics() {
-    crate::panics::silence();
-}

@@ -16,14 +16,8 @@ pub const fn first(base: BaseType) -> u32 {
 }
 
 /// The base type whose elements have references like this one.
-pub const fn base_type(reference: u32) -> Option<BaseType> {
-    match reference / MOST {
-        0 => Some(BaseType::Real),
-        1 => Some(BaseType::Integer),
-        2 => Some(BaseType::Boolean),
-        3 => Some(BaseType::String),
-        _ => None,
-    }
+pub fn base_type(reference: u32) -> Option<BaseType> {
+    BaseType::ALL.get((reference / MOST) as usize).copied()
 }
 
 /// Where a reference stands in the table of a base type; beyond the table's end for another type's reference.
@@ -34,24 +28,12 @@ pub const fn index(base: BaseType, reference: u32) -> usize {
 
 /// The value reference of an element.
 pub fn of(element: impl Into<Element>) -> u32 {
-    let element = element.into();
-    let base = match element {
-        Element::Real(_) => BaseType::Real,
-        Element::Integer(_) => BaseType::Integer,
-        Element::Boolean(_) => BaseType::Boolean,
-        Element::Text(_) => BaseType::String,
-    };
-    first(base) + element.place()
+    let Element { base, place } = element.into();
+    first(base) + place
 }
 
 /// The element of a value reference, whether a model has it or not.
 pub fn element(reference: u32) -> Option<Element> {
     let base = base_type(reference)?;
-    let place = reference - first(base);
-    Some(match base {
-        BaseType::Real => Element::Real(place),
-        BaseType::Integer => Element::Integer(place),
-        BaseType::Boolean => Element::Boolean(place),
-        BaseType::String => Element::Text(place),
-    })
+    Some(Element { base, place: reference - first(base) })
 }

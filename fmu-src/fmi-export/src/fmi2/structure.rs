@@ -19,7 +19,7 @@ pub(crate) fn structure(
         variables.iter().map(|variable| references::element(variable.value_reference)).collect();
     let mut index_of: [Vec<Option<u32>>; Element::TABLES] = Default::default();
     for (key, index) in keys.iter().zip(1..).filter_map(|(key, index)| Some(((*key)?, index))) {
-        let (indices, place) = (&mut index_of[key.table()], key.place() as usize);
+        let (indices, place) = (&mut index_of[key.table()], key.place as usize);
         indices.resize(indices.len().max(place + 1), None);
         indices[place] = Some(index);
     }
@@ -84,9 +84,10 @@ impl Lists<'_> {
     }
 
     fn index(&self, element: Element) -> Result<u32, String> {
-        let index = self.index_of[element.table()].get(element.place() as usize).copied().flatten();
+        let index = self.index_of[element.table()].get(element.place as usize).copied().flatten();
         index.ok_or_else(|| {
-            format!("the model's dependencies name {element:?}, which is no element of a variable")
+            let Element { base, place } = element;
+            format!("the model's dependencies name {base}({place}), which is no element of a variable")
         })
     }
 }

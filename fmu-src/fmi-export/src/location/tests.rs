@@ -48,11 +48,11 @@ fn a_folder_is_found_under_any_encoding_of_its_name() {
         for form in forms {
             let location = format!("file://{}/{form}", base.to_str().unwrap());
             let found = resolve(location.as_bytes()).unwrap();
-            assert_eq!(found, Resources::Folder(folder.clone()), "{location}");
+            assert_eq!(found, Some(folder.clone()), "{location}");
             assert_eq!(read(&folder, "setup.toml").unwrap(), name);
         }
     }
-    assert_eq!(resolve(b"").unwrap(), Resources::None);
+    assert_eq!(resolve(b"").unwrap(), None);
     let missing = resolve(b"file:///no/such/folder").unwrap_err();
     assert!(missing.contains("`/no/such/folder`") && missing.contains("does not exist"), "{missing}");
     let unread = read(&base, "other.toml").unwrap_err();

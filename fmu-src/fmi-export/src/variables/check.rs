@@ -3,8 +3,8 @@
 use core::fmt::Display;
 
 use model_description::{
-    Variability, names,
-    rules::{self, StartRule},
+    names,
+    rules::{self, RoleFault},
 };
 
 use super::variable::{Item, Role};
@@ -15,24 +15,10 @@ pub type Checked = Result<(), String>;
 /// Checks causality, variability, initial and the presence of a start value (FMI 2.0.5, 2.2.7).
 pub fn role(role: Role, is_real: bool, has_start: bool) -> Checked {
     let Role { causality, variability, initial } = role;
-    if variability == Variability::Continuous && !is_real {
-        return Err("only a Real can be continuous".to_owned());
-    }
-    let Some(rule) = rules::initial(causality, variability) else {
-        let legal = list(rules::legal_variabilities(causality));
-        return Err(format!("{causality} cannot be {variability}; allowed: {legal}"));
-    };
-    if let Some(written) = initial
-        && !rule.allowed.contains(&written)
-    {
-        let allowed = list(rule.allowed);
-        return Err(format!("{variability} {causality} cannot have initial {written}; allowed: {allowed}"));
-    }
-    match rules::start(causality, rules::effective(causality, variability, initial)) {
-        StartRule::Required if !has_start => Err("needs a start value".to_owned()),
-        StartRule::Forbidden if has_start => Err("is calculated and cannot have a start value".to_owned()),
-        _ => Ok(()),
-    }
+    rules::check_role(causality, variability, initial, is_real, has_start).map_err(|fault| match fault {
+        RoleFault::Role(problem) => problem,
+        RoleFault::StartMissing(problem) | RoleFault::StartForbidden(problem) => problem.to_owned(),
+    })
 }
 
 /// Checks a structured name.
@@ -98,9 +84,4 @@ pub fn has_none(items: &[Item]) -> Checked {
             Err("is an input whose enumeration has no item 0 `none`, which masters send first".to_owned())
         }
     }
-}
-
-fn list<T: Display>(all: impl IntoIterator<Item = T>) -> String {
-    let words: Vec<_> = all.into_iter().map(|word| word.to_string()).collect();
-    if words.is_empty() { "none".to_owned() } else { words.join(", ") }
 }

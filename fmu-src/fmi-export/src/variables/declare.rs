@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 use std::collections::BTreeSet;
 
-use model_description::{Causality, labels::LABEL_END, units};
+use model_description::{BaseType, Causality, labels::LABEL_END, units};
 
 use super::check;
 use super::handle::{Boolean, Choice, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
@@ -146,7 +146,13 @@ impl Declare {
     ) -> Result<Integer, DeclareError> {
         self.checked(spec.name, check::range(start, min, max))?;
         let at = self.interface.start.integers.len() as u32;
-        self.push(spec, &[], Element::Integer(at), Kind::Integer { min, max }, start.is_some())?;
+        self.push(
+            spec,
+            &[],
+            Element { base: BaseType::Integer, place: at },
+            Kind::Integer { min, max },
+            start.is_some(),
+        )?;
         self.interface.start.integers.push(start.unwrap_or(0));
         Ok(Integer(at))
     }
@@ -154,7 +160,7 @@ impl Declare {
     /// Declares a Boolean.
     pub fn boolean(&mut self, spec: &ScalarSpec<'_>, start: Option<bool>) -> Result<Boolean, DeclareError> {
         let at = self.interface.start.booleans.len() as u32;
-        self.push(spec, &[], Element::Boolean(at), Kind::Boolean, start.is_some())?;
+        self.push(spec, &[], Element { base: BaseType::Boolean, place: at }, Kind::Boolean, start.is_some())?;
         self.interface.start.booleans.push(start.unwrap_or(false));
         Ok(Boolean(at))
     }
@@ -163,7 +169,7 @@ impl Declare {
     pub fn text(&mut self, spec: &ScalarSpec<'_>, start: Option<&str>) -> Result<Text, DeclareError> {
         let at = self.interface.start.strings.len() as u32;
         self.checked(spec.name, check::text("start", start.unwrap_or_default()))?;
-        self.push(spec, &[], Element::Text(at), Kind::Text, start.is_some())?;
+        self.push(spec, &[], Element { base: BaseType::String, place: at }, Kind::Text, start.is_some())?;
         self.interface.start.strings.push(start.unwrap_or_default().to_owned());
         Ok(Text(at))
     }
@@ -179,7 +185,13 @@ impl Declare {
             self.checked(spec.name, check::has_none(E::TYPE.items))?;
         }
         let at = self.interface.start.integers.len() as u32;
-        self.push(spec, &[], Element::Integer(at), Kind::Enumeration(E::TYPE.name), start.is_some())?;
+        self.push(
+            spec,
+            &[],
+            Element { base: BaseType::Integer, place: at },
+            Kind::Enumeration(E::TYPE.name),
+            start.is_some(),
+        )?;
         self.interface.start.integers.push(start.map_or(first, E::value));
         Ok(Choice(at, PhantomData))
     }
@@ -241,7 +253,7 @@ impl Declare {
             nominal,
         };
         let scalar = ScalarSpec { name, description, role };
-        let variable = self.variable(&scalar, dimensions, Element::Real(at), kind);
+        let variable = self.variable(&scalar, dimensions, Element { base: BaseType::Real, place: at }, kind);
         for (at, &value) in start.unwrap_or_default().iter().enumerate() {
             let checked =
                 check::finite("start", Some(value)).and_then(|()| check::range(Some(value), min, max));

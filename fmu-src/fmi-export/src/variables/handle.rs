@@ -3,9 +3,11 @@
 
 use core::marker::PhantomData;
 
+use model_description::BaseType;
 use serde::{Deserialize, Serialize};
 
 use super::variable::{Element, EnumerationType};
+use crate::dependencies::Knowns;
 
 /// Scalars that follow one another in the table of their type: what a handle stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,47 +19,66 @@ pub struct Elements {
 impl Elements {
     /// Their places in the table.
     pub(crate) fn places(self) -> core::ops::Range<usize> {
-        let first = self.first.place() as usize;
+        let first = self.first.place as usize;
         first..first + self.count
     }
 }
 
-macro_rules! scalar_handle {
-    ($(#[$doc:meta])* $name:ident) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-        pub struct $name(pub(crate) u32);
-
-        impl From<$name> for Element {
-            fn from(handle: $name) -> Self {
-                Self::$name(handle.0)
+/// What a handle of this type stands for: base type and number of elements.
+macro_rules! elements {
+    ($([$($generics:tt)*] $handle:ty: $base:ident $count:expr;)*) => { $(
+        impl<$($generics)*> From<$handle> for Elements {
+            fn from(handle: $handle) -> Self {
+                Self { first: Element { base: BaseType::$base, place: handle.0 }, count: $count }
             }
         }
 
-        impl From<$name> for Elements {
-            fn from(handle: $name) -> Self {
-                Self { first: handle.into(), count: 1 }
+        impl<$($generics)*> From<$handle> for Knowns {
+            fn from(handle: $handle) -> Self {
+                Self::span(handle.into())
             }
         }
-    };
+    )* };
 }
 
-scalar_handle!(
-    /// A Real variable.
-    Real
-);
-scalar_handle!(
-    /// An Integer variable.
-    Integer
-);
-scalar_handle!(
-    /// A Boolean variable.
-    Boolean
-);
-scalar_handle!(
-    /// A String variable.
-    Text
-);
+elements! {
+    [] Real: Real 1;
+    [] Integer: Integer 1;
+    [] Boolean: Boolean 1;
+    [] Text: String 1;
+    [E] Choice<E>: Integer 1;
+    [const N: usize] RealVector<N>: Real N;
+    [const R: usize, const C: usize] RealMatrix<R, C>: Real R * C;
+}
+
+/// Handles of one element.
+macro_rules! scalars {
+    ($([$($generics:tt)*] $handle:ty;)*) => { $(
+        impl<$($generics)*> From<$handle> for Element {
+            fn from(handle: $handle) -> Self {
+                Elements::from(handle).first
+            }
+        }
+    )* };
+}
+
+scalars! { [] Real; [] Integer; [] Boolean; [] Text; [E] Choice<E>; }
+
+/// A Real variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Real(pub(crate) u32);
+
+/// An Integer variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Integer(pub(crate) u32);
+
+/// A Boolean variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Boolean(pub(crate) u32);
+
+/// A String variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Text(pub(crate) u32);
 
 /// `N` Real variables `x[1]`..`x[N]`, one after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -86,12 +107,6 @@ impl<const R: usize, const C: usize> RealMatrix<R, C> {
         debug_assert!(row < R && column < C);
         Real(self.0 + (row * C + column) as u32)
     }
-
-    /// The 0-based row and column of an element of this matrix; `None` for any other Real.
-    pub fn index_of(self, element: Real) -> Option<(usize, usize)> {
-        let index = element.0.checked_sub(self.0)? as usize;
-        (index < R * C).then(|| (index / C, index % C))
-    }
 }
 
 /// An Enumeration variable whose items are the variants of `E`.
@@ -105,30 +120,6 @@ impl<E> Clone for Choice<E> {
 }
 
 impl<E> Copy for Choice<E> {}
-
-impl<E> From<Choice<E>> for Element {
-    fn from(handle: Choice<E>) -> Self {
-        Self::Integer(handle.0)
-    }
-}
-
-impl<E> From<Choice<E>> for Elements {
-    fn from(handle: Choice<E>) -> Self {
-        Self { first: handle.into(), count: 1 }
-    }
-}
-
-impl<const N: usize> From<RealVector<N>> for Elements {
-    fn from(handle: RealVector<N>) -> Self {
-        Self { first: Element::Real(handle.0), count: N }
-    }
-}
-
-impl<const R: usize, const C: usize> From<RealMatrix<R, C>> for Elements {
-    fn from(handle: RealMatrix<R, C>) -> Self {
-        Self { first: Element::Real(handle.0), count: R * C }
-    }
-}
 
 /// A Rust enum offered as an enumeration; derived with `#[derive(Enumeration)]`.
 pub trait Enumeration: Copy + 'static {

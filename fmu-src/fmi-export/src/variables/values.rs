@@ -1,6 +1,6 @@
 //! The values of one instance: one flat table a type.
 
-use model_description::value::Value;
+use model_description::{BaseType, value::Value};
 use serde::{Deserialize, Serialize};
 
 use super::handle::{Boolean, Choice, Elements, Enumeration, Integer, Real, RealMatrix, RealVector, Text};
@@ -74,24 +74,18 @@ impl Values {
     /// Whether the importer set every element of the variable to what it is in `start`.
     fn repeats(&self, start: &Self, elements: Elements) -> bool {
         let table = elements.first.table();
-        let is_start = |place: usize| match elements.first {
-            Element::Real(_) => self.reals[place].to_bits() == start.reals[place].to_bits(),
-            Element::Integer(_) => self.integers[place] == start.integers[place],
-            Element::Boolean(_) => self.booleans[place] == start.booleans[place],
-            Element::Text(_) => self.strings[place] == start.strings[place],
+        let is_start = |place: usize| match elements.first.base {
+            BaseType::Real => self.reals[place].to_bits() == start.reals[place].to_bits(),
+            BaseType::Integer => self.integers[place] == start.integers[place],
+            BaseType::Boolean => self.booleans[place] == start.booleans[place],
+            BaseType::String => self.strings[place] == start.strings[place],
         };
         elements.places().all(|place| self.set[table].is_set(place) && is_start(place))
     }
 
     /// Writes the value that a setup gives at a place in the table of its type.
     pub(crate) fn give(&mut self, position: usize, value: Value) {
-        let table = match value {
-            Value::Real(_) => 0,
-            Value::Integer(_) => 1,
-            Value::Boolean(_) => 2,
-            Value::Text(_) => 3,
-        };
-        self.set[table].mark(position);
+        self.set[value.base_type() as usize].mark(position);
         match value {
             Value::Real(value) => self.reals[position] = value,
             Value::Integer(value) => self.integers[position] = value,

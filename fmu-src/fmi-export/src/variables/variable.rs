@@ -2,7 +2,7 @@
 
 use core::fmt::Write;
 
-use model_description::{Causality, Initial, Variability};
+use model_description::{BaseType, Causality, Initial, Variability};
 use serde::{Serialize, Serializer};
 
 /// Causality, variability and initial of a declaration (FMI 2.0.5, 2.2.7; FMI 3.0, 2.4.7.4).
@@ -73,59 +73,28 @@ pub enum Kind {
 }
 
 /// One scalar, by its place in the table of values of its type; Enumerations share the Integers' table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-pub enum Element {
-    /// Of the Reals.
-    Real(u32),
-    /// Of the Integers and Enumerations.
-    Integer(u32),
-    /// Of the Booleans.
-    Boolean(u32),
-    /// Of the texts.
-    Text(u32),
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Element {
+    /// The type.
+    pub base: BaseType,
+    /// Its place.
+    pub place: u32,
 }
 
 impl Element {
     /// Number of tables of values.
-    pub(crate) const TABLES: usize = 4;
+    pub(crate) const TABLES: usize = BaseType::ALL.len();
 
-    /// The table, in the order of the variants.
+    /// The table, by the order of the base types.
     pub(crate) const fn table(self) -> usize {
-        match self {
-            Self::Real(_) => 0,
-            Self::Integer(_) => 1,
-            Self::Boolean(_) => 2,
-            Self::Text(_) => 3,
-        }
+        self.base as usize
     }
+}
 
-    /// The element at a place of a table; `None` if there is no such table.
-    pub(crate) const fn of_table(table: usize, place: u32) -> Option<Self> {
-        match table {
-            0 => Some(Self::Real(place)),
-            1 => Some(Self::Integer(place)),
-            2 => Some(Self::Boolean(place)),
-            3 => Some(Self::Text(place)),
-            _ => None,
-        }
-    }
-
-    /// The element `count` places on.
-    #[must_use]
-    pub const fn after(self, count: u32) -> Self {
-        match self {
-            Self::Real(at) => Self::Real(at + count),
-            Self::Integer(at) => Self::Integer(at + count),
-            Self::Boolean(at) => Self::Boolean(at + count),
-            Self::Text(at) => Self::Text(at + count),
-        }
-    }
-
-    /// The place in the table.
-    pub const fn place(self) -> u32 {
-        match self {
-            Self::Real(at) | Self::Integer(at) | Self::Boolean(at) | Self::Text(at) => at,
-        }
+/// By the number of the table.
+impl Serialize for Element {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        (self.base as u32, self.place).serialize(serializer)
     }
 }
 
@@ -137,7 +106,10 @@ impl Variable {
 
     /// The elements with their names: `x`, `x[2]`, `x[1,3]`.
     pub fn elements(&self) -> impl Iterator<Item = (String, Element)> + '_ {
-        (0..self.count()).map(|at| (self.element_name(at), self.first.after(at as u32)))
+        (0..self.count()).map(|at| {
+            let place = self.first.place + at as u32;
+            (self.element_name(at), Element { place, ..self.first })
+        })
     }
 
     /// Of the element counted row by row.

@@ -9,13 +9,6 @@ const GAIN: &str = "channel[1].gain";
 const INPUT: &str = "channel[1].input";
 const OUTPUT: &str = "channel[1].output";
 
-/// Whether the model declares what the output depends on.
-fn declared(description: &fmi_export::model_description::Description) -> bool {
-    let at = 1 + description.variables.iter().position(|it| it.name == OUTPUT).unwrap();
-    let outputs = &description.structure.outputs;
-    outputs.iter().any(|it| it.index as usize == at && it.dependencies.is_some())
-}
-
 #[test]
 fn a_step_to_infinity_is_an_error_that_names_the_output() {
     let (mut instance, description) = started("AllTypes");
@@ -24,7 +17,7 @@ fn a_step_to_infinity_is_an_error_that_names_the_output() {
     assert_eq!(instance.do_step(0.0, 1.0), Error);
     let text = only_message(&instance);
     assert!(text.contains("fmi2DoStep: `channel[1].output`") && text.contains("inf"), "{text}");
-    assert!(!declared(&description) || text.contains("channel[1].input = 1e300"), "{text}");
+    assert!(text.contains("channel[1].input = 1e300"), "{text}");
     // A reset brings the instance back.
     assert_eq!(instance.reset(), Ok);
     assert_eq!(instance.start(0.0, None), Ok);

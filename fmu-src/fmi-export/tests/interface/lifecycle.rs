@@ -99,14 +99,3 @@ fn reset_forgets_what_was_logged_said_and_promised() {
     assert_eq!(instance.set_state(&state), Ok);
     assert!(instance.take_messages().is_empty());
 }
-
-#[test]
-fn values_can_be_read_after_termination_and_after_an_error() {
-    let (mut instance, description) = started("AllTypes");
-    let output = [reference(&description, "output.real")];
-    assert_eq!(instance.terminate(), Ok);
-    assert_eq!(instance.get_real(&output, &mut [0.0]), Ok);
-    assert_eq!(instance.terminate(), Error);
-    assert_eq!(instance.get_real(&output, &mut [0.0]), Ok);
-    assert_eq!(instance.set_real(&output, &[0.0]), Error);
-}

@@ -26,10 +26,16 @@ fn events_and_warnings_of_a_model_reach_the_log_when_requested() {
         assert_eq!(instance.do_step(f64::from(value) + 1.0, 1.0), Ok);
     }
     assert!(only_message(&instance).starts_with("t = 2 s"));
+    assert_eq!(instance.set_debug_logging(true, &[c"logAll"]), Ok);
+    assert_eq!(instance.set_boolean(&[at("input.boolean")], &[0]), Ok);
+    assert_eq!(instance.do_step(3.0, 1.0), Ok);
+    assert_eq!(instance.set_boolean(&[at("input.boolean")], &[1]), Ok);
+    assert_eq!(instance.do_step(4.0, 1.0), Ok);
+    assert!(only_message(&instance).starts_with("t = 4 s"));
     assert_eq!(instance.set_debug_logging(false, &[]), Ok);
     for value in [0, 1] {
         assert_eq!(instance.set_boolean(&[at("input.boolean")], &[value]), Ok);
-        assert_eq!(instance.do_step(f64::from(value) + 3.0, 1.0), Ok);
+        assert_eq!(instance.do_step(f64::from(value) + 5.0, 1.0), Ok);
     }
     assert!(instance.take_messages().is_empty());
 }

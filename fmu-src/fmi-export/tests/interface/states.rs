@@ -80,30 +80,6 @@ fn a_save_between_a_set_and_its_step_keeps_both() {
 }
 
 #[test]
-fn the_state_of_the_machine_is_restored_too() {
-    let (mut instance, _) = fresh("AllTypes");
-    let mut at_start = StatePointer::null();
-    assert_eq!(instance.get_state(&mut at_start), Ok);
-    assert_eq!(instance.start(0.0, None), Ok);
-    let mut stepping = StatePointer::null();
-    assert_eq!(instance.get_state(&mut stepping), Ok);
-    assert_eq!(instance.terminate(), Ok);
-    assert_eq!(instance.set_state(&stepping), Ok);
-    assert_eq!(instance.do_step(0.0, 1.0), Ok);
-    assert_eq!(instance.set_state(&at_start), Ok);
-    assert_eq!(instance.start(3.0, None), Ok);
-    // A state that exists is written over, and a NULL one can be freed.
-    assert_eq!(instance.get_state(&mut at_start), Ok);
-    assert_eq!(instance.do_step(3.0, 1.0), Ok);
-    assert_eq!(instance.set_state(&at_start), Ok);
-    assert_eq!(instance.do_step(3.0, 1.0), Ok);
-    assert_eq!(instance.free_state(&mut at_start), Ok);
-    assert!(at_start.is_null());
-    assert_eq!(instance.free_state(&mut at_start), Ok);
-    assert_eq!(instance.set_state(&at_start), Error);
-}
-
-#[test]
 fn the_state_of_another_model_is_refused() {
     let (mut all_types, _) = started("AllTypes");
     let (mut empty, _) = started("Empty");

@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use fmi_export::{Failure, Given, SetupError};
+use fmi_export::{Failure, SetupError};
 use physics::bodies::Body;
 use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::kepler_planet::KeplerPlanet;
 use physics::environment::onboard::{OnboardEphemeris, OnboardTarget};
-
-use super::variables::EllipseVariables;
+use physics::environment::orbit::Elements;
 
 /// The file of onboard ephemerides in the resources.
 pub const EPHEMERIS_FILE: &str = "ephemeris.toml";
@@ -35,14 +34,8 @@ pub fn check_start(epoch_s: f64) -> Result<(), Failure> {
 }
 
 /// The planet on the ellipse of `ephemeris.source` kepler.
-pub fn kepler(
-    ellipse: &EllipseVariables,
-    given: Given<'_>,
-    body: Body,
-    epoch_s: f64,
-) -> Result<KeplerPlanet, Failure> {
-    KeplerPlanet::new(ellipse.read(given, body), epoch_s)
-        .map_err(|error| Failure::new(format!("ephemeris elements: {error}")))
+pub fn kepler(ellipse: Elements, epoch_s: f64) -> Result<KeplerPlanet, Failure> {
+    KeplerPlanet::new(ellipse, epoch_s).map_err(|error| Failure::new(format!("ephemeris elements: {error}")))
 }
 
 /// Refuses onboard ephemerides that do not place Sun and Earth from a centre, or not at `epoch_s`, which `what` gives.

@@ -1,6 +1,6 @@
 //! Momentum management by sunlight: its parameters, and the manager they describe.
 
-use fmi_export::{Choice, Failure, Integer, Real, RealVector, Values, Variables};
+use fmi_export::{Choice, Failure, Integer, RealVector, Values, Variables};
 use nalgebra::Vector3;
 use physics::guidance::Schedule;
 use physics::management::{self, Manager, Strategy, TargetAxes, Targeting, TargetingMethod};
@@ -45,24 +45,32 @@ pub struct TargetingVariables {
 }
 
 impl TargetingVariables {
-    /// Axes, formula and limits.
-    pub fn read(&self, values: &Values, azimuth_limit_rad: f64, elevation_limit_rad: f64) -> Targeting {
-        Targeting {
-            axes: values.choice(self.target_axes).0,
-            method: values.choice(self.targeting).0,
-            azimuth_limit_rad,
-            elevation_limit_rad,
-        }
-    }
-
     /// The target, body frame, in N m s.
     pub fn target_body_n_m_s(&self, values: &Values) -> Vector3<f64> {
         Vector3::from(values.vector(self.target))
     }
 
-    /// How many cycles predictive targets look ahead.
-    pub fn horizon(&self, values: &Values) -> u32 {
-        values.integer(self.horizon).unsigned_abs()
+    /// The manager by this strategy, the Sun staying within these limits of azimuth and elevation about -Y, of a spacecraft
+    /// whose shade takes the light in this form.
+    pub fn manager<'s>(
+        &self,
+        values: &Values,
+        strategy: Strategy,
+        [azimuth_limit_rad, elevation_limit_rad]: [f64; 2],
+        (spacecraft, sunshade): (&'s Spacecraft, SunshadeModel),
+    ) -> Manager<'s> {
+        Manager {
+            strategy,
+            targeting: Targeting {
+                axes: values.choice(self.target_axes).0,
+                method: values.choice(self.targeting).0,
+                azimuth_limit_rad,
+                elevation_limit_rad,
+            },
+            target_body_n_m_s: self.target_body_n_m_s(values),
+            horizon: values.integer(self.horizon).unsigned_abs(),
+            sunshade: spacecraft.sunshade.as_ref().map(|shade| (shade, sunshade)),
+        }
     }
 }
 
@@ -91,37 +99,4 @@ pub fn check_windows(schedule: &Schedule) -> Result<(), Failure> {
         "momentum.strategy, guided.downlinkStart, guided.downlinkEnd, guided.downlinkEvery: found a strategy with {found}, from \
          {downlink_start_s:?} s to {downlink_end_s:?} s, allowed: dumpsOnly, or downlinks with science between them"
     )))
-}
-
-/// Keep-in limits of the Sun about -Y.
-#[derive(Clone, Copy, Debug)]
-pub struct Limits {
-    /// Greatest azimuth.
-    pub azimuth: Real,
-    /// Greatest elevation.
-    pub elevation: Real,
-}
-
-impl ManagementVariables {
-    /// Whether downlinks are used.
-    pub fn manages(&self, values: &Values) -> bool {
-        values.choice(self.strategy).0 != Strategy::DumpsOnly
-    }
-
-    /// The manager of a spacecraft whose shade takes the light in this form.
-    pub fn manager<'s>(
-        &self,
-        values: &Values,
-        limits: Limits,
-        spacecraft: &'s Spacecraft,
-        sunshade: SunshadeModel,
-    ) -> Manager<'s> {
-        Manager {
-            strategy: values.choice(self.strategy).0,
-            targeting: self.aim.read(values, values.real(limits.azimuth), values.real(limits.elevation)),
-            target_body_n_m_s: self.aim.target_body_n_m_s(values),
-            horizon: self.aim.horizon(values),
-            sunshade: spacecraft.sunshade.as_ref().map(|shade| (shade, sunshade)),
-        }
-    }
 }

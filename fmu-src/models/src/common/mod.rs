@@ -3,6 +3,7 @@
 pub mod center;
 pub mod choices;
 pub mod effects;
+pub mod elements;
 pub mod ephemeris;
 pub mod loads;
 pub mod management;

@@ -1,7 +1,7 @@
 //! Groups of variables that several models have.
 
 use fmi_export::{
-    Boolean, Choice, Elements, Failure, Given, Integer, Knowns, Real, Values, Variables, knowns,
+    Boolean, Choice, Context, Elements, Failure, Given, Integer, Model, Real, Values, Variables,
 };
 use physics::attitude::SunAngles;
 use physics::bodies::Body;
@@ -16,6 +16,7 @@ use physics::plant::SunLight;
 
 use super::center;
 use super::choices::{DayTemperature, DownlinkReference, EclipseMethod, ScienceRule};
+use super::elements::ElementHandles;
 
 /// What a planet's surface does with sunlight; Mercury's fits paper 004, which prints none.
 #[derive(Variables)]
@@ -219,16 +220,26 @@ pub struct EllipseVariables {
 }
 
 impl EllipseVariables {
-    /// All of them.
-    pub fn knowns(&self) -> Knowns {
-        knowns![
+    fn handles(&self) -> ElementHandles {
+        ElementHandles([
             self.semi_major_axis,
             self.eccentricity,
             self.inclination,
             self.ascending_node,
             self.periapsis_argument,
             self.true_anomaly,
-        ]
+        ])
+    }
+
+    /// Elements of the planet's ellipse about the Sun, in the ecliptic of J2000: those that are given, else the body's own.
+    pub fn read<M: Model>(&self, context: &Context<'_, M>, values: &Values, body: Body) -> KeplerElements {
+        let handles = self.handles();
+        handles.read_or(context.given(values, &handles.group()), &center::ellipse(body))
+    }
+
+    /// Writes these elements.
+    pub fn write(&self, values: &mut Values, elements: &KeplerElements) {
+        self.handles().write(values, elements);
     }
 }
 
@@ -292,43 +303,5 @@ impl GuidedVariables {
             sun_place: None,
             managed: false,
         })
-    }
-}
-
-impl EllipseVariables {
-    /// They follow the planet together.
-    pub fn group(&self) -> [Elements; 6] {
-        [
-            self.semi_major_axis,
-            self.eccentricity,
-            self.inclination,
-            self.ascending_node,
-            self.periapsis_argument,
-            self.true_anomaly,
-        ]
-        .map(Elements::from)
-    }
-
-    /// Elements of the planet's ellipse about the Sun, in the ecliptic of J2000: those that are given, else the body's own.
-    pub fn read(&self, given: Given<'_>, body: Body) -> KeplerElements {
-        let own = center::ellipse(body);
-        KeplerElements {
-            semi_major_axis_m: given.real_or(self.semi_major_axis, own.semi_major_axis_m),
-            eccentricity: given.real_or(self.eccentricity, own.eccentricity),
-            inclination_rad: given.real_or(self.inclination, own.inclination_rad),
-            ascending_node_rad: given.real_or(self.ascending_node, own.ascending_node_rad),
-            periapsis_argument_rad: given.real_or(self.periapsis_argument, own.periapsis_argument_rad),
-            true_anomaly_rad: given.real_or(self.true_anomaly, own.true_anomaly_rad),
-        }
-    }
-
-    /// Writes these elements.
-    pub fn write(&self, values: &mut Values, elements: &KeplerElements) {
-        values.set_real(self.semi_major_axis, elements.semi_major_axis_m);
-        values.set_real(self.eccentricity, elements.eccentricity);
-        values.set_real(self.inclination, elements.inclination_rad);
-        values.set_real(self.ascending_node, elements.ascending_node_rad);
-        values.set_real(self.periapsis_argument, elements.periapsis_argument_rad);
-        values.set_real(self.true_anomaly, elements.true_anomaly_rad);
     }
 }

@@ -7,7 +7,7 @@ use physics::environment::eclipse::Shadow;
 use physics::loads::Active;
 use physics::numerics::scalar::Scalar;
 use physics::plant::{BySource, Parameters, PositionError, Positions};
-use physics::radiation::disturbance::{DisturbanceModel, ModelError, Options, PlanetLightMethod, Workspace};
+use physics::radiation::disturbance::{DisturbanceModel, Options, PlanetLightMethod, Workspace};
 use physics::spacecraft::Spacecraft;
 
 use super::setup::Plan;
@@ -94,14 +94,12 @@ impl Prepared {
         let shadow = variables.eclipse.read(values, surface.radius_m, parameters.sun_radius_m)?;
         let failure = |error: &dyn core::fmt::Display| Failure::new(error.to_string());
         inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
-        let model = DisturbanceModel::new(spacecraft, &options)
-            .and_then(|model| model.within(variables.solver.units(values)))
-            .map_err(|error| match error {
-                ModelError::Work { .. } => Failure::new(format!(
-                    "{error} (solver.workLimit); see planetLight.method, planetLight.belts and planetLight.nodes"
-                )),
-                _ => failure(&error),
-            })?;
+        let model = DisturbanceModel::new(spacecraft, &options).map_err(|error| failure(&error))?;
+        let model = model.within(variables.solver.units(values)).map_err(|error| {
+            Failure::new(format!(
+                "{error} (solver.workLimit); see planetLight.method, planetLight.belts and planetLight.nodes"
+            ))
+        })?;
         Ok(Self {
             model,
             shadow: present.then_some(shadow),

@@ -10,8 +10,8 @@ mod variables;
 use std::sync::Arc;
 
 use fmi_export::{
-    About, Dependencies, Differentiable, Extensions, Failure, Manual, Model, Real, SetupError, Source,
-    StartValue, Step, StepEnd, Values,
+    About, Dependencies, Differentiable, Extensions, Failure, Manual, Model, Real, SetupError, StartValue,
+    Step, StepEnd, Values,
 };
 use physics::numerics::scalar::Dual64;
 use physics::plant::Positions;
@@ -42,7 +42,6 @@ impl Model for DisturbanceTorque {
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger-thermal.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/DisturbanceTorque.csv");
     const MANUAL: Manual = crate::manuals::DISTURBANCE_TORQUE;
-    const SOURCES: &'static [Source] = crate::sources::DISTURBANCE_TORQUE;
     const EXTENSIONS: Extensions<Self> = Extensions::none().differentiable();
 
     type Setup = DisturbanceSetup;

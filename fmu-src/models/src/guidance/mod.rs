@@ -8,7 +8,7 @@ mod variables;
 
 use fmi_export::{
     About, Dependencies, Extensions, Failure, InputsOverTime, Manual, Model, OutputRates, Real, SetupError,
-    Source, StartValue, Step, StepEnd, Values,
+    StartValue, Step, StepEnd, Values,
 };
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
@@ -37,7 +37,7 @@ pub struct State {
     /// Epoch less time, in s.
     epoch_minus_time_s: f64,
     /// Whether the warning was given that places are not connected.
-    said_unconnected: bool,
+    warned_unconnected: bool,
     /// Cache, not state: the same epoch gives the same bits.
     #[serde(skip)]
     ephemeris: Ephemeris,
@@ -57,7 +57,6 @@ impl Model for Guidance {
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/Guidance.csv");
     const MANUAL: Manual = crate::manuals::GUIDANCE;
-    const SOURCES: &'static [Source] = crate::sources::GUIDANCE;
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
 
     type Setup = GuidanceSetup;
@@ -112,20 +111,20 @@ impl Model for Guidance {
             dumps: DumpRequests::default(),
             time_s: start_s,
             epoch_minus_time_s: time::epoch_minus_time_s(epoch_s, start_s),
-            said_unconnected: false,
+            warned_unconnected: false,
             ephemeris: Ephemeris::default(),
             coarse: CoarseEphemeris::default(),
             fixed: None,
         };
         // Masters that connect inputs one by one look before all of them are set: the first step says what is missing.
-        let mut shown = State { said_unconnected: true, ..state.clone() };
+        let mut shown = State { warned_unconnected: true, ..state.clone() };
         let mut fixed = Fixed::read(context, values)?;
         management::set_panels(context, values, &mut fixed.panels);
         let settings = inputs::settings(context, values, &fixed)?;
         shown.sample(context, values, &fixed, &settings, InputsOverTime::held())?;
         state.ephemeris = shown.ephemeris.clone();
         state.coarse = shown.coarse.clone();
-        outputs::write(context, values, &shown.system, &shown.dumps, &fixed.burn, start_s, epoch_s);
+        outputs::write(context, values, &shown, &fixed.burn, epoch_s);
         state.fixed = Some(fixed);
         Ok(state)
     }
@@ -157,7 +156,7 @@ impl Model for Guidance {
         }
         let epoch_s = time::epoch_at_s(step.end_s, state.epoch_minus_time_s);
         state.time_s = step.end_s;
-        outputs::write(context, values, &state.system, &state.dumps, &fixed.burn, step.end_s, epoch_s);
+        outputs::write(context, values, state, &fixed.burn, epoch_s);
         state.fixed = Some(fixed);
         Ok(StepEnd::at(step.end_s))
     }
@@ -233,8 +232,8 @@ impl State {
         };
         let command = self.system.continued(&command);
         let places = reader.places(fixed, &command, (&mut self.ephemeris, &mut self.coarse), epoch_s);
-        if !places.are_known() && !self.said_unconnected {
-            self.said_unconnected = true;
+        if !places.are_known() && !self.warned_unconnected {
+            self.warned_unconnected = true;
             context.log.warning(
                 "position, or with ephemeris.source inputs sun.position or earth.position, is all zero and counts as not \
                  connected yet: the last command stays until then",
@@ -254,7 +253,7 @@ impl State {
         let manager = management::manager(context, values, &fixed.panels, &keep_in)?;
         let manager = SampledManager { momentum_body_n_m_s, ..manager };
         let inputs = SampleInputs { command, entries, places, sensed, delta_v_body_m_s };
-        let is_asked = self.system.sample(&settings, &inputs, &manager);
-        Ok(if is_asked { manager.work(settings.orbit_phase.science.unloads()) } else { 0 })
+        let is_chosen = self.system.sample(&settings, &inputs, |start| manager.choose(start));
+        Ok(if is_chosen { manager.work(settings.orbit_phase.science.unloads()) } else { 0 })
     }
 }

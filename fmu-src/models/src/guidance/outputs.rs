@@ -4,8 +4,8 @@ use fmi_export::{Real, Values};
 
 use physics::guidance::burn::delta_v::{BurnSettings, BurnState};
 use physics::guidance::modes::system::GuidanceState;
-use physics::management::DumpRequests;
 
+use super::State;
 use super::setup::Plan;
 use super::variables::choices::{ActiveMode, AntennaSelect, EphemerisModel, EphemerisSource};
 use crate::common::choices::{CommandKind, ThrustRequest};
@@ -13,17 +13,10 @@ use crate::common::choices::{CommandKind, ThrustRequest};
 /// What `thrust.stop` says without thrust, in s.
 const NO_STOP_S: f64 = -1.0;
 
-/// Writes every output at `time_s`, the epoch there being `epoch_s`.
-pub fn write(
-    context: &Plan<'_>,
-    values: &mut Values,
-    state: &GuidanceState,
-    dumps: &DumpRequests,
-    burn: &BurnSettings,
-    time_s: f64,
-    epoch_s: f64,
-) {
+/// Writes every output at the communication point reached, the epoch there being `epoch_s`.
+pub fn write(context: &Plan<'_>, values: &mut Values, state: &State, burn: &BurnSettings, epoch_s: f64) {
     let v = context.variables;
+    let (State { system: state, dumps, .. }, time_s) = (state, state.time_s);
     let command = state.command();
     let attitude = command.attitude_at(time_s);
     values.set_choice(v.command.kind, CommandKind(command.kind));
@@ -44,19 +37,19 @@ pub fn write(
     let sun = state.sun_line().angles_at(&attitude, time_s);
     values.set_real(v.sun.azimuth, sun.azimuth_rad);
     values.set_real(v.sun.elevation, sun.elevation_rad);
-    let judged = state.status();
-    values.set_real(v.mdis.angle, judged.mdis.angle_rad);
-    values.set_boolean(v.mdis.in_range, judged.mdis.in_range);
-    values.set_choice(v.antenna.select, AntennaSelect(judged.antenna));
-    values.set_real(v.antenna.azimuth, judged.antenna_azimuth_rad);
-    values.set_real(v.earth.sun_separation, judged.sun_separation_rad);
-    values.set_boolean(v.link.available, judged.link_available);
-    values.set_boolean(v.target.reachable, judged.reachable);
-    values.set_boolean(v.geometry.degenerate, judged.degenerate);
-    values.set_boolean(v.scan.active, judged.scan_active);
-    values.set_boolean(v.constraint.sun_keep_in, judged.sun_keep_in);
-    values.set_boolean(v.constraint.hot_pole, judged.hot_pole);
-    values.set_boolean(v.constraint.clamped, judged.clamped);
+    let status = state.status();
+    values.set_real(v.mdis.angle, status.mdis.angle_rad);
+    values.set_boolean(v.mdis.in_range, status.mdis.in_range);
+    values.set_choice(v.antenna.select, AntennaSelect(status.antenna));
+    values.set_real(v.antenna.azimuth, status.antenna_azimuth_rad);
+    values.set_real(v.earth.sun_separation, status.sun_separation_rad);
+    values.set_boolean(v.link.available, status.link_available);
+    values.set_boolean(v.target.reachable, status.reachable);
+    values.set_boolean(v.geometry.degenerate, status.degenerate);
+    values.set_boolean(v.scan.active, status.scan_active);
+    values.set_boolean(v.constraint.sun_keep_in, status.sun_keep_in);
+    values.set_boolean(v.constraint.hot_pole, status.hot_pole);
+    values.set_boolean(v.constraint.clamped, status.clamped);
     self::burn(context, values, state.burn(), burn);
     for panel in &v.panel {
         values.set_real(panel.sun_offset, values.real(panel.nominal_sun_offset));

@@ -10,8 +10,8 @@ mod step;
 mod variables;
 
 use fmi_export::{
-    About, Dependencies, Extensions, Failure, Manual, Model, OutputRates, Real, SetupError, Source,
-    StartValue, Step, StepEnd, Values,
+    About, Dependencies, Extensions, Failure, Manual, Model, OutputRates, Real, SetupError, StartValue, Step,
+    StepEnd, Values,
 };
 
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
@@ -28,7 +28,6 @@ impl Model for MomentumPlant {
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/MomentumPlant.csv");
     const MANUAL: Manual = crate::manuals::MOMENTUM_PLANT;
-    const SOURCES: &'static [Source] = crate::sources::MOMENTUM_PLANT;
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
 
     type Setup = PlantSetup;
@@ -77,12 +76,9 @@ impl Model for MomentumPlant {
 
     fn initialize(context: &Plan<'_>, values: &mut Values, start_s: f64) -> Result<PlantState, Failure> {
         inputs::check_effects(context, values)?;
-        let mut state = PlantState::new(context, values, start_s)?;
-        if state.waiting {
-            step::wait(context, values, &mut state, start_s)?;
-        } else {
-            step::begin(context, values, &mut state, start_s)?;
-        }
+        let mut state = inputs::start(context, values, start_s)?;
+        outputs::write_guaranteed(context, values);
+        step::start(context, values, &mut state, start_s)?;
         Ok(state)
     }
 

@@ -1,9 +1,10 @@
 //! The model and its immutable setup: the spacecraft and what is computed from it once.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use fmi_export::{Context, Failure, Model, SetupError};
 use physics::bodies::Body;
+use physics::environment::ephemeris::Ephemeris;
 use physics::environment::onboard::OnboardEphemeris;
 use physics::environment::orbit::OrbitMethod;
 use physics::momentum::WheelArray;
@@ -49,6 +50,10 @@ pub struct PlantSetup {
     /// How disturbed orbits are integrated.
     #[serde(skip)]
     orbit_method: OrbitMethod,
+    /// Where planets are about the start of the first flight: a flight that starts there again need not compute it. A function of
+    /// time alone, so no state.
+    #[serde(skip)]
+    pub planets_at_start: OnceLock<Ephemeris>,
 }
 
 impl PlantSetup {
@@ -66,6 +71,7 @@ impl PlantSetup {
             wheel_array,
             ephemeris: None,
             orbit_method: OrbitMethod::default(),
+            planets_at_start: OnceLock::new(),
             spacecraft,
         })
     }

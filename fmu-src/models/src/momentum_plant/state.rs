@@ -1,20 +1,16 @@
 //! What the plant remembers between steps.
 
-use fmi_export::{Enumeration, Failure, InputsOverTime, Values};
+use fmi_export::Failure;
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
-use physics::bodies::Body;
 use physics::guidance::modes::guidance_command::CommandKind as Kind;
-use physics::plant::{Changes, Command, DynamicsInputs, Flight, Thrusters};
+use physics::plant::{Changes, Command, Flight, Thrusters, Tracked};
 use physics::spacecraft::Spacecraft;
 use serde::{Deserialize, Serialize};
 
-use super::inputs::dynamics::guides_itself;
-use super::inputs::propulsion::{ThrusterWarnings, reaction_control};
-use super::inputs::{is_given, panels_move};
+use super::inputs::propulsion::ThrusterWarnings;
+use super::inputs::step_inputs::{CommandInputs, StepInputs};
 use super::setup::Plan;
-use super::variables::choices::{AttitudeSource, EphemerisSource, OrbitSource};
-use crate::common::choices::{CommandKind, OrbitCenter};
 
 /// State of one plant.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -33,9 +29,9 @@ pub struct PlantState {
     pub request: Request,
     /// Which warnings were given.
     pub warned: Warned,
-    /// Memory for what the inputs of a step say.
+    /// What inputs and tunables say.
     #[serde(skip)]
-    pub inputs: Option<DynamicsInputs>,
+    pub inputs: StepInputs,
 }
 
 /// Warnings that are given once.
@@ -66,14 +62,6 @@ struct LastInputs {
     force: [f64; 3],
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct CommandInputs {
-    kind: i32,
-    q: [f64; 4],
-    rate: [f64; 3],
-    error: [f64; 4],
-}
-
 /// An input whose rising edge counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Request(bool);
@@ -100,32 +88,33 @@ impl PlantState {
     }
 
     /// At the start, before anything is accumulated.
-    pub fn new(context: &Plan<'_>, values: &Values, start_s: f64) -> Result<Self, Failure> {
-        let q = values.vector(context.variables.start.q);
-        let attitude =
-            Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
-        let rate_body_rad_s = Vector3::from([0.0; 3]);
+    pub fn new(
+        inputs: StepInputs,
+        attitude: Attitude,
+        thrusters: Thrusters,
+        start_s: f64,
+    ) -> Result<Self, Failure> {
         let mut state = Self {
             start_s,
-            flight: Flight::waiting(Thrusters::new(reaction_control(context, values)?, start_s)),
-            waiting: !unset_places(context, values).is_empty(),
-            command: Command { attitude, rate_body_rad_s, since_s: start_s },
+            flight: Flight::waiting(thrusters),
+            waiting: true,
+            command: Command { attitude, rate_body_rad_s: Vector3::from([0.0; 3]), since_s: start_s },
             last: LastInputs {
-                command: CommandInputs::read(context, values),
+                command: inputs.command,
                 error_is_applied: false,
-                orbit: orbit_inputs(context, values),
+                orbit: inputs.orbit,
                 orbit_since_s: start_s,
-                light: light_inputs(context, values).collect(),
+                light: inputs.light.clone(),
                 panels_moved: false,
-                tunables: tunables(context, values),
-                force: values.vector(context.variables.force.applied),
+                tunables: inputs.tunables,
+                force: inputs.applied[0],
             },
             request: Request::default(),
             warned: Warned::default(),
-            inputs: None,
+            inputs,
         };
-        if is_commanded(context, values) {
-            state.take_command(context, values, start_s)?;
+        if state.inputs.source.is_commanded {
+            state.take_command(start_s)?;
         }
         Ok(state)
     }
@@ -136,74 +125,71 @@ impl PlantState {
     }
 
     /// Takes over inputs and tunables that differ from the last ones.
-    pub fn inputs_changed(
-        &mut self,
-        context: &Plan<'_>,
-        values: &Values,
-        over_time: InputsOverTime<'_>,
-        time_s: f64,
-    ) -> Result<Changes, Failure> {
-        let command = CommandInputs::read(context, values);
+    pub fn take_inputs(&mut self, time_s: f64) -> Result<Changes, Failure> {
+        let (command, is_commanded) = (self.inputs.command, self.inputs.source.is_commanded);
         let before = core::mem::replace(&mut self.last.command, command);
-        let commanded = is_commanded(context, values)
-            && command.given(self.last.error_is_applied) != before.given(self.last.error_is_applied);
-        if command.kind != before.kind {
+        let is_applied = self.last.error_is_applied;
+        let commanded = is_commanded && command.given(is_applied) != before.given(is_applied);
+        if command.kind() != before.kind() {
             self.last.error_is_applied = false;
         }
         if commanded {
-            self.take_command(context, values, time_s)?;
+            self.take_command(time_s)?;
         }
-        let last = &mut self.last;
-        let orbit = orbit_inputs(context, values);
-        let moved = core::mem::replace(&mut last.orbit, orbit) != orbit;
+        self.track();
+        // A command moves light through the attitude, which in dynamics does not jump.
+        let turned = commanded && self.flight.estimate_at(time_s).is_none();
+        let Self { last, inputs, .. } = self;
+        let moved = core::mem::replace(&mut last.orbit, inputs.orbit) != inputs.orbit;
         if moved {
             last.orbit_since_s = time_s;
         }
         // Panels that move in this step or did in the last are elsewhere than was computed.
-        let panels_move = panels_move(context, over_time);
-        let panels_moved = core::mem::replace(&mut last.panels_moved, panels_move);
-        let lit =
-            panels_move || panels_moved || !light_inputs(context, values).eq(last.light.iter().copied());
+        let panels_moved = core::mem::replace(&mut last.panels_moved, inputs.panels_move);
+        let lit = inputs.panels_move || panels_moved || inputs.light != last.light;
         if lit {
-            last.light.clear();
-            last.light.extend(light_inputs(context, values));
+            last.light.clone_from(&inputs.light);
         }
-        let tunables = tunables(context, values);
-        let before = core::mem::replace(&mut last.tunables, tunables);
-        let force = values.vector(context.variables.force.applied);
-        // A command moves light through the attitude, which in dynamics does not jump.
-        let turned = commanded && self.flight.estimate_at(time_s).is_none();
+        let before = core::mem::replace(&mut last.tunables, inputs.tunables);
+        let [force, _] = inputs.applied;
         Ok(Changes {
-            orbit: moved && is_given(context.variables, values),
+            orbit: moved && inputs.orbit_is_given,
             light: lit || moved || turned,
-            mass: before[0] != tunables[0],
+            mass: before[0] != inputs.tunables[0],
             force: core::mem::replace(&mut last.force, force) != force,
-            tunables: before != tunables,
+            tunables: before != inputs.tunables,
         })
     }
 
     /// The command that stands at the start of a flight with dynamics; until one comes `attitude` is held.
-    pub fn take_first_command(
-        &mut self,
-        context: &Plan<'_>,
-        values: &Values,
-        attitude: Attitude,
-        time_s: f64,
-    ) -> Result<(), Failure> {
+    pub fn take_first_command(&mut self, attitude: Attitude, time_s: f64) -> Result<(), Failure> {
         self.command = Command { attitude, rate_body_rad_s: Vector3::from([0.0; 3]), since_s: time_s };
         // An error applied before there was a body to turn counts for nothing.
         self.last.error_is_applied = false;
-        if is_commanded(context, values) { self.take_command(context, values, time_s) } else { Ok(()) }
+        if self.inputs.source.is_commanded {
+            self.take_command(time_s)?;
+        }
+        self.track();
+        Ok(())
     }
 
-    fn take_command(&mut self, context: &Plan<'_>, values: &Values, time_s: f64) -> Result<(), Failure> {
+    /// The controller tracks the command in effect.
+    fn track(&mut self) {
+        self.inputs.dynamics.tracked = match self.last.command.kind() {
+            _ if self.inputs.source.guides_itself => Tracked::Guidance,
+            Kind::RateOnly => Tracked::Rate(self.command.rate_body_rad_s),
+            _ => Tracked::Attitude(self.command),
+        };
+    }
+
+    fn take_command(&mut self, time_s: f64) -> Result<(), Failure> {
         let CommandInputs { q, rate, error, .. } = self.last.command;
         let quaternion = |name: &str, q| {
             Attitude::along_quaternion(q).map_err(|error| Failure::new(format!("{name}: {error}")))
         };
         let estimate = self.flight.estimate_at(time_s).map(|estimate| estimate.attitude);
         let held = estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
-        let (attitude, rate) = match values.choice(context.variables.command.kind).0 {
+        let (attitude, rate) = match self.last.command.kind() {
             Kind::None => (held, [0.0; 3]),
             Kind::RateOnly => (held, rate),
             Kind::ErrorQuaternion if self.last.error_is_applied => (held, rate),
@@ -220,27 +206,21 @@ impl PlantState {
     }
 
     /// Warns once which inputs are not set yet, if any.
-    pub fn warn_unset_inputs(&mut self, context: &Plan<'_>, values: &Values) {
+    pub fn warn_unset_inputs(&mut self, context: &Plan<'_>) {
         if self.warned.unset_inputs {
             return;
         }
-        let mut unset = unset_places(context, values);
-        let is_earth_given =
-            matches!(values.choice(context.variables.ephemeris.source), EphemerisSource::Inputs);
-        if is_earth_given && is_zero(&values.vector(context.variables.earth.position)) {
-            unset.push("earth.position");
-        }
-        if is_commanded(context, values) {
-            let CommandInputs { q, error, .. } = &self.last.command;
-            match values.choice(context.variables.command.kind).0 {
-                Kind::None => unset.push("command.kind"),
-                Kind::Attitude if is_zero(q) => unset.push("command.q"),
-                Kind::ErrorQuaternion if !self.last.error_is_applied && is_zero(error) => {
-                    unset.push("command.error");
-                }
-                _ => {}
-            }
-        }
+        let earth = self.inputs.earth_is_unset.then_some("earth.position");
+        let CommandInputs { q, error, .. } = &self.last.command;
+        let command = match self.last.command.kind() {
+            _ if !self.inputs.source.is_commanded => None,
+            Kind::None => Some("command.kind"),
+            Kind::Attitude if is_zero(q) => Some("command.q"),
+            Kind::ErrorQuaternion if !self.last.error_is_applied && is_zero(error) => Some("command.error"),
+            _ => None,
+        };
+        let places = self.inputs.unset_places.iter().copied();
+        let unset: Vec<&str> = places.chain(earth).chain(command).collect();
         if unset.is_empty() {
             return;
         }
@@ -259,74 +239,4 @@ impl PlantState {
 
 fn is_zero(vector: &[f64]) -> bool {
     vector.iter().all(|x| *x == 0.0)
-}
-
-/// The inputs without which there is no flight and that are not set yet.
-pub fn unset_places(context: &Plan<'_>, values: &Values) -> Vec<&'static str> {
-    let variables = context.variables;
-    let orbit_given = is_given(variables, values);
-    let moves = !matches!(values.choice(variables.orbit.source), OrbitSource::Held);
-    let sun_given = matches!(values.choice(variables.ephemeris.source), EphemerisSource::Inputs);
-    // About the Sun, the Sun is at zero.
-    let planet = !matches!(values.choice(variables.orbit.center), OrbitCenter(Body::Sun));
-    let places = [
-        (orbit_given, variables.orbit.position, "orbit.position"),
-        (orbit_given && moves, variables.orbit.velocity, "orbit.velocity"),
-        (sun_given && planet, variables.sun.position, "sun.position"),
-    ];
-    let unset = places.iter().filter(|(given, place, _)| *given && is_zero(&values.vector(*place)));
-    unset.map(|(_, _, name)| *name).collect()
-}
-
-/// Whether the attitude follows or tracks the inputs `command.*`.
-fn is_commanded(context: &Plan<'_>, values: &Values) -> bool {
-    let source = values.choice(context.variables.attitude.source);
-    matches!(source, AttitudeSource::Commanded | AttitudeSource::Controlled)
-        && !guides_itself(context, values)
-}
-
-impl CommandInputs {
-    fn read(context: &Plan<'_>, values: &Values) -> Self {
-        let command = &context.variables.command;
-        Self {
-            kind: values.choice(command.kind).value(),
-            q: values.vector(command.q),
-            rate: values.vector(command.rate),
-            error: values.vector(command.error),
-        }
-    }
-
-    /// With everything that the kind of command does not give left out; an error that was applied gives no more.
-    fn given(self, error_is_applied: bool) -> Self {
-        let (no_q, no_rate) = ([0.0; 4], [0.0; 3]);
-        match CommandKind::from_value(self.kind).unwrap_or(CommandKind::FIRST).0 {
-            Kind::None => Self { q: no_q, rate: no_rate, error: no_q, ..self },
-            Kind::RateOnly => Self { q: no_q, error: no_q, ..self },
-            Kind::ErrorQuaternion if error_is_applied => Self { q: no_q, error: no_q, ..self },
-            Kind::ErrorQuaternion => Self { q: no_q, ..self },
-            Kind::Attitude => Self { error: no_q, ..self },
-        }
-    }
-}
-
-fn orbit_inputs(context: &Plan<'_>, values: &Values) -> [[f64; 3]; 2] {
-    let orbit = &context.variables.orbit;
-    [values.vector(orbit.position), values.vector(orbit.velocity)]
-}
-
-fn tunables(context: &Plan<'_>, values: &Values) -> [f64; 8] {
-    let v = context.variables;
-    let ([a, b, c], [d, e, f]) = (values.vector(v.dump.threshold), values.vector(v.dump.target));
-    [values.real(v.spacecraft.mass), values.real(v.dump.reinit_fraction), a, b, c, d, e, f]
-}
-
-fn light_inputs<'a>(context: &'a Plan<'_>, values: &'a Values) -> impl Iterator<Item = f64> + 'a {
-    let variables = context.variables;
-    let (sun, earth) = (&variables.sun, &variables.earth);
-    let center_of_mass = variables.spacecraft.center_of_mass;
-    let vectors = [sun.position, sun.velocity, earth.position, earth.velocity, center_of_mass];
-    let panels = variables.panel.iter().flat_map(|panel| {
-        [panel.angle, panel.sun_offset, panel.sun_offset_command].map(|angle| values.real(angle))
-    });
-    vectors.into_iter().flat_map(|vector| values.vector(vector)).chain(panels)
 }

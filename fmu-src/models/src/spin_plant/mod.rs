@@ -8,8 +8,8 @@ mod setup;
 mod variables;
 
 use fmi_export::{
-    About, Dependencies, Extensions, Failure, Manual, Model, OutputRates, Real, SetupError, Source,
-    StartValue, Step, StepEnd, Values,
+    About, Dependencies, Extensions, Failure, Manual, Model, OutputRates, Real, SetupError, StartValue, Step,
+    StepEnd, Values,
 };
 use nalgebra::Vector3;
 use physics::spin::{
@@ -29,7 +29,6 @@ impl Model for SpinPlant {
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/ace.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/SpinPlant.csv");
     const MANUAL: Manual = crate::manuals::SPIN_PLANT;
-    const SOURCES: &'static [Source] = crate::sources::SPIN_PLANT;
     const EXTENSIONS: Extensions<Self> = Extensions::none().output_rates();
 
     type Setup = Spinner;
@@ -37,7 +36,7 @@ impl Model for SpinPlant {
     type State = Plant;
 
     fn parse_setup(file: &str, text: &str) -> Result<Spinner, SetupError> {
-        setup::parse(file, text)
+        Spinner::parse(file, text).map_err(|error| SetupError(error.to_string()))
     }
 
     fn start_values(setup: &Spinner) -> Vec<StartValue> {

@@ -15,7 +15,7 @@ use super::setup::Plan;
 pub fn write_calculated(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     let v = context.variables;
     let seen = Predictions::of(plant);
-    values.set_integer(v.burn.planned_count, i32::try_from(seen.count).unwrap_or(i32::MAX));
+    values.set_integer(v.burn.planned_count, count(seen.count));
     values.set_real(v.burn.planned_duration, seen.duration_s);
     values.set_real(v.burn.planned_angle, seen.manoeuvre_rad);
     values.set_real(v.burn.pulse_angle, seen.manoeuvre_per_pulse_rad);
@@ -47,10 +47,7 @@ pub fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     values.set_real(v.spin.period_change, seen.period_change_s);
     values.set_real(v.spin.period_variation, seen.period_variation_s);
     values.set_real(v.spin.sector_error, seen.sector_error);
-    values.set_integer(
-        v.spin.sun_crossings,
-        i32::try_from(plant.sensors().sun_crossings().count()).unwrap_or(i32::MAX),
-    );
+    values.set_integer(v.spin.sun_crossings, count(plant.sensors().sun.count));
     values.set_vector(v.sun.inertial, seen.sun_inertial.into());
     values.set_real(v.sun.angle, seen.sun_angle_rad);
     values.set_vector(v.earth.inertial, seen.earth_inertial.into());
@@ -59,10 +56,10 @@ pub fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     values.set_real(v.star_tracker.declination, seen.sample.declination_rad);
     values.set_real(v.star_tracker.declination_true, seen.declination_rad);
     values.set_real(v.star_tracker.sample_time, seen.sample.time_s);
-    values.set_integer(v.star_tracker.sample_count, i32::try_from(seen.sample.count).unwrap_or(i32::MAX));
+    values.set_integer(v.star_tracker.sample_count, count(seen.sample.count));
     values.set_real(v.star_tracker.nutation, seen.estimate.nutation_rad);
     values.set_real(v.star_tracker.nutation_sigma, seen.estimate.sigma_rad);
-    values.set_integer(v.burn.pulses_fired, i32::try_from(seen.pulses_fired).unwrap_or(i32::MAX));
+    values.set_integer(v.burn.pulses_fired, count(seen.pulses_fired));
     values.set_boolean(v.burn.active, seen.burn_active);
     values.set_boolean(v.burn.done, seen.burn_done);
     values.set_real(v.burn.next_edge, seen.next_edge_s);
@@ -91,6 +88,11 @@ pub fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     values.set_boolean(v.limit.spin_rate_violated, violated.spin_rate);
     values.set_boolean(v.limit.period_variation_violated, violated.period_variation);
     values.set_boolean(v.limit.any_violated, violated.any());
+}
+
+/// A number as an Integer of FMI, at most its greatest.
+fn count(number: impl TryInto<i32>) -> i32 {
+    number.try_into().unwrap_or(i32::MAX)
 }
 
 /// First time derivative of an output that is continuous in time.

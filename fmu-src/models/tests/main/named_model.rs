@@ -1,12 +1,14 @@
 //! Drives a model by its trait, with variables by name.
 
 use fmi_export::model::Log;
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
+use std::collections::BTreeMap;
 
 use fmi_export::fmi2::{description_of, references, scalar_variables};
 use fmi_export::model::InputDerivative;
-use fmi_export::model_description::{Causality, Description, Variability, VariableKind};
+use fmi_export::model_description::{Causality, Description, VariableKind};
 use fmi_export::{BaseType, Context, Declare, Failure, InputsOverTime, Model, Step, Values, Variables};
+use nalgebra::{Quaternion, UnitQuaternion};
 use physics::numerics::intervals::next_multiple_s;
 
 /// Keeps warnings.
@@ -28,6 +30,7 @@ pub struct NamedModel<M: Model> {
     setup: M::Setup,
     handles: M::Variables,
     names: Vec<Named>,
+    by_name: BTreeMap<String, usize>,
     start: Values,
     warnings: Warnings,
 }
@@ -37,7 +40,6 @@ struct Named {
     kind: Kind,
     reference: usize,
     output: bool,
-    varies: bool,
     /// Whether the master may set it, and within which limits.
     given: Option<(f64, f64)>,
     input: bool,
@@ -98,7 +100,6 @@ impl<M: Model> NamedModel<M> {
                 kind,
                 reference: (variable.value_reference - references::first(base)) as usize,
                 output: variable.causality == Causality::Output,
-                varies: variable.variability == Variability::Continuous,
             }
         });
         // Start values for another model are no names that this one alone knows.
@@ -107,13 +108,19 @@ impl<M: Model> NamedModel<M> {
             described.map_or_else(|_| interface.start.clone(), |it| with_file_starts(&interface.start, &it));
         let names: Vec<Named> = names.collect();
         let start = marked::<M>(&start, &setup, &names);
-        Self { names, setup, handles, start, warnings: Warnings::default() }
+        let by_name = names.iter().enumerate().map(|(at, named)| (named.name.clone(), at)).collect();
+        Self { names, by_name, setup, handles, start, warnings: Warnings::default() }
     }
 
     /// The same with a file beside the setup.
     pub fn with_schedule(mut self, schedule: &str, text: &str) -> Self {
         M::parse_schedule(&mut self.setup, schedule, schedule, text).unwrap();
         self
+    }
+
+    /// What refuses to fly with these start values says.
+    pub fn refusal(&self, sets: &[(&str, f64)]) -> String {
+        self.fly(0.0, sets).err().unwrap_or_else(|| panic!("it flies with {sets:?}")).to_string()
     }
 
     /// What a master may set, with its limits and whether it is a whole number.
@@ -137,9 +144,13 @@ impl<M: Model> NamedModel<M> {
         self.warnings.0.borrow().clone()
     }
 
+    fn named(&self, name: &str) -> &Named {
+        let at = self.by_name.get(name).unwrap_or_else(|| panic!("no variable {name}"));
+        &self.names[*at]
+    }
+
     fn find(&self, name: &str, kind: Kind) -> usize {
-        let found = self.names.iter().find(|named| named.name == name);
-        let found = found.unwrap_or_else(|| panic!("no variable {name}"));
+        let found = self.named(name);
         assert_eq!(found.kind, kind, "{name}");
         found.reference
     }
@@ -152,19 +163,16 @@ impl<M: Model> NamedModel<M> {
     pub fn fly(&self, start_s: f64, sets: &[(&str, f64)]) -> Result<NamedInstance<'_, M>, Failure> {
         let mut tables = Tables::of(&self.start);
         tables.set.iter_mut().flatten().for_each(|word| *word = 0);
+        sets.iter().for_each(|(name, value)| self.set(&mut tables, name, *value));
         let mut values = tables.back();
-        for (name, value) in sets {
-            self.set(&mut values, name, *value);
-        }
         let state = M::initialize(&self.context(), &mut values, start_s)?;
         M::settle_parameters(&self.context(), &mut values);
-        Ok(NamedInstance { named: self, values, state, time_s: start_s, before: None, moved: false })
+        let (tables, before) = (OnceCell::new(), None);
+        Ok(NamedInstance { named: self, values, tables, state, time_s: start_s, before, moved: false })
     }
 
-    fn set(&self, values: &mut Values, name: &str, value: f64) {
-        let found = self.names.iter().find(|named| named.name == name);
-        let found = found.unwrap_or_else(|| panic!("no variable {name}"));
-        let mut tables = Tables::of(values);
+    fn set(&self, tables: &mut Tables, name: &str, value: f64) {
+        let found = self.named(name);
         match found.kind {
             Kind::Real => tables.reals[found.reference] = value,
             Kind::Integer => tables.integers[found.reference] = value as i32,
@@ -172,7 +180,6 @@ impl<M: Model> NamedModel<M> {
             Kind::Text => panic!("{name} is text"),
         }
         tables.mark(found);
-        *values = tables.back();
     }
 }
 
@@ -255,6 +262,8 @@ impl Tables {
 pub struct NamedInstance<'a, M: Model> {
     named: &'a NamedModel<M>,
     values: Values,
+    /// The same, once somebody asked.
+    tables: OnceCell<Tables>,
     state: M::State,
     time_s: f64,
     /// Once something was set: the values as the last step left them. What is set back is no change.
@@ -291,6 +300,7 @@ impl<M: Model> NamedInstance<'_, M> {
         let inputs = InputsOverTime::new(self.time_s, &derivatives);
         let changed = set || moved || !rates.is_empty();
         let step = Step { start_s: self.time_s, end_s, changed, inputs };
+        self.tables.take();
         M::step(&self.named.context(), &mut self.values, &mut self.state, &step)?;
         self.time_s = end_s;
         self.before = None;
@@ -308,22 +318,36 @@ impl<M: Model> NamedInstance<'_, M> {
     /// Sets an input or tunable.
     pub fn set(&mut self, name: &str, value: f64) {
         self.before.get_or_insert_with(|| self.values.clone());
-        self.named.set(&mut self.values, name, value);
+        let mut tables = self.tables.take().unwrap_or_else(|| Tables::of(&self.values));
+        self.named.set(&mut tables, name, value);
+        self.values = tables.back();
+        self.tables = OnceCell::from(tables);
+    }
+
+    /// Sets the elements of an array.
+    pub fn set_elements<'v>(&mut self, name: &str, values: impl IntoIterator<Item = &'v f64>) {
+        for (i, value) in (1..).zip(values) {
+            self.set(&format!("{name}[{i}]"), *value);
+        }
+    }
+
+    fn tables(&self) -> &Tables {
+        self.tables.get_or_init(|| Tables::of(&self.values))
     }
 
     /// A Real.
     pub fn real(&self, name: &str) -> f64 {
-        Tables::of(&self.values).reals[self.named.find(name, Kind::Real)]
+        self.tables().reals[self.named.find(name, Kind::Real)]
     }
 
     /// An Integer.
     pub fn integer(&self, name: &str) -> i32 {
-        Tables::of(&self.values).integers[self.named.find(name, Kind::Integer)]
+        self.tables().integers[self.named.find(name, Kind::Integer)]
     }
 
     /// A Boolean.
     pub fn boolean(&self, name: &str) -> bool {
-        Tables::of(&self.values).booleans[self.named.find(name, Kind::Boolean)]
+        self.tables().booleans[self.named.find(name, Kind::Boolean)]
     }
 
     /// `name[1]`..`name[3]`.
@@ -331,16 +355,32 @@ impl<M: Model> NamedInstance<'_, M> {
         nalgebra::Vector3::from_fn(|i, _| self.real(&format!("{name}[{}]", i + 1)))
     }
 
-    /// The bits of every output that varies continuously.
-    pub fn output_bits(&self) -> Vec<(String, u64)> {
-        let tables = Tables::of(&self.values);
-        let reals = self.named.names.iter().filter(|it| it.kind == Kind::Real && it.output && it.varies);
-        reals.map(|it| (it.name.clone(), tables.reals[it.reference].to_bits())).collect()
+    /// `name[1]`..`name[4]`.
+    pub fn quaternion(&self, name: &str) -> [f64; 4] {
+        [1, 2, 3, 4].map(|i| self.real(&format!("{name}[{i}]")))
+    }
+
+    /// From body to inertial components, by a quaternion.
+    pub fn to_inertial(&self, name: &str) -> UnitQuaternion<f64> {
+        UnitQuaternion::from_quaternion(Quaternion::from(self.quaternion(name)))
+    }
+
+    /// The bits of every output but texts.
+    pub fn output_bits(&self) -> Vec<(&str, u64)> {
+        let tables = self.tables();
+        let bits = |it: &Named| match it.kind {
+            Kind::Real => Some(tables.reals[it.reference].to_bits()),
+            Kind::Integer => Some(tables.integers[it.reference] as u64),
+            Kind::Boolean => Some(u64::from(tables.booleans[it.reference])),
+            Kind::Text => None,
+        };
+        let outputs = self.named.names.iter().filter(|it| it.output);
+        outputs.filter_map(|it| Some((it.name.as_str(), bits(it)?))).collect()
     }
 
     /// The first output that is no finite number.
     pub fn not_finite(&self) -> Option<String> {
-        let tables = Tables::of(&self.values);
+        let tables = self.tables();
         let outputs = self.named.names.iter().filter(|it| it.kind == Kind::Real && it.output);
         let bad = outputs.into_iter().find(|it| !tables.reals[it.reference].is_finite());
         bad.map(|it| format!("{} = {}", it.name, tables.reals[it.reference]))
@@ -353,6 +393,7 @@ impl<M: Model> NamedInstance<'_, M> {
         Self {
             named: self.named,
             values,
+            tables: OnceCell::new(),
             state,
             time_s: self.time_s,
             before: self.before.clone(),
@@ -374,6 +415,7 @@ impl<M: Model> NamedInstance<'_, M> {
         Some(Self {
             named: self.named,
             values: self.values.clone(),
+            tables: OnceCell::new(),
             state,
             time_s: self.time_s,
             before: None,
@@ -382,9 +424,37 @@ impl<M: Model> NamedInstance<'_, M> {
     }
 }
 
-/// Two flights have every continuous output alike, to the bit.
+/// Two flights have every output alike, to the bit.
 pub fn assert_same<M: Model>(a: &NamedInstance<'_, M>, b: &NamedInstance<'_, M>) {
     for ((name, x), (_, y)) in a.output_bits().into_iter().zip(b.output_bits()) {
         assert_eq!(x, y, "{name} at {} s: {} {}", a.time_s(), f64::from_bits(x), f64::from_bits(y));
+    }
+}
+
+/// How a master cuts a flight changes no bit of any output: in one step to each of `ends_s`, or in steps of each of `steps_s`,
+/// saved and restored before each of the first. `each` sees all of them there, and may set what it sets in all alike.
+pub fn assert_cuts_change_nothing<'a, M: Model>(
+    fly: impl Fn() -> NamedInstance<'a, M>,
+    ends_s: impl IntoIterator<Item = f64>,
+    steps_s: &[f64],
+    mut each: impl FnMut(&mut NamedInstance<'a, M>),
+) {
+    let mut whole = fly();
+    let mut cut: Vec<_> = steps_s.iter().map(|_| fly()).collect();
+    for end_s in ends_s {
+        whole.step_to(end_s).unwrap();
+        each(&mut whole);
+        for (number, (flight, step_s)) in cut.iter_mut().zip(steps_s).enumerate() {
+            while flight.time_s() < end_s {
+                if number == 0 {
+                    *flight = flight.restored();
+                }
+                // Accumulated, as masters do.
+                let next_s = flight.time_s() + step_s;
+                flight.step_to(if next_s < end_s { next_s } else { end_s }).unwrap();
+            }
+            each(flight);
+            assert_same(&whole, flight);
+        }
     }
 }

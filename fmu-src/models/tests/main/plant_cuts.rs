@@ -3,9 +3,8 @@
 
 use models::MomentumPlant;
 
-use super::named_model::{NamedModel, assert_same};
-
-const DAY_S: f64 = 86_400.0;
+use super::named_model::{NamedModel, assert_cuts_change_nothing, assert_same};
+use super::plant_light::SHADOWED;
 
 /// Everything on, and dumps often.
 const ALL: &[(&str, f64)] = &[
@@ -17,48 +16,21 @@ const ALL: &[(&str, f64)] = &[
     ("dump.threshold[3]", 0.1),
 ];
 
-/// A day on which the orbit's plane holds the Sun.
-const SHADOWED: &[(&str, f64)] =
-    &[("ephemeris.source", 2.0), ("ephemeris.trueAnomaly", 1.7), ("orbit.frame", 1.0)];
-
 fn sets() -> Vec<(&'static str, f64)> {
     [ALL, SHADOWED].concat()
 }
 
 #[test]
-fn the_cut_changes_no_bit() {
+fn neither_cuts_nor_saving_change_a_bit() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let mut coarse = named.fly(0.0, &sets()).unwrap();
-    let mut fine = named.fly(0.0, &sets()).unwrap();
-    let mut odd = named.fly(0.0, &sets()).unwrap();
-    let mut shaded = 0;
-    while coarse.time_s() < 2.0 * DAY_S {
-        let end_s = coarse.time_s() + 3600.0;
-        coarse.step_to(end_s).unwrap();
-        fine.fly_to(end_s, 60.0).unwrap();
-        odd.fly_to(end_s, 97.3).unwrap();
-        assert_same(&coarse, &fine);
-        assert_same(&coarse, &odd);
-        shaded += i32::from(coarse.real("sun.litFraction") == 0.0);
-    }
-    assert!(shaded > 0 && coarse.integer("dump.count") > 3, "{shaded} {}", coarse.integer("dump.count"));
-}
-
-#[test]
-fn a_restored_flight_goes_on_to_the_bit() {
-    let named = NamedModel::<MomentumPlant>::shipped();
-    let mut whole = named.fly(0.0, &sets()).unwrap();
-    let mut relay = named.fly(0.0, &sets()).unwrap();
-    let mut shaded = 0;
-    while whole.time_s() < DAY_S {
-        let end_s = whole.time_s() + 130.0;
-        whole.step_to(end_s).unwrap();
-        relay = relay.restored();
-        relay.step_to(end_s).unwrap();
-        assert_same(&whole, &relay);
-        shaded += i32::from(whole.real("sun.litFraction") < 1.0);
-    }
-    assert!(shaded > 0);
+    let (mut shaded, mut dumps) = (0, 0);
+    let fly = || named.fly(0.0, &sets()).unwrap();
+    let ends_s = (1..=48).map(|hour| 3600.0 * f64::from(hour));
+    assert_cuts_change_nothing(fly, ends_s, &[130.0, 60.0, 97.3], |flight| {
+        shaded += i32::from(flight.real("sun.litFraction") == 0.0);
+        dumps = flight.integer("dump.count");
+    });
+    assert!(shaded > 0 && dumps > 3, "{shaded} {dumps}");
 }
 
 #[test]

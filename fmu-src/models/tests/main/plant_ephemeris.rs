@@ -2,14 +2,10 @@
 
 use models::MomentumPlant;
 
-use super::named_model::{NamedInstance, NamedModel, assert_same};
+use super::named_model::{NamedInstance, NamedModel, assert_cuts_change_nothing, assert_same};
 use super::onboard_ephemeris::{FILE, START_S, file};
 
 const CHEBYSHEV: &[(&str, f64)] = &[("ephemeris.source", 4.0)];
-
-fn refusal<T>(flown: Result<T, fmi_export::Failure>) -> String {
-    flown.err().expect("it was simulated").to_string()
-}
 
 fn sun_m(flight: &NamedInstance<'_, MomentumPlant>) -> nalgebra::Vector3<f64> {
     flight.vector("sun.positionInertial")
@@ -42,14 +38,14 @@ fn sun_and_earth_are_where_the_file_has_them() {
 fn outside_the_span_it_is_refused_by_name() {
     let named = NamedModel::<MomentumPlant>::shipped().with_schedule(FILE, &file(86_400.0, 0.0).0);
     for epoch_s in [START_S - 1.0, START_S + 86_401.0] {
-        let text = refusal(named.fly(0.0, &[CHEBYSHEV, &[("start.epoch", epoch_s)]].concat()));
+        let text = named.refusal(&[CHEBYSHEV, &[("start.epoch", epoch_s)]].concat());
         assert!(text.contains("start.epoch: found") && text.contains(FILE) && text.contains("sun"), "{text}");
     }
     let mut flight = named.fly(0.0, CHEBYSHEV).unwrap();
     flight.step_to(86_400.0).unwrap();
-    let text = refusal(flight.step_to(86_401.0));
+    let text = flight.step_to(86_401.0).unwrap_err().to_string();
     assert!(text.contains("the epoch at the end of the step: found") && text.contains(FILE), "{text}");
-    let text = refusal(named.fly(0.0, &[CHEBYSHEV, &[("orbit.center", 3.0)]].concat()));
+    let text = named.refusal(&[CHEBYSHEV, &[("orbit.center", 3.0)]].concat());
     assert!(text.contains("ephemeris.toml: found no [[body]] that joins sun with venus"), "{text}");
 }
 
@@ -71,15 +67,7 @@ fn neither_cuts_nor_saving_change_a_bit() {
     for disturbed in [0.0, 1.0] {
         let sets = [CHEBYSHEV, &[("orbit.dynamics", 1.0 + disturbed)]].concat();
         let fly = || named.fly(0.0, &sets).unwrap();
-        let (mut whole, mut cut, mut saved) = (fly(), fly(), fly());
-        for end_s in [86_400.0, 200_000.0, 5.0 * 86_400.0] {
-            whole.step_to(end_s).unwrap();
-            cut.fly_to(end_s, 700.0).unwrap();
-            saved = saved.restored();
-            saved.step_to(end_s).unwrap();
-            assert_same(&whole, &cut);
-            assert_same(&whole, &saved);
-        }
+        assert_cuts_change_nothing(fly, [86_400.0, 200_000.0, 5.0 * 86_400.0], &[3_000.0, 700.0], |_| {});
     }
 }
 

@@ -4,15 +4,8 @@ use models::MomentumPlant;
 
 use super::named_model::NamedModel;
 
-fn refusal(sets: &[(&str, f64)]) -> String {
-    match NamedModel::<MomentumPlant>::shipped().fly(0.0, sets) {
-        Ok(_) => panic!("flown: {sets:?}"),
-        Err(failure) => failure.to_string(),
-    }
-}
-
 fn says(sets: &[(&str, f64)], words: &[&str]) {
-    let text = refusal(sets);
+    let text = NamedModel::<MomentumPlant>::shipped().refusal(sets);
     assert!(words.iter().all(|word| text.contains(word)), "{words:?}: {text}");
 }
 

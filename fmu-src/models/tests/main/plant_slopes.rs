@@ -15,16 +15,6 @@ fn vector(plant: &mut NamedInstance, name: &str) -> Vector3<f64> {
     plant.vector(name).into()
 }
 
-fn slope(plant: &mut NamedInstance, name: &str) -> Vector3<f64> {
-    let mut slopes = [0.0; 3];
-    let at = plant.elements::<3>(name);
-    let status = plant.fmu.get_output_derivatives(&at, &[1; 3], &mut slopes);
-    plant.ok(name, status);
-    slopes.into()
-}
-
-const NAMES: [&str; 4] = ["momentum.body", "momentum.inertial", "deltaV", "position"];
-
 #[test]
 fn output_derivatives_are_the_slopes_of_the_outputs() {
     for convention in [1, 2] {
@@ -38,26 +28,10 @@ fn output_derivatives_are_the_slopes_of_the_outputs() {
         plant.put_vector("torque.applied", [0.02, -0.01, 0.03]);
         plant.put_vector("force.applied", [0.3, -0.1, 0.2]);
         assert_eq!(plant.fmu.start(0.0, None), Status::Ok);
-        let from_s = 600.0;
-        assert_eq!(plant.fmu.do_step(0.0, from_s), Status::Ok);
-        let slopes = NAMES.map(|name| slope(&mut plant, name));
-        let first = NAMES.map(|name| vector(&mut plant, name));
-        let mut state = StatePointer::null();
-        assert_eq!(plant.fmu.get_state(&mut state), Status::Ok);
-        let h_s = 5.0;
-        let [y1, y2, y3, y4] = [1.0, 2.0, 3.0, 4.0].map(|k| {
-            assert_eq!(plant.fmu.set_state(&state), Status::Ok);
-            assert_eq!(plant.fmu.do_step(from_s, k * h_s), Status::Ok);
-            NAMES.map(|name| vector(&mut plant, name))
-        });
-        for (i, name) in NAMES.iter().enumerate() {
-            // One-sided differences of the fourth order.
-            let sum = first[i] * -25.0 + y1[i] * 48.0 - y2[i] * 36.0 + y3[i] * 16.0 - y4[i] * 3.0;
-            let expected = sum / (12.0 * h_s);
-            let apart = (slopes[i] - expected).norm() / expected.norm();
-            assert!(apart < 1e-6, "{convention} {name}: {} {expected} {apart:e}", slopes[i]);
-        }
-        plant.fmu.free_state(&mut state);
+        assert_eq!(plant.fmu.do_step(0.0, 600.0), Status::Ok);
+        let names = ["momentum.body", "momentum.inertial", "deltaV", "position"];
+        let off = slopes_off(&mut plant, &names, 600.0, 5.0);
+        assert!(off < 1e-6, "{convention}: {off:e}");
     }
 }
 

@@ -4,33 +4,7 @@ use fmi_export::Model;
 use models::{MomentumPlant, SpinPlant};
 
 use super::named_model::{NamedInstance, NamedModel};
-
-const GRAVITY_M_S2: f64 = 9.80665;
-
-/// One thruster off the axis on a body of simple numbers, with 5 N at 220 s.
-const SIMPLE: &str = r#"
-name = "simple"
-[mass_properties]
-mass_kg = 500.0
-center_of_mass_m = [0.0, 0.0, 0.0]
-inertia_kg_m2 = [[200.0, 0.0, 0.0], [0.0, 300.0, 0.0], [0.0, 0.0, 400.0]]
-[optics.black]
-specular = 0.0
-diffuse = 0.0
-[[plates]]
-area_m2 = 1.0
-center_m = [0.0, 0.0, 0.0]
-normal = [0.0, -1.0, 0.0]
-optics = "black"
-[[tanks]]
-position_m = [0.0, 0.0, 0.0]
-propellant_kg = 50.0
-[[thrusters]]
-position_m = [0.0, 0.1, 0.0]
-direction = [0.0, 0.0, 1.0]
-force_n = 5.0
-specific_impulse_s = 220.0
-"#;
+use super::spacecraft::{EXHAUST_M_S, SIMPLE, thruster};
 
 /// What is commanded for one step: its length, delay and time of the pulse, in s.
 type Commanded = [f64; 3];
@@ -105,7 +79,8 @@ fn open_s<M: Model>(flight: &mut NamedInstance<'_, M>, case: &Case, start_s: f64
 
 #[test]
 fn valves_of_the_three_axis_plant_open_by_the_law() {
-    let named = NamedModel::<MomentumPlant>::with("simple.toml", SIMPLE);
+    let text = format!("{SIMPLE}{}", thruster([0.0, 0.1, 0.0], [0.0, 0.0, 1.0], 5.0, ""));
+    let named = NamedModel::<MomentumPlant>::with("simple.toml", &text);
     let sets = [
         ("attitude.source", 4.0),
         ("solar.flux", 0.0),
@@ -118,7 +93,7 @@ fn valves_of_the_three_axis_plant_open_by_the_law() {
     for start_s in [0.0, 1234.5] {
         for case in cases() {
             let mut flight = named.fly(start_s, &sets).unwrap();
-            let open_s = open_s(&mut flight, &case, start_s, 5.0 / (220.0 * GRAVITY_M_S2));
+            let open_s = open_s(&mut flight, &case, start_s, 5.0 / EXHAUST_M_S);
             assert!((open_s - case.open_s).abs() < 1e-9, "{:?}: {open_s} {}", case.commanded, case.open_s);
             assert_eq!(flight.integer("thruster[1].pulses"), case.pulses, "{:?}", case.commanded);
         }
@@ -132,7 +107,7 @@ fn valves_of_the_spinner_open_by_the_law() {
     for start_s in [0.0, 1234.5] {
         for case in cases() {
             let mut flight = named.fly(start_s, &sets).unwrap();
-            let open_s = open_s(&mut flight, &case, start_s, 4.448 / (220.0 * GRAVITY_M_S2));
+            let open_s = open_s(&mut flight, &case, start_s, 4.448 / EXHAUST_M_S);
             assert!((open_s - case.open_s).abs() < 1e-9, "{:?}: {open_s} {}", case.commanded, case.open_s);
         }
     }
@@ -151,6 +126,6 @@ fn a_pulse_over_many_steps_of_the_spinner_scatters_once() {
     for (step_s, count) in [(0.75, 2), (0.1, 15), (0.01, 150)] {
         assert!((used_kg(step_s, count) / whole_kg - 1.0).abs() < 1e-9, "{step_s}");
     }
-    let nominal_kg = 1.5 * 4.448 / (220.0 * GRAVITY_M_S2);
+    let nominal_kg = 1.5 * 4.448 / EXHAUST_M_S;
     assert!((whole_kg / nominal_kg - 1.0).abs() > 1e-3, "{whole_kg} {nominal_kg}");
 }

@@ -3,8 +3,8 @@
 use fmi_export::Model;
 use models::{DisturbanceTorque, MomentumPlant};
 
-use super::dependencies::spacecraft::{ALL, RADIATING};
 use super::named_model::NamedModel;
+use super::spacecraft::{ALL, RADIATING};
 
 fn warnings<M: Model>(text: &str, sets: &[(&str, f64)]) -> Vec<String> {
     let named = NamedModel::<M>::with("my.toml", text);
@@ -12,15 +12,11 @@ fn warnings<M: Model>(text: &str, sets: &[(&str, f64)]) -> Vec<String> {
     named.warnings()
 }
 
-fn refusal<M: Model>(text: &str, sets: &[(&str, f64)]) -> String {
-    let named = NamedModel::<M>::with("my.toml", text);
-    named.fly(0.0, sets).err().unwrap().to_string()
-}
-
 const SHADOWS: &[(&str, f64)] = &[("shadowing.enabled", 1.0)];
 
 fn shadows_need_outlines<M: Model>() {
-    let found = refusal::<M>(include_str!("../../../resources/messenger-thermal.toml"), SHADOWS);
+    let thermal = include_str!("../../../resources/messenger-thermal.toml");
+    let found = NamedModel::<M>::with("my.toml", thermal).refusal(SHADOWS);
     let expected = "shadowing.enabled: found true, allowed: false, as no surface of MESSENGER, thermal has an outline that could \
                     cast a shadow; polygon_m gives one to `shade -X`, `shade front`, ";
     assert!(found.starts_with(expected), "{found}");

@@ -25,8 +25,9 @@ pub struct Appendages {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gyrostat {
     inertia_body_kg_m2: Matrix3<f64>,
-    /// Without the rotors about their axes that can turn.
+    /// Without the rotors about their axes that can turn, and its inverse in 1/(kg m2).
     carrier_body_kg_m2: Matrix3<f64>,
+    inverse_carrier: Option<Matrix3<f64>>,
     wheels: Vec<ReactionWheel>,
     appendages: Appendages,
     /// Where what swings and what is out of balance is counted from.
@@ -103,11 +104,12 @@ impl Gyrostat {
         let mut body = Self {
             inertia_body_kg_m2,
             carrier_body_kg_m2: inertia_body_kg_m2,
+            inverse_carrier: None,
             wheels,
             appendages: Appendages::default(),
             center_of_mass_body_m: Vector3::zeros(),
         };
-        body.carrier_body_kg_m2 = body.without(body.wheels.iter().filter(|wheel| !wheel.locked));
+        body.set_carrier();
         let found = SymmetricEigen::new(body.carrier_body_kg_m2).eigenvalues.min();
         if found > 0.0 { Ok(body) } else { Err(GyrostatError::Body { found }) }
     }
@@ -182,8 +184,15 @@ impl Gyrostat {
         center_of_mass_body_m: Vector3<f64>,
     ) {
         self.center_of_mass_body_m = center_of_mass_body_m;
-        self.inertia_body_kg_m2 = inertia_body_kg_m2;
+        if inertia_body_kg_m2 != self.inertia_body_kg_m2 {
+            self.inertia_body_kg_m2 = inertia_body_kg_m2;
+            self.set_carrier();
+        }
+    }
+
+    fn set_carrier(&mut self) {
         self.carrier_body_kg_m2 = self.without(self.wheels.iter().filter(|wheel| !wheel.locked));
+        self.inverse_carrier = self.carrier_body_kg_m2.try_inverse();
     }
 
     /// The same without the rotors about their axes that can turn: what the motors' torque accelerates.
@@ -214,7 +223,7 @@ impl Gyrostat {
     /// First and second term of the rate's series without torque on body and rotors, body frame, in rad/s2 and rad/s3:
     /// w' = J^-1 (m x w), m' = m x w, with the body rate w in rad/s, the total momentum m in N m s and J the carrier's inertia.
     pub fn torque_free_rate_terms(&self, rate: &Vector3<f64>, momentum: &Vector3<f64>) -> [Vector3<f64>; 2] {
-        let Some(inverse) = self.carrier_body_kg_m2.try_inverse() else { return [Vector3::zeros(); 2] };
+        let Some(inverse) = self.inverse_carrier else { return [Vector3::zeros(); 2] };
         let momentum_rate = momentum.cross(rate);
         let slope = inverse * momentum_rate;
         [slope, inverse * (momentum_rate.cross(rate) + momentum.cross(&slope)) * 0.5]
@@ -223,11 +232,15 @@ impl Gyrostat {
     /// Inverse of the inertia that body and held rotors have alone, without what swings, in 1/(kg m2).
     pub(super) fn inverse_inertia<'a>(
         &self,
-        rotors: impl Iterator<Item = &'a Rotor>,
+        rotors: impl Iterator<Item = &'a Rotor> + Clone,
         swinging: impl Iterator<Item = Matrix3<f64>>,
     ) -> Matrix3<f64> {
-        let turning =
-            self.wheels.iter().zip(rotors).filter(|(_, rotor)| matches!(rotor, Rotor::Turning { .. }));
+        let turns = |rotor: &Rotor| matches!(rotor, Rotor::Turning { .. });
+        let mut all = self.wheels.iter().zip(rotors.clone());
+        if self.oscillator_count() == 0 && all.all(|(wheel, rotor)| turns(rotor) != wheel.locked) {
+            return self.inverse_carrier.unwrap_or_else(Matrix3::zeros);
+        }
+        let turning = self.wheels.iter().zip(rotors).filter(|(_, rotor)| turns(rotor));
         let rest = self.without(turning.map(|(wheel, _)| wheel));
         swinging.fold(rest, |rest, it| rest - it).try_inverse().unwrap_or_else(Matrix3::zeros)
     }

@@ -46,6 +46,17 @@ pub struct GyrostatMotion {
     load: BodyLoad,
     momentum_inertial_n_m_s: Vector3<f64>,
     delta_v_inertial_m_s: Vector3<f64>,
+    /// What was evaluated last; a cache.
+    #[serde(skip)]
+    known: Option<Known>,
+}
+
+/// The body so many seconds after the start of a segment, and its attitudes at the nodes of the quadrature up to there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Known {
+    elapsed_s: f64,
+    attitudes: [Quaternion; 3],
+    body: BodyMotion,
 }
 
 impl GyrostatMotion {
@@ -69,12 +80,13 @@ impl GyrostatMotion {
             load: BodyLoad::none(1.0),
             momentum_inertial_n_m_s: attitude.inertial_from_body(&momentum_body),
             delta_v_inertial_m_s: Vector3::zeros(),
+            known: None,
         };
         motion.rotors.extend(gyrostat.wheels().iter().enumerate().map(|(k, wheel)| {
             let held_n_m_s = rotors_n_m_s(k);
             let mut axial = [0.0; TERMS];
             axial[0] = held_n_m_s + wheel.carried_n_m_s(rate_body_rad_s);
-            RotorMotion { rotor: Rotor::at_start(wheel, held_n_m_s), next: None, axial }
+            RotorMotion { rotor: Rotor::at_start(wheel, held_n_m_s), next: None, axial, known: None }
         }));
         let unbalanced = gyrostat.appendages().imbalances.iter();
         motion.imbalances.extend(unbalanced.filter_map(|imbalance| {
@@ -105,6 +117,7 @@ impl GyrostatMotion {
             self.momentum_inertial_n_m_s += self.series.attitude_after(0.0).inertial_from_body(&added_body);
         }
         self.load.internal = internal;
+        self.forget();
     }
 
     /// At the end the body stands like this at once, of the inertia that it has now, and what turns on hinges does so like this
@@ -113,8 +126,9 @@ impl GyrostatMotion {
         let elapsed_s = self.end_s - self.start_s;
         [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s] = self.totals_after(elapsed_s);
         for it in &mut self.rotors {
-            it.axial[0] = polynomial(&it.axial[..=self.series.order], elapsed_s);
+            it.axial[0] = it.axial_after(self.series.order, elapsed_s);
         }
+        self.forget();
         for it in &mut self.oscillators {
             it.stand(self.series.order, elapsed_s);
         }
@@ -153,6 +167,34 @@ impl GyrostatMotion {
         }
     }
 
+    /// The body at `time_s` within the segment, remembered for whoever asks next.
+    pub fn remembered_at(&mut self, gyrostat: &Gyrostat, time_s: f64) -> BodyMotion {
+        let elapsed_s = time_s - self.start_s;
+        if let Some(known) = self.known.filter(|it| it.elapsed_s == elapsed_s) {
+            return known.body;
+        }
+        let order = self.series.order;
+        self.rotors.iter_mut().for_each(|it| it.known = Some((elapsed_s, it.axial_after(order, elapsed_s))));
+        let body = self.at(gyrostat, time_s);
+        let attitudes = self.attitudes_before(elapsed_s);
+        self.known = Some(Known { elapsed_s, attitudes, body });
+        body
+    }
+
+    /// The segment changes.
+    fn forget(&mut self) {
+        self.known = None;
+        self.rotors.iter_mut().for_each(|it| it.known = None);
+    }
+
+    /// Attitudes at the nodes of the quadrature over the first `elapsed_s` of the segment.
+    fn attitudes_before(&self, elapsed_s: f64) -> [Quaternion; 3] {
+        match self.known {
+            Some(known) if known.elapsed_s == elapsed_s => known.attitudes,
+            _ => GAUSS_3.map(|(node, _)| self.series.attitude_after(node * elapsed_s)),
+        }
+    }
+
     /// The body at `time_s` within the segment.
     pub fn at(&self, gyrostat: &Gyrostat, time_s: f64) -> BodyMotion {
         let elapsed_s = time_s - self.start_s;
@@ -161,7 +203,7 @@ impl GyrostatMotion {
         let momentum_body = attitude.body_from_inertial(&momentum_inertial_n_m_s);
         let rest = momentum_body
             - gyrostat.along_axes(|k| match self.rotors[k].rotor {
-                Rotor::Turning { .. } => polynomial(&self.rotors[k].axial[..=self.series.order], elapsed_s),
+                Rotor::Turning { .. } => self.rotors[k].axial_after(self.series.order, elapsed_s),
                 Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
             });
         let swinging = self.oscillators.iter().map(|it| it.carried_after(self.series.order, elapsed_s));
@@ -196,9 +238,9 @@ impl GyrostatMotion {
     ) -> [Vector3<f64>; N] {
         let elapsed_s = time_s - self.start_s;
         let mut sums = [Vector3::zeros(); N];
-        for (node, weight) in GAUSS_3 {
+        let attitudes = self.attitudes_before(elapsed_s);
+        for ((node, weight), attitude) in GAUSS_3.into_iter().zip(attitudes) {
             let at_s = node * elapsed_s;
-            let attitude = self.series.attitude_after(at_s);
             for (sum, torque) in sums.iter_mut().zip(torques) {
                 if let Some([start, slope]) = torque {
                     *sum += attitude.inertial_from_body(&(start + slope * at_s)) * (weight * elapsed_s);
@@ -214,7 +256,7 @@ impl GyrostatMotion {
         match it.rotor {
             Rotor::Held { momentum_n_m_s } => momentum_n_m_s,
             Rotor::Turning { .. } => {
-                let axial = polynomial(&it.axial[..=self.series.order], time_s - self.start_s);
+                let axial = it.axial_after(self.series.order, time_s - self.start_s);
                 axial - wheel.carried_n_m_s(&motion.rate_body_rad_s)
             }
         }
@@ -264,7 +306,7 @@ impl GyrostatMotion {
     /// the present end on).
     pub fn advance(&mut self, gyrostat: &Gyrostat, motors: &[Motor], load: &BodyLoad, limit_s: f64) {
         let start_s = self.end_s;
-        let motion = self.at(gyrostat, start_s);
+        let motion = self.remembered_at(gyrostat, start_s);
         for k in 0..self.rotors.len() {
             let relative_n_m_s = self.rotor_n_m_s(gyrostat, k, start_s, &motion);
             let (wheel, it) = (&gyrostat.wheels()[k], &mut self.rotors[k]);
@@ -296,6 +338,7 @@ impl GyrostatMotion {
         self.delta_v_inertial_m_s = motion.delta_v_inertial_m_s;
         self.series.attitude[0] = motion.attitude.0.into();
         self.series.momentum[0] = motion.attitude.body_from_inertial(&motion.momentum_inertial_n_m_s);
+        self.forget();
         let longest_s = limit_s - start_s;
         self.build(gyrostat, motors, longest_s);
         // One rotor after another, as each that is set free or held changes what drives the others.
@@ -486,9 +529,9 @@ impl GyrostatMotion {
         let mut totals = [self.momentum_inertial_n_m_s, self.delta_v_inertial_m_s];
         let is_free = self.load.is_zero() && self.imbalances.is_empty();
         if !is_free {
-            for (node, weight) in GAUSS_3 {
+            let attitudes = self.attitudes_before(elapsed_s);
+            for ((node, weight), attitude) in GAUSS_3.into_iter().zip(attitudes) {
                 let at_s = node * elapsed_s;
-                let attitude = self.series.attitude_after(at_s);
                 for (total, load) in totals.iter_mut().zip(self.loads_after(at_s)) {
                     *total += attitude.inertial_from_body(&load) * (weight * elapsed_s);
                 }

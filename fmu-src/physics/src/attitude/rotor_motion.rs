@@ -15,9 +15,20 @@ pub(super) struct RotorMotion {
     pub next: Option<Rotor>,
     /// Series of h + I a.w, in N m s; unused while it is held.
     pub axial: [f64; TERMS],
+    /// Its value so many seconds after the start; a cache.
+    #[serde(skip)]
+    pub known: Option<(f64, f64)>,
 }
 
 impl RotorMotion {
+    /// h + I a.w by the terms up to `order`, `elapsed_s` after the start, in N m s.
+    pub fn axial_after(&self, order: usize, elapsed_s: f64) -> f64 {
+        match self.known {
+            Some((known_s, axial)) if known_s == elapsed_s => axial,
+            _ => polynomial(&self.axial[..=order], elapsed_s),
+        }
+    }
+
     /// Whether a simulation can produce it.
     pub fn is_valid(&self) -> bool {
         self.rotor.is_valid() && self.next.is_none_or(|next| next.is_valid())
@@ -73,12 +84,16 @@ impl RotorMotion {
                 for (term, rate) in relative.iter_mut().zip(rate) {
                     *term -= wheel.carried_n_m_s(rate);
                 }
-                let rests_s = (wheel.coulomb_friction_n_m > 0.0)
+                // Most rotors are far from rest and capacity.
+                let swing_n_m_s = swing(&relative[..rate.len()], longest_s);
+                let is_far = |first_n_m_s: f64| first_n_m_s > swing_n_m_s;
+                let rests_s = (wheel.coulomb_friction_n_m > 0.0 && !is_far(direction * relative[0]))
                     .then(|| falls_s(&plus(&relative, 0.0, direction)))
                     .flatten();
                 let limit = wheel.capacity_n_m_s;
                 let sign = 1.0_f64.copysign(motor.torque_n_m);
-                let is_driven = !motor.failed && motor.torque_n_m != 0.0;
+                let is_driven =
+                    !motor.failed && motor.torque_n_m != 0.0 && !is_far(limit - sign * relative[0]);
                 let full_s = is_driven.then(|| falls_s(&plus(&relative, limit, -sign))).flatten();
                 match (rests_s, full_s) {
                     (Some(at_s), full_s) if full_s.is_none_or(|full_s| at_s <= full_s) => {
@@ -103,13 +118,14 @@ fn drive_n_m(wheel: &ReactionWheel, motor: &Motor, held_n_m_s: f64, rate: &[Vect
     drive
 }
 
+/// By how much a polynomial can differ from its first term within `longest_s`.
+fn swing(terms: &[f64], longest_s: f64) -> f64 {
+    terms.iter().skip(1).rev().fold(0.0, |swing, term| (swing + term.abs()) * longest_s)
+}
+
 /// When a polynomial of the segment first falls through zero within `longest_s`.
 fn falls_below_zero_s(terms: &[f64], longest_s: f64) -> Option<f64> {
-    let mut swing = 0.0;
-    for term in terms.iter().skip(1).rev() {
-        swing = (swing + term.abs()) * longest_s;
-    }
-    if terms[0] > swing {
+    if terms[0] > swing(terms, longest_s) {
         return None;
     }
     let fit = Segment::<1, { TERMS + 1 }>::fit(0.0, longest_s, |at_s| [polynomial(terms, at_s)].into());

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::constants::{RADIUS_MERCURY_M, STEFAN_BOLTZMANN_W_M2_K4};
 use crate::enumeration::enumeration;
 use crate::numerics::scalar::Scalar;
+use crate::refusal::Refusal;
 
 enumeration! {
     /// How the day side's temperature is distributed.
@@ -53,18 +54,6 @@ pub const MERCURY: PlanetSurface = PlanetSurface {
     day_temperature: DayTemperature::Uniform,
 };
 
-/// A planet surface that cannot be.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("planet surface: `{quantity}` is {found}, allowed: {allowed}")]
-pub struct SurfaceError {
-    /// What is wrong.
-    pub quantity: &'static str,
-    /// The value found.
-    pub found: f64,
-    /// What is allowed.
-    pub allowed: &'static str,
-}
-
 /// What leaves one square metre of the surface in W/m2, as a function of c = cos z: reflected light
 /// `reflected_cosine * c` where lit; infrared `day_constant + day_cosine * c` where lit, `night` elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,7 +73,7 @@ impl PlanetSurface {
     ///
     /// # Errors
     /// Names the first property outside its range, or a sum of absorptivity and reflectivity above 1.
-    pub fn validate(&self) -> Result<(), SurfaceError> {
+    pub fn validate(&self) -> Result<(), Refusal> {
         let fraction = |quantity, found| in_range(quantity, found, 0.0, 1.0, "a number from 0 to 1");
         in_range("radius", self.radius_m, 1.0, 1e9, "1 to 1e9 m")?;
         fraction("absorptivity", self.absorptivity)?;
@@ -94,11 +83,7 @@ impl PlanetSurface {
         let sum = self.absorptivity + self.diffuse_reflectivity;
         in_range("absorptivity + diffuseReflectivity", sum, 0.0, 1.0 + 1e-9, "at most 1")?;
         if self.emissivity == 0.0 && self.absorptivity > 0.0 {
-            return Err(SurfaceError {
-                quantity: "emissivity",
-                found: 0.0,
-                allowed: "above 0 where light is absorbed",
-            });
+            return Err(refused("emissivity", 0.0, "above 0 where light is absorbed"));
         }
         Ok(())
     }
@@ -161,14 +146,12 @@ impl<T: Scalar> SurfaceExitance<T> {
     }
 }
 
-fn in_range(
-    quantity: &'static str,
-    found: f64,
-    low: f64,
-    high: f64,
-    allowed: &'static str,
-) -> Result<(), SurfaceError> {
-    if (low..=high).contains(&found) { Ok(()) } else { Err(SurfaceError { quantity, found, allowed }) }
+fn refused(quantity: &str, found: f64, allowed: &str) -> Refusal {
+    Refusal::new(format_args!("planet surface: `{quantity}` is {found}"), allowed)
+}
+
+fn in_range(quantity: &str, found: f64, low: f64, high: f64, allowed: &str) -> Result<(), Refusal> {
+    if (low..=high).contains(&found) { Ok(()) } else { Err(refused(quantity, found, allowed)) }
 }
 
 #[cfg(test)]

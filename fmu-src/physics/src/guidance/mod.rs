@@ -10,7 +10,7 @@ pub mod orbit_phase;
 pub mod pointing;
 pub mod timeline;
 
-pub use downlink::downlink_sun::{DownlinkSun, SunChooser, SunOnMinusY, WindowStart};
+pub use downlink::downlink_sun::{DownlinkSun, WindowStart};
 pub use downlink::sun_place::{ChosenPlace, SunPlace};
 pub use geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 pub use orbit_phase::attitudes::{

@@ -11,8 +11,7 @@ use super::targeting::{DownlinkState, ScienceAim};
 use crate::attitude::angle_between_rad;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::{
-    Activity, ChosenPlace, CoursePoint, Guided, OrbitAhead, Schedule, ScienceCourse, ScienceRule, SunChooser,
-    WindowStart,
+    Activity, ChosenPlace, CoursePoint, Guided, OrbitAhead, Schedule, ScienceCourse, ScienceRule, WindowStart,
 };
 use crate::momentum::{Convention, DumpPolicy, Totals};
 use crate::numerics::intervals::sampled_range;
@@ -35,8 +34,9 @@ pub struct SampledManager<'a> {
     pub momentum_body_n_m_s: Vector3<f64>,
 }
 
-impl SunChooser for SampledManager<'_> {
-    fn choose(&self, start: &WindowStart<'_>) -> Option<ChosenPlace> {
+impl SampledManager<'_> {
+    /// The Sun's place where a downlink begins, or science that unloads; `None` where it is to stand on -Y.
+    pub fn choose(&self, start: &WindowStart<'_>) -> Option<ChosenPlace> {
         if self.manager.strategy == Strategy::DumpsOnly {
             return None;
         }

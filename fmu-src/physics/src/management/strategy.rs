@@ -17,7 +17,7 @@ use crate::attitude::{SunAngles, direction_from_angles};
 use crate::enumeration::enumeration;
 use crate::guidance::{ChosenPlace, ScienceCourse};
 use crate::momentum::{Convention, DumpPolicy};
-use crate::plant::{DownlinkForecast, ForecastMomentum, PlantError, StartMomentum, SunPlanner};
+use crate::plant::{DownlinkForecast, ForecastMomentum, PlantError, StartMomentum};
 use crate::radiation::TorquePolynomial;
 use crate::spacecraft::{Sunshade, SunshadeModel};
 
@@ -49,32 +49,6 @@ pub struct Manager<'a> {
     pub horizon: u32,
     /// The shade, for the linear formula.
     pub sunshade: Option<(&'a Sunshade, SunshadeModel)>,
-}
-
-impl SunPlanner for Manager<'_> {
-    fn choose(&self, outlook: &mut DownlinkForecast<'_>) -> Result<Option<ChosenPlace>, PlantError> {
-        let Some(to_earth) = outlook.to_earth.filter(|_| self.strategy != Strategy::DumpsOnly) else {
-            return Ok(None);
-        };
-        let ahead = self.ahead(outlook)?;
-        let linear = self.linear(&outlook.center_of_mass_body_m());
-        let torque = |sun_body: &Vector3<f64>| outlook.torque_body_n_m(sun_body);
-        let aim = DownlinkState {
-            to_sun: outlook.to_sun,
-            to_earth,
-            momentum: outlook.momentum,
-            span_s: outlook.science.as_ref().map_or(outlook.span_s, ScienceCourse::light_s),
-            torque_body_n_m: &torque,
-            pressure_pa: outlook.pressure_pa,
-            linear,
-            science: outlook
-                .science
-                .as_ref()
-                .map(|course| ScienceAim { course, convention: DownlinkForecast::convention(outlook) }),
-        };
-        let separations_rad = outlook.separations_rad;
-        Ok(self.place(aim, ahead.as_ref(), separations_rad))
-    }
 }
 
 impl Forecast for DownlinkForecast<'_> {
@@ -119,6 +93,34 @@ impl Forecast for DownlinkForecast<'_> {
 }
 
 impl Manager<'_> {
+    /// Chooses the Sun's place; see [`crate::plant::SunPlanner`].
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub fn choose(&self, outlook: &mut DownlinkForecast<'_>) -> Result<Option<ChosenPlace>, PlantError> {
+        let Some(to_earth) = outlook.to_earth.filter(|_| self.strategy != Strategy::DumpsOnly) else {
+            return Ok(None);
+        };
+        let ahead = self.ahead(outlook)?;
+        let linear = self.linear(&outlook.center_of_mass_body_m());
+        let torque = |sun_body: &Vector3<f64>| outlook.torque_body_n_m(sun_body);
+        let aim = DownlinkState {
+            to_sun: outlook.to_sun,
+            to_earth,
+            momentum: outlook.momentum,
+            span_s: outlook.science.as_ref().map_or(outlook.span_s, ScienceCourse::light_s),
+            torque_body_n_m: &torque,
+            pressure_pa: outlook.pressure_pa,
+            linear,
+            science: outlook
+                .science
+                .as_ref()
+                .map(|course| ScienceAim { course, convention: DownlinkForecast::convention(outlook) }),
+        };
+        let separations_rad = outlook.separations_rad;
+        Ok(self.place(aim, ahead.as_ref(), separations_rad))
+    }
+
     /// The shade's linear formula about this centre of mass; `None` without a shade.
     pub(super) fn linear(&self, center_of_mass_body_m: &Vector3<f64>) -> Option<LinearTorque> {
         let (shade, model) = self.sunshade?;

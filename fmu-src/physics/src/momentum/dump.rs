@@ -32,6 +32,11 @@ pub struct DumpPolicy {
 }
 
 impl DumpPolicy {
+    /// Whether no momentum is large enough for a dump.
+    pub fn begins_none(&self) -> bool {
+        self.threshold_body_n_m_s.iter().all(|it| it.is_infinite())
+    }
+
     /// Whether a component exceeds its threshold, by more than rounding does.
     pub fn exceeded(&self, momentum_body_n_m_s: &Vector3<f64>) -> bool {
         self.excess_n_m_s(momentum_body_n_m_s) > EXCEEDED_N_M_S

@@ -1,6 +1,6 @@
 //! Integrates torque over time, segment by segment, and lets thrusters dump when a threshold is exceeded.
 
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::numerics::intervals::next_multiple_s;
@@ -8,7 +8,7 @@ use crate::numerics::intervals::next_multiple_s;
 use super::by_source::SourceMomenta;
 use super::dump::{DumpEvent, Dumps};
 use super::segment::{MomentumSegment, Settings};
-use super::torque_model::{Effort, Sample, TorqueModel};
+use super::torque_model::{Effort, TorqueModel};
 use super::totals::{Convention, Totals};
 
 /// Totals of a flight with their dense output.
@@ -87,7 +87,8 @@ impl MomentumIntegrator {
         target_body_n_m_s: Vector3<f64>,
     ) -> DumpEvent {
         let totals = self.segment.totals(time_s);
-        self.dump(settings.convention, time_s, totals, &flight.sample(time_s), |_| target_body_n_m_s)
+        let inertial_from_body = flight.sample(time_s).inertial_from_body;
+        self.dump(settings.convention, time_s, totals, &inertial_from_body, |_| target_body_n_m_s)
     }
 
     /// Advances until the current segment covers `time_s`; an edge belongs to the segment that begins there.
@@ -128,30 +129,23 @@ impl MomentumIntegrator {
             }
             let longest_s = self.segment.next_longest_s();
             let (totals, by_source) = (self.segment.totals(start_s), self.segment.by_source(start_s));
-            let horizon_s = flight.prepare(start_s, next_multiple_s(start_s, settings.grid_s))?;
-            let first = flight.sample(start_s);
-            let momentum = totals.momentum_body_n_m_s(settings.convention, &first.inertial_from_body);
+            let (horizon_s, inertial_from_body) =
+                flight.prepare(start_s, next_multiple_s(start_s, settings.grid_s))?;
+            let momentum = totals.momentum_body_n_m_s(settings.convention, &inertial_from_body);
             // A component that just came to its threshold does not exceed it yet.
             let mut exceeded = settings.policy.exceeded_by(&momentum);
             exceeded.iter_mut().zip(self.segment.at_threshold()).for_each(|(it, reached)| *it |= reached);
             if dumped_s != Some(start_s) && exceeded.contains(&true) {
                 flight.spend(Effort::Dump, start_s)?;
-                let event = self.dump(settings.convention, start_s, totals, &first, |before| {
+                let event = self.dump(settings.convention, start_s, totals, &inertial_from_body, |before| {
                     settings.policy.reinitialised(before, &exceeded)
                 });
                 self.segment = self.segment.expecting(longest_s);
                 self.dumps.check()?;
                 return Ok(Stop::Dump(event));
             }
-            self.segment = MomentumSegment::build(
-                flight,
-                settings,
-                start_s,
-                horizon_s,
-                (totals, by_source),
-                &first,
-                longest_s,
-            )?;
+            self.segment =
+                MomentumSegment::build(flight, settings, start_s, horizon_s, (totals, by_source), longest_s)?;
         }
         Ok(Stop::Reached)
     }
@@ -170,13 +164,13 @@ impl MomentumIntegrator {
         convention: Convention,
         time_s: f64,
         mut totals: Totals,
-        sample: &Sample,
+        inertial_from_body: &Rotation3<f64>,
         after: impl FnOnce(&Vector3<f64>) -> Vector3<f64>,
     ) -> DumpEvent {
-        let before_body_n_m_s = totals.momentum_body_n_m_s(convention, &sample.inertial_from_body);
+        let before_body_n_m_s = totals.momentum_body_n_m_s(convention, inertial_from_body);
         let event = DumpEvent { time_s, before_body_n_m_s, after_body_n_m_s: after(&before_body_n_m_s) };
         totals.torque_integral_body_n_m_s += event.impulse_body_n_m_s();
-        totals.momentum_inertial_n_m_s += sample.inertial_from_body * event.impulse_body_n_m_s();
+        totals.momentum_inertial_n_m_s += inertial_from_body * event.impulse_body_n_m_s();
         self.segment = MomentumSegment::point(time_s, totals, SourceMomenta::default());
         self.dumps = self.dumps.with(event);
         event

@@ -102,23 +102,19 @@ impl MomentumSegment {
         start_s: f64,
         horizon_s: f64,
         at_start: (Totals, SourceMomenta),
-        first: &Sample,
         longest_s: f64,
     ) -> Result<Self, F::Failure> {
         flight.spend(Effort::Segment, start_s)?;
         let (at_start, by_source_at_start) = at_start;
         let mut interval = AdaptiveInterval::new(start_s, settings.grid_s, longest_s, horizon_s, SHORTEST_S);
         let mut watched = false;
-        let mut samples = [*first; NODES];
-        let (nodes, totals, next_longest_s) = loop {
+        let (nodes, samples, totals, next_longest_s) = loop {
             let end_s = interval.end_s();
             let nodes = Segment::<RATES, NODES>::nodes(start_s, end_s);
-            for (sample, &time_s) in samples.iter_mut().zip(&nodes) {
-                *sample = flight.sample(time_s);
-            }
+            let samples = nodes.map(|at_s| flight.sample(at_s));
             // A shorter segment has no event that a longer one has not.
             if !core::mem::replace(&mut watched, true) {
-                let values = samples.map(|sample| sample.events);
+                let values = samples.each_ref().map(|sample| sample.events);
                 let after_s = after_event_s(start_s);
                 let rounding_s = flight.time_rounding_s(end_s);
                 let event_s =
@@ -129,7 +125,7 @@ impl MomentumSegment {
                     continue;
                 }
             }
-            let rates = samples.map(|s| {
+            let rates = samples.each_ref().map(|s| {
                 let torque_inertial_n_m = s.inertial_from_body * s.torque_body_n_m;
                 pack(torque_inertial_n_m, s.torque_body_n_m, s.acceleration_inertial_m_s2)
             });
@@ -139,7 +135,7 @@ impl MomentumSegment {
             let unresolved = terms.column(NODES).amax().max(terms.column(NODES - 1).amax());
             let tolerance = settings.tolerance.max(ROUNDING * terms.amax());
             if let Some(next_longest_s) = interval.accept(unresolved, tolerance, NODES) {
-                break (nodes, totals, next_longest_s);
+                break (nodes, samples, totals, next_longest_s);
             }
             flight.spend(Effort::Refinement, start_s)?;
         };
@@ -149,12 +145,13 @@ impl MomentumSegment {
                 let torque_body_n_m = sample.by_source_body_n_m[effect]?;
                 Some(rate(settings.convention, &sample.inertial_from_body, &torque_body_n_m))
             };
-            of(first)?;
+            of(&samples[0])?;
             let rates = samples.each_ref().map(|sample| of(sample).unwrap_or_default());
             let segment = Segment::<3, NODES>::from_samples(start_s, end_s, &rates);
             Some(segment.integral(by_source_at_start.0[effect]))
         });
-        let rate_body_rad_s = Segment::from_samples(start_s, end_s, &samples.map(|s| s.rate_body_rad_s));
+        let rate_body_rad_s =
+            Segment::from_samples(start_s, end_s, &samples.each_ref().map(|s| s.rate_body_rad_s));
         let mut segment = Self {
             start_s,
             end_s,
@@ -224,7 +221,7 @@ impl MomentumSegment {
         let totals = self.totals.as_ref()?;
         let (row, rate_rad_s) = match settings.convention {
             Convention::Inertial => {
-                (0, samples.map(|it| it.rate_body_rad_s.norm()).into_iter().fold(0.0, f64::max))
+                (0, samples.iter().map(|it| it.rate_body_rad_s.norm()).fold(0.0, f64::max))
             }
             Convention::BodyIntegral => (3, 0.0),
         };

@@ -54,11 +54,12 @@ pub trait TorqueModel {
     type Failure: From<TooManyDumps>;
 
     /// Makes the flight ready for samples from `start_s` on, and tells up to where, at most to `limit_s` and to the next change
-    /// whose time is known: a segment that starts there ends at that time or before. Called with rising times, and again with the same one.
+    /// whose time is known: a segment that starts there ends at that time or before. With it the matrix of the sample at `start_s`
+    /// that takes body components to inertial components. Called with rising times, and again with the same one.
     ///
     /// # Errors
     /// Whatever ends a flight.
-    fn prepare(&mut self, start_s: f64, limit_s: f64) -> Result<f64, Self::Failure>;
+    fn prepare(&mut self, start_s: f64, limit_s: f64) -> Result<(f64, Rotation3<f64>), Self::Failure>;
 
     /// Whether something has to be chosen where a segment begins, before it can be made ready.
     fn must_choose(&mut self, _start_s: f64) -> bool {

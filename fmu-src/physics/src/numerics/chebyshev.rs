@@ -28,6 +28,9 @@ pub struct Segment<const D: usize, const N: usize> {
 }
 
 impl<const D: usize, const N: usize> Segment<D, N> {
+    /// The nodes on -1 to 1, in falling order.
+    const UNIT_NODES: [f64; N] = unit_nodes();
+
     /// Whether `from`..`to` lies inside, up to rounding: there no value exceeds the sum of the coefficients.
     pub fn spans(&self, from: f64, to: f64) -> bool {
         let rounding = 1e-9 * self.half_length + 16.0 * f64::EPSILON * from.abs().max(to.abs());
@@ -42,15 +45,14 @@ impl<const D: usize, const N: usize> Segment<D, N> {
     /// The abscissae at which [`Segment::from_samples`] wants the function, on `[start, end]`, in falling order.
     pub fn nodes(start: f64, end: f64) -> [f64; N] {
         let (center, half_length) = center_and_half_length(start, end);
-        core::array::from_fn(|j| center + half_length * unit_node::<N>(j))
+        Self::UNIT_NODES.map(|x| center + half_length * x)
     }
 
     /// The polynomial through `samples`, taken at [`Segment::nodes`] of the same interval. Needs `N >= 1`.
     pub fn from_samples(start: f64, end: f64, samples: &[SVector<f64, D>; N]) -> Self {
         let (center, half_length) = center_and_half_length(start, end);
         let mut coefficients = SMatrix::<f64, D, N>::zeros();
-        for (j, sample) in samples.iter().enumerate() {
-            let x = unit_node::<N>(j);
+        for (sample, x) in samples.iter().zip(Self::UNIT_NODES) {
             let weighted = sample * (2.0 / N as f64);
             let (mut previous, mut current) = (x, 1.0);
             for mut column in coefficients.column_iter_mut() {
@@ -210,9 +212,36 @@ fn center_and_half_length(start: f64, end: f64) -> (f64, f64) {
     (0.5 * (start + end), 0.5 * (end - start))
 }
 
-fn unit_node<const N: usize>(j: usize) -> f64 {
-    // The middle node of an odd count is zero, which the cosine misses by 6e-17.
-    if 2 * j + 1 == N { 0.0 } else { (PI * (j as f64 + 0.5) / N as f64).cos() }
+/// A fit needs them again and again, so they are computed where the library is built.
+const fn unit_nodes<const N: usize>() -> [f64; N] {
+    let mut nodes = [0.0; N];
+    let mut j = 0;
+    while j < N {
+        // The middle node of an odd count is zero, which the rounded angle misses by 6e-17.
+        if 2 * j + 1 != N {
+            nodes[j] = cosine(PI * (j as f64 + 0.5) / N as f64);
+        }
+        j += 1;
+    }
+    nodes
+}
+
+/// Cosine of an angle of 0 to pi, by Taylor's series in integers of 62 binary places: rounded from what is right to 1e-17.
+const fn cosine(angle_rad: f64) -> f64 {
+    const ONE: i128 = 1 << 62;
+    const HALF_TURN: i128 = 14_488_038_916_154_245_685;
+    let angle = (angle_rad * ONE as f64) as i128;
+    let is_obtuse = 2 * angle > HALF_TURN;
+    let acute = if is_obtuse { HALF_TURN - angle } else { angle };
+    let square = (acute * acute) / ONE;
+    let (mut sum, mut term, mut order) = (ONE, ONE, 2);
+    while term != 0 {
+        term = -(term * square / ONE) / (order * (order - 1));
+        sum += term;
+        order += 2;
+    }
+    let cosine = sum as f64 / ONE as f64;
+    if is_obtuse { -cosine } else { cosine }
 }
 
 #[cfg(test)]

@@ -30,7 +30,7 @@ pub use flight::propagator_state::PropagatorState;
 pub use flight::report::{ControlReport, Report, Shown, WheelReport};
 pub use flight::sun_choice::SunChoice;
 pub use flight::wheel_control::{WheelControl, WheelControlSettings};
-pub use flight::{Changes, Flight, ForecastMomentum, ModeSettings, Start, StartMotion, StepContext, Undo};
+pub use flight::{Changes, Flight, ForecastMomentum, ModeSettings, StepContext, Undo};
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;
 pub use light::sunlit::SunlitCraft;
@@ -43,7 +43,9 @@ pub use settings::configuration::{
     orbit_from_elements,
 };
 pub use settings::control_defaults::ControlDefaults;
-pub use settings::dynamics_settings::{Control, DynamicsInputs, DynamicsSettings, ThrusterControl, Tracked};
+pub use settings::dynamics_settings::{
+    Control, DynamicsInputs, DynamicsSettings, StartMotion, ThrusterControl, Tracked,
+};
 pub use settings::error::PlantError;
 pub use settings::ideal_settings::IdealSettings;
 pub use settings::panel_setting::{PanelSetting, Ramp};

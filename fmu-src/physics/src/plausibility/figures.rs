@@ -101,15 +101,8 @@ fn sunlight(
     center_of_mass_body_m: Vector3<f64>,
 ) -> Option<(Vector3<f64>, Vector3<f64>)> {
     let model = DisturbanceModel::new(spacecraft, &Options::default()).ok()?;
-    let geometry = Geometry {
-        sun_direction_body: sun_body(),
-        sun_sine: 0.0,
-        sun_flux_w_m2: SOLAR_FLUX_W_M2,
-        lit_fraction: 1.0,
-        planet: None,
-        panel_angles_rad,
-        center_of_mass_body_m,
-    };
+    let sunlit = Geometry::sunlit(sun_body(), SOLAR_FLUX_W_M2);
+    let geometry = Geometry { panel_angles_rad, center_of_mass_body_m, ..sunlit };
     let solar = model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).ok()?[Effect::Solar];
     Some((solar.force_body_n, solar.torque_body_n_m))
 }

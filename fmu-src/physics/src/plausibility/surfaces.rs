@@ -55,7 +55,7 @@ fn of_plate(plate: &Plate) -> Surface {
         name: plate.name.clone(),
         area_m2: plate.area_m2,
         normal: plate.normal,
-        corners_m: corners(plate.polygon.as_ref(), plate.area_m2, &plate.center_m, &plate.normal),
+        corners_m: corners(plate),
         off_plane_m: plate.polygon.as_ref().map_or(0.0, Polygon::off_plane_m),
         is_two_sided: plate.rear_optics.is_some(),
     }
@@ -64,31 +64,22 @@ fn of_plate(plate: &Plate) -> Surface {
 fn of_panel(panel: &Panel) -> Surface {
     let turn = Rotation3::from_axis_angle(&Unit::new_unchecked(panel.axis_body), panel_angle_rad(panel));
     let center_m = panel.center_body_m;
-    let flat = corners(panel.polygon.as_ref(), panel.area_m2, &center_m, &panel.zero_normal_body);
-    Surface {
-        name: panel.name.clone(),
-        area_m2: panel.area_m2,
-        normal: turn * panel.zero_normal_body,
-        corners_m: flat.iter().map(|corner| center_m + turn * (corner - center_m)).collect(),
-        off_plane_m: panel.polygon.as_ref().map_or(0.0, Polygon::off_plane_m),
-        is_two_sided: panel.rear_optics.is_some(),
-    }
+    let flat = of_plate(&panel.plate_at_zero());
+    let turned = |corner: &Vector3<f64>| center_m + turn * (corner - center_m);
+    let corners_m = flat.corners_m.iter().map(turned).collect();
+    Surface { normal: turn * flat.normal, corners_m, ..flat }
 }
 
-fn corners(
-    outline: Option<&Polygon>,
-    area_m2: f64,
-    center_m: &Vector3<f64>,
-    normal: &Vector3<f64>,
-) -> Vec<Vector3<f64>> {
-    if let Some(outline) = outline {
+fn corners(plate: &Plate) -> Vec<Vector3<f64>> {
+    if let Some(outline) = &plate.polygon {
         return outline.vertices_m().to_vec();
     }
+    let (center_m, normal) = (&plate.center_m, &plate.normal);
     let mut across = Vector3::zeros();
     across[normal.iamin()] = 1.0;
     let east = (across - normal * normal.dot(&across)).normalize();
     let north = normal.cross(&east);
-    let half_diagonal_m = (area_m2 / 2.0).sqrt();
+    let half_diagonal_m = (plate.area_m2 / 2.0).sqrt();
     let corner = |k: u8| {
         let (sin, cos) = libm::sincos(f64::from(2 * k + 1) * FRAC_PI_4);
         center_m + (east * cos + north * sin) * half_diagonal_m
@@ -107,15 +98,8 @@ fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
         let up_m = Vector3::z() * (cylinder.height_m / 2.0);
         let (from, to) = (edge(k), edge(k + 1));
         let outline = Polygon::new(vec![from - up_m, to - up_m, to + up_m, from + up_m]).ok()?;
-        Some(Plate {
-            name: format!("sunshade strip {}", k + 1),
-            area_m2: cylinder.radius_m * width_rad * cylinder.height_m,
-            center_m: outline.centroid_m(),
-            normal: outline.normal(),
-            optics: cylinder.optics,
-            rear_optics: None,
-            thermal: crate::spacecraft::Thermal::insulated(&cylinder.optics, None),
-            polygon: Some(outline),
-        })
+        let name = format!("sunshade strip {}", k + 1);
+        let area_m2 = cylinder.radius_m * width_rad * cylinder.height_m;
+        Some(Plate { area_m2, ..Plate::outlined(name, outline, cylinder.optics, None) })
     })
 }

@@ -13,25 +13,7 @@ use crate::momentum::WheelArray;
 use crate::spacecraft::Spacecraft;
 
 /// A solid box of 1 m by 2 m by 3 m and 600 kg, black but for a mirror on the Sun's side, with a pyramid of wheels.
-const SOLID: &str = r#"
-name = "Solid"
-[mass_properties]
-mass_kg = 600
-center_of_mass_m = [0.1, 0.2, 0.3]
-inertia_kg_m2 = [[650, 0, 0], [0, 500, 0], [0, 0, 250]]
-[optics.black]
-specular = 0
-diffuse = 0
-[optics.mirror]
-specular = 1
-diffuse = 0
-[[boxes]]
-name = "bus"
-center_m = [0, 0, 0]
-size_m = [1, 2, 3]
-optics = "black"
-face_optics = { "-Y" = "mirror" }
-"#;
+const SOLID: &str = include_str!("solid.toml");
 
 fn spacecraft(text: &str) -> Spacecraft {
     Spacecraft::from_toml("solid.toml", text).unwrap()

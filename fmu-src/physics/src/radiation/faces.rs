@@ -6,6 +6,7 @@ use super::cylinder::CylinderFace;
 use super::shadow::{Hinge, Outline};
 use super::thermal::balance::FaceEnvironment;
 use super::thermal::transient::HeatStore;
+use crate::refusal::Refusal;
 use crate::spacecraft::{
     BusLink, Cylinder, Emission, FaceThermal, Optics, Plate, Spacecraft, SunshadeModel, Thermal,
 };
@@ -95,10 +96,10 @@ pub(super) enum Normal {
     Rear(usize),
 }
 
-/// A sunshade was requested in a form its file does not describe.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the spacecraft's file does not describe its sunshade as {0:?}")]
-pub struct NoSuchSunshade(pub SunshadeModel);
+/// Refuses a form of the sunshade that the spacecraft's file does not give.
+pub(super) fn no_such_sunshade(form: SunshadeModel) -> Refusal {
+    Refusal::new(format_args!("the spacecraft's file does not describe its sunshade as {form:?}"), "")
+}
 
 /// Surfaces, faces and distinct normals of a spacecraft: plates, sunshade, panels, in this order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -118,7 +119,7 @@ impl Faces {
     ///
     /// # Errors
     /// The file has a sunshade but not in this form.
-    pub fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, NoSuchSunshade> {
+    pub fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, Refusal> {
         let mut faces = Self { background_k: spacecraft.background_k, ..Self::default() };
         for plate in &spacecraft.plates {
             faces.add_plate(plate);
@@ -126,7 +127,7 @@ impl Faces {
         if let Some(shade) = &spacecraft.sunshade {
             let form = form.unwrap_or(shade.model);
             if !shade.has(form) {
-                return Err(NoSuchSunshade(form));
+                return Err(no_such_sunshade(form));
             }
             let dcm_body_from_shade = shade.dcm_body_from_shade;
             let cylinder = shade.cylinder.filter(|_| form == SunshadeModel::Cylinder);
@@ -141,18 +142,8 @@ impl Faces {
             }
         }
         for (index, panel) in spacecraft.panels.iter().enumerate() {
-            let plate = Plate {
-                name: panel.name.clone(),
-                area_m2: panel.area_m2,
-                center_m: panel.center_body_m,
-                normal: panel.zero_normal_body,
-                optics: panel.optics,
-                rear_optics: panel.rear_optics,
-                thermal: panel.thermal,
-                polygon: panel.polygon.clone(),
-            };
             let hinge = Hinge { panel: index, point_body_m: panel.center_body_m, axis_body: panel.axis_body };
-            faces.add(&plate, [Normal::Front(index), Normal::Rear(index)], Some(hinge));
+            faces.add(&panel.plate_at_zero(), [Normal::Front(index), Normal::Rear(index)], Some(hinge));
         }
         Ok(faces)
     }
@@ -207,15 +198,8 @@ fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
     (0..CYLINDER_STRIPS).map(move |i| {
         let angle_rad = (f64::from(i) + 0.5) * width_rad - cylinder.half_angle_rad;
         let normal = Vector3::new(angle_rad.sin(), -angle_rad.cos(), 0.0);
-        Plate {
-            name: format!("shade strip {}", i + 1),
-            area_m2: cylinder.radius_m * width_rad * cylinder.height_m,
-            center_m: normal * cylinder.radius_m,
-            normal,
-            optics: cylinder.optics,
-            rear_optics: None,
-            thermal: Thermal::insulated(&cylinder.optics, None),
-            polygon: None,
-        }
+        let name = format!("shade strip {}", i + 1);
+        let area_m2 = cylinder.radius_m * width_rad * cylinder.height_m;
+        Plate::insulated(name, area_m2, normal * cylinder.radius_m, normal, cylinder.optics, None)
     })
 }

@@ -14,6 +14,7 @@ use super::ring::PlanetView;
 use crate::bodies::surface::PlanetSurface;
 use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::numerics::scalar::{Scalar, constant_vector};
+use crate::refusal::Refusal;
 use crate::spacecraft::PlanetMap;
 
 /// Centres this close to the terminator are on it but for rounding, and count as lit: so do the paper's, whose odd number
@@ -44,23 +45,6 @@ struct Cell {
     area: f64,
 }
 
-/// A grid that is not offered.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum GridError {
-    /// Too coarse or too fine.
-    #[error("planet grid of resolution {found}, allowed: 1 to 2000 (2 n2 cells)")]
-    Resolution {
-        /// The resolution requested.
-        found: usize,
-    },
-    /// A pole that gives no meridian.
-    #[error("pole of the planet's cells {found:?}, allowed: a direction off the Sun's")]
-    Pole {
-        /// The vector found.
-        found: [f64; 3],
-    },
-}
-
 impl PlanetGrid {
     /// Number of cells.
     pub fn cell_count(&self) -> usize {
@@ -72,9 +56,10 @@ impl PlanetGrid {
     ///
     /// # Errors
     /// Unless the resolution is from 1 to 2000.
-    pub fn new(resolution: usize) -> Result<Self, GridError> {
+    pub fn new(resolution: usize) -> Result<Self, Refusal> {
         if !(1..=2000).contains(&resolution) {
-            return Err(GridError::Resolution { found: resolution });
+            let found = format_args!("planet grid of resolution {resolution}");
+            return Err(Refusal::new(found, "1 to 2000 (2 n2 cells)"));
         }
         let n = resolution as f64;
         let belts = (0..resolution).map(|belt| {
@@ -102,7 +87,7 @@ impl PlanetGrid {
     ///
     /// # Errors
     /// A map finer than grids go.
-    pub fn of_map(map: &PlanetMap) -> Result<Self, GridError> {
+    pub fn of_map(map: &PlanetMap) -> Result<Self, Refusal> {
         Ok(Self { map: Some(map.clone()), ..Self::new(map.belts())? })
     }
 
@@ -176,7 +161,7 @@ impl PlanetGrid {
 ///
 /// # Errors
 /// When the pole has no direction, or that of the Sun.
-pub fn sun_fixed_axes<T: Scalar>(sun: &Vector3<T>, pole: &Vector3<T>) -> Result<Matrix3<T>, GridError> {
+pub fn sun_fixed_axes<T: Scalar>(sun: &Vector3<T>, pole: &Vector3<T>) -> Result<Matrix3<T>, Refusal> {
     // Scaled first, so that no length over- or underflows.
     let greatest = pole.iter().fold(0.0_f64, |most, x| most.max(x.value().abs()));
     let scaled = pole / T::constant(greatest);
@@ -185,7 +170,9 @@ pub fn sun_fixed_axes<T: Scalar>(sun: &Vector3<T>, pole: &Vector3<T>) -> Result<
     let across = sun - z * z.dot(sun);
     let reach = across.dot(&across).sqrt();
     if !(length.value() > 0.0 && length.value().is_finite() && reach.value() > 1e-9) {
-        return Err(GridError::Pole { found: pole.map(T::value).into() });
+        let pole: [f64; 3] = pole.map(T::value).into();
+        let found = format_args!("pole of the planet's cells {pole:?}");
+        return Err(Refusal::new(found, "a direction off the Sun's"));
     }
     let x = across / reach;
     Ok(Matrix3::from_columns(&[x, z.cross(&x), z]))

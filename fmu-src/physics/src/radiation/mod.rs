@@ -23,7 +23,6 @@ mod polynomial_tests;
 #[cfg(test)]
 mod solar_tests;
 
-pub use faces::NoSuchSunshade;
 pub use flat_plate::Beam;
 pub use planet_light::PlanetLight;
 pub use polynomial::{TorquePolynomial, polynomial_valid};

@@ -11,9 +11,10 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::cylinder::lit_angle_rad;
-use super::faces::NoSuchSunshade;
+use super::faces::no_such_sunshade;
 use super::flat_plate::Beam;
 use crate::numerics::scalar::Scalar;
+use crate::refusal::Refusal;
 use crate::spacecraft::{Cylinder, Optics, Plate, Sunshade, SunshadeModel};
 
 /// The monomials of the Sun's direction in the order of the coefficients (paper 000, eq 3).
@@ -40,14 +41,14 @@ impl TorquePolynomial {
         shade: &Sunshade,
         model: SunshadeModel,
         center_of_mass_body_m: &Vector3<f64>,
-    ) -> Result<Self, NoSuchSunshade> {
+    ) -> Result<Self, Refusal> {
         let center_of_mass_m = shade.dcm_body_from_shade.transpose() * center_of_mass_body_m;
         match (model, &shade.cylinder) {
             (SunshadeModel::Cylinder, Some(cylinder)) => Ok(Self::of_cylinder(cylinder, &center_of_mass_m)),
             (SunshadeModel::Plates, _) if !shade.plates.is_empty() => {
                 Ok(Self::of_plates(&shade.plates, &center_of_mass_m))
             }
-            _ => Err(NoSuchSunshade(model)),
+            _ => Err(no_such_sunshade(model)),
         }
     }
 

@@ -5,10 +5,11 @@
 use nalgebra::Vector3;
 
 use super::cylinder::CylinderFace;
-use super::faces::{Faces, NoSuchSunshade, Normal, Surface};
+use super::faces::{Faces, Normal, Surface};
 use super::flat_plate::{Beam, force_per_area_pa};
 use crate::loads::ForceTorque;
 use crate::numerics::scalar::{Scalar, constant_vector};
+use crate::refusal::Refusal;
 use crate::spacecraft::{Optics, Panel, Spacecraft, SunshadeModel};
 
 /// A spacecraft prepared for sunlight: whatever does not change is computed once.
@@ -42,7 +43,7 @@ impl SolarModel {
     ///
     /// # Errors
     /// The file has a sunshade but not in this form.
-    pub fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, NoSuchSunshade> {
+    pub fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, Refusal> {
         let Faces { surfaces, faces, normals, cylinder, .. } = Faces::new(spacecraft, form)?;
         let fixed = faces.iter().filter_map(|face| match (normals[face.normal], &surfaces[face.surface]) {
             (Normal::Fixed(normal), surface) if !surface.closed_form_sun => {

@@ -10,7 +10,7 @@ use super::flat_plate::force_per_area_pa;
 use super::*;
 use crate::loads::ForceTorque;
 use crate::numerics::scalar::{Dual64, Scalar, constant_vector};
-use crate::spacecraft::{MESSENGER_TOML, Optics, Plate, Spacecraft, SunshadeModel, Thermal};
+use crate::spacecraft::{MESSENGER_TOML, Optics, Plate, Spacecraft, SunshadeModel};
 
 fn messenger() -> Spacecraft {
     Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap()
@@ -20,16 +20,14 @@ fn messenger() -> Spacecraft {
 fn crooked() -> Spacecraft {
     let mut spacecraft = messenger();
     let white = Optics::from_reflectivities(0.1, 0.7);
-    spacecraft.plates.push(Plate {
-        name: "bus".to_owned(),
-        area_m2: 1.7,
-        center_m: Vector3::new(0.1, 0.6, -0.2),
-        normal: Vector3::new(0.48, 0.6, -0.64),
-        optics: white,
-        rear_optics: Some(Optics::from_reflectivities(0.4, 0.1)),
-        thermal: Thermal::insulated(&white, Some(&Optics::from_reflectivities(0.4, 0.1))),
-        polygon: None,
-    });
+    spacecraft.plates.push(Plate::insulated(
+        "bus".to_owned(),
+        1.7,
+        Vector3::new(0.1, 0.6, -0.2),
+        Vector3::new(0.48, 0.6, -0.64),
+        white,
+        Some(Optics::from_reflectivities(0.4, 0.1)),
+    ));
     let shade = spacecraft.sunshade.as_mut().unwrap();
     shade.dcm_body_from_shade = Rotation3::from_euler_angles(0.02, -0.05, 0.1).into_inner();
     shade.plates[3].optics = white;
@@ -111,16 +109,9 @@ fn a_black_box_is_pushed_by_the_light_its_shadow_lacks() {
         .map(|i| {
             let axis = i / 2;
             let normal = Vector3::ith(axis, if i % 2 == 0 { 1.0 } else { -1.0 });
-            Plate {
-                name: format!("side {i}"),
-                area_m2: sizes.product() / sizes[axis],
-                center_m: normal * (sizes[axis] / 2.0),
-                normal,
-                optics: Optics::from_reflectivities(0.0, 0.0),
-                rear_optics: None,
-                thermal: Thermal::insulated(&Optics::from_reflectivities(0.0, 0.0), None),
-                polygon: None,
-            }
+            let (area_m2, center_m) = (sizes.product() / sizes[axis], normal * (sizes[axis] / 2.0));
+            let black = Optics::from_reflectivities(0.0, 0.0);
+            Plate::insulated(format!("side {i}"), area_m2, center_m, normal, black, None)
         })
         .collect();
     let model = SolarModel::new(&spacecraft, None).unwrap();

@@ -5,12 +5,12 @@ use serde::Serialize;
 
 use super::file::description::Description;
 use super::file::devices::{instrument, sun_sensor, wheel};
-use super::file::mass::{mass, panels_fit};
+use super::file::mass::{mass, parts_fit};
 use super::file::materials::Materials;
 use super::file::names::{check_names, list};
 use super::file::planet_map::planet_map;
 use super::file::plates::{body_plates, panel, sunshade};
-use super::file::propulsion::{tank, tanks_fit, thruster};
+use super::file::propulsion::{tank, thruster};
 use super::file::swinging::{mode, slosh, swinging_fits};
 use super::instruments::Instrument;
 use super::mass::MassProperties;
@@ -122,9 +122,13 @@ impl Spacecraft {
             check.push(&root, "no surface", format_args!("at least one of {keys}"));
         }
         check_names(check, description);
-        panels_fit(check, description.panels.as_deref(), description.mass_properties.mass_kg.0);
+        let whole_kg = description.mass_properties.mass_kg.0;
+        let panels = description.panels.iter().flat_map(|panels| panels.iter());
+        let panels_kg = panels.map(|panel| panel.mass_kg.map(f64::from));
+        parts_fit(check, ("panels", "mass_kg"), panels_kg, whole_kg);
         let tanks = list(check, &root.key("tanks"), description.tanks.as_deref(), tank);
-        tanks_fit(check, &tanks, description.mass_properties.mass_kg.0);
+        let tanks_kg = tanks.iter().map(|tank| Some(tank.propellant_kg));
+        parts_fit(check, ("tanks", "propellant_kg"), tanks_kg, whole_kg);
         let thrusters =
             list(check, &root.key("thrusters"), description.thrusters.as_deref(), |check, at, index, it| {
                 thruster(check, &tanks, at, index, it)
@@ -134,7 +138,6 @@ impl Spacecraft {
             list(check, &root.key("flexible_modes"), description.flexible_modes.as_deref(), mode);
         let sloshes = list(check, &root.key("slosh"), description.slosh.as_deref(), slosh);
         swinging_fits(check, &flexible_modes, &sloshes, &mass_properties);
-        let threshold = root.key("momentum").key("dump_threshold_n_m_s");
         Self {
             name: description.name.clone(),
             mass_properties,
@@ -164,14 +167,11 @@ impl Spacecraft {
                 description.instruments.as_deref(),
                 instrument,
             ),
-            dump_threshold_n_m_s: description.momentum.as_ref().map(|momentum| {
-                let mut axis = 0;
-                Vector3::from(momentum.dump_threshold_n_m_s.map(|value| {
-                    axis += 1;
-                    check.positive(&threshold.item(axis - 1), value)
-                }))
-            }),
-            per_plate_outputs: description.per_plate_outputs.unwrap_or(false),
+            dump_threshold_n_m_s: description
+                .momentum
+                .as_ref()
+                .map(|momentum| Vector3::from(momentum.dump_threshold_n_m_s.map(f64::from))),
+            per_plate_outputs: description.per_plate_outputs(),
             background_k: materials.surroundings.background_k,
             planet_map: description
                 .planet_map

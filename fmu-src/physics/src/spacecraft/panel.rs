@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::mass::PanelMass;
 use super::optics::Optics;
 use super::polygon::Polygon;
+use super::surface::Plate;
 use super::thermal::Thermal;
 use crate::enumeration::enumeration;
 use crate::numerics::scalar::{Scalar, constant_vector};
@@ -24,6 +25,8 @@ enumeration! {
         3 => Command,
     }
 }
+
+crate::toml::plain!(PanelControl);
 
 /// A flat panel whose axis of rotation passes through its centre (paper 000, eqs 9-11).
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -60,6 +63,20 @@ pub struct Panel {
 }
 
 impl Panel {
+    /// The plate that it is at angle 0.
+    pub fn plate_at_zero(&self) -> Plate {
+        Plate {
+            name: self.name.clone(),
+            area_m2: self.area_m2,
+            center_m: self.center_body_m,
+            normal: self.zero_normal_body,
+            optics: self.optics,
+            rear_optics: self.rear_optics,
+            thermal: self.thermal,
+            polygon: self.polygon.clone(),
+        }
+    }
+
     /// Unit normal of the cell side at an angle about the axis (paper 000, eq 9, for any axis and zero direction).
     pub fn normal_body<T: Scalar>(&self, angle_rad: T) -> Vector3<T> {
         let (sin, cos) = angle_rad.sin_cos();

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
 use crate::numerics::scalar::Scalar;
+use crate::refusal::Refusal;
 
 /// Most belts a map may have.
 pub const MOST_BELTS: usize = 180;
@@ -53,38 +54,21 @@ pub struct PlanetMap {
     cells: Vec<PlanetCell>,
 }
 
-/// A map that cannot be.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum PlanetMapError {
-    /// Not 2 n cells for each of n belts.
-    #[error(
-        "planet map of {belts} belts and {cells} cells, allowed: 1 to {MOST_BELTS} belts of twice as many cells each"
-    )]
-    Size {
-        /// Belts.
-        belts: usize,
-        /// All cells.
-        cells: usize,
-    },
-    /// A cell no planet has.
-    #[error("planet map with {cell:?}, allowed: fractions from 0 to 1, temperatures from 0 to {HOTTEST_K} K")]
-    Cell {
-        /// The first such cell.
-        cell: PlanetCell,
-    },
-}
-
 impl PlanetMap {
     /// A checked map.
     ///
     /// # Errors
     /// The number of cells, or the first cell out of range.
-    pub fn new(belts: usize, cells: Vec<PlanetCell>) -> Result<Self, PlanetMapError> {
+    pub fn new(belts: usize, cells: Vec<PlanetCell>) -> Result<Self, Refusal> {
         if !(1..=MOST_BELTS).contains(&belts) || cells.len() != 2 * belts * belts {
-            return Err(PlanetMapError::Size { belts, cells: cells.len() });
+            return Err(Refusal::new(
+                format_args!("planet map of {belts} belts and {} cells", cells.len()),
+                format_args!("1 to {MOST_BELTS} belts of twice as many cells each"),
+            ));
         }
         if let Some(cell) = cells.iter().find(|cell| !cell.is_possible()) {
-            return Err(PlanetMapError::Cell { cell: *cell });
+            let allowed = format_args!("fractions from 0 to 1, temperatures from 0 to {HOTTEST_K} K");
+            return Err(Refusal::new(format_args!("planet map with {cell:?}"), allowed));
         }
         Ok(Self { belts, cells })
     }

@@ -3,6 +3,8 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use crate::refusal::Refusal;
+
 /// Vertices off the plane of their polygon by up to this part of its size are in it.
 const PLANE_TOLERANCE: f64 = 1e-6;
 
@@ -24,52 +26,6 @@ pub struct Polygon {
     off_plane_m: f64,
 }
 
-/// Points that are no polygon. Vertices and edges count from 1; edge k starts at vertex k.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum PolygonError {
-    /// Fewer than three.
-    #[error("{found} vertices, allowed: at least 3")]
-    TooFew {
-        /// How many.
-        found: usize,
-    },
-    /// Not a number, or infinite.
-    #[error("vertex {vertex} that is not finite, allowed: finite numbers")]
-    NotFinite {
-        /// Which.
-        vertex: usize,
-    },
-    /// The same point twice.
-    #[error("vertices {first} and {second} in one place, allowed: distinct vertices")]
-    Repeated {
-        /// One of them.
-        first: usize,
-        /// The other.
-        second: usize,
-    },
-    /// All on one line.
-    #[error("vertices on one line, allowed: an outline with an area")]
-    NoArea,
-    /// Off the plane of the others.
-    #[error("vertex {vertex} lies {distance_m:e} m off the plane of the polygon, allowed: {allowed_m:e} m")]
-    NotPlane {
-        /// Which.
-        vertex: usize,
-        /// How far.
-        distance_m: f64,
-        /// How far it may.
-        allowed_m: f64,
-    },
-    /// Crosses itself.
-    #[error("edges {first} and {second} cross or touch, allowed: an outline that does not cross itself")]
-    Crossing {
-        /// One of them.
-        first: usize,
-        /// The other.
-        second: usize,
-    },
-}
-
 impl Polygon {
     /// Checks the outline; its normal follows the right-hand rule. Vertices that are off its plane by rounding are moved onto
     /// it: the plane through their mean across the area vector.
@@ -77,25 +33,27 @@ impl Polygon {
     /// # Errors
     /// Fewer than three vertices, vertices that coincide, are not finite, or not in one plane (within 1 mm, and 0.5 % of the
     /// polygon's size), no area, or edges that cross.
-    pub fn new(vertices_m: Vec<Vector3<f64>>) -> Result<Self, PolygonError> {
+    pub fn new(vertices_m: Vec<Vector3<f64>>) -> Result<Self, Refusal> {
         let count = vertices_m.len();
         if count < 3 {
-            return Err(PolygonError::TooFew { found: count });
+            return Err(Refusal::new(format_args!("{count} vertices"), "at least 3"));
         }
         if let Some(vertex) = vertices_m.iter().position(|v| !v.iter().all(|x| x.is_finite())) {
-            return Err(PolygonError::NotFinite { vertex: vertex + 1 });
+            let found = format_args!("vertex {} that is not finite", vertex + 1);
+            return Err(Refusal::new(found, "finite numbers"));
         }
         let mut polygon = Self { vertices_m, off_plane_m: 0.0 };
         let size_m = polygon.size_m();
         for (i, a) in polygon.vertices_m.iter().enumerate() {
             for (j, b) in polygon.vertices_m.iter().enumerate().skip(i + 1) {
                 if (a - b).norm() <= SAME_VERTEX * size_m {
-                    return Err(PolygonError::Repeated { first: i + 1, second: j + 1 });
+                    let found = format_args!("vertices {} and {} in one place", i + 1, j + 1);
+                    return Err(Refusal::new(found, "distinct vertices"));
                 }
             }
         }
         if polygon.area_vector_m2().norm() <= SAME_VERTEX * size_m * size_m {
-            return Err(PolygonError::NoArea);
+            return Err(Refusal::new("vertices on one line", "an outline with an area"));
         }
         let normal = polygon.normal();
         let center = polygon.vertices_m.iter().sum::<Vector3<f64>>() / count as f64;
@@ -103,7 +61,10 @@ impl Polygon {
         for (i, vertex) in polygon.vertices_m.iter().enumerate() {
             let distance_m = normal.dot(&(vertex - center)).abs();
             if distance_m > allowed_m {
-                return Err(PolygonError::NotPlane { vertex: i + 1, distance_m, allowed_m });
+                return Err(Refusal::new(
+                    format_args!("vertex {} lies {distance_m:e} m off the plane of the polygon", i + 1),
+                    format_args!("{allowed_m:e} m"),
+                ));
             }
             polygon.off_plane_m = polygon.off_plane_m.max(distance_m);
         }
@@ -178,7 +139,7 @@ impl Polygon {
         2.0 * self.vertices_m.iter().map(|v| (v - first).norm()).fold(0.0, f64::max)
     }
 
-    fn check_simple(&self, normal: &Vector3<f64>) -> Result<(), PolygonError> {
+    fn check_simple(&self, normal: &Vector3<f64>) -> Result<(), Refusal> {
         let edges: Vec<_> = self.edges().collect();
         let count = edges.len();
         let side =
@@ -187,14 +148,17 @@ impl Polygon {
         for i in 0..count {
             for j in i + 1..count {
                 let (first, second) = (edges[i], edges[j]);
-                let crossing = Err(PolygonError::Crossing { first: i + 1, second: j + 1 });
+                let crossing = || {
+                    let found = format_args!("edges {} and {} cross or touch", i + 1, j + 1);
+                    Err(Refusal::new(found, "an outline that does not cross itself"))
+                };
                 if j == i + 1 || (i == 0 && j == count - 1) {
                     // Neighbours share a vertex; they must not fold back onto each other.
                     let (before, after) = if j == i + 1 { (first, second) } else { (second, first) };
                     let (u, v) = (before.0 - before.1, after.1 - after.0);
                     let flat = u.cross(&v).norm() <= SAME_VERTEX * u.norm() * v.norm();
                     if flat && u.dot(&v) > 0.0 {
-                        return crossing;
+                        return crossing();
                     }
                     continue;
                 }
@@ -206,7 +170,7 @@ impl Polygon {
                     || (c == 0.0 && between(second, first.0))
                     || (d == 0.0 && between(second, first.1));
                 if proper || touching {
-                    return crossing;
+                    return crossing();
                 }
             }
         }

@@ -1,13 +1,10 @@
 //! The tables `[start]` and `[fixed]`: start values and constants by the names of models' variables, which are not known here.
 
-use core::fmt;
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
-use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 
-use crate::toml::Checker;
-use crate::toml::Place;
+use crate::toml::{Checker, Place};
 
 /// A start value of a model's variable, as the file gives it.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,12 +24,14 @@ pub struct StartEntry {
 }
 
 /// A value of any type that a file has.
-#[derive(Clone, Debug, PartialEq)]
+// A whole number is tried before a number.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
 pub enum StartValue {
-    /// A number with a point or an exponent.
-    Real(f64),
     /// A whole number.
     Integer(i64),
+    /// A number with a point or an exponent.
+    Real(f64),
     /// True or false.
     Boolean(bool),
     /// A string.
@@ -46,60 +45,13 @@ pub enum StartValue {
 #[serde(transparent)]
 pub(crate) struct StartTable(BTreeMap<String, Item>);
 
-/// What stands behind a key.
-#[derive(Debug)]
+/// What stands for a name: a value, or what may hold tables where none belongs.
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
 enum Item {
-    Scalar(StartValue),
+    Value(StartValue),
     List(Vec<Item>),
     Table(BTreeMap<String, Item>),
-}
-
-impl<'de> Deserialize<'de> for Item {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(ItemVisitor)
-    }
-}
-
-struct ItemVisitor;
-
-impl<'de> Visitor<'de> for ItemVisitor {
-    type Value = Item;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a number, a string, true or false, a list")
-    }
-
-    fn visit_f64<E>(self, value: f64) -> Result<Item, E> {
-        Ok(Item::Scalar(StartValue::Real(value)))
-    }
-
-    fn visit_i64<E>(self, value: i64) -> Result<Item, E> {
-        Ok(Item::Scalar(StartValue::Integer(value)))
-    }
-
-    fn visit_bool<E>(self, value: bool) -> Result<Item, E> {
-        Ok(Item::Scalar(StartValue::Boolean(value)))
-    }
-
-    fn visit_str<E>(self, value: &str) -> Result<Item, E> {
-        Ok(Item::Scalar(StartValue::Text(value.to_owned())))
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Item, A::Error> {
-        let mut items = Vec::new();
-        while let Some(item) = list.next_element()? {
-            items.push(item);
-        }
-        Ok(Item::List(items))
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut table: A) -> Result<Item, A::Error> {
-        let mut items = BTreeMap::new();
-        while let Some((key, item)) = table.next_entry()? {
-            items.insert(key, item);
-        }
-        Ok(Item::Table(items))
-    }
 }
 
 /// The entries of both tables, the constants last; what cannot be the value of any variable is reported.
@@ -148,7 +100,7 @@ fn push(
 
 fn value(check: &mut Checker<'_>, at: &Place, item: &Item) -> Option<StartValue> {
     match item {
-        Item::Scalar(value) => Some(value.clone()),
+        Item::Value(value) => Some(value.clone()),
         Item::List(items) => {
             let items = items.iter().enumerate();
             let values: Vec<_> = items.map(|(i, item)| value(check, &at.item(i), item)).collect();

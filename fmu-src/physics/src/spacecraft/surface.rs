@@ -33,6 +33,26 @@ pub struct Plate {
 }
 
 impl Plate {
+    /// One whose faces are insulated, without an outline.
+    pub fn insulated(
+        name: String,
+        area_m2: f64,
+        center_m: Vector3<f64>,
+        normal: Vector3<f64>,
+        optics: Optics,
+        rear_optics: Option<Optics>,
+    ) -> Self {
+        let thermal = Thermal::insulated(&optics, rear_optics.as_ref());
+        Self { name, area_m2, center_m, normal, optics, rear_optics, thermal, polygon: None }
+    }
+
+    /// One of this outline whose faces are insulated.
+    pub fn outlined(name: String, outline: Polygon, optics: Optics, rear_optics: Option<Optics>) -> Self {
+        let (area_m2, center_m, normal) = (outline.area_m2(), outline.centroid_m(), outline.normal());
+        let plate = Self::insulated(name, area_m2, center_m, normal, optics, rear_optics);
+        Self { polygon: Some(outline), ..plate }
+    }
+
     /// The same plate in another frame with the same origin.
     pub fn rotated(&self, rotation: &Matrix3<f64>) -> Self {
         Self {

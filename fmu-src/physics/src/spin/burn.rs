@@ -6,11 +6,13 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    burn_error::{BurnError, ParameterError},
     execution::PulseExecution,
     forecast::{ForecastCase, Range, Timing},
     nutation::Spin,
+    sizing::sized,
     spinner::Spinner,
-    train::{LEAST_OF_SPLIT, MOST_ORDER, MOST_PULSES, Shape, Train, TrainError},
+    train::{Pulses, Shape, Train, TrainError},
 };
 use crate::attitude::{Inertia, angle_between_rad};
 use crate::spacecraft::{MOST_THRUSTERS, ValveTiming};
@@ -24,7 +26,7 @@ const ONE_SIZE: f64 = 1e-3;
 /// A target closer than this to the momentum's line has no direction across it but rounding, in rad.
 const ALONG_RAD: f64 = 1e-6;
 
-/// What a burn is asked to be. Numbers that are 0 where the field says so mean "not given".
+/// What a burn is requested to be. Numbers that are 0 where the field says so mean "not given".
 #[derive(Clone, Debug, PartialEq)]
 pub struct BurnRequest {
     /// Shape of the train.
@@ -61,34 +63,6 @@ pub struct BurnRequest {
     pub max_nutation_rad: f64,
     /// Limit on the time from first to last edge, in s; 0 for none.
     pub max_duration_s: f64,
-}
-
-/// Why a burn is refused.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum BurnError {
-    /// A parameter out of its range.
-    #[error("{name} is {found}; {allowed}")]
-    Parameter {
-        /// FMI name.
-        name: &'static str,
-        /// What was found.
-        found: String,
-        /// What is allowed.
-        allowed: String,
-    },
-    /// A train that cannot be simulated.
-    #[error("the burn cannot be simulated: {0}")]
-    Train(#[from] TrainError),
-    /// Limits that the plan breaks.
-    #[error("the burn does not fit its limits: {what} would be {found}, the limit is {limit}")]
-    Limit {
-        /// What.
-        what: &'static str,
-        /// What it would be.
-        found: String,
-        /// What is allowed.
-        limit: String,
-    },
 }
 
 /// A burn ready to fly.
@@ -346,7 +320,7 @@ fn one_timing(
 }
 
 fn parameter(name: &'static str, found: impl ToString, allowed: &str) -> BurnError {
-    BurnError::Parameter { name, found: found.to_string(), allowed: allowed.to_owned() }
+    ParameterError::new(name, found, allowed).into()
 }
 
 /// The momentum is moved toward a point: there must be a way to it, and no plan goes beyond.
@@ -401,84 +375,21 @@ fn masks(spinner: &Spinner, request: &BurnRequest) -> Result<(u32, Option<u32>),
 }
 
 fn train(request: &BurnRequest, flight: &ForecastCase, points: bool) -> Result<Train, BurnError> {
-    let make = |count: u32| {
-        Train::new(
-            request.shape,
-            count,
-            request.pulse_width_s,
-            request.turns_per_pulse,
-            &flight.spin,
-            request.resolution_s,
-        )
-    };
     if request.angle_rad.is_nan() || request.angle_rad < 0.0 {
         return Err(parameter("burn.angle", request.angle_rad, "allowed is 0 (use burn.count) or an angle"));
     }
+    let pulses = Pulses {
+        shape: request.shape,
+        unit_width_s: request.pulse_width_s,
+        turns_per_pulse: request.turns_per_pulse,
+        resolution_s: request.resolution_s,
+    };
     if request.angle_rad == 0.0 || !points {
         let count = u32::try_from(request.count)
             .map_err(|_| parameter("burn.count", request.count, "allowed is 1 or more"))?;
-        return Ok(make(count)?);
+        return Ok(Train::new(&pulses, count, &flight.spin)?);
     }
-    sized(&make, flight, request.angle_rad)
-}
-
-/// The train whose move is nearest to `angle_rad`: a train long enough to have a plateau, and more plateau pulses.
-pub fn sized(
-    make: &impl Fn(u32) -> Result<Train, TrainError>,
-    flight: &ForecastCase,
-    angle_rad: f64,
-) -> Result<Train, BurnError> {
-    let spin = &flight.spin;
-    let moved = |train: &Train| train.manoeuvre_rad(spin, flight.torque_n_m);
-    // Shapes have at most 13 pulses before the plateau, so one short train makes the general case.
-    let mut short = None;
-    for count in 1..=2 * MOST_ORDER + 2 {
-        if let Ok(train) = make(count) {
-            let miss = (moved(&train) - angle_rad).abs();
-            if short.is_none_or(|(_, best)| miss < best) {
-                short = Some((train, miss));
-            }
-        }
-    }
-    let Some((short, miss)) = short else {
-        return Err(make(2 * MOST_ORDER + 2).map_or_else(BurnError::Train, |_| too_long(angle_rad)));
-    };
-    let Ok(base) = make(2 * MOST_ORDER + 2) else { return Ok(short) };
-    let step = if base.shape() == Shape::Split { 2.0 } else { 1.0 };
-    let plateau = spin.manoeuvre_rad(flight.torque_n_m, base.plateau_width_s());
-    let more = ((angle_rad - moved(&base)) / (plateau * step)).round().max(0.0);
-    let count = f64::from(base.count()) + more * step;
-    if count.is_nan() || count > f64::from(MOST_PULSES) {
-        return Err(too_long(angle_rad));
-    }
-    let is_split = base.shape() == Shape::Split;
-    let long = if is_split {
-        // How far its halves are off depends on their length: the least off of those that move by the angle.
-        let longest = (angle_rad / plateau / LEAST_OF_SPLIT).min(f64::from(MOST_PULSES)) as u32;
-        let miss = |train: &Train| (moved(train) - angle_rad).abs();
-        let cost = |train: &Train| (miss(train).max(plateau), train.offset_turns(0).abs());
-        let trains = (count as u32..=longest).step_by(2).filter_map(|count| make(count).ok());
-        let first = make(count as u32)?;
-        trains.fold(first, |best, train| if cost(&train) < cost(&best) { train } else { best })
-    } else {
-        make(count as u32)?
-    };
-    let best = if (moved(&long) - angle_rad).abs() < miss { long } else { short };
-    // Pulses come in pairs, so that a train may be off by one.
-    if is_split && (moved(&best) - angle_rad).abs() > 1.5 * plateau {
-        let found = format!("{angle_rad} rad");
-        let most_deg = moved(&best).to_degrees();
-        let allowed = format!(
-            "the halves of a split train point too far apart with inertia ratio {}: the nearest it can do is {most_deg:.4} deg",
-            spin.ratio
-        );
-        return Err(parameter("burn.angle", found, &allowed));
-    }
-    Ok(best)
-}
-
-fn too_long(angle_rad: f64) -> BurnError {
-    parameter("burn.angle", format!("{angle_rad} rad"), "no train of this shape and width reaches it")
+    sized(&pulses, flight, request.angle_rad)
 }
 
 fn check_limits(request: &BurnRequest, flight: &ForecastCase, train: &Train) -> Result<(), BurnError> {

@@ -21,10 +21,14 @@ const LONGEST_PERIOD_S: f64 = 1e100;
 /// asks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CrossingDetector {
-    last_s: Option<f64>,
-    period_s: Option<f64>,
-    period_before_s: Option<f64>,
-    count: u64,
+    /// The last crossing, in s.
+    pub last_s: Option<f64>,
+    /// Time between the last two, in s.
+    pub period_s: Option<f64>,
+    /// The same, one crossing earlier, in s.
+    pub period_before_s: Option<f64>,
+    /// How many so far.
+    pub count: u64,
     search_from_s: f64,
     /// The next crossing, once it was looked for; `Some(None)` if there is none on this motion.
     next_s: Option<Option<f64>>,
@@ -45,26 +49,6 @@ impl CrossingDetector {
                 .iter()
                 .flatten()
                 .all(|&period_s| (SHORTEST_PERIOD_S..=LONGEST_PERIOD_S).contains(&period_s))
-    }
-
-    /// The last crossing, in s.
-    pub fn last_s(&self) -> Option<f64> {
-        self.last_s
-    }
-
-    /// Time between the last two, in s.
-    pub fn period_s(&self) -> Option<f64> {
-        self.period_s
-    }
-
-    /// The same, one crossing earlier, in s.
-    pub fn period_before_s(&self) -> Option<f64> {
-        self.period_before_s
-    }
-
-    /// How many so far.
-    pub fn count(&self) -> u64 {
-        self.count
     }
 
     /// The motion, its segment or the direction changed: what was predicted is void.

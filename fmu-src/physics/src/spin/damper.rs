@@ -50,11 +50,6 @@ impl Damper {
         self.rate_1_s != 0.0
     }
 
-    /// Whether nutation grows instead of decaying.
-    pub fn grows(&self) -> bool {
-        self.grows
-    }
-
     /// 1/tau.
     pub fn rate_1_s(&self) -> f64 {
         self.rate_1_s

@@ -33,7 +33,7 @@ pub struct ForecastCase {
     pub torque_n_m: f64,
 }
 
-/// What the linear theory foresees.
+/// What the linear theory predicts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Forecast {
     /// After the last pulse, in rad.
@@ -169,7 +169,7 @@ pub struct Worst {
 }
 
 impl Worst {
-    fn see(&mut self, seen: &Forecast) {
+    fn include(&mut self, seen: &Forecast) {
         self.final_nutation_rad = self.final_nutation_rad.max(seen.final_nutation_rad);
         self.peak_nutation_rad = self.peak_nutation_rad.max(seen.peak_nutation_rad);
         self.least_moved_rad = self.least_moved_rad.min(seen.moved_rad);
@@ -181,7 +181,7 @@ impl Worst {
         let mut window = [[0.0; 2]; 3];
         for i in 0..count {
             let seen = at(share_of(i, count));
-            self.see(&seen);
+            self.include(&seen);
             window = [window[1], window[2], [seen.final_nutation_rad, seen.peak_nutation_rad]];
             if i < 2 {
                 continue;
@@ -192,7 +192,7 @@ impl Worst {
                     && top > greatest * (1.0 + WORTH_LOOKING)
                 {
                     let spacing = 2.0 / f64::from(count - 1);
-                    self.see(&at(share_of(i - 1, count) + offset * spacing));
+                    self.include(&at(share_of(i - 1, count) + offset * spacing));
                 }
             }
         }

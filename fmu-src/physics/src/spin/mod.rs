@@ -1,6 +1,7 @@
 //! The spinner: exact pulses, nutation, damper, sequencing, observation (paper 002).
 
 pub mod burn;
+pub mod burn_error;
 pub mod coast;
 pub mod crossing;
 pub mod crossing_detector;
@@ -16,6 +17,7 @@ pub mod predictions;
 pub mod rates;
 pub mod sequencer;
 pub mod series;
+pub mod sizing;
 pub mod spinner;
 pub mod tracker;
 pub mod train;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     coast::Coast,
     damper::Damper,
-    series::{BodyTorque, TaylorSegment},
+    series::{Anchor, BodyTorque, TaylorSegment},
 };
 use crate::attitude::{Inertia, Quaternion, RigidBodyState};
 use crate::numerics::spacing::spacing;
@@ -78,39 +78,21 @@ pub struct Motion {
     inertia: Inertia,
     damper: Damper,
     torque: BodyTorque,
-    anchor_s: f64,
-    attitude: Quaternion,
-    momentum_inertial: Vector3<f64>,
+    anchor: Anchor,
     path: Path,
 }
 
 impl Motion {
-    /// Motion from `anchor_s` on. `hint_s` is how long this torque will last, if known (infinite otherwise).
-    pub fn new(
-        inertia: Inertia,
-        damper: Damper,
-        torque: BodyTorque,
-        anchor_s: f64,
-        attitude: Quaternion,
-        momentum_inertial: Vector3<f64>,
-        hint_s: f64,
-    ) -> Self {
-        let principal = inertia.principal_attitude(attitude);
+    /// Motion from `anchor` on. `hint_s` is how long this torque will last, if known (infinite otherwise).
+    pub fn new(inertia: Inertia, damper: Damper, torque: BodyTorque, anchor: Anchor, hint_s: f64) -> Self {
+        let principal = Anchor { attitude: inertia.principal_attitude(anchor.attitude), ..anchor };
         let path = if torque.is_zero() && inertia.is_axisymmetric() {
-            Path::Coast(Coast::new(&inertia, &damper, principal, &momentum_inertial))
+            Path::Coast(Coast::new(&inertia, &damper, principal.attitude, &anchor.momentum_inertial))
         } else {
-            let momentum_principal = principal.body_from_inertial(&momentum_inertial);
-            Path::Series(TaylorSegment::new(
-                &inertia,
-                &damper,
-                &torque.about_principal_axes(&inertia),
-                anchor_s,
-                principal,
-                &momentum_principal,
-                hint_s,
-            ))
+            let torque = torque.about_principal_axes(&inertia);
+            Path::Series(TaylorSegment::new(&inertia, &damper, &torque, &principal, hint_s))
         };
-        Self { inertia, damper, torque, anchor_s, attitude, momentum_inertial, path }
+        Self { inertia, damper, torque, anchor, path }
     }
 
     /// The body.
@@ -125,14 +107,14 @@ impl Motion {
 
     /// Where the present closed form or segment starts, in s.
     pub fn anchor_s(&self) -> f64 {
-        self.anchor_s
+        self.anchor.time_s
     }
 
     /// Where the present segment ends, in s; infinite for a closed form.
     pub fn segment_end_s(&self) -> f64 {
         match &self.path {
             Path::Coast(_) => f64::INFINITY,
-            Path::Series(segment) => self.anchor_s + segment.length_s(),
+            Path::Series(segment) => self.anchor.time_s + segment.length_s,
         }
     }
 
@@ -146,12 +128,12 @@ impl Motion {
         let path = match &self.path {
             // What it is made of says all of it.
             Path::Coast(coast) => {
-                let principal = self.inertia.principal_attitude(self.attitude);
-                *coast == Coast::new(&self.inertia, &self.damper, principal, &self.momentum_inertial)
+                let principal = self.inertia.principal_attitude(self.anchor.attitude);
+                *coast == Coast::new(&self.inertia, &self.damper, principal, &self.anchor.momentum_inertial)
             }
             Path::Series(segment) => segment.is_valid(),
         };
-        let unit = Quaternion::from_components(self.attitude.0).is_some();
+        let unit = Quaternion::from_components(self.anchor.attitude.0).is_some();
         path && unit && self.damper.is_valid() && !self.diverges()
     }
 
@@ -160,14 +142,14 @@ impl Motion {
     /// # Errors
     /// The body turns too fast there, is not finite, or its torque leaves it a segment too short.
     pub fn check(&self) -> Result<(), MotionError> {
-        self.check_rate(self.anchor_s, &self.momentum_inertial, &self.attitude)?;
+        self.check_rate(self.anchor.time_s, &self.anchor.momentum_inertial, &self.anchor.attitude)?;
         let Path::Series(segment) = &self.path else { return Ok(()) };
         // Written so that a NaN is refused.
-        if segment.length_s() >= SHORTEST_SEGMENT_S {
-            return check_clock(self.anchor_s, segment.length_s());
+        if segment.length_s >= SHORTEST_SEGMENT_S {
+            return check_clock(self.anchor.time_s, segment.length_s);
         }
-        let torque_n_m = self.torque.at(self.anchor_s).amax();
-        Err(MotionError::TooSudden { time_s: self.anchor_s, torque_n_m })
+        let torque_n_m = self.torque.at(self.anchor.time_s).amax();
+        Err(MotionError::TooSudden { time_s: self.anchor.time_s, torque_n_m })
     }
 
     /// The state at a time within the present segment, if it is finite and has a rate that can be followed.
@@ -204,23 +186,16 @@ impl Motion {
     pub fn next_segment(&mut self) {
         let end_s = self.segment_end_s();
         if end_s.is_finite() {
-            let state = self.at(end_s);
-            *self = Self::new(
-                self.inertia,
-                self.damper,
-                self.torque,
-                end_s,
-                state.attitude,
-                state.momentum_inertial,
-                f64::INFINITY,
-            );
+            let RigidBodyState { attitude, momentum_inertial, .. } = self.at(end_s);
+            let anchor = Anchor { time_s: end_s, attitude, momentum_inertial };
+            *self = Self::new(self.inertia, self.damper, self.torque, anchor, f64::INFINITY);
         }
     }
 
     /// State at a time within the present segment (any time after the anchor for a closed form).
     #[inline]
     pub fn at(&self, time_s: f64) -> RigidBodyState {
-        let dt_s = time_s - self.anchor_s;
+        let dt_s = time_s - self.anchor.time_s;
         match &self.path {
             Path::Coast(coast) => self.conserved(coast.attitude_at(dt_s)),
             Path::Series(segment) => {
@@ -244,12 +219,13 @@ impl Motion {
         let state = self.at(time_s);
         let damper = if inertia == self.inertia { self.damper } else { self.damper.on(&inertia) };
         let attitude = state.attitude.normalized();
-        Self::new(inertia, damper, torque, time_s, attitude, state.momentum_inertial, hint_s)
+        let anchor = Anchor { time_s, attitude, momentum_inertial: state.momentum_inertial };
+        Self::new(inertia, damper, torque, anchor, hint_s)
     }
 
     /// The state in which the principal axes have this attitude and the momentum is that of the anchor.
     fn conserved(&self, principal: Quaternion) -> RigidBodyState {
-        let momentum_inertial = self.momentum_inertial;
+        let momentum_inertial = self.anchor.momentum_inertial;
         let attitude = self.inertia.body_attitude(principal);
         RigidBodyState {
             attitude,

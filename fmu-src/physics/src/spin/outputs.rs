@@ -142,9 +142,9 @@ impl Outputs {
         let directions = plant.directions_at(time_s);
         let sun_angle_rad = angle_to_rad(&spin_axis_inertial, &directions.sun_inertial);
         let nominal_period_s = finite(2.0 * PI / spin_rate_rad_s.abs());
-        let sun = plant.sensors().sun_crossings();
-        let period_s = sun.period_s().unwrap_or(nominal_period_s);
-        let (period_change_s, share) = match (sun.period_s(), sun.period_before_s()) {
+        let sun = &plant.sensors().sun;
+        let period_s = sun.period_s.unwrap_or(nominal_period_s);
+        let (period_change_s, share) = match (sun.period_s, sun.period_before_s) {
             (Some(last), Some(before)) => (last - before, (last - before) / before),
             _ => (0.0, 0.0),
         };
@@ -156,14 +156,14 @@ impl Outputs {
         } else {
             0.0
         };
-        let (law, sequencer) = (plant.propulsion().valves().law(), plant.sequencer());
+        let (law, sequencer) = (&plant.propulsion().valves.law, plant.sequencer());
         let next_edge_s = match sequencer.map(Sequencer::phase) {
             Some(Phase::Waiting { on_s, .. }) => on_s,
             Some(Phase::Firing { off_s }) => off_s,
             _ => -1.0,
         };
         let used_kg = plant.propulsion().used_at(time_s);
-        let left_kg = (plant.propulsion().initial_propellant_kg() - used_kg).max(0.0);
+        let left_kg = (plant.propulsion().initial_propellant_kg - used_kg).max(0.0);
         Self {
             state,
             rate_rad_s,
@@ -190,18 +190,18 @@ impl Outputs {
             sun_inertial: directions.sun_inertial,
             earth_inertial: directions.earth_inertial,
             sun_angle_rad,
-            sun_angle_measured_rad: plant.sensors().sun_sample_rad(),
+            sun_angle_measured_rad: plant.sensors().sun_sample_rad,
             earth_angle_rad: angle_to_rad(&-spin_axis_inertial, &directions.earth_inertial),
             declination_rad: spin_axis_inertial.dot(&directions.star_inertial).clamp(-1.0, 1.0).asin(),
-            sample: plant.sensors().sample(),
-            estimate: plant.sensors().estimator().estimate(spinner.star_tracker.noise_deg.to_radians()),
+            sample: plant.sensors().sample,
+            estimate: plant.sensors().estimator.estimate(spinner.star_tracker.noise_deg.to_radians()),
             pulses_fired: sequencer.map_or(0, |s| s.fired()),
             burn_active: !plant.propulsion().is_dry() && sequencer.is_some_and(|s| s.is_active()),
             burn_done: sequencer.is_some_and(|s| s.phase() == Phase::Done),
             next_edge_s,
             inertia_kg_m2: inertia.principal_kg_m2(),
             inertia_ratio: inertia.ratio(),
-            thrusters_on: plant.propulsion().valves().open_mask(),
+            thrusters_on: plant.propulsion().valves.open_mask(),
             too_short: plant.too_short(),
             force_body_n: law.force_at_n(time_s),
             torque_body_n_m: law.torque_at_n_m(time_s),

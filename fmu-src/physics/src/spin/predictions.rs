@@ -17,7 +17,7 @@ use crate::attitude::angle_between_rad;
 const SUN_CLEARANCE: f64 = 4.0;
 
 /// Values that hold for a whole flight.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Predictions {
     /// I3/I_T with its true mean for a triaxial body: 1 + lambda/Omega.
     pub nutation_ratio: f64,
@@ -46,17 +46,12 @@ impl Predictions {
         let nutation_rad_s = spin.ratio * spin.rate_rad_s;
         let mut seen = Self {
             nutation_ratio: spin.ratio,
-            manoeuvre_per_pulse_rad: 0.0,
-            kick_rad: 0.0,
-            manoeuvre_rad: 0.0,
-            envelope_rad: 0.0,
-            duration_s: 0.0,
-            count: 0,
             observation_time_eq20_s: finite(observation_time_eq20_s(spin.rate_rad_s, spin.ratio)),
             observation_time_s: finite(observation_time_s(
                 plant.sensors().sample_spacing_s(&spin),
                 nutation_rad_s,
             )),
+            ..Self::default()
         };
         if let Some(sequencer) = plant.sequencer() {
             let burn = sequencer.burn();

@@ -101,30 +101,40 @@ impl BodyTorque {
     }
 }
 
+/// A state of motion at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Anchor {
+    /// When, in s.
+    pub time_s: f64,
+    /// Attitude then.
+    pub attitude: Quaternion,
+    /// Angular momentum then, inertial, in N m s.
+    pub momentum_inertial: Vector3<f64>,
+}
+
 /// One segment: the motion from its start on, as polynomials.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TaylorSegment {
     series: RotationSeries<{ ORDER + 1 }>,
-    length_s: f64,
+    /// How long the segment holds, in s; 0 where it does not at all.
+    pub length_s: f64,
 }
 
 impl TaylorSegment {
-    /// The segment that starts at `start_s` in `attitude` with body momentum `momentum_body` (N m s), "body" being the principal
-    /// axes.
+    /// The segment that starts at `anchor`, its attitude being that of the principal axes, about which `torque` is too.
     ///
-    /// `hint_s` is how far the motion will be asked for, if that is known; the segment may be shorter.
+    /// `hint_s` is how far the motion will be evaluated, if that is known; the segment may be shorter.
     pub fn new(
         inertia: &Inertia,
         damper: &Damper,
         torque: &BodyTorque,
-        start_s: f64,
-        attitude: Quaternion,
-        momentum_body: &Vector3<f64>,
+        anchor: &Anchor,
         hint_s: f64,
     ) -> Self {
-        let series = RotationSeries::new(attitude, Vector3::zeros(), *momentum_body);
+        let momentum_body = &anchor.attitude.body_from_inertial(&anchor.momentum_inertial);
+        let series = RotationSeries::new(anchor.attitude, Vector3::zeros(), *momentum_body);
         let mut segment = Self { series, length_s: 0.0 };
-        let torque = torque.shifted(start_s);
+        let torque = torque.shifted(anchor.time_s);
         let mut gain = [0.0; GAIN_TERMS];
         gain[0] = damper.gain(momentum_body);
         segment.expand(inertia, &torque, &gain[..usize::from(gain[0] != 0.0)], hint_s);
@@ -156,11 +166,6 @@ impl TaylorSegment {
     /// Whether a decoded segment can be one.
     pub fn is_valid(&self) -> bool {
         self.series.is_valid() && (0.0..=LONGEST_S).contains(&self.length_s)
-    }
-
-    /// How long the segment holds, in s; 0 where it does not at all.
-    pub fn length_s(&self) -> f64 {
-        self.length_s
     }
 
     /// Momentum in body components `dt_s` after the start, in N m s.

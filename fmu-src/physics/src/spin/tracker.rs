@@ -41,7 +41,8 @@ pub struct NutationEstimator {
     sums: [f64; 6],
     /// Sums of d, c d, s d.
     right: [f64; 3],
-    count: u32,
+    /// Samples so far.
+    pub count: u32,
 }
 
 /// What the samples say.
@@ -70,11 +71,6 @@ impl NutationEstimator {
     pub fn is_valid(&self) -> bool {
         let most = f64::from(self.count) * 30.0;
         self.sums.iter().chain(&self.right).all(|sum| sum.abs() <= most)
-    }
-
-    /// Samples so far.
-    pub fn count(&self) -> u32 {
-        self.count
     }
 
     /// Amplitude and its error for samples of standard deviation `noise_rad`.

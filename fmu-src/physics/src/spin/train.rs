@@ -87,6 +87,19 @@ pub enum TrainError {
     },
 }
 
+/// What the pulses of a train are, whatever their number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulses {
+    /// Shape of the train.
+    pub shape: Shape,
+    /// Width of the outermost pulse, in s.
+    pub unit_width_s: f64,
+    /// Turns from pulse to pulse.
+    pub turns_per_pulse: f64,
+    /// Smallest step of width, in s; 0 for none.
+    pub resolution_s: f64,
+}
+
 /// A train of pulses.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Train {
@@ -110,18 +123,15 @@ struct SecondHalf {
 }
 
 impl Train {
-    /// A train of `count` pulses, `turns_per_pulse` apart. `unit_width_s` is the width of the outermost pulse.
+    /// A train of `count` pulses.
     ///
-    /// Wider pulses of a taper have a whole multiple of its *nutation kick*, and whole steps of `resolution_s` if the
-    /// unit has. The nutation of `spin` sizes pulses and places the halves of a split train.
-    pub fn new(
-        shape: Shape,
-        count: u32,
-        unit_width_s: f64,
-        turns_per_pulse: f64,
-        spin: &Spin,
-        resolution_s: f64,
-    ) -> Result<Self, TrainError> {
+    /// Wider pulses of a taper have a whole multiple of the outermost one's *nutation kick*, and whole steps of the resolution
+    /// if it has. The nutation of `spin` sizes pulses and places the halves of a split train.
+    ///
+    /// # Errors
+    /// A train that cannot be simulated.
+    pub fn new(pulses: &Pulses, count: u32, spin: &Spin) -> Result<Self, TrainError> {
+        let Pulses { shape, unit_width_s, turns_per_pulse, resolution_s } = *pulses;
         let half_turns = 2.0 * turns_per_pulse;
         if !(1.0..=200.0).contains(&half_turns) || half_turns.fract() != 0.0 {
             return Err(TrainError::Turns { turns: turns_per_pulse });

@@ -22,8 +22,6 @@ pub enum Cost {
     Impulse,
 }
 
-const COSTS: usize = 7;
-
 impl Cost {
     /// Units of about a microsecond, a little more than each takes.
     fn units(self) -> u32 {
@@ -34,30 +32,25 @@ impl Cost {
             Self::ClockSample | Self::Direction => 2,
         }
     }
-
-    /// What it is and who asks for it.
-    fn cause(index: usize) -> &'static str {
-        match index {
-            0 | 1 => {
-                "segments of the motion, a few in each turn: requested by spin.initialRate, by moments of inertia[1] and \
-                 inertia[2] that differ, by productsOfInertia, by a short damper.timeConstant and by torques"
-            }
-            2 => "crossings of Sun and star, one of each in a turn: requested by spin.initialRate",
-            3 => {
-                "samples of the star tracker, every 8 turns of limit.spinRate: starTracker.sampling 2 (clock) asks for them"
-            }
-            4 => "edges of pulses: requested by burn.count and the thrusters' inputs",
-            5 => "directions of Sun and Earth: geometry.source 2 (L1 orbit) looks them up every 600 s",
-            _ => {
-                "panels of the turning thrust, a few in each turn: requested by thruster[k].fire, long pulses and spin.initialRate"
-            }
-        }
-    }
 }
+
+/// By [`Cost`]: what it is and what asks for it.
+const CAUSES: [&str; 7] = [
+    SEGMENTS,
+    SEGMENTS,
+    "crossings of Sun and star, one of each in a turn: requested by spin.initialRate",
+    "samples of the star tracker, every 8 turns of limit.spinRate: starTracker.sampling 2 (clock) asks for them",
+    "edges of pulses: requested by burn.count and the thrusters' inputs",
+    "directions of Sun and Earth: geometry.source 2 (L1 orbit) looks them up every 600 s",
+    "panels of the turning thrust, a few in each turn: requested by thruster[k].fire, long pulses and spin.initialRate",
+];
+
+const SEGMENTS: &str = "segments of the motion, a few in each turn: requested by spin.initialRate, by moments of inertia[1] and \
+     inertia[2] that differ, by productsOfInertia, by a short damper.timeConstant and by torques";
 
 /// Work of one step of the spinner.
 #[derive(Clone, Copy, Debug)]
-pub struct Work(numerics::work::Work<COSTS>);
+pub struct Work(numerics::work::Work<{ CAUSES.len() }>);
 
 impl Work {
     /// Nothing spent of `limit` units.
@@ -92,7 +85,11 @@ impl Work {
         if !self.is_exhausted() {
             return Ok(());
         }
-        Err(WorkExceeded { limit: self.0.limit(), time_s, cause: Cost::cause(self.0.greatest()) })
+        Err(WorkExceeded {
+            limit: self.0.limit(),
+            time_s,
+            cause: CAUSES.get(self.0.greatest()).copied().unwrap_or_default(),
+        })
     }
 }
 

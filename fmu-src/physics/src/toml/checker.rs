@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::document::Document;
 use super::error::{FileError, Problem};
 use super::place::Place;
-use super::ranges::{GREATEST, short};
+use super::ranges::{GREATEST, TurnEither, short};
 use super::reader::{Findings, MOST_KEPT};
 
 /// How far a direction's length, or a matrix's orthonormality, may be off before it is refused.
@@ -78,6 +78,11 @@ impl<'d> Checker<'d> {
         self.document.line(at)
     }
 
+    /// Whether somebody wrote what is at this place.
+    pub fn is_written(&self, at: &Place) -> bool {
+        self.document.is_written(at)
+    }
+
     /// Whether nobody wrote what is at this place.
     pub fn is_stand_in(&self, at: &Place) -> bool {
         !self.stand_ins.is_empty() && at.around().any(|place| self.stand_ins.contains(&place))
@@ -129,12 +134,6 @@ impl<'d> Checker<'d> {
             self.report(at, short(value), allowed);
         }
         value
-    }
-
-    /// An angle in degrees between two bounds, handed on in rad.
-    pub fn angle(&mut self, at: &Place, value_deg: f64, low_deg: f64, high_deg: f64) -> f64 {
-        let allowed = format!("an angle from {low_deg} to {high_deg} deg");
-        self.within(at, value_deg, low_deg, high_deg, &allowed).to_radians()
     }
 
     /// Three finite numbers.
@@ -202,18 +201,15 @@ impl<'d> Checker<'d> {
     pub fn rotation(
         &mut self,
         at: &Place,
-        (angles_key, angles_deg): (&str, Option<[f64; 3]>),
+        (angles_key, angles_deg): (&str, Option<[TurnEither; 3]>),
         (matrix_key, matrix): (&str, Option<[[f64; 3]; 3]>),
     ) -> Matrix3<f64> {
         match (angles_deg, matrix) {
             (None, None) => Matrix3::identity(),
             (Some(angles_deg), None) => {
-                let place = at.key(angles_key);
-                for (i, angle_deg) in angles_deg.into_iter().enumerate() {
-                    self.angle(&place.item(i), angle_deg, -360.0, 360.0);
-                }
                 // The matrix enters an FMU's GUID: no digit may hang on the machine's own library of functions.
-                let [(sx, cx), (sy, cy), (sz, cz)] = angles_deg.map(|angle| libm::sincos(angle.to_radians()));
+                let [(sx, cx), (sy, cy), (sz, cz)] =
+                    angles_deg.map(|angle| libm::sincos(angle.0.to_radians()));
                 let about_x = Matrix3::new(1.0, 0.0, 0.0, 0.0, cx, -sx, 0.0, sx, cx);
                 let about_y = Matrix3::new(cy, 0.0, sy, 0.0, 1.0, 0.0, -sy, 0.0, cy);
                 let about_z = Matrix3::new(cz, -sz, 0.0, sz, cz, 0.0, 0.0, 0.0, 1.0);

@@ -75,6 +75,17 @@ impl<'t> Document<'t> {
 
     /// The line, from 1, of a place, or of the innermost table around it that exists.
     pub fn line(&self, place: &Place) -> usize {
+        let (start, _) = self.find(place);
+        self.line_ends.partition_point(|end| *end < start) + 1
+    }
+
+    /// Whether somebody wrote what is at a place.
+    pub fn is_written(&self, place: &Place) -> bool {
+        self.find(place).1
+    }
+
+    /// Where the text of a place begins, or of the innermost table around it that exists, and whether the place does.
+    fn find(&self, place: &Place) -> (usize, bool) {
         let mut start = self.root.span().start;
         let mut table = self.root.get_ref().as_table();
         let mut value: Option<&DeValue<'_>> = None;
@@ -88,12 +99,12 @@ impl<'t> Document<'t> {
                     .and_then(|list| list.get(*index))
                     .map(|value| (value.span().start, value)),
             };
-            let Some((next_start, next_value)) = next else { break };
+            let Some((next_start, next_value)) = next else { return (start, false) };
             start = next_start;
             value = Some(next_value.get_ref());
             table = next_value.get_ref().as_table();
         }
-        self.line_ends.partition_point(|end| *end < start) + 1
+        (start, true)
     }
 }
 

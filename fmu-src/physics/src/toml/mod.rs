@@ -11,6 +11,7 @@ mod place;
 mod ranges;
 mod reader;
 mod spelling;
+pub(crate) mod tables;
 
 pub use checker::Checker;
 pub(crate) use checker::rounded;
@@ -23,4 +24,6 @@ pub use ranges::{
     HalfTurn, Kelvin, NotNegative, Positive, QuarterTurn, Rings, SpecificImpulse, SubtendedAngle, TurnEither,
 };
 pub use reader::Findings;
-pub use spelling::nearest;
+pub use spelling::{hint, nearest};
+pub use tables::{NonEmpty, Written};
+pub(crate) use tables::{plain, tables};

@@ -59,6 +59,14 @@ macro_rules! ranges {
                 }
             }
 
+            impl super::tables::Written for $name {
+                type Value = $number;
+
+                fn value(self) -> $number {
+                    self.0
+                }
+            }
+
             #[cfg(feature = "schema")]
             impl schemars::JsonSchema for $name {
                 fn inline_schema() -> bool {

@@ -11,7 +11,7 @@ use toml::de::{DeTable, DeValue};
 use super::limits::{MOST_PROBLEMS, most_items};
 use super::place::Place;
 use super::ranges::{Range, short};
-use super::spelling::nearest;
+use super::spelling::{hint, nearest};
 
 /// Problems that are kept, of which the first by line are listed.
 pub(super) const MOST_KEPT: usize = 10 * MOST_PROBLEMS;
@@ -106,7 +106,10 @@ impl<'r> Reader<'r> {
             // A table of thousands of unknown keys has no slips of the pen.
             let meant = if misspelt.len() < keys.len() { nearest(key, &absent) } else { None };
             self.note(|| {
-                let found = format!("the unknown key `{key}`{}", hint(meant));
+                let found = format!(
+                    "the unknown key `{key}`{}",
+                    meant.map(|_| hint(key, &absent)).unwrap_or_default()
+                );
                 (self.place.key(key), found, keys.join(", "))
             });
             if let Some(meant) = meant {
@@ -173,10 +176,6 @@ fn remedy(value: &DeValue<'_>, allowed: &str, key: &str) -> String {
         DeValue::Array(_) if allowed == "a table" => format!(": [{key}], in single brackets"),
         _ => String::new(),
     }
-}
-
-fn hint(meant: Option<&str>) -> String {
-    meant.map(|word| format!(" (did you mean `{word}`?)")).unwrap_or_default()
 }
 
 impl<'de> Deserializer<'de> for Reader<'_> {
@@ -250,7 +249,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         let known = text.and_then(|text| words.iter().find(|word| **word == text));
         if let (Some(text), None) = (text, known) {
             self.note(|| {
-                let found = format!("the unknown word `{text}`{}", hint(nearest(text, words)));
+                let found = format!("the unknown word `{text}`{}", hint(text, words));
                 (self.place.clone(), found, words.join(", "))
             });
             self.stand_in(self.place.clone());

@@ -10,6 +10,11 @@ pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
         .map(|(_, candidate)| candidate)
 }
 
+/// The hint at the word that was probably meant, to follow the unknown one; empty without one.
+pub fn hint(word: &str, candidates: &[&str]) -> String {
+    nearest(word, candidates).map(|meant| format!(" (did you mean `{meant}`?)")).unwrap_or_default()
+}
+
 /// Levenshtein's distance: insertions, deletions and substitutions between two words.
 fn edits(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();

@@ -10,25 +10,7 @@ use physics::radiation::disturbance::{DisturbanceModel, Geometry, Options, Recoi
 use physics::radiation::{Beam, SolarModel};
 use physics::spacecraft::{Plate, Spacecraft};
 
-pub const HEAD: &str = r#"
-name = "Shapes"
-[mass_properties]
-mass_kg = 100
-center_of_mass_m = [0.1, 0.2, -0.3]
-inertia_kg_m2 = [[10, 0, 0], [0, 12, 0], [0, 0, 15]]
-[optics.grey]
-specular = 0.2
-diffuse = 0.3
-[optics.black]
-specular = 0
-diffuse = 0
-[optics.white]
-specular = 0
-diffuse = 1
-[optics.mirror]
-specular = 1
-diffuse = 0
-"#;
+pub const HEAD: &str = include_str!("shapes.toml");
 
 fn spacecraft(surfaces: &str) -> Spacecraft {
     Spacecraft::from_toml("shapes.toml", &format!("{HEAD}{surfaces}")).unwrap()
@@ -66,15 +48,7 @@ fn shadowed_force_n(
 ) -> Vector3<f64> {
     let options = Options { self_shadowing, ..Options::default() };
     let model = DisturbanceModel::new(spacecraft, &options).unwrap();
-    let geometry = Geometry {
-        sun_direction_body: source_body,
-        sun_sine: 0.0,
-        sun_flux_w_m2: 1361.0,
-        lit_fraction: 1.0,
-        planet: None,
-        panel_angles_rad: &[],
-        center_of_mass_body_m: Vector3::zeros(),
-    };
+    let geometry = Geometry::sunlit(source_body, 1361.0);
     let mut workspace = Workspace::default();
     model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap()[Effect::Solar].force_body_n
 }

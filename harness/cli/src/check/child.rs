@@ -1,12 +1,25 @@
 //! Runs a probe in a process of its own and reads its findings.
 
-use std::{ffi::OsString, time::Instant};
+use std::{ffi::OsString, path::PathBuf, process::ExitCode, time::Instant};
 
+use clap::Args;
 use conformance::{Finding, Verdict};
 use files::Scratch;
 use loader::Fmu;
 
-use crate::child::{Bounds, ChildProcess, Link, Payload, SMALL, push_text};
+use crate::{
+    child::{Bounds, ChildProcess, Link, Payload, SMALL, push_text},
+    outcome::Outcome,
+};
+
+/// `heliotorque probe-in-child`.
+#[derive(Debug, Args)]
+pub struct Probe {
+    /// The FMU
+    pub fmu: PathBuf,
+    /// The probe
+    pub name: String,
+}
 
 /// Kinds of frames: a finding, the probe's end.
 const FINDING: u8 = 1;
@@ -24,9 +37,7 @@ pub fn run(fmu: &Fmu, probe: &str, deadline: (Instant, f64)) -> Vec<Finding> {
         // What a probe leaves when it is ended goes with this folder.
         let scratch = Scratch::new()?;
         let arguments = [OsString::from("probe-in-child"), fmu.folder().into(), probe.into()];
-        let environment: Vec<(&str, OsString)> =
-            ["TMPDIR", "TMP", "TEMP"].map(|name| (name, scratch.path().into())).to_vec();
-        Ok::<_, std::io::Error>((ChildProcess::new(arguments, SMALL, &environment)?, scratch))
+        Ok::<_, std::io::Error>((ChildProcess::new(arguments, SMALL, Some(scratch.path()))?, scratch))
     };
     match started() {
         Ok((child, _scratch)) => supervise(child, deadline),
@@ -34,9 +45,13 @@ pub fn run(fmu: &Fmu, probe: &str, deadline: (Instant, f64)) -> Vec<Finding> {
     }
 }
 
-/// Sends what a probe found to the parent.
-pub fn report(link: &mut Link, findings: &[Finding]) -> Result<(), String> {
-    for finding in findings {
+/// Runs one probe or trial in this process and sends its findings to the parent.
+pub fn run_probe(arguments: &Probe) -> Outcome {
+    let mut link = Link::attach("heliotorque check")?;
+    let fmu = Fmu::open(&arguments.fmu)?;
+    let findings = conformance::run(&fmu, &arguments.name)
+        .ok_or_else(|| format!("there is no probe {:?}", arguments.name))?;
+    for finding in &findings {
         link.send(FINDING, |payload| {
             payload.push(finding.verdict as u64);
             let text = &finding.text;
@@ -44,7 +59,8 @@ pub fn report(link: &mut Link, findings: &[Finding]) -> Result<(), String> {
             push_text(payload, &if cut < text.len() { format!("{}...", &text[..cut]) } else { text.clone() });
         })?;
     }
-    link.send(FINISHED, |_| {})
+    link.send(FINISHED, |_| {})?;
+    Ok(ExitCode::SUCCESS)
 }
 
 fn decode(mut payload: Payload<'_>) -> Option<Finding> {

@@ -1,49 +1,33 @@
 //! `heliotorque check mission.toml`: whether a mission can fly; its first step is simulated.
 
-use std::{process::ExitCode, sync::atomic::AtomicBool};
+use std::sync::atomic::AtomicBool;
 
 use loader::Collector;
 
+use super::options::Check;
 use crate::{
-    args::{Check, Run},
     epoch, low_orbit,
-    outcome::Outcome,
-    run::{Prepared, settings::Settings, subject::Given},
+    outcome::{self, Outcome},
+    run::{Prepared, Run, Settings},
 };
 
 /// Reads the file, packs what it names, finds every name and value in it and opens what it writes, as `run` does; then flies the
 /// first step in this process.
-pub fn run(arguments: &Check) -> Outcome {
-    let file = arguments.subject.display().to_string();
+pub fn run(arguments: &Check, file: &str) -> Outcome {
     match summary(arguments) {
-        Ok(summary) => {
-            terminal::print(&format!("{file}: ok: {summary}"))?;
-            Ok(ExitCode::SUCCESS)
-        }
-        Err(error) => {
-            let problems = loader::Error::chain(error.as_ref());
-            terminal::print(&problems)?;
-            let count = super::problems::problem_count(&problems, &file);
-            terminal::note(&format!("{file}: {count}, judged as a mission"));
-            Ok(ExitCode::FAILURE)
-        }
+        Ok(summary) => outcome::printed(&format!("{file}: ok: {summary}")),
+        Err(error) => outcome::refused(file, &loader::Error::chain(error.as_ref()), "a mission"),
     }
 }
 
 fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
-    let run = Run::of(arguments.subject.clone(), arguments.template.clone());
+    let run = Run { fmu: arguments.subject.clone(), template: arguments.template.clone(), ..Run::default() };
     let Prepared { simulated, subject, settings, .. } = &Prepared::of(&run)?;
-    let Settings { times, requested, limits, sets, inputs, positions } = settings;
-    let given = Given {
-        sets: sets.clone(),
-        inputs: inputs.as_ref(),
-        positions: positions.clone(),
-        progress: &mut |_| {},
-        // Ended after the first step.
-        cancel: &AtomicBool::new(true),
-    };
+    let Settings { times, requested, limits, sets, positions, .. } = settings;
     let mut rows = Collector::new(subject.description(), positions);
-    subject.simulate_into(&simulated.run, given, &mut rows)?;
+    // Ended after the first step.
+    let cancel = AtomicBool::new(true);
+    settings.simulate_into(subject, &simulated.run, (&mut |_| {}, &cancel), &mut rows)?;
     let short = terminal::short;
     let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));

@@ -2,8 +2,6 @@
 //!
 //! The library itself reads the file, so that what passes here passes in every FMU made from it.
 
-use std::process::ExitCode;
-
 use loader::Described;
 use physics::{
     spacecraft::{Spacecraft, Thruster},
@@ -11,23 +9,17 @@ use physics::{
 };
 use toml::Table;
 
-use super::figures;
+use super::{figures, options::Check};
 use crate::{
-    args::Check,
-    low_orbit,
-    outcome::Outcome,
-    pack::{
-        assemble::{Parts, assemble},
-        reference_flight,
-        source::{Source, common_keys},
-        without_effect::{can_read_map, unused_map},
+    assembly::{
+        Parts, Source, assemble, can_read_map, common_keys, description, reference_flight, unused_map,
     },
+    low_orbit,
+    outcome::{self, Outcome},
 };
 
 /// Has the models of the template's library read the file, the template's own first.
-pub fn run(arguments: &Check) -> Outcome {
-    let file = arguments.subject.display().to_string();
-    let text = files::read_text(&arguments.subject)?;
+pub fn run(arguments: &Check, file: &str, text: &str) -> Outcome {
     let source = Source::open(arguments.template.as_deref(), None)?;
     let binary = source.binary();
     let own = source.own_model().ok();
@@ -35,51 +27,48 @@ pub fn run(arguments: &Check) -> Outcome {
     let mut taken = None;
     let mut map = None;
     for model in binary.models()?.into_iter().filter(|model| model.setup_file.is_some()) {
-        match binary.describe(&model.model, Some(&file), Some(&text)) {
+        match binary.describe(&model.model, Some(file), Some(text)) {
             Ok(described) => {
-                let description = model_description::parse(described.xml.as_bytes())?.description;
+                let description = description(&described)?;
                 if can_read_map(&description) {
-                    map = unused_map(&text, &described.model, &description);
+                    map = unused_map(text, &described.model, &description);
                 }
-                taken = taken.or(Some(described));
+                taken = taken.or(Some((described, description)));
             }
             Err(reason) => refusals.push((model, reason)),
         }
     }
     // A model that takes the rest of the file is one that its start values are for.
-    let rest = without_start_values(&text);
+    let rest = without_start_values(text);
     let of_start = |model: &Described| {
         rest.as_ref().is_some_and(|rest| binary.describe(&model.model, None, Some(rest)).is_ok())
     };
     if let Some((model, problems)) = refusals.iter().find(|(model, _)| of_start(model)) {
-        return refused(&file, model, problems);
+        return refused(file, model, problems);
     }
     // Each model takes its own kind of file; one that takes this one is enough.
-    if let Some(described) = taken {
-        let description = model_description::parse(described.xml.as_bytes())?.description;
+    if let Some((described, description)) = taken {
         // What passes here can be packed, and an FMU that cannot fly is not.
         let parts =
             Parts { spacecraft: Some(&arguments.subject), model: Some(&described.model), ..Parts::default() };
         let assembled = assemble(&source, &parts)?;
         if let Err(reason) = reference_flight(&assembled.entries, &described.reference_inputs) {
-            return refused(&file, &described, &format!("{file}: {reason}"));
+            return refused(file, &described, &format!("{file}: {reason}"));
         }
-        let variables = description.variables.len();
-        let model = &described.model;
-        terminal::print(&format!(
-            "{file}: ok for {model}: {}; the FMU will have {variables} variables{}",
-            contents(&text),
-            Spacecraft::from_toml("", &text).map_or_else(|_| levers(&text), |it| figures::report(&it))
-        ))?;
         let low = low_orbit::warnings(&description, &[]);
-        for warning in map.iter().chain(&low) {
-            terminal::print(&format!("warning: {warning}"))?;
-        }
-        return Ok(ExitCode::SUCCESS);
+        let warnings: String =
+            map.iter().chain(&low).map(|warning| format!("\nwarning: {warning}")).collect();
+        return outcome::printed(&format!(
+            "{file}: ok for {}: {}; the FMU will have {} variables{}{warnings}",
+            described.model,
+            contents(text),
+            description.variables.len(),
+            Spacecraft::from_toml("", text).map_or_else(|_| levers(text), |it| figures::report(&it))
+        ));
     }
     // The kinds of file are far apart: what the other models miss in it would hide what is wrong.
     let is_own = |model: &Described| Some(&model.model) == own.as_ref();
-    let rank = |model: &Described| (common_keys(&text, &model.default_setup), is_own(model));
+    let rank = |model: &Described| (common_keys(text, &model.default_setup), is_own(model));
     let Some(fittest) = refusals.iter().max_by_key(|(model, _)| rank(model)) else {
         return Err(format!("{}: none of its models reads a file", source.path().display()).into());
     };
@@ -87,16 +76,12 @@ pub fn run(arguments: &Check) -> Outcome {
         |model: &Described| binary.describe(&model.model, None, Some(&fittest.0.default_setup)).is_ok();
     let chosen = refusals.iter().find(|(model, _)| is_own(model) && takes_the_same(model));
     let (model, problems) = chosen.unwrap_or(fittest);
-    refused(&file, model, problems)
+    refused(file, model, problems)
 }
 
 /// Tells the problems that a model finds in the file.
 fn refused(file: &str, model: &Described, problems: &str) -> Outcome {
-    terminal::print(problems)?;
-    let count = super::problems::problem_count(problems, file);
-    let model = &model.model;
-    terminal::note(&format!("{file}: {count}, judged as a file of {model}, which cannot be packed with it"));
-    Ok(ExitCode::FAILURE)
+    outcome::refused(file, problems, &format!("a file of {}, which cannot be packed with it", model.model))
 }
 
 /// The file without its start values, if it has any.

@@ -10,8 +10,17 @@ mod relayed;
 mod supervisor;
 mod system;
 
-pub use channel::{Link, Payload, push_text};
+use std::{ffi::OsString, path::Path};
+
+pub use channel::{Link, NOT_REQUESTED, Payload, push_text};
 pub use printed::Shown;
 pub use relayed::{Relayed, is_child, serve};
 pub use supervisor::{Bounds, ChildProcess, EndReason, LARGE, SMALL};
 pub use system::end_all;
+
+/// An option with a path, which may hold any bytes.
+pub fn path_option(name: &str, path: &Path) -> OsString {
+    let mut option = OsString::from(name);
+    option.push(path);
+    option
+}

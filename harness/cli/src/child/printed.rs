@@ -2,6 +2,7 @@
 
 use std::{
     collections::VecDeque,
+    fs::File,
     io::{self, Read},
     process::{Child, Stdio},
 };
@@ -47,7 +48,7 @@ pub struct Printed {
 }
 
 struct Stream {
-    pipe: Box<dyn Read>,
+    pipe: File,
     line: Vec<u8>,
 }
 
@@ -63,13 +64,12 @@ impl Printed {
         let mut streams = Vec::new();
         #[cfg(unix)]
         {
-            if let Some(pipe) = child.stdout.take() {
+            use std::os::fd::OwnedFd;
+            let (stdout, stderr) =
+                (child.stdout.take().map(OwnedFd::from), child.stderr.take().map(OwnedFd::from));
+            for pipe in stdout.into_iter().chain(stderr).map(File::from) {
                 super::system::never_wait(&pipe)?;
-                streams.push(Stream { pipe: Box::new(pipe), line: Vec::new() });
-            }
-            if let Some(pipe) = child.stderr.take() {
-                super::system::never_wait(&pipe)?;
-                streams.push(Stream { pipe: Box::new(pipe), line: Vec::new() });
+                streams.push(Stream { pipe, line: Vec::new() });
             }
         }
         #[cfg(not(unix))]

@@ -14,7 +14,7 @@ use files::Scratch;
 use terminal::{Relay, Screen};
 
 use super::{
-    channel::{Link, Payload, push_bytes, push_text},
+    channel::{Link, NOT_REQUESTED, Payload, push_bytes, push_text},
     printed::Shown,
     supervisor::{Bounds, ChildProcess, Limits},
 };
@@ -32,8 +32,6 @@ const AT_ONCE: usize = 1 << 20;
 /// Exit statuses that a command has.
 const STATUSES: [u8; 3] = [0, 1, INTERRUPTED];
 
-const NOT_REQUESTED: &str = "it sent what was not requested";
-
 /// Whether this process is such a child.
 static IS_CHILD: AtomicBool = AtomicBool::new(false);
 
@@ -43,7 +41,6 @@ pub fn is_child() -> bool {
 }
 
 /// A command and what its process may take.
-#[derive(Clone, Debug)]
 pub struct Relayed {
     /// What loads the library, as the user named it.
     pub name: String,
@@ -59,15 +56,13 @@ impl Relayed {
     pub fn run(&self, arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         // What the child leaves when it is ended goes with this folder.
         let scratch = Scratch::new()?;
-        let environment: Vec<(&str, OsString)> =
-            ["TMPDIR", "TMP", "TEMP"].map(|name| (name, scratch.path().into())).to_vec();
         let Screen { output_columns, note_columns } = terminal::screen();
         let columns = |name: &str, columns: Option<u16>| {
             columns.map(|columns| OsString::from(format!("--{name}-columns={columns}")))
         };
         let own = [Some("in-child".into()), columns("output", output_columns), columns("note", note_columns)];
         let own = own.into_iter().flatten().chain([OsString::from("--")]);
-        let child = ChildProcess::new(own.chain(arguments), self.limits, &environment)
+        let child = ChildProcess::new(own.chain(arguments), self.limits, Some(scratch.path()))
             .map_err(|error| format!("the process of the FMU cannot be started: {error}"))?;
         let mut ended: Option<Result<u8, String>> = None;
         let mut shown = Shown::new(&self.name);
@@ -123,8 +118,7 @@ fn take(kind: u8, mut payload: Payload<'_>) -> Result<Option<Result<u8, String>>
 
 /// Carries out a command in this process for the parent that started it, which shows everything on its screen.
 pub fn serve(screen: Screen, command: impl FnOnce() -> Outcome) -> Outcome {
-    let link = Link::attach().map_err(|error| format!("`heliotorque` starts this: {error}"))?;
-    let link = Arc::new(Mutex::new(link));
+    let link = Arc::new(Mutex::new(Link::attach("heliotorque")?));
     IS_CHILD.store(true, Ordering::Relaxed);
     terminal::relay_to(Box::new(ToParent(Arc::clone(&link))), screen);
     let outcome = command();

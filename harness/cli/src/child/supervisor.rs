@@ -3,6 +3,7 @@
 use std::{
     ffi::OsString,
     io,
+    path::Path,
     process::{Child, Command, ExitStatus},
     time::{Duration, Instant},
 };
@@ -48,6 +49,13 @@ pub struct Bounds {
     pub call_s: Option<f64>,
     /// Bytes that it may print.
     pub printed: Option<u64>,
+}
+
+impl Bounds {
+    /// Of FMI calls alone: the longest time that one may take, in s.
+    pub fn of_calls(call_s: f64) -> Self {
+        Self { call_s: Some(call_s), ..Self::default() }
+    }
 }
 
 /// How a child came to its end.
@@ -140,16 +148,17 @@ pub struct ChildProcess {
 }
 
 impl ChildProcess {
-    /// Starts this program with these arguments.
+    /// Starts this program with these arguments, its temporary files in a folder of their own if one is given.
     pub fn new(
         arguments: impl IntoIterator<Item = OsString>,
         limits: Limits,
-        environment: &[(&str, OsString)],
+        temporary: Option<&Path>,
     ) -> io::Result<Self> {
         let (file, inbox) = Inbox::create(limits.memory, limits.files)?;
         let mut command = Command::new(std::env::current_exe()?);
         command.args(arguments).stdin(file).stdout(Printed::stdio()).stderr(Printed::stdio());
-        command.envs(environment.iter().map(|(name, value)| (name, value)));
+        command
+            .envs(temporary.iter().flat_map(|folder| ["TMPDIR", "TMP", "TEMP"].map(|name| (name, folder))));
         let mut child = system::spawn(&mut command)?;
         match Printed::of(&mut child) {
             Ok(printed) => Ok(Self { child, inbox, printed }),

@@ -1,15 +1,12 @@
 //! `heliotorque draw`: a spacecraft's file as a picture, three views and a perspective.
 
-pub mod options;
+mod options;
 mod pane;
 pub mod scene;
 mod sheet;
 mod surface;
 
-use std::{
-    path::{Path, PathBuf},
-    process::ExitCode,
-};
+use std::path::{Path, PathBuf};
 
 use files::Destination;
 use physics::{
@@ -19,8 +16,12 @@ use physics::{
 };
 use toml::de::DeTable;
 
-use crate::{outcome::Outcome, output::check_svg_path};
-use options::{Draw, PanelAngle, ViewKind};
+use crate::{
+    outcome::{self, Outcome},
+    output::check_svg_path,
+};
+pub use options::Draw;
+use options::{PanelAngle, ViewKind};
 use scene::Scene;
 use sheet::View;
 
@@ -47,15 +48,8 @@ pub fn run(arguments: &Draw) -> Outcome {
     })?;
     let inputs: Vec<&Path> = named.into_iter().collect();
     let destination = Destination::open(&path, "--output", &inputs)?;
-    let is_stdout = destination.is_stdout();
-    destination.fill(|file| file.write_all(svg.as_bytes()))?;
     let drawn = format!("{}: {}, {} parts", path.display(), scene.name, scene.parts.len());
-    if is_stdout {
-        terminal::note(&drawn)
-    } else {
-        terminal::print(&drawn)?
-    }
-    Ok(ExitCode::SUCCESS)
+    outcome::written(destination, svg.as_bytes(), &drawn)
 }
 
 /// All views of a file; `None` where no reader takes it, as the library that packs it reports.
@@ -94,13 +88,13 @@ fn read(file: &str, text: &str, angles: &[PanelAngle]) -> Result<Scene, Box<dyn 
     for angle in angles {
         let is_meant =
             |panel: &Panel| angle.panel.as_ref().is_none_or(|name| name.eq_ignore_ascii_case(&panel.name));
-        let mut is_found = false;
-        for (index, _) in spacecraft.panels.iter().enumerate().filter(|(_, panel)| is_meant(panel)) {
-            angles_rad[index] = Some(angle.angle_rad);
-            is_found = true;
-        }
-        if !is_found {
+        if !spacecraft.panels.iter().any(is_meant) {
             return Err(no_panel(angle, &spacecraft.panels).into());
+        }
+        for (angle_rad, _) in
+            angles_rad.iter_mut().zip(&spacecraft.panels).filter(|(_, panel)| is_meant(panel))
+        {
+            *angle_rad = Some(angle.angle_rad);
         }
     }
     Ok(Scene::of_spacecraft(&spacecraft, &angles_rad))

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use crate::values::angle;
+
 /// Shown with the help.
 const EXAMPLE: &str = "\
 Example:
@@ -58,15 +60,6 @@ pub struct PanelAngle {
     pub panel: Option<String>,
     /// Right-handed about its axis, in rad.
     pub angle_rad: f64,
-}
-
-/// An angle with its unit, in rad.
-pub fn angle(text: &str) -> Result<f64, String> {
-    let number = |unit: &str| text.trim().strip_suffix(unit)?.trim_end().parse::<f64>().ok();
-    let angle_rad = number("deg").map(f64::to_radians).or_else(|| number("rad"));
-    angle_rad
-        .filter(|angle_rad| angle_rad.is_finite())
-        .ok_or_else(|| "an angle carries its unit: 60deg, 1.2rad".to_owned())
 }
 
 /// `panel=angle`, or an angle for every panel.

@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
-use loader::{Error, Fmu, Instance, InstanceOptions, Value};
+use loader::{Error, Fmu, Instance, Value};
 use nalgebra::Vector3;
 use physics::{
     bodies::Body,
     environment::{CartesianState, onboard::OnboardTarget},
 };
+use planner::ephemeris::{Failure, Source};
 
-use super::source::{Failure, Source};
-use crate::epoch;
+use crate::{instance, variables::assigned};
 
 /// Parameter with the epoch at the start of a flight.
 const START_EPOCH: &str = "start.epoch";
@@ -44,10 +44,7 @@ impl Flight {
             )
             .into());
         }
-        let mut sets = Vec::new();
-        for setting in settings {
-            sets.extend(loader::parse_assignment(description, &epoch::in_seconds(description, setting)?)?);
-        }
+        let mut sets = assigned(description, settings)?;
         if sets.iter().any(|(name, _)| name == START_EPOCH) {
             return Err(format!("--set {START_EPOCH}: --start says when the flight begins").into());
         }
@@ -63,17 +60,7 @@ impl Flight {
     }
 
     fn started(&self) -> Result<Instance, Failure> {
-        let started = || -> Result<Instance, Error> {
-            let mut instance = Instance::new(&self.fmu, "ephemeris", &InstanceOptions::default())?;
-            instance.setup_experiment(None, 0.0, None)?;
-            for (name, value) in &self.sets {
-                instance.set(name, value)?;
-            }
-            instance.enter_initialization_mode()?;
-            instance.exit_initialization_mode()?;
-            Ok(instance)
-        };
-        started().map_err(|error| self.in_fmu(&error).into())
+        instance::started(&self.fmu, "ephemeris", 0.0, &self.sets).map_err(|error| self.in_fmu(&error).into())
     }
 
     fn in_fmu(&self, error: &Error) -> String {

@@ -1,13 +1,11 @@
 //! `heliotorque ephemeris`: Chebyshev fits and coarse elements of what an FMU flies or SPICE kernels place, as an ephemeris
 //! file that others carry.
 
-mod fit;
 mod flight;
 #[cfg(feature = "spk")]
-mod kernel;
-pub mod options;
-mod report;
-mod source;
+mod kernel_options;
+mod options;
+mod shown;
 
 use std::{
     path::{Path, PathBuf},
@@ -18,30 +16,18 @@ use files::Destination;
 #[cfg(feature = "spk")]
 use physics::environment::onboard::OnboardTarget;
 use physics::environment::onboard::{OnboardEphemeris, to_toml};
+#[cfg(feature = "spk")]
+use planner::ephemeris::spk::Kernels;
+use planner::ephemeris::{Failure, Requested, Source, coarse, precise};
 
-use crate::{interrupt, outcome::Outcome};
-use fit::Requested;
+use crate::{
+    carried::ephemeris::{FILE, table},
+    interrupt,
+    outcome::{self, Outcome},
+};
 use flight::Flight;
-use options::Ephemeris;
-pub use report::{FILE, of, read, summary};
-use source::{Failure, Source};
-
-/// Tells what a file holds, or everything that is wrong with it.
-pub fn run_check(path: &Path, (bytes, read): (usize, Result<OnboardEphemeris, String>)) -> Outcome {
-    match read {
-        Ok(carried) => {
-            terminal::print(&format!("{}: ok: {}", path.display(), report::table(&carried, bytes)))?;
-            Ok(ExitCode::SUCCESS)
-        }
-        Err(problems) => {
-            terminal::print(&problems)?;
-            let count = problems.lines().count();
-            let plural = if count == 1 { "problem" } else { "problems" };
-            terminal::note(&format!("{}: {count} {plural}, judged as an ephemeris", path.display()));
-            Ok(ExitCode::FAILURE)
-        }
-    }
-}
+pub use options::Ephemeris;
+use shown::Shown;
 
 /// Makes the file.
 pub fn run(arguments: &Ephemeris) -> Outcome {
@@ -50,42 +36,35 @@ pub fn run(arguments: &Ephemeris) -> Outcome {
     let inputs = arguments.inputs();
     let inputs: Vec<&Path> = inputs.iter().map(PathBuf::as_path).collect();
     let destination = Destination::open(&output, "--output", &inputs)?;
-    let source = source(arguments, [start_s, stop_s])?;
+    let source = Shown { source: source(arguments, [start_s, stop_s])?, is_quiet: arguments.quiet };
     let mut made = OnboardEphemeris { source: Some(source.title()), ..OnboardEphemeris::default() };
+    let requested = Requested {
+        span_s: [start_s, stop_s],
+        segment_s: arguments.segment,
+        degree: arguments.degree.map(usize::from),
+        tolerance_m: arguments.tolerance,
+    };
     for target in arguments.targets() {
-        let requested = Requested {
-            target,
-            span_s: [start_s, stop_s],
-            segment_s: arguments.segment,
-            degree: arguments.degree.map(usize::from),
-            tolerance_m: arguments.tolerance,
-            is_quiet: arguments.quiet,
-        };
-        made.precise.push(fit::precise(source.as_ref(), &requested)?);
+        made.precise.push(precise(&source, target, &requested)?);
         if interrupt::raised() {
             return Ok(ExitCode::from(interrupt::INTERRUPTED));
         }
     }
     if arguments.coarse {
         let span_s = [start_s, arguments.coarse_until_s(stop_s)?];
-        made.coarse = fit::coarse(source.as_ref(), &arguments.targets(), span_s, arguments.quiet)?;
+        made.coarse = coarse(&source, &arguments.targets(), span_s)?;
     }
     let text = terminal::unsigned_zeros(&to_toml(&made)).into_owned();
     // What a spacecraft will read is what was made.
     if OnboardEphemeris::from_toml(FILE, &text).map_err(|error| error.to_string())? != made {
         return Err("the file does not read back as it was made".into());
     }
-    let is_stdout = destination.is_stdout();
-    destination.fill(|file| file.write_all(text.as_bytes()))?;
-    let reported = format!("{}: {}", output.display(), report::table(&made, text.len()));
-    if is_stdout || arguments.quiet {
-        if !arguments.quiet {
-            terminal::note(&reported);
-        }
-    } else {
-        terminal::print(&reported)?;
+    if arguments.quiet {
+        destination.fill(|file| file.write_all(text.as_bytes()))?;
+        return Ok(ExitCode::SUCCESS);
     }
-    Ok(ExitCode::SUCCESS)
+    let report = format!("{}: {}", output.display(), table(&made, text.len()));
+    outcome::written(destination, text.as_bytes(), &report)
 }
 
 /// Where the states come from: kernels if there are any, otherwise a flight.
@@ -97,7 +76,13 @@ fn source(arguments: &Ephemeris, span_s: [f64; 2]) -> Result<Box<dyn Source>, Fa
             targets.extend([OnboardTarget::Sun, OnboardTarget::Earth]);
             span_s[1] = arguments.coarse_until_s(span_s[1])?;
         }
-        return Ok(Box::new(kernel::Kernels::open(&arguments.kernels, &targets, span_s)?));
+        return Ok(Box::new(Kernels::open(
+            &arguments.kernels.kernel,
+            arguments.kernels.center,
+            arguments.kernels.spacecraft,
+            &targets,
+            span_s,
+        )?));
     }
     Ok(Box::new(Flight::open(&arguments.simulated(), &arguments.set, span_s[0])?))
 }

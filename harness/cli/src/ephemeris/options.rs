@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use physics::environment::{dates, onboard::OnboardTarget};
 
 #[cfg(feature = "spk")]
-use super::kernel::KernelOptions;
+use super::kernel_options::KernelOptions;
 use crate::{home, patience::Patience, values::span};
 
 /// Shown with the help.

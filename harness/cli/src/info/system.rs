@@ -2,6 +2,7 @@
 
 use systems::System;
 
+use super::experiment::times;
 use crate::wire::{grouped, vector, wrapped};
 
 /// The tables.
@@ -46,21 +47,11 @@ pub fn text(system: &System) -> String {
     );
     let left = grouped(open.into_iter().map(name));
     let experiment = system.description().default_experiment.unwrap_or_default();
-    let time =
-        |name: &str, value: Option<f64>| value.map(|value| format!("{name} {} s", terminal::short(value)));
-    let times: Vec<String> = [
-        time("start", experiment.start_time),
-        time("stop", experiment.stop_time),
-        time("step", experiment.step_size),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
     let lists = [
         (joined, format!("{} connections", system.structure().connections.len())),
         (left, "open inputs".to_owned()),
     ];
-    let mut text = vec![components.to_string(), format!("default experiment: {}", times.join(", "))];
+    let mut text = vec![components.to_string(), format!("default experiment: {}", times(&experiment))];
     for (groups, title) in lists {
         let lines: Vec<String> =
             groups.iter().map(|(of, names)| format!("\n  {of}:{}", wrapped(names))).collect();

@@ -3,7 +3,7 @@
 mod bands;
 mod colours;
 mod found;
-pub mod options;
+mod options;
 mod outputs;
 mod picture;
 mod spacecraft;
@@ -16,7 +16,7 @@ use planner::momentum::Mission;
 
 use crate::outcome::Outcome;
 use found::Found;
-use options::Map;
+pub use options::Map;
 use outputs::Outputs;
 use spacecraft::MappedSpacecraft;
 

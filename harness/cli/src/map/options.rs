@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::{draw::options::angle, home, patience::Patience};
+use crate::{home, patience::Patience, values::angle};
 
 /// Shown with the help.
 const EXAMPLE: &str = "\

@@ -9,14 +9,12 @@ use planner::torque_map::{Angles, direction};
 use super::{found::Found, options::Map, picture, spacecraft::MappedSpacecraft};
 use crate::output::check_svg_path;
 
+/// What names the files.
+const OPTIONS: [&str; 3] = ["--output", "--csv", "--lines"];
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Where everything goes.
-pub struct Outputs {
-    picture: Option<(PathBuf, Destination)>,
-    torque: Option<(PathBuf, Destination)>,
-    lines: Option<(PathBuf, Destination)>,
-}
+/// Where everything goes: picture, torque, lines.
+pub struct Outputs([Option<(Destination, PathBuf)>; 3]);
 
 /// What was written.
 pub struct Written {
@@ -29,46 +27,39 @@ impl Outputs {
     pub fn open(arguments: &Map) -> Result<Self, String> {
         let inputs: Vec<&Path> =
             [arguments.spacecraft.as_path()].into_iter().chain(arguments.mission.as_deref()).collect();
-        let open = |path: Option<PathBuf>, option: &'static str| match path {
-            Some(path) => Destination::open(&path, option, &inputs).map(|file| Some((path, file))),
-            None => Ok(None),
-        };
         let picture = (!arguments.no_picture).then(|| picture_path(arguments));
         if let Some(path) = &picture {
-            check_svg_path(path, "--output")?;
+            check_svg_path(path, OPTIONS[0])?;
         }
-        let outputs = Self {
-            picture: open(picture, "--output")?,
-            torque: open(arguments.csv.clone(), "--csv")?,
-            lines: open(arguments.lines.clone(), "--lines")?,
-        };
-        let named = [(&outputs.picture, "--output"), (&outputs.torque, "--csv"), (&outputs.lines, "--lines")];
+        let mut opened = [None, None, None];
+        let paths = [picture, arguments.csv.clone(), arguments.lines.clone()];
+        for (k, path) in paths.into_iter().enumerate() {
+            let Some(path) = path else { continue };
+            opened[k] = Some((Destination::open(&path, OPTIONS[k], &inputs)?, path));
+        }
+        let named: Vec<_> =
+            opened.iter().zip(OPTIONS).filter_map(|(it, option)| Some((&it.as_ref()?.0, option))).collect();
         for (k, (one, option)) in named.iter().enumerate() {
-            for (other, other_option) in &named[k + 1..] {
-                if let (Some((_, one)), Some((_, other))) = (one, other)
-                    && one.is_same(other)
-                {
-                    return Err(format!("one file cannot take both: see {option} and {other_option}"));
-                }
+            if let Some((_, other)) = named[k + 1..].iter().find(|(other, _)| one.is_same(other)) {
+                return Err(format!("one file cannot take both: see {option} and {other}"));
             }
         }
-        Ok(outputs)
+        Ok(Self(opened))
     }
 
     /// Writes all of them.
     pub fn write(self, spacecraft: &MappedSpacecraft, found: &Found) -> Result<Written, String> {
         let mut written = Written { takes_stdout: false, files: Vec::new() };
-        let mut fill = |to: Option<(PathBuf, Destination)>, text: &dyn Fn() -> String| {
-            let Some((path, file)) = to else { return Ok(()) };
-            match file.is_stdout() {
+        let contents: [&dyn Fn() -> String; 3] =
+            [&|| picture::svg(spacecraft, found), &|| torque(spacecraft, found), &|| lines(found)];
+        for (opened, content) in self.0.into_iter().zip(contents) {
+            let Some((destination, path)) = opened else { continue };
+            match destination.is_stdout() {
                 true => written.takes_stdout = true,
                 false => written.files.push(path.display().to_string()),
             }
-            file.fill(|file| file.write_all(text().as_bytes()))
-        };
-        fill(self.picture, &|| picture::svg(spacecraft, found))?;
-        fill(self.torque, &|| torque(spacecraft, found))?;
-        fill(self.lines, &|| lines(found))?;
+            destination.fill(|file| file.write_all(content().as_bytes()))?;
+        }
         Ok(written)
     }
 }
@@ -83,8 +74,7 @@ fn picture_path(arguments: &Map) -> PathBuf {
 /// A row for each direction; 180 deg of azimuth is -180 deg.
 fn torque(spacecraft: &MappedSpacecraft, found: &Found) -> String {
     let mut text = "sun_azimuth_deg,sun_elevation_deg".to_owned();
-    for what in ["torque", "force"] {
-        let unit = if what == "torque" { "n_m" } else { "n" };
+    for (what, unit) in [("torque", "n_m"), ("force", "n")] {
         text.extend(AXES.map(|axis| format!(",{what}_{axis}_{unit}")));
     }
     text.extend((1..=spacecraft.lit.panels.len()).map(|number| format!(",panel_{number}_angle_deg")));

@@ -1,6 +1,6 @@
 //! The picture: torque by axis over all directions and over the keep-in zone, and what downlinks can undo.
 
-use drawing::{Axes, BESIDE, Frame, HEADING, Pen, TEXT, round_up};
+use drawing::{Axes, BESIDE, Frame, HEADING, Pen, Pixel, TEXT, round_up};
 use physics::constants::ASTRONOMICAL_UNIT_M as AU_M;
 use planner::torque_map::Mapped;
 
@@ -103,11 +103,10 @@ fn outline(pen: &mut Pen, frame: Frame, limits_rad: [f64; 2]) {
 
 /// A cross where the whole torque is least.
 fn least(pen: &mut Pen, frame: Frame, found: &Found) {
-    let (x, y) = frame.at(found.least.0);
-    cross(pen, x, y);
+    cross(pen, frame.at(found.least.0));
 }
 
-fn cross(pen: &mut Pen, x: f64, y: f64) {
+fn cross(pen: &mut Pen, (x, y): Pixel) {
     let strokes = [[(x - 5.0, y - 5.0), (x + 5.0, y + 5.0)], [(x - 5.0, y + 5.0), (x + 5.0, y - 5.0)]];
     pen.lines(strokes.iter().map(|stroke| &stroke[..]), LEAST);
 }
@@ -118,7 +117,7 @@ fn legend(pen: &mut Pen, has_zone: bool) {
     pen.text((LEFT + 33.0, y + 4.0), 12.0, "start", BESIDE, "component is zero");
     pen.circle((LEFT + 166.0, y), 5.0, BALANCE);
     pen.text((LEFT + 178.0, y + 4.0), 12.0, "start", BESIDE, "X and Z are zero");
-    cross(pen, LEFT + 308.0, y);
+    cross(pen, (LEFT + 308.0, y));
     let least = if has_zone { "whole torque is least in the zone" } else { "whole torque is least" };
     pen.text((LEFT + 321.0, y + 4.0), 12.0, "start", BESIDE, least);
     if has_zone {

@@ -1,9 +1,7 @@
 //! What is mapped: the FMU of a file, how its panels follow the Sun, zone, downlinks and thresholds.
 
-use std::{fs, path::Path};
-
-use files::Scratch;
-use loader::{Binary, Fmu, Value};
+use files::{Entries, Scratch};
+use loader::{Described, Fmu, Value};
 use model_description::Description;
 use nalgebra::Vector3;
 use physics::{
@@ -15,11 +13,8 @@ use planner::torque_map::{LitSpacecraft, Rule, TurnedPanels};
 
 use super::options::Map;
 use crate::{
-    pack::{
-        source,
-        start::{START, with_values},
-    },
-    start_value,
+    assembly::{START, Source, description, model_of, open_template, with_values},
+    variables,
 };
 
 /// Why something could not be done.
@@ -61,36 +56,34 @@ pub struct MappedSpacecraft {
 }
 
 /// A file's text, the name that problems are reported by, and the FMU whose library reads it.
-fn given(arguments: &Map) -> Result<(String, String, Fmu), Failure> {
+fn given(arguments: &Map) -> Result<(String, String, Source), Failure> {
     let file = arguments.spacecraft.display().to_string();
     let is_toml = arguments.spacecraft.extension().is_some_and(|it| it.eq_ignore_ascii_case("toml"));
     if is_toml {
         let text = files::read_text(&arguments.spacecraft)?;
-        return Ok((file, text, source::open_template(&arguments.template())?));
+        return Ok((file, text, Source::of_template(open_template(&arguments.template())?)?));
     }
     if arguments.template.is_some() {
         return Err(format!("{file}: found no TOML file, allowed: one: see --template").into());
     }
     let fmu = Fmu::open(&arguments.spacecraft)?;
-    let model = source::model_of(&fmu, fmu.binary()?.as_ref())?;
+    let model = model_of(&fmu, fmu.binary()?.as_ref())?;
     let setup = fmu.binary()?.models()?.into_iter().find(|it| it.model == model).and_then(|it| it.setup_file);
     let setup = setup.ok_or_else(|| format!("{file}: {model} holds no spacecraft"))?;
-    let path = fmu.folder().join("resources").join(&setup);
-    let text = files::read_text(&path)?;
-    Ok((format!("{file}: {setup}"), text, fmu))
+    let text = files::read_text(&fmu.folder().join("resources").join(&setup))?;
+    Ok((format!("{file}: {setup}"), text, Source::of_template(fmu)?))
 }
 
 impl MappedSpacecraft {
     /// Reads the file and makes an FMU of it in a temporary folder.
     pub fn open(arguments: &Map) -> Result<Self, Failure> {
-        let (file, mut text, template) = given(arguments)?;
-        let binary = template.binary()?;
-        let describe = |model: &str, text: &str| -> Result<Description, Failure> {
-            let described = binary.describe(model, Some(&file), Some(text))?;
-            Ok(model_description::parse(described.xml.as_bytes())?.description)
+        let (file, mut text, source) = given(arguments)?;
+        let describe = |model: &str, text: Option<&str>| -> Result<Description, Failure> {
+            let file = text.map(|_| file.as_str());
+            Ok(description(&source.binary().describe(model, file, text)?)?)
         };
         for set in &arguments.set {
-            let (torque, simulated) = (describe(MODEL, &text)?, describe(FLOWN, &text)?);
+            let (torque, simulated) = (describe(MODEL, Some(&text))?, describe(FLOWN, Some(&text))?);
             // A name that neither has is reported as one of DisturbanceTorque.
             let name = set.split_once('=').map_or(set.as_str(), |(name, _)| name);
             let is_known = |description| loader::select(description, name).is_ok();
@@ -101,10 +94,10 @@ impl MappedSpacecraft {
             };
             text = with_values(&text, START, model, description, &[(format!("--set {set}"), set.clone())])?;
         }
-        let described = binary.describe(MODEL, Some(&file), Some(&text))?;
-        let simulated = describe(FLOWN, &text)?;
+        let described = source.binary().describe(MODEL, Some(&file), Some(&text))?;
+        let simulated = describe(FLOWN, Some(&text))?;
         let folder = Scratch::new()?;
-        write_fmu(folder.path(), &template, &described, &text)?;
+        unpacked(&source, &described, &text)?.write_below(folder.path())?;
         let fmu = Fmu::open(folder.path())?;
         let spacecraft = Spacecraft::from_toml(&file, &text).map_err(|error| error.to_string())?;
         let panels = turned(spacecraft.panels, &fmu, &simulated, arguments.panel_offset);
@@ -113,8 +106,7 @@ impl MappedSpacecraft {
         {
             return Err(format!("--panel-offset: {file} has no panel held by Sun offset").into());
         }
-        let [default, default_simulated] =
-            [default_description(&binary, MODEL)?, default_description(&binary, FLOWN)?];
+        let (default, default_simulated) = (describe(MODEL, None)?, describe(FLOWN, None)?);
         let distance_m = match arguments.distance {
             Some(distance_au) => distance_au * AU_M,
             None => distance_m(fmu.description(), &simulated, [&default, &default_simulated]),
@@ -143,30 +135,15 @@ impl MappedSpacecraft {
     }
 }
 
-/// The unpacked FMU of a model: description, library, file.
-fn write_fmu(
-    folder: &Path,
-    template: &Fmu,
-    described: &loader::Described,
-    text: &str,
-) -> Result<(), Failure> {
-    fs::write(folder.join("modelDescription.xml"), &described.xml)?;
-    let resources = folder.join("resources");
-    fs::create_dir(&resources)?;
+/// The files of the FMU: description, library, spacecraft.
+fn unpacked(source: &Source, described: &Described, text: &str) -> Result<Entries, Failure> {
+    let mut entries = Entries::default();
+    entries.add("modelDescription.xml", described.xml.clone().into_bytes())?;
     if let Some(name) = &described.setup_file {
-        fs::write(resources.join(name), text)?;
+        entries.add(&format!("resources/{name}"), text.as_bytes().to_vec())?;
     }
-    let platform = loader::platform_folders().first().ok_or("FMI names no platform like this one")?;
-    let binaries = folder.join("binaries").join(platform);
-    fs::create_dir_all(&binaries)?;
-    let library = binaries.join(format!("{MODEL}{}", std::env::consts::DLL_SUFFIX));
-    fs::copy(template.binary_path()?, library)?;
-    Ok(())
-}
-
-fn default_description(binary: &Binary, model: &str) -> Result<Description, Failure> {
-    let described = binary.describe(model, None, None)?;
-    Ok(model_description::parse(described.xml.as_bytes())?.description)
+    source.add_libraries(&mut entries, MODEL)?;
+    Ok(entries)
 }
 
 /// The panels with the angles that MomentumPlant would give them.
@@ -247,7 +224,7 @@ fn downlink(default: &Description, simulated: &Description) -> Downlink {
 }
 
 fn start_of(description: &Description, name: &str) -> Option<Value> {
-    start_value::of(description, &[], name)
+    variables::start(description, &[], name)
 }
 
 fn real(description: &Description, name: &str) -> Option<f64> {
@@ -255,5 +232,5 @@ fn real(description: &Description, name: &str) -> Option<f64> {
 }
 
 fn item<'a>(description: &'a Description, name: &str) -> Option<&'a str> {
-    start_value::item(description, &[], name)
+    variables::item(description, &[], name)
 }

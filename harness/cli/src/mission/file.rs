@@ -138,21 +138,23 @@ impl Mission {
     /// The files that it names and reads.
     pub fn reads(&self) -> Vec<&Path> {
         let craft = match &self.craft {
-            Craft::Fmu(path) => vec![Some(path)],
+            Craft::Fmu(path) => [Some(path), None, None],
             Craft::Files { spacecraft, timeline, ephemeris, .. } => {
-                vec![spacecraft.as_ref(), timeline.as_ref(), ephemeris.as_ref()]
+                [spacecraft.as_ref(), timeline.as_ref(), ephemeris.as_ref()]
             }
         };
-        let table = match &self.inputs {
-            Some(Inputs::File(path)) => Some(path),
-            _ => None,
-        };
+        let table = if let Some(Inputs::File(path)) = &self.inputs { Some(path) } else { None };
         craft.into_iter().flatten().chain(table).map(PathBuf::as_path).chain([self.file.as_path()]).collect()
     }
 
     /// A problem at a place of the file.
     pub fn problem<T>(&self, at: &At<T>, what: &str) -> String {
-        format!("{}:{}: {}: {what}", self.file.display(), at.line, at.key)
+        format!("{}: {what}", self.place(at))
+    }
+
+    /// A place of the file.
+    pub fn place<T>(&self, at: &At<T>) -> String {
+        format!("{}:{}: {}", self.file.display(), at.line, at.key)
     }
 }
 
@@ -191,36 +193,27 @@ impl Builder<'_> {
                 format_args!("a time after {begin}"),
             );
         }
-        let step_s = self.span(&root.key("step"), description.step.as_ref());
-        let every_s = self.span(&root.key("every"), description.every.as_ref());
-        let record = description.record.map(|names| self.names(&root.key("record"), names));
-        let output = description.output.map(|path| self.path(&root.key("output"), path));
-        let plots = description.plot.unwrap_or_default();
-        let plots = plots.into_iter().enumerate();
-        let plots = plots.map(|(i, plot)| self.plot(&root.key("plot").item(i), plot)).collect();
-        let sets = description.set.unwrap_or_default();
-        let sets = sets
-            .into_iter()
-            .filter_map(|(name, written)| self.set(&root.key("set").key(&name), name, &written));
-        let sets = sets.collect();
-        let inputs = description.inputs.and_then(|written| self.inputs(&root.key("inputs"), written));
+        let plots = description.plot.unwrap_or_default().into_iter().enumerate();
+        let sets = description.set.unwrap_or_default().into_iter();
         let limits = description.limits.unwrap_or_default().into_iter();
-        let limits =
-            limits.map(|(name, limit)| self.limit(&root.key("limits").key(&name), name, limit)).collect();
         Mission {
             file: file.to_owned(),
             craft,
             epoch_s,
             start_s,
             stop_s,
-            step_s,
-            every_s,
-            record,
-            output,
-            plots,
-            sets,
-            inputs,
-            limits,
+            step_s: self.span(&root.key("step"), description.step.as_ref()),
+            every_s: self.span(&root.key("every"), description.every.as_ref()),
+            record: description.record.map(|names| self.names(&root.key("record"), names)),
+            output: description.output.map(|path| self.path(&root.key("output"), path)),
+            plots: plots.map(|(i, plot)| self.plot(&root.key("plot").item(i), plot)).collect(),
+            sets: sets
+                .filter_map(|(name, written)| self.set(&root.key("set").key(&name), name, &written))
+                .collect(),
+            inputs: description.inputs.and_then(|written| self.inputs(&root.key("inputs"), written)),
+            limits: limits
+                .map(|(name, limit)| self.limit(&root.key("limits").key(&name), name, limit))
+                .collect(),
         }
     }
 
@@ -239,16 +232,15 @@ impl Builder<'_> {
                     "spacecraft = \"my.toml\", or fmu = \"My.fmu\", or model = \"MomentumPlant\" for the model's own spacecraft",
                 );
             }
+            let model = model.clone().map(|model| self.at(&root.key("model"), model));
             let mut file = |key: &str, path: &Option<String>| {
                 path.as_ref().map(|path| self.input_file(&root.key(key), path))
             };
-            let (spacecraft, timeline) = (file("spacecraft", spacecraft), file("timeline", timeline));
-            let ephemeris = file("ephemeris", ephemeris);
             return Craft::Files {
-                spacecraft,
-                model: model.clone().map(|model| self.at(&root.key("model"), model)),
-                timeline,
-                ephemeris,
+                spacecraft: file("spacecraft", spacecraft),
+                model,
+                timeline: file("timeline", timeline),
+                ephemeris: file("ephemeris", ephemeris),
             };
         };
         let others =

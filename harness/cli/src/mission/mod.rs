@@ -2,12 +2,10 @@
 
 mod description;
 mod file;
-mod limits;
 mod resolved;
 #[cfg(feature = "schema")]
 mod schema;
 mod written;
 
 pub use file::{Craft, Inputs, Mission, Plot};
-pub use limits::Judge;
-pub use resolved::{Limit, Resolved};
+pub use resolved::Resolved;

@@ -1,27 +1,16 @@
 //! A mission's names and values in the FMU that flies it.
 
+use std::collections::BTreeSet;
+
 use loader::{InputTable, Value};
 use model_description::{Causality, Description, ScalarVariable, VariableKind, value};
 use physics::toml::MOST_PROBLEMS;
 
 use super::file::{At, Bounds, Inputs, Mission};
-use crate::epoch;
+use crate::{epoch, output::Limit};
 
 /// The epoch of the start.
 const EPOCH: &str = "start.epoch";
-
-/// Bounds of one variable.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Limit {
-    /// The variable.
-    pub name: String,
-    /// The smallest value that is kept, in the variable's unit.
-    pub min: Option<f64>,
-    /// The largest.
-    pub max: Option<f64>,
-    /// Where the file says so.
-    pub at: String,
-}
 
 /// What a mission means in an FMU.
 #[derive(Debug, Default)]
@@ -52,9 +41,8 @@ impl Mission {
             plots: self.plots.iter().map(|plot| Some(resolver.names(plot.names.as_ref()?))).collect(),
             limits: self.limits.iter().flat_map(|limit| resolver.limit(limit)).collect(),
         };
-        let Resolver { mut problems, .. } = resolver;
-        problems.sort_by_key(|(line, _)| *line);
-        let problems: Vec<String> = problems.into_iter().map(|(_, problem)| problem).collect();
+        resolver.problems.sort_by_key(|(line, _)| *line);
+        let problems: Vec<String> = resolver.problems.into_iter().map(|(_, problem)| problem).collect();
         if problems.is_empty() { Ok(resolved) } else { Err(problems.join("\n")) }
     }
 
@@ -66,10 +54,6 @@ impl Mission {
         });
         let sets = self.sets.iter().map(|at| (self.place(at), format!("{}={}", at.it.0, at.it.1)));
         epochs.chain(sets).collect()
-    }
-
-    fn place<T>(&self, at: &At<T>) -> String {
-        format!("{}:{}: {}", self.file.display(), at.line, at.key)
     }
 }
 
@@ -125,13 +109,10 @@ impl<'m> Resolver<'m> {
             }
             let (name, written) = &at.it;
             for (variable, value) in self.assigned(at, name, written) {
-                match loader::set_early(variable) {
-                    Ok(_) => {}
-                    Err(_) => {
-                        let found = format!("the {} {}", variable.causality, variable.name);
-                        self.report(at, &format!("found {found}, allowed: a parameter or an input"));
-                        continue;
-                    }
+                if loader::set_early(variable).is_err() {
+                    let found = format!("the {} {}", variable.causality, variable.name);
+                    self.report(at, &format!("found {found}, allowed: a parameter or an input"));
+                    continue;
                 }
                 match value::check(self.described, variable, &value) {
                     Ok(()) => sets.push((variable.name.clone(), value)),
@@ -144,23 +125,11 @@ impl<'m> Resolver<'m> {
 
     fn assigned<T>(&mut self, at: &At<T>, name: &str, written: &str) -> Vec<(&'m ScalarVariable, Value)> {
         let setting = format!("{name}={written}");
-        let read = epoch::in_seconds(self.described, &setting).and_then(|setting| {
-            let assigned = loader::assignment(self.described, &setting)?;
-            Ok(assigned.into_iter().map(|one| (one.variable.name.clone(), one.value)).collect::<Vec<_>>())
-        });
-        match read {
-            Ok(values) => values
-                .into_iter()
-                .filter_map(|(name, value)| {
-                    let mut variables = self.described.variables.iter();
-                    Some((variables.find(|variable| variable.name == name)?, value))
-                })
-                .collect(),
-            Err(error) => {
-                self.refuse(at, error);
-                Vec::new()
-            }
-        }
+        let read = epoch::in_seconds(self.described, &setting)
+            .and_then(|setting| loader::parse_assignment(self.described, &setting));
+        let values = read.map_err(|error| self.refuse(at, error)).unwrap_or_default().into_iter();
+        let variable = |name: &str| self.described.variables.iter().find(|variable| variable.name == name);
+        values.filter_map(|(name, value)| Some((variable(&name)?, value))).collect()
     }
 
     fn inputs(&mut self) -> Option<InputTable> {
@@ -195,40 +164,28 @@ impl<'m> Resolver<'m> {
         let mut positions = Vec::new();
         for at in names {
             match loader::select_outputs(self.described, &at.it) {
-                Ok(found) => {
-                    let new = found.into_iter().filter(|position| !positions.contains(position));
-                    let new: Vec<usize> = new.collect();
-                    positions.extend(new);
-                }
+                Ok(found) => positions.extend(found),
                 Err(error) => self.refuse(at, error),
             }
         }
+        let mut seen = BTreeSet::new();
+        positions.retain(|position| seen.insert(*position));
         positions
     }
 
     fn limit(&mut self, at: &At<Bounds>) -> Vec<Limit> {
         let Bounds { name, min, max } = &at.it;
-        let positions = match loader::select(self.described, name) {
-            Ok(positions) => positions,
-            Err(error) => {
-                self.refuse(at, error);
-                return Vec::new();
-            }
-        };
+        let found = loader::select(self.described, name);
+        let positions = found.map_err(|error| self.refuse(at, error)).unwrap_or_default();
         let mut limits = Vec::new();
         for variable in positions.into_iter().map(|position| &self.described.variables[position]) {
+            let name = &variable.name;
             if !matches!(variable.kind, VariableKind::Real { .. } | VariableKind::Integer { .. }) {
-                self.report(
-                    at,
-                    &format!("found {}, which is no number, allowed: a Real or an Integer", variable.name),
-                );
+                self.report(at, &format!("found {name}, which is no number, allowed: a Real or an Integer"));
                 continue;
             }
             if variable.causality == Causality::Parameter {
-                self.report(
-                    at,
-                    &format!("found the parameter {}, allowed: what changes during a run", variable.name),
-                );
+                self.report(at, &format!("found the parameter {name}, allowed: what changes during a run"));
                 continue;
             }
             let mut bound = |written: &Option<String>| {
@@ -242,7 +199,7 @@ impl<'m> Resolver<'m> {
                 let [low, high] = [&at.it.min, &at.it.max].map(|it| it.as_deref().unwrap_or_default());
                 self.report(at, &format!("found min {low} above max {high}, allowed: a min up to max"));
             }
-            limits.push(Limit { name: variable.name.clone(), min, max, at: self.mission.place(at) });
+            limits.push(Limit { name: name.clone(), min, max, at: self.mission.place(at) });
         }
         limits
     }

@@ -3,15 +3,16 @@
 use core::fmt;
 use std::collections::BTreeMap;
 
-use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::Deserialize;
 
 /// What stands behind a key.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
 pub enum Written {
-    /// A number.
-    Number(f64),
     /// A whole number, which may be an option's.
     Integer(i64),
+    /// A number.
+    Number(f64),
     /// True or false.
     Boolean(bool),
     /// A string: a number with a unit, an option's name, a date.
@@ -46,54 +47,6 @@ impl fmt::Display for Written {
             Self::List(_) => f.write_str("a list"),
             Self::Table(_) => f.write_str("a table"),
         }
-    }
-}
-
-impl<'de> Deserialize<'de> for Written {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(WrittenVisitor)
-    }
-}
-
-struct WrittenVisitor;
-
-impl<'de> Visitor<'de> for WrittenVisitor {
-    type Value = Written;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a number, a string, true or false, a list")
-    }
-
-    fn visit_f64<E>(self, value: f64) -> Result<Written, E> {
-        Ok(Written::Number(value))
-    }
-
-    fn visit_i64<E>(self, value: i64) -> Result<Written, E> {
-        Ok(Written::Integer(value))
-    }
-
-    fn visit_bool<E>(self, value: bool) -> Result<Written, E> {
-        Ok(Written::Boolean(value))
-    }
-
-    fn visit_str<E>(self, value: &str) -> Result<Written, E> {
-        Ok(Written::Text(value.to_owned()))
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Written, A::Error> {
-        let mut items = Vec::new();
-        while let Some(item) = list.next_element()? {
-            items.push(item);
-        }
-        Ok(Written::List(items))
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut table: A) -> Result<Written, A::Error> {
-        let mut items = BTreeMap::new();
-        while let Some((key, item)) = table.next_entry()? {
-            items.insert(key, item);
-        }
-        Ok(Written::Table(items))
     }
 }
 

@@ -30,5 +30,7 @@ pub trait Exporter {
 
     /// After a simulation that failed: keeps the recording so far under the name of a file in progress, and gives that
     /// name if there is one. What cannot be kept is left out: the simulation's own error is the one to report.
-    fn leave(self: Box<Self>, described: &Description, recording: &Recording) -> Option<PathBuf>;
+    fn leave(self: Box<Self>, _described: &Description, _recording: &Recording) -> Option<PathBuf> {
+        None
+    }
 }

@@ -8,16 +8,21 @@ use std::{
 
 use loader::Value;
 use model_description::{Description, labels};
-use physics::{spacecraft::Spacecraft, spin::spinner::Spinner};
+use physics::{
+    spacecraft::{Spacecraft, Thruster},
+    spin::spinner::Spinner,
+};
 
-use crate::{mission::Limit, start_value};
+use super::limits::Limit;
+use crate::variables;
 
-/// Quantities and the parameters that are their bound either way; `*` stands for the same number in both.
-const BOUNDS: [(&str, &str); 4] = [
-    ("momentum.body[*]", "dump.threshold[*]"),
-    ("wheel[*].momentum", "wheel[*].capacity"),
-    ("sun.azimuth", "keepIn.azimuth"),
-    ("sun.elevation", "keepIn.elevation"),
+/// Quantities, the parameters that are their bound either way, and what the picture calls these; `*` stands for the same number
+/// in both.
+const BOUNDS: [(&str, &str, &str); 4] = [
+    ("momentum.body[*]", "dump.threshold[*]", "dump.threshold"),
+    ("wheel[*].momentum", "wheel[*].capacity", "capacity"),
+    ("sun.azimuth", "keepIn.azimuth", "keepIn.azimuth"),
+    ("sun.elevation", "keepIn.elevation", "keepIn.elevation"),
 ];
 
 /// What is known.
@@ -44,12 +49,9 @@ impl Known {
             }
             for variable in &described.variables {
                 let Some(own) = variable.name.strip_prefix(prefix.as_str()) else { continue };
-                let bound = BOUNDS.iter().find_map(|(quantity, bound)| {
+                let bound = BOUNDS.into_iter().find_map(|(quantity, bound, label)| {
                     let named = bound.replace('*', number_in(own, quantity)?);
-                    Some((
-                        bound_label(bound),
-                        start_value::real(described, sets, &format!("{prefix}{named}"))?,
-                    ))
+                    Some((label, variables::real(described, sets, &format!("{prefix}{named}"))?))
                 });
                 if let Some(bound) = bound.filter(|(_, value)| *value > 0.0) {
                     known.bounds.insert(variable.name.clone(), bound);
@@ -82,15 +84,6 @@ impl Known {
     }
 }
 
-/// What the picture calls a bound: `dump.threshold` for `dump.threshold[*]`, `capacity` for `wheel[*].capacity`.
-fn bound_label(bound: &'static str) -> &'static str {
-    match bound.split_once("[*]") {
-        Some((vector, "")) => vector,
-        Some((_, quantity)) => quantity.trim_start_matches('.'),
-        None => bound,
-    }
-}
-
 /// What stands for `*` where a name is the quantity; empty where there is nothing to stand for.
 fn number_in<'a>(name: &'a str, quantity: &str) -> Option<&'a str> {
     match quantity.split_once('*') {
@@ -111,23 +104,21 @@ fn names_in(folder: &Path) -> Vec<(String, String)> {
 }
 
 fn names_of(text: &str) -> Vec<(String, String)> {
-    let counted = |kind: &str, names: Vec<&String>| -> Vec<(String, String)> {
-        let names = names.into_iter().enumerate();
-        names.map(|(k, name)| (format!("{kind}[{}]", k + 1), name.clone())).collect()
-    };
+    fn counted<T>(kind: &str, parts: &[T], name: fn(&T) -> &String) -> Vec<(String, String)> {
+        let parts = parts.iter().enumerate();
+        parts.map(|(k, part)| (format!("{kind}[{}]", k + 1), name(part).clone())).collect()
+    }
+    let thrusters = |thrusters: &[Thruster]| counted("thruster", thrusters, |thruster| &thruster.name);
     if let Ok(craft) = Spacecraft::from_toml("", text) {
         return [
-            counted("panel", craft.panels.iter().map(|panel| &panel.name).collect()),
-            counted("wheel", craft.wheels.iter().map(|wheel| &wheel.name).collect()),
-            counted("thruster", craft.thrusters.iter().map(|thruster| &thruster.name).collect()),
-            counted("tank", craft.tanks.iter().map(|tank| &tank.name).collect()),
+            counted("panel", &craft.panels, |panel| &panel.name),
+            counted("wheel", &craft.wheels, |wheel| &wheel.name),
+            thrusters(&craft.thrusters),
+            counted("tank", &craft.tanks, |tank| &tank.name),
         ]
         .concat();
     }
-    Spinner::parse("", text).map_or_else(
-        |_| Vec::new(),
-        |spinner| counted("thruster", spinner.thrusters.iter().map(|thruster| &thruster.name).collect()),
-    )
+    Spinner::parse("", text).map_or_else(|_| Vec::new(), |spinner| thrusters(&spinner.thrusters))
 }
 
 #[cfg(test)]
@@ -155,23 +146,20 @@ mod tests {
         fs::create_dir(folder.path().join("resources")).unwrap();
         fs::write(folder.path().join("resources").join("craft.toml"), physics::spacecraft::MESSENGER_TOML)
             .unwrap();
-        fs::write(folder.path().join("modelDescription.xml"), PLANT).unwrap();
-        let fmu = loader::Fmu::open(folder.path()).unwrap();
+        let description = model_description::parse(PLANT.as_bytes()).unwrap().description;
         let parts = [("p.".to_owned(), folder.path().to_owned())];
         let limit =
             Limit { name: "p.wheel[1].speed".to_owned(), min: None, max: Some(3.0), at: String::new() };
-        let known = Known::of(&parts, fmu.description(), &[], &[limit]);
+        let known = Known::of(&parts, &description, &[], &[limit]);
         let craft = Spacecraft::from_toml("", physics::spacecraft::MESSENGER_TOML).unwrap();
         assert_eq!(known.name("p.wheel[1].speed"), Some(craft.wheels[0].name.as_str()));
         assert_eq!(known.name("p.plate[7].temperature"), Some("lid"));
         assert_eq!(known.name("p.momentum.body[2]"), None);
         assert_eq!(known.bound("p.momentum.body[2]"), Some(("dump.threshold", 4.0)));
         assert_eq!(known.bound("p.wheel[1].speed"), None);
-        assert_eq!(bound_label("wheel[*].capacity"), "capacity");
-        assert_eq!(bound_label("keepIn.azimuth"), "keepIn.azimuth");
         assert_eq!(known.limits("p.wheel[1].speed"), [3.0]);
         let set = [("p.dump.threshold[2]".to_owned(), Value::Real(7.0))];
-        let set = Known::of(&parts, fmu.description(), &set, &[]);
+        let set = Known::of(&parts, &description, &set, &[]);
         assert_eq!(set.bound("p.momentum.body[2]"), Some(("dump.threshold", 7.0)));
     }
 }

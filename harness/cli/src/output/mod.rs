@@ -4,6 +4,7 @@ mod csv;
 mod exporter;
 mod file;
 mod known;
+mod limits;
 mod shown;
 mod standing;
 mod summary;
@@ -27,7 +28,7 @@ use svg::Svg;
 
 pub use file::OutputFile;
 pub use known::Known;
-pub use shown::Shown;
+pub use limits::{Judge, Limit};
 pub use svg::is_lit_fraction;
 pub use svg_path::{check_path as check_svg_path, is_svg_path};
 
@@ -104,7 +105,7 @@ impl Outputs {
             exporters.push(Box::new(Csv::new(csv.grow(inputs)?, *columns)));
         }
         for (svg, plot) in pictures.into_iter().zip(plots) {
-            exporters.push(Box::new(Svg::new(svg, plot.names.clone(), known.clone())));
+            exporters.push(Box::new(Svg { file: svg, names: plot.names.clone(), known: known.clone() }));
         }
         if exporters.is_empty() && !is_quiet {
             exporters.push(Box::new(Summary));

@@ -1,6 +1,6 @@
 //! The summary of a run on the terminal, where no file is named.
 
-use std::{collections::BTreeMap, error::Error, path::PathBuf};
+use std::{collections::BTreeMap, error::Error};
 
 use loader::Recording;
 use model_description::Description;
@@ -9,6 +9,7 @@ use super::{
     exporter::Exporter,
     shown::{ROUNDING, Shown},
 };
+use crate::variables::vector;
 
 /// Rows of the table of last values at most.
 const LAST_ROWS: usize = 24;
@@ -20,10 +21,6 @@ impl Exporter for Summary {
     fn finish(self: Box<Self>, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
         Ok(terminal::print(&summary(described, recording))?)
     }
-
-    fn leave(self: Box<Self>, _described: &Description, _recording: &Recording) -> Option<PathBuf> {
-        None
-    }
 }
 
 /// First, smallest, largest and last value of everything recorded.
@@ -31,15 +28,8 @@ fn summary(described: &Description, recording: &Recording) -> String {
     let mut table = terminal::table(&["variable", "unit", "first", "smallest", "largest", "last"]);
     for (name, column) in recording.names.iter().zip(&recording.columns) {
         if let loader::Column::Text(texts) = column {
-            let at = |text: Option<&String>| text.cloned().unwrap_or_default();
-            table.add_row([
-                name.clone(),
-                String::new(),
-                at(texts.first()),
-                String::new(),
-                String::new(),
-                at(texts.last()),
-            ]);
+            let [first, last] = [texts.first(), texts.last()].map(|text| text.map_or("", String::as_str));
+            table.add_row([name, "", first, "", "", last]);
             continue;
         }
         let shown = Shown::of(described, name);
@@ -68,16 +58,13 @@ pub fn last_values(described: &Description, recording: &Recording) -> String {
             column => {
                 let last = column.numbers().last().copied().unwrap_or(f64::NAN);
                 // A component of nothing but rounding.
-                let least =
-                    vector_of(name).and_then(|vector| sizes.get(vector)).map_or(0.0, |size| ROUNDING * size);
+                let least = vector(name).and_then(|of| sizes.get(of)).map_or(0.0, |size| ROUNDING * size);
                 shown.text(shown.value(if last.abs() < least { 0.0 } else { last }))
             }
         };
-        let vector = vector_of(name);
-        let name = vector.unwrap_or(name);
-        match rows.last_mut() {
-            Some((of, _, values)) if vector.is_some() && *of == name => values.push(text),
-            _ => rows.push((name, shown.unit, vec![text])),
+        match (rows.last_mut(), vector(name)) {
+            (Some((of, _, values)), Some(vector)) if *of == vector => values.push(text),
+            (_, vector) => rows.push((vector.unwrap_or(name), shown.unit, vec![text])),
         }
     }
     let mut table = terminal::table(&["variable", "unit", "last"]);
@@ -90,17 +77,12 @@ pub fn last_values(described: &Description, recording: &Recording) -> String {
     }
 }
 
-/// The vector that a component belongs to.
-fn vector_of(name: &str) -> Option<&str> {
-    name.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map(|(vector, _)| vector)
-}
-
 /// The greatest component of every vector at the end.
 fn last_sizes(recording: &Recording) -> BTreeMap<&str, f64> {
     let mut sizes = BTreeMap::new();
     for (name, column) in recording.names.iter().zip(&recording.columns) {
-        if let (Some(vector), loader::Column::Real(values)) = (vector_of(name), column) {
-            let size: &mut f64 = sizes.entry(vector).or_default();
+        if let (Some(of), loader::Column::Real(values)) = (vector(name), column) {
+            let size: &mut f64 = sizes.entry(of).or_default();
             *size = values.last().map_or(*size, |value| size.max(value.abs()));
         }
     }

@@ -3,36 +3,76 @@
 //! The description comes from the library itself, so it cannot disagree with it. The same input gives the same
 //! archive, byte for byte.
 
-pub mod assemble;
 mod manual;
-mod per_plate;
-mod schedule;
-pub mod source;
-pub mod start;
-pub mod without_effect;
 
-use std::{
-    error::Error,
-    path::{Path, PathBuf},
-    process::ExitCode,
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use files::Destination;
+
+use crate::{
+    assembly::{Assembled, Parts, Source, assemble, reference_flight, unused_map},
+    draw,
+    mission::Mission,
+    outcome::{self, Outcome},
+    patience::Patience,
 };
 
-use files::{Destination, Entries, Scratch};
-use loader::Fmu;
+/// Shown with the help.
+const EXAMPLE: &str = "\
+Example:
+  heliotorque check my.toml                                  what is wrong with it, by line
+  heliotorque pack --spacecraft my.toml --name MyCraft       writes MyCraft.fmu";
 
-use crate::{args::Pack, draw, mission::Mission, outcome::Outcome};
-use assemble::{Assembled, Parts, assemble};
-use source::Source;
-
-/// Paths within an archive with what stands there.
-type Contents = Vec<(String, Vec<u8>)>;
-
-/// The files of the reference flight of the FMU that these files make; an error where it cannot fly it.
-pub fn reference_flight(entries: &Entries, inputs: &str) -> Result<Contents, Box<dyn Error>> {
-    let folder = Scratch::new()?;
-    entries.write_below(folder.path())?;
-    let fmu = Fmu::open(folder.path())?;
-    Ok(reference::record(&fmu, inputs).map_err(|error| loader::Error::chain(&error))?)
+/// `heliotorque pack`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub struct Pack {
+    /// The spacecraft, a TOML file (see `heliotorque schema` and `heliotorque check`); otherwise the one compiled into
+    /// the library
+    #[arg(long, value_name = "TOML")]
+    pub spacecraft: Option<PathBuf>,
+    /// Commands over time, a TOML file (see `heliotorque schema timeline`), for models that take one; the GUID stays
+    #[arg(long, value_name = "TOML")]
+    pub timeline: Option<PathBuf>,
+    /// Positions of Sun, Earth and planets over time, a TOML file (see `heliotorque ephemeris`), for models that take one;
+    /// read where ephemeris.source is chebyshev or coarse; the GUID stays
+    #[arg(long, value_name = "TOML")]
+    pub ephemeris: Option<PathBuf>,
+    /// Take spacecraft, model, timeline, ephemeris, start values and times of a mission, a TOML file; other options win
+    #[arg(long, value_name = "TOML")]
+    pub mission: Option<PathBuf>,
+    /// Add outputs of every plate: plate[k].temperature and plate[k].force[i], as with `per_plate_outputs = true` in the
+    /// spacecraft's file; for models that have them: MomentumPlant, DisturbanceTorque
+    #[arg(long)]
+    pub per_plate: bool,
+    /// Give a parameter or input another start value, in the `[start]` of the packed file; repeatable, written as for
+    /// `run`: attitude.source=commanded, dump.threshold=4,4,4
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// Make a parameter or input a local constant of this FMU, in the `[fixed]` of the packed file; repeatable, written as for
+    /// --set. Dependencies are those of that choice: attitude.source=controlled
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub fix: Vec<String>,
+    /// Name of the new FMU, a C identifier; otherwise the model's
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+    /// Take libraries and licences from this FMU; otherwise the installed program's own, or dist/MomentumPlant.fmu
+    #[arg(long, value_name = "FMU")]
+    pub template: Option<PathBuf>,
+    /// Take this shared library, just built, instead of a template's
+    #[arg(long, value_name = "FILE", conflicts_with = "template", requires = "model")]
+    pub library: Option<PathBuf>,
+    /// The model: MomentumPlant, ...; otherwise the template's or MomentumPlant, where it takes the file, or the one that does:
+    /// SpinPlant for a spinner's
+    #[arg(long, value_name = "MODEL")]
+    pub model: Option<String>,
+    /// The FMU to write; otherwise its name with .fmu, in this folder; - is the standard output
+    #[arg(long, short, value_name = "FMU")]
+    pub output: Option<PathBuf>,
+    /// How long it waits
+    #[command(flatten)]
+    pub patience: Patience,
 }
 
 /// Packs the FMU.
@@ -77,12 +117,10 @@ pub fn run(arguments: &Pack) -> Outcome {
     let files = [parts.spacecraft, parts.timeline, parts.ephemeris].into_iter().flatten();
     let of_mission = arguments.mission.as_deref();
     let inputs: Vec<&Path> = [source.path()].into_iter().chain(files).chain(of_mission).collect();
-    if let Some(warning) = without_effect::unused_map(&setup, &described.model, &description) {
+    if let Some(warning) = unused_map(&setup, &described.model, &description) {
         terminal::note(&format!("warning: {warning}"));
     }
     let destination = Destination::open(&path, "--output", &inputs)?;
-    let is_stdout = destination.is_stdout();
-    destination.fill(|file| file.write_all(&bytes))?;
     let packed = format!(
         "{}: {identifier}, {} variables, GUID {}, {} kB",
         path.display(),
@@ -90,10 +128,5 @@ pub fn run(arguments: &Pack) -> Outcome {
         description.guid,
         bytes.len().div_ceil(1000)
     );
-    if is_stdout {
-        terminal::note(&packed)
-    } else {
-        terminal::print(&packed)?
-    }
-    Ok(ExitCode::SUCCESS)
+    outcome::written(destination, &bytes, &packed)
 }

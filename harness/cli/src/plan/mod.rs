@@ -5,7 +5,28 @@ mod picture;
 
 use std::process::ExitCode;
 
-use crate::{args::Plan, home, outcome::Outcome};
+use clap::{Args, Subcommand};
+
+use crate::{home, outcome::Outcome, patience::Patience};
+
+/// `heliotorque plan`.
+#[derive(Debug, Subcommand)]
+pub enum Plan {
+    /// The train of thruster pulses that turns a spinner with the least nutation
+    #[command(mut_args = |argument| if argument.is_positional() { argument } else { argument.allow_hyphen_values(true) })]
+    Spin(SpinPlan),
+}
+
+/// `heliotorque plan spin`.
+#[derive(Clone, Debug, Args)]
+pub struct SpinPlan {
+    /// What is planned
+    #[command(flatten)]
+    pub options: planner::spin::Options,
+    /// How long the FMU is waited for
+    #[command(flatten)]
+    pub patience: Patience,
+}
 
 /// Prints the plan, and writes its files where a folder is given; a plan that breaks a limit ends with status 1.
 pub fn run(arguments: &Plan) -> Outcome {

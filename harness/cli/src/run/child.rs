@@ -1,24 +1,38 @@
 //! A simulation in a process of its own: the child sends rows, the parent takes them as far as they are expected.
 
 use std::{
+    cell::RefCell,
     ffi::OsString,
-    path::Path,
+    io,
+    path::{Path, PathBuf},
     process::ExitCode,
     sync::atomic::{AtomicBool, Ordering},
 };
 
+use clap::Args;
 use loader::{Collector, Ended, Error, LogMessage, Recording, Row, Rows, Status};
 
-use super::{
-    settings::Settings,
-    simulated::Simulated,
-    subject::{Given, Subject},
-};
+use super::{options::Run, settings::Settings, simulated::Simulated, subject::Subject};
 use crate::{
-    args::RunInChild,
-    child::{Bounds, ChildProcess, EndReason, LARGE, Link, Payload, Shown, push_text},
+    child::{
+        Bounds, ChildProcess, EndReason, LARGE, Link, NOT_REQUESTED, Payload, Shown, path_option, push_text,
+    },
     outcome::Outcome,
 };
+
+/// `heliotorque run-in-child`.
+#[derive(Debug, Args)]
+pub struct RunInChild {
+    /// The folder that the FMU was unpacked into
+    #[arg(long)]
+    pub unpacked_in: PathBuf,
+    /// What the parent read from the standard input
+    #[arg(long)]
+    pub input_copy: Option<PathBuf>,
+    /// What the parent was given
+    #[command(flatten)]
+    pub run: Run,
+}
 
 /// Kinds of frames: a row, a message of the log, the end of the simulation, its failure.
 const ROW: u8 = 1;
@@ -40,50 +54,35 @@ pub struct SimulationResult {
     pub fault: Option<String>,
 }
 
-/// What runs in a child process.
-pub struct InChild<'a> {
-    /// The FMU or system.
-    pub subject: &'a Subject,
-    /// What the parent read from the standard input.
-    pub input_copy: Option<&'a Path>,
-    /// Longest time that an FMI call may take.
-    pub timeout_s: Option<f64>,
+/// Starts the child process of a run; `input_copy` is what the parent read from the standard input.
+pub fn start(subject: &Subject, input_copy: Option<&Path>) -> io::Result<ChildProcess> {
+    let own = [OsString::from("run-in-child"), path_option("--unpacked-in=", &subject.folder())];
+    let own = own.into_iter().chain(input_copy.map(|path| path_option("--input-copy=", path)));
+    // After the program and `run`: the child reads the same arguments.
+    ChildProcess::new(own.chain(std::env::args_os().skip(2)), LARGE, None)
 }
 
-/// Runs in a child process. `tick` is shown the recording so far and the beginning of the step in progress.
+/// Takes what the child process sends, each FMI call within its bounds. `tick` is shown the recording so far and the beginning of
+/// the step in progress.
 pub fn simulate(
-    in_child: &InChild<'_>,
+    child: ChildProcess,
+    subject: &Subject,
+    bounds: Bounds,
     points: u64,
     collector: &mut Collector,
     mut tick: impl FnMut(&Recording, Option<f64>) -> Result<(), String>,
 ) -> SimulationResult {
-    let InChild { subject, input_copy, timeout_s } = *in_child;
-    let option = |name: &str, path: &Path| {
-        let mut option = OsString::from(name);
-        option.push(path);
-        option
-    };
-    let own = [OsString::from("run-in-child"), option("--unpacked-in=", &subject.folder())];
-    let own = own.into_iter().chain(input_copy.map(|path| option("--input-copy=", path)));
-    // After the program and `run`: the child reads the same arguments.
-    let arguments = own.chain(std::env::args_os().skip(2));
-    let child = match ChildProcess::new(arguments, LARGE, &[]) {
-        Ok(child) => child,
-        Err(error) => {
-            let outcome = Err(format!("the process of the FMU cannot be started: {error}"));
-            return SimulationResult { outcome, messages: Vec::new(), fault: None };
-        }
-    };
-    let mut inbox = Inbox::new(collector, points);
-    let inbox_cell = std::cell::RefCell::new(&mut inbox);
+    // One more row where the FMU ends by itself between two points.
+    let rows_left = points.saturating_add(1);
+    let inbox = RefCell::new(Inbox { collector, rows_left, outcome: None, messages: Vec::new() });
     let mut shown = Shown::new(subject.name());
     let supervised = child.supervise(
-        Bounds { call_s: timeout_s, ..Bounds::default() },
-        &mut |kind, payload| inbox_cell.borrow_mut().take(kind, payload),
+        bounds,
+        &mut |kind, payload| inbox.borrow_mut().take(kind, payload),
         &mut |line| shown.line(line),
-        &mut |calls| tick(inbox_cell.borrow().collector.recording(), calls.and_then(loader::step_begin_s)),
+        &mut |calls| tick(inbox.borrow().collector.recording(), calls.and_then(loader::step_begin_s)),
     );
-    let Inbox { outcome, messages, .. } = inbox;
+    let Inbox { outcome, messages, .. } = inbox.into_inner();
     let name = supervised.calls.instance.map_or_else(|| subject.name().to_owned(), |it| subject.named(it));
     if let Some(left) = supervised.left_behind() {
         terminal::note(&format!("{name}: {left}"));
@@ -105,45 +104,23 @@ pub fn simulate(
 /// Takes the frames of a simulation.
 struct Inbox<'a> {
     collector: &'a mut Collector,
-    widths: [usize; 4],
     rows_left: u64,
-    reals: Vec<f64>,
-    integers: Vec<i32>,
-    booleans: Vec<i32>,
-    texts: Vec<String>,
     outcome: Option<Result<Ended, String>>,
     messages: Vec<LogMessage>,
 }
 
-impl<'a> Inbox<'a> {
-    fn new(collector: &'a mut Collector, points: u64) -> Self {
-        Self {
-            widths: collector.widths(),
-            collector,
-            // One more where the FMU ends by itself between two points.
-            rows_left: points.saturating_add(1),
-            reals: Vec::new(),
-            integers: Vec::new(),
-            booleans: Vec::new(),
-            texts: Vec::new(),
-            outcome: None,
-            messages: Vec::new(),
-        }
-    }
-
+impl Inbox<'_> {
     /// Whether it was the last frame.
     fn take(&mut self, kind: u8, mut payload: Payload<'_>) -> Result<bool, String> {
-        const NOT_REQUESTED: &str = "it sent what was not requested";
         if self.outcome.is_some() {
             return Err(NOT_REQUESTED.to_owned());
         }
         match kind {
             ROW => {
                 self.rows_left = self.rows_left.checked_sub(1).ok_or(NOT_REQUESTED)?;
-                let time_s = self.row(&mut payload).filter(|_| payload.is_empty()).ok_or(NOT_REQUESTED)?;
-                let Self { collector, reals, integers, booleans, texts, .. } = self;
-                let row = Row { time_s, reals, integers, booleans, texts };
-                collector.take(&row).map_err(|error| error.to_string())?;
+                let sent = SentRow::of(&mut payload, self.collector.widths());
+                let sent = sent.filter(|_| payload.is_empty()).ok_or(NOT_REQUESTED)?;
+                self.collector.take(&sent.row()).map_err(|error| error.to_string())?;
             }
             MESSAGE if self.messages.len() < MESSAGES => {
                 self.messages.push(message(&mut payload).ok_or(NOT_REQUESTED)?);
@@ -158,22 +135,33 @@ impl<'a> Inbox<'a> {
         }
         Ok(self.outcome.is_some())
     }
+}
 
-    fn row(&mut self, payload: &mut Payload<'_>) -> Option<f64> {
-        let time_s = f64::from_bits(payload.word()?);
-        let [reals, integers, booleans, texts] = self.widths;
-        self.reals.clear();
-        self.reals.extend(payload.words(reals)?.iter().map(|word| f64::from_bits(*word)));
-        let whole = |word: &u64| *word as u32 as i32;
-        self.integers.clear();
-        self.integers.extend(payload.words(integers)?.iter().map(whole));
-        self.booleans.clear();
-        self.booleans.extend(payload.words(booleans)?.iter().map(whole));
-        self.texts.clear();
-        for _ in 0..texts {
-            self.texts.push(payload.text()?);
-        }
-        Some(time_s)
+/// A row as it was sent.
+struct SentRow {
+    time_s: f64,
+    reals: Vec<f64>,
+    integers: Vec<i32>,
+    booleans: Vec<i32>,
+    texts: Vec<String>,
+}
+
+impl SentRow {
+    /// Of so many values of each base type.
+    fn of(payload: &mut Payload<'_>, [reals, integers, booleans, texts]: [usize; 4]) -> Option<Self> {
+        let whole = |words: &[u64]| words.iter().map(|word| *word as u32 as i32).collect();
+        Some(Self {
+            time_s: f64::from_bits(payload.word()?),
+            reals: payload.words(reals)?.iter().map(|word| f64::from_bits(*word)).collect(),
+            integers: whole(payload.words(integers)?),
+            booleans: whole(payload.words(booleans)?),
+            texts: (0..texts).map(|_| payload.text()).collect::<Option<_>>()?,
+        })
+    }
+
+    fn row(&self) -> Row<'_> {
+        let Self { time_s, reals, integers, booleans, texts } = self;
+        Row { time_s: *time_s, reals, integers, booleans, texts }
     }
 }
 
@@ -203,7 +191,7 @@ impl Rows for RowSender<'_> {
 
 /// Runs in this process and sends the parent what comes of it.
 pub fn run(arguments: &RunInChild) -> Outcome {
-    let mut link = Link::attach().map_err(|error| format!("`heliotorque run` starts this: {error}"))?;
+    let mut link = Link::attach("heliotorque run")?;
     match simulation(arguments, &mut link) {
         Ok((ended, messages)) => {
             for message in &messages {
@@ -233,18 +221,10 @@ fn simulation(
     let subject = Subject::open(&arguments.unpacked_in)?;
     let simulated = Simulated::of(&arguments.run)?;
     let settings = Settings::of(&subject, &simulated, arguments.input_copy.as_deref())?;
-    let (cancel, cancel_word) = (AtomicBool::new(link.is_cancelled()), link.cancel_word());
-    let mut check_cancel = |_: f64| {
-        if cancel_word.load(Ordering::Relaxed) != 0 {
-            cancel.store(true, Ordering::Relaxed);
-        }
-    };
-    let given = Given {
-        sets: settings.sets,
-        inputs: settings.inputs.as_ref(),
-        positions: settings.positions,
-        progress: &mut check_cancel,
-        cancel: &cancel,
-    };
-    Ok(subject.simulate_into(&simulated.run, given, &mut RowSender(link))?)
+    let cancel_word = link.cancel_word();
+    let cancel = AtomicBool::new(false);
+    let mut check_cancel = |_: f64| cancel.store(cancel_word.load(Ordering::Relaxed) != 0, Ordering::Relaxed);
+    check_cancel(0.0);
+    let watched = (&mut check_cancel as &mut dyn FnMut(f64), &cancel);
+    Ok(settings.simulate_into(&subject, &simulated.run, watched, &mut RowSender(link))?)
 }

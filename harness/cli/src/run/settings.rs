@@ -1,15 +1,21 @@
 //! What the arguments of `heliotorque run` mean for an FMU or a system.
 
-use std::path::Path;
+use std::{path::Path, sync::atomic::AtomicBool};
 
-use loader::{InputTable, Times};
+use loader::{Ended, InputTable, InstanceOptions, LogMessage, Options, Rows, Times};
 use model_description::Description;
 
-use super::{simulated::Simulated, subject::Subject};
+use systems::{FirstExchange, Master};
+
+use super::{
+    options::{FirstExchangeKind, MasterKind, Run},
+    simulated::Simulated,
+    subject::Subject,
+};
 use crate::{
-    epoch,
-    mission::{self, Limit, Resolved},
-    output::{self, OutputFile, Plot, Requested},
+    mission::{self, Resolved},
+    output::{self, Limit, OutputFile, Plot, Requested},
+    variables::{assigned, selected},
 };
 
 /// What the arguments mean for an FMU or a system.
@@ -42,10 +48,7 @@ impl Settings {
             None => Resolved::default(),
         };
         let times = subject.times(arguments)?;
-        let mut sets = resolved.sets;
-        for setting in &arguments.set {
-            sets.extend(loader::parse_assignment(described, &epoch::in_seconds(described, setting)?)?);
-        }
+        let sets = [resolved.sets, assigned(described, &arguments.set)?].concat();
         let inputs = arguments.input.as_deref();
         let inputs =
             inputs.map(|path| read_table(described, path, input_copy.unwrap_or(path))).transpose()?;
@@ -61,21 +64,22 @@ impl Settings {
         let given = arguments.output.as_deref().map(|path| OutputFile::of_option(path, "--output"));
         let table = given
             .or_else(|| Some(of_mission(mission.as_ref()?.output.as_deref()?, "`output` in the mission")));
-        let mut plots: Vec<Plot> = match (&arguments.plot, mission) {
-            (Some(path), _) => vec![Plot { file: OutputFile::of_option(path, "--plot"), names: None }],
-            (None, Some(mission)) => {
-                let plots = mission.plots.iter().zip(&resolved.plots);
+        let mut plots: Vec<Plot> = match &arguments.plot {
+            Some(path) => vec![Plot { file: OutputFile::of_option(path, "--plot"), names: None }],
+            None => {
+                let plots = mission.iter().flat_map(|mission| &mission.plots).zip(&resolved.plots);
                 let plot = |(plot, shown): (&mission::Plot, &Option<Vec<usize>>)| Plot {
                     file: of_mission(&plot.file, "`plot` in the mission"),
                     names: shown.as_deref().map(named),
                 };
                 plots.map(plot).collect()
             }
-            (None, None) => Vec::new(),
         };
-        let mut positions = selection(described, &arguments.record)?
-            .or(resolved.record)
-            .unwrap_or_else(|| loader::outputs(described));
+        let mut positions = match (&arguments.record[..], resolved.record) {
+            ([], Some(positions)) => positions,
+            ([], None) => loader::outputs(described),
+            (patterns, _) => selected(described, patterns, loader::select_outputs)?,
+        };
         // What is drawn or judged is recorded too.
         let requested = plots.iter().flat_map(|plot| plot.names.iter().flatten());
         let requested = requested.chain(resolved.limits.iter().map(|limit| &limit.name));
@@ -106,22 +110,44 @@ impl Settings {
             limits: resolved.limits,
         })
     }
-}
 
-/// Positions of the variables to record; `None` for all outputs.
-fn selection(described: &Description, patterns: &[String]) -> Result<Option<Vec<usize>>, loader::Error> {
-    if patterns.is_empty() {
-        return Ok(None);
-    }
-    let mut positions = Vec::new();
-    for pattern in patterns {
-        for position in loader::select_outputs(described, pattern)? {
-            if !positions.contains(&position) {
-                positions.push(position);
+    /// Runs it in this process, telling the time in s after every step, until a word says that it shall end.
+    pub fn simulate_into(
+        &self,
+        subject: &Subject,
+        arguments: &Run,
+        (progress, cancel): (&mut dyn FnMut(f64), &AtomicBool),
+        rows: &mut dyn Rows,
+    ) -> Result<(Ended, Vec<LogMessage>), loader::Error> {
+        let options = Options {
+            start_s: arguments.start,
+            stop_s: arguments.stop,
+            step_s: arguments.step,
+            record_every_s: arguments.every,
+            sets: self.sets.clone(),
+            inputs: self.inputs.as_ref(),
+            input_derivatives: arguments.slopes,
+            record: Some(self.positions.clone()),
+            instance: InstanceOptions { logging: arguments.log, ..InstanceOptions::default() },
+            progress: Some(progress),
+            cancel: Some(cancel),
+            ..Options::default()
+        };
+        match subject {
+            Subject::Fmu(fmu) => loader::simulate_into(fmu, options, rows),
+            Subject::System(system) => {
+                let master = match arguments.master {
+                    None | Some(MasterKind::Jacobi) => Master::Jacobi,
+                    Some(MasterKind::GaussSeidel) => Master::GaussSeidel,
+                };
+                let first = match arguments.first_exchange {
+                    None | Some(FirstExchangeKind::Initial) => FirstExchange::Initial,
+                    Some(FirstExchangeKind::Zeros) => FirstExchange::Zeros,
+                };
+                systems::simulate_into(system, (master, first), options, rows)
             }
         }
     }
-    Ok(Some(positions))
 }
 
 /// Reads the input table of a path, from where it stands.

@@ -1,22 +1,36 @@
 //! What a run flies: the arguments of `heliotorque run` over those of a mission, and the FMU packed from its files.
 
-use std::{error::Error, ffi::OsString, path::Path, process::ExitCode};
+use std::{
+    error::Error,
+    ffi::OsString,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
 
+use clap::Args;
 use files::Scratch;
 use loader::Fmu;
 
+use super::{options::Run, subject::Subject};
 use crate::{
-    args::{Assemble, Run},
-    child::{self, Bounds, Relayed, SMALL},
+    assembly::{Parts, Source, assemble},
+    child::{self, Bounds, Relayed, SMALL, path_option},
     mission::{Craft, Inputs, Mission},
     outcome::Outcome,
-    pack::{
-        assemble::{Parts, assemble},
-        source::Source,
-    },
 };
 
-use super::subject::Subject;
+/// `heliotorque assemble`.
+#[derive(Debug, Args)]
+pub struct Assemble {
+    /// The mission
+    pub mission: PathBuf,
+    /// The FMU whose library reads its files
+    #[arg(long)]
+    pub template: Option<PathBuf>,
+    /// An empty folder, which becomes the FMU's
+    #[arg(long)]
+    pub into: PathBuf,
+}
 
 /// Longest time in s that a call may take in which a library reads a mission's files, where --timeout says nothing.
 const PACKING_S: f64 = 60.0;
@@ -76,15 +90,10 @@ impl Simulated {
             return Ok(folder);
         }
         let name = template.map_or_else(|| "the library".to_owned(), |path| path.display().to_string());
-        let bounds = Bounds { call_s: Some(self.run.timeout.unwrap_or(PACKING_S)), ..Bounds::default() };
-        let mut arguments = vec![OsString::from("assemble"), mission.file.clone().into()];
-        let mut option = |name: &str, path: &Path| {
-            let mut option = OsString::from(name);
-            option.push(path);
-            arguments.push(option);
-        };
-        option("--into=", folder.path());
-        template.iter().for_each(|template| option("--template=", template));
+        let bounds = Bounds::of_calls(self.run.timeout.unwrap_or(PACKING_S));
+        let into = path_option("--into=", folder.path());
+        let arguments = [OsString::from("assemble"), mission.file.clone().into(), into];
+        let arguments = arguments.into_iter().chain(template.map(|path| path_option("--template=", path)));
         Relayed { name, bounds, limits: SMALL }.run(arguments)?;
         Ok(folder)
     }

@@ -3,14 +3,13 @@
 use std::{
     error::Error,
     path::{Path, PathBuf},
-    sync::atomic::AtomicBool,
 };
 
-use loader::{Ended, Fmu, InstanceOptions, LogMessage, Options, Rows, Times};
+use loader::{Fmu, Times};
 use model_description::Description;
 use systems::System;
 
-use crate::args::{FirstExchangeKind, MasterKind, Run};
+use super::options::Run;
 
 /// What is run.
 pub enum Subject {
@@ -18,20 +17,6 @@ pub enum Subject {
     Fmu(Fmu),
     /// A system.
     System(Box<System>),
-}
-
-/// What a run is given beside its arguments.
-pub struct Given<'a> {
-    /// Values set before the run.
-    pub sets: Vec<(String, loader::Value)>,
-    /// Inputs over time.
-    pub inputs: Option<&'a loader::InputTable>,
-    /// What is recorded.
-    pub positions: Vec<usize>,
-    /// Told the time in s after every step.
-    pub progress: &'a mut dyn FnMut(f64),
-    /// Once true, the run ends.
-    pub cancel: &'a AtomicBool,
 }
 
 impl Subject {
@@ -46,30 +31,21 @@ impl Subject {
 
     /// Refuses options that only the other kind takes.
     pub fn check_options(&self, arguments: &Run) -> Result<(), String> {
-        let of_systems = [
-            (arguments.master.is_some(), "--master"),
-            (arguments.first_exchange.is_some(), "--first-exchange"),
-        ];
-        match self {
-            Self::Fmu(_) => match of_systems.iter().find(|(is_given, _)| *is_given) {
-                Some((_, option)) => {
-                    Err(format!("{option} is for a system (.ssp): an FMU alone exchanges nothing"))
-                }
-                None => Ok(()),
-            },
+        let option = match self {
+            Self::Fmu(_) if arguments.master.is_some() => "--master",
+            Self::Fmu(_) if arguments.first_exchange.is_some() => "--first-exchange",
             Self::System(_) if arguments.slopes => {
-                Err("--slopes is for an FMU: open inputs of a system are held over a step".to_owned())
+                return Err("--slopes is for an FMU: open inputs of a system are held over a step".to_owned());
             }
-            Self::System(_) => Ok(()),
-        }
+            _ => return Ok(()),
+        };
+        Err(format!("{option} is for a system (.ssp): an FMU alone exchanges nothing"))
     }
 
     /// Refuses what this computer has no library for.
     pub fn check_libraries(&self) -> Result<(), Box<dyn Error>> {
         match self {
-            Self::Fmu(fmu) => {
-                fmu.binary_path()?;
-            }
+            Self::Fmu(fmu) => drop(fmu.binary_path()?),
             Self::System(system) => {
                 for part in system.parts() {
                     part.fmu.binary_path().map_err(|error| format!("component {}: {error}", part.name))?;
@@ -108,11 +84,10 @@ impl Subject {
         let name = self.name();
         match self {
             // What the child writes is not trusted.
-            Self::System(system) => system
-                .parts()
-                .get(number)
-                .map_or_else(|| name.to_owned(), |part| format!("{name}, component {}", part.name)),
-            Self::Fmu(_) => name.to_owned(),
+            Self::System(system) if number < system.parts().len() => {
+                format!("{name}, component {}", system.parts()[number].name)
+            }
+            _ => name.to_owned(),
         }
     }
 
@@ -130,54 +105,6 @@ impl Subject {
         match self {
             Self::Fmu(fmu) => Times::of(fmu, start, stop, step),
             Self::System(system) => system.times(start, stop, step),
-        }
-    }
-
-    /// Runs it in this process.
-    pub fn simulate_into(
-        &self,
-        arguments: &Run,
-        given: Given<'_>,
-        rows: &mut dyn Rows,
-    ) -> Result<(Ended, Vec<LogMessage>), loader::Error> {
-        let Given { sets, inputs, positions, progress, cancel } = given;
-        let options = Options {
-            start_s: arguments.start,
-            stop_s: arguments.stop,
-            step_s: arguments.step,
-            record_every_s: arguments.every,
-            sets,
-            inputs,
-            input_derivatives: arguments.slopes,
-            record: Some(positions),
-            apart: None,
-            instance: InstanceOptions { logging: arguments.log, ..InstanceOptions::default() },
-            progress: Some(progress),
-            cancel: Some(cancel),
-        };
-        let master = arguments.master.map(systems::Master::from).unwrap_or_default();
-        let first = arguments.first_exchange.map(systems::FirstExchange::from).unwrap_or_default();
-        match self {
-            Self::Fmu(fmu) => loader::simulate_into(fmu, options, rows),
-            Self::System(system) => systems::simulate_into(system, (master, first), options, rows),
-        }
-    }
-}
-
-impl From<MasterKind> for systems::Master {
-    fn from(kind: MasterKind) -> Self {
-        match kind {
-            MasterKind::Jacobi => Self::Jacobi,
-            MasterKind::GaussSeidel => Self::GaussSeidel,
-        }
-    }
-}
-
-impl From<FirstExchangeKind> for systems::FirstExchange {
-    fn from(kind: FirstExchangeKind) -> Self {
-        match kind {
-            FirstExchangeKind::Initial => Self::Initial,
-            FirstExchangeKind::Zeros => Self::Zeros,
         }
     }
 }

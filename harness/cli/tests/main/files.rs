@@ -9,7 +9,7 @@ use std::{
     time::Duration,
 };
 
-use crate::{heliotorque, packed, probe_library, run, shown, text};
+use crate::{heliotorque, packed, probe_library, run, says, shown, text};
 
 /// Names of a folder's files.
 fn names(folder: &Path) -> Vec<String> {
@@ -92,10 +92,7 @@ fn an_input_is_never_written_over() {
         ("--plot", &at("hard.svg")),
     ] {
         let printed = run(&[&simulate[..], &[option, shown(path)]].concat(), 1);
-        assert!(
-            printed.contains("it is an input too") && printed.contains(&format!("see {option}")),
-            "{printed}"
-        );
+        says(&printed, &["it is an input too", &format!("see {option}")]);
     }
     // The recording in progress would be the input.
     fs::rename(&input, at("x.csv.part")).unwrap();

@@ -93,14 +93,8 @@ fn a_program_with_its_library_beside_it_works_in_an_empty_folder() {
 
 #[test]
 fn a_file_that_is_wrong_is_judged_as_what_it_is() {
-    let Some(library) = library() else { return };
-    let scratch = tempfile::tempdir().unwrap();
+    let Some((scratch, template)) = crate::template() else { return };
     let at = |name: &str| scratch.path().join(name);
-    let template = at("MomentumPlant.fmu");
-    crate::run(
-        &["pack", "--library", shown(&library), "--model", "MomentumPlant", "--output", shown(&template)],
-        0,
-    );
     let ace = include_str!("../../../../fmu-src/resources/ace.toml");
     let wrong = at("wrong.toml");
     fs::write(&wrong, ace.replace("resolution_s = 0.032", "resolution_s = -1.0")).unwrap();

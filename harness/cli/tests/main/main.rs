@@ -52,6 +52,12 @@ pub fn run(arguments: &[&str], status: i32) -> String {
     text
 }
 
+/// Asserts that a text has all of these parts.
+#[track_caller]
+pub fn says(text: &str, parts: &[&str]) {
+    parts.iter().for_each(|part| assert!(text.contains(part), "{text} lacks {part}"));
+}
+
 /// A path as text.
 pub fn shown(path: &Path) -> &str {
     path.to_str().unwrap()
@@ -80,17 +86,19 @@ pub fn built(variable: &str) -> Option<PathBuf> {
 
 /// A packed probe model in a fresh folder.
 pub fn packed(model: &str) -> Option<(TempDir, PathBuf)> {
-    packed_from(&probe_library()?, model, &format!("{model}.fmu"))
+    packed_from(&probe_library()?, model, &format!("{model}.fmu"), &[])
 }
 
 /// `template.fmu` in a fresh folder: a MomentumPlant, whose library reads every file.
 pub fn template() -> Option<(TempDir, PathBuf)> {
-    packed_from(&library()?, "MomentumPlant", "template.fmu")
+    packed_from(&library()?, "MomentumPlant", "template.fmu", &[])
 }
 
-fn packed_from(library: &Path, model: &str, name: &str) -> Option<(TempDir, PathBuf)> {
+/// A model packed with these options in a fresh folder.
+pub fn packed_from(library: &Path, model: &str, name: &str, more: &[&str]) -> Option<(TempDir, PathBuf)> {
     let scratch = tempfile::tempdir().unwrap();
     let fmu = scratch.path().join(name);
-    run(&["pack", "--library", shown(library), "--model", model, "--output", shown(&fmu)], 0);
+    let pack = ["pack", "--library", shown(library), "--model", model, "--output", shown(&fmu)];
+    run(&[&pack[..], more].concat(), 0);
     Some((scratch, fmu))
 }

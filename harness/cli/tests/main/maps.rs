@@ -6,7 +6,7 @@ use loader::{Fmu, Instance, InstanceOptions, Value};
 use resvg::usvg::roxmltree::Document;
 use tempfile::TempDir;
 
-use crate::{heliotorque, library, run, shown, text, words};
+use crate::{heliotorque, library, packed_from, run, says, shown, text, words};
 
 const MESSENGER: &str = "../../fmu-src/resources/messenger.toml";
 const AU_M: f64 = 149_597_870_700.0;
@@ -15,13 +15,7 @@ type Row = HashMap<String, f64>;
 
 /// Packs DisturbanceTorque of a file; maps can take its library too.
 fn packed(spacecraft: &str) -> Option<(TempDir, PathBuf)> {
-    let library = library()?;
-    let scratch = tempfile::tempdir().unwrap();
-    let fmu = scratch.path().join("torque.fmu");
-    let pack =
-        ["pack", "--library", shown(&library), "--model", "DisturbanceTorque", "--spacecraft", spacecraft];
-    run(&[&pack[..], &["--output", shown(&fmu)]].concat(), 0);
-    Some((scratch, fmu))
+    packed_from(&library()?, "DisturbanceTorque", "torque.fmu", &["--spacecraft", spacecraft])
 }
 
 /// Runs `map` with one of its files on the standard output.
@@ -73,15 +67,10 @@ impl Torque {
         }
         self.instance.do_step(self.time_s, 1.0, true).unwrap();
         self.time_s += 1.0;
-        let names = [
-            "torque.solar[1]",
-            "torque.solar[2]",
-            "torque.solar[3]",
-            "force.solar[1]",
-            "force.solar[2]",
-            "force.solar[3]",
-        ];
-        names.map(|name| self.instance.get_real(name).unwrap())
+        [0, 1, 2, 3, 4, 5].map(|k| {
+            let load = if k < 3 { "torque" } else { "force" };
+            self.instance.get_real(&format!("{load}.solar[{}]", k % 3 + 1)).unwrap()
+        })
     }
 }
 
@@ -119,16 +108,9 @@ fn every_direction_is_what_the_fmu_says() {
     let rows = rows(&csv);
     assert_eq!(rows.len(), 360 * 181);
     let mut torque = Torque::of(&fmu);
-    let greatest = rows
-        .iter()
-        .map(|row| ["torque_x_n_m", "torque_y_n_m", "torque_z_n_m"].map(|name| row[name]))
-        .map(|it| norm(&it))
-        .fold(0.0, f64::max);
-    let greatest_force = rows
-        .iter()
-        .map(|row| ["force_x_n", "force_y_n", "force_z_n"].map(|name| row[name]))
-        .map(|it| norm(&it))
-        .fold(0.0, f64::max);
+    let columns = [["torque_x_n_m", "torque_y_n_m", "torque_z_n_m"], ["force_x_n", "force_y_n", "force_z_n"]];
+    let greatest =
+        columns.map(|names| rows.iter().map(|row| norm(&names.map(|name| row[name]))).fold(0.0, f64::max));
     for row in &rows {
         let (azimuth, elevation) = (row["sun_azimuth_deg"], row["sun_elevation_deg"]);
         let angles = [row["panel_1_angle_deg"], row["panel_2_angle_deg"]].map(f64::to_radians);
@@ -139,11 +121,10 @@ fn every_direction_is_what_the_fmu_says() {
             assert!(apart < 1e-7 && (angles[0] - expected).cos() > 0.0, "{row:?}: {expected}");
         }
         let found = torque.at(azimuth, elevation, 0.3 * AU_M, &angles);
-        for (name, value) in ["torque_x_n_m", "torque_y_n_m", "torque_z_n_m"].into_iter().zip(&found[..3]) {
-            assert!((row[name] - value).abs() <= 1e-14 * greatest, "{row:?}: {name} {value}");
-        }
-        for (name, value) in ["force_x_n", "force_y_n", "force_z_n"].into_iter().zip(&found[3..]) {
-            assert!((row[name] - value).abs() <= 1e-14 * greatest_force, "{row:?}: {name} {value}");
+        for ((names, values), greatest) in columns.iter().zip(found.chunks(3)).zip(greatest) {
+            for (name, value) in names.iter().zip(values) {
+                assert!((row[*name] - value).abs() <= 1e-14 * greatest, "{row:?}: {name} {value}");
+            }
         }
     }
 }
@@ -340,11 +321,8 @@ fn the_picture_shows_lines_and_a_mission() {
 fn what_cannot_be_mapped_is_refused_by_name() {
     for (arguments, expected) in [
         (&["--distance", "nan"][..], "--distance"),
-        (&["--distance", "0"], "--distance"),
         (&["--zone", "0deg,13deg"], "--zone"),
-        (&["--zone", "15deg"], "--zone"),
         (&["--step", "7deg"], "--step"),
-        (&["--step", "0deg"], "--step"),
         (&["--panel-offset", "200deg"], "--panel-offset"),
         (&["--no-picture", "--output", "x.svg"], "--output"),
         (&["--source", "moon"], "--source"),
@@ -390,10 +368,7 @@ fn what_cannot_be_mapped_is_refused_by_name() {
     assert!(!fs::read_to_string(svg).unwrap().contains("keep-in"));
     for zone in [["--zone", "20deg,10deg"], ["--set", "keepIn.azimuth=20deg"]] {
         let reported = run(&[&["map", shown(&bare)][..], &template, &zone].concat(), 0);
-        assert!(
-            reported.contains("Sun keep-in zone: 20 deg of azimuth") && reported.contains("in the zone"),
-            "{reported}"
-        );
+        says(&reported, &["Sun keep-in zone: 20 deg of azimuth", "in the zone"]);
     }
     // As the flight has it.
     let ignored = ["--zone", "180deg,90deg"];

@@ -2,14 +2,16 @@
 
 use std::{fs, path::Path};
 
-use crate::{heliotorque, run, shown, template, text, words};
+use crate::{heliotorque, run, says, shown, template, text, words};
 
 const RESOURCES: &str = "../../fmu-src/resources";
 
-/// What a command says in the folder, and its status.
-fn said(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+/// What a command says in the folder, where it ends with this status.
+#[track_caller]
+fn said(folder: &Path, arguments: &[&str], status: i32) -> String {
     let output = heliotorque(arguments).current_dir(folder).output().unwrap();
-    (output.status.code(), text(&output))
+    assert_eq!(output.status.code(), Some(status), "{arguments:?}: {}", text(&output));
+    text(&output)
 }
 
 /// The rows of a CSV file.
@@ -44,15 +46,11 @@ fn a_mission_flies_as_it_is_written_and_options_win() {
     let folder = scratch.path();
     fs::create_dir(folder.join("deep")).unwrap();
     fs::write(folder.join("deep/m.toml"), MISSION).unwrap();
-    let fly =
-        |more: &[&str]| said(folder, &[&["run", "deep/m.toml", "--template", "template.fmu"], more].concat());
-    let (status, reported) = fly(&[]);
-    assert_eq!(status, Some(0), "{reported}");
-    assert!(
-        reported.contains("120 steps to 7200 s")
-            && reported.contains("kept: sun.elevation from -20 to 20 deg"),
-        "{reported}"
-    );
+    let fly = |more: &[&str], status: i32| {
+        said(folder, &[&["run", "deep/m.toml", "--template", "template.fmu"], more].concat(), status)
+    };
+    let reported = fly(&[], 0);
+    says(&reported, &["120 steps to 7200 s", "kept: sun.elevation from -20 to 20 deg"]);
     // Beside the mission, not where it was started.
     assert!(folder.join("deep/momentum.svg").exists() && !folder.join("out.csv").exists());
     let header = fs::read_to_string(folder.join("deep/out.csv")).unwrap();
@@ -70,14 +68,15 @@ fn a_mission_flies_as_it_is_written_and_options_win() {
     assert_eq!(offsets, [60.0, 60.0, 60.0, 65.0, 65.0], "a tunable parameter is held");
 
     let csv = folder.join("mine.csv");
-    let (status, reported) = fly(&words(
-        "--stop 1h --every 60s --record time*,dump.threshold --output mine.csv --set dump.threshold[2]=3",
-    ));
-    assert_eq!(status, Some(1), "{reported}");
+    let reported = fly(
+        &words(
+            "--stop 1h --every 60s --record time*,dump.threshold --output mine.csv --set dump.threshold[2]=3",
+        ),
+        1,
+    );
     assert!(reported.contains("time*"), "{reported}");
     let more = ["--stop", "1h", "--every", "60s", "--record", "dump.threshold", "--output", "mine.csv"];
-    let (status, reported) = fly(&[&more[..], &["--set", "dump.threshold[2]=3"]].concat());
-    assert_eq!(status, Some(0), "{reported}");
+    fly(&[&more[..], &["--set", "dump.threshold[2]=3"]].concat(), 0);
     let mine = rows(&csv);
     assert_eq!((mine.len(), &mine[0][1..4]), (61, &[4.0, 3.0, 4.0][..]));
 }
@@ -88,13 +87,9 @@ fn a_limit_that_breaks_is_reported_with_its_time_and_ends_with_one() {
     let folder = scratch.path();
     let text = MISSION.replace(r#"min = "-20 deg", max = "20 deg""#, "min = 100");
     fs::write(folder.join("m.toml"), text).unwrap();
-    let (status, reported) = said(folder, &["run", "m.toml", "--template", "template.fmu", "--quiet"]);
-    assert_eq!(status, Some(1), "{reported}");
+    let reported = said(folder, &["run", "m.toml", "--template", "template.fmu", "--quiet"], 1);
     let expected = "m.toml:18: limits.\"sun.elevation\": found ";
-    assert!(
-        reported.contains(expected) && reported.contains("at 0 s (2011-04-06T00:00:00 UTC), the first time"),
-        "{reported}"
-    );
+    says(&reported, &[expected, "at 0 s (2011-04-06T00:00:00 UTC), the first time"]);
     assert!(folder.join("out.csv").exists(), "what was simulated is kept");
 }
 
@@ -105,17 +100,16 @@ fn a_packed_mission_starts_as_the_mission_does() {
     // Inputs over time are no start values.
     let text = MISSION.replace("\"60 deg\"], [\"1 h\", \"65 deg\"]", "\"65 deg\"]");
     fs::write(folder.join("m.toml"), &text).unwrap();
-    let (status, reported) = said(
+    let reported = said(
         folder,
         &words("pack --mission m.toml --template template.fmu --name Mine --set dump.threshold[3]=5"),
+        0,
     );
-    assert!(status == Some(0) && reported.contains("Mine.fmu: Mine, "), "{reported}");
-    let (status, reported) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
-    assert_eq!(status, Some(0), "{reported}");
+    assert!(reported.contains("Mine.fmu: Mine, "), "{reported}");
+    said(folder, &["run", "m.toml", "--template", "template.fmu"], 0);
     let record = "epoch,panel[1].sunOffset,momentum.body[1],sun.elevation,dump.threshold[3]";
     let more = ["--every", "30min", "--record", record, "--output", "fmu.csv"];
-    let (status, reported) = said(folder, &[&["run", "Mine.fmu"], &more[..]].concat());
-    assert_eq!(status, Some(0), "{reported}");
+    said(folder, &[&["run", "Mine.fmu"], &more[..]].concat(), 0);
     let (of_mission, of_fmu) = (rows(&folder.join("out.csv")), rows(&folder.join("fmu.csv")));
     assert!(of_fmu.iter().all(|row| row[5] == 5.0));
     let same: Vec<Vec<f64>> = of_fmu.into_iter().map(|row| row[..5].to_vec()).collect();
@@ -123,12 +117,10 @@ fn a_packed_mission_starts_as_the_mission_does() {
     // It flies an FMU too, and then packs nothing.
     let text = text.replace("model = \"MomentumPlant\"", "fmu = \"Mine.fmu\"");
     fs::write(folder.join("of-fmu.toml"), text).unwrap();
-    let (status, reported) = said(folder, &["run", "of-fmu.toml", "--output", "again.csv"]);
-    assert_eq!(status, Some(0), "{reported}");
+    said(folder, &["run", "of-fmu.toml", "--output", "again.csv"], 0);
     assert_eq!(rows(&folder.join("again.csv")), of_mission);
-    let (status, reported) =
-        said(folder, &["pack", "--mission", "of-fmu.toml", "--template", "template.fmu"]);
-    assert!(status == Some(1) && reported.contains("which is packed already"), "{reported}");
+    let reported = said(folder, &["pack", "--mission", "of-fmu.toml", "--template", "template.fmu"], 1);
+    assert!(reported.contains("which is packed already"), "{reported}");
 }
 
 #[test]
@@ -137,7 +129,7 @@ fn later_wins_file_mission_option() {
     let folder = scratch.path();
     // Its [start.MomentumPlant] has 4, 4, 4.
     fs::create_dir(folder.join("craft")).unwrap();
-    assert_eq!(said(folder, &["new", "spacecraft", "craft/s.toml"]).0, Some(0));
+    said(folder, &["new", "spacecraft", "craft/s.toml"], 0);
     let mission = "spacecraft = \"craft/s.toml\"\nstop = 60\nstep = 60\nrecord = [\"dump.threshold\"]\noutput = \"out.csv\"\n";
     fs::write(
         folder.join("m.toml"),
@@ -145,16 +137,13 @@ fn later_wins_file_mission_option() {
     )
     .unwrap();
     let options = ["--template", "template.fmu", "--set", "dump.threshold[3]=3"];
-    let (status, reported) = said(folder, &[&["run", "m.toml"], &options[..]].concat());
-    assert_eq!(status, Some(0), "{reported}");
+    said(folder, &[&["run", "m.toml"], &options[..]].concat(), 0);
     let flown = rows(&folder.join("out.csv"));
     assert_eq!(flown[0][1..], [4.0, 2.0, 3.0]);
-    let (status, reported) =
-        said(folder, &[&["pack", "--mission", "m.toml", "--name", "Mine"], &options[..]].concat());
-    assert_eq!(status, Some(0), "{reported}");
+
+    said(folder, &[&["pack", "--mission", "m.toml", "--name", "Mine"], &options[..]].concat(), 0);
     let again = ["run", "Mine.fmu", "--record", "dump.threshold", "--output", "again.csv"];
-    let (status, reported) = said(folder, &again);
-    assert_eq!(status, Some(0), "{reported}");
+    said(folder, &again, 0);
     // Its default experiment is the mission's too.
     assert_eq!(rows(&folder.join("again.csv")), flown);
 }
@@ -165,13 +154,13 @@ fn the_files_of_a_mission_are_not_written_over() {
     let folder = scratch.path();
     let mission = MISSION.replace("output = \"out.csv\"", "output = \"m.toml\"");
     fs::write(folder.join("m.toml"), &mission).unwrap();
-    let (status, reported) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
-    assert!(status == Some(1) && reported.contains("m.toml"), "{reported}");
+    let reported = said(folder, &["run", "m.toml", "--template", "template.fmu"], 1);
+    assert!(reported.contains("m.toml"), "{reported}");
     assert_eq!(fs::read_to_string(folder.join("m.toml")).unwrap(), mission);
     let two = MISSION.replace("[set]", "[[plot]]\nfile = \"momentum.svg\"\n[set]");
     fs::write(folder.join("m.toml"), two).unwrap();
-    let (status, reported) = said(folder, &["run", "m.toml", "--template", "template.fmu"]);
-    assert!(status == Some(1) && reported.contains("one file cannot take two pictures"), "{reported}");
+    let reported = said(folder, &["run", "m.toml", "--template", "template.fmu"], 1);
+    assert!(reported.contains("one file cannot take two pictures"), "{reported}");
 }
 
 #[test]
@@ -179,10 +168,7 @@ fn what_is_no_mission_is_reported() {
     let scratch = tempfile::tempdir().unwrap();
     let spacecraft = format!("{RESOURCES}/messenger.toml");
     let reported = run(&["run", &spacecraft], 1);
-    assert!(
-        reported.contains("without any key of a mission") && reported.contains("heliotorque new mission"),
-        "{reported}"
-    );
+    says(&reported, &["without any key of a mission", "heliotorque new mission"]);
     let fmu = scratch.path().join("no.fmu");
     assert!(run(&["run", shown(&fmu), "--template", "x.fmu"], 1).contains("--template is for a mission"));
 }
@@ -211,12 +197,11 @@ fn the_missions_of_the_examples_fly() {
     let folder = at("examples/missions");
     let template = ["--template", "../../template.fmu"];
     for mission in &missions {
-        let (status, reported) = said(&folder, &[&["check", mission], &template[..]].concat());
-        assert!(status == Some(0) && reported.contains(".toml: ok: "), "{reported}");
+        let reported = said(&folder, &[&["check", mission], &template[..]].concat(), 0);
+        assert!(reported.contains(".toml: ok: "), "{reported}");
         // ACE's train is over after half an hour; the others fly for an hour of days.
         let stop: &[&str] = if mission == "ace.toml" { &[] } else { &["--stop", "2h"] };
-        let (status, reported) = said(&folder, &[&["run", mission], &template[..], stop].concat());
-        assert_eq!(status, Some(0), "{mission}: {reported}");
+        let reported = said(&folder, &[&["run", mission], &template[..], stop].concat(), 0);
         for kind in ["csv", "svg"] {
             assert!(folder.join(mission.replace("toml", kind)).exists(), "{mission}: {reported}");
         }
@@ -226,10 +211,8 @@ fn the_missions_of_the_examples_fly() {
 /// What `check` and `run` say of a mission that both refuse.
 fn refused(folder: &Path, name: &str) -> String {
     let template = ["--template", "template.fmu"];
-    let (status, checked) = said(folder, &[&["check", name], &template[..]].concat());
-    assert_eq!(status, Some(1), "{name}: {checked}");
-    let (status, reported) = said(folder, &[&["run", name], &template[..]].concat());
-    assert_eq!(status, Some(1), "{name}: {reported}");
+    let checked = said(folder, &[&["check", name], &template[..]].concat(), 1);
+    let reported = said(folder, &[&["run", name], &template[..]].concat(), 1);
     let reason = reported.lines().find_map(|line| line.strip_prefix("heliotorque: ")).unwrap();
     // The call is made at the same place by both.
     assert!(checked.contains(reason.trim_start_matches("m: ")), "{name}: {checked}\n{reported}");
@@ -286,32 +269,22 @@ fn what_a_mission_writes_stays_beside_it_and_replaces_no_file_of_others() {
     ] {
         mission(output_to, plot_to);
         let reported = refused(&home, "m.toml");
-        assert!(
-            reported.contains("outside the mission's folder") && reported.contains(&format!("{option} may")),
-            "{reported}"
-        );
+        says(&reported, &["outside the mission's folder", &format!("{option} may")]);
     }
     // Not a mission's word but the user's.
-    let run = |more: &[&str]| {
-        said(&home, &[&["run", "m.toml", "--template", "template.fmu", "--quiet"], more].concat())
+    let run = |more: &[&str], status: i32| {
+        said(&home, &[&["run", "m.toml", "--template", "template.fmu", "--quiet"], more].concat(), status)
     };
     mission("../x.csv", "../x.svg");
-    let (status, reported) = run(&["--output", "../away/a.csv", "--plot", "../away/a.svg"]);
-    assert!(
-        status == Some(0) && folder.join("away/a.csv").exists() && folder.join("away/a.svg").exists(),
-        "{reported}"
-    );
+    let reported = run(&["--output", "../away/a.csv", "--plot", "../away/a.svg"], 0);
+    assert!(folder.join("away/a.csv").exists() && folder.join("away/a.svg").exists(), "{reported}");
 
     // A file that no run wrote stays; what a run wrote is replaced without a word, a table of another kind with one.
     mission("deep/x.csv", "x.svg");
     for (name, option) in [("deep/x.csv", "--output"), ("x.svg", "--plot")] {
         fs::write(home.join(name), "precious").unwrap();
         let reported = refused(&home, "m.toml");
-        assert!(
-            reported.contains("a file that no run wrote")
-                && reported.contains(&format!("{option} replaces any")),
-            "{reported}"
-        );
+        says(&reported, &["a file that no run wrote", &format!("{option} replaces any")]);
         assert_eq!(fs::read_to_string(home.join(name)).unwrap(), "precious");
         fs::remove_file(home.join(name)).unwrap();
     }
@@ -319,12 +292,11 @@ fn what_a_mission_writes_stays_beside_it_and_replaces_no_file_of_others() {
         if !expected.is_empty() {
             fs::write(home.join("deep/x.csv"), "time,thrust\n0,1\n").unwrap();
         }
-        let (status, reported) = run(&[]);
-        assert_eq!(status, Some(0), "{reported}");
+        let reported = run(&[], 0);
         assert!(reported.is_empty() == expected.is_empty() && reported.contains(expected), "{reported}");
         assert_eq!(rows(&home.join("deep/x.csv")).len(), 5);
     }
     fs::write(home.join("deep/x.csv"), "precious").unwrap();
-    let (status, reported) = run(&["--output", "deep/x.csv"]);
-    assert_eq!((status, rows(&home.join("deep/x.csv")).len()), (Some(0), 5), "{reported}");
+    let reported = run(&["--output", "deep/x.csv"], 0);
+    assert_eq!(rows(&home.join("deep/x.csv")).len(), 5, "{reported}");
 }

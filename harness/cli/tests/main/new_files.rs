@@ -2,7 +2,7 @@
 
 use std::{fs, process::Command};
 
-use crate::{run, shown, template};
+use crate::{run, says, shown, template};
 
 const KINDS: [&str; 4] = ["spacecraft", "spinner", "mission", "timeline"];
 
@@ -85,10 +85,7 @@ fn every_command_has_a_page_that_man_reads() {
     assert!(commands.contains(&"run") && commands.contains(&"plan"), "{help}");
     for command in commands {
         let page = run(&["man", command], 0);
-        assert!(
-            page.contains(&format!("heliotorque\\-{command}")) && page.contains(".SH SYNOPSIS"),
-            "{page}"
-        );
+        says(&page, &[&format!("heliotorque\\-{command}"), ".SH SYNOPSIS"]);
     }
     assert!(run(&["man", "nonsense"], 1).contains("allowed: info, check, run"));
     // Without a warning, where there is a man to read it.

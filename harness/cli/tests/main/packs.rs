@@ -4,7 +4,7 @@ use std::{fs, io::Read, path::Path};
 
 use model_description::call_table::Function;
 
-use crate::{built, library, packed, probe_library, run, shown, words};
+use crate::{built, library, packed, probe_library, run, says, shown, words};
 
 const ACE: &str = "../../fmu-src/resources/ace.toml";
 
@@ -18,6 +18,12 @@ fn entries(path: &Path) -> Vec<(String, Vec<u8>)> {
             (entry.name().unwrap().into_owned(), bytes)
         })
         .collect()
+}
+
+/// A text in an archive.
+fn text_in(path: &Path, name: &str) -> String {
+    let (_, bytes) = entries(path).into_iter().find(|(entry, _)| entry == name).expect(name);
+    String::from_utf8(bytes).unwrap()
 }
 
 #[test]
@@ -54,15 +60,11 @@ fn the_same_input_gives_the_same_archive() {
 fn the_page_and_the_licences_lead_to_files_that_are_there() {
     let Some((_room, path)) = packed("AllTypes") else { return };
     let all = entries(&path);
-    let text = |expected: &str| {
-        let (_, bytes) = all.iter().find(|(name, _)| name == expected).expect(expected);
-        String::from_utf8(bytes.clone()).unwrap()
-    };
-    let page = text("documentation/index.html");
+    let page = text_in(&path, "documentation/index.html");
     let links: Vec<&str> = page.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
     let files: Vec<&&str> = links.iter().filter(|link| !link.starts_with('#')).collect();
     assert_eq!(files, [&"licenses/license.txt"]);
-    let entry = text("documentation/licenses/license.txt");
+    let entry = text_in(&path, "documentation/licenses/license.txt");
     let others = all.iter().filter_map(|(name, _)| name.strip_prefix("documentation/licenses/"));
     for other in others.filter(|name| *name != "license.txt") {
         assert!(entry.contains(other), "license.txt does not lead to {other}");
@@ -82,13 +84,9 @@ fn every_shipped_fmu_shows_a_picture() {
 #[test]
 fn the_documentation_names_every_variable() {
     let Some((_room, path)) = packed("AllTypes") else { return };
-    let all = entries(&path);
-    let find = |name: &str| {
-        let bytes = &all.iter().find(|(entry, _)| entry == name).unwrap().1;
-        String::from_utf8(bytes.clone()).unwrap()
-    };
-    let page = find("documentation/index.html");
-    let description = model_description::parse(find("modelDescription.xml").as_bytes()).unwrap().description;
+    let page = text_in(&path, "documentation/index.html");
+    let xml = text_in(&path, "modelDescription.xml");
+    let description = model_description::parse(xml.as_bytes()).unwrap().description;
     for variable in &description.variables {
         let cell = format!("<td class=\"n\">{}</td>", model_description::escape(&variable.name));
         assert!(page.contains(&cell), "{} is missing", variable.name);
@@ -161,12 +159,7 @@ fn outputs_of_single_plates_are_added_on_request() {
         arguments.extend(["--spacecraft", spacecraft, "--output", shown(&fmu)]);
         arguments.extend(per_plate.then_some("--per-plate"));
         run(&arguments, 0);
-        let all = entries(&fmu);
-        let find = |name: &str| {
-            let bytes = &all.iter().find(|(entry, _)| entry == name).unwrap().1;
-            String::from_utf8(bytes.clone()).unwrap()
-        };
-        (find("modelDescription.xml"), find("resources/spacecraft.toml"), fmu)
+        (text_in(&fmu, "modelDescription.xml"), text_in(&fmu, "resources/spacecraft.toml"), fmu)
     };
 
     let (plain, _, _) = pack(shipped, false, "Plain");
@@ -229,10 +222,7 @@ fn models_without_outputs_of_single_plates_refuse_them() {
             )),
             1,
         );
-        assert!(
-            text.contains("Empty has no outputs of single plates, allowed: none of this library"),
-            "{text}"
-        );
+        says(&text, &["Empty has no outputs of single plates, allowed: none of this library"]);
     }
     // Errors in the file itself name the lines of the file itself.
     let toml = scratch.path().join("odd.toml");
@@ -260,24 +250,17 @@ fn start_values_are_packed_and_simulated() {
     };
     let set = words("--set dump.threshold[2]=5 --set panel[1].sunOffset=10deg --set orbit.frame=ecliptic");
     let fmu = pack("Set", &set);
-    let file = |fmu: &Path, name: &str| {
-        let bytes = entries(fmu).into_iter().find(|(entry, _)| entry == name).unwrap().1;
-        String::from_utf8(bytes).unwrap()
-    };
-    let packed = file(&fmu, "resources/spacecraft.toml");
+    let packed = text_in(&fmu, "resources/spacecraft.toml");
     let added =
         "\"dump.threshold[2]\" = 5.0\n\"panel[1].sunOffset\" = \"10deg\"\n\"orbit.frame\" = \"ecliptic\"\n";
     // The shipped file ends in its own `[start]`.
     let table = "# as simulated\n\"dump.threshold\" = [4, 4, 4] # all\n";
     assert_eq!(packed, format!("{body}{table}{added}"));
-    let xml = model_description::parse(file(&fmu, "modelDescription.xml").as_bytes()).unwrap().description;
+    let xml = text_in(&fmu, "modelDescription.xml");
+    let xml = model_description::parse(xml.as_bytes()).unwrap().description;
     let start = |name: &str| {
         let variable = xml.variables.iter().find(|variable| variable.name == name).unwrap();
-        match &variable.kind {
-            model_description::VariableKind::Real { start, .. } => start.unwrap(),
-            model_description::VariableKind::Enumeration { start, .. } => f64::from(start.unwrap()),
-            _ => f64::NAN,
-        }
+        model_description::value::start(variable).unwrap().to_f64()
     };
     assert_eq!([1, 2, 3].map(|i| start(&format!("dump.threshold[{i}]"))), [4.0, 5.0, 4.0]);
     assert_eq!(
@@ -323,10 +306,7 @@ fn start_values_that_nothing_takes_are_refused() {
     fs::write(&toml, format!("{body}\"orbit.centre\" = \"sun\"\n")).unwrap();
     let line = body.lines().count() + 1;
     let text = pack("MomentumPlant", &["--spacecraft", shown(&toml)]);
-    assert!(
-        text.contains(&format!("mine.toml:{line}: start.\"orbit.centre\": found the unknown name")),
-        "{text}"
-    );
+    says(&text, &[&format!("mine.toml:{line}: start.\"orbit.centre\": found the unknown name")]);
     if let Some(probe) = probe_library() {
         let arguments = ["pack", "--library", shown(&probe), "--model", "Empty", "--output", shown(&output)];
         let text = run(&[&arguments[..], &["--set", "a=1"]].concat(), 1);
@@ -349,10 +329,9 @@ fn a_map_that_nothing_reads_is_reported() {
         run(&[&arguments[..], &files, more].concat(), 0)
     };
     let reported = pack("MomentumPlant", &[]);
-    assert!(
-        reported
-            .contains("warning: [planet_map] is without effect in MomentumPlant; DisturbanceTorque takes it"),
-        "{reported}"
+    says(
+        &reported,
+        &["warning: [planet_map] is without effect in MomentumPlant; DisturbanceTorque takes it"],
     );
     let reported = pack("DisturbanceTorque", &[]);
     assert!(reported.contains("warning: [planet_map] has an effect in DisturbanceTorque with"), "{reported}");

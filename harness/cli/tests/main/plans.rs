@@ -77,18 +77,11 @@ fn the_printed_start_values_fly_to_where_the_plan_says() {
         (1, vec!["--date", date, "--from", "245,-22", "--target", "249,-18", "--max-nutation", "0.04"]),
         (
             1,
-            vec![
-                "--sun",
-                "237,-20",
-                "--from",
-                "240,-5",
-                "--angle",
-                "3",
-                "--direction",
-                "70",
-                "--thruster",
-                "upper radial I",
-            ],
+            [
+                words("--sun 237,-20 --from 240,-5 --angle 3 --direction 70 --thruster"),
+                vec!["upper radial I"],
+            ]
+            .concat(),
         ),
         (1, words("--angle 2 --ratio 1.5 --propellant 40 --rate-rpm 4 --timing phase")),
     ]

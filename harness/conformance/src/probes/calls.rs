@@ -73,22 +73,15 @@ fn cases(fmu: &Fmu, function: Function, state: State) -> Vec<Case<'_>> {
             .iter()
             .filter(move |it| it.kind.base_type() == base && (!sets || start(it).is_some()))
     };
+    let done = |variable| case(Some(variable), Expected::Done);
+    let refused = |variable| case(Some(variable), lenient(function, state, variable));
     match allowed(function, state) {
-        Access::Forbidden => of_kind()
-            .next()
-            .map(|variable| case(Some(variable), lenient(function, state, variable)))
-            .into_iter()
-            .collect(),
-        Access::Allowed => {
-            of_kind().next().map(|variable| case(Some(variable), Expected::Done)).into_iter().collect()
-        }
+        Access::Forbidden => of_kind().next().map(refused).into_iter().collect(),
+        Access::Allowed => of_kind().next().map(done).into_iter().collect(),
         Access::Conditional(condition) => {
             let meets = |it: &&ScalarVariable| meets(fmu, condition, it);
-            let mut cases = Vec::new();
-            cases.extend(of_kind().find(meets).map(|variable| case(Some(variable), Expected::Done)));
             let other = of_kind().find(|it| !meets(it));
-            cases.extend(other.map(|variable| case(Some(variable), lenient(function, state, variable))));
-            cases
+            of_kind().find(meets).map(done).into_iter().chain(other.map(refused)).collect()
         }
     }
 }
@@ -128,14 +121,7 @@ fn lenient(function: Function, state: State, variable: &ScalarVariable) -> Expec
 fn compare(case: &Case<'_>, status: Status) -> Option<Finding> {
     let subject = case.variable.map_or_else(String::new, |variable| format!(" of {}", variable.name));
     let call = format!("{}{subject} in state {}", case.function.symbol(), case.state.name());
-    let wants_status = matches!(
-        case.function,
-        Function::GetStatus
-            | Function::GetRealStatus
-            | Function::GetIntegerStatus
-            | Function::GetBooleanStatus
-            | Function::GetStringStatus
-    );
+    let wants_status = case.function.symbol().ends_with("Status");
     match (case.expected, status) {
         (_, Status::Fatal) => Some(Finding::bad(format!("{call} condemns all instances by fmi2Fatal"))),
         (_, Status::Pending) => Some(Finding::bad(format!("{call} answers {status}"))),

@@ -6,7 +6,7 @@ use loader::{Callbacks, Error, Fmu, Instance, InstanceOptions, LogMessage, Resou
 
 use crate::{
     Finding,
-    experiment::{self, STEPS},
+    experiment::{self, Bits, STEPS},
     probe::{Findings, Trial},
     verdict::verdict,
 };
@@ -18,11 +18,7 @@ pub fn callbacks(fmu: &Fmu) -> Findings {
     let mut findings = Vec::new();
     let mut try_with = |what: &str, callbacks: Callbacks| {
         let options = InstanceOptions { callbacks, ..experiment::strict() };
-        let outcome = experiment::short_simulation(fmu, &options);
-        findings.push(match outcome {
-            Ok(found) => Finding::expect(found == expected, what.to_owned()),
-            Err(error) => Finding::bad(format!("not so: {what}\n{error}")),
-        });
+        findings.push(runs_alike(fmu, &options, &expected, what));
     };
     try_with(
         "runs on after the struct of callbacks is overwritten",
@@ -40,6 +36,14 @@ pub fn callbacks(fmu: &Fmu) -> Findings {
     Ok(findings)
 }
 
+/// Whether a short simulation with these options gives these bits.
+fn runs_alike(fmu: &Fmu, options: &InstanceOptions, expected: &Bits, what: &str) -> Finding {
+    match experiment::short_simulation(fmu, options) {
+        Ok(found) => Finding::expect(found == *expected, what),
+        Err(error) => Finding::bad(format!("not so: {what}\n{error}")),
+    }
+}
+
 /// NULL where nothing is to be read or written.
 pub fn nulls(fmu: &Fmu) -> Findings {
     let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
@@ -48,11 +52,7 @@ pub fn nulls(fmu: &Fmu) -> Findings {
         .probe_nulls()
         .into_iter()
         .filter(|(name, _)| *name != "fmi2FreeFMUstate" || state_calls)
-        .map(|(name, answer)| match answer {
-            Ok(Status::Ok | Status::Warning) => Finding::good(format!("{name} with NULL for nothing")),
-            Ok(status) => Finding::note(format!("{name} with NULL for nothing answers {status}")),
-            Err(missing) => Finding::note(format!("{name}: {missing}")),
-        })
+        .map(|(name, answer)| survived(name, &format!("{name} with NULL for nothing"), "", answer))
         .collect();
     Ok(findings)
 }
@@ -72,11 +72,17 @@ fn free_no_state(fmu: &Fmu, trial: &Trial) -> Findings {
         return Ok(vec![Finding::skipped(format!("{}: states are not claimed", trial.call))]);
     }
     let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
-    Ok(vec![match instance.probe_free_no_state() {
-        Ok(Status::Ok | Status::Warning) => Finding::good(format!("{} is ignored (2.1.8)", trial.call)),
-        Ok(status) => Finding::note(format!("{} answers {status}", trial.call)),
-        Err(missing) => Finding::note(format!("{}: {missing}", trial.call)),
-    }])
+    let answer = instance.probe_free_no_state();
+    Ok(vec![survived(trial.call, trial.call, " is ignored (2.1.8)", answer)])
+}
+
+/// Good where the answer is, otherwise a note.
+fn survived(call: &str, what: &str, good: &str, answer: Result<Status, String>) -> Finding {
+    match answer {
+        Ok(Status::Ok | Status::Warning) => Finding::good(format!("{what}{good}")),
+        Ok(status) => Finding::note(format!("{what} answers {status}")),
+        Err(missing) => Finding::note(format!("{call}: {missing}")),
+    }
 }
 
 /// Folders that path handling stumbles over.
@@ -93,10 +99,7 @@ pub fn paths(fmu: &Fmu) -> Findings {
         copy(fmu.folder(), &place)?;
         let there = Fmu::open(&place)?;
         let what = format!("runs from a folder called {name:?}");
-        findings.push(match experiment::short_simulation(&there, &experiment::strict()) {
-            Ok(found) => Finding::expect(found == expected, what),
-            Err(error) => Finding::bad(format!("not so: {what}\n{error}")),
-        });
+        findings.push(runs_alike(&there, &experiment::strict(), &expected, &what));
     }
     let own = loader::file_uri(&fmu.folder().join("resources"));
     let path = own.trim_start_matches("file://").to_owned();
@@ -194,13 +197,10 @@ pub fn locale(fmu: &Fmu) -> Findings {
         let names = COMMA_LOCALES.join(", ");
         return Ok(vec![Finding::skipped(format!("comma locale: this computer has none of {names}"))]);
     };
-    let found = experiment::short_simulation(fmu, &experiment::strict());
-    loader::set_locale("C");
     let what = format!("runs under {name} to the same bits");
-    Ok(vec![match found {
-        Ok(found) => Finding::expect(found == expected, what),
-        Err(error) => Finding::bad(format!("not so: {what}\n{error}")),
-    }])
+    let finding = runs_alike(fmu, &experiment::strict(), &expected, &what);
+    loader::set_locale("C");
+    Ok(vec![finding])
 }
 
 /// Simulations on threads at the same time.

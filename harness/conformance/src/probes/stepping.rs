@@ -1,7 +1,7 @@
 //! The default experiment, simulated.
 
 use loader::{Fmu, Options, Status};
-use model_description::{SimpleTypeKind, VariableKind};
+use model_description::{ScalarVariable, VariableKind, value::items};
 
 use crate::{Finding, experiment, probe::Findings};
 
@@ -27,7 +27,7 @@ pub fn simulation(fmu: &Fmu) -> Findings {
         {
             findings.push(Finding::bad(format!("{name} is {} at {} s", values[row], recording.times_s[row])));
         }
-        let (low, high) = limits(fmu, &variable.kind);
+        let (low, high) = limits(fmu, variable);
         if let Some(row) = values.iter().position(|value| *value < low || *value > high) {
             let at_s = recording.times_s[row];
             findings.push(Finding::note(format!(
@@ -44,21 +44,16 @@ pub fn simulation(fmu: &Fmu) -> Findings {
     Ok(findings)
 }
 
-fn limits(fmu: &Fmu, kind: &VariableKind) -> (f64, f64) {
-    let whole = |limit: &Option<i32>, otherwise: f64| limit.map_or(otherwise, f64::from);
-    match kind {
-        VariableKind::Real { attributes, .. } => {
-            (attributes.min.unwrap_or(f64::NEG_INFINITY), attributes.max.unwrap_or(f64::INFINITY))
-        }
-        VariableKind::Integer { min, max, .. } => (whole(min, f64::NEG_INFINITY), whole(max, f64::INFINITY)),
-        VariableKind::Enumeration { declared_type, .. } => {
-            let items = fmu.description().types.iter().find_map(|it| match &it.kind {
-                SimpleTypeKind::Enumeration { items, .. } if it.name == *declared_type => Some(items),
-                _ => None,
-            });
-            let numbers = items.into_iter().flatten().map(|item| f64::from(item.value));
+fn limits(fmu: &Fmu, variable: &ScalarVariable) -> (f64, f64) {
+    let between =
+        |min: Option<f64>, max: Option<f64>| (min.unwrap_or(f64::NEG_INFINITY), max.unwrap_or(f64::INFINITY));
+    match &variable.kind {
+        VariableKind::Real { attributes, .. } => between(attributes.min, attributes.max),
+        VariableKind::Integer { min, max, .. } => between(min.map(f64::from), max.map(f64::from)),
+        VariableKind::Enumeration { .. } => {
+            let numbers = items(fmu.description(), variable).iter().map(|item| f64::from(item.value));
             numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), n| (low.min(n), high.max(n)))
         }
-        VariableKind::Boolean { .. } | VariableKind::String { .. } => (f64::NEG_INFINITY, f64::INFINITY),
+        VariableKind::Boolean { .. } | VariableKind::String { .. } => between(None, None),
     }
 }

@@ -12,21 +12,21 @@ use crate::{
 
 /// Wrong times: an FMU whose solver goes on until it has passed the end of a step may never come back.
 pub const TRIALS: &[Trial] = &[
-    wrong("a step from a time that is not its own", false, |fmu, trial| {
-        step(fmu, trial, |times| (times.start_s + 0.5 * times.step_s, times.step_s))
+    wrong("a step from a time that is not its own", false, |fmu, it| {
+        step(fmu, it, |times| (times.start_s + 0.5 * times.step_s, times.step_s))
     }),
-    wrong("a step from before its own time", false, |fmu, trial| {
-        step(fmu, trial, |times| (times.start_s - times.step_s, times.step_s))
+    wrong("a step from before its own time", false, |fmu, it| {
+        step(fmu, it, |times| (times.start_s - times.step_s, times.step_s))
     }),
-    wrong("a step of no length", false, |fmu, trial| step(fmu, trial, |times| (times.start_s, 0.0))),
-    wrong("a step backwards", false, |fmu, trial| step(fmu, trial, |times| (times.start_s, -times.step_s))),
-    wrong("a step past the stop time it was given (2.1.6)", false, |fmu, trial| {
-        step(fmu, trial, |times| (times.start_s, 1.5 * (times.stop_s - times.start_s)))
+    wrong("a step of no length", false, |fmu, it| step(fmu, it, |times| (times.start_s, 0.0))),
+    wrong("a step backwards", false, |fmu, it| step(fmu, it, |times| (times.start_s, -times.step_s))),
+    wrong("a step past the stop time it was given (2.1.6)", false, |fmu, it| {
+        step(fmu, it, |times| (times.start_s, 1.5 * (times.stop_s - times.start_s)))
     }),
-    wrong("a step of NaN", true, |fmu, trial| step(fmu, trial, |times| (times.start_s, f64::NAN))),
-    wrong("an infinite step", true, |fmu, trial| step(fmu, trial, |times| (times.start_s, f64::INFINITY))),
-    wrong("a step from an infinite time", true, |fmu, trial| {
-        step(fmu, trial, |times| (f64::INFINITY, times.step_s))
+    wrong("a step of NaN", true, |fmu, it| step(fmu, it, |times| (times.start_s, f64::NAN))),
+    wrong("an infinite step", true, |fmu, it| step(fmu, it, |times| (times.start_s, f64::INFINITY))),
+    wrong("a step from an infinite time", true, |fmu, it| {
+        step(fmu, it, |times| (f64::INFINITY, times.step_s))
     }),
     Trial {
         probe: "times",

@@ -2,11 +2,10 @@
 
 use loader::{Fmu, Instance, Value};
 use model_description::call_table::{Condition, State};
-use model_description::{Causality, Initial, Variability, VariableKind, rules, value::start};
+use model_description::{BaseType, Causality, Initial, Variability, VariableKind, rules, value::start};
 
 use crate::{
-    Finding,
-    experiment::{self, References},
+    Finding, experiment,
     probe::Findings,
     verdict::{refused, same, verdict},
 };
@@ -84,27 +83,27 @@ fn limits(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Error> {
 }
 
 fn references(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Error> {
-    let references = References::of(fmu, Causality::Input).reals;
-    let unknown = |kind: fn(&VariableKind) -> bool| {
-        let used = fmu.description().variables.iter().filter(|it| kind(&it.kind));
+    let [reals, ..] = experiment::references(fmu, Causality::Input);
+    let unknown = |base: BaseType| {
+        let used = fmu.description().variables.iter().filter(|it| it.kind.base_type() == base);
         used.map(|it| it.value_reference)
             .max()
             .and_then(|highest| highest.checked_add(1000))
             .unwrap_or(u32::MAX)
     };
-    let no_real = unknown(|kind| matches!(kind, VariableKind::Real { .. }));
+    let no_real = unknown(BaseType::Real);
     let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
     findings.push(refused(
         "reading a Real reference it does not have",
         instance.get_reals(&[no_real], &mut [0.0]),
     ));
-    let no_boolean = unknown(|kind| matches!(kind, VariableKind::Boolean { .. }));
+    let no_boolean = unknown(BaseType::Boolean);
     let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
     findings.push(refused(
         "reading a Boolean reference it does not have",
         instance.get_booleans(&[no_boolean], &mut [0]),
     ));
-    if let Some(&known) = references.first() {
+    if let Some(&known) = reals.first() {
         let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
         let mut before = [0.0];
         instance.get_reals(&[known], &mut before)?;

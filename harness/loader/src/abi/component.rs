@@ -90,6 +90,41 @@ macro_rules! call {
     };
 }
 
+/// Functions without arguments, and those that read and write numbers.
+macro_rules! plain {
+    (calls { $($name:ident $symbol:ident;)* } access { $($get:ident $get_symbol:ident $set:ident $set_symbol:ident: $type:ty;)* }) => {
+        impl Component {
+            $(pub fn $name(&mut self) -> Answer {
+                call!(self.$symbol())
+            })*
+            $(pub fn $get(&mut self, references: &[u32], values: &mut [$type]) -> Answer {
+                same_length(references.len(), values.len())?;
+                call!(self.$get_symbol(references.as_ptr(), references.len(), values.as_mut_ptr()))
+            }
+
+            pub fn $set(&mut self, references: &[u32], values: &[$type]) -> Answer {
+                same_length(references.len(), values.len())?;
+                call!(self.$set_symbol(references.as_ptr(), references.len(), values.as_ptr()))
+            })*
+        }
+    };
+}
+
+plain! {
+    calls {
+        enter_initialization_mode fmi2EnterInitializationMode;
+        exit_initialization_mode fmi2ExitInitializationMode;
+        terminate fmi2Terminate;
+        reset fmi2Reset;
+        cancel_step fmi2CancelStep;
+    }
+    access {
+        get_real fmi2GetReal set_real fmi2SetReal: f64;
+        get_integer fmi2GetInteger set_integer fmi2SetInteger: i32;
+        get_boolean fmi2GetBoolean set_boolean fmi2SetBoolean: i32;
+    }
+}
+
 impl Component {
     /// `fmi2Instantiate`; a failure comes with what was logged.
     pub fn instantiate(binary: Arc<Binary>, start: &Start<'_>) -> Result<Self, (Outcome, Vec<LogMessage>)> {
@@ -171,46 +206,11 @@ impl Component {
         call!(self.fmi2SetupExperiment(has_tolerance, tolerance, start, has_stop, stop))
     }
 
-    pub fn enter_initialization_mode(&mut self) -> Answer {
-        call!(self.fmi2EnterInitializationMode())
-    }
-
-    pub fn exit_initialization_mode(&mut self) -> Answer {
-        call!(self.fmi2ExitInitializationMode())
-    }
-
-    pub fn terminate(&mut self) -> Answer {
-        call!(self.fmi2Terminate())
-    }
-
-    pub fn reset(&mut self) -> Answer {
-        call!(self.fmi2Reset())
-    }
-
     pub fn do_step(&mut self, time: f64, step: f64, no_set_state_prior: bool) -> Answer {
         let Some(function) = self.binary.functions.fmi2DoStep else { return Err(Outcome::Missing) };
         let _under_way = call_record::enter_with(const { call_record::number("fmi2DoStep") }, [time, step]);
         // SAFETY: the handle is alive until drop.
         answered(unsafe { function(self.handle, time, step, c_int::from(no_set_state_prior)) })
-    }
-
-    pub fn cancel_step(&mut self) -> Answer {
-        call!(self.fmi2CancelStep())
-    }
-
-    pub fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Answer {
-        same_length(references.len(), values.len())?;
-        call!(self.fmi2GetReal(references.as_ptr(), references.len(), values.as_mut_ptr()))
-    }
-
-    pub fn get_integer(&mut self, references: &[u32], values: &mut [i32]) -> Answer {
-        same_length(references.len(), values.len())?;
-        call!(self.fmi2GetInteger(references.as_ptr(), references.len(), values.as_mut_ptr()))
-    }
-
-    pub fn get_boolean(&mut self, references: &[u32], values: &mut [i32]) -> Answer {
-        same_length(references.len(), values.len())?;
-        call!(self.fmi2GetBoolean(references.as_ptr(), references.len(), values.as_mut_ptr()))
     }
 
     /// The texts are copied at once: the FMU may reuse its memory at the next call.
@@ -222,21 +222,6 @@ impl Component {
             values.extend(pointers.into_iter().map(|pointer| unsafe { text(pointer) }.unwrap_or_default()));
         }
         Ok(answer)
-    }
-
-    pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Answer {
-        same_length(references.len(), values.len())?;
-        call!(self.fmi2SetReal(references.as_ptr(), references.len(), values.as_ptr()))
-    }
-
-    pub fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Answer {
-        same_length(references.len(), values.len())?;
-        call!(self.fmi2SetInteger(references.as_ptr(), references.len(), values.as_ptr()))
-    }
-
-    pub fn set_boolean(&mut self, references: &[u32], values: &[i32]) -> Answer {
-        same_length(references.len(), values.len())?;
-        call!(self.fmi2SetBoolean(references.as_ptr(), references.len(), values.as_ptr()))
     }
 
     pub fn set_string(&mut self, references: &[u32], values: &[&str]) -> Answer {
@@ -322,14 +307,10 @@ impl Component {
         }
     }
 
-    /// `fmi2GetFMUstate` into a new state, or over `old`.
-    pub fn get_state(&mut self, old: Option<StateKey>) -> Result<(Status, Option<StateKey>), Outcome> {
-        let mut state = old.map_or(Ok(ptr::null_mut()), |key| self.state(key))?;
+    /// `fmi2GetFMUstate` into a new state.
+    pub fn get_state(&mut self) -> Result<(Status, Option<StateKey>), Outcome> {
+        let mut state = ptr::null_mut();
         let status = call!(self.fmi2GetFMUstate(&raw mut state))?;
-        if let Some(key) = old {
-            self.states[key.slot].state = state;
-            return Ok((status, old));
-        }
         Ok((status, self.keep(state)))
     }
 

@@ -145,10 +145,8 @@ impl Instance {
 
     /// `fmi2SetDebugLogging`; no categories means all.
     pub fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Result<(), Error> {
-        let function = Function::SetDebugLogging;
-        self.allow(function)?;
-        let answer = self.component.set_debug_logging(on, categories);
-        self.finish(function, answer, |symbol| format!("{symbol}(loggingOn={on}, {categories:?})"))
+        let answer = |it: &mut Component| it.set_debug_logging(on, categories);
+        self.call(Function::SetDebugLogging, answer, |_| format!("(loggingOn={on}, {categories:?})"))
     }
 
     /// `fmi2SetupExperiment`; times in s.
@@ -158,64 +156,45 @@ impl Instance {
         start_s: f64,
         stop_s: Option<f64>,
     ) -> Result<(), Error> {
-        let function = Function::SetupExperiment;
-        self.allow(function)?;
-        let answer = self.component.setup_experiment(tolerance, start_s, stop_s);
-        self.finish(function, answer, |symbol| {
+        let answer = |it: &mut Component| it.setup_experiment(tolerance, start_s, stop_s);
+        self.call(Function::SetupExperiment, answer, |_| {
             let stop = stop_s.map_or_else(|| "undefined".to_owned(), |stop| stop.to_string());
-            format!("{symbol}(startTime={start_s}, stopTime={stop})")
+            format!("(startTime={start_s}, stopTime={stop})")
         })
     }
 
     /// `fmi2EnterInitializationMode`.
     pub fn enter_initialization_mode(&mut self) -> Result<(), Error> {
-        let function = Function::EnterInitializationMode;
-        self.allow(function)?;
-        let answer = self.component.enter_initialization_mode();
-        self.finish(function, answer, |symbol| symbol.to_owned())
+        self.call_plain(Function::EnterInitializationMode, Component::enter_initialization_mode)
     }
 
     /// `fmi2ExitInitializationMode`.
     pub fn exit_initialization_mode(&mut self) -> Result<(), Error> {
-        let function = Function::ExitInitializationMode;
-        self.allow(function)?;
-        let answer = self.component.exit_initialization_mode();
-        self.finish(function, answer, |symbol| symbol.to_owned())
+        self.call_plain(Function::ExitInitializationMode, Component::exit_initialization_mode)
     }
 
     /// `fmi2Terminate`.
     pub fn terminate(&mut self) -> Result<(), Error> {
-        let function = Function::Terminate;
-        self.allow(function)?;
-        let answer = self.component.terminate();
-        self.finish(function, answer, |symbol| symbol.to_owned())
+        self.call_plain(Function::Terminate, Component::terminate)
     }
 
     /// `fmi2Reset`: as freshly instantiated.
     pub fn reset(&mut self) -> Result<(), Error> {
-        let function = Function::Reset;
-        self.allow(function)?;
-        let answer = self.component.reset();
-        self.finish(function, answer, |symbol| symbol.to_owned())
+        self.call_plain(Function::Reset, Component::reset)
     }
 
     /// `fmi2DoStep` from `time_s` over `step_s`, both in s, promising never to set an earlier state again if
     /// `no_set_state_prior`.
     pub fn do_step(&mut self, time_s: f64, step_s: f64, no_set_state_prior: bool) -> Result<(), Error> {
-        let function = Function::DoStep;
-        self.allow(function)?;
-        let answer = self.component.do_step(time_s, step_s, no_set_state_prior);
-        self.finish(function, answer, |symbol| {
-            format!("{symbol}(currentCommunicationPoint={time_s}, communicationStepSize={step_s})")
+        let answer = |it: &mut Component| it.do_step(time_s, step_s, no_set_state_prior);
+        self.call(Function::DoStep, answer, |_| {
+            format!("(currentCommunicationPoint={time_s}, communicationStepSize={step_s})")
         })
     }
 
     /// `fmi2CancelStep`.
     pub fn cancel_step(&mut self) -> Result<(), Error> {
-        let function = Function::CancelStep;
-        self.allow(function)?;
-        let answer = self.component.cancel_step();
-        self.finish(function, answer, |symbol| symbol.to_owned())
+        self.call_plain(Function::CancelStep, Component::cancel_step)
     }
 
     /// `fmi2SetRealInputDerivatives` at the current communication point; orders from 1.
@@ -225,10 +204,8 @@ impl Instance {
         orders: &[i32],
         values: &[f64],
     ) -> Result<(), Error> {
-        let function = Function::SetRealInputDerivatives;
-        self.allow(function)?;
-        let answer = self.component.set_real_input_derivatives(references, orders, values);
-        self.finish(function, answer, |symbol| self.call_text(symbol, references, BaseType::Real))
+        let answer = |it: &mut Component| it.set_real_input_derivatives(references, orders, values);
+        self.call(Function::SetRealInputDerivatives, answer, |it| it.named(references, BaseType::Real))
     }
 
     /// `fmi2GetRealOutputDerivatives` at the current communication point; orders from 1.
@@ -238,10 +215,8 @@ impl Instance {
         orders: &[i32],
         values: &mut [f64],
     ) -> Result<(), Error> {
-        let function = Function::GetRealOutputDerivatives;
-        self.allow(function)?;
-        let answer = self.component.get_real_output_derivatives(references, orders, values);
-        self.finish(function, answer, |symbol| self.call_text(symbol, references, BaseType::Real))
+        let answer = |it: &mut Component| it.get_real_output_derivatives(references, orders, values);
+        self.call(Function::GetRealOutputDerivatives, answer, |it| it.named(references, BaseType::Real))
     }
 
     /// `fmi2GetDirectionalDerivative`: `result` = d(unknowns)/d(knowns) times `seed`.
@@ -252,28 +227,20 @@ impl Instance {
         seed: &[f64],
         result: &mut [f64],
     ) -> Result<(), Error> {
-        let function = Function::GetDirectionalDerivative;
-        self.allow(function)?;
-        let answer = self.component.get_directional_derivative(unknowns, knowns, seed, result);
-        self.finish(function, answer, |symbol| self.call_text(symbol, unknowns, BaseType::Real))
+        let answer = |it: &mut Component| it.get_directional_derivative(unknowns, knowns, seed, result);
+        self.call(Function::GetDirectionalDerivative, answer, |it| it.named(unknowns, BaseType::Real))
     }
 
     /// Whether the FMU ended by itself (`fmi2Terminated`), read after a step was discarded.
     pub fn terminated(&mut self) -> Result<bool, Error> {
-        let function = Function::GetBooleanStatus;
-        self.allow(function)?;
-        let (answer, value) = split(self.component.terminated());
-        self.finish(function, answer, |symbol| format!("{symbol}(fmi2Terminated)"))?;
-        Ok(value.unwrap_or(false))
+        let answer = Component::terminated;
+        self.call_for(Function::GetBooleanStatus, answer, |_| "(fmi2Terminated)".to_owned())
     }
 
     /// `fmi2LastSuccessfulTime` in s, read after a step was discarded.
     pub fn last_successful_time(&mut self) -> Result<f64, Error> {
-        let function = Function::GetRealStatus;
-        self.allow(function)?;
-        let (answer, value) = split(self.component.last_successful_time());
-        self.finish(function, answer, |symbol| format!("{symbol}(fmi2LastSuccessfulTime)"))?;
-        Ok(value.unwrap_or(f64::NAN))
+        let answer = Component::last_successful_time;
+        self.call_for(Function::GetRealStatus, answer, |_| "(fmi2LastSuccessfulTime)".to_owned())
     }
 
     /// Zero-length vectors as NULL, NULL states to free: the name and answer of each call. For probing.
@@ -293,87 +260,100 @@ impl Instance {
 
     /// One of `fmi2GetStatus`, `fmi2GetIntegerStatus`, `fmi2GetStringStatus` with a status kind. For probing.
     pub fn probe_status(&mut self, function: Function, kind: i32) -> Result<(), Error> {
-        self.allow(function)?;
-        let answer = self.component.get_other_status(function, kind);
-        self.finish(function, answer, |symbol| format!("{symbol}({kind})"))
+        self.call(function, |it| it.get_other_status(function, kind), |_| format!("({kind})"))
     }
 
     /// That a Real which was read at a time in s is NaN.
     pub fn not_a_number(&self, reference: u32, time_s: f64) -> Error {
-        let call = self.call_text(Function::GetReal.symbol(), &[reference], BaseType::Real);
+        let call = Function::GetReal.symbol().to_owned() + &self.named(&[reference], BaseType::Real);
         self.failure(call, Outcome::NotANumber(time_s))
     }
 
-    fn allow(&self, function: Function) -> Result<(), Error> {
+    /// Makes a call that the standard allows now; `arguments` are what an error shows of them.
+    fn call(
+        &mut self,
+        function: Function,
+        answer: impl FnOnce(&mut Component) -> Answer,
+        arguments: impl FnOnce(&Self) -> String,
+    ) -> Result<(), Error> {
+        self.call_for(function, |it| answer(it).map(|status| (status, ())), arguments)
+    }
+
+    /// A call whose arguments say nothing.
+    fn call_plain(
+        &mut self,
+        function: Function,
+        answer: impl FnOnce(&mut Component) -> Answer,
+    ) -> Result<(), Error> {
+        self.call(function, answer, |_| String::new())
+    }
+
+    /// A call that gives something.
+    fn call_for<T>(
+        &mut self,
+        function: Function,
+        answer: impl FnOnce(&mut Component) -> Result<(Status, T), Outcome>,
+        arguments: impl FnOnce(&Self) -> String,
+    ) -> Result<T, Error> {
         self.checker
             .allow(function)
-            .map_err(|why| self.failure(function.symbol().to_owned(), Outcome::NotAllowed(why)))
+            .map_err(|why| self.failure(function.symbol().to_owned(), Outcome::NotAllowed(why)))?;
+        let answer = answer(&mut self.component);
+        self.finish(function, answer, arguments)
     }
 
-    /// Also checks that each variable may be read or set in the state.
-    fn allow_variables(&self, function: Function, references: &[u32], base: BaseType) -> Result<(), Error> {
+    /// A call that reads or sets variables, each of which may be read or set now.
+    fn access(
+        &mut self,
+        (function, base): (Function, BaseType),
+        references: &[u32],
+        answer: impl FnOnce(&mut Component) -> Answer,
+        arguments: impl FnOnce(&Self) -> String,
+    ) -> Result<(), Error> {
         self.checker.allow_variables(function, references, base).map_err(|why| {
-            self.failure(self.call_text(function.symbol(), references, base), Outcome::NotAllowed(why))
-        })
+            let call = function.symbol().to_owned() + &self.named(references, base);
+            self.failure(call, Outcome::NotAllowed(why))
+        })?;
+        let answer = answer(&mut self.component).map(|status| (status, ()));
+        self.finish(function, answer, arguments)
     }
 
-    fn finish(
+    fn finish<T>(
         &self,
         function: Function,
-        answer: Answer,
-        call: impl FnOnce(&str) -> String,
-    ) -> Result<(), Error> {
-        match answer {
-            Ok(status) => {
+        answer: Result<(Status, T), Outcome>,
+        arguments: impl FnOnce(&Self) -> String,
+    ) -> Result<T, Error> {
+        let outcome = match answer {
+            Ok((status, value)) => {
                 self.checker.answered(function, status);
                 if matches!(status, Status::Ok | Status::Warning) {
-                    Ok(())
-                } else {
-                    Err(self.failure(call(function.symbol()), Outcome::Status(status)))
+                    return Ok(value);
                 }
+                Outcome::Status(status)
             }
-            Err(outcome) => Err(self.failure(call(function.symbol()), outcome)),
-        }
+            Err(outcome) => outcome,
+        };
+        Err(self.failure(function.symbol().to_owned() + &arguments(self), outcome))
     }
 
-    /// The call with the names behind its value references, for errors.
-    fn call_text(&self, function: &str, references: &[u32], base: BaseType) -> String {
-        format!("{function}({})", self.names(references, base).join(", "))
+    /// The names behind value references, for errors.
+    fn named(&self, references: &[u32], base: BaseType) -> String {
+        format!("({})", self.names(references, base).join(", "))
     }
 
-    /// The call with names and values, for errors.
-    fn set_text<T: std::fmt::Debug>(
-        &self,
-        function: &str,
-        references: &[u32],
-        base: BaseType,
-        values: &[T],
-    ) -> String {
-        let pairs: Vec<String> = self
-            .names(references, base)
-            .into_iter()
-            .zip(values)
-            .map(|(name, value)| format!("{name}={value:?}"))
-            .collect();
+    /// The same with values.
+    fn assigned<T: std::fmt::Debug>(&self, references: &[u32], base: BaseType, values: &[T]) -> String {
+        let names = self.names(references, base);
+        let pairs = names.iter().zip(values).map(|(name, value)| format!("{name}={value:?}"));
+        let pairs: Vec<String> = pairs.collect();
         let more = if values.len() > pairs.len() { ", ..." } else { "" };
-        format!("{function}({}{more})", pairs.join(", "))
+        format!("({}{more})", pairs.join(", "))
     }
 
     fn names(&self, references: &[u32], base: BaseType) -> Vec<String> {
         const SHOWN: usize = 4;
-        let variables = &self.fmu.description().variables;
-        references
-            .iter()
-            .take(SHOWN)
-            .map(|&reference| {
-                variables
-                    .iter()
-                    .find(|variable| {
-                        variable.value_reference == reference && variable.kind.base_type() == base
-                    })
-                    .map_or_else(|| format!("reference {reference}"), |variable| variable.name.clone())
-            })
-            .collect()
+        references.iter().take(SHOWN).map(|&reference| self.fmu.name_of(base, reference)).collect()
     }
 
     fn failure(&self, call: String, outcome: Outcome) -> Error {
@@ -393,11 +373,4 @@ const REASONS: [&str; 3] = ["logStatusDiscard", "logStatusError", "logStatusFata
 /// The messages that an error shows.
 fn last(mut messages: Vec<LogMessage>) -> Vec<LogMessage> {
     messages.split_off(messages.len().saturating_sub(MESSAGES_SHOWN))
-}
-
-fn split<T>(answer: Result<(Status, T), Outcome>) -> (Answer, Option<T>) {
-    match answer {
-        Ok((status, value)) => (Ok(status), Some(value)),
-        Err(outcome) => (Err(outcome), None),
-    }
 }

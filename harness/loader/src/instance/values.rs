@@ -4,73 +4,78 @@ use model_description::call_table::Function;
 use model_description::{BaseType, ScalarVariable, VariableKind};
 
 use super::Instance;
-use crate::{Error, Value, parse_value};
+use crate::{
+    Error, Value,
+    abi::{Answer, Component},
+    parse_value,
+};
 
 impl Instance {
     /// `fmi2GetReal`.
     pub fn get_reals(&mut self, references: &[u32], values: &mut [f64]) -> Result<(), Error> {
-        let function = Function::GetReal;
-        self.allow_variables(function, references, BaseType::Real)?;
-        let answer = self.component.get_real(references, values);
-        self.finish(function, answer, |symbol| self.call_text(symbol, references, BaseType::Real))
+        self.get_by((Function::GetReal, BaseType::Real), references, |it| it.get_real(references, values))
     }
 
     /// `fmi2GetInteger`, Enumerations too.
     pub fn get_integers(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), Error> {
-        let function = Function::GetInteger;
-        self.allow_variables(function, references, BaseType::Integer)?;
-        let answer = self.component.get_integer(references, values);
-        self.finish(function, answer, |symbol| self.call_text(symbol, references, BaseType::Integer))
+        self.get_by((Function::GetInteger, BaseType::Integer), references, |it| {
+            it.get_integer(references, values)
+        })
     }
 
     /// `fmi2GetBoolean`; 0 is false, anything else true.
     pub fn get_booleans(&mut self, references: &[u32], values: &mut [i32]) -> Result<(), Error> {
-        let function = Function::GetBoolean;
-        self.allow_variables(function, references, BaseType::Boolean)?;
-        let answer = self.component.get_boolean(references, values);
-        self.finish(function, answer, |symbol| self.call_text(symbol, references, BaseType::Boolean))
+        self.get_by((Function::GetBoolean, BaseType::Boolean), references, |it| {
+            it.get_boolean(references, values)
+        })
     }
 
     /// `fmi2GetString`; the texts are copies.
     pub fn get_strings(&mut self, references: &[u32]) -> Result<Vec<String>, Error> {
-        let function = Function::GetString;
-        self.allow_variables(function, references, BaseType::String)?;
         let mut values = Vec::with_capacity(references.len());
-        let answer = self.component.get_string(references, &mut values);
-        self.finish(function, answer, |symbol| self.call_text(symbol, references, BaseType::String))?;
+        let answer = |it: &mut Component| it.get_string(references, &mut values);
+        self.get_by((Function::GetString, BaseType::String), references, answer)?;
         Ok(values)
     }
 
     /// `fmi2SetReal`.
     pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), Error> {
-        let function = Function::SetReal;
-        self.allow_variables(function, references, BaseType::Real)?;
-        let answer = self.component.set_real(references, values);
-        self.finish(function, answer, |symbol| self.set_text(symbol, references, BaseType::Real, values))
+        self.set_by((Function::SetReal, BaseType::Real), references, values, Component::set_real)
     }
 
     /// `fmi2SetInteger`, Enumerations too.
     pub fn set_integers(&mut self, references: &[u32], values: &[i32]) -> Result<(), Error> {
-        let function = Function::SetInteger;
-        self.allow_variables(function, references, BaseType::Integer)?;
-        let answer = self.component.set_integer(references, values);
-        self.finish(function, answer, |symbol| self.set_text(symbol, references, BaseType::Integer, values))
+        self.set_by((Function::SetInteger, BaseType::Integer), references, values, Component::set_integer)
     }
 
     /// `fmi2SetBoolean`; 0 is false, 1 true.
     pub fn set_booleans(&mut self, references: &[u32], values: &[i32]) -> Result<(), Error> {
-        let function = Function::SetBoolean;
-        self.allow_variables(function, references, BaseType::Boolean)?;
-        let answer = self.component.set_boolean(references, values);
-        self.finish(function, answer, |symbol| self.set_text(symbol, references, BaseType::Boolean, values))
+        self.set_by((Function::SetBoolean, BaseType::Boolean), references, values, Component::set_boolean)
     }
 
     /// `fmi2SetString`.
     pub fn set_strings(&mut self, references: &[u32], values: &[&str]) -> Result<(), Error> {
-        let function = Function::SetString;
-        self.allow_variables(function, references, BaseType::String)?;
-        let answer = self.component.set_string(references, values);
-        self.finish(function, answer, |symbol| self.set_text(symbol, references, BaseType::String, values))
+        self.set_by((Function::SetString, BaseType::String), references, values, Component::set_string)
+    }
+
+    fn get_by(
+        &mut self,
+        function: (Function, BaseType),
+        references: &[u32],
+        answer: impl FnOnce(&mut Component) -> Answer,
+    ) -> Result<(), Error> {
+        self.access(function, references, answer, |it| it.named(references, function.1))
+    }
+
+    fn set_by<T: std::fmt::Debug>(
+        &mut self,
+        function: (Function, BaseType),
+        references: &[u32],
+        values: &[T],
+        set: fn(&mut Component, &[u32], &[T]) -> Answer,
+    ) -> Result<(), Error> {
+        let answer = |it: &mut Component| set(it, references, values);
+        self.access(function, references, answer, |it| it.assigned(references, function.1, values))
     }
 
     /// Reads one variable by name.

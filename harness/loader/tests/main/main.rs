@@ -42,10 +42,23 @@ pub fn real(name: &str, reference: u32, causality: Causality, variability: Varia
 
 /// A description of a few variables, enough for names, values and tables.
 pub fn description() -> Description {
-    let with = |mut variable: ScalarVariable, kind| {
-        variable.kind = kind;
-        variable
+    let [fixed, discrete] =
+        [(Causality::Parameter, Variability::Fixed), (Causality::Input, Variability::Discrete)];
+    let other = |name, reference, (causality, variability), kind| ScalarVariable {
+        kind,
+        ..real(name, reference, causality, variability)
     };
+    let (declared_type, quantity, min, max) = (None, None, None, None);
+    let mode = VariableKind::Enumeration {
+        start: Some(1),
+        declared_type: "Mode".to_owned(),
+        quantity: None,
+        min,
+        max,
+    };
+    let turns = VariableKind::Integer { start: Some(0), declared_type: None, quantity, min, max };
+    let text = VariableKind::String { start: Some("Ship".to_owned()), declared_type: None };
+    let on = VariableKind::Boolean { start: Some(false), declared_type };
     let variables = vec![
         real("ship.mass", 0, Causality::Parameter, Variability::Tunable),
         real("ship.arm[1]", 1, Causality::Parameter, Variability::Fixed),
@@ -53,37 +66,14 @@ pub fn description() -> Description {
         real("ship.arm[3]", 3, Causality::Parameter, Variability::Fixed),
         real("drive.push", 4, Causality::Input, Variability::Continuous),
         real("drive.held", 5, Causality::Input, Variability::Discrete),
-        with(
-            real("drive.on", 0, Causality::Input, Variability::Discrete),
-            VariableKind::Boolean { start: Some(false), declared_type: None },
-        ),
-        with(
-            real("drive.mode", 0, Causality::Parameter, Variability::Fixed),
-            VariableKind::Enumeration {
-                start: Some(1),
-                declared_type: "Mode".to_owned(),
-                quantity: None,
-                min: None,
-                max: None,
-            },
-        ),
-        with(
-            real("drive.turns", 1, Causality::Parameter, Variability::Fixed),
-            VariableKind::Integer {
-                start: Some(0),
-                declared_type: None,
-                quantity: None,
-                min: None,
-                max: None,
-            },
-        ),
-        with(
-            real("ship.name", 0, Causality::Parameter, Variability::Fixed),
-            VariableKind::String { start: Some("Ship".to_owned()), declared_type: None },
-        ),
+        other("drive.on", 0, discrete, on),
+        other("drive.mode", 0, fixed, mode),
+        other("drive.turns", 1, fixed, turns),
+        other("ship.name", 0, fixed, text),
         real("position[1]", 6, Causality::Output, Variability::Continuous),
         real("position[2]", 7, Causality::Output, Variability::Continuous),
     ];
+    let display = |name: &str, factor, offset| DisplayUnit { name: name.to_owned(), factor, offset };
     Description {
         model_name: "Ship".to_owned(),
         guid: "{ship}".to_owned(),
@@ -96,9 +86,9 @@ pub fn description() -> Description {
             name: "m".to_owned(),
             base: None,
             display_units: vec![
-                DisplayUnit { name: "cm".to_owned(), factor: 100.0, offset: 0.0 },
-                DisplayUnit { name: "above sea".to_owned(), factor: 1.0, offset: -500.0 },
-                DisplayUnit { name: "cm above sea".to_owned(), factor: 100.0, offset: -50_000.0 },
+                display("cm", 100.0, 0.0),
+                display("above sea", 1.0, -500.0),
+                display("cm above sea", 100.0, -50_000.0),
             ],
         }],
         types: vec![SimpleType {

@@ -1,6 +1,6 @@
 //! People's names and values: vectors, patterns, units, items; and errors that help.
 
-use loader::{Value, parse_assignment};
+use loader::{Fmu, Value, parse_assignment};
 
 use crate::{description, folder};
 
@@ -62,13 +62,15 @@ fn a_vector_is_set_whole() {
     assert!(assigned("ship.arm=1,2").unwrap_err().contains("2 values given for its 3 elements"));
 }
 
+fn selected<'a>(fmu: &'a Fmu, pattern: &str) -> Vec<&'a str> {
+    let positions = fmu.select(pattern).unwrap();
+    positions.into_iter().map(|it| fmu.description().variables[it].name.as_str()).collect()
+}
+
 #[test]
 fn patterns_keep_declaration_order() {
     let (_folder, fmu) = folder(&description());
-    let names = |pattern: &str| -> Vec<&str> {
-        let positions = fmu.select(pattern).unwrap();
-        positions.into_iter().map(|it| fmu.description().variables[it].name.as_str()).collect()
-    };
+    let names = |pattern: &str| selected(&fmu, pattern);
     assert_eq!(names("position"), ["position[1]", "position[2]"]);
     assert_eq!(names("position[*]"), names("position"));
     assert_eq!(names("position[2]"), ["position[2]"]);
@@ -80,10 +82,7 @@ fn patterns_keep_declaration_order() {
 #[test]
 fn a_name_may_be_in_another_case_where_one_has_it() {
     let (_folder, fmu) = folder(&description());
-    let names = |pattern: &str| -> Vec<&str> {
-        let positions = fmu.select(pattern).unwrap();
-        positions.into_iter().map(|it| fmu.description().variables[it].name.as_str()).collect()
-    };
+    let names = |pattern: &str| selected(&fmu, pattern);
     assert_eq!(names("Ship.MASS"), ["ship.mass"]);
     assert_eq!(names("Position"), ["position[1]", "position[2]"]);
     assert_eq!(names("POS*"), ["position[1]", "position[2]"]);

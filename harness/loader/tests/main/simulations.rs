@@ -10,24 +10,16 @@ fn real(value: f64) -> Value {
     Value::Real(value)
 }
 
-/// A run from start to stop in these steps, in s.
-fn over<'a>(start_s: f64, stop_s: f64, step_s: f64) -> Options<'a> {
-    Options { start_s: Some(start_s), stop_s: Some(stop_s), step_s: Some(step_s), ..Options::default() }
+/// A run from 0 to its stop in these steps, in s.
+fn over<'a>(stop_s: f64, step_s: f64) -> Options<'a> {
+    Options { start_s: Some(0.0), stop_s: Some(stop_s), step_s: Some(step_s), ..Options::default() }
 }
 
 #[test]
 fn outputs_are_recorded_at_every_point() {
     let Some((_folder, fmu)) = probe("AllTypes") else { return };
-    let simulation = simulate(
-        &fmu,
-        Options {
-            stop_s: Some(2.0),
-            step_s: Some(0.3),
-            sets: vec![("input.real".to_owned(), real(3.0)), ("parameter.real".to_owned(), real(4.0))],
-            ..Options::default()
-        },
-    )
-    .unwrap();
+    let sets = vec![("input.real".to_owned(), real(3.0)), ("parameter.real".to_owned(), real(4.0))];
+    let simulation = simulate(&fmu, Options { sets, ..over(2.0, 0.3) }).unwrap();
     assert_eq!(simulation.ended, Ended::AtStop);
     let recording = simulation.recording;
     let expected: Vec<f64> = (0..7).map(|k| f64::from(k) * 0.3).chain([2.0]).collect();
@@ -53,18 +45,9 @@ fn an_input_table_drives_the_simulation() {
     )
     .unwrap();
     let integral = |input_derivatives: bool| {
-        let simulation = simulate(
-            &fmu,
-            Options {
-                stop_s: Some(8.0),
-                step_s: Some(0.5),
-                inputs: Some(&table),
-                input_derivatives,
-                record: Some(fmu.select("output.*").unwrap()),
-                ..Options::default()
-            },
-        )
-        .unwrap();
+        let record = Some(fmu.select("output.*").unwrap());
+        let options = Options { inputs: Some(&table), input_derivatives, record, ..over(8.0, 0.5) };
+        let simulation = simulate(&fmu, options).unwrap();
         let counted = simulation.recording.column("output.integer").unwrap().number(16);
         assert_eq!(counted, 2.0, "the value at the start of the last step");
         simulation.recording.reals("output.integral").unwrap()[16]
@@ -98,13 +81,7 @@ fn what_a_row_is_answered_acts_from_there_on() {
     let Some((_folder, fmu)) = probe("AllTypes") else { return };
     let mut rows = Steering::default();
     let record = Some(fmu.select("output.integral").unwrap());
-    let options = Options {
-        stop_s: Some(3.0),
-        step_s: Some(0.5),
-        record_every_s: Some(1.0),
-        record,
-        ..Options::default()
-    };
+    let options = Options { record_every_s: Some(1.0), record, ..over(3.0, 0.5) };
     simulate_into(&fmu, options, &mut rows).unwrap();
     // 0 for a second, then 1, then 2.
     assert_eq!(rows.integrals, [0.0, 0.0, 1.0, 3.0]);
@@ -116,7 +93,7 @@ fn a_choice_is_set_by_its_items_name() {
     let run = |item: &str| {
         let sets = vec![("input.choice".to_owned(), Value::Text(item.to_owned()))];
         let record = Some(fmu.select("output.choice").unwrap());
-        simulate(&fmu, Options { stop_s: Some(1.0), step_s: Some(1.0), sets, record, ..Options::default() })
+        simulate(&fmu, Options { sets, record, ..over(1.0, 1.0) })
     };
     let Column::Integer(values) = &run("blue").unwrap().recording.columns[0] else { panic!("no choice") };
     assert_eq!(values.last(), Some(&4));
@@ -127,7 +104,7 @@ fn a_choice_is_set_by_its_items_name() {
 #[test]
 fn recording_less_often_keeps_the_last_point() {
     let Some((_folder, fmu)) = probe("Empty").or(probe("AllTypes")) else { return };
-    let simulation = simulate(&fmu, Options { record_every_s: Some(4.0), ..over(0.0, 10.5, 1.0) }).unwrap();
+    let simulation = simulate(&fmu, Options { record_every_s: Some(4.0), ..over(10.5, 1.0) }).unwrap();
     assert_eq!(simulation.recording.times_s, [0.0, 4.0, 8.0, 10.5]);
 }
 
@@ -136,27 +113,13 @@ fn cancelling_keeps_what_was_simulated() {
     let Some((_folder, fmu)) = probe("AllTypes") else { return };
     let cancel = AtomicBool::new(false);
     let mut progress = |time_s: f64| cancel.store(time_s >= 5.0, Ordering::Relaxed);
-    let simulation = simulate(
-        &fmu,
-        Options {
-            stop_s: Some(100.0),
-            step_s: Some(1.0),
-            progress: Some(&mut progress),
-            cancel: Some(&cancel),
-            ..Options::default()
-        },
-    )
-    .unwrap();
+    let (progress, cancel): (Option<&mut dyn FnMut(f64)>, _) = (Some(&mut progress), Some(&cancel));
+    let simulation = simulate(&fmu, Options { progress, cancel, ..over(100.0, 1.0) }).unwrap();
     assert_eq!(simulation.ended, Ended::Cancelled);
     let last_s = *simulation.recording.times_s.last().unwrap();
     assert!((5.0..=6.0).contains(&last_s), "{last_s}");
-    assert!(
-        simulation
-            .recording
-            .columns
-            .iter()
-            .all(|it| it.numbers().len() == simulation.recording.times_s.len())
-    );
+    let rows = simulation.recording.times_s.len();
+    assert!(simulation.recording.columns.iter().all(|it| it.numbers().len() == rows));
 }
 
 /// Inputs under which the Panicking probe meets `fault` from 3 s on.
@@ -171,7 +134,7 @@ fn fault_at_3_s(fmu: &loader::Fmu, fault: &str) -> InputTable {
 fn an_fmu_that_ends_by_itself_is_no_error() {
     let Some((_folder, fmu)) = probe("Panicking") else { return };
     let table = fault_at_3_s(&fmu, "terminateStep");
-    let simulation = simulate(&fmu, Options { inputs: Some(&table), ..over(0.0, 10.0, 1.0) }).unwrap();
+    let simulation = simulate(&fmu, Options { inputs: Some(&table), ..over(10.0, 1.0) }).unwrap();
     assert_eq!(simulation.ended, Ended::ByItself);
     assert!(*simulation.recording.times_s.last().unwrap() <= 4.0);
 }
@@ -180,7 +143,7 @@ fn an_fmu_that_ends_by_itself_is_no_error() {
 fn an_error_on_the_way_keeps_what_was_simulated() {
     let Some((_folder, fmu)) = probe("Panicking") else { return };
     let table = fault_at_3_s(&fmu, "failStep");
-    let stopped = simulate(&fmu, Options { inputs: Some(&table), ..over(0.0, 10.0, 1.0) }).unwrap_err();
+    let stopped = simulate(&fmu, Options { inputs: Some(&table), ..over(10.0, 1.0) }).unwrap_err();
     assert_eq!(stopped.partial.times_s, [0.0, 1.0, 2.0, 3.0]);
     assert!(stopped.to_string().contains("fmi2DoStep(currentCommunicationPoint=3"), "{stopped}");
 }

@@ -11,7 +11,7 @@ const DAY_S: f64 = 86_400.0;
 const SAMPLES: u32 = 25;
 
 /// One cadence and what it costs.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Cadence {
     /// From manoeuvre to manoeuvre, in s.
     pub interval_s: f64,
@@ -98,19 +98,7 @@ pub fn campaign(
     interval_s: f64,
     passed: &mut dyn FnMut(),
 ) -> Result<Cadence, PlanError> {
-    let mut seen = Cadence {
-        interval_s,
-        count: 0,
-        mean_rad: 0.0,
-        largest_rad: 0.0,
-        earth_angle_rad: 0.0,
-        sun_angle_rad: 0.0,
-        propellant_kg: 0.0,
-        manoeuvring_s: 0.0,
-        science_lost_s: 0.0,
-        science_lost_uniform_s: 0.0,
-        holds: false,
-    };
+    let mut seen = Cadence { interval_s, ..Cadence::default() };
     let mut before: Option<Vector3<f64>> = None;
     for pointing in pointings(spinner, phases, duration_s, interval_s) {
         passed();

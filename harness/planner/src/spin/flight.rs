@@ -133,9 +133,8 @@ pub fn fly(spinner: &Spinner, task: &Task, row: &Row) -> Result<Flight, PlanErro
         earth_inertial: task.aim.earth_inertial.unwrap_or_else(Vector3::zeros),
         star_inertial: Vector3::zeros(),
     };
-    let failed = |error: String| PlanError::Flight(error);
     let plant = Plant::start(spinner, &start(spinner, task, row), directions, Commands::none(), 0.0)
-        .map_err(|error| failed(error.to_string()))?;
+        .map_err(failed)?;
     let period_s = task.case.spin.period_s();
     let latest_s = row.duration_s + 6.0 * period_s;
     let mut flyer = Flyer {
@@ -154,7 +153,7 @@ pub fn fly(spinner: &Spinner, task: &Task, row: &Row) -> Result<Flight, PlanErro
     let mut step_s = period_s / SAMPLES;
     while flyer.phase() != Some(Phase::Done) {
         if flyer.plant.time_s() > latest_s {
-            return Err(failed(format!("the burn did not end within {latest_s:.1} s")));
+            return Err(failed(format_args!("the burn did not end within {latest_s:.1} s")));
         }
         step_s = if flyer.step(step_s)? { period_s / SAMPLES } else { 0.25 * step_s };
     }
@@ -164,6 +163,10 @@ pub fn fly(spinner: &Spinner, task: &Task, row: &Row) -> Result<Flight, PlanErro
         flyer.sample();
     }
     Ok(flyer.flight)
+}
+
+fn failed(error: impl core::fmt::Display) -> PlanError {
+    PlanError::Flight(error.to_string())
 }
 
 struct Flyer<'a> {
@@ -182,8 +185,7 @@ impl Flyer<'_> {
     }
 
     fn advance(&mut self, end_s: f64) -> Result<(), PlanError> {
-        let advanced = self.plant.advance(self.spinner, end_s);
-        advanced.map_err(|error| PlanError::Flight(error.to_string()))
+        self.plant.advance(self.spinner, end_s).map_err(failed)
     }
 
     /// Takes a step of at most `step_s`, to the next edge if that is nearer. False, and nothing done, if an edge that was not
@@ -221,12 +223,10 @@ impl Flyer<'_> {
         let (burn, mask) = (sequencer.burn(), sequencer.mask());
         let [before_s, after_s] = burn.about_centre_s(k);
         let mut centred = self.plant.clone();
-        centred
-            .advance(self.spinner, time_s + before_s)
-            .map_err(|error| PlanError::Flight(error.to_string()))?;
+        centred.advance(self.spinner, time_s + before_s).map_err(failed)?;
         let sun = centred.state().attitude.body_from_inertial(&self.task.aim.sun_inertial);
         let slit_rad = self.spinner.sun_sensor.azimuth_deg.to_radians();
-        let last_s = self.plant.sensors().sun_crossings().last_s();
+        let last_s = self.plant.sensors().sun.last_s;
         self.opened = Some(Pulse {
             time_s,
             on_time_s: before_s + after_s,
@@ -246,7 +246,7 @@ impl Flyer<'_> {
             sequencer.burn().valves.iter().map(|valve| valve.tail_off_s).fold(0.0, f64::max)
         });
         let mut later = self.plant.clone();
-        later.advance(self.spinner, time_s + tail_s).map_err(|error| PlanError::Flight(error.to_string()))?;
+        later.advance(self.spinner, time_s + tail_s).map_err(failed)?;
         let state: RigidBodyState = later.state();
         pulse.axis_inertial = state.momentum_inertial.normalize();
         pulse.nutation_rad = state.nutation_rad(later.motion().inertia());

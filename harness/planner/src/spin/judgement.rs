@@ -86,36 +86,19 @@ pub fn judge(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) -> Vec<
             },
         ),
     ];
-    let mut at_most = |limit, given_by, found: f64, most: f64, unit| {
+    let degrees = |found_rad: f64, most_rad: f64| [found_rad, most_rad].map(f64::to_degrees);
+    let given = &task.limits;
+    for (limit, given_by, [found, most], unit) in [
+        ("worst nutation", "--max-nutation", degrees(row.peak_rad, given.peak_rad), "deg"),
+        ("worst nutation left", "--max-final", degrees(row.final_rad, given.final_rad), "deg"),
+        ("time", "--max-duration", [row.longest_s / 60.0, given.duration_s / 60.0], "min"),
+        ("propellant", "on board", [1e3 * row.propellant_kg, 1e3 * task.propellant_kg], "g"),
+    ] {
         if most.is_finite() {
-            let kept = Some(found <= most);
-            judged.push(Judged {
-                limit,
-                given_by,
-                found,
-                allowed: (0.0, most),
-                unit,
-                kept,
-                remark: String::new(),
-            });
+            let (allowed, kept, remark) = ((0.0, most), Some(found <= most), String::new());
+            judged.push(Judged { limit, given_by, found, allowed, unit, kept, remark });
         }
-    };
-    at_most(
-        "worst nutation",
-        "--max-nutation",
-        row.peak_rad.to_degrees(),
-        task.limits.peak_rad.to_degrees(),
-        "deg",
-    );
-    at_most(
-        "worst nutation left",
-        "--max-final",
-        row.final_rad.to_degrees(),
-        task.limits.final_rad.to_degrees(),
-        "deg",
-    );
-    at_most("time", "--max-duration", row.longest_s / 60.0, task.limits.duration_s / 60.0, "min");
-    at_most("propellant", "on board", 1e3 * row.propellant_kg, 1e3 * task.propellant_kg, "g");
+    }
     judged
 }
 

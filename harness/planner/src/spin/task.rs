@@ -116,7 +116,7 @@ impl Task {
         let mut inertia = spinner
             .mass_properties
             .inertia(propellant_kg)
-            .map_err(|error| PlanError::Setup(error.to_string()))?;
+            .map_err(|error| PlanError::Refused(error.to_string()))?;
         let ratio = match options.ratio {
             Some(ratio) => positive("--ratio", ratio)?,
             None => inertia.inertial_nutation_ratio().unwrap_or(inertia.ratio()),
@@ -124,7 +124,11 @@ impl Task {
         let ratio_uncertainty = not_negative("--ratio-uncertainty", options.ratio_uncertainty)?;
         let (least, greatest) = (ratio - ratio_uncertainty, ratio + ratio_uncertainty);
         if !(least > 1.0 && greatest < 2.0) {
-            return Err(PlanError::Ratio { least, greatest });
+            return Err(PlanError::Refused(format!(
+                "the inertia ratio I3/IT is {least:.4} to {greatest:.4} (--ratio, otherwise the spacecraft's, +- \
+                 --ratio-uncertainty); allowed is above 1 and below 2: up to 1 nutation does not turn in the body or the \
+                 damper lets it grow, so that no train ends quietly, and no body has 2 or more"
+            )));
         }
         let rate_uncertainty_rpm = not_negative("--rate-uncertainty-rpm", options.rate_uncertainty_rpm)?;
         check(
@@ -138,24 +142,22 @@ impl Task {
             (mass.moments_kg_m2(propellant_kg), mass.products_kg_m2(propellant_kg));
         if options.ratio.is_some() {
             inertia = Inertia::axisymmetric(inertia.spin_kg_m2(), ratio)
-                .map_err(|error| PlanError::Setup(error.to_string()))?;
+                .map_err(|error| PlanError::Refused(error.to_string()))?;
             (moments_kg_m2, products_kg_m2) = (inertia.principal_kg_m2(), [0.0; 3]);
         }
         let name = thruster_name(options, spinner)?;
-        let (mask, opposite) = spinner.named(&name).ok_or_else(|| PlanError::Thruster {
-            found: name.clone(),
-            known: spinner
-                .thrusters
-                .iter()
-                .map(|t| t.name.as_str())
-                .chain(spinner.groups.iter().map(|g| g.name.as_str()))
-                .collect::<Vec<_>>()
-                .join(", "),
+        let (mask, opposite) = spinner.named(&name).ok_or_else(|| {
+            let thrusters = spinner.thrusters.iter().map(|thruster| thruster.name.as_str());
+            let groups = spinner.groups.iter().map(|group| group.name.as_str());
+            let known = thrusters.chain(groups).collect::<Vec<_>>().join(", ");
+            PlanError::Refused(format!("--thruster is \"{name}\"; this spacecraft has {known}"))
         })?;
         let thrust = spinner.thrust(mask);
         let torque_n_m = thrust.torque_body_n_m.xy().norm();
         if torque_n_m < 1e-9 {
-            return Err(PlanError::NoTorque { found: name });
+            return Err(PlanError::Refused(format!(
+                "--thruster is \"{name}\", which has no torque across the spin axis"
+            )));
         }
         let push = |mask: u32| spinner.thrust(mask).torque_body_n_m;
         let against = |mask: u32| opposes(&thrust.torque_body_n_m, &push(mask));

@@ -4,9 +4,7 @@ use clap::Parser;
 use physics::attitude::Inertia;
 use physics::spin::{damper::Damper, geometry::L1Phases, spinner::Spinner, train::Shape};
 
-use super::{
-    ACE, Options, PlanError, Row, Task, best, campaign, frontier, longest_interval_s, paper_plan, plan, trade,
-};
+use super::{ACE, Options, Row, Task, best, campaign, frontier, longest_interval_s, paper_plan, plan, trade};
 
 #[derive(Parser)]
 struct Line {
@@ -24,6 +22,18 @@ pub(super) fn ace() -> Spinner {
 
 pub(super) fn task(arguments: &str) -> Task {
     Task::new(&options(arguments), &ace()).unwrap()
+}
+
+/// A text has every one of the parts.
+pub(super) fn assert_has(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "`{part}` is missing from: {text}");
+    }
+}
+
+/// These flags have no plan, for a reason that has every one of the parts.
+pub(super) fn refused(arguments: &str, parts: &[&str]) {
+    assert_has(&plan(&options(arguments)).unwrap_err().to_string(), parts);
 }
 
 fn chosen(task: &Task) -> Row {
@@ -84,27 +94,18 @@ fn the_frontier_holds_no_train_that_another_beats() {
 
 #[test]
 fn plans_that_cannot_be_had_say_why() {
-    assert!(matches!(best(&trade(&task("--max-nutation 0.001")).unwrap()), Err(PlanError::NoPlan { .. })));
-    let text = plan(&options("--max-duration 0.01")).unwrap_err().to_string();
-    assert!(text.contains("shortest") && text.contains("min"));
-    let text = plan(&options("--thruster V")).unwrap_err().to_string();
-    assert!(text.contains("IIIR") && text.contains("spin up"));
-    let text = plan(&options("--thruster IR+ --angle 0")).unwrap_err().to_string();
-    assert!(text.contains("--angle") && text.contains('0'));
-    assert!(plan(&options("--spacecraft nowhere.toml")).unwrap_err().to_string().contains("nowhere.toml"));
+    refused("--max-nutation 0.001", &["no plan keeps the limits"]);
+    refused("--max-duration 0.01", &["shortest", "min"]);
+    refused("--thruster V", &["IIIR", "spin up"]);
+    refused("--thruster IR+ --angle 0", &["--angle", "0"]);
+    refused("--spacecraft nowhere.toml", &["nowhere.toml"]);
     let text =
         Task::new(&Options { thruster: Some("thrust along +Z".into()), ..options("") }, &ace()).unwrap_err();
-    assert!(matches!(text, PlanError::NoTorque { .. }));
+    assert!(text.to_string().contains("no torque across the spin axis"));
 }
 
 #[test]
 fn bodies_and_angles_that_have_no_quiet_plan_are_refused_with_what_is_allowed() {
-    let refused = |arguments: &str, parts: &[&str]| {
-        let text = plan(&options(arguments)).unwrap_err().to_string();
-        for part in parts {
-            assert!(text.contains(part), "`{part}` is missing from: {text}");
-        }
-    };
     refused("--angle 400", &["--angle is 400", "above 0 to 175 deg"]);
     refused("--angle 175.1", &["--angle is 175.1"]);
     refused("--angle nan", &["--angle is NaN"]);
@@ -125,17 +126,11 @@ fn bodies_and_angles_that_have_no_quiet_plan_are_refused_with_what_is_allowed() 
     // A body of its own may be as bad as a flag.
     let mut slim = ace();
     slim.mass_properties.inertia_ratio.iter_mut().for_each(|ratio| *ratio = 0.9);
-    assert!(matches!(Task::new(&options(""), &slim), Err(PlanError::Ratio { .. })));
+    assert!(Task::new(&options(""), &slim).unwrap_err().to_string().contains("the inertia ratio I3/IT"));
 }
 
 #[test]
 fn what_the_thruster_or_the_tank_cannot_give_is_refused_for_what_it_is() {
-    let refused = |arguments: &str, parts: &[&str]| {
-        let text = plan(&options(arguments)).unwrap_err().to_string();
-        for part in parts {
-            assert!(text.contains(part), "`{part}` is missing from: {text}");
-        }
-    };
     refused("--angle 0.001", &["--angle is 0.001", "2 %", "--angle-tolerance", "IIIR, 32 ms, moves 0.0176"]);
     refused("--rate-rpm 1e6", &["IIIR", "0.032 s", "half a turn", "--rate-rpm"]);
     refused("--propellant=-3", &["--propellant is -3", "0 to 195 kg"]);
@@ -182,13 +177,11 @@ fn below_a_ratio_of_1_the_damper_does_the_opposite() {
 #[test]
 fn a_plan_says_whether_it_was_simulated_again() {
     // Tests run in the crate's folder, where nothing is packed.
-    let text = plan(&options("--angle 2")).unwrap().text;
-    assert!(text.contains("Not re-simulated: no dist/SpinPlant.fmu"), "{text}");
+    assert_has(&plan(&options("--angle 2")).unwrap().text, &["Not re-simulated: no dist/SpinPlant.fmu"]);
     let own = "../../fmu-src/resources/ace.toml";
     let text = plan(&Options { spacecraft: Some(own.into()), ..options("--angle 2") }).unwrap().text;
-    assert!(text.contains("Not re-simulated") && text.contains("another spacecraft"), "{text}");
-    let text = plan(&options("--fmu nowhere.fmu")).unwrap_err().to_string();
-    assert!(text.contains("nowhere.fmu"), "{text}");
+    assert_has(&text, &["Not re-simulated", "another spacecraft"]);
+    refused("--fmu nowhere.fmu", &["nowhere.fmu"]);
 }
 
 #[test]
@@ -208,8 +201,7 @@ fn without_a_lissajous_the_deadband_lasts_the_papers_6_1_days() {
 #[test]
 fn a_campaign_keeps_its_limits_and_its_days() {
     // Uniform trains take 22.6 min for 2 deg, tapered ones half of it at most.
-    let text = plan(&options("--campaign 20 --max-nutation 0.001")).unwrap_err().to_string();
-    assert!(text.contains("no plan keeps the limits"), "{text}");
+    refused("--campaign 20 --max-nutation 0.001", &["no plan keeps the limits"]);
     let (spinner, phases, days) = (ace(), L1Phases::default(), 30.0 * 86_400.0);
     let cadence = |arguments: &str| {
         campaign(&spinner, &task(arguments), &phases, days, 2.0 * 86_400.0, &mut || ()).unwrap()
@@ -223,8 +215,7 @@ fn a_campaign_keeps_its_limits_and_its_days() {
         "{text}"
     );
     for days in ["0", "-1", "nan", "3654", "1e6"] {
-        let text = plan(&options(&format!("--campaign={days}"))).unwrap_err().to_string();
-        assert!(text.contains("--campaign is") && text.contains("above 0 to 3653 days"), "{text}");
+        refused(&format!("--campaign={days}"), &["--campaign is", "above 0 to 3653 days"]);
     }
     let mut passed = 0;
     campaign(&spinner, &task(""), &phases, days, 2.5 * 86_400.0, &mut || passed += 1).unwrap();
@@ -245,14 +236,14 @@ fn the_line_of_the_best_plan_says_what_it_misses_and_how_much_it_nutates() {
     // None that is as quick keeps the period variation of the file: the plan is the best of those that the flags leave.
     let text = plan(&options("--angle 2 --max-duration 8")).unwrap().text;
     let line = text.lines().find(|line| line.starts_with("Least final nutation")).unwrap();
-    for part in ["moves 1.9676 of 2.0000 deg (-1.6 %)", "peak nutation 0.14135 deg", "8.0 times the paper's"]
-    {
-        assert!(line.contains(part), "`{part}` is missing from: {line}");
-    }
+    assert_has(
+        line,
+        &["moves 1.9676 of 2.0000 deg (-1.6 %)", "peak nutation 0.14135 deg", "8.0 times the paper's"],
+    );
 }
 
 #[test]
 fn months_of_pointing_on_the_lissajous_orbit_keep_earth_and_sun() {
     let text = plan(&options("--campaign 120")).unwrap().text;
-    assert!(text.contains("Longest interval") && text.contains("kept") && text.contains("broken"));
+    assert_has(&text, &["Longest interval", "kept", "broken"]);
 }

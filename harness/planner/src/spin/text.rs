@@ -50,14 +50,13 @@ pub fn plan(options: &Options) -> Result<Answer, PlanError> {
 }
 
 fn spacecraft(options: &Options) -> Result<Spinner, PlanError> {
-    let setup = |text: String| PlanError::Setup(text);
     let Some(path) = &options.spacecraft else {
-        return Spinner::parse("ace.toml", ACE).map_err(|error| setup(error.to_string()));
+        return Spinner::parse("ace.toml", ACE).map_err(|error| PlanError::Refused(error.to_string()));
     };
     let name = path.display().to_string();
-    let text =
-        std::fs::read_to_string(path).map_err(|error| setup(format!("cannot read {name}: {error}")))?;
-    Spinner::parse(&name, &text).map_err(|error| setup(error.to_string()))
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| PlanError::Refused(format!("cannot read {name}: {error}")))?;
+    Spinner::parse(&name, &text).map_err(|error| PlanError::Refused(error.to_string()))
 }
 
 fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Answer, PlanError> {
@@ -234,7 +233,10 @@ fn simulated_again<'a>(
         }
         lines.push(format!("Passed over, as simulated: {}: {}", row.label(), broken.join(", ")));
     }
-    Err(PlanError::Broken(lines.join("\n  ")))
+    Err(PlanError::Refused(format!(
+        "no plan keeps its limits when it is simulated through the FMU: {}",
+        lines.join("\n  ")
+    )))
 }
 
 /// What came out of a simulation that kept everything, beside what was predicted.

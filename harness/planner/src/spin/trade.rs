@@ -3,9 +3,9 @@
 use core::f64::consts::PI;
 
 use physics::spin::{
-    burn::sized,
     forecast::Timing,
-    train::{Shape, Train},
+    sizing::sized,
+    train::{Pulses, Shape, Train},
 };
 
 use super::{PlanError, Task};
@@ -90,13 +90,15 @@ pub fn trade(task: &Task) -> Result<Vec<Row>, PlanError> {
     }
     if rows.is_empty() {
         let spin = &task.case.spin;
-        return Err(PlanError::NoTrain {
-            angle_deg: task.angle_rad.to_degrees(),
-            tolerance_percent: 100.0 * task.angle_tolerance,
-            thruster: task.thruster.clone(),
-            pulse_ms: 1e3 * task.resolution_s,
-            pulse_deg: spin.manoeuvre_rad(task.case.torque_n_m, task.resolution_s).to_degrees(),
-        });
+        return Err(PlanError::Refused(format!(
+            "--angle is {} deg; no train comes within {} % of it (--angle-tolerance): the shortest pulse of {}, {} ms, moves \
+             {:.6} deg",
+            task.angle_rad.to_degrees(),
+            100.0 * task.angle_tolerance,
+            task.thruster,
+            1e3 * task.resolution_s,
+            spin.manoeuvre_rad(task.case.torque_n_m, task.resolution_s).to_degrees(),
+        )));
     }
     for row in &mut rows {
         row.damping_saved_s = task.damper_time_constant_s * (reference.final_rad / row.final_rad).ln();
@@ -117,13 +119,16 @@ pub fn frontier(rows: &[Row]) -> Vec<&Row> {
 /// The train of least worst final nutation that keeps the limits, of a [`trade`].
 pub fn best(rows: &[Row]) -> Result<&Row, PlanError> {
     let least = |value: fn(&Row) -> f64| rows.iter().map(value).fold(f64::INFINITY, f64::min);
-    let (peak, end, time) = (least(|r| r.peak_rad), least(|r| r.final_rad), least(|r| r.duration_s));
-    let propellant_kg = least(|r| r.propellant_kg);
-    rows.iter().find(|row| row.fits).ok_or_else(|| PlanError::NoPlan {
-        peak_deg: peak.to_degrees(),
-        final_deg: end.to_degrees(),
-        duration_min: time / 60.0,
-        propellant_kg,
+    rows.iter().find(|row| row.fits).ok_or_else(|| {
+        PlanError::Refused(format!(
+            "no plan keeps the limits: over all plans the least peak nutation is {:.5} deg, the least final nutation {:.6} deg, \
+             the shortest time {:.2} min, the least propellant {:.6} kg; widen --max-nutation, --max-final or --max-duration, \
+             or see --propellant",
+            least(|row| row.peak_rad).to_degrees(),
+            least(|row| row.final_rad).to_degrees(),
+            least(|row| row.duration_s) / 60.0,
+            least(|row| row.propellant_kg),
+        ))
     })
 }
 
@@ -135,16 +140,16 @@ pub fn paper_plan(task: &Task) -> Result<Row, PlanError> {
     let (pulse_s, half_turn_s) = (task.resolution_s, 0.5 * task.case.spin.period_s());
     evaluate(&task.with_angle(task.angle_rad), Shape::Uniform, 1, 1.0)
         .map(|row| Row { fits: row.fits && task.meets_angle(row.moved_rad), ..row })
-        .ok_or_else(|| PlanError::Coarse {
-            thruster: task.thruster.clone(),
-            why: if pulse_s > half_turn_s {
+        .ok_or_else(|| {
+            let why = if pulse_s > half_turn_s {
                 format!(
                     "its shortest pulse is {pulse_s} s, longer than half a turn ({half_turn_s:.3e} s at --rate-rpm): beyond \
                      that a pulse works against itself"
                 )
             } else {
                 format!("no train of pulses of {pulse_s} s turns by {} deg", task.angle_rad.to_degrees())
-            },
+            };
+            PlanError::Refused(format!("--thruster {} has no train: {why}", task.thruster))
         })
 }
 
@@ -152,8 +157,9 @@ pub fn paper_plan(task: &Task) -> Result<Row, PlanError> {
 pub fn evaluate(task: &Task, shape: Shape, unit: u32, turns: f64) -> Option<Row> {
     let spin = &task.case.spin;
     let width_s = f64::from(unit) * task.resolution_s;
-    let make = |count| Train::new(shape, count, width_s, turns, spin, task.resolution_s);
-    let train = sized(&make, &task.case, task.angle_rad).ok()?;
+    let pulses =
+        Pulses { shape, unit_width_s: width_s, turns_per_pulse: turns, resolution_s: task.resolution_s };
+    let train = sized(&pulses, &task.case, task.angle_rad).ok()?;
     // A pulse beyond half a turn works against itself.
     if train.widest_s() > 0.5 * spin.period_s() {
         return None;

@@ -118,7 +118,7 @@ fn simulate(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Simulated,
     ];
     let record = names
         .iter()
-        .map(|name| fmu.position(name).ok_or_else(|| PlanError::Verify(format!("no variable {name}"))))
+        .map(|name| fmu.position(name).ok_or_else(|| failed(format_args!("no variable {name}"))))
         .collect::<Result<Vec<_>, _>>()?;
     let options = loader::Options {
         stop_s: Some(stop_s),
@@ -127,16 +127,15 @@ fn simulate(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Simulated,
         record: Some(record),
         ..loader::Options::default()
     };
-    let simulation =
-        loader::simulate(fmu, options).map_err(|stopped| PlanError::Verify(stopped.to_string()))?;
+    let simulation = loader::simulate(fmu, options).map_err(failed)?;
     let numbers = |name: &str| {
         let column = simulation.recording.column(name).map(Column::numbers);
-        column.ok_or_else(|| PlanError::Verify(format!("{name} was not recorded")))
+        column.ok_or_else(|| failed(format_args!("{name} was not recorded")))
     };
     let columns = names.iter().map(|name| numbers(name)).collect::<Result<Vec<_>, _>>()?;
     let last = |column: usize| columns[column].last().copied().unwrap_or(f64::NAN);
     if last(2) != 1.0 {
-        return Err(PlanError::Verify(format!("the burn did not end within {stop_s} s")));
+        return Err(failed(format_args!("the burn did not end within {stop_s} s")));
     }
     // The edges are read where the first and the last pulse are still to come, or on.
     let count = row.train.count();
@@ -220,6 +219,10 @@ fn sets(fmu: &Fmu, task: &Task, row: &Row, spin: &Spin) -> Result<Vec<(String, V
 }
 
 /// The FMU's thruster of that number must be the one the plan is for.
+fn failed(error: impl core::fmt::Display) -> PlanError {
+    PlanError::Verify(error.to_string())
+}
+
 fn check_name(fmu: &Fmu, task: &Task, number: i32) -> Result<(), PlanError> {
     let thruster = format!("thruster[{number}]");
     let found = match labels::of_groups(fmu.description()).get(thruster.as_str()) {
@@ -227,7 +230,7 @@ fn check_name(fmu: &Fmu, task: &Task, number: i32) -> Result<(), PlanError> {
         Some(name) => format!("\"{name}\""),
         None => "missing".to_owned(),
     };
-    Err(PlanError::Verify(format!(
+    Err(failed(format_args!(
         "its {thruster} is {found}, the plan is for \"{}\": it was packed for another spacecraft",
         task.thruster
     )))

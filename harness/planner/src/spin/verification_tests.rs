@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use loader::Fmu;
 use physics::spin::train::Shape;
 
-use super::tests::{ace, options, task};
+use super::tests::{ace, assert_has, options, task};
 use super::{Firing, Options, Row, Task, evaluate, verify};
 
 /// The shipped FMU; `None` where `cargo xtask test` does not say where it is.
@@ -16,6 +16,11 @@ fn shipped() -> Option<Fmu> {
         return None;
     };
     Some(Fmu::open(PathBuf::from(dist).join("SpinPlant.fmu")).unwrap())
+}
+
+/// Two numbers are the same within a relative tolerance.
+fn assert_near(found: f64, expected: f64, tolerance: f64, seen: &dyn std::fmt::Debug) {
+    assert!((found / expected - 1.0).abs() < tolerance, "{seen:?}");
 }
 
 fn row(task: &Task, shape: Shape, turns: f64) -> Row {
@@ -34,19 +39,10 @@ fn alternating_trains_fire_the_thrusters_they_were_planned_for() {
             let row = row(&task, Shape::Tapered { order: 1 }, turns);
             let simulated = verify(&fmu, &task, &row, 3).unwrap();
             for moved_rad in [simulated.moved_rad.0, simulated.moved_rad.1] {
-                assert!(
-                    (moved_rad / row.moved_rad - 1.0).abs() < tolerance,
-                    "{thruster} {turns}: {simulated:?} {row:?}"
-                );
+                assert_near(moved_rad, row.moved_rad, tolerance, &(thruster, turns, &simulated, &row));
             }
-            assert!(
-                (simulated.longest_s / row.duration_s - 1.0).abs() < tolerance,
-                "{thruster} {turns}: {simulated:?} {row:?}"
-            );
-            assert!(
-                (simulated.peak_rad / row.peak_rad - 1.0).abs() < 0.05,
-                "{thruster} {turns}: {simulated:?} {row:?}"
-            );
+            assert_near(simulated.longest_s, row.duration_s, tolerance, &(thruster, turns, &simulated, &row));
+            assert_near(simulated.peak_rad, row.peak_rad, 0.05, &(thruster, turns, &simulated, &row));
             assert_eq!(simulated.broken(&task), Vec::<String>::new());
         }
     }
@@ -76,7 +72,7 @@ fn a_train_timed_by_the_sun_ends_as_quietly_as_one_timed_by_phase() {
         let row = row(&task, Shape::Tapered { order: 4 }, 1.0);
         let simulated = verify(&fmu, &task, &row, 5).unwrap();
         assert!(simulated.final_rad < 1.1 * row.final_rad, "{angle_deg}: {simulated:?} {row:?}");
-        assert!((simulated.peak_rad / row.peak_rad - 1.0).abs() < 0.01, "{angle_deg}: {simulated:?} {row:?}");
+        assert_near(simulated.peak_rad, row.peak_rad, 0.01, &(angle_deg, &simulated, &row));
     }
 }
 
@@ -92,9 +88,9 @@ fn the_corners_of_rate_and_ratio_are_simulated() {
         let (simulated, row, task) = with(&format!("--timing {timing}"));
         assert_eq!((simulated.ratios, simulated.rates), (9, 3));
         let (least, most) = row.moved_range_rad;
-        assert!((simulated.peak_rad / row.peak_rad - 1.0).abs() < 0.02, "{timing}: {simulated:?} {row:?}");
-        assert!((simulated.moved_rad.0 / least - 1.0).abs() < 2e-3, "{simulated:?} {row:?}");
-        assert!((simulated.moved_rad.1 / most - 1.0).abs() < 2e-3, "{simulated:?} {row:?}");
+        assert_near(simulated.peak_rad, row.peak_rad, 0.02, &(timing, &simulated, &row));
+        assert_near(simulated.moved_rad.0, least, 2e-3, &(timing, &simulated, &row));
+        assert_near(simulated.moved_rad.1, most, 2e-3, &(timing, &simulated, &row));
         if timing == "sun" {
             // 2 % slower moves 2 % farther.
             assert!(most > 1.015 * row.moved_rad && least < 0.985 * row.moved_rad);
@@ -112,7 +108,7 @@ fn a_split_train_is_simulated_as_it_was_planned_and_not_as_the_true_ratio_would_
     let row = row(&task, Shape::Split, 1.0);
     assert!(row.final_rad > 100.0 * row.nominal_final_rad);
     let simulated = verify(&fmu, &task, &row, 41).unwrap();
-    assert!((simulated.final_rad / row.final_rad - 1.0).abs() < 0.05, "{simulated:?} {row:?}");
+    assert_near(simulated.final_rad, row.final_rad, 0.05, &(&simulated, &row));
 }
 
 #[test]
@@ -125,7 +121,7 @@ fn a_plan_that_the_fmu_runs_otherwise_breaks_its_promise() {
     // Other thrusters than planned for: the FMU names those it has.
     let firing = Firing::Thruster { number: 1, opposite: None };
     let error = verify(&fmu, &Task { firing, ..task.clone() }, &row, 1).unwrap_err().to_string();
-    assert!(error.contains("thruster[1] is \"IA\"") && error.contains("IIIR"), "{error}");
+    assert_has(&error, &["thruster[1] is \"IA\"", "IIIR"]);
     let couple = Task { firing: Firing::Group("axial couple I-IV".into()), ..task.clone() };
     assert!(broken(&couple).contains("the move misses by 26"), "{}", broken(&couple));
     let mut tight = task.clone();
@@ -133,7 +129,5 @@ fn a_plan_that_the_fmu_runs_otherwise_breaks_its_promise() {
     tight.limits.final_rad *= 0.1;
     tight.limits.duration_s *= 0.9;
     let text = broken(&tight);
-    for part in ["peak nutation 0.0", "final nutation 0.00", "time 11.4"] {
-        assert!(text.contains(part), "`{part}` is missing from: {text}");
-    }
+    assert_has(&text, &["peak nutation 0.0", "final nutation 0.00", "time 11.4"]);
 }

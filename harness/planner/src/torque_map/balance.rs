@@ -4,7 +4,7 @@ use loader::Error;
 use nalgebra::{Matrix2, Vector2, Vector3};
 
 use super::{
-    grid::{Angles, Grid, angles_deg, direction},
+    grid::{Angles, Grid, angles_deg, cell, direction},
     sunlight::Sunlight,
 };
 
@@ -42,7 +42,7 @@ pub(super) fn find(sunlight: &mut Sunlight<'_>, grid: &Grid) -> Result<Vec<Balan
     let values = TARGETED.map(|axis| grid.component_n_m(axis));
     for row in 0..grid.steps[1] {
         for column in 0..grid.steps[0] {
-            let corners = [(column, row), (column + 1, row), (column + 1, row + 1), (column, row + 1)];
+            let corners = cell(column, row);
             let changes = |value: &dyn Fn(usize, usize) -> f64| {
                 let at = corners.map(|(column, row)| value(column, row));
                 at.iter().any(|value| *value < 0.0) && at.iter().any(|value| *value > 0.0)

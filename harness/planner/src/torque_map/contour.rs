@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use super::grid::cell;
+
 /// An edge of the grid: its first node, and whether it runs along a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Edge {
@@ -53,8 +55,7 @@ pub fn lines(
 
 /// The pieces of the line in a cell, each from edge to edge.
 fn crossed(column: usize, row: usize, value: &impl Fn(usize, usize) -> f64) -> Vec<[Edge; 2]> {
-    let corners =
-        [value(column, row), value(column + 1, row), value(column + 1, row + 1), value(column, row + 1)];
+    let corners = cell(column, row).map(|(column, row)| value(column, row));
     let below = corners.map(|corner| corner < 0.0);
     // Counter-clockwise from the row below, each between this corner and the next.
     let edges = [

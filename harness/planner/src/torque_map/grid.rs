@@ -38,6 +38,12 @@ pub(super) fn angles_deg(direction: &Vector3<f64>) -> Angles {
     [of.azimuth_rad.to_degrees(), of.elevation_rad.to_degrees()]
 }
 
+/// Corners of the cell beyond a node, counter-clockwise from it.
+pub(super) fn cell(column: usize, row: usize) -> [(usize, usize); 4] {
+    let (right, above) = (column.wrapping_add(1), row.wrapping_add(1));
+    [(column, row), (right, row), (right, above), (column, above)]
+}
+
 impl Grid {
     /// Asks for every node, on as many threads as the computer has; what acts depends on the direction alone.
     ///
@@ -121,10 +127,7 @@ impl Grid {
                 .map(|(left, below)| (column.wrapping_sub(left), row.wrapping_sub(below)));
             vanishes(column, row)
                 && cells.into_iter().any(|(column, row)| {
-                    let (right, above) = (column.wrapping_add(1), row.wrapping_add(1));
-                    [(column, row), (right, row), (right, above), (column, above)]
-                        .into_iter()
-                        .all(|(column, row)| vanishes(column, row))
+                    cell(column, row).into_iter().all(|(column, row)| vanishes(column, row))
                 })
         }
     }
@@ -135,7 +138,7 @@ impl Grid {
             let part = 0.5 * (place_deg[axis] / self.limits_deg[axis] + 1.0);
             ((part * self.steps[axis] as f64).floor().max(0.0) as usize).min(self.steps[axis] - 1)
         });
-        [(column, row), (column + 1, row), (column + 1, row + 1), (column, row + 1)]
+        cell(column, row)
     }
 
     /// A component of torque, 0 where it is rounding of the greatest torque.

@@ -1,11 +1,10 @@
 //! Figures 10 and 11 of paper 001: a burn of 10 m/s with each correction of its direction, over seeds.
 
-use super::burn_flight::{Burn, Corrections, DELTA_V_M_S, START_S, Sample, Simulated};
+use super::burn_flight::{DELTA_V_M_S, Kind, START_S, Sample, Simulated};
 use super::guided_loop::Loop;
 use crate::attitude::{Vector, across, angle_rad};
-use crate::case::{chosen, run_all};
-use crate::settings::cells;
-use crate::{Options, Report, StudyError};
+use crate::cells::row;
+use crate::report::{Outcome, Run};
 use drawing::{Chart, Mark, Panel, Series};
 
 const SEEDS: i32 = 16;
@@ -17,15 +16,6 @@ const GREAT_BIAS_M_S2: f64 = 1e-4;
 const BOTH_DEG: f64 = 0.03;
 /// Of the pictures.
 const SHOWN_SEED: i32 = 1;
-
-/// What is simulated over all seeds.
-#[derive(Clone, Copy, Debug)]
-struct Kind {
-    label: &'static str,
-    predictive: bool,
-    reactive: bool,
-    bias_m_s2: f64,
-}
 
 const fn kind(label: &'static str, predictive: bool, reactive: bool) -> Kind {
     Kind { label, predictive, reactive, bias_m_s2: BIAS_M_S2 }
@@ -67,43 +57,38 @@ fn rms(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// The burn of Figures 10 and 11.
-pub fn burn(options: &Options) -> Result<Report, StudyError> {
-    let kinds = chosen("pointing/burn", options, KINDS, |kind| kind.label.to_owned())?;
-    let both = Loop::open(options)?;
+pub fn burn(run: &mut Run<'_>) -> Outcome {
+    let kinds = run.chosen(KINDS, |kind| kind.label.to_owned())?;
+    let both = Loop::open(run.options)?;
     let cases: Vec<(Kind, i32)> =
         kinds.iter().flat_map(|kind| (1..=SEEDS).map(|seed| (*kind, seed))).collect();
-    let simulated = run_all(options, &cases, |(kind, seed)| {
-        let corrections = Corrections { predictive: kind.predictive, reactive: kind.reactive };
-        let burn = Burn { corrections, bias_m_s2: kind.bias_m_s2, seed: *seed };
-        burn.fly(&both, &format!("{}, seed {seed}", kind.label), options.step_s)
-    })?;
-    let mut report = Report::default();
-    report
-        .line("A burn of 10 m/s at 0.088 m/s2 with the thrust 0.75 deg off (paper 001, Figures 10 and 11)\n");
+    let step_s = run.options.step_s;
+    let simulated = run.all(&cases, |(kind, seed)| kind.fly(&both, *seed, step_s))?;
+    run.line("A burn of 10 m/s at 0.088 m/s2 with the thrust 0.75 deg off (paper 001, Figures 10 and 11)\n");
     let each: Vec<(Kind, &[Simulated])> =
         kinds.iter().copied().zip(simulated.chunks(SEEDS as usize)).collect();
-    let rows: Vec<_> = each.iter().map(|(kind, simulated)| row(kind, simulated)).collect();
+    let rows: Vec<_> = each.iter().map(|(kind, simulated)| shown(kind, simulated)).collect();
     let header = "corrections | direction rms | direction worst | magnitude rms | allowed | verdict";
-    report.table(header, &rows);
-    report.line(&remark(&each));
-    write(&mut report, options, &each)?;
+    run.table(header, &rows);
+    run.line(&remark(&each));
+    write(run, &each)?;
     let shown: Vec<(Kind, &Simulated)> = each
         .iter()
         .filter(|(kind, _)| kind.bias_m_s2 == BIAS_M_S2)
         .filter_map(|(kind, simulated)| Some((*kind, simulated.get(SHOWN_SEED as usize - 1)?)))
         .collect();
     if let Some((_, last)) = shown.last() {
-        report.picture(options, "burn-quaternion.svg", &quaternion_chart(last))?;
-        report.picture(options, "burn-velocity.svg", &velocity_chart(&shown))?;
+        run.picture("burn-quaternion.svg", &quaternion_chart(last))?;
+        run.picture("burn-velocity.svg", &velocity_chart(&shown))?;
     }
-    Ok(report)
+    Ok(())
 }
 
 fn direction_deg(simulated: &[Simulated]) -> f64 {
     rms(simulated.iter().map(|simulated| Errors::of(simulated).direction_deg))
 }
 
-fn row(kind: &Kind, simulated: &[Simulated]) -> Vec<String> {
+fn shown(kind: &Kind, simulated: &[Simulated]) -> Vec<String> {
     let errors: Vec<Errors> = simulated.iter().map(Errors::of).collect();
     let direction_deg = direction_deg(simulated);
     let worst_deg = errors.iter().map(|it| it.direction_deg).fold(0.0, f64::max);
@@ -148,37 +133,29 @@ fn remark(each: &[(Kind, &[Simulated])]) -> String {
     )
 }
 
-fn write(report: &mut Report, options: &Options, each: &[(Kind, &[Simulated])]) -> Result<(), StudyError> {
+fn write(run: &mut Run<'_>, each: &[(Kind, &[Simulated])]) -> Outcome {
     let rows = each.iter().flat_map(|(kind, simulated)| {
         (1..=SEEDS).zip(simulated.iter()).map(|(seed, simulated)| {
             let Errors { direction_deg, magnitude_mm_s, .. } = Errors::of(simulated);
             let thrust = simulated.samples.last().map_or(Vector::repeat(f64::NAN), |last| last.thrust_body);
-            let numbers = cells(&[&[direction_deg, magnitude_mm_s], thrust.as_slice()]);
-            [vec![kind.label.to_owned(), seed.to_string()], numbers].concat()
+            row![kind.label, seed, direction_deg, magnitude_mm_s, thrust]
         })
     });
     let header = "case | seed | direction_deg | magnitude_mm_s | thrust_x | thrust_y | thrust_z";
-    report.csv(options, "burn.csv", header, rows)?;
-    let rows = each.iter().filter_map(|(kind, simulated)| Some((kind, simulated.first()?))).flat_map(
-        |(kind, simulated)| {
-            simulated.samples.iter().map(|sample| {
-                let Sample { time_s, command_q, estimate_q, delta_v_m_s, .. } = sample;
-                let numbers = cells(&[
-                    &[*time_s],
-                    command_q.coords.as_slice(),
-                    estimate_q.coords.as_slice(),
-                    delta_v_m_s.as_slice(),
-                    &[off_path_m_s(simulated, sample)],
-                ]);
-                [vec![kind.label.to_owned()], numbers].concat()
-            })
-        },
-    );
+    run.csv("burn.csv", header, rows)?;
+    let first = each.iter().filter_map(|(kind, simulated)| Some((kind, simulated.first()?)));
+    let rows = first.flat_map(|(kind, simulated)| {
+        simulated.samples.iter().map(|sample| {
+            let Sample { time_s, command_q, estimate_q, delta_v_m_s, .. } = *sample;
+            let off_path_m_s = off_path_m_s(simulated, sample);
+            row![kind.label, time_s, command_q, estimate_q, delta_v_m_s, off_path_m_s]
+        })
+    });
     let header = "\
         case | time_s | command_q1 | command_q2 | command_q3 | command_q4 | \
         estimate_q1 | estimate_q2 | estimate_q3 | estimate_q4 | \
         delta_v_x_m_s | delta_v_y_m_s | delta_v_z_m_s | off_path_m_s";
-    report.csv(options, "burn-history.csv", header, rows)
+    run.csv("burn-history.csv", header, rows)
 }
 
 /// Distance of the true velocity from the straight path, in m/s.

@@ -3,7 +3,7 @@
 use super::guided_loop::{Loop, start_settings, whole_part_of_a_second};
 use crate::StudyError;
 use crate::attitude::{Attitude, Vector};
-use crate::case::{Case, Row};
+use crate::case::{Case, recorded};
 use crate::settings::Settings;
 
 /// Velocity to add, in m/s.
@@ -26,62 +26,43 @@ const SCALE: f64 = 1e-4;
 const NOISE_M_S2: f64 = 1e-4;
 const SAMPLE_S: f64 = 1.0;
 
-/// What is recorded, in the order of [`Sample`].
-const OUTPUTS: [&str; 10] = [
-    "plant.deltaV",
-    "plant.estimate.q",
-    "plant.position",
-    "plant.sun.positionInertial",
-    "guidance.command.q",
-    "guidance.command.rate",
-    "guidance.thrust.command",
-    "guidance.burn.thrustEstimate",
-    "guidance.burn.timedOut",
-    "guidance.constraint.sunKeepIn",
-];
-
-/// Which corrections are made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Corrections {
-    /// theta.
-    pub predictive: bool,
-    /// beta.
-    pub reactive: bool,
-}
-
-/// A burn to fly.
+/// Burns with the same corrections and accelerometers.
 #[derive(Clone, Copy, Debug)]
-pub struct Burn {
-    pub corrections: Corrections,
+pub struct Kind {
+    /// For messages and tables.
+    pub label: &'static str,
+    /// Whether theta is corrected.
+    pub predictive: bool,
+    /// Whether beta is.
+    pub reactive: bool,
     /// Standard deviation of the accelerometers' bias, in m/s2.
     pub bias_m_s2: f64,
-    pub seed: i32,
 }
 
-/// What is kept of a second.
-#[derive(Clone, Copy, Debug)]
-pub struct Sample {
-    /// In s.
-    pub time_s: f64,
-    /// True velocity added, EME2000, in m/s.
-    pub delta_v_m_s: Vector,
-    /// Estimated attitude.
-    pub estimate_q: Attitude,
-    /// Commanded attitude.
-    pub command_q: Attitude,
-    /// Commanded rate, body frame, in rad/s.
-    pub command_rate_rad_s: Vector,
-    /// Whether they are to.
-    pub is_commanded: bool,
-    /// Estimated thrust direction in the body frame.
-    pub thrust_body: Vector,
-    /// Whether the burn's time was up.
-    pub is_timed_out: bool,
-    /// Whether the keep-in zone holds the attitude.
-    pub is_constrained: bool,
-    /// From the planet's centre, in m.
-    position_m: Vector,
-    sun_m: Vector,
+recorded! {
+    /// What is kept of a second.
+    pub struct Sample {
+        @time_s,
+        /// True velocity added, EME2000, in m/s.
+        pub delta_v_m_s: Vector = "plant.deltaV",
+        /// Estimated attitude.
+        pub estimate_q: Attitude = "plant.estimate.q",
+        /// From the planet's centre, in m.
+        position_m: Vector = "plant.position",
+        sun_m: Vector = "plant.sun.positionInertial",
+        /// Commanded attitude.
+        pub command_q: Attitude = "guidance.command.q",
+        /// Commanded rate, body frame, in rad/s.
+        pub command_rate_rad_s: Vector = "guidance.command.rate",
+        /// Whether the thrusters are to fire.
+        pub is_commanded: bool = "guidance.thrust.command",
+        /// Estimated thrust direction in the body frame.
+        pub thrust_body: Vector = "guidance.burn.thrustEstimate",
+        /// Whether the burn's time was up.
+        pub is_timed_out: bool = "guidance.burn.timedOut",
+        /// Whether the keep-in zone holds the attitude.
+        pub is_constrained: bool = "guidance.constraint.sunKeepIn",
+    }
 }
 
 /// A burn's samples.
@@ -93,34 +74,16 @@ pub struct Simulated {
     pub wanted_m_s: Vector,
 }
 
-impl Sample {
-    fn of(mut row: Row<'_>) -> Self {
-        Self {
-            time_s: row.time_s,
-            delta_v_m_s: row.vector(),
-            estimate_q: row.attitude(),
-            position_m: row.vector(),
-            sun_m: row.vector(),
-            command_q: row.attitude(),
-            command_rate_rad_s: row.vector(),
-            is_commanded: row.flag(),
-            thrust_body: row.vector(),
-            is_timed_out: row.flag(),
-            is_constrained: row.flag(),
-        }
-    }
-}
-
-impl Burn {
-    /// Flies it from the attitude that is commanded first, in steps of `step_s`, otherwise of a second.
-    pub fn fly(&self, both: &Loop, label: &str, step_s: Option<f64>) -> Result<Simulated, StudyError> {
+impl Kind {
+    /// Flies one from the attitude that is commanded first, in steps of `step_s`, otherwise of a second.
+    pub fn fly(&self, both: &Loop, seed: i32, step_s: Option<f64>) -> Result<Simulated, StudyError> {
         let step_s = whole_part_of_a_second(step_s)?;
+        let label = format!("{}, seed {seed}", self.label);
         let samples = |case: Case, wanted_m_s: &Vector| -> Result<Vec<Sample>, StudyError> {
-            let case = self.set(case).elements("guidance.burn.deltaV", wanted_m_s.iter().copied());
-            let recorded = both.simulate(case, &OUTPUTS, &mut |_| Settings::new())?;
-            Ok(recorded.rows().map(Sample::of).collect())
+            let case = self.set(case, seed).set("guidance.burn.deltaV", *wanted_m_s);
+            Ok(both.simulate(case, Sample::NAMES, &mut |_| Settings::new())?.all(0))
         };
-        let short = Case::new(label, SAMPLE_S, SAMPLE_S);
+        let short = Case::new(label.as_str(), SAMPLE_S, SAMPLE_S);
         // Along the orbit's plane or across it makes no difference; the Sun has to stand on -Y, so across the Sun line.
         let first = samples(short.clone(), &Vector::z())?;
         let wanted_m_s = first.first().map_or(Vector::z(), |sample| {
@@ -134,20 +97,20 @@ impl Burn {
         Ok(Simulated { samples, wanted_m_s })
     }
 
-    fn set(&self, case: Case) -> Case {
-        case.integer("plant.noise.seed", self.seed)
-            .real("plant.spacecraft.mass", MASS_KG)
-            .real("plant.thrust.misalignment", MISALIGNMENT_DEG.to_radians())
-            .real("plant.thrust.drift", DRIFT_DEG.to_radians() / BURN_S)
-            .real("plant.thrust.jitter", JITTER_DEG.to_radians())
-            .real("plant.accelerometer.bias", self.bias_m_s2)
-            .real("plant.accelerometer.scale", SCALE)
-            .real("plant.accelerometer.noise", NOISE_M_S2)
-            .item("guidance.pointing.scenario", "burn")
-            .item("guidance.burn.thrusters", "c22")
-            .real("guidance.burn.start", START_S)
-            .real("guidance.burn.acceleration", ACCELERATION_M_S2)
-            .boolean("guidance.burn.predictive", self.corrections.predictive)
-            .boolean("guidance.burn.reactive", self.corrections.reactive)
+    fn set(&self, case: Case, seed: i32) -> Case {
+        case.set("plant.noise.seed", seed)
+            .set("plant.spacecraft.mass", MASS_KG)
+            .set("plant.thrust.misalignment", MISALIGNMENT_DEG.to_radians())
+            .set("plant.thrust.drift", DRIFT_DEG.to_radians() / BURN_S)
+            .set("plant.thrust.jitter", JITTER_DEG.to_radians())
+            .set("plant.accelerometer.bias", self.bias_m_s2)
+            .set("plant.accelerometer.scale", SCALE)
+            .set("plant.accelerometer.noise", NOISE_M_S2)
+            .set("guidance.pointing.scenario", "burn")
+            .set("guidance.burn.thrusters", "c22")
+            .set("guidance.burn.start", START_S)
+            .set("guidance.burn.acceleration", ACCELERATION_M_S2)
+            .set("guidance.burn.predictive", self.predictive)
+            .set("guidance.burn.reactive", self.reactive)
     }
 }

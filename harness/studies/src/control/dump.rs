@@ -1,9 +1,13 @@
 //! Dumps by pulses in controlled flight beside the impulse of the same dump: what is left over, what it takes, how the attitude
 //! stands it.
 
+use loader::Fmu;
+use nalgebra::Vector4;
+
+use crate::StudyError;
 use crate::attitude::Vector;
-use crate::case::{Case, Recorded, chosen, run_all};
-use crate::{Options, Report, StudyError};
+use crate::case::{Case, recorded};
+use crate::report::{Outcome, Run};
 use drawing::{Chart, Panel, Series};
 
 /// How long is simulated, and in which steps, in s.
@@ -38,85 +42,74 @@ fn dumps() -> Vec<Dump> {
 /// A dump in controlled flight and as an impulse.
 struct Simulated {
     dump: Dump,
-    controlled: Recorded,
-    ideal: Recorded,
+    controlled: Vec<Sample>,
+    ideal: Sample,
 }
 
-const OUTPUTS: [&str; 10] = [
-    "momentum.body",
-    "dump.impulse",
-    "dump.deltaV",
-    "propellant.used",
-    "control.error",
-    "dump.active",
-    "wheel[1].torque",
-    "wheel[2].torque",
-    "wheel[3].torque",
-    "wheel[4].torque",
-];
-const MOMENTUM: usize = 0;
-const IMPULSE: usize = 3;
-const DELTA_V: usize = 6;
-const USED: usize = 9;
-const ERROR: usize = 10;
-const ACTIVE: usize = 11;
-const WHEELS: core::ops::Range<usize> = 12..16;
-
-fn last(recorded: &Recorded, first: usize) -> Vector {
-    recorded.row(recorded.times_s.len() - 1, first).vector()
+recorded! {
+    /// What is kept of a point.
+    struct Sample {
+        @time_s,
+        momentum_n_m_s: Vector = "momentum.body",
+        impulse_n_m_s: Vector = "dump.impulse",
+        delta_v_m_s: Vector = "dump.deltaV",
+        used_kg: f64 = "propellant.used",
+        error_rad: f64 = "control.error",
+        is_active: bool = "dump.active",
+        wheels_n_m: Vector4<f64> = "wheel[1].torque" "wheel[2].torque" "wheel[3].torque" "wheel[4].torque",
+    }
 }
 
 impl Dump {
     /// In the dark, so that nothing but the dump moves the momentum, in an attitude that is held.
     fn case(&self, source: &str) -> Case {
         let case = Case::new(self.label, SPAN_S, STEP_S)
-            .item("attitude.source", source)
-            .item("command.source", "inputs")
-            .item("command.kind", "none")
-            .real("solar.flux", 0.0)
-            .boolean("gravityGradient.enabled", false)
-            .boolean("dump.request", true)
-            .elements("dump.target", self.target_n_m_s.iter().copied());
+            .set("attitude.source", source)
+            .set("command.source", "inputs")
+            .set("command.kind", "none")
+            .set("solar.flux", 0.0)
+            .set("gravityGradient.enabled", false)
+            .set("dump.request", true)
+            .set("dump.target", self.target_n_m_s);
         let Some((name, value)) = self.each else { return case };
-        THRUSTERS.fold(case, |case, k| case.real(&format!("thruster[{k}].{name}"), value))
+        THRUSTERS.fold(case, |case, k| case.set(&format!("thruster[{k}].{name}"), value))
     }
 }
 
-fn fly(options: &Options, dump: &Dump) -> Result<Simulated, StudyError> {
-    let fmu = options.fmu("MessengerFull.fmu")?;
+fn fly(fmu: &Fmu, dump: &Dump) -> Result<Simulated, StudyError> {
     let [one, two] = HELD_N_M_S;
-    let controlled = dump.case("controlled").real("wheel[1].startMomentum", one);
-    let controlled = controlled.real("wheel[2].startMomentum", two).simulate(&fmu, &OUTPUTS)?;
-    let before: Vector = controlled.row(0, MOMENTUM).vector();
-    let ideal = dump.case("commanded").elements("start.momentum", before.iter().copied());
-    let ideal = ideal.grid(10.0, 1.0).simulate(&fmu, &OUTPUTS)?;
+    let controlled = dump.case("controlled").set("wheel[1].startMomentum", one);
+    let controlled = controlled.set("wheel[2].startMomentum", two).simulate(fmu, Sample::NAMES)?;
+    let controlled: Vec<Sample> = controlled.all(0);
+    let ideal = dump.case("commanded").set("start.momentum", controlled[0].momentum_n_m_s);
+    let ideal = ideal.grid(10.0, 1.0).simulate(fmu, Sample::NAMES)?.last_row().read();
     Ok(Simulated { dump: dump.clone(), controlled, ideal })
 }
 
 impl Simulated {
     fn duration_s(&self) -> f64 {
-        let active = self.controlled.times_s.iter().zip(&self.controlled.columns[ACTIVE]);
-        active.filter(|(_, is_active)| **is_active != 0.0).map(|(time_s, _)| *time_s).fold(0.0, f64::max)
+        let active = self.controlled.iter().filter(|sample| sample.is_active);
+        active.map(|sample| sample.time_s).fold(0.0, f64::max)
     }
 
     fn row(&self) -> Vec<String> {
         let Self { dump, controlled, ideal } = self;
-        let left = last(controlled, MOMENTUM) - dump.target_n_m_s;
-        let apart = last(controlled, IMPULSE) - last(ideal, IMPULSE);
-        let torque =
-            WHEELS.map(|k| controlled.columns[k].iter().fold(0.0_f64, |most, it| most.max(it.abs())));
+        let last = &controlled[controlled.len() - 1];
+        let left = last.momentum_n_m_s - dump.target_n_m_s;
+        let apart = last.impulse_n_m_s - ideal.impulse_n_m_s;
+        let most = |of: fn(&Sample) -> f64| controlled.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
         vec![
             dump.label.to_owned(),
-            format!("{:.3}", last(ideal, IMPULSE).norm()),
+            format!("{:.3}", ideal.impulse_n_m_s.norm()),
             format!("{:.1}", 1e3 * left.norm()),
             format!("{:.1}", 1e3 * apart.norm()),
             format!("{:.0}", self.duration_s()),
-            format!("{:.2}", 1e3 * controlled.last(USED)),
-            format!("{:.2}", 1e3 * ideal.last(USED)),
-            format!("{:.2}", 1e3 * last(controlled, DELTA_V).norm()),
-            format!("{:.2}", 1e3 * last(ideal, DELTA_V).norm()),
-            format!("{:.3}", controlled.most(ERROR).to_degrees()),
-            format!("{:.3}", torque.fold(0.0, f64::max)),
+            format!("{:.2}", 1e3 * last.used_kg),
+            format!("{:.2}", 1e3 * ideal.used_kg),
+            format!("{:.2}", 1e3 * last.delta_v_m_s.norm()),
+            format!("{:.2}", 1e3 * ideal.delta_v_m_s.norm()),
+            format!("{:.3}", most(|sample| sample.error_rad).to_degrees()),
+            format!("{:.3}", most(|sample| sample.wheels_n_m.amax())),
         ]
     }
 }
@@ -132,44 +125,38 @@ Attitude: greatest error while the wheels take up the pulses. In the dark, the w
 assumed; the thrusters' layout is assumed too (messenger-full.toml).";
 
 /// Dumps by pulses beside dumps at once.
-pub fn dump(options: &Options) -> Result<Report, StudyError> {
-    let cases = chosen("control/dump", options, dumps(), |dump| dump.label.to_owned())?;
-    let simulated = run_all(options, &cases, |dump| fly(options, dump))?;
-    let mut report = Report::default();
-    report.line("Dumps of the controlled spacecraft by pulses of its 4.4 N thrusters\n");
+pub fn dump(run: &mut Run<'_>) -> Outcome {
+    let cases = run.chosen(dumps(), |dump| dump.label.to_owned())?;
+    let fmu = run.options.fmu("MessengerFull.fmu")?;
+    let simulated = run.all(&cases, |dump| fly(&fmu, dump))?;
+    run.line("Dumps of the controlled spacecraft by pulses of its 4.4 N thrusters\n");
     let rows: Vec<_> = simulated.iter().map(Simulated::row).collect();
-    report.table(HEADER, &rows);
-    report.line(REMARK);
-    report.csv(options, "dump.csv", HEADER, rows)?;
+    run.table_and_csv("dump.csv", HEADER, rows)?;
+    run.line(REMARK);
     for simulated in &simulated {
         let name = simulated.dump.label.replace(" %", "").replace(' ', "-");
-        report.picture(options, &format!("dump-{name}.svg"), &figure(simulated))?;
+        run.picture(&format!("dump-{name}.svg"), &figure(simulated))?;
     }
-    Ok(report)
+    Ok(())
 }
 
 /// The dump over time, until a while after its end.
 fn figure(simulated: &Simulated) -> Chart {
-    let recorded = &simulated.controlled;
     let end_s = simulated.duration_s() + 60.0;
-    let line = |label: &str, value: &dyn Fn(usize) -> f64| {
-        let rows = recorded.times_s.iter().enumerate().filter(|(_, time_s)| **time_s <= end_s);
-        Series::line(label, rows.map(|(row, time_s)| (*time_s, value(row))).collect())
+    let line = |label: &str, value: &dyn Fn(&Sample) -> f64| {
+        let shown = simulated.controlled.iter().filter(|sample| sample.time_s <= end_s);
+        Series::line(label, shown.map(|sample| (sample.time_s, value(sample))).collect())
     };
-    let components = |first: usize, scale: f64| -> Vec<Series> {
-        let component = |i: usize| line(["x", "y", "z"][i], &|row| scale * recorded.columns[first + i][row]);
-        (0..3).map(component).collect()
-    };
+    let components =
+        |of: fn(&Sample) -> Vector| [0, 1, 2].map(|i| line(["x", "y", "z"][i], &|sample| of(sample)[i]));
+    let wheels = (0..4).map(|k| line(&format!("wheel {}", k + 1), &|sample| sample.wheels_n_m[k]));
     Chart::new(format!("Dump by pulses: {}", simulated.dump.label), "time [s]").with([
         Panel::new("momentum [N m s]")
             .marks("target", simulated.dump.target_n_m_s.as_slice().to_vec())
-            .with(components(MOMENTUM, 1.0)),
-        Panel::new("wheel torque [N m]").with(
-            WHEELS.map(|k| line(&format!("wheel {}", k - WHEELS.start + 1), &|row| recorded.columns[k][row])),
-        ),
-        Panel::new("error [deg]").with([line("attitude from the one commanded", &|row| {
-            recorded.columns[ERROR][row].to_degrees()
-        })]),
-        Panel::new("delta-v [mm/s]").with(components(DELTA_V, 1e3)),
+            .with(components(|sample| sample.momentum_n_m_s)),
+        Panel::new("wheel torque [N m]").with(wheels),
+        Panel::new("error [deg]")
+            .with([line("attitude from the one commanded", &|sample| sample.error_rad.to_degrees())]),
+        Panel::new("delta-v [mm/s]").with(components(|sample| sample.delta_v_m_s * 1e3)),
     ])
 }

@@ -1,106 +1,75 @@
 //! `MessengerLoop.ssp`: Guidance and the controlled plant, each with the other's outputs at every step.
 
-use loader::Value;
 use systems::System;
 
 use crate::attitude::{Attitude, Vector};
-use crate::case::{Case, Recorded, Row, at_start};
-use crate::settings::{Settings, elements};
+use crate::case::{Case, Recordable, Recorded, Row, at_start, recorded};
+use crate::settings::{Settings, set};
 use crate::{Options, StudyError};
 
 /// Between samples, in s, a whole number of steps: Guidance samples once a second.
 const SAMPLE_S: f64 = 1.0;
 
-/// What is recorded, in the order of [`Sample`].
-const OUTPUTS: [&str; 17] = [
-    "plant.position",
-    "plant.sun.positionInertial",
-    "plant.earth.positionInertial",
-    "plant.attitude.q",
-    "plant.attitude.rate",
-    "plant.estimate.q",
-    "plant.estimate.valid",
-    "plant.sun.sensedValid",
-    "plant.control.saturated",
-    "plant.dump.count",
-    "guidance.command.q",
-    "guidance.command.rate",
-    "guidance.command.kind",
-    "guidance.mode.active",
-    "guidance.link.available",
-    "guidance.mdis.angle",
-    "guidance.constraint.sunKeepIn",
-];
-
-/// Where the plant is and what it does, and what is commanded, at one second.
-#[derive(Clone, Debug)]
-pub struct Sample {
-    /// In s.
-    pub time_s: f64,
-    /// From the spacecraft to the planet's centre, EME2000, in m.
-    pub to_planet_m: Vector,
-    /// To the Sun.
-    pub to_sun_m: Vector,
-    /// To the Earth.
-    pub to_earth_m: Vector,
-    /// True attitude: EME2000 to body, scalar last.
-    pub q: Attitude,
-    /// True rate, body frame, in rad/s.
-    pub rate_rad_s: Vector,
-    /// Estimated attitude.
-    pub estimate_q: Attitude,
-    /// `estimate.valid`.
-    pub is_attitude_known: bool,
-    /// `sun.sensedValid`.
-    pub is_sun_sensed: bool,
-    /// `control.saturated`.
-    pub is_torque_limited: bool,
-    /// `dump.count`.
-    pub dumps: f64,
-    /// Commanded attitude.
-    pub command_q: Attitude,
-    /// Commanded rate, body frame, in rad/s.
-    pub command_rate_rad_s: Vector,
-    /// `command.kind`.
-    pub command_kind: i32,
-    /// `mode.active`.
-    pub mode: i32,
-    /// `link.available`.
-    pub has_link: bool,
-    /// `mdis.angle`, in rad.
-    pub mdis_angle_rad: f64,
-    /// `constraint.sunKeepIn`.
-    pub is_constrained: bool,
+recorded! {
+    /// Where the plant is and what it does, and what is commanded, at one second; directions and attitudes from EME2000.
+    pub struct Sample {
+        @time_s,
+        /// From the planet's centre, in m.
+        position_m: Vector = "plant.position",
+        /// From there to the Sun.
+        sun_m: Vector = "plant.sun.positionInertial",
+        /// From there to the Earth.
+        earth_m: Vector = "plant.earth.positionInertial",
+        /// True attitude.
+        pub q: Attitude = "plant.attitude.q",
+        /// True rate, body frame, in rad/s.
+        pub rate_rad_s: Vector = "plant.attitude.rate",
+        /// Estimated attitude.
+        pub estimate_q: Attitude = "plant.estimate.q",
+        /// Whether the estimate is good.
+        pub is_attitude_known: bool = "plant.estimate.valid",
+        /// Whether a sensor sees the Sun.
+        pub is_sun_sensed: bool = "plant.sun.sensedValid",
+        /// Whether more torque is requested than there is.
+        pub is_torque_limited: bool = "plant.control.saturated",
+        /// Dumps so far.
+        pub dumps: i32 = "plant.dump.count",
+        /// Commanded attitude.
+        pub command_q: Attitude = "guidance.command.q",
+        /// Commanded rate, body frame, in rad/s.
+        pub command_rate_rad_s: Vector = "guidance.command.rate",
+        /// What the command is.
+        pub command_kind: i32 = "guidance.command.kind",
+        /// Mode of Guidance.
+        pub mode: i32 = "guidance.mode.active",
+        /// Whether there is a link with the Earth.
+        pub has_link: bool = "guidance.link.available",
+        /// The camera's angle.
+        pub mdis_angle_rad: f64 = "guidance.mdis.angle",
+        /// Whether the keep-in zone holds the attitude.
+        pub is_constrained: bool = "guidance.constraint.sunKeepIn",
+    }
 }
 
 impl Sample {
-    fn of(mut row: Row<'_>) -> Self {
-        let position_m: Vector = row.vector();
-        Self {
-            time_s: row.time_s,
-            to_planet_m: -position_m,
-            to_sun_m: row.vector() - position_m,
-            to_earth_m: row.vector() - position_m,
-            q: row.attitude(),
-            rate_rad_s: row.vector(),
-            estimate_q: row.attitude(),
-            is_attitude_known: row.flag(),
-            is_sun_sensed: row.flag(),
-            is_torque_limited: row.flag(),
-            dumps: row.real(),
-            command_q: row.attitude(),
-            command_rate_rad_s: row.vector(),
-            command_kind: row.real() as i32,
-            mode: row.real() as i32,
-            has_link: row.flag(),
-            mdis_angle_rad: row.real(),
-            is_constrained: row.flag(),
-        }
+    /// From the spacecraft to the planet's centre, EME2000, in m.
+    pub fn to_planet_m(self) -> Vector {
+        -self.position_m
+    }
+
+    /// To the Sun.
+    pub fn to_sun_m(self) -> Vector {
+        self.sun_m - self.position_m
+    }
+
+    /// To the Earth.
+    pub fn to_earth_m(self) -> Vector {
+        self.earth_m - self.position_m
     }
 
     /// The Sun in the true body frame, in m.
     pub fn sun_body_m(&self) -> Vector {
-        self.q.inverse_transform_vector(&self.to_sun_m)
+        self.q.inverse_transform_vector(&self.to_sun_m())
     }
 }
 
@@ -130,21 +99,17 @@ impl Loop {
     }
 
     /// Parameters that nobody sets.
-    pub fn parameters<const N: usize>(&self, names: [impl AsRef<str>; N]) -> Result<[f64; N], StudyError> {
-        Ok(at_start(&self.0, &names)?.row(0, 0).vector::<N>().into())
+    pub fn parameters<T: Recordable>(&self, names: &[impl AsRef<str>]) -> Result<T, StudyError> {
+        Ok(at_start(&self.0, names)?.first())
     }
 
     /// The number of an item of an Enumeration.
     pub fn number(&self, name: &str, item: &str) -> Result<i32, StudyError> {
         let description = self.0.description();
-        let read = || -> Result<i32, loader::Error> {
-            let position = loader::select(description, name)?[0];
-            match loader::parse_value(description, &description.variables[position], item)? {
-                Value::Integer(number) => Ok(number),
-                other => Err(loader::Error::Value { variable: name.to_owned(), what: other.to_string() }),
-            }
-        };
-        read().map_err(|error| StudyError::Simulation { case: name.to_owned(), source: error.into() })
+        let value = loader::select(description, name)
+            .and_then(|at| loader::parse_value(description, &description.variables[at[0]], item));
+        let failed = |error| StudyError::Simulation { case: name.to_owned(), source: Box::new(error) };
+        Ok(value.map_err(failed)?.to_f64() as i32)
     }
 
     /// Simulates from what Guidance alone starts with; recorded once a second.
@@ -154,9 +119,8 @@ impl Loop {
         names: &[&str],
         inputs: &mut dyn FnMut(Row<'_>) -> Settings,
     ) -> Result<Recorded, StudyError> {
-        let identity = Attitude::identity();
-        let held = Case::elements(case, "guidance.start.q", identity.coords.iter().copied());
-        held.item("guidance.ephemeris.source", "inputs").every(SAMPLE_S).steer(&self.0, names, inputs)
+        let held = case.set("guidance.start.q", Attitude::identity());
+        held.set("guidance.ephemeris.source", "inputs").every(SAMPLE_S).steer(&self.0, names, inputs)
     }
 
     /// Flies it in steps of `step_s`, otherwise of a second; a sample a second. It begins in the attitude and at the rate
@@ -164,14 +128,13 @@ impl Loop {
     pub fn fly(&self, flight: &Flight<'_>, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
         let step_s = whole_part_of_a_second(step_s)?;
         let samples = |case: Case| -> Result<Vec<Sample>, StudyError> {
-            let case = ["guidance", "plant"]
-                .into_iter()
-                .fold(case, |case, component| case.real(&format!("{component}.start.epoch"), flight.epoch_s));
             let case = case
-                .real("plant.orbit.trueAnomaly", flight.true_anomaly_deg.to_radians())
+                .set("guidance.start.epoch", flight.epoch_s)
+                .set("plant.start.epoch", flight.epoch_s)
+                .set("plant.orbit.trueAnomaly", flight.true_anomaly_deg.to_radians())
                 .with(flight.settings.clone());
-            let mut inputs = |row: Row<'_>| (flight.inputs)(&Sample::of(row));
-            Ok(self.simulate(case, &OUTPUTS, &mut inputs)?.rows().map(Sample::of).collect())
+            let mut inputs = |mut row: Row<'_>| (flight.inputs)(&row.read());
+            Ok(self.simulate(case, Sample::NAMES, &mut inputs)?.all(0))
         };
         let first = samples(Case::new(flight.label, SAMPLE_S, SAMPLE_S))?;
         let start = first.last().map_or(Settings::new(), |last| {
@@ -183,12 +146,8 @@ impl Loop {
 
 /// The plant's attitude and rate at the start from the command that stands `time_s` later.
 pub fn start_settings(q: &Attitude, rate_rad_s: &Vector, time_s: f64) -> Settings {
-    let mut start = elements(
-        "plant.start.q",
-        (q * Attitude::from_scaled_axis(rate_rad_s * -time_s)).coords.iter().copied(),
-    );
-    start.extend(elements("plant.start.rate", rate_rad_s.iter().copied()));
-    start
+    let start_q = q * Attitude::from_scaled_axis(rate_rad_s * -time_s);
+    [set("plant.start.q", start_q), set("plant.start.rate", *rate_rad_s)].concat()
 }
 
 /// The step that is requested, otherwise a second.

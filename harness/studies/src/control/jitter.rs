@@ -1,11 +1,10 @@
 //! Attitude jitter of a flexible spacecraft by a wheel out of balance: lines at the wheel's speed and at the modes.
 
-use super::jitter_flight::{COUNT, FASTEST_HZ, Flight, LOWEST_HZ, RATE_HZ, Shaken, open, run_up};
+use super::jitter_flight::{COUNT, FASTEST_HZ, Flight, LOWEST_HZ, RATE_HZ, Shaken, run_up};
 use super::jitter_theory::Structure;
 use super::spectrum::Spectrum;
-use crate::case::{chosen, run_all};
-use crate::settings::digits;
-use crate::{Options, Report, StudyError};
+use crate::cells::row;
+use crate::report::{Outcome, Run};
 use drawing::{Chart, Panel, Series};
 
 /// Speeds of the wheel beside those of the modes, in Hz.
@@ -42,7 +41,7 @@ const URAD: f64 = 1e6;
 /// What is less is drawn there.
 const LEAST_DB: f64 = -110.0;
 
-fn row(shaken: &Shaken, structure: &Structure) -> Vec<String> {
+fn shown(shaken: &Shaken, structure: &Structure) -> Vec<String> {
     let Shaken { flight, spectrum } = shaken;
     let turns = flight.wheel_hz > 0.0;
     let (line_hz, line) = spectrum.greatest(flight.wheel_hz - 0.02, flight.wheel_hz + 0.02);
@@ -65,43 +64,37 @@ fn row(shaken: &Shaken, structure: &Structure) -> Vec<String> {
 }
 
 /// Spectra at constant speeds, and a run-up through the modes.
-pub fn jitter(options: &Options) -> Result<Report, StudyError> {
-    let (fmu, structure) = open(options)?;
-    let cases = chosen("control/jitter", options, flights(&structure), |flight| flight.label.clone())?;
-    let shaken = run_all(options, &cases, |flight| flight.fly(&fmu, &structure))?;
-    let mut report = Report::default();
-    report.line("Attitude jitter by the static imbalance of one wheel of FlexibleCraft\n");
-    let rows: Vec<_> = shaken.iter().map(|shaken| row(shaken, &structure)).collect();
-    report.table(HEADER, &rows);
+pub fn jitter(run: &mut Run<'_>) -> Outcome {
+    let fmu = run.options.fmu("FlexibleCraft.fmu")?;
+    let structure = Structure::read(&fmu)?;
+    let cases = run.chosen(flights(&structure), |flight| flight.label.clone())?;
+    let shaken = run.all(&cases, |flight| flight.fly(&fmu, &structure))?;
+    run.line("Attitude jitter by the static imbalance of one wheel of FlexibleCraft\n");
+    let rows: Vec<_> = shaken.iter().map(|shaken| shown(shaken, &structure)).collect();
+    run.table_and_csv("jitter.csv", HEADER, rows)?;
     for (k, mode) in structure.modes.iter().enumerate() {
-        report.line(&format!(
+        run.line(&format!(
             "Mode {}: {:.3} Hz with the body held, {:.3} Hz with the body free.",
             k + 1,
             mode.frequency_hz,
             structure.resonance_hz(mode)
         ));
     }
-    report.line(REMARK);
-    report.csv(options, "jitter.csv", HEADER, rows)?;
+    run.line(REMARK);
     let lines = shaken.iter().flat_map(|Shaken { flight, spectrum }| {
         let points = spectrum.between(LOWEST_HZ, FASTEST_HZ + 1.0);
-        points.map(|(hz, amplitude)| vec![flight.label.clone(), digits(hz), digits(amplitude)])
+        points.map(|(hz, amplitude)| row![flight.label.as_str(), hz, amplitude])
     });
-    report.csv(
-        options,
-        "jitter-spectra.csv",
-        "case | frequency_hz | amplitude_rad",
-        lines.collect::<Vec<_>>(),
-    )?;
-    report.picture(options, "jitter-spectra.svg", &spectra(&shaken))?;
-    if options.only.is_none() {
+    run.csv("jitter-spectra.csv", "case | frequency_hz | amplitude_rad", lines)?;
+    run.picture("jitter-spectra.svg", &spectra(&shaken))?;
+    if run.options.only.is_none() {
         let points = run_up(&fmu, &structure)?;
         let header = "wheel_hz | amplitude_rad | in_closed_form_rad";
-        let row = |(hz, rad): &(f64, f64)| [*hz, *rad, structure.jitter_rad(*hz)].map(digits).to_vec();
-        report.csv(options, "jitter-run-up.csv", header, points.iter().map(row).collect::<Vec<_>>())?;
-        report.picture(options, "jitter-run-up.svg", &run_up_figure(&points, &structure))?;
+        let rows = points.iter().map(|&(hz, rad)| row![hz, rad, structure.jitter_rad(hz)]);
+        run.csv("jitter-run-up.csv", header, rows)?;
+        run.picture("jitter-run-up.svg", &run_up_figure(&points, &structure))?;
     }
-    Ok(report)
+    Ok(())
 }
 
 const REMARK: &str = "\

@@ -4,8 +4,8 @@ use loader::Fmu;
 
 use super::jitter_theory::Structure;
 use super::spectrum::Spectrum;
+use crate::StudyError;
 use crate::case::Case;
-use crate::{Options, StudyError};
 
 /// Samples a second.
 pub const RATE_HZ: f64 = 100.0;
@@ -43,7 +43,7 @@ pub struct Shaken {
 
 /// Nothing acts but wheels; they start at these momenta, in N m s.
 fn dark(label: &str, stop_s: f64) -> Case {
-    Case::new(label, stop_s, 1.0 / RATE_HZ).real("solar.flux", 0.0).boolean("gravityGradient.enabled", false)
+    Case::new(label, stop_s, 1.0 / RATE_HZ).set("solar.flux", 0.0).set("gravityGradient.enabled", false)
 }
 
 impl Flight {
@@ -51,19 +51,19 @@ impl Flight {
     pub fn fly(&self, fmu: &Fmu, structure: &Structure) -> Result<Shaken, StudyError> {
         let stop_s = SETTLED_S + COUNT as f64 / RATE_HZ;
         let held_n_m_s = structure.rotor_kg_m2 * std::f64::consts::TAU * self.wheel_hz;
-        let mut case = dark(&self.label, stop_s).real("wheel[1].startMomentum", held_n_m_s);
+        let mut case = dark(&self.label, stop_s).set("wheel[1].startMomentum", held_n_m_s);
         if self.controlled {
             let [tracker, gyro] = NOISE;
             let q = [0.1, 0.2, -0.3, 0.927_361_849_549_570_4];
             case = case
-                .item("attitude.source", "controlled")
-                .real("control.balanceTime", 0.0)
-                .real("gyro.noise", gyro)
-                .elements("start.q", q)
-                .elements("command.q", q)
-                .elements("starTracker.noise", [tracker; 3]);
+                .set("attitude.source", "controlled")
+                .set("control.balanceTime", 0.0)
+                .set("gyro.noise", gyro)
+                .set("start.q", q)
+                .set("command.q", q)
+                .set("starTracker.noise", [tracker; 3]);
         } else {
-            case = case.item("attitude.source", "free");
+            case = case.set("attitude.source", "free");
         }
         let recorded = case.simulate(fmu, &["attitude.rate"])?;
         let axes: Vec<Spectrum> =
@@ -80,7 +80,7 @@ pub fn run_up(fmu: &Fmu, structure: &Structure) -> Result<Vec<(f64, f64)>, Study
     const WINDOW: usize = 400;
     let torque_n_m = structure.rotor_kg_m2 * std::f64::consts::TAU * FASTEST_HZ / RUN_UP_S;
     let case =
-        dark("run-up", RUN_UP_S).item("attitude.source", "free").real("wheel[1].torqueCommand", torque_n_m);
+        dark("run-up", RUN_UP_S).set("attitude.source", "free").set("wheel[1].torqueCommand", torque_n_m);
     let recorded = case.simulate(fmu, &["attitude.rate", "wheel[1].speed"])?;
     let windows = recorded.times_s.len() / (WINDOW / 4);
     let points = (0..windows.saturating_sub(4)).map(|window| {
@@ -104,11 +104,4 @@ fn mean_square(samples: &[f64]) -> f64 {
     });
     let off_line = |(k, x): (usize, &f64)| (x - mean - along / spread * (k as f64 - middle)).powi(2);
     samples.iter().enumerate().map(off_line).sum::<f64>() / count
-}
-
-/// The plant with flexible modes.
-pub fn open(options: &Options) -> Result<(Fmu, Structure), StudyError> {
-    let fmu = options.fmu("FlexibleCraft.fmu")?;
-    let structure = Structure::read(&fmu)?;
-    Ok((fmu, structure))
 }

@@ -5,18 +5,37 @@
 //! stored momentum's gyroscopic torque.
 
 use loader::Fmu;
-use nalgebra::{Complex, Matrix3, Vector3};
+use nalgebra::{Complex, Matrix3, SVector, Vector3};
 
 use crate::StudyError;
-use crate::case::at_start;
+use crate::case::{at_start, recorded};
 
-/// One flexible mode.
-#[derive(Clone, Copy, Debug)]
-pub struct Mode {
-    /// With the body held, in Hz.
-    pub frequency_hz: f64,
-    damping: f64,
-    coupling: Vector3<f64>,
+recorded! {
+    /// One flexible mode.
+    pub struct Mode {
+        /// With the body held, in Hz.
+        pub frequency_hz: f64 = "frequency",
+        damping: f64 = "damping",
+        coupling: Vector3<f64> = "coupling",
+    }
+}
+
+recorded! {
+    /// A wheel's rotor.
+    struct Rotor {
+        inertia_kg_m2: f64 = "inertia",
+        axis: Vector3<f64> = "axis",
+    }
+}
+
+recorded! {
+    /// The body with everything, and the wheel that shakes it.
+    struct Body {
+        inertia_kg_m2: SVector<f64, 9> = "spacecraft.inertia",
+        center_m: Vector3<f64> = "spacecraft.centerOfMass",
+        imbalance_kg_m: f64 = "wheel[1].staticImbalance",
+        wheel_m: Vector3<f64> = "wheel[1].position",
+    }
 }
 
 /// Body, modes and wheels, from the parameters of an FMU.
@@ -35,35 +54,17 @@ pub struct Structure {
 impl Structure {
     /// Reads it; the first wheel is the one that shakes.
     pub fn read(fmu: &Fmu) -> Result<Self, StudyError> {
-        let count =
-            |what: &dyn Fn(usize) -> String| (1..).take_while(|k| fmu.position(&what(*k)).is_some()).count();
-        let modes = count(&|k| format!("flexibleMode[{k}].frequency"));
-        let wheels = count(&|k| format!("wheel[{k}].inertia"));
-        let mut names: Vec<String> =
-            ["spacecraft.inertia", "spacecraft.centerOfMass"].map(str::to_owned).to_vec();
-        for k in 1..=modes {
-            names
-                .extend(["frequency", "damping", "coupling"].map(|name| format!("flexibleMode[{k}].{name}")));
+        let body: Body = at_start(fmu, Body::NAMES)?.first();
+        let modes = at_start(fmu, &numbered(fmu, "flexibleMode", Mode::NAMES))?.first();
+        let mut rotors: Vec<Rotor> = at_start(fmu, &numbered(fmu, "wheel", Rotor::NAMES))?.first();
+        let mut carrier = Matrix3::from_row_slice(body.inertia_kg_m2.as_slice());
+        for Rotor { inertia_kg_m2, axis } in &mut rotors {
+            axis.normalize_mut();
+            carrier -= *axis * axis.transpose() * *inertia_kg_m2;
         }
-        for k in 1..=wheels {
-            names.extend(["inertia", "axis"].map(|name| format!("wheel[{k}].{name}")));
-        }
-        names.extend(["staticImbalance", "position"].map(|name| format!("wheel[1].{name}")));
-        let values = at_start(fmu, &names)?;
-        let mut row = values.row(0, 0);
-        let mut carrier = Matrix3::from_row_slice(row.vector::<9>().as_slice());
-        let center_m: Vector3<f64> = row.vector();
-        let modes = (0..modes)
-            .map(|_| Mode { frequency_hz: row.real(), damping: row.real(), coupling: row.vector() })
-            .collect();
-        let rotors: Vec<(f64, Vector3<f64>)> =
-            (0..wheels).map(|_| (row.real(), row.vector::<3>().normalize())).collect();
-        for (inertia, axis) in &rotors {
-            carrier -= axis * axis.transpose() * *inertia;
-        }
-        let (rotor_kg_m2, axis) = rotors.first().copied().unwrap_or((f64::NAN, Vector3::z()));
-        let imbalance_kg_m = row.real();
-        let lever_m = row.vector() - center_m;
+        let (rotor_kg_m2, axis) =
+            rotors.first().map_or((f64::NAN, Vector3::z()), |rotor| (rotor.inertia_kg_m2, rotor.axis));
+        let (lever_m, imbalance_kg_m) = (body.wheel_m - body.center_m, body.imbalance_kg_m);
         Ok(Self { carrier, modes, axis, lever_m, imbalance_kg_m, rotor_kg_m2 })
     }
 
@@ -93,4 +94,10 @@ impl Structure {
             self.carrier.try_inverse().map_or(0.0, |inverse| mode.coupling.dot(&(inverse * mode.coupling)));
         mode.frequency_hz / (1.0 - free).sqrt()
     }
+}
+
+/// Names of every member of a numbered group.
+fn numbered(fmu: &Fmu, group: &str, names: &[&str]) -> Vec<String> {
+    let all = (1..).map(|k| names.iter().map(move |name| format!("{group}[{k}].{name}")).collect::<Vec<_>>());
+    all.take_while(|member| fmu.position(&member[0]).is_some()).flatten().collect()
 }

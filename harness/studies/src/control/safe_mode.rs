@@ -3,21 +3,19 @@
 use super::guided_loop::{Loop, Sample};
 use super::safe_mode_checks::{Parameters, attitude_lost, zone_violated};
 use super::safe_mode_flight::{Chain, sun_angle_deg};
-use crate::attitude::Vector;
-use crate::case::{chosen, run_all};
-use crate::settings::cells;
-use crate::{Options, Report, StudyError};
+use crate::cells::row;
+use crate::report::{Outcome, Run};
 use drawing::{Chart, Mark, Panel, Series};
 
 /// Both chains of modes.
-pub fn safe_mode(options: &Options) -> Result<Report, StudyError> {
+pub fn safe_mode(run: &mut Run<'_>) -> Outcome {
     let chains = [Chain::AttitudeLost, Chain::ZoneViolated];
-    let cases = chosen("control/safe-mode", options, chains, |chain| chain.label().to_owned())?;
-    let both = Loop::open(options)?;
+    let cases = run.chosen(chains, |chain| chain.label().to_owned())?;
+    let both = Loop::open(run.options)?;
     let parameters = Parameters::read(&both)?;
-    let simulated = run_all(options, &cases, |chain| Ok((*chain, chain.fly(&both, options.step_s)?)))?;
-    let mut report = Report::default();
-    report.line("Safe modes (paper 001), Guidance and the controlled plant in a loop\n");
+    let step_s = run.options.step_s;
+    let simulated = run.all(&cases, |chain| Ok((*chain, chain.fly(&both, step_s)?)))?;
+    run.line("Safe modes (paper 001), Guidance and the controlled plant in a loop\n");
     let rows: Vec<_> = simulated
         .iter()
         .flat_map(|(chain, samples)| {
@@ -28,16 +26,14 @@ pub fn safe_mode(options: &Options) -> Result<Report, StudyError> {
             checks.into_iter().map(|check| check.row(chain.label()))
         })
         .collect();
-    let header = "case | paper 001 | found | verdict";
-    report.table(header, &rows);
-    report.line(REMARK);
-    report.csv(options, "safe-mode.csv", header, rows)?;
-    history(&mut report, options, &simulated)?;
+    run.table_and_csv("safe-mode.csv", "case | paper 001 | found | verdict", rows)?;
+    run.line(REMARK);
+    history(run, &simulated)?;
     for (chain, samples) in &simulated {
         let file = format!("safe-mode-{}.svg", chain.label().replace(' ', "-"));
-        report.picture(options, &file, &figure(*chain, &parameters, samples))?;
+        run.picture(&file, &figure(*chain, &parameters, samples))?;
     }
-    Ok(report)
+    Ok(())
 }
 
 const REMARK: &str = "\
@@ -48,37 +44,34 @@ zone is put in force at 300 s, Operational is requested at 2400 s. All times, th
 how long the monitor waits are assumed: the paper prints none.";
 
 /// Everything of every second.
-fn history(
-    report: &mut Report,
-    options: &Options,
-    simulated: &[(Chain, Vec<Sample>)],
-) -> Result<(), StudyError> {
+fn history(run: &mut Run<'_>, simulated: &[(Chain, Vec<Sample>)]) -> Outcome {
     let header = "\
         case | time_s | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | sun_x | sun_y | \
         sun_z | earth_x | earth_y | earth_z | sun_angle_deg | command_x_rad_s | command_y_rad_s | \
         command_z_rad_s | mode | command_kind | attitude_known | sun_sensed | torque_limited | dumps | link";
     let rows = simulated.iter().flat_map(|(chain, samples)| {
         samples.iter().map(|sample| {
-            let [sun, earth] = [&sample.to_sun_m, &sample.to_earth_m].map(Vector::normalize);
-            let mut row = vec![chain.label().to_owned()];
-            row.extend(cells(&[
-                &[sample.time_s],
-                sample.q.coords.as_slice(),
-                sample.rate_rad_s.as_slice(),
-                sun.as_slice(),
-                earth.as_slice(),
-                &[sun_angle_deg(sample)],
-                sample.command_rate_rad_s.as_slice(),
-            ]));
-            row.extend([sample.mode, sample.command_kind].map(|number| number.to_string()));
-            row.extend([sample.is_attitude_known, sample.is_sun_sensed].map(|is| is.to_string()));
-            row.push(sample.is_torque_limited.to_string());
-            row.push(format!("{}", sample.dumps));
-            row.push(sample.has_link.to_string());
-            row
+            let [sun, earth] = [sample.to_sun_m(), sample.to_earth_m()].map(|to| to.normalize());
+            row![
+                chain.label(),
+                sample.time_s,
+                sample.q,
+                sample.rate_rad_s,
+                sun,
+                earth,
+                sun_angle_deg(sample),
+                sample.command_rate_rad_s,
+                sample.mode,
+                sample.command_kind,
+                sample.is_attitude_known,
+                sample.is_sun_sensed,
+                sample.is_torque_limited,
+                sample.dumps,
+                sample.has_link,
+            ]
         })
     });
-    report.csv(options, "safe-mode-history.csv", header, rows.collect::<Vec<_>>())
+    run.csv("safe-mode-history.csv", header, rows)
 }
 
 /// Mode, Sun, rates and flags over time.
@@ -94,7 +87,6 @@ fn figure(chain: Chain, parameters: &Parameters, samples: &[Sample]) -> Chart {
     if chain == Chain::AttitudeLost {
         rates.extend(parameters.commanded_rates());
     }
-    let dashed = |series: Series| Series { mark: Mark::Dashed, ..series };
     Chart::new(format!("Safe modes: {}", chain.label()), "time [s]").with([
         Panel::new("mode")
             .range(0.5, 3.5)
@@ -110,7 +102,7 @@ fn figure(chain: Chain, parameters: &Parameters, samples: &[Sample]) -> Chart {
         Panel::new("rate [deg/s]").with(rates),
         Panel::new("valid").range(-0.15, 1.15).whole().with([
             line("estimated attitude", &|sample| flag(sample.is_attitude_known)),
-            dashed(line("sensed Sun", &|sample| flag(sample.is_sun_sensed))),
+            line("sensed Sun", &|sample| flag(sample.is_sun_sensed)).drawn(Mark::Dashed),
             line("link with the Earth", &|sample| flag(sample.has_link)),
         ]),
     ])

@@ -3,7 +3,7 @@
 use super::guided_loop::{Flight, Loop, Sample};
 use crate::StudyError;
 use crate::attitude::{Vector, angle_rad};
-use crate::settings::{Settings, elements, flag, item, of, real};
+use crate::settings::{Settings, of, set};
 
 /// 2009-04-06 00:00 TDB in seconds past J2000, the start of the default flight.
 const EPOCH_S: f64 = 292_248_000.0;
@@ -62,26 +62,26 @@ impl Chain {
 
     /// What is set when, in s.
     fn events(self) -> Vec<(f64, Settings)> {
-        let tracker =
-            |failed| ["failed", "spareFailed"].map(|it| flag(&format!("plant.starTracker.{it}"), failed));
-        let sensors = |failed| {
-            let sensors = 1..=SUN_SENSORS;
-            sensors.map(|k| flag(&format!("plant.sunSensor[{k}].failed"), failed)).collect::<Settings>()
+        let tracker = |failed: bool| {
+            ["failed", "spareFailed"].map(|it| set(&format!("plant.starTracker.{it}"), failed)).concat()
         };
-        let request = |mode| vec![item("guidance.mode.request", mode)];
+        let sensors = |failed: bool| -> Settings {
+            (1..=SUN_SENSORS).flat_map(|k| set(&format!("plant.sunSensor[{k}].failed"), failed)).collect()
+        };
+        let request = |mode: &str| set("guidance.mode.request", mode);
         match self {
             Self::AttitudeLost => vec![
                 (0.0, plus_z_at_the_sun()),
-                (TRACKER_FAILS_S, tracker(true).to_vec()),
+                (TRACKER_FAILS_S, tracker(true)),
                 (SUN_LOST_S, sensors(true)),
                 (SUN_BACK_S, sensors(false)),
-                (TRACKER_BACK_S, tracker(false).to_vec()),
+                (TRACKER_BACK_S, tracker(false)),
                 (SAFE_HOLD_S, request("safeHold")),
                 (OPERATIONAL_S, request("operational")),
             ],
             Self::ZoneViolated => vec![
                 (0.0, plus_z_at_the_sun()),
-                (ZONE_ON_S, vec![flag("guidance.keepIn.enabled", true)]),
+                (ZONE_ON_S, set("guidance.keepIn.enabled", true)),
                 (PARDONED_S, request("operational")),
             ],
         }
@@ -105,10 +105,8 @@ impl Chain {
                 true_anomaly_deg: TRUE_ANOMALY_DEG,
                 stop_s,
                 // The Sun is where the keep-in zone would not let it be.
-                settings: vec![
-                    real("plant.starTracker.outage", OUTAGE_S),
-                    flag("guidance.keepIn.enabled", false),
-                ],
+                settings: [set("plant.starTracker.outage", OUTAGE_S), set("guidance.keepIn.enabled", false)]
+                    .concat(),
                 inputs: &inputs,
             },
             step_s,
@@ -118,14 +116,14 @@ impl Chain {
 
 /// The scenario generic: +Z at the Sun, rolled toward the Earth.
 fn plus_z_at_the_sun() -> Settings {
-    let mut settings = vec![
-        item("pointing.scenario", "generic"),
-        item("boresight.option", "vector"),
-        item("aimpoint.option", "sun"),
-        item("bodyRoll.option", "vector"),
-        item("externalRoll.option", "earth"),
+    let settings = [
+        set("pointing.scenario", "generic"),
+        set("boresight.option", "vector"),
+        set("aimpoint.option", "sun"),
+        set("bodyRoll.option", "vector"),
+        set("externalRoll.option", "earth"),
+        set("boresight.vector", Vector::z()),
+        set("bodyRoll.vector", Vector::x()),
     ];
-    settings.extend(elements("boresight.vector", [0.0, 0.0, 1.0]));
-    settings.extend(elements("bodyRoll.vector", [1.0, 0.0, 0.0]));
-    of("guidance", settings)
+    of("guidance", settings.concat())
 }

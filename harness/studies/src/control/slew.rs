@@ -1,11 +1,10 @@
 //! Large slews under the plant's own controller: how they settle, a saturation that a dump ends, a wheel that fails.
 
 use super::slew_figures::figure;
-use super::slew_flight::{Event, Plant, SLEW_S, Sample, Simulated, Slew};
-use crate::attitude::Vector;
-use crate::case::{chosen, run_all};
-use crate::settings::cells;
-use crate::{Options, Report, StudyError};
+use super::slew_flight::{BodySample, Event, Plant, SLEW_S, Sample, Simulated, Slew, WheelSample};
+use crate::attitude::{Vector, greatest};
+use crate::cells::row;
+use crate::report::{Outcome, Run};
 
 /// Angle of the slews where none is requested.
 const ANGLE_DEG: f64 = 60.0;
@@ -18,8 +17,7 @@ const NEARLY_FULL: f64 = 0.995;
 /// When a dump ends the saturation, in s.
 const DUMP_S: f64 = 900.0;
 
-fn slews(options: &Options) -> Vec<Slew> {
-    let angle_rad = options.angle_rad.unwrap_or(ANGLE_DEG.to_radians());
+fn slews(angle_rad: f64) -> Vec<Slew> {
     let [x, y, z] = [Vector::x(), Vector::y(), Vector::z()];
     let slew = |label, axis, event, stop_s| Slew { label, axis, angle_rad, event, stop_s };
     vec![
@@ -48,29 +46,25 @@ struct Measures {
     full_s: Option<(f64, f64)>,
     /// Whether the torque requested was ever more than the wheels could give.
     is_torque_limited: bool,
-    dumps: f64,
-}
-
-fn greatest(values: impl Iterator<Item = f64>) -> f64 {
-    values.map(f64::abs).fold(0.0, f64::max)
+    dumps: i32,
 }
 
 impl Measures {
     fn of(simulated: &Simulated) -> Self {
         let Simulated { slew, limits, samples } = simulated;
         let error_deg = |sample: &Sample| sample.left_rad.norm().to_degrees();
-        let after = || samples.iter().filter(|sample| sample.time_s >= SLEW_S);
+        let after = || samples.iter().filter(|sample| sample.body.time_s >= SLEW_S);
         let small_from =
             samples.iter().rposition(|sample| error_deg(sample) > SETTLED_DEG).map_or(0, |k| k + 1);
         let sense = slew.angle_rad.signum();
-        let share = |of: fn(&super::slew_flight::WheelSample) -> f64, most: &[f64]| {
+        let share = |of: fn(&WheelSample) -> f64, most: &[f64]| {
             let each = samples.iter().flat_map(|sample| sample.wheels.iter().zip(most));
             greatest(each.map(|(wheel, most)| of(wheel) / most))
         };
         let is_full = |sample: &&Sample| sample.wheels.iter().any(|wheel| wheel.is_saturated);
-        let full = || samples.iter().filter(is_full).map(|sample| sample.time_s);
+        let full = || samples.iter().filter(is_full).map(|sample| sample.body.time_s);
         Self {
-            settled_s: samples.get(small_from).map(|sample| sample.time_s - SLEW_S),
+            settled_s: samples.get(small_from).map(|sample| sample.body.time_s - SLEW_S),
             ideal_s: limits.slew.least_s(slew.angle_rad.abs()),
             overshoot_deg: after()
                 .map(|sample| -sense * sample.ahead_rad(slew))
@@ -80,12 +74,13 @@ impl Measures {
                 samples.iter().map(|sample| (sample.left_rad - slew.axis * sample.ahead_rad(slew)).norm()),
             )
             .to_degrees(),
-            rate_deg_s: greatest(samples.iter().map(|sample| sample.rate_rad_s.dot(&slew.axis))).to_degrees(),
+            rate_deg_s: greatest(samples.iter().map(|sample| sample.body.rate_rad_s.dot(&slew.axis)))
+                .to_degrees(),
             torque: share(|wheel| wheel.torque_n_m, &limits.torque_n_m),
             momentum: share(|wheel| wheel.momentum_n_m_s, &limits.capacity_n_m_s),
             full_s: full().next().zip(full().next_back()),
-            is_torque_limited: samples.iter().any(|sample| sample.is_torque_limited),
-            dumps: samples.last().map_or(0.0, |sample| sample.dumps),
+            is_torque_limited: samples.iter().any(|sample| sample.body.is_torque_limited),
+            dumps: samples.last().map_or(0, |sample| sample.body.dumps),
         }
     }
 
@@ -108,7 +103,7 @@ impl Measures {
             Event::Dumped(_, at_s) | Event::Threshold(_, at_s) => {
                 if !is_full || SLEW_S + settled_s < at_s {
                     "no saturation".to_owned()
-                } else if ends_full || self.dumps != 1.0 {
+                } else if ends_full || self.dumps != 1 {
                     "not recovered".to_owned()
                 } else {
                     "flagged, recovered by a dump".to_owned()
@@ -150,16 +145,17 @@ const HEADER: &str = "\
     rate [deg/s] | torque | momentum | a wheel full [s] | verdict";
 
 /// Slews about each axis, with full wheels and with a wheel that fails.
-pub fn slew(options: &Options) -> Result<Report, StudyError> {
-    let cases = chosen("control/slew", options, slews(options), |slew| slew.label.to_owned())?;
-    let plant = Plant::open(options)?;
-    let simulated = run_all(options, &cases, |slew| plant.fly(slew, options.step_s))?;
-    let mut report = Report::default();
-    report.line("Slews under the plant's own controller; the command jumps at 10 s\n");
+pub fn slew(run: &mut Run<'_>) -> Outcome {
+    let slews = slews(run.options.angle_rad.unwrap_or(ANGLE_DEG.to_radians()));
+    let cases = run.chosen(slews, |slew| slew.label.to_owned())?;
+    let plant = Plant::open(run.options)?;
+    let step_s = run.options.step_s;
+    let simulated = run.all(&cases, |slew| plant.fly(slew, step_s))?;
+    run.line("Slews under the plant's own controller; the command jumps at 10 s\n");
     let rows: Vec<_> = simulated.iter().map(|simulated| Measures::of(simulated).row(simulated)).collect();
-    report.table(HEADER, &rows);
+    run.table_and_csv("slew.csv", HEADER, rows)?;
     if let Some(Simulated { limits, .. }) = simulated.first() {
-        report.line(&format!(
+        run.line(&format!(
             "Limits: {:.4} deg/s and {:.5} deg/s2 (control.slewRate and control.slewAcceleration), wheels of {} N m and {} N m s.",
             limits.slew.rate_rad_s.to_degrees(),
             limits.slew.acceleration_rad_s2.to_degrees(),
@@ -167,15 +163,14 @@ pub fn slew(options: &Options) -> Result<Report, StudyError> {
             limits.capacity_n_m_s[0],
         ));
     }
-    report.line(REMARK);
-    report.csv(options, "slew.csv", HEADER, rows)?;
-    history(&mut report, options, &simulated)?;
+    run.line(REMARK);
+    history(run, &simulated)?;
     for simulated in &simulated {
         let file =
             format!("slew-{}.svg", simulated.slew.label.replace(", ", "-").replace(' ', "-").to_lowercase());
-        report.picture(options, &file, &figure(simulated))?;
+        run.picture(&file, &figure(simulated))?;
     }
-    Ok(report)
+    Ok(())
 }
 
 const REMARK: &str = "\
@@ -186,7 +181,7 @@ dump to zero is requested, or dump.threshold is put back. Wheel 2 fails at half 
 no keep-in zone here: the slews about X and Z take the Sun off the shade.";
 
 /// Every sample of every flight.
-fn history(report: &mut Report, options: &Options, simulated: &[Simulated]) -> Result<(), StudyError> {
+fn history(run: &mut Run<'_>, simulated: &[Simulated]) -> Outcome {
     let mut header = "\
         case | time_s | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | \
         left_x_rad | left_y_rad | left_z_rad | momentum_x_n_m_s | momentum_y_n_m_s | momentum_z_n_m_s | \
@@ -196,22 +191,17 @@ fn history(report: &mut Report, options: &Options, simulated: &[Simulated]) -> R
     for k in 1..=wheels {
         header += &format!(" | wheel{k}_torque_n_m | wheel{k}_momentum_n_m_s | wheel{k}_full");
     }
-    let rows = simulated.iter().flat_map(|simulated| {
-        simulated.samples.iter().map(|sample| {
-            let Sample { q, rate_rad_s, left_rad, momentum_n_m_s, .. } = sample;
-            let mut row = vec![simulated.slew.label.to_owned()];
-            row.extend(cells(&[&[sample.time_s], q.coords.as_slice()]));
-            row.extend(
-                [rate_rad_s, left_rad, momentum_n_m_s].into_iter().flat_map(|v| cells(&[v.as_slice()])),
-            );
-            row.extend([sample.is_torque_limited, sample.is_dumping].map(|is| is.to_string()));
-            row.push(format!("{}", sample.dumps));
-            for wheel in &sample.wheels {
-                row.extend(cells(&[&[wheel.torque_n_m, wheel.momentum_n_m_s]]));
-                row.push(wheel.is_saturated.to_string());
-            }
-            row
+    let rows = simulated.iter().flat_map(|Simulated { slew, samples, .. }| {
+        samples.iter().map(|sample| {
+            let BodySample { time_s, q, rate_rad_s, momentum_n_m_s, .. } = sample.body;
+            let BodySample { is_torque_limited, is_dumping, dumps, .. } = sample.body;
+            let body = row![slew.label, time_s, q, rate_rad_s, sample.left_rad, momentum_n_m_s];
+            let wheels = sample
+                .wheels
+                .iter()
+                .flat_map(|wheel| row![wheel.torque_n_m, wheel.momentum_n_m_s, wheel.is_saturated]);
+            [body, row![is_torque_limited, is_dumping, dumps], wheels.collect()].concat()
         })
     });
-    report.csv(options, "slew-history.csv", &header, rows.collect::<Vec<_>>())
+    run.csv("slew-history.csv", &header, rows)
 }

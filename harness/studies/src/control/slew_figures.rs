@@ -7,7 +7,7 @@ use drawing::{Chart, Panel, Series};
 pub fn figure(simulated: &Simulated) -> Chart {
     let Simulated { slew, limits, samples } = simulated;
     let line = |label: &str, value: &dyn Fn(&Sample) -> f64| {
-        Series::line(label, samples.iter().map(|sample| (sample.time_s, value(sample))).collect())
+        Series::line(label, samples.iter().map(|sample| (sample.body.time_s, value(sample))).collect())
     };
     let wheels = |value: &dyn Fn(&Sample, usize) -> f64| -> Vec<Series> {
         (0..limits.axes.len())
@@ -24,7 +24,7 @@ pub fn figure(simulated: &Simulated) -> Chart {
             sample.left_rad.norm().to_degrees()
         })]),
         Panel::new("rate [deg/s]").with([
-            line("about the slew's axis", &|sample| sample.rate_rad_s.dot(&slew.axis).to_degrees()),
+            line("about the slew's axis", &|sample| sample.body.rate_rad_s.dot(&slew.axis).to_degrees()),
             dashed("control.slewRate", limit, samples),
         ]),
         Panel::new("torque [N m]")
@@ -40,7 +40,7 @@ pub fn figure(simulated: &Simulated) -> Chart {
         let full = |sample: &Sample| sample.wheels.iter().filter(|wheel| wheel.is_saturated).count() as f64;
         panels.push(Panel::new("number").range(-0.3, limits.axes.len() as f64 + 0.3).whole().with([
             line("wheels at capacity", &full),
-            line("dump active", &|sample| f64::from(u8::from(sample.is_dumping))),
+            line("dump active", &|sample| f64::from(u8::from(sample.body.is_dumping))),
         ]));
     }
     Chart::new(format!("Slew by {:.0} deg: {}", slew.angle_rad.to_degrees(), slew.label), "time [s]")
@@ -49,6 +49,6 @@ pub fn figure(simulated: &Simulated) -> Chart {
 
 /// A limit from the slew's begin on.
 fn dashed(label: &str, value: f64, samples: &[Sample]) -> Series {
-    let end_s = samples.last().map_or(SLEW_S, |sample| sample.time_s);
+    let end_s = samples.last().map_or(SLEW_S, |sample| sample.body.time_s);
     Series::dashed(label, vec![(SLEW_S, value), (end_s, value)])
 }

@@ -4,8 +4,8 @@ use loader::Fmu;
 
 use super::slew_limits::SlewLimits;
 use crate::attitude::{Attitude, Vector};
-use crate::case::{Case, Row, at_start};
-use crate::settings::{Settings, elements, flag};
+use crate::case::{Case, Row, at_start, recorded};
+use crate::settings::{Settings, set};
 use crate::{Options, StudyError};
 
 /// The command jumps then, in s.
@@ -62,55 +62,59 @@ pub struct Limits {
 impl Limits {
     fn read(fmu: &Fmu) -> Result<Self, StudyError> {
         let wheels = (1..).take_while(|k| fmu.find(&format!("wheel[{k}].torque")).is_some()).count();
-        let read = |name: &str| {
+        let of_wheels = |name: &str| -> Result<Vec<f64>, StudyError> {
             let each: Vec<String> = (1..=wheels).map(|k| format!("wheel[{k}].{name}")).collect();
-            Ok::<_, StudyError>(
-                at_start(fmu, &each)?.columns.iter().map(|column| column[0]).collect::<Vec<_>>(),
-            )
+            Ok(at_start(fmu, &each)?.first())
         };
-        let control = at_start(fmu, &[SlewLimits::NAMES[0], SlewLimits::NAMES[1], "control.bandwidth"])?;
-        let mut control = control.row(0, 0);
-        let axes = read("axis")?;
+        let axes = of_wheels("axis")?;
         Ok(Self {
-            slew: SlewLimits::from([control.real(), control.real()]),
-            bandwidth_rad_s: control.real(),
-            torque_n_m: read("maxTorque")?,
-            capacity_n_m_s: read("capacity")?,
+            slew: at_start(fmu, SlewLimits::NAMES)?.first(),
+            bandwidth_rad_s: at_start(fmu, &["control.bandwidth"])?.first(),
+            torque_n_m: of_wheels("maxTorque")?,
+            capacity_n_m_s: of_wheels("capacity")?,
             axes: axes.chunks_exact(3).map(|axis| Vector::from_row_slice(axis).normalize()).collect(),
         })
     }
 }
 
-/// One wheel at one time.
-#[derive(Clone, Copy, Debug)]
-pub struct WheelSample {
-    /// Of the motor, in N m.
-    pub torque_n_m: f64,
-    /// Relative to the body, in N m s.
-    pub momentum_n_m_s: f64,
-    /// `wheel[k].saturated`.
-    pub is_saturated: bool,
+recorded! {
+    /// One wheel at one time.
+    pub struct WheelSample {
+        /// Of the motor, in N m.
+        pub torque_n_m: f64 = "torque",
+        /// Relative to the body, in N m s.
+        pub momentum_n_m_s: f64 = "momentum",
+        /// Whether it holds as much as it can.
+        pub is_saturated: bool = "saturated",
+    }
+}
+
+recorded! {
+    /// The body at one time.
+    pub struct BodySample {
+        @time_s,
+        /// True attitude: EME2000 to body, scalar last.
+        pub q: Attitude = "attitude.q",
+        /// True rate, body frame, in rad/s.
+        pub rate_rad_s: Vector = "attitude.rate",
+        /// Whether more torque is requested than there is.
+        pub is_torque_limited: bool = "control.saturated",
+        /// Whether a dump is under way.
+        pub is_dumping: bool = "dump.active",
+        /// Dumps so far.
+        pub dumps: i32 = "dump.count",
+        /// In N m s.
+        pub momentum_n_m_s: Vector = "momentum.body",
+    }
 }
 
 /// Everything at one time.
 #[derive(Clone, Debug)]
 pub struct Sample {
-    /// In s.
-    pub time_s: f64,
-    /// True attitude: EME2000 to body, scalar last.
-    pub q: Attitude,
-    /// True rate, body frame, in rad/s.
-    pub rate_rad_s: Vector,
+    /// The body.
+    pub body: BodySample,
     /// Rotation from the attitude to the one after the slew, body frame, in rad.
     pub left_rad: Vector,
-    /// `control.saturated`.
-    pub is_torque_limited: bool,
-    /// `dump.active`.
-    pub is_dumping: bool,
-    /// `dump.count`.
-    pub dumps: f64,
-    /// `momentum.body`, in N m s.
-    pub momentum_n_m_s: Vector,
     /// Wheel by wheel.
     pub wheels: Vec<WheelSample>,
 }
@@ -146,19 +150,16 @@ impl Plant {
     /// Of the folder that `options` names.
     pub fn open(options: &Options) -> Result<Self, StudyError> {
         let fmu = options.fmu("MessengerFull.fmu")?;
-        let start = at_start(&fmu, &["attitude.q", "dump.threshold"])?;
-        let mut start = start.row(0, 0);
-        let limits = Limits::read(&fmu)?;
-        Ok(Self { limits, q: start.attitude(), threshold_n_m_s: start.vector(), fmu })
+        let (q, threshold_n_m_s) = at_start(&fmu, &["attitude.q", "dump.threshold"])?.first();
+        Ok(Self { limits: Limits::read(&fmu)?, q, threshold_n_m_s, fmu })
     }
 
     /// Flies it.
     pub fn fly(&self, slew: &Slew, step_s: Option<f64>) -> Result<Simulated, StudyError> {
         let target = self.q * Attitude::from_scaled_axis(slew.axis * slew.angle_rad);
-        let wheels = self.limits.axes.len();
-        let mut outputs = OUTPUTS.map(str::to_owned).to_vec();
-        for k in 1..=wheels {
-            outputs.extend(["torque", "momentum", "saturated"].map(|name| format!("wheel[{k}].{name}")));
+        let mut outputs: Vec<String> = BodySample::NAMES.iter().map(|name| (*name).to_owned()).collect();
+        for k in 1..=self.limits.axes.len() {
+            outputs.extend(WheelSample::NAMES.iter().map(|name| format!("wheel[{k}].{name}")));
         }
         let ideal_s = self.limits.slew.least_s(slew.angle_rad.abs());
         let stop_s = slew.stop_s.unwrap_or_else(|| (SLEW_S + 1.4 * ideal_s + 100.0).ceil());
@@ -172,66 +173,44 @@ impl Plant {
         };
         let case = Case::new(slew.label, stop_s, step_s.unwrap_or(SAMPLE_S)).every(SAMPLE_S);
         let recorded = self.start(case, slew).steer(&self.fmu, &outputs, &mut inputs)?;
-        let sample = |mut row: Row<'_>| {
-            let q = row.attitude();
-            Sample {
-                time_s: row.time_s,
-                q,
-                rate_rad_s: row.vector(),
-                left_rad: (q.inverse() * target).scaled_axis(),
-                is_torque_limited: row.flag(),
-                is_dumping: row.flag(),
-                dumps: row.real(),
-                momentum_n_m_s: row.vector(),
-                wheels: (0..wheels)
-                    .map(|_| WheelSample {
-                        torque_n_m: row.real(),
-                        momentum_n_m_s: row.real(),
-                        is_saturated: row.flag(),
-                    })
-                    .collect(),
-            }
+        let sample = |(body, wheels): (BodySample, Vec<WheelSample>)| Sample {
+            body,
+            left_rad: (body.q.inverse() * target).scaled_axis(),
+            wheels,
         };
-        let samples = recorded.rows().map(sample).collect();
+        let samples = recorded.all(0).into_iter().map(sample).collect();
         Ok(Simulated { slew: slew.clone(), limits: self.limits.clone(), samples })
     }
 
     /// At rest in the start attitude, which is held until the command jumps.
     fn start(&self, case: Case, slew: &Slew) -> Case {
         let mut case = case
-            .item("attitude.source", "controlled")
-            .item("command.source", "inputs")
-            .elements("start.q", self.q.coords.iter().copied())
-            .elements("command.q", self.q.coords.iter().copied());
+            .set("attitude.source", "controlled")
+            .set("command.source", "inputs")
+            .set("start.q", self.q)
+            .set("command.q", self.q);
         if let Event::Dumped(share, _) | Event::Threshold(share, _) = slew.event {
-            case = case.elements("dump.threshold", [NEVER_N_M_S; 3]);
+            case = case.set("dump.threshold", [NEVER_N_M_S; 3]);
             for (k, (capacity, axis)) in self.limits.capacity_n_m_s.iter().zip(&self.limits.axes).enumerate()
             {
                 // The wheels take up the opposite of the body's momentum.
                 let sense = -axis.dot(&slew.axis).signum() * slew.angle_rad.signum();
-                case = case.real(&format!("wheel[{}].startMomentum", k + 1), sense * share * capacity);
+                case = case.set(&format!("wheel[{}].startMomentum", k + 1), sense * share * capacity);
             }
         }
         case
     }
 
     fn events(&self, slew: &Slew, target: &Attitude, ideal_s: f64) -> Vec<(f64, Settings)> {
-        let jump = (SLEW_S, elements("command.q", target.coords.iter().copied()));
+        let jump = (SLEW_S, set("command.q", *target));
         let other = match slew.event {
             Event::None => None,
-            Event::Dumped(_, at_s) => Some((at_s, vec![flag("dump.request", true)])),
-            Event::Threshold(_, at_s) => {
-                Some((at_s, elements("dump.threshold", self.threshold_n_m_s.iter().copied())))
-            }
+            Event::Dumped(_, at_s) => Some((at_s, set("dump.request", true))),
+            Event::Threshold(_, at_s) => Some((at_s, set("dump.threshold", self.threshold_n_m_s))),
             Event::Failed(wheel, share) => {
-                let failure = vec![flag(&format!("wheel[{wheel}].failed"), true)];
-                Some((SLEW_S + share * ideal_s, failure))
+                Some((SLEW_S + share * ideal_s, set(&format!("wheel[{wheel}].failed"), true)))
             }
         };
         [jump].into_iter().chain(other).collect()
     }
 }
-
-/// What is recorded of the body, in the order of [`Sample`].
-const OUTPUTS: [&str; 6] =
-    ["attitude.q", "attitude.rate", "control.saturated", "dump.active", "dump.count", "momentum.body"];

@@ -1,24 +1,18 @@
 //! Limits of a slew's rate and acceleration, and the least time that they allow: accelerate, coast, decelerate.
 
-/// Limits, both above 0.
-#[derive(Clone, Copy, Debug)]
-pub struct SlewLimits {
-    /// In rad/s.
-    pub rate_rad_s: f64,
-    /// In rad/s2.
-    pub acceleration_rad_s2: f64,
-}
+use crate::case::recorded;
 
-impl From<[f64; 2]> for SlewLimits {
-    fn from([rate_rad_s, acceleration_rad_s2]: [f64; 2]) -> Self {
-        Self { rate_rad_s, acceleration_rad_s2 }
+recorded! {
+    /// Limits, both above 0.
+    pub struct SlewLimits {
+        /// In rad/s.
+        pub rate_rad_s: f64 = "control.slewRate",
+        /// In rad/s2.
+        pub acceleration_rad_s2: f64 = "control.slewAcceleration",
     }
 }
 
 impl SlewLimits {
-    /// The variables of the plant.
-    pub const NAMES: [&str; 2] = ["control.slewRate", "control.slewAcceleration"];
-
     /// The least time of a slew by an angle, in s.
     pub fn least_s(&self, angle_rad: f64) -> f64 {
         let (rate, acceleration) = (self.rate_rad_s, self.acceleration_rad_s2);

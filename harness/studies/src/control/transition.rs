@@ -1,13 +1,16 @@
 //! Figures 7 and 8 of paper 001 with the controlled plant: commanded, estimated and true attitude over a scenario change.
 
+use nalgebra::Vector2;
+
 use super::guided_loop::{Flight, Loop, Sample};
 use super::slew_limits::SlewLimits;
+use crate::StudyError;
 use crate::attitude::{Attitude, Vector, angle_rad, body_angles_deg};
-use crate::case::{chosen, run_all};
+use crate::cells::row;
 use crate::pointing::{SLEW_S, TRANSITION_EPOCH_S, TRANSITION_TRUE_ANOMALY_DEG};
-use crate::settings::{Settings, cells, elements, item, of, real};
+use crate::report::{Outcome, Run};
+use crate::settings::{Settings, of, set};
 use crate::verdict::{agrees, compared};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Mark, Panel, Series};
 
 const END_S: f64 = 1500.0;
@@ -46,25 +49,29 @@ impl Case {
     fn fly(self, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
         // The camera stands as far sunward of +Z as nadir does with the Sun on -Y.
         let camera = |sample: &Sample| {
-            let sun_nadir_rad = angle_rad(&sample.to_sun_m, &sample.to_planet_m);
-            real("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
+            let sun_nadir_rad = angle_rad(&sample.to_sun_m(), &sample.to_planet_m());
+            set("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
         };
         let inputs = |sample: &Sample| {
             let mut settings = Settings::new();
             if sample.time_s == 0.0 {
-                settings.push(item("pointing.scenario", "downlink"));
+                settings.extend(set("pointing.scenario", "downlink"));
             } else if sample.time_s == SLEW_S {
-                settings.extend([item("pointing.scenario", "mdis"), item("aimpoint.option", "nadir")]);
+                settings.extend(set("pointing.scenario", "mdis"));
+                settings.extend(set("aimpoint.option", "nadir"));
             }
             if sample.time_s >= SLEW_S {
-                settings.push(camera(sample));
+                settings.extend(camera(sample));
             }
             of("guidance", settings)
         };
         let noise = || {
-            let mut noise = elements("starTracker.noise", [TRACKER_RAD; 3]);
-            noise.extend([real("gyro.noise", GYRO_RAD_SQRT_S), real("gyro.drift", DRIFT_RAD_S_SQRT_S)]);
-            of("plant", noise)
+            let noise = [
+                set("starTracker.noise", [TRACKER_RAD; 3]),
+                set("gyro.noise", GYRO_RAD_SQRT_S),
+                set("gyro.drift", DRIFT_RAD_S_SQRT_S),
+            ];
+            of("plant", noise.concat())
         };
         both.fly(
             &Flight {
@@ -98,39 +105,38 @@ fn rate_error_deg_s(sample: &Sample) -> f64 {
 /// Limits of the plant's slews.
 struct Limits {
     slew: SlewLimits,
-    zone_deg: [f64; 2],
+    zone_deg: Vector2<f64>,
 }
 
 impl Limits {
     fn read(both: &Loop) -> Result<Self, StudyError> {
-        let slew = SlewLimits::from(both.parameters(SlewLimits::NAMES.map(|it| format!("plant.{it}")))?);
-        let zone = both.parameters(["guidance.keepIn.azimuth", "guidance.keepIn.elevation"])?;
+        let names: Vec<String> = SlewLimits::NAMES.iter().map(|name| format!("plant.{name}")).collect();
+        let slew = both.parameters(&names)?;
+        let zone: Vector2<f64> =
+            both.parameters(&["guidance.keepIn.azimuth", "guidance.keepIn.elevation"])?;
         Ok(Self { slew, zone_deg: zone.map(f64::to_degrees) })
     }
 }
 
 /// The estimated curves of Figures 7 and 8.
-pub fn transition(options: &Options) -> Result<Report, StudyError> {
-    let cases =
-        chosen("control/transition", options, [Case::Noise, Case::NoNoise], |case| case.label().to_owned())?;
-    let both = Loop::open(options)?;
+pub fn transition(run: &mut Run<'_>) -> Outcome {
+    let cases = run.chosen([Case::Noise, Case::NoNoise], |case| case.label().to_owned())?;
+    let both = Loop::open(run.options)?;
     let limits = Limits::read(&both)?;
-    let simulated = run_all(options, &cases, |case| Ok((*case, case.fly(&both, options.step_s)?)))?;
-    let mut report = Report::default();
-    report.line(
+    let step_s = run.options.step_s;
+    let simulated = run.all(&cases, |case| Ok((*case, case.fly(&both, step_s)?)))?;
+    run.line(
         "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8), under the plant's own controller\n",
     );
     let rows: Vec<_> = simulated.iter().flat_map(|(case, samples)| rows(*case, &limits, samples)).collect();
-    let header = "case | quantity | paper | ours | verdict";
-    report.table(header, &rows);
-    report.line(REMARK);
-    report.csv(options, "transition.csv", header, rows)?;
-    history(&mut report, options, &simulated)?;
+    run.table_and_csv("transition.csv", "case | quantity | paper | ours | verdict", rows)?;
+    run.line(REMARK);
+    history(run, &simulated)?;
     if let Some((case, samples)) = simulated.first() {
-        report.picture(options, "transition-quaternion.svg", &quaternion_chart(*case, samples))?;
-        report.picture(options, "transition-angles.svg", &angle_chart(*case, samples))?;
+        run.picture("transition-quaternion.svg", &quaternion_chart(*case, samples))?;
+        run.picture("transition-angles.svg", &angle_chart(*case, samples))?;
     }
-    Ok(report)
+    Ok(())
 }
 
 const REMARK: &str = "\
@@ -156,11 +162,11 @@ fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
         samples.iter().rposition(is_off).and_then(|k| samples.get(k + 1)).map(|it| it.time_s - SLEW_S);
     let off_sun = |frame: &dyn Fn(&Sample) -> Attitude| {
         greatest(&|it| {
-            angle_rad(&-Vector::y(), &frame(it).inverse_transform_vector(&it.to_sun_m)).to_degrees()
+            angle_rad(&-Vector::y(), &frame(it).inverse_transform_vector(&it.to_sun_m())).to_degrees()
         })
     };
     let outside = samples.iter().skip(1).filter(|sample| {
-        let [azimuth, elevation] = estimated_deg(sample, &sample.to_sun_m);
+        let [azimuth, elevation] = estimated_deg(sample, &sample.to_sun_m());
         azimuth.abs() > limits.zone_deg[0] || elevation.abs() > limits.zone_deg[1]
     });
     let [outside, limited] = [outside.count(), samples.iter().filter(|it| it.is_torque_limited).count()];
@@ -206,11 +212,7 @@ fn rows(case: Case, limits: &Limits, samples: &[Sample]) -> Vec<Vec<String>> {
     ]
 }
 
-fn history(
-    report: &mut Report,
-    options: &Options,
-    simulated: &[(Case, Vec<Sample>)],
-) -> Result<(), StudyError> {
+fn history(run: &mut Run<'_>, simulated: &[(Case, Vec<Sample>)]) -> Outcome {
     let header = "\
         case | time_s | command_q1 | command_q2 | command_q3 | command_q4 | estimate_q1 | estimate_q2 | \
         estimate_q3 | estimate_q4 | q1 | q2 | q3 | q4 | rate_x_rad_s | rate_y_rad_s | rate_z_rad_s | \
@@ -219,20 +221,24 @@ fn history(
         constrained";
     let rows = simulated.iter().flat_map(|(case, samples)| {
         samples.iter().map(|sample| {
-            let Sample { to_sun_m, to_earth_m, to_planet_m, .. } = sample;
-            let attitudes = [&sample.command_q, &sample.estimate_q, &sample.q].map(|q| q.coords.as_slice());
-            let rates = [&sample.rate_rad_s, &sample.command_rate_rad_s];
-            let vectors = rates.into_iter().chain([to_sun_m, to_earth_m, to_planet_m]);
-            let mut row = vec![case.label().to_owned()];
-            row.extend(cells(&[&[sample.time_s]]));
-            row.extend(cells(&attitudes));
-            row.extend(vectors.flat_map(|vector| cells(&[vector.as_slice()])));
-            row.extend(cells(&[&[sample.mdis_angle_rad.to_degrees()]]));
-            row.extend([sample.is_torque_limited, sample.is_constrained].map(|is| is.to_string()));
-            row
+            row![
+                case.label(),
+                sample.time_s,
+                sample.command_q,
+                sample.estimate_q,
+                sample.q,
+                sample.rate_rad_s,
+                sample.command_rate_rad_s,
+                sample.to_sun_m(),
+                sample.to_earth_m(),
+                sample.to_planet_m(),
+                sample.mdis_angle_rad.to_degrees(),
+                sample.is_torque_limited,
+                sample.is_constrained,
+            ]
         })
     });
-    report.csv(options, "transition-history.csv", header, rows.collect::<Vec<_>>())
+    run.csv("transition-history.csv", header, rows)
 }
 
 /// A line over time from the first command on, interrupted where the command jumps if `jumps`.
@@ -282,10 +288,10 @@ fn quaternion_chart(case: Case, samples: &[Sample]) -> Chart {
 fn angle_chart(case: Case, samples: &[Sample]) -> Chart {
     let panel = |name: &str, i: usize| {
         Panel::new(format!("{name} [deg]")).with([
-            over_time("Mercury", samples, false, |it| estimated_deg(it, &it.to_planet_m)[i]),
-            over_time("Earth", samples, false, |it| estimated_deg(it, &it.to_earth_m)[i]),
+            over_time("Mercury", samples, false, |it| estimated_deg(it, &it.to_planet_m())[i]),
+            over_time("Earth", samples, false, |it| estimated_deg(it, &it.to_earth_m())[i]),
             // Dashed, as it lies on one of the others all the time.
-            over_time("Sun", samples, false, |it| estimated_deg(it, &it.to_sun_m)[i]).drawn(Mark::Dashed),
+            over_time("Sun", samples, false, |it| estimated_deg(it, &it.to_sun_m())[i]).drawn(Mark::Dashed),
         ])
     };
     Chart::new(format!("Sun, Earth and Mercury in the estimated body frame, {}", case.label()), "time [s]")

@@ -3,9 +3,10 @@
 use loader::Fmu;
 
 use super::spacing::Spacing;
+use crate::StudyError;
 use crate::attitude::Vector;
-use crate::case::{self, chosen, run_all};
-use crate::{Options, StudyError};
+use crate::case;
+use crate::report::Run;
 
 const DAY_S: f64 = 86_400.0;
 const STEP_S: f64 = 600.0;
@@ -84,11 +85,7 @@ impl Strategy {
 
     /// Of `momentum.strategy`.
     fn item(self) -> &'static str {
-        match self {
-            Self::DumpsOnly => "dumpsOnly",
-            Self::Reactive => "reactive",
-            Self::Predictive => "predictive",
-        }
+        if self == Self::DumpsOnly { "dumpsOnly" } else { self.label() }
     }
 }
 
@@ -119,9 +116,9 @@ impl DumpsTo {
 
     fn set(self, case: case::Case, threshold_n_m_s: f64) -> case::Case {
         match self {
-            Self::Opposite(fraction) => case.real("dump.reinitFraction", fraction),
+            Self::Opposite(fraction) => case.set("dump.reinitFraction", fraction),
             Self::AlongX(fraction) => {
-                case.item("dump.reinitTo", "target").real("dump.target[1]", fraction * threshold_n_m_s)
+                case.set("dump.reinitTo", "target").set("dump.target[1]", fraction * threshold_n_m_s)
             }
         }
     }
@@ -161,11 +158,11 @@ impl Choice {
         let tilt = |positive| if positive { "positive" } else { "negative" };
         match self {
             Self::Study => case,
-            Self::Later => case.real("start.epoch", START_S + 40.0 * DAY_S),
-            Self::OrbitPlane => case.item("orbit.frame", "planetOrbit"),
-            Self::Ecliptic => case.item("orbit.frame", "ecliptic"),
+            Self::Later => case.set("start.epoch", START_S + 40.0 * DAY_S),
+            Self::OrbitPlane => case.set("orbit.frame", "planetOrbit"),
+            Self::Ecliptic => case.set("orbit.frame", "ecliptic"),
             Self::Tilts(plus_x, minus_x) => {
-                case.item("panel[1].tilt", tilt(plus_x)).item("panel[2].tilt", tilt(minus_x))
+                case.set("panel[1].tilt", tilt(plus_x)).set("panel[2].tilt", tilt(minus_x))
             }
         }
     }
@@ -227,16 +224,16 @@ impl Case {
         let has_panels = self.shade == Shade::PlatesAndPanels;
         let is_papers = self.convention == Convention::BodyIntegral;
         let case = case::Case::new(self.label(), SPAN_D * DAY_S, STEP_S)
-            .boolean("solar.fixedPressure", true)
-            .boolean("gravityGradient.enabled", false)
-            .item("eclipse.method", "off")
-            .boolean("panel[1].enabled", has_panels)
-            .boolean("panel[2].enabled", has_panels)
-            .item("sunshade.shape", if self.shade == Shade::Cylinder { "cylinder" } else { "plates" })
-            .item("momentum.convention", if is_papers { "bodyIntegral" } else { "inertial" })
-            .item("momentum.strategy", self.strategy.item())
-            .elements("spacecraft.centerOfMass", self.offset_in.map(|it| INCH_M * f64::from(it)))
-            .elements("dump.threshold", [self.threshold_n_m_s; 3]);
+            .set("solar.fixedPressure", true)
+            .set("gravityGradient.enabled", false)
+            .set("eclipse.method", "off")
+            .set("panel[1].enabled", has_panels)
+            .set("panel[2].enabled", has_panels)
+            .set("sunshade.shape", if self.shade == Shade::Cylinder { "cylinder" } else { "plates" })
+            .set("momentum.convention", if is_papers { "bodyIntegral" } else { "inertial" })
+            .set("momentum.strategy", self.strategy.item())
+            .set("spacecraft.centerOfMass", self.offset_in.map(|it| INCH_M * f64::from(it)))
+            .set("dump.threshold", [self.threshold_n_m_s; 3]);
         self.choice.set(self.dumps_to.set(case, self.threshold_n_m_s))
     }
 
@@ -258,11 +255,10 @@ const NAMES: [&str; 4] = ["momentum.body[1]", "dump.count", "dump.lastTime", "du
 /// Every dump, from a recording with a point after each.
 fn dumps(recorded: &case::Recorded) -> Vec<Dump> {
     let (count, last_s) = (&recorded.columns[1], &recorded.columns[2]);
-    let before = [0.0].iter().chain(count);
-    let after = before.zip(count).zip(last_s.iter().zip(recorded.vectors(3)));
-    let after = after.filter(|((before, count), _)| count > before);
-    let dump = |(time_s, impulse_body_n_m_s)| Dump { time_d: time_s / DAY_S, impulse_body_n_m_s };
-    after.map(|(_, at)| dump(at)).collect()
+    let impulses = recorded.all(3);
+    let is_after = |k: &usize| count[*k] > k.checked_sub(1).map_or(0.0, |before| count[before]);
+    let after = (0..count.len()).filter(is_after);
+    after.map(|k| Dump { time_d: last_s[k] / DAY_S, impulse_body_n_m_s: impulses[k] }).collect()
 }
 
 /// A thruster dump.
@@ -296,13 +292,9 @@ impl Simulated {
     }
 }
 
-/// Simulates those of `cases` that `options` leaves.
-pub fn simulate_all(
-    study: &'static str,
-    options: &Options,
-    cases: Vec<Case>,
-) -> Result<Vec<Simulated>, StudyError> {
-    let cases = chosen(study, options, cases, Case::label)?;
-    let fmu = options.fmu("MomentumPlant.fmu")?;
-    run_all(options, &cases, |case| case.simulate(&fmu))
+/// Simulates those of `cases` that the options leave.
+pub fn simulate_all(run: &Run<'_>, cases: Vec<Case>) -> Result<Vec<Simulated>, StudyError> {
+    let cases = run.chosen(cases, Case::label)?;
+    let fmu = run.options.fmu("MomentumPlant.fmu")?;
+    run.all(&cases, |case| case.simulate(&fmu))
 }

@@ -2,7 +2,7 @@
 
 use super::cases::{Case, Convention, Simulated, Strategy, simulate_all};
 use super::lists;
-use crate::{Options, Report, StudyError};
+use crate::report::{Outcome, Run};
 use drawing::{Chart, Panel, Series};
 
 /// A figure: one panel an offset, one line a strategy.
@@ -23,31 +23,27 @@ pub const FIGURE_5: Figure = Figure {
 };
 
 /// Figure 4.
-pub fn figure4(options: &Options) -> Result<Report, StudyError> {
-    figure("momentum/figure4", options, &FIGURE_4, "X momentum over 90 days (paper 000, Figure 4)")
+pub fn figure4(run: &mut Run<'_>) -> Outcome {
+    figure(run, &FIGURE_4)?;
+    run.line("X momentum over 90 days (paper 000, Figure 4)");
+    Ok(())
 }
 
 /// Figure 5.
-pub fn figure5(options: &Options) -> Result<Report, StudyError> {
-    figure("momentum/figure5", options, &FIGURE_5, "X momentum over 90 days (paper 000, Figure 5)")
+pub fn figure5(run: &mut Run<'_>) -> Outcome {
+    figure(run, &FIGURE_5)?;
+    run.line("X momentum over 90 days (paper 000, Figure 5)");
+    Ok(())
 }
 
-fn figure(study: &'static str, options: &Options, figure: &Figure, text: &str) -> Result<Report, StudyError> {
-    let simulated = simulate_all(study, options, lists::figure(figure.strategies))?;
-    let mut report = Report::default();
-    draw(&mut report, options, &simulated, figure)?;
-    report.line(text);
-    Ok(report)
+fn figure(run: &mut Run<'_>, figure: &Figure) -> Outcome {
+    let simulated = simulate_all(run, lists::figure(figure.strategies))?;
+    draw(run, &simulated, figure)
 }
 
 /// The figure's strategies, one panel an offset as in the paper: the cylinder with the paper's dumps at the lowest threshold
 /// simulated.
-pub fn draw(
-    report: &mut Report,
-    options: &Options,
-    simulated: &[Simulated],
-    figure: &Figure,
-) -> Result<(), StudyError> {
+pub fn draw(run: &mut Run<'_>, simulated: &[Simulated], figure: &Figure) -> Outcome {
     let in_figure = |case: &Case| {
         case.convention == Convention::BodyIntegral && figure.strategies.contains(&case.strategy)
     };
@@ -91,12 +87,12 @@ pub fn draw(
         "time [d]",
     )
     .with(offsets.iter().map(panel));
-    report.picture(options, &format!("{}.svg", figure.name), &chart)?;
+    run.picture(&format!("{}.svg", figure.name), &chart)?;
     let rows = chosen.iter().flat_map(|simulation| {
         let label = simulation.case.label();
         simulation.times_d.iter().zip(&simulation.momentum_x_n_m_s).step_by(6).map(
             move |(time_d, momentum)| vec![label.clone(), format!("{time_d:.6}"), format!("{momentum:.9}")],
         )
     });
-    report.csv(options, &format!("{}.csv", figure.name), "case | time_d | momentum_x_n_m_s", rows)
+    run.csv(&format!("{}.csv", figure.name), "case | time_d | momentum_x_n_m_s", rows)
 }

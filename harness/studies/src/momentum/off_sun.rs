@@ -5,10 +5,11 @@ use loader::Fmu;
 use model_description::labels;
 
 use super::sphere::{self, Lit};
+use crate::StudyError;
 use crate::attitude::Vector;
-use crate::case::Case;
-use crate::settings::cells;
-use crate::{Options, Report, StudyError};
+use crate::case::{Case, recorded};
+use crate::cells::row;
+use crate::report::{Outcome, Run};
 use drawing::{Chart, Panel, Series};
 
 const DAY_S: f64 = 86_400.0;
@@ -32,43 +33,56 @@ const KNOWN: [&str; 10] = [
     "-X",
 ];
 
+recorded! {
+    /// The whole spacecraft at one point.
+    struct Sample {
+        @time_s,
+        momentum_n_m_s: Vector = "momentum.inertial",
+        force_n: Vector = "force.solar",
+        sun_rad: [f64; 2] = "sun.azimuth" "sun.elevation",
+    }
+}
+
 /// Ten days of guided flight.
 struct Simulated {
-    times_d: Vec<f64>,
-    momentum_n_m_s: Vec<Vector>,
-    force_n: Vec<Vector>,
-    angles_deg: Vec<[f64; 2]>,
-    /// Of every surface reported, its name and its force.
-    surfaces: Vec<(String, Vec<Vector>)>,
+    /// Names of the surfaces that are reported one by one.
+    surfaces: Vec<String>,
+    /// Every point, with the force on each of these surfaces.
+    samples: Vec<(Sample, Vec<Vector>)>,
+}
+
+impl Simulated {
+    fn last_momentum_n_m_s(&self) -> Vector {
+        self.samples.last().map_or(Vector::repeat(f64::NAN), |(sample, _)| sample.momentum_n_m_s)
+    }
+
+    /// Of the force of all, in N s.
+    fn impulse_n_s(&self) -> Vector {
+        impulse(&self.samples.iter().map(|(sample, _)| sample.force_n).collect::<Vec<_>>())
+    }
 }
 
 /// Study `momentum/off-sun`.
-pub fn off_sun(options: &Options) -> Result<Report, StudyError> {
-    let sphere = sphere::map(&options.fmu("MessengerLight.fmu")?)?;
-    let few = fly(&options.fmu("MomentumPlant.fmu")?, "shade and panels")?;
-    let whole = fly(&options.fmu("MessengerFull.fmu")?, "whole")?;
-    let mut report = Report::default();
-    report
-        .line("Sunlight on the whole MESSENGER (messenger-full.toml), its surfaces shadowing one another\n");
-    over_the_sphere(&mut report, options, &sphere)?;
-    within_the_zone(&mut report, options, &few, &whole)?;
-    Ok(report)
+pub fn off_sun(run: &mut Run<'_>) -> Outcome {
+    let sphere = sphere::map(&run.options.fmu("MessengerLight.fmu")?)?;
+    let few = fly(&run.options.fmu("MomentumPlant.fmu")?, "shade and panels")?;
+    let whole = fly(&run.options.fmu("MessengerFull.fmu")?, "whole")?;
+    run.line("Sunlight on the whole MESSENGER (messenger-full.toml), its surfaces shadowing one another\n");
+    over_the_sphere(run, &sphere)?;
+    within_the_zone(run, &few, &whole)
 }
 
-fn over_the_sphere(report: &mut Report, options: &Options, sphere: &[Lit]) -> Result<(), StudyError> {
+fn over_the_sphere(run: &mut Run<'_>, sphere: &[Lit]) -> Outcome {
     let force = sphere::picture("Force of sunlight at 0.387 AU", "uN", sphere, |lit| lit.force_n * 1e6);
-    report.picture(options, "off-sun-force.svg", &force)?;
+    run.picture("off-sun-force.svg", &force)?;
     let torque =
         sphere::picture("Torque of sunlight at 0.387 AU", "uN.m", sphere, |lit| lit.torque_n_m * 1e6);
-    report.picture(options, "off-sun-torque.svg", &torque)?;
-    let rows = sphere.iter().map(|lit| {
-        let at = [lit.azimuth_deg, lit.elevation_deg];
-        cells(&[&at, lit.force_n.as_slice(), lit.torque_n_m.as_slice()])
-    });
+    run.picture("off-sun-torque.svg", &torque)?;
+    let rows = sphere.iter().map(|lit| row![lit.azimuth_deg, lit.elevation_deg, lit.force_n, lit.torque_n_m]);
     let header = "\
         sun_azimuth_deg | sun_elevation_deg | force_x_n | force_y_n | force_z_n | torque_x_n_m | \
         torque_y_n_m | torque_z_n_m";
-    report.csv(options, "off-sun.csv", header, rows)?;
+    run.csv("off-sun.csv", header, rows)?;
     let most = |what: &str, unit: &str, size: fn(&Lit) -> f64| {
         let at = sphere.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
         at.map_or(Vec::new(), |lit| {
@@ -86,75 +100,67 @@ fn over_the_sphere(report: &mut Report, options: &Options, sphere: &[Lit]) -> Re
     };
     let rows =
         [most("force", "uN", |lit| lit.force_n.norm()), most("torque", "uN.m", |lit| lit.torque_n_m.norm())];
-    report.table("at 0.387 AU | Sun on -Y | greatest | there azimuth / elevation [deg]", &rows);
-    report.line("The panels stand where cells are 65 deg off a Sun on -Y.\n");
+    run.table("at 0.387 AU | Sun on -Y | greatest | there azimuth / elevation [deg]", &rows);
+    run.line("The panels stand where cells are 65 deg off a Sun on -Y.\n");
     Ok(())
 }
 
-fn within_the_zone(
-    report: &mut Report,
-    options: &Options,
-    few: &Simulated,
-    whole: &Simulated,
-) -> Result<(), StudyError> {
-    let last =
-        |simulated: &Simulated| simulated.momentum_n_m_s.last().copied().unwrap_or(Vector::repeat(f64::NAN));
-    let row = |what: &str, v: &Vector| {
-        let mut cells = vec![what.to_owned()];
-        cells.extend(v.iter().map(|x| format!("{x:.6}")));
-        cells
+fn within_the_zone(run: &mut Run<'_>, few: &Simulated, whole: &Simulated) -> Outcome {
+    let shown = |what: &str, v: Vector| -> Vec<String> {
+        [what.to_owned()].into_iter().chain(v.iter().map(|x| format!("{x:.6}"))).collect()
     };
-    let gap = last(whole) - last(few);
-    let rows = [row("shade and panels", &last(few)), row("whole", &last(whole)), row("difference", &gap)];
-    report.line("Inertial momentum after 10 days in the keep-in zone, guided, without dumps [N.m.s]\n");
-    report.table("spacecraft | X | Y | Z", &rows);
-    let widest = |axis: usize| whole.angles_deg.iter().map(|at| at[axis].abs()).fold(0.0, f64::max);
-    report.line(&format!(
+    let [of_few, of_whole] = [few, whole].map(Simulated::last_momentum_n_m_s);
+    let gap = of_whole - of_few;
+    let rows = [shown("shade and panels", of_few), shown("whole", of_whole), shown("difference", gap)];
+    run.line("Inertial momentum after 10 days in the keep-in zone, guided, without dumps [N.m.s]\n");
+    run.table("spacecraft | X | Y | Z", &rows);
+    let angles_deg = |axis: usize| whole.samples.iter().map(move |(it, _)| it.sun_rad[axis].to_degrees());
+    let widest = |axis: usize| angles_deg(axis).map(f64::abs).fold(0.0, f64::max);
+    run.line(&format!(
         "The Sun was up to {:.1} deg in azimuth and {:.1} deg in elevation off -Y.\n",
         widest(0),
         widest(1)
     ));
 
-    let difference_n_s = impulse(&whole.force_n) - impulse(&few.force_n);
-    let (mut rows, mut explained) = (Vec::new(), -impulse(&few.force_n));
+    let difference_n_s = whole.impulse_n_s() - few.impulse_n_s();
+    let (mut rows, mut explained) = (Vec::new(), -few.impulse_n_s());
     let mut seen: Vec<&str> = Vec::new();
-    for (name, force_n) in &whole.surfaces {
-        let total = impulse(force_n);
+    for (k, name) in whole.surfaces.iter().enumerate() {
+        let force_n: Vec<Vector> = whole.samples.iter().map(|(_, surfaces)| surfaces[k]).collect();
+        let total = impulse(&force_n);
         explained += total;
         let is_known = KNOWN.contains(&name.as_str()) && !seen.contains(&name.as_str());
         seen.push(name);
         let lit = force_n.iter().filter(|force| force.norm() > 0.0).count();
         if total.norm() > LEAST_N_S && !is_known {
-            let mut cells = row(name, &total);
-            cells.push(format!("{:.1} %", 100.0 * lit as f64 / force_n.len().max(1) as f64));
-            rows.push(cells);
+            let share = format!("{:.1} %", 100.0 * lit as f64 / force_n.len().max(1) as f64);
+            rows.push(row![shown(name, total), share.as_str()]);
         }
     }
-    report
-        .line("Sunlight's impulse, body frame, on surfaces that shade and panels alone do not have [N.s]\n");
+    run.line("Sunlight's impulse, body frame, on surfaces that shade and panels alone do not have [N.s]\n");
     if rows.is_empty() {
-        report.line("none of them is lit");
+        run.line("none of them is lit");
     } else {
-        report.table("surface | X | Y | Z | of the time lit", &rows);
+        run.table("surface | X | Y | Z | of the time lit", &rows);
     }
     let left = (explained - difference_n_s).norm();
-    report.line(&format!(
+    run.line(&format!(
         "All surfaces of the whole less shade and panels: {:.6} N.s; what both flights differ by: {:.6} N.s; apart {:.1e} of it.",
         explained.norm(),
         difference_n_s.norm(),
         left / difference_n_s.norm().max(f64::MIN_POSITIVE)
     ));
-    report.line(REMARK);
+    run.line(REMARK);
     let header =
         "time_d | few_x_n_m_s | few_y_n_m_s | few_z_n_m_s | whole_x_n_m_s | whole_y_n_m_s | whole_z_n_m_s";
     let rows = few
-        .times_d
+        .samples
         .iter()
-        .zip(few.momentum_n_m_s.iter().zip(&whole.momentum_n_m_s))
-        .map(|(time_d, (few, whole))| cells(&[&[*time_d], few.as_slice(), whole.as_slice()]));
-    report.csv(options, "off-sun-momentum.csv", header, rows)?;
+        .zip(&whole.samples)
+        .map(|((few, _), (whole, _))| row![few.time_s / DAY_S, few.momentum_n_m_s, whole.momentum_n_m_s]);
+    run.csv("off-sun-momentum.csv", header, rows)?;
     let points = |simulated: &Simulated, axis: usize| -> Vec<(f64, f64)> {
-        simulated.times_d.iter().zip(&simulated.momentum_n_m_s).map(|(t, h)| (*t, h[axis])).collect()
+        simulated.samples.iter().map(|(it, _)| (it.time_s / DAY_S, it.momentum_n_m_s[axis])).collect()
     };
     let chart =
         Chart::new("Inertial momentum within the keep-in zone", "time [d]").with((0..3).map(|axis| {
@@ -163,7 +169,7 @@ fn within_the_zone(
                 Series::line("whole", points(whole, axis)),
             ])
         }));
-    report.picture(options, "off-sun-momentum.svg", &chart)
+    run.picture("off-sun-momentum.svg", &chart)
 }
 
 const REMARK: &str = "\
@@ -172,28 +178,16 @@ through the slit of 6 mm that the printed heights leave between the shade and it
 from 10.5 deg of azimuth on.";
 
 fn fly(fmu: &Fmu, label: &str) -> Result<Simulated, StudyError> {
-    let body = ["momentum.inertial", "force.solar", "sun.azimuth", "sun.elevation"];
-    let mut names = body.map(str::to_owned).to_vec();
     let surfaces = surfaces(fmu);
-    names.extend((1..=surfaces.len()).map(|number| format!("plate[{number}].force")));
+    let forces = (1..=surfaces.len()).map(|number| format!("plate[{number}].force"));
+    let names: Vec<String> = Sample::NAMES.iter().map(|name| (*name).to_owned()).chain(forces).collect();
     let recorded = Case::new(label, STOP_S, STEP_S)
-        .item("attitude.source", "guided")
-        .boolean("gravityGradient.enabled", false)
-        .item("momentum.convention", "inertial")
-        .elements("dump.threshold", [THRESHOLD_N_M_S; 3])
+        .set("attitude.source", "guided")
+        .set("gravityGradient.enabled", false)
+        .set("momentum.convention", "inertial")
+        .set("dump.threshold", [THRESHOLD_N_M_S; 3])
         .simulate(fmu, &names)?;
-    let angles = recorded.columns[6].iter().zip(&recorded.columns[7]);
-    Ok(Simulated {
-        times_d: recorded.times_s.iter().map(|time_s| time_s / DAY_S).collect(),
-        momentum_n_m_s: recorded.vectors(0),
-        force_n: recorded.vectors(3),
-        angles_deg: angles.map(|(a, e)| [a.to_degrees(), e.to_degrees()]).collect(),
-        surfaces: surfaces
-            .into_iter()
-            .enumerate()
-            .map(|(k, name)| (name, recorded.vectors(8 + 3 * k)))
-            .collect(),
-    })
+    Ok(Simulated { surfaces, samples: recorded.all(0) })
 }
 
 /// Names of the surfaces that are reported one by one.

@@ -5,8 +5,9 @@ use loader::Fmu;
 use super::cases::{Case, Convention, DumpsTo, SPAN_D, Shade, Strategy};
 use super::lists::with_every_strategy;
 use super::variant::{Edit, Variant};
-use crate::case::{chosen, run_all};
-use crate::{Options, Report, StudyError};
+use crate::StudyError;
+use crate::attitude::Vector;
+use crate::report::{Outcome, Run};
 
 const THRESHOLD_N_M_S: f64 = 5.5;
 /// Above all that gathers.
@@ -87,21 +88,19 @@ struct Found {
 }
 
 /// Study `momentum/sensitivity`.
-pub fn sensitivity(options: &Options) -> Result<Report, StudyError> {
-    let changes = chosen("momentum/sensitivity", options, CHANGES, |change| change.what.to_owned())?;
-    let template = options.fmu("MomentumPlant.fmu")?;
-    let found = run_all(options, &changes, |change| fly(change, &template))?;
-    let mut report = Report::default();
-    report.line("Small changes of the spacecraft: dumps in 90 days and momentum a day (paper 000, plates and panels)\n");
+pub fn sensitivity(run: &mut Run<'_>) -> Outcome {
+    let changes = run.chosen(CHANGES, |change| change.what.to_owned())?;
+    let template = run.options.fmu("MomentumPlant.fmu")?;
+    let found = run.all(&changes, |change| fly(change, &template))?;
+    run.line("Small changes of the spacecraft: dumps in 90 days and momentum a day (paper 000, plates and panels)\n");
     let join = |dumps: &[i64; 3]| dumps.map(|count| count.to_string()).join(" / ");
     let cells = |it: &Found, k: usize| [join(&it.dumps[k]), format!("{:.4}", it.daily_n_m_s[k])];
     let row = |it: &Found| [&[it.what.to_owned()][..], &cells(it, 0), &cells(it, 1)].concat();
     let rows: Vec<Vec<String>> = found.iter().map(row).collect();
     let header = "change | dumps, paper's | paper's a day [N.m.s] | dumps, inertial | inertial a day [N.m.s]";
-    report.table(header, &rows);
-    report.line(REMARK);
-    report.csv(options, "sensitivity.csv", header, rows)?;
-    Ok(report)
+    run.table_and_csv("sensitivity.csv", header, rows)?;
+    run.line(REMARK);
+    Ok(())
 }
 
 const REMARK: &str = "\
@@ -113,8 +112,7 @@ fn fly(change: &Change, template: &Fmu) -> Result<Found, StudyError> {
     let failed = |source| StudyError::Simulation { case: change.what.to_owned(), source };
     let variant = Variant::of(template, change.edits).map_err(failed)?;
     let simulate = |case: &Case, name: &str| {
-        let settings =
-            change.sets.iter().fold(case.settings(), |case, (name, value)| case.real(name, *value));
+        let settings = change.sets.iter().fold(case.settings(), |case, (name, value)| case.set(name, *value));
         settings.simulate(&variant.fmu, &[name])
     };
     let mut found = Found { what: change.what, dumps: [[0; 3]; 2], daily_n_m_s: [f64::NAN; 2] };
@@ -127,7 +125,7 @@ fn fly(change: &Change, template: &Fmu) -> Result<Found, StudyError> {
             *count = simulate(case, "dump.count")?.last(0) as i64;
         }
         let Some(alone) = cases.iter().find(|case| case.strategy == Strategy::DumpsOnly) else { continue };
-        let undumped = simulate(&Case { threshold_n_m_s: NO_DUMP_N_M_S, ..*alone }, name)?.vectors(0);
+        let undumped = simulate(&Case { threshold_n_m_s: NO_DUMP_N_M_S, ..*alone }, name)?.all::<Vector>(0);
         let a_day = (undumped.len() - 1) / SPAN_D as usize;
         let days =
             (0..SPAN_D as usize).map(|day| (undumped[(day + 1) * a_day] - undumped[day * a_day]).norm());

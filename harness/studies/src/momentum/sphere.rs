@@ -7,9 +7,8 @@ use loader::Fmu;
 use crate::StudyError;
 use crate::attitude::{Vector, body_direction};
 use crate::case::{Case, Row};
-use crate::settings::{Settings, elements};
-use drawing::Series;
-use drawing::{PlaneChart, PlanePanel};
+use crate::settings::{Settings, set};
+use drawing::{PlaneChart, PlanePanel, Series};
 
 /// Between neighbouring directions, in deg.
 const SPACING_DEG: i32 = 5;
@@ -38,23 +37,21 @@ pub fn map(fmu: &Fmu) -> Result<Vec<Lit>, StudyError> {
     let elevations = (-90..=90).step_by(SPACING_DEG as usize).map(f64::from);
     let at: Vec<[f64; 2]> = elevations.flat_map(|e| azimuths().map(move |a| [a, e])).collect();
     let case = Case::new("the sphere", at.len() as f64 * STEP_S, STEP_S)
-        .boolean("planet.present", false)
-        .real("panel[1].angle", PANEL_RAD)
-        .real("panel[2].angle", PANEL_RAD);
+        .set("planet.present", false)
+        .set("panel[1].angle", PANEL_RAD)
+        .set("panel[2].angle", PANEL_RAD);
     let mut ahead = at.iter();
     let mut inputs = |_: Row<'_>| {
-        ahead.next().map_or(Settings::new(), |at| {
-            elements("sun.positionBody", (direction(*at) * DISTANCE_M).iter().copied())
-        })
+        ahead.next().map_or(Settings::new(), |at| set("sun.positionBody", direction(*at) * DISTANCE_M))
     };
-    let recorded = case.steer(fmu, &["force.solar", "torque.solar"], &mut inputs)?;
-    let lit = |([azimuth_deg, elevation_deg], mut row): ([f64; 2], Row<'_>)| Lit {
+    let found: Vec<(Vector, Vector)> = case.steer(fmu, &["force.solar", "torque.solar"], &mut inputs)?.all(0);
+    let lit = |([azimuth_deg, elevation_deg], (force_n, torque_n_m)): ([f64; 2], _)| Lit {
         azimuth_deg,
         elevation_deg,
-        force_n: row.vector(),
-        torque_n_m: row.vector(),
+        force_n,
+        torque_n_m,
     };
-    Ok(at.iter().copied().zip(recorded.rows().skip(1)).map(lit).collect())
+    Ok(at.iter().copied().zip(found.into_iter().skip(1)).map(lit).collect())
 }
 
 /// The Sun's direction in the body frame, as paper 001 counts azimuth and elevation: -Y at zero.

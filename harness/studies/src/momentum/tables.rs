@@ -6,82 +6,67 @@ use super::lists;
 use super::paper::Published;
 use super::spacing::Spacing;
 use super::trends::trends;
-use crate::{Options, Report, StudyError};
+use crate::report::{Outcome, Run};
 
 /// Tables 2 to 5 from one set of simulations.
-pub fn tables(options: &Options) -> Result<Report, StudyError> {
+pub fn tables(run: &mut Run<'_>) -> Outcome {
     let cases = [lists::cylinder(), lists::panels()].concat();
-    let simulated = simulate_all("momentum/tables", options, cases)?;
+    let simulated = simulate_all(run, cases)?;
     let of = |shade: Shade, papers: bool| -> Vec<Simulated> {
         let is_asked = |it: &&Simulated| {
             it.case.shade == shade && (!papers || it.case.convention == Convention::BodyIntegral)
         };
         simulated.iter().filter(is_asked).cloned().collect()
     };
-    let mut report = Report::default();
-    counts(&mut report, options, "table2.csv", &of(Shade::Cylinder, false), TABLE_2)?;
-    gaps(&mut report, options, "table3.csv", &of(Shade::Cylinder, true), "Table 3")?;
-    counts(&mut report, options, "table4.csv", &of(Shade::PlatesAndPanels, false), TABLE_4)?;
-    gaps(&mut report, options, "table5.csv", &of(Shade::PlatesAndPanels, true), "Table 5")?;
-    draw(&mut report, options, &simulated, &FIGURE_4)?;
-    finish(report, options, &simulated)
+    counts(run, "table2.csv", &of(Shade::Cylinder, false), TABLE_2)?;
+    gaps(run, "table3.csv", &of(Shade::Cylinder, true), "Table 3")?;
+    counts(run, "table4.csv", &of(Shade::PlatesAndPanels, false), TABLE_4)?;
+    gaps(run, "table5.csv", &of(Shade::PlatesAndPanels, true), "Table 5")?;
+    draw(run, &simulated, &FIGURE_4)?;
+    finish(run, &simulated)
 }
 
 /// Table 2: number of dumps, cylinder.
-pub fn table2(options: &Options) -> Result<Report, StudyError> {
-    one(options, "momentum/table2", lists::cylinder(), |report, simulated| {
-        counts(report, options, "table2.csv", simulated, TABLE_2)?;
-        draw(report, options, simulated, &FIGURE_4)
-    })
+pub fn table2(run: &mut Run<'_>) -> Outcome {
+    let simulated = simulate_all(run, lists::cylinder())?;
+    counts(run, "table2.csv", &simulated, TABLE_2)?;
+    draw(run, &simulated, &FIGURE_4)?;
+    finish(run, &simulated)
 }
 
 /// Table 3: time between dumps, cylinder.
-pub fn table3(options: &Options) -> Result<Report, StudyError> {
-    one(options, "momentum/table3", lists::in_papers_convention(lists::cylinder()), |report, simulated| {
-        gaps(report, options, "table3.csv", simulated, "Table 3")
-    })
+pub fn table3(run: &mut Run<'_>) -> Outcome {
+    let simulated = simulate_all(run, lists::in_papers_convention(lists::cylinder()))?;
+    gaps(run, "table3.csv", &simulated, "Table 3")?;
+    finish(run, &simulated)
 }
 
 /// Table 4: number of dumps, plates and panels.
-pub fn table4(options: &Options) -> Result<Report, StudyError> {
-    one(options, "momentum/table4", lists::panels(), |report, simulated| {
-        counts(report, options, "table4.csv", simulated, TABLE_4)
-    })
+pub fn table4(run: &mut Run<'_>) -> Outcome {
+    let simulated = simulate_all(run, lists::panels())?;
+    counts(run, "table4.csv", &simulated, TABLE_4)?;
+    finish(run, &simulated)
 }
 
 /// Table 5: time between dumps, plates and panels.
-pub fn table5(options: &Options) -> Result<Report, StudyError> {
-    one(options, "momentum/table5", lists::in_papers_convention(lists::panels()), |report, simulated| {
-        gaps(report, options, "table5.csv", simulated, "Table 5")
-    })
+pub fn table5(run: &mut Run<'_>) -> Outcome {
+    let simulated = simulate_all(run, lists::in_papers_convention(lists::panels()))?;
+    gaps(run, "table5.csv", &simulated, "Table 5")?;
+    finish(run, &simulated)
 }
 
 /// What other targets of thruster dumps do.
-pub fn dump_targets(options: &Options) -> Result<Report, StudyError> {
-    one(options, "momentum/dump-targets", lists::other_dumps(), |report, simulated| {
-        let what = "plates alone, and dumps that paper 000's tables do not have";
-        counts(report, options, "dump-targets.csv", simulated, what)
-    })
-}
-
-/// One table of its own simulations.
-fn one(
-    options: &Options,
-    study: &'static str,
-    cases: Vec<Case>,
-    print: impl Fn(&mut Report, &[Simulated]) -> Result<(), StudyError>,
-) -> Result<Report, StudyError> {
-    let simulated = simulate_all(study, options, cases)?;
-    let mut report = Report::default();
-    print(&mut report, &simulated)?;
-    finish(report, options, &simulated)
+pub fn dump_targets(run: &mut Run<'_>) -> Outcome {
+    let simulated = simulate_all(run, lists::other_dumps())?;
+    let what = "plates alone, and dumps that paper 000's tables do not have";
+    counts(run, "dump-targets.csv", &simulated, what)?;
+    finish(run, &simulated)
 }
 
 /// How the counts of Table 2 move with what the paper leaves open.
-pub fn assumptions(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_all("momentum/assumptions", options, lists::open())?;
-    let mut report = Report::default();
-    report.line(
+pub fn assumptions(run: &mut Run<'_>) -> Outcome {
+    let simulated = simulate_all(run, lists::open())?;
+    run.line(
         "Thruster dumps in 90 days over what paper 000 leaves open: start date, orbit frame, panel tilts\n",
     );
     let rows: Vec<Vec<String>> = by_setting(&simulated)
@@ -101,64 +86,44 @@ pub fn assumptions(options: &Options) -> Result<Report, StudyError> {
         })
         .collect();
     let header = "threshold | dumps to | shade | choice | Z offsets | paper | ours | verdict";
-    report.table(header, &rows);
-    report.line(ASSUMPTIONS_REMARK);
-    report.csv(options, "assumptions.csv", header, rows)?;
-    report.csv(options, "dumps.csv", DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
-    Ok(report)
+    run.table_and_csv("assumptions.csv", header, rows)?;
+    run.line(ASSUMPTIONS_REMARK);
+    run.csv("dumps.csv", DUMP_HEADER, simulated.iter().flat_map(dump_rows))
 }
 
-fn counts(
-    report: &mut Report,
-    options: &Options,
-    file: &str,
-    simulated: &[Simulated],
-    what: &str,
-) -> Result<(), StudyError> {
+fn counts(run: &mut Run<'_>, file: &str, simulated: &[Simulated], what: &str) -> Outcome {
     if simulated.is_empty() {
         return Ok(());
     }
-    report.line(&format!("Thruster dumps in 90 days ({what})\n"));
+    run.line(&format!("Thruster dumps in 90 days ({what})\n"));
     let rows: Vec<Vec<String>> = by_setting(simulated)
-        .map(|simulations| {
-            let mut row = setting_cells(&simulations[0].case);
-            row.extend(across(simulations));
-            row
-        })
+        .map(|simulations| [&setting_cells(&simulations[0].case)[..], &across(simulations)].concat())
         .collect();
     let header = "threshold | dumps to | shade | momentum | strategy | offsets | paper | ours | verdict";
-    report.table(header, &rows);
-    report.line(&trends(simulated).text());
+    run.table(header, &rows);
+    run.line(&trends(simulated).text());
     let header = "\
         threshold | dumps to | shade | momentum | strategy | offset | paper | ours | verdict | paper's gaps | \
         our gaps | five days";
-    report.csv(options, file, header, simulated.iter().map(count_row))
+    run.csv(file, header, simulated.iter().map(count_row))
 }
 
-fn gaps(
-    report: &mut Report,
-    options: &Options,
-    file: &str,
-    simulated: &[Simulated],
-    table: &str,
-) -> Result<(), StudyError> {
+fn gaps(run: &mut Run<'_>, file: &str, simulated: &[Simulated], table: &str) -> Outcome {
     if simulated.is_empty() {
         return Ok(());
     }
-    report.line(&format!("Time between thruster dumps (paper 000, {table})\n"));
+    run.line(&format!("Time between thruster dumps (paper 000, {table})\n"));
     let rows: Vec<Vec<String>> = simulated.iter().map(gap_row).collect();
     let header = "\
         threshold | dumps to | shade | momentum | strategy | offset | paper | ours | verdict | \
         paper's five days | five days";
-    report.table(header, &rows);
-    report.csv(options, file, header, rows)
+    run.table_and_csv(file, header, rows)
 }
 
 /// What was assumed, and every dump.
-fn finish(mut report: Report, options: &Options, simulated: &[Simulated]) -> Result<Report, StudyError> {
-    report.line(REMARK);
-    report.csv(options, "dumps.csv", DUMP_HEADER, simulated.iter().flat_map(dump_rows))?;
-    Ok(report)
+fn finish(run: &mut Run<'_>, simulated: &[Simulated]) -> Outcome {
+    run.line(REMARK);
+    run.csv("dumps.csv", DUMP_HEADER, simulated.iter().flat_map(dump_rows))
 }
 
 /// Simulations that differ in the offset alone.

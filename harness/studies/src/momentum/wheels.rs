@@ -1,9 +1,12 @@
 //! Paper 000's trade: storage and mass of the wheels against dumps.
 
+use loader::Fmu;
+
 use super::cases::{Convention, DumpsTo, Shade, Simulated, Strategy, simulate_all};
 use super::lists::with_every_strategy;
+use crate::StudyError;
 use crate::case::Case;
-use crate::{Options, Report, StudyError};
+use crate::report::{Outcome, Run};
 use drawing::{Chart, Panel, Series};
 
 /// Storage of a wheel in N m s, mass of four in kg, threshold in N m s: "between 4 and 12 Nms per wheel with a total mass between
@@ -24,7 +27,7 @@ fn between_printed(capacity_n_m_s: f64) -> [f64; 2] {
 }
 
 /// Study `momentum/wheels`.
-pub fn wheels(options: &Options) -> Result<Report, StudyError> {
+pub fn wheels(run: &mut Run<'_>) -> Outcome {
     let wheels = CAPACITIES_N_M_S.map(|capacity_n_m_s| {
         let [mass_kg, threshold_n_m_s] = between_printed(capacity_n_m_s);
         (capacity_n_m_s, mass_kg, threshold_n_m_s)
@@ -32,10 +35,9 @@ pub fn wheels(options: &Options) -> Result<Report, StudyError> {
     let groups = [Convention::BodyIntegral, Convention::Inertial]
         .map(|convention| (DumpsTo::OWN, Shade::PlatesAndPanels, convention));
     let cases = with_every_strategy(&groups, &wheels.map(|(.., threshold)| threshold), &OFFSETS_IN);
-    let simulated = simulate_all("momentum/wheels", options, cases)?;
-    let guaranteed = guaranteed_thresholds(options)?;
-    let mut report = Report::default();
-    report.line("Thruster dumps in 90 days over the storage of the wheels (paper 000), plates and panels\n");
+    let simulated = simulate_all(run, cases)?;
+    let guaranteed = guaranteed_thresholds(&run.options.fmu("MomentumPlant.fmu")?)?;
+    run.line("Thruster dumps in 90 days over the storage of the wheels (paper 000), plates and panels\n");
     let mut rows = Vec::new();
     for (&(capacity_n_m_s, mass_kg, threshold_n_m_s), guaranteed) in wheels.iter().zip(&guaranteed) {
         for &(.., convention) in &groups {
@@ -64,11 +66,9 @@ pub fn wheels(options: &Options) -> Result<Report, StudyError> {
     let header = "\
         storage [N.m.s] | mass of four [kg] | threshold [N.m.s] | no wheel saturates up to [N.m.s] | \
         momentum | dumps only | reactive | predictive";
-    report.table(header, &rows);
-    report.line(REMARK);
-    report.csv(options, "wheels.csv", header, rows)?;
-    draw(&mut report, options, &simulated, &wheels)?;
-    Ok(report)
+    run.table_and_csv("wheels.csv", header, rows)?;
+    run.line(REMARK);
+    draw(run, &simulated, &wheels)
 }
 
 const REMARK: &str = "\
@@ -84,23 +84,17 @@ fn dumps(simulation: &Simulated) -> String {
 }
 
 /// What the plant computes from axes and storage.
-fn guaranteed_thresholds(options: &Options) -> Result<Vec<f64>, StudyError> {
-    let fmu = options.fmu("MomentumPlant.fmu")?;
+fn guaranteed_thresholds(fmu: &Fmu) -> Result<Vec<f64>, StudyError> {
     let threshold = |capacity_n_m_s: f64| {
         let case = (1..=4).fold(Case::new("wheels", 1.0, 1.0), |case, number| {
-            case.real(&format!("wheel[{number}].capacity"), capacity_n_m_s)
+            case.set(&format!("wheel[{number}].capacity"), capacity_n_m_s)
         });
-        Ok(case.simulate(&fmu, &["dump.guaranteedThreshold"])?.last(0))
+        Ok(case.simulate(fmu, &["dump.guaranteedThreshold"])?.last(0))
     };
     CAPACITIES_N_M_S.into_iter().map(threshold).collect()
 }
 
-fn draw(
-    report: &mut Report,
-    options: &Options,
-    simulated: &[Simulated],
-    wheels: &[(f64, f64, f64)],
-) -> Result<(), StudyError> {
+fn draw(run: &mut Run<'_>, simulated: &[Simulated], wheels: &[(f64, f64, f64)]) -> Outcome {
     let line = |strategy: Strategy, offset_in: [i8; 3], convention: Convention| {
         let of = |threshold_n_m_s: f64| {
             move |it: &&Simulated| {
@@ -138,7 +132,7 @@ fn draw(
         "mass of four wheels [kg]: 12 kg store 4 N.m.s a wheel, 17 kg 8, 20 kg 12",
     )
     .with(panels);
-    report.picture(options, "wheels.svg", &chart)
+    run.picture("wheels.svg", &chart)
 }
 
 #[cfg(test)]

@@ -4,8 +4,9 @@ use loader::Fmu;
 
 use super::planet::Planet;
 use crate::attitude::{Attitude, Vector, body_angles_deg, body_direction};
-use crate::case::{Case, Row};
-use crate::settings::{Settings, cells, elements};
+use crate::case::{Case, Row, recorded};
+use crate::cells::row;
+use crate::settings::{Settings, set};
 use crate::{Options, StudyError};
 
 /// 2009-04-06 00:00 TDB in seconds past J2000, the start of the default flight.
@@ -15,6 +16,33 @@ pub const DEFAULT_EPOCH_S: f64 = 292_248_000.0;
 pub struct Fmus {
     plant: Fmu,
     guidance: Fmu,
+}
+
+recorded! {
+    /// Where the plant is at one second, in EME2000.
+    struct Seen {
+        @time_s,
+        position_m: Vector = "position",
+        velocity_m_s: Vector = "velocity",
+        heliocentric_m: Vector = "heliocentric.position",
+        q: Attitude = "attitude.q",
+        earth_azimuth_rad: f64 = "earth.azimuth",
+        earth_elevation_rad: f64 = "earth.elevation",
+    }
+}
+
+recorded! {
+    /// What Guidance commands.
+    struct Commanded {
+        q: Attitude = "command.q",
+        rate_rad_s: Vector = "command.rate",
+        mdis_angle_rad: f64 = "mdis.angle",
+        reachable: bool = "target.reachable",
+        scan_active: bool = "scan.active",
+        keep_in: bool = "constraint.sunKeepIn",
+        hot_pole: bool = "constraint.hotPole",
+        clamped: bool = "constraint.clamped",
+    }
 }
 
 /// Where everything is at one second, in EME2000.
@@ -63,8 +91,7 @@ impl Sample {
     pub fn geometry(&self) -> Vec<String> {
         let Place { time_s, epoch_s, position_m, velocity_m_s, .. } = &self.place;
         let sun_m = self.place.sun_m();
-        let vectors = [position_m, velocity_m_s, &sun_m].map(|vector| cells(&[vector.as_slice()]));
-        [cells(&[&[*time_s, *epoch_s], self.q.coords.as_slice()]), vectors.concat()].concat()
+        row![*time_s, *epoch_s, self.q, *position_m, *velocity_m_s, sun_m]
     }
 
     /// EME2000 direction of a body direction.
@@ -110,80 +137,49 @@ impl Fmus {
 
     /// Flies it. Where the plant is does not hang on what is commanded: it goes first.
     pub fn fly(&self, flight: &Flight<'_>) -> Result<Simulated, StudyError> {
-        let case = || {
-            let case = Case::new(flight.label, f64::from(flight.seconds + 1), 1.0);
-            case.real("start.epoch", flight.epoch_s)
-        };
+        let case = Case::new(flight.label, f64::from(flight.seconds + 1), 1.0);
+        let case = case.set("start.epoch", flight.epoch_s);
         let anomaly_rad = flight.true_anomaly_deg.to_radians();
-        let trajectory =
-            case().real("orbit.trueAnomaly", anomaly_rad).simulate(&self.plant, &PLANT_OUTPUTS)?;
-        let places: Vec<Place> = trajectory.rows().map(|row| Place::of(row, flight.epoch_s)).collect();
+        let moving = case.clone().set("orbit.trueAnomaly", anomaly_rad);
+        let seen: Vec<Seen> = moving.simulate(&self.plant, Seen::NAMES)?.all(0);
+        let places: Vec<Place> = seen.iter().map(|seen| Place::of(seen, flight.epoch_s)).collect();
         let mut ahead = places.iter();
         let mut inputs = |_: Row<'_>| {
             ahead.next().map_or(Settings::new(), |place| {
-                let mut inputs = elements("position", place.position_m.iter().copied());
-                inputs.extend(elements("velocity", place.velocity_m_s.iter().copied()));
-                inputs.extend((flight.command)(place));
-                inputs
+                let motion = [set("position", place.position_m), set("velocity", place.velocity_m_s)];
+                [motion.concat(), (flight.command)(place)].concat()
             })
         };
-        let case = case().with(flight.parameters.clone());
-        let commanded = case.steer(&self.guidance, &GUIDANCE_OUTPUTS, &mut inputs)?;
-        let planet = Planet::of(commanded.row(0, PLANET_COLUMN));
-        let samples = places.into_iter().zip(commanded.rows().skip(1));
-        Ok(Simulated { samples: samples.map(|(place, row)| Sample::of(place, row)).collect(), planet })
+        let case = case.with(flight.parameters.clone());
+        let commanded =
+            case.steer(&self.guidance, &[Commanded::NAMES, Planet::NAMES].concat(), &mut inputs)?;
+        let commanded: Vec<(Commanded, Planet)> = commanded.all(0);
+        let samples = places.into_iter().zip(&commanded[1..]);
+        let samples = samples.map(|(place, (commanded, _))| Sample::of(place, commanded)).collect();
+        Ok(Simulated { samples, planet: commanded[0].1 })
     }
 }
 
-const PLANT_OUTPUTS: [&str; 6] =
-    ["position", "velocity", "heliocentric.position", "attitude.q", "earth.azimuth", "earth.elevation"];
-
-const GUIDANCE_OUTPUTS: [&str; 13] = [
-    "command.q",
-    "command.rate",
-    "mdis.angle",
-    "target.reachable",
-    "scan.active",
-    "constraint.sunKeepIn",
-    "constraint.hotPole",
-    "constraint.clamped",
-    "planet.radii",
-    "planet.poleRightAscension",
-    "planet.poleDeclination",
-    "planet.primeMeridian",
-    "planet.rotationRate",
-];
-/// Where the planet's parameters begin.
-const PLANET_COLUMN: usize = 13;
-
 impl Sample {
     /// What guidance commanded a second ago, at `place`: since then it has turned by its constant rate.
-    fn of(place: Place, mut row: Row<'_>) -> Self {
-        let (q, rate_rad_s) = (row.attitude(), row.vector());
-        Self {
-            place,
-            q: q * Attitude::from_scaled_axis(rate_rad_s * -1.0),
-            rate_rad_s,
-            mdis_angle_rad: row.real(),
-            reachable: row.flag(),
-            scan_active: row.flag(),
-            constrained: row.flag() | row.flag() | row.flag(),
-        }
+    fn of(place: Place, commanded: &Commanded) -> Self {
+        let Commanded { q, rate_rad_s, mdis_angle_rad, reachable, scan_active, .. } = *commanded;
+        let q = q * Attitude::from_scaled_axis(rate_rad_s * -1.0);
+        let constrained = commanded.keep_in || commanded.hot_pole || commanded.clamped;
+        Self { place, q, rate_rad_s, mdis_angle_rad, reachable, scan_active, constrained }
     }
 }
 
 impl Place {
-    fn of(mut row: Row<'_>, start_epoch_s: f64) -> Self {
-        let (position_m, velocity_m_s) = (row.vector(), row.vector());
-        let heliocentric_m: Vector = row.vector();
-        let q = row.attitude();
+    fn of(seen: &Seen, start_epoch_s: f64) -> Self {
+        let to_earth = body_direction(seen.earth_azimuth_rad, seen.earth_elevation_rad);
         Self {
-            time_s: row.time_s,
-            epoch_s: start_epoch_s + row.time_s,
-            position_m,
-            velocity_m_s,
-            to_sun_m: -heliocentric_m,
-            to_earth: q.transform_vector(&body_direction(row.real(), row.real())),
+            time_s: seen.time_s,
+            epoch_s: start_epoch_s + seen.time_s,
+            position_m: seen.position_m,
+            velocity_m_s: seen.velocity_m_s,
+            to_sun_m: -seen.heliocentric_m,
+            to_earth: seen.q.transform_vector(&to_earth),
         }
     }
 

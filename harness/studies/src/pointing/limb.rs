@@ -4,12 +4,12 @@ use super::disc::{View, disc_chart};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, GEOMETRY, Place, Simulated};
 use super::limb_orbit;
 use super::limb_point::{Found, PLUS_Z, triaxial};
+use crate::StudyError;
 use crate::attitude::Vector;
-use crate::case::{chosen, run_all};
-use crate::settings::{cells, item, real};
-use crate::{Options, Report, StudyError};
-use drawing::PlanePanel;
-use drawing::Series;
+use crate::cells::row;
+use crate::report::{Outcome, Run};
+use crate::settings::set;
+use drawing::{PlanePanel, Series};
 
 /// Six days in, orbit and terminator lie in nearly one plane: the Sun is across nadir and limb all the way round.
 const EPOCH_S: f64 = DEFAULT_EPOCH_S + 6.0 * 86_400.0;
@@ -44,11 +44,12 @@ impl Case {
             Self::Terminator => return limb_orbit::fly(fmus),
         };
         let command = move |_: &Place| {
-            vec![
-                item("pointing.scenario", "limbGeneric"),
-                real("limb.azimuth", f64::to_radians(azimuth_deg)),
-                real("limb.heightRate", height_rate_m_s),
+            [
+                set("pointing.scenario", "limbGeneric"),
+                set("limb.azimuth", f64::to_radians(azimuth_deg)),
+                set("limb.heightRate", height_rate_m_s),
             ]
+            .concat()
         };
         fmus.fly(&Flight {
             label: &self.label(),
@@ -62,13 +63,12 @@ impl Case {
 }
 
 /// Limb points at azimuths, on the terminator over an orbit, and a scan of the limb's height.
-pub fn limb(options: &Options) -> Result<Report, StudyError> {
+pub fn limb(run: &mut Run<'_>) -> Outcome {
     let all = AZIMUTHS_DEG.map(Case::Azimuth).into_iter().chain([Case::Scan, Case::Terminator]);
-    let cases = chosen("pointing/limb", options, all, Case::label)?;
-    let fmus = Fmus::open(options)?;
-    let simulated = run_all(options, &cases, |case| Ok((*case, case.fly(&fmus)?)))?;
-    let mut report = Report::default();
-    report.line("Limb pointing (paper 001, eqs 20 to 22 and Figure 6)\n");
+    let cases = run.chosen(all, Case::label)?;
+    let fmus = Fmus::open(run.options)?;
+    let simulated = run.all(&cases, |case| Ok((*case, case.fly(&fmus)?)))?;
+    run.line("Limb pointing (paper 001, eqs 20 to 22 and Figure 6)\n");
     let azimuths: Vec<(f64, &Simulated)> = simulated
         .iter()
         .filter_map(|(case, simulated)| match case {
@@ -80,16 +80,16 @@ pub fn limb(options: &Options) -> Result<Report, StudyError> {
         simulated.iter().find(|(case, _)| *case == requested).map(|(_, simulated)| simulated)
     };
     if !azimuths.is_empty() {
-        print_azimuths(&mut report, options, &azimuths)?;
+        print_azimuths(run, &azimuths)?;
     }
     if let Some(scan) = of(Case::Scan) {
-        print_scan(&mut report, options, scan)?;
+        print_scan(run, scan)?;
     }
     if let Some(orbit) = of(Case::Terminator) {
-        limb_orbit::print(&mut report, options, orbit)?;
+        limb_orbit::print(run, orbit)?;
     }
-    report.line(REMARK);
-    Ok(report)
+    run.line(REMARK);
+    Ok(())
 }
 
 const REMARK: &str = "\
@@ -98,11 +98,7 @@ ellipsoid at the limb (eq 21), its height along the radius; the residual is that
 2440.53, 2439.28 and 2438.26 km along the planet's own axes. Azimuths are right-handed about up from downtrack, an
 assumption: the paper does not print their sense.";
 
-fn print_azimuths(
-    report: &mut Report,
-    options: &Options,
-    azimuths: &[(f64, &Simulated)],
-) -> Result<(), StudyError> {
+fn print_azimuths(run: &mut Run<'_>, azimuths: &[(f64, &Simulated)]) -> Outcome {
     let own = "\
         azimuth_deg | found_azimuth_deg | off_nadir_deg | height_m | sun_azimuth_deg | sun_elevation_deg | \
         reachable";
@@ -123,29 +119,27 @@ fn print_azimuths(
             format!("{:.1e} / {:+.3} deg", found.sun_deg[0], found.sun_deg[1]),
             if sample.reachable && !sample.constrained { "on the limb" } else { "constrained" }.to_owned(),
         ]);
-        let numbers = [*azimuth_deg, found_deg, found.off_nadir_deg, found.height_m];
-        let mut row = cells(&[&numbers, &found.sun_deg]);
-        row.push(sample.reachable.to_string());
-        row.extend(sample.geometry());
-        rows.push(row);
+        let Found { off_nadir_deg, height_m, sun_deg, .. } = found;
+        let numbers = row![*azimuth_deg, found_deg, off_nadir_deg, height_m, sun_deg];
+        rows.push(row![numbers, sample.reachable, sample.geometry()]);
         let at = view.point(&found.foot_m);
         limb_points.push((at, format!("{azimuth_deg:.0}")));
         disc.get_or_insert_with(|| view.disc("limb at azimuths", &ellipsoid, &sample.place.sun_m()));
     }
-    report.table(
+    run.table(
         "azimuth | of +Z | off nadir | height residual | Sun azimuth / elevation in the body frame | ",
         &shown,
     );
-    report.csv(options, "limb.csv", &header, rows)?;
+    run.csv("limb.csv", &header, rows)?;
     let Some(mut panel) = disc else { return Ok(()) };
     panel.title = format!("true anomaly {TRUE_ANOMALY_DEG} deg, labels: azimuth [deg]");
     panel.series.push(Series::dots("limb points commanded", limb_points.iter().map(|(at, _)| *at).collect()));
     panel.texts = limb_points.into_iter().map(|((x, y), text)| ((1.11 * x, 1.11 * y), text)).collect();
     let chart = disc_chart("Generic limb points", vec![panel]);
-    report.picture(options, "limb.svg", &chart)
+    run.picture("limb.svg", &chart)
 }
 
-fn print_scan(report: &mut Report, options: &Options, simulated: &Simulated) -> Result<(), StudyError> {
+fn print_scan(run: &mut Run<'_>, simulated: &Simulated) -> Outcome {
     let header = format!("commanded_height_m | height_m | sun_azimuth_deg | sun_elevation_deg | {GEOMETRY}");
     let (mut rows, mut shown, mut track) = (Vec::new(), Vec::new(), Vec::new());
     let (mut creep_m, mut last): (f64, Option<Vector>) = (0.0, None);
@@ -157,8 +151,7 @@ fn print_scan(report: &mut Report, options: &Options, simulated: &Simulated) -> 
         let commanded_m = HEIGHT_RATE_M_S * sample.place.time_s;
         let fixed = ellipsoid.along_axes(&found.foot_m);
         creep_m += last.replace(fixed).map_or(0.0, |last| (fixed - last).norm());
-        let numbers = cells(&[&[commanded_m, found.height_m], &found.sun_deg]);
-        rows.push([numbers, sample.geometry()].concat());
+        rows.push(row![commanded_m, found.height_m, found.sun_deg, sample.geometry()]);
         track.push(View::at(&sample.place).direction(&sample.inertial(&PLUS_Z)));
         if sample.place.time_s % 60.0 == 0.0 {
             shown.push(vec![
@@ -171,17 +164,17 @@ fn print_scan(report: &mut Report, options: &Options, simulated: &Simulated) -> 
             ]);
         }
     }
-    report.line(&format!(
+    run.line(&format!(
         "\nScan of the limb's height at azimuth {SCAN_AZIMUTH_DEG} deg, {:.0} km/s:\n",
         HEIGHT_RATE_M_S / 1e3
     ));
-    report.table(
+    run.table(
         "\
         time | commanded height | height residual | off nadir | limb point's way on the surface | \
         Sun azimuth / elevation in the body frame",
         &shown,
     );
-    report.csv(options, "limb-scan.csv", &header, rows)?;
+    run.csv("limb-scan.csv", &header, rows)?;
     let (view, ellipsoid) = (View::at(&first.place), simulated.planet.at(first.place.epoch_s));
     let mut whole = view.disc("the disc", &ellipsoid, &first.place.sun_m());
     whole.series.push(Series::line("track of +Z over the scan", track.clone()));
@@ -206,5 +199,5 @@ fn print_scan(report: &mut Report, options: &Options, simulated: &Simulated) -> 
         ..whole.clone()
     };
     let chart = disc_chart("Scan of the limb's height", vec![whole, close]);
-    report.picture(options, "limb-scan.svg", &chart)
+    run.picture("limb-scan.svg", &chart)
 }

@@ -3,11 +3,12 @@
 use super::disc::{View, disc_chart};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, GEOMETRY, Place, Sample, Simulated};
 use super::limb_point::{Found, PLUS_Z, triaxial};
-use crate::attitude::{Vector, across, angle_rad};
-use crate::settings::{cells, flag, item};
-use crate::{Options, Report, StudyError};
-use drawing::PlanePanel;
-use drawing::{Chart, Panel, Series};
+use crate::StudyError;
+use crate::attitude::{Vector, across, angle_rad, greatest};
+use crate::cells::row;
+use crate::report::{Outcome, Run};
+use crate::settings::set;
+use drawing::{Chart, Panel, PlanePanel, Series};
 
 /// 25 days in, the orbit passes over noon and midnight.
 const EPOCH_S: f64 = DEFAULT_EPOCH_S + 25.0 * 86_400.0;
@@ -19,16 +20,14 @@ const ZONE_DEG: [f64; 2] = [15.0, 13.0];
 
 /// Flies it without constraints: on this orbit the Sun would leave its zone.
 pub(super) fn fly(fmus: &Fmus) -> Result<Simulated, StudyError> {
-    let mut parameters = triaxial();
-    parameters.extend([flag("keepIn.enabled", false), flag("hotPole.enabled", false)]);
-    parameters.push(flag("monitor.enabled", false));
+    let off = ["keepIn.enabled", "hotPole.enabled", "monitor.enabled"].map(|name| set(name, false));
     fmus.fly(&Flight {
         label: "terminator",
         epoch_s: EPOCH_S,
         true_anomaly_deg: 0.0,
         seconds: ORBIT_S,
-        parameters,
-        command: &|_: &Place| vec![item("pointing.scenario", "limbTerminator")],
+        parameters: [triaxial(), off.concat()].concat(),
+        command: &|_: &Place| set("pointing.scenario", "limbTerminator"),
     })
 }
 
@@ -43,15 +42,13 @@ struct Point<'a> {
 }
 
 /// Prints and draws it.
-pub(super) fn print(report: &mut Report, options: &Options, simulated: &Simulated) -> Result<(), StudyError> {
+pub(super) fn print(run: &mut Run<'_>, simulated: &Simulated) -> Outcome {
     let points: Vec<Point<'_>> =
         simulated.samples.iter().step_by(EVERY).map(|sample| point(sample, simulated)).collect();
-    report
-        .line("\nLimb on the terminator over an orbit that passes over noon and midnight, no constraints:\n");
+    run.line("\nLimb on the terminator over an orbit that passes over noon and midnight, no constraints:\n");
     let total = points.len();
     let count = |n: usize| points.iter().filter(|point| point.solutions.len() == n).count();
     let two = || points.iter().filter_map(|point| Some((point, point.nearer?)));
-    let greatest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
     let aim_rad = |(point, aim): (&Point<'_>, Vector)| {
         angle_rad(&point.boresight, &(aim - point.sample.place.position_m))
     };
@@ -68,33 +65,30 @@ pub(super) fn print(report: &mut Report, options: &Options, simulated: &Simulate
         ("target.reachable says which", format!("{reported} of {total}")),
         (
             "+Z off the solution nearer to downtrack, greatest",
-            format!("{:.1e} rad", greatest(&mut two().map(aim_rad))),
+            format!("{:.1e} rad", greatest(two().map(aim_rad))),
         ),
         (
             "+Z off the centre where there is none, greatest",
             format!(
                 "{:.1e} rad",
-                greatest(&mut points.iter().filter(|point| point.nearer.is_none()).map(nadir_rad))
+                greatest(points.iter().filter(|point| point.nearer.is_none()).map(nadir_rad))
             ),
         ),
         (
             "height residual, greatest",
             format!(
                 "{:.1e} m",
-                greatest(&mut two().filter_map(|(point, _)| Some(point.found.as_ref()?.height_m)))
+                greatest(two().filter_map(|(point, _)| Some(point.found.as_ref()?.height_m)))
             ),
         ),
         ("Sun elevation in the body frame", format!("{least:+.1} to {most:+.1} deg")),
-        (
-            "Sun azimuth, greatest",
-            format!("{:.1e} deg", greatest(&mut points.iter().map(|p| p.sun_deg()[0]))),
-        ),
+        ("Sun azimuth, greatest", format!("{:.1e} deg", greatest(points.iter().map(|p| p.sun_deg()[0])))),
         ("Sun within its zone of 15 by 13 deg", share(inside)),
     ];
-    report.table("terminator limb | ", &rows.map(|(name, value)| vec![name.to_owned(), value]));
-    write(report, options, &points)?;
-    report.picture(options, "limb-terminator.svg", &chart(&points))?;
-    draw_discs(report, options, simulated, &points)
+    run.table("terminator limb | ", &rows.map(|(name, value)| vec![name.to_owned(), value]));
+    write(run, &points)?;
+    run.picture("limb-terminator.svg", &chart(&points))?;
+    draw_discs(run, simulated, &points)
 }
 
 fn point<'a>(sample: &'a Sample, simulated: &Simulated) -> Point<'a> {
@@ -123,16 +117,14 @@ impl Point<'_> {
     }
 }
 
-fn write(report: &mut Report, options: &Options, points: &[Point<'_>]) -> Result<(), StudyError> {
+fn write(run: &mut Run<'_>, points: &[Point<'_>]) -> Outcome {
     let own = "solutions | reachable | azimuth_deg | height_m | sun_azimuth_deg | sun_elevation_deg";
     let rows = points.iter().map(|point| {
         let height_m = point.found.as_ref().map_or(f64::NAN, |found| found.height_m);
-        let mut row = vec![point.solutions.len().to_string(), point.sample.reachable.to_string()];
-        row.extend(cells(&[&[point.azimuth_deg(), height_m], &point.sun_deg()]));
-        row.extend(point.sample.geometry());
-        row
+        let solutions = row![point.solutions.len(), point.sample.reachable];
+        row![solutions, point.azimuth_deg(), height_m, point.sun_deg(), point.sample.geometry()]
     });
-    report.csv(options, "limb-terminator.csv", &format!("{own} | {GEOMETRY}"), rows)
+    run.csv("limb-terminator.csv", &format!("{own} | {GEOMETRY}"), rows)
 }
 
 fn chart(points: &[Point<'_>]) -> Chart {
@@ -153,19 +145,14 @@ fn chart(points: &[Point<'_>]) -> Chart {
 }
 
 /// The disc where the solutions are two, and where there is none.
-fn draw_discs(
-    report: &mut Report,
-    options: &Options,
-    simulated: &Simulated,
-    points: &[Point<'_>],
-) -> Result<(), StudyError> {
+fn draw_discs(run: &mut Run<'_>, simulated: &Simulated, points: &[Point<'_>]) -> Outcome {
     // Far out, so that the disc is small, and in the middle of the gap.
     let two = points.iter().find(|point| point.sample.place.time_s >= 10_800.0 && point.nearer.is_some());
     let gap: Vec<&Point<'_>> = points.iter().filter(|point| point.nearer.is_none()).collect();
     let panels: Vec<PlanePanel> =
         two.into_iter().chain(gap.get(gap.len() / 2).copied()).map(|point| panel(point, simulated)).collect();
     let chart = disc_chart("Limb points on the terminator", panels);
-    report.picture(options, "limb-discs.svg", &chart)
+    run.picture("limb-discs.svg", &chart)
 }
 
 fn panel(point: &Point<'_>, simulated: &Simulated) -> PlanePanel {

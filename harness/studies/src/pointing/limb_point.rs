@@ -4,7 +4,7 @@ use super::disc::View;
 use super::flight::Sample;
 use super::planet::Ellipsoid;
 use crate::attitude::Vector;
-use crate::settings::{Settings, elements};
+use crate::settings::{Settings, set};
 
 pub(super) const PLUS_Z: Vector = Vector::new(0.0, 0.0, 1.0);
 /// Assumed, close to the planet's figure; the default is a sphere: so that the limb is that of a triaxial ellipsoid, in m.
@@ -12,7 +12,7 @@ const RADII_M: [f64; 3] = [2_440_530.0, 2_439_280.0, 2_438_260.0];
 
 /// The planet's radii as settings.
 pub(super) fn triaxial() -> Settings {
-    elements("planet.radii", RADII_M)
+    set("planet.radii", RADII_M)
 }
 
 /// Where +Z passes the limb, found from the attitude alone.

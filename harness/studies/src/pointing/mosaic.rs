@@ -4,12 +4,10 @@ use super::camera::Frame;
 use super::disc::{View, disc_chart};
 use super::flight::{Fmus, GEOMETRY, Simulated};
 use super::scans::{CASES, Case};
-use crate::attitude::{Vector, angle_rad};
-use crate::case::{chosen, run_all};
-use crate::settings::cells;
-use crate::{Options, Report, StudyError};
-use drawing::PlaneChart;
-use drawing::Series;
+use crate::attitude::{Vector, angle_rad, greatest};
+use crate::cells::row;
+use crate::report::{Outcome, Run};
+use drawing::{PlaneChart, Series};
 
 /// A mosaic that was simulated.
 struct Mosaic {
@@ -45,18 +43,16 @@ impl Numbers {
             disc.iter().map(|x| frames.iter().filter(|frame| frame.shows(x)).count()).collect();
         let at_least = |times: usize| shown.iter().filter(|n| **n >= times).count() as f64;
         let rate = |rate: &Vector| rate.norm().to_degrees();
-        let greatest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
-        let sun = |i: usize| {
-            greatest(&mut simulated.samples.iter().map(|s| s.body_angles_deg(&s.place.to_sun_m)[i]))
-        };
+        let sun =
+            |i: usize| greatest(simulated.samples.iter().map(|s| s.body_angles_deg(&s.place.to_sun_m)[i]));
         Self {
             frames: frames.len(),
             coverage: at_least(1) / disc.len().max(1) as f64,
             twice: at_least(2) / at_least(1),
             overlaps: frames.windows(2).map(overlap).collect(),
             rates_deg_s: [
-                greatest(&mut simulated.samples.iter().map(|s| rate(&s.rate_rad_s))),
-                greatest(&mut frames.iter().map(|frame| rate(&frame.sample.rate_rad_s))),
+                greatest(simulated.samples.iter().map(|s| rate(&s.rate_rad_s))),
+                greatest(frames.iter().map(|frame| rate(&frame.sample.rate_rad_s))),
             ],
             sun_deg: [sun(0), sun(1)],
             constrained: simulated.samples.iter().filter(|s| s.constrained || !s.scan_active).count(),
@@ -80,15 +76,14 @@ fn disc_lattice(simulated: &Simulated) -> Vec<Vector> {
 }
 
 /// Footprints of three scans.
-pub fn mosaic(options: &Options) -> Result<Report, StudyError> {
-    let cases = chosen("pointing/mosaic", options, CASES, |case| case.label.to_owned())?;
-    let fmus = Fmus::open(options)?;
-    let mosaics = run_all(options, &cases, |case| {
+pub fn mosaic(run: &mut Run<'_>) -> Outcome {
+    let cases = run.chosen(CASES, |case| case.label.to_owned())?;
+    let fmus = Fmus::open(run.options)?;
+    let mosaics = run.all(&cases, |case| {
         let simulated = case.fly(&fmus)?;
         Ok(Mosaic { case: *case, numbers: Numbers::of(case, &simulated), simulated })
     })?;
-    let mut report = Report::default();
-    report.line("Mosaics by scans with reversals and pauses (paper 001, \"Scan patterns\")\n");
+    run.line("Mosaics by scans with reversals and pauses (paper 001, \"Scan patterns\")\n");
     let header = "\
         scan | camera | frames | disc covered | of that twice | overlap with the next | greatest rate | \
         at frames | Sun azimuth / elevation | constrained";
@@ -112,13 +107,13 @@ pub fn mosaic(options: &Options) -> Result<Report, StudyError> {
             ]
         })
         .collect();
-    report.table(header, &rows);
-    report.line(REMARK);
-    write(&mut report, options, &mosaics)?;
+    run.table(header, &rows);
+    run.line(REMARK);
+    write(run, &mosaics)?;
     for mosaic in &mosaics {
-        report.picture(options, &format!("mosaic-{}.svg", mosaic.case.label), &mosaic.chart())?;
+        run.picture(&format!("mosaic-{}.svg", mosaic.case.label), &mosaic.chart())?;
     }
-    Ok(report)
+    Ok(())
 }
 
 const REMARK: &str = "\
@@ -128,7 +123,7 @@ constraint changed the command or no scan was active. Frames of the inertial and
 those of the body scan along the moving rows. Both axes of a scan begin together, as the paper gives an axis no delay.
 The fields are those published of MDIS; the one along +Z, rates, durations and pauses are assumed.";
 
-fn write(report: &mut Report, options: &Options, mosaics: &[Mosaic]) -> Result<(), StudyError> {
+fn write(run: &mut Run<'_>, mosaics: &[Mosaic]) -> Outcome {
     let own = "\
         scan | frame | field_deg | mdis_angle_deg | latitude_deg | longitude_deg | on_disc | \
         overlap_with_next | rate_deg_s | off_nadir_deg";
@@ -138,23 +133,23 @@ fn write(report: &mut Report, options: &Options, mosaics: &[Mosaic]) -> Result<(
             let (sample, place) = (frame.sample, &frame.sample.place);
             let [x, y, z] = frame.middle_m().into();
             let mdis_deg = if case.camera.on_platform { sample.mdis_angle_rad.to_degrees() } else { 0.0 };
-            let mut row = vec![case.label.to_owned(), (index + 1).to_string()];
-            let numbers = [
+            let overlap = numbers.overlaps.get(index).copied().unwrap_or(f64::NAN);
+            rows.push(row![
+                case.label,
+                index + 1,
                 case.camera.field_deg,
                 mdis_deg,
                 z.atan2(x.hypot(y)).to_degrees(),
                 y.atan2(x).to_degrees(),
                 frame.surface_m().1,
-                numbers.overlaps.get(index).copied().unwrap_or(f64::NAN),
+                overlap,
                 sample.rate_rad_s.norm().to_degrees(),
                 angle_rad(&frame.boresight(), &place.nadir_m()).to_degrees(),
-            ];
-            row.extend(cells(&[&numbers]));
-            row.extend(sample.geometry());
-            rows.push(row);
+                sample.geometry(),
+            ]);
         }
     }
-    report.csv(options, "mosaic.csv", &format!("{own} | {GEOMETRY}"), rows)
+    run.csv("mosaic.csv", &format!("{own} | {GEOMETRY}"), rows)
 }
 
 impl Mosaic {

@@ -5,17 +5,18 @@
 use nalgebra::Matrix3;
 
 use crate::attitude::Vector;
-use crate::case::Row;
+use crate::case::recorded;
 
-/// Radii, pole and rotation.
-#[derive(Clone, Copy, Debug)]
-pub struct Planet {
-    /// Along its own axes, in m.
-    pub radii_m: Vector,
-    pole_right_ascension_rad: f64,
-    pole_declination_rad: f64,
-    prime_meridian_rad: f64,
-    rotation_rate_rad_s: f64,
+recorded! {
+    /// Radii, pole and rotation, from the parameters of Guidance.
+    pub struct Planet {
+        /// Along its own axes, in m.
+        pub radii_m: Vector = "planet.radii",
+        pole_right_ascension_rad: f64 = "planet.poleRightAscension",
+        pole_declination_rad: f64 = "planet.poleDeclination",
+        prime_meridian_rad: f64 = "planet.primeMeridian",
+        rotation_rate_rad_s: f64 = "planet.rotationRate",
+    }
 }
 
 /// The planet at one moment, by vectors in EME2000 from its centre.
@@ -26,17 +27,6 @@ pub struct Ellipsoid {
 }
 
 impl Planet {
-    /// From radii, pole and rotation, one after the other.
-    pub fn of(mut row: Row<'_>) -> Self {
-        Self {
-            radii_m: row.vector(),
-            pole_right_ascension_rad: row.real(),
-            pole_declination_rad: row.real(),
-            prime_meridian_rad: row.real(),
-            rotation_rate_rad_s: row.real(),
-        }
-    }
-
     /// At an epoch in s past J2000 TDB.
     pub fn at(&self, epoch_s: f64) -> Ellipsoid {
         let (sin_a, cos_a) = self.pole_right_ascension_rad.sin_cos();

@@ -6,7 +6,7 @@ use super::camera::{Camera, Frame};
 use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, Place, Simulated};
 use crate::StudyError;
 use crate::attitude::Vector;
-use crate::settings::{Settings, elements, flag, item, number, real};
+use crate::settings::{Settings, set};
 
 const TRUE_ANOMALY_DEG: f64 = 175.0;
 
@@ -120,13 +120,14 @@ impl Motion {
 
     fn settings(&self, axis: usize, rate: &str, unit: f64) -> Settings {
         let name = |of: &str| format!("scan.{of}[{}]", axis + 1);
-        vec![
-            real(&name(rate), unit * self.step / self.duration_s),
-            real(&name("duration"), self.duration_s),
-            real(&name("pause"), self.pause_s),
-            number(&name("segments"), self.segments),
-            flag(&name("reverse"), self.reverse),
+        [
+            set(&name(rate), unit * self.step / self.duration_s),
+            set(&name("duration"), self.duration_s),
+            set(&name("pause"), self.pause_s),
+            set(&name("segments"), self.segments),
+            set(&name("reverse"), self.reverse),
         ]
+        .concat()
     }
 }
 
@@ -158,19 +159,19 @@ impl Case {
                 let (sin_y, cos_y) = about_y.sin_cos();
                 let (sin_x, cos_x) = about_x.sin_cos();
                 let boresight = [sin_y, -sin_x * cos_y, cos_x * cos_y];
-                let mut settings = vec![
-                    item("pointing.scenario", "generic"),
-                    item("boresight.option", "vector"),
-                    item("aimpoint.option", "nadir"),
-                    item("bodyRoll.option", "vector"),
-                    item("externalRoll.option", "sun"),
-                    item("scan.frame", "body"),
+                let settings = [
+                    set("pointing.scenario", "generic"),
+                    set("boresight.option", "vector"),
+                    set("aimpoint.option", "nadir"),
+                    set("bodyRoll.option", "vector"),
+                    set("externalRoll.option", "sun"),
+                    set("scan.frame", "body"),
+                    set("boresight.vector", boresight),
+                    set("bodyRoll.vector", [0.0, -1.0, 0.0]),
+                    self.fast.settings(1, "rate", degree),
+                    self.slow.settings(0, "rate", degree),
                 ];
-                settings.extend(elements("boresight.vector", boresight));
-                settings.extend(elements("bodyRoll.vector", [0.0, -1.0, 0.0]));
-                settings.extend(self.fast.settings(1, "rate", degree));
-                settings.extend(self.slow.settings(0, "rate", degree));
-                settings
+                settings.concat()
             }
             Kind::Inertial | Kind::PlanetFixed => {
                 let [fast, slow] = Self::across(axes, &nadir);
@@ -184,16 +185,16 @@ impl Case {
                     }
                     _ => ("planetCentered", "inertialTranslation"),
                 };
-                let mut settings = vec![
-                    item("pointing.scenario", "mdis"),
-                    real("boresight.angle", degree * self.mdis_deg),
-                    item("aimpoint.option", option),
-                    item("scan.frame", frame),
+                let settings = [
+                    set("pointing.scenario", "mdis"),
+                    set("boresight.angle", degree * self.mdis_deg),
+                    set("aimpoint.option", option),
+                    set("scan.frame", frame),
+                    set("aimpoint.position", start),
+                    self.fast.settings(fast, "speed", 1.0),
+                    self.slow.settings(slow, "speed", 1.0),
                 ];
-                settings.extend(elements("aimpoint.position", start.iter().copied()));
-                settings.extend(self.fast.settings(fast, "speed", 1.0));
-                settings.extend(self.slow.settings(slow, "speed", 1.0));
-                settings
+                settings.concat()
             }
         }
     }

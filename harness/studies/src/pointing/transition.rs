@@ -1,11 +1,12 @@
 //! Figures 7 and 8: from downlink to the camera at nadir, as commanded.
 
 use super::flight::{DEFAULT_EPOCH_S, Flight, Fmus, GEOMETRY, Place, Sample, Simulated};
-use crate::attitude::angle_rad;
-use crate::case::{chosen, run_all};
-use crate::settings::{Settings, cells, item, real};
+use crate::StudyError;
+use crate::attitude::{angle_rad, greatest};
+use crate::cells::row;
+use crate::report::{Outcome, Run};
+use crate::settings::{Settings, set};
 use crate::verdict::{agrees, compared};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Mark, Panel, Series};
 
 /// Sun and Earth are 33 deg apart as seen from the spacecraft, as the paper's antenna azimuth of -33 deg asks for with the
@@ -39,14 +40,14 @@ impl Angle {
             let camera = || {
                 // -Y at the Sun and the camera at nadir: the camera stands as far sunward of +Z as nadir does.
                 let sun_nadir_rad = angle_rad(&place.to_sun_m, &place.nadir_m());
-                real("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
+                set("boresight.angle", core::f64::consts::FRAC_PI_2 - sun_nadir_rad)
             };
             if place.time_s == 0.0 {
-                vec![item("pointing.scenario", "downlink")]
+                set("pointing.scenario", "downlink")
             } else if place.time_s == SLEW_S {
-                vec![item("pointing.scenario", "mdis"), item("aimpoint.option", "nadir"), camera()]
+                [set("pointing.scenario", "mdis"), set("aimpoint.option", "nadir"), camera()].concat()
             } else if place.time_s > SLEW_S && self == Self::Followed {
-                vec![camera()]
+                camera()
             } else {
                 Vec::new()
             }
@@ -86,24 +87,23 @@ fn slew_deg(from: &Sample, to: &Sample) -> f64 {
 }
 
 /// The commanded curves of Figures 7 and 8.
-pub fn transition(options: &Options) -> Result<Report, StudyError> {
+pub fn transition(run: &mut Run<'_>) -> Outcome {
     let angles = [Angle::Followed, Angle::Held];
-    let cases = chosen("pointing/transition", options, angles, |angle| angle.label().to_owned())?;
-    let fmus = Fmus::open(options)?;
-    let simulated = run_all(options, &cases, |angle| Ok((*angle, angle.fly(&fmus)?)))?;
-    let mut report = Report::default();
-    report.line(
+    let cases = run.chosen(angles, |angle| angle.label().to_owned())?;
+    let fmus = Fmus::open(run.options)?;
+    let simulated = run.all(&cases, |angle| Ok((*angle, angle.fly(&fmus)?)))?;
+    run.line(
         "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8, commanded curves)\n",
     );
     let rows = simulated.iter().flat_map(|(angle, simulated)| rows(*angle, simulated)).collect::<Vec<_>>();
-    report.table("case | quantity | paper | ours | verdict", &rows);
-    report.line(REMARK);
-    write(&mut report, options, &simulated)?;
+    run.table("case | quantity | paper | ours | verdict", &rows);
+    run.line(REMARK);
+    write(run, &simulated)?;
     if let Some((_, simulated)) = simulated.first() {
-        report.picture(options, "transition-quaternion.svg", &quaternion_chart(simulated))?;
-        report.picture(options, "transition-angles.svg", &angle_chart(simulated))?;
+        run.picture("transition-quaternion.svg", &quaternion_chart(simulated))?;
+        run.picture("transition-angles.svg", &angle_chart(simulated))?;
     }
-    Ok(report)
+    Ok(())
 }
 
 const REMARK: &str = "\
@@ -122,9 +122,8 @@ fn rows(angle: Angle, simulated: &Simulated) -> Vec<Vec<String>> {
     let before_slew = || {
         simulated.samples.iter().filter(|sample| sample.place.time_s < SLEW_S).map(|s| Angles::of(s).earth)
     };
-    let greatest = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
-    let sun = [0, 1].map(|i| greatest(&mut all().map(|angles| angles.sun[i])));
-    let elevation = greatest(&mut before_slew().map(|earth| earth[1]));
+    let sun = [0, 1].map(|i| greatest(all().map(|angles| angles.sun[i])));
+    let elevation = greatest(before_slew().map(|earth| earth[1]));
     let azimuth = Angles::of(before).earth[0];
     // Adding zero takes the sign from a zero.
     let planet = Angles::of(after).planet.map(|x| (100.0 * x).round() / 100.0 + 0.0);
@@ -161,20 +160,18 @@ fn rows(angle: Angle, simulated: &Simulated) -> Vec<Vec<String>> {
     ]
 }
 
-fn write(report: &mut Report, options: &Options, simulated: &[(Angle, Simulated)]) -> Result<(), StudyError> {
+fn write(run: &mut Run<'_>, simulated: &[(Angle, Simulated)]) -> Outcome {
     let own = "\
         case | sun_azimuth_deg | sun_elevation_deg | earth_azimuth_deg | earth_elevation_deg | \
         mercury_azimuth_deg | mercury_elevation_deg | mdis_angle_deg";
     let rows = simulated.iter().flat_map(|(angle, simulated)| {
         simulated.samples.iter().map(|sample| {
             let Angles { sun, earth, planet } = Angles::of(sample);
-            let mut row = vec![angle.label().to_owned()];
-            row.extend(cells(&[&sun, &earth, &planet, &[sample.mdis_angle_rad.to_degrees()]]));
-            row.extend(sample.geometry());
-            row
+            let mdis_deg = sample.mdis_angle_rad.to_degrees();
+            row![angle.label(), sun, earth, planet, mdis_deg, sample.geometry()]
         })
     });
-    report.csv(options, "transition.csv", &format!("{own} | {GEOMETRY}"), rows)
+    run.csv("transition.csv", &format!("{own} | {GEOMETRY}"), rows)
 }
 
 /// A line over time, interrupted at the slew.

@@ -1,9 +1,9 @@
 //! Figure 4: nutation during the 2 deg manoeuvre, and what shape of body gives the paper's range.
 
 use super::spinner::{RATIO, paper_case};
-use crate::case::{Case, chosen, run_all};
+use crate::case::Case;
+use crate::report::{Outcome, Run};
 use crate::verdict::{compared, verdict_text};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
 
 const STOP_S: f64 = 1400.0;
@@ -55,14 +55,12 @@ impl NutationRange {
 }
 
 /// Figure 4.
-pub fn figure4(options: &Options) -> Result<Report, StudyError> {
-    let cases = chosen("spin/figure4", options, cases(), |case| case.label.clone())?;
-    let fmu = options.fmu("SpinPlant.fmu")?;
-    let mut report = Report::default();
-    report
-        .line("Nutation during a 2 deg manoeuvre of 114 pulses of 32 ms, once a turn (paper 002, Figure 4)");
+pub fn figure4(run: &mut Run<'_>) -> Outcome {
+    let cases = run.chosen(cases(), |case| case.label.clone())?;
+    let fmu = run.options.fmu("SpinPlant.fmu")?;
+    run.line("Nutation during a 2 deg manoeuvre of 114 pulses of 32 ms, once a turn (paper 002, Figure 4)");
     let names = ["nutation.angle", "nutation.predicted", "burn.done", "nutation.envelope"];
-    let results = run_all(options, &cases, |case| case.simulate(&fmu, &names))?;
+    let results = run.all(&cases, |case| case.simulate(&fmu, &names))?;
     let (mut rows, mut panels, mut csv) = (Vec::new(), Vec::new(), Vec::new());
     for (case, simulated) in cases.iter().zip(&results) {
         let degrees = |column: usize| simulated.columns[column].iter().map(|angle| angle.to_degrees());
@@ -101,17 +99,16 @@ pub fn figure4(options: &Options) -> Result<Report, StudyError> {
             ),
         ]));
     }
-    report.table("body | paper [deg] | ours [deg] | verdict", &rows);
-    report.line(
+    run.table("body | paper [deg] | ours [deg] | verdict", &rows);
+    run.line(
         "The final value turns with the ratio (1.483 and 1.484 above): histories and ranges are compared, not one number.\n\
          I1 is about X, I2 about Y. A triaxial body gives the paper's range if its greater transverse inertia is about X, and\n\
          does not if it is about Y. The paper prints neither axis nor quotient: both are choices, and the range they give is\n\
          no confirmation.",
     );
-    report.csv(options, "figure4.csv", "case | time_s | nutation_deg | foreseen_deg", csv)?;
+    run.csv("figure4.csv", "case | time_s | nutation_deg | foreseen_deg", csv)?;
     let chart = Chart::new("Nutation during the 2 deg manoeuvre", "time [s]").with(panels);
-    report.picture(options, "figure4.svg", &chart)?;
-    Ok(report)
+    run.picture("figure4.svg", &chart)
 }
 
 #[cfg(test)]

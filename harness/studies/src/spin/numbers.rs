@@ -8,9 +8,11 @@ use rayon::prelude::*;
 use super::spinner::{
     AXIAL_ARM_M, FORCE_N, PERIOD_S, RADIAL_ARM_M, RATE_RAD_S, SPIN_INERTIA_KG_M2, paper_case,
 };
-use crate::case::chosen;
+use crate::StudyError;
+use crate::attitude::Vector;
+use crate::report::{Outcome, Run};
+use crate::settings::{Settings, set};
 use crate::verdict::{compared, rounds, verdict, verdict_text};
-use crate::{Options, Report, StudyError};
 
 /// Number of ratios over 1.471 to 1.494 at which trains are simulated.
 const RATIOS: u32 = 24;
@@ -26,19 +28,16 @@ const ARITHMETIC: &str = "agrees (arithmetic, not simulated)";
 type Row = Vec<String>;
 
 /// Every number.
-pub fn numbers(options: &Options) -> Result<Report, StudyError> {
-    let fmu = options.fmu("SpinPlant.fmu")?;
+pub fn numbers(run: &mut Run<'_>) -> Outcome {
+    let fmu = run.options.fmu("SpinPlant.fmu")?;
     let mut rows = pulses(&fmu)?;
     rows.extend(envelopes(&fmu)?);
     rows.extend(observation(&fmu)?);
     rows.extend(beyond(&fmu)?);
-    let table = chosen("spin/numbers", options, rows, |row| row[0].clone())?;
-    let mut report = Report::default();
-    report.line("Numbers of paper 002 beside simulations of SpinPlant");
+    let table = run.chosen(rows, |row| row[0].clone())?;
+    run.line("Numbers of paper 002 beside simulations of SpinPlant");
     let header = "quantity | paper | ours | verdict";
-    report.table(header, &table);
-    report.csv(options, "numbers.csv", header, table)?;
-    Ok(report)
+    run.table_and_csv("numbers.csv", header, table)
 }
 
 /// Section II: sizes, counts, durations.
@@ -51,15 +50,14 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         "burn.plannedCount",
     ];
     let one = paper_case("one pulse of 1 s", 40.0, 40.0)
-        .real("burn.pulseWidth", 1.0)
-        .integer("burn.count", 1)
+        .set("burn.pulseWidth", 1.0)
+        .set("burn.count", 1)
         .simulate(fmu, &names)?;
     let train = |thruster: i32, turns: f64| {
         paper_case("2 deg", 1800.0, 1800.0)
-            .integer("burn.thruster", thruster)
-            .integer("burn.oppositeThruster", if thruster == AXIAL { AXIAL_OPPOSITE } else { 10 })
-            .real("burn.turnsPerPulse", turns)
-            .real("burn.angle", 2.0 * PI / 180.0)
+            .with(thrusters(thruster))
+            .set("burn.turnsPerPulse", turns)
+            .set("burn.angle", 2.0 * PI / 180.0)
             .simulate(fmu, &names)
     };
     let (radial, half, axial) = (train(RADIAL, 1.0)?, train(RADIAL, 0.5)?, train(AXIAL, 1.0)?);
@@ -125,10 +123,16 @@ fn pulses(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     ])
 }
 
+/// A thruster and the one that fires opposite it.
+fn thrusters(thruster: i32) -> Settings {
+    let opposite = if thruster == AXIAL { AXIAL_OPPOSITE } else { 10 };
+    [set("burn.thruster", thruster), set("burn.oppositeThruster", opposite)].concat()
+}
+
 /// Half the angle by which the body turns while a pulse of 32 ms is on, from the edges of a simulation, in deg.
 fn half_arc_deg(fmu: &Fmu) -> Result<f64, StudyError> {
     let simulated = paper_case("half arc", 2.0 * PERIOD_S, 0.016)
-        .integer("burn.count", 1)
+        .set("burn.count", 1)
         .simulate(fmu, &["burn.nextEdge", "thruster[8].active", "spin.rate"])?;
     let (mut on_s, mut off_s) = (f64::NAN, f64::NAN);
     for (&edge_s, &active) in
@@ -148,16 +152,16 @@ fn half_arc_deg(fmu: &Fmu) -> Result<f64, StudyError> {
 fn deadband_days(fmu: &Fmu) -> Result<f64, StudyError> {
     let still = |label: &str, stop_s: f64| {
         paper_case(label, stop_s, 600.0)
-            .item("burn.plan", "commanded")
-            .item("geometry.source", "l1Orbit")
-            .elements("geometry.amplitude", [0.0; 3])
+            .set("burn.plan", "commanded")
+            .set("geometry.source", "l1Orbit")
+            .set("geometry.amplitude", [0.0; 3])
     };
     let earth = still("where the Earth stands", 600.0).simulate(fmu, &["earth.inertial"])?;
     // The shortest turn that takes +Z opposite the Earth: the antenna looks along -Z.
-    let [x, y, z] = (-earth.row(0, 0).vector::<3>()).into();
+    let [x, y, z] = (-earth.first::<Vector>()).into();
     let scale = (2.0 * (1.0 + z)).sqrt();
     let q = [-y / scale, x / scale, 0.0, 0.5 * scale];
-    let aimed = still("deadband", 4.0 * DAY_S).elements("start.q", q);
+    let aimed = still("deadband", 4.0 * DAY_S).set("start.q", q);
     let simulated = aimed.simulate(fmu, &["earth.angle"])?;
     let limit_rad = 3.0_f64.to_radians();
     let beyond = simulated.columns[0].iter().position(|angle| *angle > limit_rad).filter(|i| *i > 0);
@@ -186,10 +190,9 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         let sine =
             2.0_f64.to_radians() / count * SPIN_INERTIA_KG_M2 * RATE_RAD_S.powi(2) / (2.0 * FORCE_N * arm_m);
         let found = paper_case("envelope", 1.0, 1.0)
-            .integer("burn.thruster", thruster)
-            .integer("burn.oppositeThruster", if thruster == AXIAL { AXIAL_OPPOSITE } else { 10 })
-            .real("burn.turnsPerPulse", turns)
-            .real("burn.pulseWidth", 2.0 * sine.asin() / RATE_RAD_S)
+            .with(thrusters(thruster))
+            .set("burn.turnsPerPulse", turns)
+            .set("burn.pulseWidth", 2.0 * sine.asin() / RATE_RAD_S)
             .simulate(fmu, &["inertiaRatio", "nutation.envelope"])?;
         let (ratio, exact_rad) = (found.last(0), found.last(1));
         // The FMU's envelope is that of its own pulse: (Gamma / n) / |sin(phi / 2)|.
@@ -218,9 +221,9 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         verdict((hours - 2.75).abs() < 0.1),
     ));
     let damped = paper_case("damping", 9.5 * 3600.0, 9.5 * 3600.0)
-        .real("damper.timeConstant", 9.5 * 3600.0)
-        .item("burn.plan", "commanded")
-        .real("start.nutation", 0.02_f64.to_radians())
+        .set("damper.timeConstant", 9.5 * 3600.0)
+        .set("burn.plan", "commanded")
+        .set("start.nutation", 0.02_f64.to_radians())
         .simulate(fmu, &["nutation.angle"])?;
     let left = damped.last(0) / 0.02_f64.to_radians();
     rows.push(compared(
@@ -234,7 +237,7 @@ fn envelopes(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
 /// Section IV and eq 1.
 fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     let tracker = paper_case("observation", 1.0, 1.0)
-        .item("starTracker.sampling", "clock")
+        .set("starTracker.sampling", "clock")
         .simulate(fmu, &["starTracker.observationTimeNominal", "starTracker.observationTime"])?;
     let minutes = tracker.last(0) / 60.0;
     // Nutation that 7 ms allow, from eq 1's slope in the FMU at two Sun angles.
@@ -243,9 +246,9 @@ fn observation(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
         // The axis stands `nutation` off the momentum; the Sun is revolution about the line both lie across.
         let nutation = 1e-6;
         let found = paper_case("eq 1", 1e-3, 1e-3)
-            .item("burn.plan", "commanded")
-            .real("start.nutation", nutation)
-            .elements("sun.direction", [0.0, beta.sin(), beta.cos()])
+            .set("burn.plan", "commanded")
+            .set("start.nutation", nutation)
+            .set("sun.direction", [0.0, beta.sin(), beta.cos()])
             .simulate(fmu, &["spin.periodVariation"])?;
         Ok((0.007 * nutation / found.columns[0][0]).to_degrees())
     };
@@ -297,10 +300,10 @@ impl Worst {
                     ["nutation.angle", "burn.plannedDuration", "nutation.envelope", "momentum.displacement"];
                 let simulated = paper_case(format!("plan {plan} at {ratio:.4}"), 1500.0, 6.0)
                     .ratio(ratio)
-                    .item("burn.plan", plan)
-                    .integer("burn.taperOrder", order)
-                    .integer("burn.count", count)
-                    .real("burn.pulseWidth", 0.032)
+                    .set("burn.plan", plan)
+                    .set("burn.taperOrder", order)
+                    .set("burn.count", count)
+                    .set("burn.pulseWidth", 0.032)
                     .simulate(fmu, &names)?;
                 let moved_deg = simulated.last(3).to_degrees();
                 Ok(Self {
@@ -354,7 +357,7 @@ fn beyond(fmu: &Fmu) -> Result<Vec<Row>, StudyError> {
     let (second, fourth) = (Worst::of(fmu, "tapered", 2, 30)?, Worst::of(fmu, "tapered", 4, 11)?);
     let as_stated = tapered.turns() && tapered.final_deg < 0.0033 && tapered.duration_min < 11.45;
     let split = paper_case("split train", 1600.0, 1600.0)
-        .item("burn.plan", "split")
+        .set("burn.plan", "split")
         .simulate(fmu, &["nutation.angle", "burn.plannedDuration", "burn.done", "momentum.displacement"])?;
     let (split_deg, split_moved_deg) = (split.last(0).to_degrees(), split.last(3).to_degrees());
     Ok(vec![

@@ -19,7 +19,7 @@ pub const RATIO: f64 = 1.483;
 
 /// The paper's body, undamped, for `stop_s`.
 pub fn paper_case(label: impl Into<String>, stop_s: f64, step_s: f64) -> Case {
-    Case::new(label, stop_s, step_s).ratio(RATIO).real("damper.timeConstant", 0.0)
+    Case::new(label, stop_s, step_s).ratio(RATIO).set("damper.timeConstant", 0.0)
 }
 
 impl Case {
@@ -32,7 +32,7 @@ impl Case {
     pub fn triaxial(self, ratio: f64, quotient: f64) -> Self {
         let transverse = SPIN_INERTIA_KG_M2 / ratio;
         let inertia = [transverse * quotient.sqrt(), transverse / quotient.sqrt(), SPIN_INERTIA_KG_M2];
-        self.elements("inertia", inertia)
+        self.set("inertia", inertia)
     }
 }
 

@@ -3,9 +3,8 @@
 use core::f64::consts::PI;
 
 use super::spinner::{RATIO, paper_case};
-use crate::case::{chosen, run_all};
+use crate::report::{Outcome, Run};
 use crate::verdict::{compared, rounds, verdict, verdict_text};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
 
 /// Nutation of the figure, in rad.
@@ -19,17 +18,16 @@ const TALLEST_MIN: f64 = 60.0;
 const SAMPLINGS: [(&str, &str); 2] = [("clock, every 96 s", "clock"), ("every 8 spins", "spins")];
 
 /// Figure 6.
-pub fn figure6(options: &Options) -> Result<Report, StudyError> {
-    let samplings = chosen("spin/figure6", options, SAMPLINGS, |(label, _)| (*label).to_owned())?;
-    let fmu = options.fmu("SpinPlant.fmu")?;
-    let mut report = Report::default();
-    report.line("Declination of a star in the tracker of a nutating spinner (paper 002, Figure 6)");
+pub fn figure6(run: &mut Run<'_>) -> Outcome {
+    let samplings = run.chosen(SAMPLINGS, |(label, _)| (*label).to_owned())?;
+    let fmu = run.options.fmu("SpinPlant.fmu")?;
+    run.line("Declination of a star in the tracker of a nutating spinner (paper 002, Figure 6)");
     let (mut rows, mut csv, mut panels) = (Vec::new(), Vec::new(), Vec::new());
     for (label, sampling) in &samplings {
         let case = paper_case(*label, 14_400.0, 0.5)
-            .item("burn.plan", "commanded")
-            .real("start.nutation", NUTATION_RAD)
-            .item("starTracker.sampling", sampling);
+            .set("burn.plan", "commanded")
+            .set("start.nutation", NUTATION_RAD)
+            .set("starTracker.sampling", *sampling);
         let names = [
             "starTracker.declinationTrue",
             "starTracker.sampleTime",
@@ -93,16 +91,15 @@ pub fn figure6(options: &Options) -> Result<Report, StudyError> {
             ]),
         );
     }
-    report.table("sampling | paper | ours | verdict", &rows);
-    report.line(
+    run.table("sampling | paper | ours | verdict", &rows);
+    run.line(
         "The declination swings by the nutation angle either way: the paper's \"amplitude twice the nutation angle\" is \
          peak to peak.",
     );
-    report.csv(options, "figure6.csv", "sampling | time_s | true_deg | measured_deg", csv)?;
+    run.csv("figure6.csv", "sampling | time_s | true_deg | measured_deg", csv)?;
     let chart = Chart::new(format!("Star declination, 0.02 deg nutation, ratio {RATIO}, 5 rpm"), "time [s]")
         .with(panels);
-    report.picture(options, "figure6.svg", &chart)?;
-    Ok(report)
+    run.picture("figure6.svg", &chart)
 }
 
 /// One point of Figure 7's map, times in min.
@@ -115,20 +112,20 @@ struct Point {
 }
 
 /// Figure 7.
-pub fn figure7(options: &Options) -> Result<Report, StudyError> {
+pub fn figure7(run: &mut Run<'_>) -> Outcome {
     let ratios = (0..24).map(|i| 1.4715 + 0.001 * f64::from(i) * 22.5 / 23.0);
     let label = |ratio: &f64| format!("ratio {ratio:.4}");
-    let ratios = chosen("spin/figure7", options, ratios, label)?;
-    let fmu = options.fmu("SpinPlant.fmu")?;
+    let ratios = run.chosen(ratios, label)?;
+    let fmu = run.options.fmu("SpinPlant.fmu")?;
     let rates_rpm = |ratio| (0..40).map(move |j| (ratio, 4.9 + 0.2 * (f64::from(j) + 0.5) / 40.0));
     let grid: Vec<(f64, f64)> = ratios.iter().copied().flat_map(rates_rpm).collect();
-    let points = run_all(options, &grid, |&(ratio, rate_rpm)| {
+    let points = run.all(&grid, |&(ratio, rate_rpm)| {
         let time = |sampling: &str| {
             paper_case(label(&ratio), 1.0, 1.0)
                 .ratio(ratio)
-                .item("burn.plan", "commanded")
-                .real("spin.initialRate", rate_rpm * PI / 30.0)
-                .item("starTracker.sampling", sampling)
+                .set("burn.plan", "commanded")
+                .set("spin.initialRate", rate_rpm * PI / 30.0)
+                .set("starTracker.sampling", sampling)
                 .simulate(&fmu, &["starTracker.observationTime", "starTracker.observationTimeNominal"])
         };
         let (clock, spins) = (time("clock")?, time("spins")?);
@@ -140,8 +137,7 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
             spins_min: spins.last(0) / 60.0,
         })
     })?;
-    let mut report = Report::default();
-    report.line("Time to see the full range of declinations over spin rate and ratio (paper 002, Figure 7)");
+    run.line("Time to see the full range of declinations over spin rate and ratio (paper 002, Figure 7)");
     let percent = |time: fn(&Point) -> f64| {
         let slow = points.iter().filter(|point| time(point) > LONG_MIN).count();
         100.0 * slow as f64 / points.len() as f64
@@ -155,7 +151,7 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
             most / line.iter().map(|p| p.spins_min).fold(f64::INFINITY, f64::min) - 1.0
         })
         .fold(0.0, f64::max);
-    report.table(
+    run.table(
         "beyond 30 min | paper | ours | verdict",
         &[
             compared(
@@ -181,8 +177,7 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
             ),
         ],
     );
-    report.csv(
-        options,
+    run.csv(
         "figure7.csv",
         "spin_rate_rpm | ratio | eq20_min | clock_min | spins_min",
         points.iter().map(|p| {
@@ -208,6 +203,5 @@ pub fn figure7(options: &Options) -> Result<Report, StudyError> {
         panel("by approximation [min]", |p| p.eq20_min),
         panel("sampled every 8 spins [min]", |p| p.spins_min),
     ]);
-    report.picture(options, "figure7.svg", &chart)?;
-    Ok(report)
+    run.picture("figure7.svg", &chart)
 }

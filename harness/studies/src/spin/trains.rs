@@ -1,9 +1,8 @@
 //! Figures 2 and 3: nutation left by a 2 deg manoeuvre in n pulses, once per half turn and once per turn.
 
 use super::spinner::{PERIOD_S, RADIAL_ARM_M, RATIO, eq8, paper_case, width_s};
-use crate::case::{chosen, run_all};
+use crate::report::{Outcome, Run};
 use crate::verdict::{AGREES, compared, rounds, verdict, verdict_text};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
 
 /// The manoeuvre, in rad.
@@ -25,25 +24,19 @@ struct Row {
 }
 
 /// Figure 2: one pulse per half revolution.
-pub fn figure2(options: &Options) -> Result<Report, StudyError> {
-    figure("spin/figure2", "figure2", 0.5, 0.0237, options)
+pub fn figure2(run: &mut Run<'_>) -> Outcome {
+    figure(run, "figure2", 0.5, 0.0237)
 }
 
 /// Figure 3: one pulse per revolution.
-pub fn figure3(options: &Options) -> Result<Report, StudyError> {
-    figure("spin/figure3", "figure3", 1.0, 0.0177, options)
+pub fn figure3(run: &mut Run<'_>) -> Outcome {
+    figure(run, "figure3", 1.0, 0.0177)
 }
 
-fn figure(
-    study: &'static str,
-    file: &str,
-    turns: f64,
-    paper_envelope_deg: f64,
-    options: &Options,
-) -> Result<Report, StudyError> {
+fn figure(run: &mut Run<'_>, file: &str, turns: f64, paper_envelope_deg: f64) -> Outcome {
     let label = |count: &u32| format!("n = {count}");
-    let counts = chosen(study, options, 1..=MOST, label)?;
-    let fmu = options.fmu("SpinPlant.fmu")?;
+    let counts = run.chosen(1..=MOST, label)?;
+    let fmu = run.options.fmu("SpinPlant.fmu")?;
     let phase = core::f64::consts::TAU * turns * RATIO;
     // Too few pulses would have to last beyond half a turn.
     let pulse = |count: &u32| {
@@ -51,22 +44,20 @@ fn figure(
         Some((*count, per_pulse, width_s(per_pulse, RADIAL_ARM_M)?))
     };
     let pulses: Vec<(u32, f64, f64)> = counts.iter().filter_map(pulse).collect();
-    let rows = run_all(options, &pulses, |&(count, per_pulse, width_s)| {
+    let rows = run.all(&pulses, |&(count, per_pulse, width_s)| {
         let stop_s = (f64::from(count) * turns + 2.0) * PERIOD_S;
         let simulated = paper_case(label(&count), stop_s, stop_s)
-            .integer("burn.count", count as i32)
-            .real("burn.turnsPerPulse", turns)
-            .real("burn.pulseWidth", width_s)
+            .set("burn.count", count as i32)
+            .set("burn.turnsPerPulse", turns)
+            .set("burn.pulseWidth", width_s)
             .simulate(&fmu, &["nutation.angle"])?;
         let printed_rad = eq8(per_pulse, phase, f64::from(count));
         Ok(Row { count, width_s, printed_rad, simulated_rad: simulated.last(0) })
     })?;
-    let mut report = Report::default();
-    report.line(&format!(
+    run.line(&format!(
         "Nutation after a 2 deg manoeuvre in n pulses, one every {turns} turns, ratio {RATIO} (paper 002, {file})"
     ));
-    report.csv(
-        options,
+    run.csv(
         &format!("{file}.csv"),
         "n | pulse_width_s | eq8_deg | simulated_deg | envelope_deg",
         rows.iter().map(|row| {
@@ -76,7 +67,7 @@ fn figure(
             [vec![row.count.to_string()], numbers.map(|it| format!("{it:.9}")).to_vec()].concat()
         }),
     )?;
-    report.picture(options, &format!("{file}.svg"), &chart(&rows, turns, phase))?;
+    run.picture(&format!("{file}.svg"), &chart(&rows, turns, phase))?;
     let difference = |least: u32| {
         rows.iter()
             .filter(|row| row.count >= least)
@@ -125,8 +116,8 @@ fn figure(
             if difference(1) > EQ8_DEG { "pulses of seconds are no impulses" } else { AGREES },
         ),
     ];
-    report.table("quantity | paper | ours | verdict", &table);
-    Ok(report)
+    run.table("quantity | paper | ours | verdict", &table);
+    Ok(())
 }
 
 fn envelope_deg(count: f64, phase: f64) -> f64 {

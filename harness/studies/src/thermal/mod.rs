@@ -7,9 +7,9 @@ mod paper;
 mod table;
 mod year;
 
-use crate::case::{chosen, run_all};
+use crate::StudyError;
+use crate::report::{Outcome, Run};
 use crate::verdict::{agrees, compared};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
 
 use orbit::{Case, EFFECTS, Fmus, Planet, Sample};
@@ -27,46 +27,42 @@ const BELTS: i32 = 45;
 const STEP_S: f64 = 15.0;
 
 /// Table 7: one orbit with the planet standing still.
-pub fn table7(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_rows("thermal/table7", options, &TABLE_7, Planet::Still, Some(BELTS))?;
-    let mut report = Report::default();
-    report
-        .line("One orbit, planet standing still, cylindrical shadow (paper 004, Table 7, \"analytical\")\n");
-    table::print(&mut report, options, "table7", &simulated, &[0.0015, 0.02, 0.05, 0.03])?;
-    report.line(REMARK);
-    report.line(
+pub fn table7(run: &mut Run<'_>) -> Outcome {
+    let simulated = simulate_rows(run, &TABLE_7, Planet::Still, Some(BELTS))?;
+    run.line("One orbit, planet standing still, cylindrical shadow (paper 004, Table 7, \"analytical\")\n");
+    table::print(run, "table7", &simulated, &[0.0015, 0.02, 0.05, 0.03])?;
+    run.line(REMARK);
+    run.line(
         "Recoil of cases 2 to 4: the plates' emissivities are not printed, and with emissivity equal to absorptivity no\n\
          conduction gives the printed pairs.",
     );
-    Ok(report)
+    Ok(())
 }
 
 /// Table 8: one orbit with the planet moving.
-pub fn table8(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_rows("thermal/table8", options, &TABLE_8, Planet::Moving, Some(BELTS))?;
-    let mut report = Report::default();
-    report.line("One orbit, planet moving, no light in the penumbra (paper 004, Table 8, \"numerical\")\n");
-    table::print(&mut report, options, "table8", &simulated, &[0.0015, 0.02, 0.08, 0.03])?;
-    report.line(REMARK);
-    report.line(
+pub fn table8(run: &mut Run<'_>) -> Outcome {
+    let simulated = simulate_rows(run, &TABLE_8, Planet::Moving, Some(BELTS))?;
+    run.line("One orbit, planet moving, no light in the penumbra (paper 004, Table 8, \"numerical\")\n");
+    table::print(run, "table8", &simulated, &[0.0015, 0.02, 0.08, 0.03])?;
+    run.line(REMARK);
+    run.line(
         "Infrared and albedo of cases 1 and 2 cannot be had from the printed geometry by any scan tried: from Table 7 to\n\
          Table 8 the paper halves the infrared of case 1 and nearly doubles that of case 2, while the planet turns by 2 to 3 deg.\n\
          Recoil is printed lower than in Table 7 though nothing about the panels changes.",
     );
-    Ok(report)
+    Ok(())
 }
 
 /// Figure 12: the accelerations around one orbit.
-pub fn figure12(options: &Options) -> Result<Report, StudyError> {
-    let simulated = simulate_rows("thermal/figure12", options, &TABLE_8, Planet::Moving, None)?;
+pub fn figure12(run: &mut Run<'_>) -> Outcome {
+    let simulated = simulate_rows(run, &TABLE_8, Planet::Moving, None)?;
     let chart = Chart::new("Accelerations around one orbit", "time [h]").with(simulated.iter().map(
         |Simulated { row, samples, .. }| {
             Panel::new("a [1e-7 m/s2]")
                 .with((0..4).map(|k| series(k, &format!(", case {}", row.case), samples)))
         },
     ));
-    let mut report = Report::default();
-    report.line("Solar, albedo, infrared and recoil around one orbit (paper 004, Figure 12)\n");
+    run.line("Solar, albedo, infrared and recoil around one orbit (paper 004, Figure 12)\n");
     let rows: Vec<Vec<String>> = simulated
         .iter()
         .map(|Simulated { row, samples, .. }| {
@@ -77,8 +73,8 @@ pub fn figure12(options: &Options) -> Result<Report, StudyError> {
             compared(&format!("{} | 20-30 %", row.case), format!("{:.1} %", mean * 100.0), verdict)
         })
         .collect();
-    report.table("case | paper: mean sum of thermal effects | ours | verdict", &rows);
-    report.picture(options, "figure12.svg", &chart)?;
+    run.table("case | paper: mean sum of thermal effects | ours | verdict", &rows);
+    run.picture("figure12.svg", &chart)?;
     let header = "case | time_s | solar_m_s2 | albedo_m_s2 | infrared_m_s2 | thermal_m_s2";
     let rows = simulated.iter().flat_map(|Simulated { row, samples, .. }| {
         samples.iter().step_by(4).map(|sample| {
@@ -87,8 +83,7 @@ pub fn figure12(options: &Options) -> Result<Report, StudyError> {
             cells
         })
     });
-    report.csv(options, "figure12.csv", header, rows)?;
-    Ok(report)
+    run.csv("figure12.csv", header, rows)
 }
 
 const REMARK: &str = "\
@@ -104,17 +99,16 @@ fn series(effect: usize, suffix: &str, samples: &[Sample]) -> Series {
     Series::line(format!("{}{suffix}", EFFECTS[effect]), samples.iter().map(point).collect())
 }
 
-/// Runs the rows that `options` leaves, on all cores.
+/// Runs the rows that the options leave, on all cores.
 fn simulate_rows(
-    study: &'static str,
-    options: &Options,
+    run: &Run<'_>,
     rows: &[Row],
     planet: Planet,
     belts: Option<i32>,
 ) -> Result<Vec<Simulated>, StudyError> {
-    let rows = chosen(study, options, rows.iter().copied(), |row| format!("case {}", row.case))?;
-    let fmus = Fmus::open(options)?;
-    run_all(options, &rows, |row| {
+    let rows = run.chosen(rows.iter().copied(), |row| format!("case {}", row.case))?;
+    let fmus = Fmus::open(run.options)?;
+    run.all(&rows, |row| {
         let true_anomaly_deg = row.true_anomaly_deg;
         let simulate = |belts| {
             fmus.simulate(&Case { true_anomaly_deg, planet, duration_s: DURATION_S, step_s: STEP_S, belts })

@@ -3,8 +3,8 @@
 use loader::Fmu;
 
 use crate::attitude::{Attitude, Vector, angle_rad};
-use crate::case::{self, Row};
-use crate::settings::{Settings, elements};
+use crate::case::{self, Row, recorded};
+use crate::settings::{Settings, set};
 use crate::{Options, StudyError};
 
 /// Mercury's sidereal revolution by the paper's semi-major axis, in s.
@@ -42,13 +42,13 @@ impl Case {
     fn trajectory(&self) -> case::Case {
         let label = format!("Mercury at {} deg", self.true_anomaly_deg);
         case::Case::new(label, self.duration_s, self.step_s)
-            .item("guided.scienceRule", "fixedToSunLine")
-            .integer("guided.downlinkEvery", 0)
-            .item("ephemeris.source", "kepler")
-            .real("ephemeris.trueAnomaly", self.true_anomaly_deg.to_radians())
-            .item("orbit.frame", "planetOrbit")
-            .real("orbit.semiMajorAxis", 10_175_000.0)
-            .item("eclipse.method", "off")
+            .set("guided.scienceRule", "fixedToSunLine")
+            .set("guided.downlinkEvery", 0)
+            .set("ephemeris.source", "kepler")
+            .set("ephemeris.trueAnomaly", self.true_anomaly_deg.to_radians())
+            .set("orbit.frame", "planetOrbit")
+            .set("orbit.semiMajorAxis", 10_175_000.0)
+            .set("eclipse.method", "off")
     }
 
     /// How `DisturbanceTorque` follows so many points of it.
@@ -56,9 +56,9 @@ impl Case {
         let eclipse = if self.planet == Planet::Still { "cylinder" } else { "cone" };
         let label = format!("Mercury at {} deg", self.true_anomaly_deg);
         let case = case::Case::new(label, points as f64 * self.step_s, self.step_s);
-        let case = case.item("eclipse.method", eclipse);
+        let case = case.set("eclipse.method", eclipse);
         let Some(belts) = self.belts else { return case };
-        case.item("planetLight.method", "cells").integer("planetLight.belts", belts)
+        case.set("planetLight.method", "cells").set("planetLight.belts", belts)
     }
 }
 
@@ -100,71 +100,72 @@ impl Fmus {
     /// Runs one case.
     pub fn simulate(&self, case: &Case) -> Result<Vec<Sample>, StudyError> {
         let trajectory = self.trajectory(case)?;
-        let names: Vec<String> = EFFECTS.iter().map(|effect| format!("force.{effect}")).collect();
-        let names = [names, vec!["sun.litFraction".to_owned()]].concat();
         let mut ahead = trajectory.iter();
         let mut inputs = |_: Row<'_>| ahead.next().map_or(Settings::new(), TrajectoryPoint::inputs);
-        let forces = case.disturbance(trajectory.len()).steer(&self.disturbance, &names, &mut inputs)?;
+        let forces = case.disturbance(trajectory.len());
+        let forces: Vec<Forces> = forces.steer(&self.disturbance, Forces::NAMES, &mut inputs)?.all(0);
         let mut revolution = PlanetRevolution::default();
-        let sample = |(point, row): (&TrajectoryPoint, Row<'_>)| {
+        let sample = |(point, forces): (&TrajectoryPoint, &Forces)| {
             let revolution_deg = revolution.to(&point.planet_m).to_degrees();
-            Sample::of(point, case.true_anomaly_deg + revolution_deg, row)
+            Sample::of(point, case.true_anomaly_deg + revolution_deg, forces)
         };
-        Ok(trajectory.iter().zip(forces.rows().skip(1)).map(sample).collect())
+        Ok(trajectory.iter().zip(&forces[1..]).map(sample).collect())
     }
 
     /// Where everything is at every communication point.
     fn trajectory(&self, case: &Case) -> Result<Vec<TrajectoryPoint>, StudyError> {
-        let names = ["position", "heliocentric.position", "attitude.q", "mass"];
-        let recorded = case.trajectory().simulate(&self.plant, &names)?;
-        let point = |mut row: Row<'_>| {
-            let position_m = row.vector();
-            let planet_m = row.vector() - position_m;
-            let (q, mass_kg) = (row.attitude(), row.real());
-            TrajectoryPoint { time_s: row.time_s, position_m, planet_m, q, mass_kg }
-        };
-        let mut points: Vec<TrajectoryPoint> = recorded.rows().map(point).collect();
+        let recorded = case.trajectory().simulate(&self.plant, TrajectoryPoint::NAMES)?;
+        let mut points: Vec<TrajectoryPoint> = recorded.all(0);
+        points.iter_mut().for_each(|point| point.planet_m -= point.position_m);
         if let (Planet::Still, Some(first)) = (case.planet, points.first().copied()) {
             for point in &mut points {
-                *point = TrajectoryPoint { planet_m: first.planet_m, q: first.q, ..*point };
+                (point.planet_m, point.q) = (first.planet_m, first.q);
             }
         }
         Ok(points)
     }
 }
 
-/// One communication point of the trajectory, in EME2000.
-#[derive(Clone, Copy, Debug)]
-struct TrajectoryPoint {
-    time_s: f64,
-    /// Spacecraft from the planet's centre.
-    position_m: Vector,
-    /// Planet from the Sun.
-    planet_m: Vector,
-    /// EME2000 to body, scalar last.
-    q: Attitude,
-    mass_kg: f64,
+recorded! {
+    /// One communication point of the trajectory, in EME2000.
+    struct TrajectoryPoint {
+        @time_s,
+        /// Spacecraft from the planet's centre.
+        position_m: Vector = "position",
+        /// Planet from the Sun; the spacecraft, as it is recorded.
+        planet_m: Vector = "heliocentric.position",
+        /// EME2000 to body, scalar last.
+        q: Attitude = "attitude.q",
+        mass_kg: f64 = "mass",
+    }
+}
+
+recorded! {
+    /// What light and heat do at one point.
+    struct Forces {
+        /// Solar, albedo, infrared, thermal.
+        effects_n: [Vector; 4] = "force.solar" "force.albedo" "force.infrared" "force.thermal",
+        lit_fraction: f64 = "sun.litFraction",
+    }
 }
 
 impl TrajectoryPoint {
     /// Sun and planet in the body frame.
     fn inputs(&self) -> Settings {
-        let body =
-            |name: &str, v: Vector| elements(name, self.q.inverse_transform_vector(&v).iter().copied());
-        let mut inputs = body("sun.positionBody", -self.planet_m - self.position_m);
-        inputs.extend(body("planet.positionBody", -self.position_m));
-        inputs
+        let body = |name: &str, v: Vector| set(name, self.q.inverse_transform_vector(&v));
+        let sun = body("sun.positionBody", -self.planet_m - self.position_m);
+        [sun, body("planet.positionBody", -self.position_m)].concat()
     }
 }
 
 impl Sample {
-    fn of(point: &TrajectoryPoint, true_anomaly_deg: f64, mut row: Row<'_>) -> Self {
-        let effects: [Vector; 4] = std::array::from_fn(|_| row.vector() / point.mass_kg);
+    fn of(point: &TrajectoryPoint, true_anomaly_deg: f64, forces: &Forces) -> Self {
+        let effects = forces.effects_n.map(|force_n| force_n / point.mass_kg);
         let without_solar: Vector = effects[1..].iter().sum();
         Self {
             time_s: point.time_s,
             true_anomaly_deg,
-            lit: row.real() > 0.0,
+            lit: forces.lit_fraction > 0.0,
             effects: effects.map(|effect| effect.norm()),
             total: effects.iter().sum::<Vector>().norm(),
             without_solar: without_solar.norm(),

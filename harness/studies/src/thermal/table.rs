@@ -2,7 +2,7 @@
 
 use super::orbit::{EFFECTS, Sample};
 use super::paper::Row;
-use crate::{Options, Report, StudyError};
+use crate::report::{Outcome, Run};
 use drawing::{BarChart, BarPanel};
 
 /// One row of the paper, simulated.
@@ -38,12 +38,11 @@ fn as_printed(samples: &[Sample]) -> [(f64, f64); 4] {
 
 /// Prints and draws the table `name`.
 pub(super) fn print(
-    report: &mut Report,
-    options: &Options,
+    run: &mut Run<'_>,
     name: &str,
     simulated: &[Simulated],
     tolerances: &Tolerances,
-) -> Result<(), StudyError> {
+) -> Outcome {
     let header = "\
         case | effect | paper | ours | difference of the greatest | difference of the least | verdict | \
         by cells | difference";
@@ -70,9 +69,8 @@ pub(super) fn print(
             ]);
         }
     }
-    report.table(header, &rows);
-    report.csv(options, &format!("{name}.csv"), header, rows)?;
-    report.picture(options, &format!("{name}.svg"), &chart(simulated))
+    run.table_and_csv(&format!("{name}.csv"), header, rows)?;
+    run.picture(&format!("{name}.svg"), &chart(simulated))
 }
 
 /// The greatest of each effect by case: the paper's beside ours.

@@ -1,7 +1,7 @@
 //! Figure 13: a whole Mercury year, by orbit.
 
+use crate::report::{Outcome, Run};
 use crate::verdict::{agrees, compared};
-use crate::{Options, Report, StudyError};
 use drawing::{Chart, Panel, Series};
 
 use super::orbit::{Case, EFFECTS, Fmus, MERCURY_YEAR_S, ORBIT_S, Planet, Sample};
@@ -55,8 +55,8 @@ fn row(what: &str, ours: String, holds: bool) -> Vec<String> {
 }
 
 /// Figure 13: accelerations over a Mercury year; least, mean and greatest of every orbit.
-pub fn figure13(options: &Options) -> Result<Report, StudyError> {
-    let fmus = Fmus::open(options)?;
+pub fn figure13(run: &mut Run<'_>) -> Outcome {
+    let fmus = Fmus::open(run.options)?;
     let case = Case {
         true_anomaly_deg: 0.0,
         planet: Planet::Moving,
@@ -67,8 +67,7 @@ pub fn figure13(options: &Options) -> Result<Report, StudyError> {
     let samples = fmus.simulate(&case)?;
     let orbit_of = |sample: &Sample| (sample.time_s / ORBIT_S) as u64;
     let orbits: Vec<Orbit> = samples.chunk_by(|a, b| orbit_of(a) == orbit_of(b)).map(Orbit::of).collect();
-    let mut report = Report::default();
-    report.line("A whole Mercury year (paper 004, Figure 13)\n");
+    run.line("A whole Mercury year (paper 004, Figure 13)\n");
     let lit = || samples.iter().filter(|sample| sample.lit);
     let greatest = |value: &dyn Fn(&Sample) -> f64| lit().map(value).fold(0.0, f64::max);
     let shares = orbits.iter().map(|orbit| orbit.mean_thermal_share);
@@ -97,13 +96,13 @@ pub fn figure13(options: &Options) -> Result<Report, StudyError> {
             (5e-7..2e-6).contains(&total),
         ),
     ];
-    report.table("quantity | paper | ours | verdict", &rows);
-    report.line(&format!(
+    run.table("quantity | paper | ours | verdict", &rows);
+    run.line(&format!(
         "The printed elements give {count:.1} orbits in a year. The sum of magnitudes is the paper's; the magnitude of the\n\
          vector sum of albedo, infrared and recoil reaches {} of solar.",
         percent(vector)
     ));
-    report.picture(options, "figure13.svg", &chart(&orbits))?;
+    run.picture("figure13.svg", &chart(&orbits))?;
     let columns = |it| format!(" | {it}_least_m_s2 | {it}_mean_m_s2 | {it}_greatest_m_s2");
     let header = format!("true_anomaly_deg{}", EFFECTS.map(columns).concat());
     let rows = orbits.iter().map(|orbit| {
@@ -116,8 +115,7 @@ pub fn figure13(options: &Options) -> Result<Report, StudyError> {
         );
         cells
     });
-    report.csv(options, "figure13.csv", &header, rows)?;
-    Ok(report)
+    run.csv("figure13.csv", &header, rows)
 }
 
 fn chart(orbits: &[Orbit]) -> Chart {

@@ -16,8 +16,19 @@ const fn written(connections: &'static str) -> Ssd {
     Ssd { connections, ..GOOD }
 }
 
-const fn giver(giver: &'static str) -> Ssd {
-    Ssd { giver, ..GOOD }
+/// Both angles are connected, with an attribute and what the connection holds.
+fn turned(attribute: &str, holds: &str) -> Ssd {
+    let ends = r#"startElement="a" startConnector="angle" endElement="b" endConnector="angle""#;
+    written(format!("<ssd:Connection {ends}{attribute}>{holds}</ssd:Connection>").leak())
+}
+
+/// The giver shows one connector.
+fn shows(name: &str, kind: &str, holds: &str) -> Ssd {
+    Ssd { giver: connector(&(name, kind, holds)).leak(), ..GOOD }
+}
+
+fn connector((name, kind, holds): &(&str, &str, &str)) -> String {
+    format!(r#"<ssd:Connector name="{name}" kind="{kind}">{holds}</ssd:Connector>"#)
 }
 
 /// Connections from start to end: `element.connector`, or a connector of the system's own.
@@ -33,9 +44,6 @@ fn wired(pairs: &[(&str, &str)]) -> Ssd {
 
 /// The system's own connectors, with their kinds and what they hold, and connections to them.
 fn own(connectors: &[(&str, &str, &str)], pairs: &[(&str, &str)]) -> Ssd {
-    let connector = |(name, kind, holds): &(&str, &str, &str)| {
-        format!(r#"<ssd:Connector name="{name}" kind="{kind}">{holds}</ssd:Connector>"#)
-    };
     let connectors: String = connectors.iter().map(connector).collect();
     Ssd { bindings: format!("<ssd:Connectors>{connectors}</ssd:Connectors>").leak(), ..wired(pairs) }
 }
@@ -105,21 +113,15 @@ fn what_cannot_be_simulated_is_refused_by_name() {
             &["the system's own connector b.angle", "allowed: a name of its own"],
         ),
         (
-            written(
-                r#"<ssd:Connection startElement="a" startConnector="position[1]" endElement="b" endConnector="angle" suppressUnitConversion="perhaps"/>"#,
-            ),
+            turned(" suppressUnitConversion=\"perhaps\"", ""),
             &["suppressUnitConversion", "\"perhaps\"", "true, false"],
         ),
         (
-            written(
-                r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"><ssc:LinearTransformation factor="2"/></ssd:Connection>"#,
-            ),
+            turned("", r#"<ssc:LinearTransformation factor="2"/>"#),
             &["LinearTransformation between different units", "suppressUnitConversion"],
         ),
         (
-            written(
-                r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"><ssc:IntegerMappingTransformation/></ssd:Connection>"#,
-            ),
+            turned("", "<ssc:IntegerMappingTransformation/>"),
             &["IntegerMappingTransformation", "allowed there: LinearTransformation"],
         ),
         (
@@ -127,33 +129,22 @@ fn what_cannot_be_simulated_is_refused_by_name() {
             &["connected already in line", "allowed: once"],
         ),
         (
-            giver(r#"<ssd:Connector name="postion[1]" kind="output"/>"#),
+            shows("postion[1]", "output", ""),
             &["connector a.postion[1]", "Giver has no variable of that name", "near it: position[1]"],
         ),
+        (shows("angle", "input", ""), &["connector a.angle", "found kind input", "Output"]),
+        (shows("angle", "sink", ""), &["found kind \"sink\"", "allowed: input, output"]),
+        (shows("angle", "output", "<ssc:Boolean/>"), &["found type Boolean, the variable is Real"]),
         (
-            giver(r#"<ssd:Connector name="angle" kind="input"/>"#),
-            &["connector a.angle", "found kind input", "Output"],
-        ),
-        (
-            giver(r#"<ssd:Connector name="angle" kind="sink"/>"#),
-            &["found kind \"sink\"", "allowed: input, output"],
-        ),
-        (
-            giver(r#"<ssd:Connector name="angle" kind="output"><ssc:Boolean/></ssd:Connector>"#),
-            &["found type Boolean, the variable is Real"],
-        ),
-        (
-            giver(r#"<ssd:Connector name="angle" kind="output"><ssc:Real unit="furlong"/></ssd:Connector>"#),
+            shows("angle", "output", r#"<ssc:Real unit="furlong"/>"#),
             &["connector a.angle", "unit \"furlong\", which is not defined", "deg"],
         ),
         (
-            giver(r#"<ssd:Connector name="angle" kind="output"><ssc:Real unit="m"/></ssd:Connector>"#),
+            shows("angle", "output", r#"<ssc:Real unit="m"/>"#),
             &["unit \"m\", which measures something else than unit \"deg\""],
         ),
         (
-            giver(
-                r#"<ssd:Connector name="colour" kind="output"><ssc:Enumeration name="Color"/></ssd:Connector>"#,
-            ),
+            shows("colour", "output", r#"<ssc:Enumeration name="Color"/>"#),
             &["Enumeration \"Color\", which is not defined"],
         ),
         (
@@ -215,55 +206,31 @@ fn a_system_in_a_system_and_other_components_are_refused_by_name() {
     );
 }
 
-/// A parameter of component `a`, in the system's own binding.
-fn parameter(text: &str) -> String {
+/// A parameter of a component, in the system's own binding.
+fn parameter(name: &str, value: &str) -> String {
     let set = format!(
         "<ssd:ParameterBindings><ssd:ParameterBinding><ssd:ParameterValues><ssv:ParameterSet version=\"1.0\" name=\"p\">\
-         <ssv:Parameters>{text}</ssv:Parameters></ssv:ParameterSet></ssd:ParameterValues></ssd:ParameterBinding>\
-         </ssd:ParameterBindings>"
+         <ssv:Parameters><ssv:Parameter name=\"{name}\">{value}</ssv:Parameter></ssv:Parameters></ssv:ParameterSet>\
+         </ssd:ParameterValues></ssd:ParameterBinding></ssd:ParameterBindings>"
     );
     GOOD.text().replace("<ssd:System name=\"Pair\">", &format!("<ssd:System name=\"Pair\">{set}"))
 }
 
 #[test]
 fn parameters_that_do_not_fit_are_refused_by_name() {
-    for (text, parts) in [
-        (
-            r#"<ssv:Parameter name="c.size"><ssv:Real value="1"/></ssv:Parameter>"#,
-            ["\"c.size\"", "found no component"],
-        ),
-        (
-            r#"<ssv:Parameter name="a.sise"><ssv:Real value="1"/></ssv:Parameter>"#,
-            ["no variable \"sise\"", "size"],
-        ),
-        (
-            r#"<ssv:Parameter name="a.size"><ssv:Integer value="1"/></ssv:Parameter>"#,
-            ["found type Integer", "Real"],
-        ),
-        (
-            r#"<ssv:Parameter name="a.size"><ssv:Real value="1" unit="s"/></ssv:Parameter>"#,
-            ["unit \"s\"", "something else"],
-        ),
-        (
-            r#"<ssv:Parameter name="a.size"><ssv:Real value="1" unit="ell"/></ssv:Parameter>"#,
-            ["unit \"ell\"", "not defined"],
-        ),
-        (
-            r#"<ssv:Parameter name="a.size"><ssv:Real value="1e9"/></ssv:Parameter>"#,
-            ["found 1000000000", "5000"],
-        ),
-        (r#"<ssv:Parameter name="a.size"><ssv:Real value="nan"/></ssv:Parameter>"#, ["NaN", "finite"]),
-        (
-            r#"<ssv:Parameter name="a.paint"><ssv:Enumeration value="blue"/></ssv:Parameter>"#,
-            ["item \"blue\"", "red"],
-        ),
-        (
-            r#"<ssv:Parameter name="a.angle"><ssv:Real value="1"/></ssv:Parameter>"#,
-            ["angle", "cannot be set"],
-        ),
-        (r#"<ssv:Parameter name="a.size"/>"#, ["has no value", "Real, Integer"]),
+    for (name, value, parts) in [
+        ("c.size", r#"<ssv:Real value="1"/>"#, ["\"c.size\"", "found no component"]),
+        ("a.sise", r#"<ssv:Real value="1"/>"#, ["no variable \"sise\"", "size"]),
+        ("a.size", r#"<ssv:Integer value="1"/>"#, ["found type Integer", "Real"]),
+        ("a.size", r#"<ssv:Real value="1" unit="s"/>"#, ["unit \"s\"", "something else"]),
+        ("a.size", r#"<ssv:Real value="1" unit="ell"/>"#, ["unit \"ell\"", "not defined"]),
+        ("a.size", r#"<ssv:Real value="1e9"/>"#, ["found 1000000000", "5000"]),
+        ("a.size", r#"<ssv:Real value="nan"/>"#, ["NaN", "finite"]),
+        ("a.paint", r#"<ssv:Enumeration value="blue"/>"#, ["item \"blue\"", "red"]),
+        ("a.angle", r#"<ssv:Real value="1"/>"#, ["angle", "cannot be set"]),
+        ("a.size", "", ["has no value", "Real, Integer"]),
     ] {
-        let found = refusal(&parameter(text), &[]);
+        let found = refusal(&parameter(name, value), &[]);
         for part in parts {
             assert!(found.contains(part), "{part:?} is not in: {found}");
         }
@@ -288,23 +255,19 @@ fn parameters_reach_their_components_in_their_units() {
     let with_own = Ssd { of_giver: own, ..GOOD }.text();
     let path = ssp(folder.path(), &with_own, &[("resources/own.ssv", &ssv("100"))]);
     let system = System::open(&path).unwrap();
-    let expected = |size: f64| vec![("size", Value::Real(size)), ("paint", Value::Integer(1))];
+    let [size, paint] = ["size", "paint"].map(str::to_owned);
     let found = |system: &System| -> Vec<(String, Value)> { system.parts()[0].parameters.clone() };
-    for ((name, value), (expected_name, expected)) in found(&system).iter().zip(expected(91.44)) {
-        assert_eq!((name.as_str(), value), (expected_name, &expected));
-    }
-    let both = parameter(r#"<ssv:Parameter name="a.size"><ssv:Real value="2" unit="km"/></ssv:Parameter>"#)
-        .replace(
-            "</ssd:Connectors></ssd:Component>\n<ssd:Component name=\"b\"",
-            &format!("</ssd:Connectors>{own}</ssd:Component>\n<ssd:Component name=\"b\""),
-        );
+    assert_eq!(found(&system), [(size.clone(), Value::Real(91.44)), (paint.clone(), Value::Integer(1))]);
+    let both = parameter("a.size", r#"<ssv:Real value="2" unit="km"/>"#).replace(
+        "</ssd:Connectors></ssd:Component>\n<ssd:Component name=\"b\"",
+        &format!("</ssd:Connectors>{own}</ssd:Component>\n<ssd:Component name=\"b\""),
+    );
     let path = ssp(folder.path(), &both, &[("resources/own.ssv", &ssv("100"))]);
     let system = System::open(&path).unwrap();
-    assert!(found(&system).contains(&("size".to_owned(), Value::Real(2000.0))));
-    assert!(found(&system).contains(&("paint".to_owned(), Value::Integer(1))));
-    assert_eq!(found(&system).len(), 2, "the one that yields is gone");
+    // The one that yields is gone.
+    assert_eq!(found(&system), [(paint, Value::Integer(1)), (size, Value::Real(2000.0))]);
     // A name with a dot wins over the one that it begins with.
-    let dotted = parameter(r#"<ssv:Parameter name="a.b.duration"><ssv:Real value="2"/></ssv:Parameter>"#)
+    let dotted = parameter("a.b.duration", r#"<ssv:Real value="2"/>"#)
         .replace("<ssd:Component name=\"b\"", "<ssd:Component name=\"a.b\"")
         .replace("endElement=\"b\"", "endElement=\"a.b\"");
     let system = System::open(ssp(folder.path(), &dotted, &[])).unwrap();

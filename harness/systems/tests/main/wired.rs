@@ -2,7 +2,8 @@
 
 use loader::Fmu;
 use systems::{
-    Experiment, Kind, Linear, System, Wiring, component_name, read_structure, to_parameter_set, to_xml, wire,
+    Experiment, Kind, Linear, System, Wired, Wiring, component_name, read_structure, to_parameter_set,
+    to_xml, wire,
 };
 
 use crate::support::{ITEMS, Ssd, description, fmu, giver, ssp, taker};
@@ -14,22 +15,32 @@ fn opened(folder: &std::path::Path, name: &str, text: &str) -> (String, Fmu) {
 }
 
 fn listed(outputs: &[&str]) -> Wiring {
-    Wiring { outputs: outputs.iter().map(|it| (*it).to_owned()).collect(), ..Wiring::default() }
+    Wiring { outputs: owned(outputs), ..Wiring::default() }
+}
+
+fn owned(texts: &[&str]) -> Vec<String> {
+    texts.iter().map(|it| (*it).to_owned()).collect()
+}
+
+/// Both FMUs.
+fn pair(folder: &std::path::Path) -> [(String, Fmu); 2] {
+    [opened(folder, "giver", &giver()), opened(folder, "taker", &taker())]
+}
+
+/// Connections, each with its start and end.
+fn joined(wired: &Wired) -> Vec<String> {
+    wired.structure.connections.iter().map(|it| format!("{} {}", it.start, it.end)).collect()
 }
 
 #[test]
 fn enumerations_that_are_left_out_say_what_they_stand_at() {
     let folder = tempfile::tempdir().unwrap();
-    let components = [opened(folder.path(), "giver", &giver()), opened(folder.path(), "taker", &taker())];
-    let wiring = |sets: &[&str]| Wiring {
-        without_enumerations: true,
-        sets: sets.iter().map(|it| (*it).to_owned()).collect(),
-        ..Wiring::default()
-    };
+    let components = pair(folder.path());
+    let wiring =
+        |sets: &[&str]| Wiring { without_enumerations: true, sets: owned(sets), ..Wiring::default() };
     let wired = |sets: &[&str]| wire("Pair", &components, Experiment::default(), &wiring(sets)).unwrap();
-    let why = |wired: &systems::Wired| {
-        wired.left.iter().find(|it| it.input == "colour").map(|it| it.why.clone()).unwrap()
-    };
+    let why =
+        |wired: &Wired| wired.left.iter().find(|it| it.input == "colour").map(|it| it.why.clone()).unwrap();
     let plain = wired(&[]);
     assert!(plain.structure.connections.iter().all(|it| it.end.connector != "colour"));
     assert!(plain.structure.enumerations.is_empty());
@@ -42,7 +53,7 @@ fn enumerations_that_are_left_out_say_what_they_stand_at() {
 #[test]
 fn what_is_set_stands_at_the_component_in_its_own_unit() {
     let folder = tempfile::tempdir().unwrap();
-    let components = [opened(folder.path(), "giver", &giver()), opened(folder.path(), "taker", &taker())];
+    let components = pair(folder.path());
     let wiring = |set: &str| Wiring { sets: vec![set.to_owned()], ..Wiring::default() };
     let wired =
         wire("Pair", &components, Experiment::default(), &wiring("taker.angle=3.141592653589793 rad"))
@@ -80,12 +91,10 @@ fn the_step_is_written_for_omsimulator_too() {
 #[test]
 fn equal_names_types_and_units_are_connected_and_the_rest_is_left_with_its_reason() {
     let folder = tempfile::tempdir().unwrap();
-    let components = [opened(folder.path(), "giver", &giver()), opened(folder.path(), "taker", &taker())];
+    let components = pair(folder.path());
     let wired = wire("Pair", &components, Experiment::default(), &listed(&["giver.angle"])).unwrap();
-    let joined: Vec<String> =
-        wired.structure.connections.iter().map(|it| format!("{} {}", it.start, it.end)).collect();
     assert_eq!(
-        joined,
+        joined(&wired),
         [
             "taker.push giver.push",
             "giver.position[1] taker.position[1]",
@@ -169,10 +178,8 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
     let three = opened(folder.path(), "three", &one);
     let [one, two] = components;
     let wired = wire("Three", &[one.clone(), two, three], Experiment::default(), &Wiring::default()).unwrap();
-    let joined: Vec<String> =
-        wired.structure.connections.iter().map(|it| format!("{} {}", it.start, it.end)).collect();
     assert_eq!(
-        joined,
+        joined(&wired),
         [
             "three.earth.velocityInertial[1] one.earth.velocity[1]",
             "one.earth.velocityInertial[1] three.earth.velocity[1]"
@@ -194,32 +201,20 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
 #[test]
 fn units_are_converted_on_the_way() {
     let folder = tempfile::tempdir().unwrap();
-    let linear = |connection: &'static str| -> Option<Linear> {
-        let path = ssp(folder.path(), &Ssd { connections: connection, ..Ssd::default() }.text(), &[]);
+    let linear = |name: &str, attribute: &str, holds: &str| -> Option<Linear> {
+        let ends =
+            format!(r#"startElement="a" startConnector="{name}" endElement="b" endConnector="{name}""#);
+        let connections = format!("<ssd:Connection {ends}{attribute}>{holds}</ssd:Connection>").leak();
+        let path = ssp(folder.path(), &Ssd { connections, ..Ssd::default() }.text(), &[]);
         System::open(&path).unwrap().joints()[0].linear
     };
-    let degree = linear(
-        r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle"/>"#,
-    );
-    assert!((degree.unwrap().factor * 180.0 - core::f64::consts::PI).abs() < 1e-15);
-    assert_eq!(
-        linear(
-            r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle" suppressUnitConversion="true"/>"#
-        ),
-        None
-    );
-    assert_eq!(
-        linear(
-            r#"<ssd:Connection startElement="a" startConnector="angle" endElement="b" endConnector="angle" suppressUnitConversion="true"><ssc:LinearTransformation factor="2" offset="3"/></ssd:Connection>"#
-        ),
-        Some(Linear { factor: 2.0, offset: 3.0 })
-    );
-    assert_eq!(
-        linear(
-            r#"<ssd:Connection startElement="a" startConnector="position[1]" endElement="b" endConnector="position[1]"/>"#
-        ),
-        None
-    );
+    assert!((linear("angle", "", "").unwrap().factor * 180.0 - core::f64::consts::PI).abs() < 1e-15);
+    let suppressed = " suppressUnitConversion=\"true\"";
+    assert_eq!(linear("angle", suppressed, ""), None);
+    let transformed = r#"<ssc:LinearTransformation factor="2" offset="3"/>"#;
+    let expected = Linear { factor: 2.0, offset: 3.0 };
+    assert_eq!(linear("angle", suppressed, transformed), Some(expected));
+    assert_eq!(linear("position[1]", "", ""), None);
 }
 
 #[test]
@@ -267,15 +262,13 @@ fn exported_variables_are_connectors_of_the_system() {
     let folder = tempfile::tempdir().unwrap();
     let components = [opened(folder.path(), "one", &giver()), opened(folder.path(), "two", &taker())];
     let exported = |exports: &[&str]| {
-        let wiring =
-            Wiring { exports: exports.iter().map(|it| (*it).to_owned()).collect(), ..Wiring::default() };
+        let wiring = Wiring { exports: owned(exports), ..Wiring::default() };
         wire("Pair", &components, Experiment::default(), &wiring)
     };
     let wired = exported(&["one.angle", "two.duration", "one.size"]).unwrap();
     let kinds: Vec<_> = wired.structure.connectors.iter().map(|it| (it.name.as_str(), it.kind)).collect();
     assert_eq!(kinds, [("angle", Kind::Output), ("duration", Kind::Input), ("size", Kind::Parameter)]);
-    let joined: Vec<String> =
-        wired.structure.connections.iter().map(|it| format!("{} {}", it.start, it.end)).collect();
+    let joined = joined(&wired);
     assert_eq!(joined[joined.len() - 3..], ["one.angle angle", "duration two.duration", "size one.size"]);
     assert!(!wired.left.iter().any(|left| left.input == "duration"));
     let named = exported(&["one.position[2]"]).unwrap().structure.connectors;

@@ -7,7 +7,7 @@ mod variables;
 
 use fmi_export::{
     About, Context, Dependencies, Differentiable, Extensions, Failure, InputsOverTime, Model, OutputRates,
-    Real, Step, StepEnd, Values,
+    Real, SetupError, Step, StepEnd, Values,
 };
 use serde::{Deserialize, Serialize};
 
@@ -69,17 +69,14 @@ impl Model for AllTypes {
     type Variables = AllTypesVariables;
     type State = State;
 
-    fn parse_setup(file: &str, text: &str) -> Result<Setup, fmi_export::SetupError> {
-        Setup::parse(file, text)
+    fn parse_setup(file: &str, text: &str) -> Result<Setup, SetupError> {
+        toml::from_str(text).map_err(|error| SetupError(format!("{file}: {error}")))
     }
 
-    fn parse_schedule(
-        setup: &mut Setup,
-        _schedule: &str,
-        file: &str,
-        text: &str,
-    ) -> Result<(), fmi_export::SetupError> {
-        setup.take_schedule(file, text)
+    fn parse_schedule(setup: &mut Setup, _schedule: &str, file: &str, text: &str) -> Result<(), SetupError> {
+        let schedule = toml::from_str(text).map_err(|error| SetupError(format!("{file}: {error}")));
+        setup.end_s = schedule.map(|it: setup::Schedule| Some(it.end_s))?;
+        Ok(())
     }
 
     fn about(setup: &Setup) -> About {
@@ -88,7 +85,6 @@ impl Model for AllTypes {
                 "Every type in every role, with {} channels; \"<&>\" – ünïcödé.",
                 setup.channel.len()
             ),
-            start_time_s: 0.0,
             stop_time_s: 10.0,
             step_size_s: 0.5,
             tolerance: 1e-9,

@@ -1,6 +1,5 @@
 //! The setup of `AllTypes`.
 
-use fmi_export::SetupError;
 use serde::{Deserialize, Serialize};
 
 /// The content of `all-types.toml`.
@@ -20,8 +19,8 @@ pub struct Setup {
 /// The content of `all-types-schedule.toml`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Schedule {
-    end_s: f64,
+pub(super) struct Schedule {
+    pub(super) end_s: f64,
 }
 
 /// One channel.
@@ -30,17 +29,4 @@ struct Schedule {
 pub struct Channel {
     /// Start value of the gain.
     pub gain: f64,
-}
-
-impl Setup {
-    pub(super) fn parse(file: &str, text: &str) -> Result<Self, SetupError> {
-        toml::from_str(text).map_err(|error| SetupError(format!("{file}: {error}")))
-    }
-
-    pub(super) fn take_schedule(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
-        let schedule: Schedule =
-            toml::from_str(text).map_err(|error| SetupError(format!("{file}: {error}")))?;
-        self.end_s = Some(schedule.end_s);
-        Ok(())
-    }
 }

@@ -4,8 +4,8 @@
 mod motion;
 
 use fmi_export::{
-    About, Context, Dependencies, Failure, Model, Real, RealVector, SetupError, Step, StepEnd, Values,
-    Variables, knowns,
+    About, Context, Dependencies, Failure, Model, RealVector, SetupError, Step, StepEnd, Values, Variables,
+    knowns,
 };
 
 use motion::{Attitude, Motion, to_body};
@@ -87,8 +87,6 @@ pub struct AttitudeVariables {
 impl Model for RigidBody {
     const NAME: &'static str = "RigidBody";
     const STATE_VERSION: u32 = 1;
-    const SETUP_FILE: Option<&'static str> = None;
-    const DEFAULT_SETUP: &'static str = "";
 
     type Setup = ();
     type Variables = RigidBodyVariables;
@@ -101,7 +99,6 @@ impl Model for RigidBody {
     fn about(_setup: &()) -> About {
         About {
             description: "A small rigid body in the light of a Sun that stands still.".to_owned(),
-            start_time_s: 0.0,
             stop_time_s: 43_200.0,
             step_size_s: 10.0,
             tolerance: 1e-9,
@@ -141,15 +138,10 @@ impl Model for RigidBody {
 
     fn dependencies(_setup: &(), v: &RigidBodyVariables) -> Dependencies {
         let mut table = Dependencies::new();
-        let elements = |vector: &[Real], table: &mut Dependencies, known: fmi_export::Knowns| {
-            vector.iter().for_each(|it| table.output(*it, knowns![], known.clone()));
-        };
-        let of = |vector: RealVector<3>| (0..3).map(|i| vector.element(i)).collect::<Vec<_>>();
-        let q: Vec<Real> = (0..4).map(|i| v.attitude.q.element(i)).collect();
-        elements(&q, &mut table, knowns![v.start.q]);
-        elements(&of(v.attitude.rate), &mut table, knowns![v.start.rate]);
-        elements(&of(v.sun.position_body), &mut table, knowns![v.start.q, v.sun.position]);
-        elements(&of(v.planet.position_body), &mut table, knowns![v.start.q, v.planet.position]);
+        table.output(v.attitude.q, knowns![], v.start.q);
+        table.output(v.attitude.rate, knowns![], v.start.rate);
+        table.output(v.sun.position_body, knowns![], knowns![v.start.q, v.sun.position]);
+        table.output(v.planet.position_body, knowns![], knowns![v.start.q, v.planet.position]);
         table
     }
 }

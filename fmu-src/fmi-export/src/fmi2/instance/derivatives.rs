@@ -8,7 +8,7 @@ use crate::fmi2::references;
 use crate::model::InputDerivative;
 use crate::variables::{GREATEST_SET, Real};
 use model_description::BaseType;
-use model_description::call_table::{Function, State};
+use model_description::call_table::State;
 
 impl Instance {
     /// `fmi2SetRealInputDerivatives`; they hold until the end of the next step.
@@ -18,12 +18,15 @@ impl Instance {
         orders: &[i32],
         values: &[f64],
     ) -> Result<(), Problem> {
-        self.guard(Function::SetRealInputDerivatives)?;
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
             self.require(reference, INPUT | CONTINUOUS, INPUT | CONTINUOUS, "continuous Real input")?;
             check_order(order, MAX_INPUT_DERIVATIVE_ORDER)?;
             if !(-GREATEST_SET..=GREATEST_SET).contains(&value) {
-                return Err(Problem::DerivativeOutOfRange { reference, value });
+                let name = self.access.named(BaseType::Real, reference);
+                return Err(Problem::discard(format_args!(
+                    "a derivative of {name} was set to {value:?}, allowed is {:?} to {GREATEST_SET:?}",
+                    -GREATEST_SET
+                )));
             }
         }
         let kept = &mut self.state.input_derivatives;
@@ -44,16 +47,14 @@ impl Instance {
         orders: &[i32],
         values: &mut [f64],
     ) -> Result<(), Problem> {
-        self.guard(Function::GetRealOutputDerivatives)?;
-        let largest = u32::from(self.runtime.has_output_rates());
         for (&reference, &order) in references.iter().zip(orders) {
             self.require(reference, OUTPUT, OUTPUT, "Real output")?;
-            check_order(order, largest)?;
+            check_order(order, self.output_derivative_order)?;
         }
         for (&reference, value) in references.iter().zip(values) {
             *value = self.runtime.output_rate(self.values_at_last_step(), real(reference), &self.logger)?;
             if !value.is_finite() {
-                return Err(Problem::SlopeNotFinite { of: reference, along: None, value: *value });
+                return Err(self.slope_not_finite(reference, "", *value));
             }
         }
         Ok(())
@@ -67,7 +68,6 @@ impl Instance {
         seed: &[f64],
         result: &mut [f64],
     ) -> Result<(), Problem> {
-        self.guard(Function::GetDirectionalDerivative)?;
         let initializing = self.state.mode == State::InitializationMode;
         let (unknown, known) = match initializing {
             true => (GET_INITIALIZATION, INPUT | SET_INITIALIZATION),
@@ -80,7 +80,10 @@ impl Instance {
             self.require(reference, known, 0, "Real input")?;
         }
         if let Some((&reference, &value)) = knowns.iter().zip(seed).find(|(_, seed)| !seed.is_finite()) {
-            return Err(Problem::SeedNotFinite { reference, value });
+            let name = self.access.named(BaseType::Real, reference);
+            return Err(Problem::error(format_args!(
+                "the seed of {name} is {value:?}, allowed is any finite value"
+            )));
         }
         if initializing {
             self.initialize_if_needed()?;
@@ -100,8 +103,7 @@ impl Instance {
             Some((&of, &mut value)) => {
                 let moved = knowns.iter().zip(seed).filter(|(_, seed)| **seed != 0.0);
                 let names = moved.filter_map(|(known, _)| self.access.any_name(*known));
-                let along = Some(names.collect::<Vec<_>>().join(", ")).filter(|names| !names.is_empty());
-                Err(Problem::SlopeNotFinite { of, along, value })
+                Err(self.slope_not_finite(of, &names.collect::<Vec<_>>().join(", "), value))
             }
         }
     }
@@ -111,9 +113,21 @@ impl Instance {
         let table = self.access.flags(BaseType::Real);
         match table.get(references::index(BaseType::Real, reference)) {
             Some(flags) if flags & any != 0 && flags & all == all => Ok(()),
-            Some(_) => Err(Problem::NotA { role, reference }),
-            None => Err(Problem::UnknownReference { base: BaseType::Real, reference, count: table.len() }),
+            Some(_) => {
+                let name = self.access.named(BaseType::Real, reference);
+                Err(Problem::error(format_args!("{name} is no {role}")))
+            }
+            None => Err(self.access.unknown(BaseType::Real, reference)),
         }
+    }
+
+    #[cold]
+    fn slope_not_finite(&self, of: u32, along: &str, value: f64) -> Problem {
+        let name = self.access.named(BaseType::Real, of);
+        let along = if along.is_empty() { String::new() } else { format!(" along {along}") };
+        Problem::error(format_args!(
+            "the derivative of {name}{along} came out as {value:?}, which is no finite number"
+        ))
     }
 }
 
@@ -125,6 +139,9 @@ fn real(reference: u32) -> Real {
 fn check_order(order: i32, largest: u32) -> Result<(), Problem> {
     match u32::try_from(order) {
         Ok(positive) if (1..=largest).contains(&positive) => Ok(()),
-        _ => Err(Problem::Order { order, largest }),
+        _ if largest == 0 => Err(Problem::error(format_args!(
+            "derivatives of order {order} were requested, this model offers none"
+        ))),
+        _ => Err(Problem::error(format_args!("the derivative order is {order}, allowed are 1 to {largest}"))),
     }
 }

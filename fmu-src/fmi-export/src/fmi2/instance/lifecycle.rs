@@ -9,7 +9,6 @@ use crate::logger::Category;
 use crate::variables::Real;
 use model_description::BaseType;
 use model_description::Status;
-use model_description::call_table::Function;
 
 impl Instance {
     /// `fmi2SetDebugLogging`: `categories` gives each named category, or `None` where the name is unknown.
@@ -19,15 +18,18 @@ impl Instance {
         count: usize,
         mut categories: impl FnMut(usize) -> Option<Category>,
     ) -> Result<(), Problem> {
-        self.guard(Function::SetDebugLogging)?;
         let known: Vec<Category> = (0..count).filter_map(&mut categories).collect();
         let unknown = (0..count).find(|&index| categories(index).is_none());
-        if count > 0 && known.is_empty() {
-            self.logger.enable_nothing();
-        } else {
-            self.logger.enable(on, known);
+        // None named means all of them; none known is none.
+        self.logger.enable(on && (count == 0 || !known.is_empty()), known);
+        match unknown {
+            None => Ok(()),
+            Some(index) => {
+                let (number, known) = (index + 1, Category::names());
+                let text = format!("log category number {number} is not declared; known are {known}");
+                Err(Problem { status: Status::Warning, text })
+            }
         }
-        unknown.map_or(Ok(()), |index| Err(Problem::UnknownCategory { index }))
     }
 
     /// `fmi2SetupExperiment`.
@@ -37,14 +39,18 @@ impl Instance {
         start_s: f64,
         stop_s: Option<f64>,
     ) -> Result<(), Problem> {
-        self.guard(Function::SetupExperiment)?;
-        if !start_s.is_finite() || stop_s.is_some_and(|stop_s| !stop_s.is_finite() || stop_s < start_s) {
-            return Err(Problem::Experiment { start_s, stop_s });
-        }
         let usable = |tolerance: &f64| *tolerance > 0.0 && tolerance.is_finite();
-        if let Some(tolerance) = tolerance
-            && !usable(&tolerance)
-        {
+        let experiment = Experiment { start_s, stop_s, tolerance: tolerance.filter(usable) };
+        if !experiment.is_valid() {
+            return Err(match stop_s {
+                None => Problem::error(format_args!("the start time is {start_s:?} s, it must be finite")),
+                Some(stop_s) => Problem::error(format_args!(
+                    "the start time is {start_s:?} s and the stop time {stop_s:?} s: both must be finite, and the \
+                     stop not before the start"
+                )),
+            });
+        }
+        if let Some(tolerance) = tolerance.filter(|tolerance| !usable(tolerance)) {
             self.logger.log(
                 Status::Warning,
                 format_args!(
@@ -52,14 +58,15 @@ impl Instance {
                 ),
             );
         }
-        self.state.experiment = Some(Experiment { start_s, stop_s, tolerance: tolerance.filter(usable) });
+        self.state.experiment = Some(experiment);
         Ok(())
     }
 
     /// `fmi2EnterInitializationMode`.
     pub(crate) fn enter_initialization_mode(&mut self) -> Result<(), Problem> {
-        self.guard(Function::EnterInitializationMode)?;
-        let experiment = self.state.experiment.ok_or(Problem::NoExperiment)?;
+        let experiment = self.state.experiment.ok_or_else(|| {
+            Problem::error("fmi2SetupExperiment must be called before fmi2EnterInitializationMode")
+        })?;
         self.state.time_s = experiment.start_s;
         self.take_tolerance(experiment.tolerance);
         self.state.needs_initialization = true;
@@ -97,7 +104,6 @@ impl Instance {
 
     /// `fmi2ExitInitializationMode`.
     pub(crate) fn exit_initialization_mode(&mut self) -> Result<(), Problem> {
-        self.guard(Function::ExitInitializationMode)?;
         self.initialize_if_needed()?;
         self.runtime.settle_parameters(&mut self.state.values, &self.logger);
         self.allocate_spare();
@@ -114,21 +120,14 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2Terminate`.
-    pub(crate) fn terminate(&mut self) -> Result<(), Problem> {
-        self.guard(Function::Terminate)
-    }
-
     /// `fmi2Reset`: as if freshly instantiated.
-    pub(crate) fn reset(&mut self) -> Result<(), Problem> {
-        self.guard(Function::Reset)?;
+    pub(crate) fn reset(&mut self) {
         self.runtime.clear();
         self.forget_last_step();
         self.state.copy_from(&InstanceState::new(&self.start));
         self.logger.reset();
         self.said = 0;
         self.earliest_s = f64::NEG_INFINITY;
-        Ok(())
     }
 
     /// Warns where a state from before `noSetFMUStatePriorToCurrentPoint` is set.

@@ -1,6 +1,6 @@
 //! One instance: the state machine around a model, its values, its log. No C types here.
 //!
-//! Every function of the standard is one method that checks the call table, does its work and hands a
+//! Every function of the standard is admitted by [`Instance::guard`], does its work in a method of its own and hands a
 //! [`Problem`] or nothing to [`Instance::conclude`], which logs, moves the state and gives the status.
 
 mod derivatives;
@@ -37,7 +37,7 @@ mod once {
 
 /// One instance of one model.
 pub(crate) struct Instance {
-    pub(super) state: InstanceState,
+    pub(crate) state: InstanceState,
     pub(super) runtime: Box<dyn Runtime>,
     pub(super) access: AccessTable,
     pub(super) start: Arc<Values>,
@@ -53,19 +53,22 @@ pub(crate) struct Instance {
     directions: (Vec<Real>, Vec<(Real, f64)>),
     /// The parameter that the experiment's tolerance stands in for.
     tolerance: Option<Real>,
+    /// Highest order of an output's derivative.
+    output_derivative_order: u32,
     poisoned: bool,
 }
 
 impl Instance {
     /// A fresh instance.
     pub(crate) fn new(prepared: Prepared, logger: Logger) -> Self {
-        let Prepared { access, start, runtime, digest, description: _ } = prepared;
+        let Prepared { description, access, start, runtime, digest, tolerance } = prepared;
         let mut state = InstanceState::new(&start);
         state.input_derivatives.reserve(access.real_limits.len());
         Self {
             spare: Values::clone(&start),
             directions: Default::default(),
-            tolerance: runtime.tolerance(),
+            tolerance,
+            output_derivative_order: description.co_simulation.map_or(0, |it| it.max_output_derivative_order),
             state,
             runtime,
             access,
@@ -102,9 +105,9 @@ impl Instance {
 
     /// Refuses a call that the table forbids in this state. What is conditional is checked per variable.
     #[inline]
-    pub(super) fn guard(&self, function: Function) -> Result<(), Problem> {
+    pub(crate) fn guard(&self, function: Function) -> Result<(), Problem> {
         match call_table::allowed(function, self.state.mode) {
-            Access::Forbidden => Err(Problem::Illegal { function, state: self.state.mode }),
+            Access::Forbidden => Err(Problem::illegal(function, self.state.mode)),
             Access::Allowed | Access::Conditional(_) => Ok(()),
         }
     }
@@ -123,10 +126,10 @@ impl Instance {
 
     #[cold]
     fn refuse(&mut self, function: Function, problem: &Problem) -> Status {
-        let status = problem.status();
-        self.logger.log(status, format_args!("{}: {}", function.symbol(), problem.explain(&self.access)));
-        self.follow(function, status);
-        status
+        let Problem { status, text } = problem;
+        self.logger.log(*status, format_args!("{}: {text}", function.symbol()));
+        self.follow(function, *status);
+        *status
     }
 
     #[inline]
@@ -155,11 +158,14 @@ impl Instance {
 
     #[cold]
     fn not_finite(&self, reference: u32, value: f64, initially: bool) -> Problem {
-        let listed = self.access.dependencies(reference, initially).map(|dependencies| {
-            let shown = |at: &u32| Some(format!("{} = {}", self.access.any_name(*at)?, self.shown(*at)?));
-            dependencies.iter().filter_map(shown).collect::<Vec<_>>().join(", ")
-        });
-        Problem::NotFinite { reference, value, depends_on: listed.filter(|it| !it.is_empty()) }
+        let name = self.access.named(BaseType::Real, reference);
+        let dependencies = self.access.dependencies(reference, initially).unwrap_or_default();
+        let shown = |at: &u32| Some(format!("{} = {}", self.access.any_name(*at)?, self.shown(*at)?));
+        let advice = match dependencies.iter().filter_map(shown).collect::<Vec<_>>().join(", ") {
+            none if none.is_empty() => "look for inputs or parameters beyond what can be".to_owned(),
+            listed => format!("it depends on {listed}"),
+        };
+        Problem::error(format_args!("{name} came out as {value:?}, which is no finite number; {advice}"))
     }
 
     /// A variable's value for a message.

@@ -5,8 +5,8 @@ use model_description::BaseType;
 use serde::{Deserialize, Serialize};
 
 use crate::fmi2::access::{AccessTable, CONTINUOUS, INPUT, SET_BY_IMPORTER};
-use crate::model::InputDerivative;
-use crate::state_bytes::StateMismatch;
+use crate::model::{Failure, InputDerivative};
+use crate::state_bytes::damaged;
 use crate::variables::{GREATEST_SET, SetBits, Values};
 use model_description::call_table::State;
 
@@ -20,6 +20,14 @@ pub(crate) struct Experiment {
     pub(crate) stop_s: Option<f64>,
     /// A positive number.
     pub(crate) tolerance: Option<f64>,
+}
+
+impl Experiment {
+    /// Whether its times are finite and in order.
+    pub(crate) fn is_valid(&self) -> bool {
+        self.start_s.is_finite()
+            && self.stop_s.is_none_or(|stop_s| stop_s.is_finite() && stop_s >= self.start_s)
+    }
 }
 
 /// The mutable part of an instance.
@@ -97,7 +105,7 @@ impl InstanceState {
     }
 
     /// Whether decoded bytes make sense for a model with these variables. The error says what does not.
-    pub(crate) fn check(&self, access: &AccessTable) -> Result<(), StateMismatch> {
+    pub(crate) fn check(&self, access: &AccessTable) -> Result<(), Failure> {
         self.check_clock()?;
         for values in core::iter::once(&self.values).chain(&self.at_last_step) {
             check_values(values, access)?;
@@ -113,7 +121,7 @@ impl InstanceState {
             let fits = flags & INPUT != 0 && flags & CONTINUOUS != 0;
             let is_within = (-GREATEST_SET..=GREATEST_SET).contains(&value);
             if !fits || !(1..=MAX_INPUT_DERIVATIVE_ORDER).contains(&order) || !is_within {
-                return Err(content(format!(
+                return Err(damaged(format_args!(
                     "input derivative {value:?} of order {order} for Real value reference {reference}"
                 )));
             }
@@ -122,45 +130,38 @@ impl InstanceState {
     }
 
     /// What an instance in the error state holds is for debugging; all else may be read under OK.
-    fn check_finite(&self, values: &Values, access: &AccessTable) -> Result<(), StateMismatch> {
+    fn check_finite(&self, values: &Values, access: &AccessTable) -> Result<(), Failure> {
         match access.first_not_finite(values) {
             Some((reference, value)) if self.mode != State::Error => {
                 let name = access.name(BaseType::Real, reference).unwrap_or_default();
-                Err(content(format!("`{name}` is {value:?}")))
+                Err(damaged(format_args!("`{name}` is {value:?}")))
             }
             _ => Ok(()),
         }
     }
 
-    fn check_clock(&self) -> Result<(), StateMismatch> {
+    fn check_clock(&self) -> Result<(), Failure> {
         if matches!(self.mode, State::StepInProgress | State::StepCanceled | State::Fatal) {
-            return Err(content(format!("no instance is saved in the state {}", self.mode.name())));
+            return Err(damaged(format_args!("no instance is saved in the state {}", self.mode.name())));
         }
         let started = matches!(
             self.mode,
             State::InitializationMode | State::StepComplete | State::StepFailed | State::Terminated
         );
         match self.experiment {
-            None if started => return Err(content("started without an experiment".to_owned())),
+            None if started => return Err(damaged("started without an experiment")),
             Some(Experiment { tolerance: Some(tolerance), .. })
                 if !(tolerance > 0.0 && tolerance.is_finite()) =>
             {
-                return Err(content(format!("tolerance {tolerance:?}")));
+                return Err(damaged(format_args!("tolerance {tolerance:?}")));
             }
-            Some(Experiment { start_s, stop_s, .. })
-                if !start_s.is_finite()
-                    || stop_s.is_some_and(|stop_s| !stop_s.is_finite() || stop_s < start_s) =>
-            {
-                return Err(content(format!("start {start_s:?} s and stop {stop_s:?} s")));
+            Some(experiment @ Experiment { start_s, stop_s, .. }) if !experiment.is_valid() => {
+                return Err(damaged(format_args!("start {start_s:?} s and stop {stop_s:?} s")));
             }
             _ => {}
         }
-        if self.time_s.is_finite() { Ok(()) } else { Err(content(format!("time {:?} s", self.time_s))) }
+        if self.time_s.is_finite() { Ok(()) } else { Err(damaged(format_args!("time {:?} s", self.time_s))) }
     }
-}
-
-pub(crate) fn content(what: String) -> StateMismatch {
-    StateMismatch::Content(what)
 }
 
 /// `to` becomes `from` without new memory where the lengths agree.
@@ -183,14 +184,14 @@ fn same_values(a: &Values, b: &Values) -> bool {
         && a.reals.iter().zip(&b.reals).all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-fn check_values(values: &Values, access: &AccessTable) -> Result<(), StateMismatch> {
+fn check_values(values: &Values, access: &AccessTable) -> Result<(), Failure> {
     for ((base, length), set) in BaseType::ALL.into_iter().zip(values.lengths()).zip(&values.set) {
         let expected = access.flags(base).len();
         if length != expected {
-            return Err(content(format!("{length} {} values, the model has {expected}", base.name())));
+            return Err(damaged(format_args!("{length} {} values, the model has {expected}", base.name())));
         }
         if set.len() != SetBits::words(length) {
-            return Err(content(format!(
+            return Err(damaged(format_args!(
                 "{} words say which of {length} {} values were set",
                 set.len(),
                 base.name()
@@ -202,14 +203,14 @@ fn check_values(values: &Values, access: &AccessTable) -> Result<(), StateMismat
     for (reference, ((&flags, &value), &(min, max))) in (references::first(BaseType::Real)..).zip(reals) {
         if flags & SET_BY_IMPORTER != 0 && !(value >= min && value <= max) {
             let name = access.name(BaseType::Real, reference).unwrap_or_default();
-            return Err(content(format!("`{name}` is {value:?}")));
+            return Err(damaged(format_args!("`{name}` is {value:?}")));
         }
     }
     for (index, &value) in values.integers.iter().enumerate() {
         if !access.admits_integer(index, value) {
             let reference = references::first(BaseType::Integer) + index as u32;
             let name = access.name(BaseType::Integer, reference).unwrap_or_default();
-            return Err(content(format!("`{name}` is {value}")));
+            return Err(damaged(format_args!("`{name}` is {value}")));
         }
     }
     Ok(())

@@ -1,62 +1,34 @@
-//! The step and its status.
+//! The step.
 
 use super::Instance;
 use crate::fmi2::problem::Problem;
 use crate::model::{InputsOverTime, Step};
 use crate::time;
-use model_description::call_table::Function;
-
-/// The kind of a `fmi2GetXXXStatus`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum StatusKind {
-    /// `fmi2LastSuccessfulTime`.
-    LastSuccessfulTime,
-    /// `fmi2Terminated`.
-    Terminated,
-    /// `fmi2DoStepStatus`, `fmi2PendingStatus` and numbers without meaning: only a pending step has them.
-    Other(i32),
-}
-
-impl StatusKind {
-    /// The kind of a C value.
-    pub(crate) fn from_code(code: i32) -> Self {
-        match code {
-            2 => Self::LastSuccessfulTime,
-            3 => Self::Terminated,
-            other => Self::Other(other),
-        }
-    }
-
-    fn code(self) -> i32 {
-        match self {
-            Self::LastSuccessfulTime => 2,
-            Self::Terminated => 3,
-            Self::Other(code) => code,
-        }
-    }
-}
 
 impl Instance {
     /// `fmi2DoStep`. By the standard's recipe the step begins where the last one ended, even if the
     /// communication point given differs by a rounding, and ends at `point_s + step_size_s`.
     pub(crate) fn do_step(&mut self, point_s: f64, step_size_s: f64, no_return: bool) -> Result<(), Problem> {
-        self.guard(Function::DoStep)?;
         let start_s = self.state.time_s;
         if !(step_size_s > 0.0 && step_size_s.is_finite()) {
-            return Err(Problem::StepSize { time_s: point_s, step_size_s });
+            return Err(wrong_size(point_s, step_size_s));
         }
         if !time::is_same(point_s, start_s, step_size_s) {
-            return Err(Problem::TimeMismatch { given_s: point_s, expected_s: start_s });
+            return Err(Problem::error(format_args!(
+                "the step begins at {point_s:?} s, but the instance is at {start_s:?} s (to go back, set a saved FMU state)"
+            )));
         }
         let end_s = point_s + step_size_s;
         if !(end_s > start_s && end_s.is_finite()) {
-            return Err(Problem::StepSize { time_s: point_s, step_size_s });
+            return Err(wrong_size(point_s, step_size_s));
         }
         if let Some(stop_s) = self.state.experiment.and_then(|experiment| experiment.stop_s)
             && end_s > stop_s
             && !time::is_same(end_s, stop_s, step_size_s)
         {
-            return Err(Problem::PastStop { end_s, stop_s });
+            return Err(Problem::error(format_args!(
+                "the step ends at {end_s:?} s, after the stop time {stop_s:?} s"
+            )));
         }
         if no_return {
             self.earliest_s = self.earliest_s.max(point_s);
@@ -70,7 +42,7 @@ impl Instance {
         state.input_derivatives.clear();
         state.terminated = terminate.is_some();
         self.forget_last_step();
-        terminate.map_or(Ok(()), |reason| Err(Problem::Terminated(reason)))
+        terminate.map_or(Ok(()), |reason| Err(Problem::discard(reason)))
     }
 
     /// Steps the model to `end_s`, again and again where it stops early, and leaves the time where it came to; the reason
@@ -85,7 +57,10 @@ impl Instance {
             let end = self.runtime.step(&mut state.values, &step, &self.logger)?;
             let is_within = end.time_s >= from_s && end.time_s <= end_s;
             if !is_within || (end.time_s == from_s && end.terminate.is_none()) {
-                return Err(Problem::StepEnd { from_s, end_s, came_to_s: end.time_s });
+                return Err(Problem::error(format_args!(
+                    "the model left the step from {from_s:?} to {end_s:?} s at {:?} s, which is not within it",
+                    end.time_s
+                )));
             }
             state.time_s = end.time_s;
             if end.terminate.is_some() || end.time_s == end_s {
@@ -94,33 +69,10 @@ impl Instance {
             (from_s, changed) = (end.time_s, false);
         }
     }
+}
 
-    /// `fmi2GetRealStatus`.
-    pub(crate) fn real_status(&mut self, kind: StatusKind) -> Result<f64, Problem> {
-        self.guard(Function::GetRealStatus)?;
-        match kind {
-            StatusKind::LastSuccessfulTime => Ok(self.state.time_s),
-            other => Err(Problem::NoStatus { kind: other.code() }),
-        }
-    }
-
-    /// `fmi2GetBooleanStatus`.
-    pub(crate) fn boolean_status(&mut self, kind: StatusKind) -> Result<bool, Problem> {
-        self.guard(Function::GetBooleanStatus)?;
-        match kind {
-            StatusKind::Terminated => Ok(self.state.terminated),
-            other => Err(Problem::NoStatus { kind: other.code() }),
-        }
-    }
-
-    /// `fmi2GetStatus`, `fmi2GetIntegerStatus` and `fmi2GetStringStatus`: their status only a pending step has.
-    pub(crate) fn no_status(&mut self, function: Function, kind: StatusKind) -> Result<(), Problem> {
-        self.guard(function)?;
-        Err(Problem::NoStatus { kind: kind.code() })
-    }
-
-    /// `fmi2CancelStep`: no step is ever in progress, so the table refuses it in every state we reach.
-    pub(crate) fn cancel_step(&mut self) -> Result<(), Problem> {
-        self.guard(Function::CancelStep)
-    }
+fn wrong_size(time_s: f64, step_size_s: f64) -> Problem {
+    Problem::error(format_args!(
+        "the step size is {step_size_s:?} s at {time_s:?} s: it must be positive, finite and large enough to change the time"
+    ))
 }

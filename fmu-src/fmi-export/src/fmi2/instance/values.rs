@@ -7,16 +7,15 @@ use crate::fmi2::access::{
 use crate::fmi2::instance::state::copy_values;
 use crate::fmi2::problem::Problem;
 use crate::fmi2::references;
-use model_description::call_table::{Function, State};
+use model_description::call_table::State;
 use model_description::{BaseType, Status};
 
 /// `fmi2GetXXX` of a base type whose values are plain.
 macro_rules! getter {
-    ($name:ident, $function:ident, $base:ident, $table:ident, $value:ty, $read:expr) => {
+    ($name:ident, $base:ident, $table:ident, $value:ty, $read:expr) => {
         impl Instance {
-            #[doc = concat!("`fmi2", stringify!($function), "`.")]
+            /// One of `fmi2GetXXX`.
             pub(crate) fn $name(&mut self, references: &[u32], values: &mut [$value]) -> Result<(), Problem> {
-                self.guard(Function::$function)?;
                 if self.reading_needs_preparation() {
                     self.prepare_reading(BaseType::$base, references)?;
                 }
@@ -24,7 +23,7 @@ macro_rules! getter {
                 for (&reference, value) in references.iter().zip(values) {
                     match table.get(references::index(BaseType::$base, reference)) {
                         Some(stored) => *value = $read(stored),
-                        None => return Err(unknown(BaseType::$base, reference, table.len())),
+                        None => return Err(self.access.unknown(BaseType::$base, reference)),
                     }
                 }
                 Ok(())
@@ -35,12 +34,11 @@ macro_rules! getter {
 
 /// `fmi2SetXXX` of a base type: how a value is checked, compared with the stored one, and written.
 macro_rules! setter {
-    ($name:ident, $function:ident, $base:ident, $table:ident, $value:ty,
+    ($name:ident, $base:ident, $table:ident, $value:ty,
      check: $check:expr, differs: $differs:expr, write: $write:expr) => {
         impl Instance {
-            #[doc = concat!("`fmi2", stringify!($function), "`.")]
+            /// One of `fmi2SetXXX`.
             pub(crate) fn $name(&mut self, references: &[u32], values: &[$value]) -> Result<(), Problem> {
-                self.guard(Function::$function)?;
                 let needed = self.settable_flag();
                 let (mut lenient, mut differs) = (false, false);
                 let table = &self.state.values.$table;
@@ -49,12 +47,12 @@ macro_rules! setter {
                 for (&reference, value) in references.iter().zip(values) {
                     let index = references::index(BaseType::$base, reference);
                     let (Some(&flags), Some(stored)) = (flags.get(index), table.get(index)) else {
-                        return Err(unknown(BaseType::$base, reference, table.len()));
+                        return Err(self.access.unknown(BaseType::$base, reference));
                     };
                     if flags & needed == 0 {
                         let state = self.state.mode;
                         if state != State::Instantiated || flags & INPUT == 0 {
-                            return Err(Problem::NotSettable { base: BaseType::$base, reference, state });
+                            return Err(self.access.not_settable(BaseType::$base, reference, state));
                         }
                         lenient = true;
                     }
@@ -82,35 +80,38 @@ macro_rules! setter {
     };
 }
 
-getter!(get_real, GetReal, Real, reals, f64, |stored: &f64| *stored);
-getter!(get_integer, GetInteger, Integer, integers, i32, |stored: &i32| *stored);
-getter!(get_boolean, GetBoolean, Boolean, booleans, i32, |stored: &bool| i32::from(*stored));
+getter!(get_real, Real, reals, f64, |stored: &f64| *stored);
+getter!(get_integer, Integer, integers, i32, |stored: &i32| *stored);
+getter!(get_boolean, Boolean, booleans, i32, |stored: &bool| i32::from(*stored));
 
-setter!(set_real, SetReal, Real, reals, f64,
+setter!(set_real, Real, reals, f64,
     check: |access: &AccessTable, reference: u32, value: &f64| {
         match access.real_limits.get(references::index(BaseType::Real, reference)) {
             // Written so that NaN fails.
             Some(&(min, max)) if min <= *value && *value <= max => Ok(()),
-            _ => Err(Problem::RealOutOfRange { reference, value: *value }),
+            _ => Err(access.real_out_of_range(reference, *value)),
         }
     },
     differs: |stored: &f64, value: &f64| stored.to_bits() != value.to_bits(),
     write: |stored: &mut f64, value: &f64| *stored = *value);
 
-setter!(set_integer, SetInteger, Integer, integers, i32,
+setter!(set_integer, Integer, integers, i32,
     check: |access: &AccessTable, reference: u32, value: &i32| {
         match access.admits_integer(references::index(BaseType::Integer, reference), *value) {
             true => Ok(()),
-            false => Err(Problem::IntegerOutOfRange { reference, value: *value }),
+            false => Err(access.integer_out_of_range(reference, *value)),
         }
     },
     differs: |stored: &i32, value: &i32| stored != value,
     write: |stored: &mut i32, value: &i32| *stored = *value);
 
-setter!(set_boolean, SetBoolean, Boolean, booleans, i32,
-    check: |_: &AccessTable, reference: u32, value: &i32| match value {
+setter!(set_boolean, Boolean, booleans, i32,
+    check: |access: &AccessTable, reference: u32, value: &i32| match value {
         0 | 1 => Ok(()),
-        _ => Err(Problem::NoBoolean { reference, value: *value }),
+        _ => Err(Problem::discard(format_args!(
+            "{} was set to {value}, allowed are 0 (fmi2False) and 1 (fmi2True)",
+            access.named(BaseType::Boolean, reference)
+        ))),
     },
     differs: |stored: &bool, value: &i32| i32::from(*stored) != *value,
     write: |stored: &mut bool, value: &i32| *stored = *value == 1);
@@ -118,10 +119,13 @@ setter!(set_boolean, SetBoolean, Boolean, booleans, i32,
 /// A String at the interface: `None` where the caller's text is not UTF-8.
 pub(crate) type MaybeText<'a> = Option<&'a str>;
 
-setter!(set_string, SetString, String, strings, MaybeText<'_>,
-    check: |_: &AccessTable, reference: u32, value: &MaybeText<'_>| match value {
+setter!(set_string, String, strings, MaybeText<'_>,
+    check: |access: &AccessTable, reference: u32, value: &MaybeText<'_>| match value {
         Some(_) => Ok(()),
-        None => Err(Problem::NoText { reference }),
+        None => Err(Problem::discard(format_args!(
+            "{} was set to text that is not UTF-8",
+            access.named(BaseType::String, reference)
+        ))),
     },
     differs: |stored: &String, value: &MaybeText<'_>| *value != Some(stored.as_str()),
     write: |stored: &mut String, value: &MaybeText<'_>| value.unwrap_or_default().clone_into(stored));
@@ -133,7 +137,6 @@ impl Instance {
         references: &[u32],
         mut take: impl FnMut(usize, usize, &str),
     ) -> Result<(), Problem> {
-        self.guard(Function::GetString)?;
         if self.reading_needs_preparation() {
             self.prepare_reading(BaseType::String, references)?;
         }
@@ -142,7 +145,7 @@ impl Instance {
             let index = references::index(BaseType::String, reference);
             match table.get(index) {
                 Some(stored) => take(position, index, stored),
-                None => return Err(unknown(BaseType::String, reference, table.len())),
+                None => return Err(self.access.unknown(BaseType::String, reference)),
             }
         }
         Ok(())
@@ -177,7 +180,7 @@ impl Instance {
         for &reference in references {
             match flags.get(references::index(base, reference)) {
                 Some(flags) => all &= flags,
-                None => return Err(unknown(base, reference, flags.len())),
+                None => return Err(self.access.unknown(base, reference)),
             }
         }
         let only_given = all & SET_BY_IMPORTER != 0;
@@ -229,9 +232,4 @@ impl Instance {
             ),
         );
     }
-}
-
-#[cold]
-fn unknown(base: BaseType, reference: u32, count: usize) -> Problem {
-    Problem::UnknownReference { base, reference, count }
 }

@@ -6,7 +6,7 @@ use model_description::{Causality, Variability};
 use super::*;
 use crate::dependencies::Dependencies;
 use crate::knowns;
-use crate::variables::{Declare, Element, Integer, Item, Kind, Real, RealSpec, RealVector, Role, ScalarSpec};
+use crate::variables::{Declare, Integer, Item, Kind, Real, RealSpec, RealVector, Role, ScalarSpec};
 
 struct Handles {
     input: RealVector<2>,
@@ -58,7 +58,7 @@ fn every_fact_enters() {
             it.variables[1].role.initial = Some(model_description::Initial::Approx);
         }),
         ("dimensions", |it, _, _| it.variables[0].dimensions = vec![1, 2]),
-        ("place", |it, _, _| it.variables[0].first = Element::Real(1)),
+        ("place", |it, _, _| it.variables[0].first.place = 1),
         ("limit", |it, _, _| {
             if let Kind::Real { max, .. } = &mut it.variables[0].kind {
                 *max = max.map(f64::next_up);

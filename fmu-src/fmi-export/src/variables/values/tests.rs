@@ -1,8 +1,10 @@
 //! Who gave a value, where its start value is among those that may be given.
 use super::*;
 
-const GROUP: [Elements; 2] =
-    [Elements { first: Element::Real(0), count: 2 }, Elements { first: Element::Integer(0), count: 1 }];
+const GROUP: [Elements; 2] = [
+    Elements { first: Element { base: BaseType::Real, place: 0 }, count: 2 },
+    Elements { first: Element { base: BaseType::Integer, place: 0 }, count: 1 },
+];
 
 /// Two Reals, an Integer, and one Real that the setup may give.
 fn start(by_setup: bool) -> Values {

@@ -3,7 +3,7 @@
 use fmi_export::{Failure, Values};
 use nalgebra::Vector3;
 use physics::guidance::constraints::keep_in::KeepIn;
-use physics::management::{Manager, SampledManager, Strategy};
+use physics::management::{SampledManager, Strategy};
 use physics::momentum::{DumpPolicy, Reinitialise};
 use physics::plant::{PanelSetting, Ramp, SunlitCraft};
 use physics::spacecraft::MassProperties;
@@ -48,13 +48,12 @@ pub fn manager<'a>(
         )));
     }
     Ok(SampledManager {
-        manager: Manager {
+        manager: v.momentum.aim.manager(
+            values,
             strategy,
-            targeting: v.momentum.aim.read(values, keep_in.azimuth_rad, keep_in.elevation_rad),
-            target_body_n_m_s: v.momentum.aim.target_body_n_m_s(values),
-            horizon: v.momentum.aim.horizon(values),
-            sunshade: spacecraft.sunshade.as_ref().map(|shade| (shade, sunshade)),
-        },
+            [keep_in.azimuth_rad, keep_in.elevation_rad],
+            (spacecraft, sunshade),
+        ),
         spacecraft: SunlitCraft {
             solar: context.setup.shapes.solar(sunshade, &spacecraft.name)?,
             panels: &spacecraft.panels,

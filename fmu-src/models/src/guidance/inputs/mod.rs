@@ -64,8 +64,7 @@ impl Fixed {
             ephemeris::check_onboard(carried, body, "start.epoch", epoch_s)?;
         }
         let ellipse = if source == EphemerisSource::Kepler {
-            let ellipse = &v.ephemeris.ellipse;
-            Some(ephemeris::kepler(ellipse, context.given(values, &ellipse.group()), body, epoch_s)?)
+            Some(ephemeris::kepler(v.ephemeris.ellipse.read(context, values, body), epoch_s)?)
         } else {
             None
         };
@@ -111,7 +110,7 @@ fn target(context: &Plan<'_>, values: &Values) -> (Body, TargetPlanet) {
 pub fn settle(context: &Plan<'_>, values: &mut Values) {
     let (v, ellipse) = (&context.variables.planet, &context.variables.ephemeris.ellipse);
     let (body, planet) = target(context, values);
-    let elements = ellipse.read(context.given(values, &ellipse.group()), body);
+    let elements = ellipse.read(context, values, body);
     ellipse.write(values, &elements);
     values.set_vector(v.radii, planet.radii_m.into());
     values.set_real(v.pole_right_ascension, planet.pole_right_ascension_rad);

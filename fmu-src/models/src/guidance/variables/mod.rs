@@ -10,7 +10,7 @@ pub mod outputs;
 pub mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
-use physics::guidance::pointing::scan::SCANS;
+use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;
 
 use super::setup::GuidanceSetup;
 use crate::common::variables::{GuidedVariables, SolarVariables, WorkLimit};
@@ -85,7 +85,7 @@ pub struct GuidanceVariables {
     pub limb: LimbVariables,
     #[group]
     pub scan: ScanVariables,
-    #[group(count = SCANS.len())]
+    #[group(count = DEFAULT_COMPATIBILITY.len())]
     pub scan_compatibility: Vec<ScanCompatibilityVariables>,
     #[group]
     pub sun: SunVariables,

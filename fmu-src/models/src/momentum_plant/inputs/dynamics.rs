@@ -1,50 +1,42 @@
-//! From parameters and inputs to the dynamics of body, wheels, sensors and controller; refuses what cannot be simulated, by name.
+//! From parameters to the dynamics of body, wheels, what swings, sensors and controller; refuses what cannot be simulated, by name.
 
-use fmi_export::{Failure, InputsOverTime, Real, RealVector, Values};
+use fmi_export::{Failure, Real, RealVector, Values};
 use nalgebra::Vector3;
 use physics::attitude::control::{
-    AccelerometerSettings, ControllerSettings, Gyro, SensorHealth, SensorSettings, StarTracker, SunSensor,
-    WheelAllocator,
+    AccelerometerSettings, ControllerSettings, Gyro, SensorSettings, StarTracker, SunSensor, WheelAllocator,
 };
-use physics::attitude::{Attitude, Gyrostat, ReactionWheel};
-use physics::guidance::modes::guidance_command::CommandKind as Kind;
-use physics::loads::ForceTorque;
+use physics::attitude::{
+    Appendages, Attitude, FlexibleMode, Gyrostat, ReactionWheel, RotorImbalance, SloshPendulum,
+};
 use physics::momentum::{Convention, WheelArray};
 use physics::plant::{
-    Command, Configuration, Control, DynamicsInputs, DynamicsSettings, IdealSettings, StartMotion,
-    ThrusterControl, Tracked, WheelControlSettings,
+    Configuration, Control, DynamicsSettings, IdealSettings, ModeSettings, StartMotion, ThrusterControl,
+    WheelControlSettings,
 };
-use physics::propulsion::PulseCommand;
 
-use super::{flexibility, propulsion};
-use crate::common::choices::CommandKind;
 use crate::momentum_plant::setup::Plan;
-use crate::momentum_plant::variables::choices::{AttitudeSource, CommandSource};
-
-/// Whether the attitude follows from dynamics.
-pub fn is_dynamic(context: &Plan<'_>, values: &Values) -> bool {
-    let source = values.choice(context.variables.attitude.source);
-    matches!(source, AttitudeSource::Controlled | AttitudeSource::Free)
-}
-
-/// Whether the orbit phase's own guidance gives the commands that are followed or tracked.
-pub fn guides_itself(context: &Plan<'_>, values: &Values) -> bool {
-    let variables = context.variables;
-    let from_guidance = matches!(values.choice(variables.command.source), CommandSource::Guidance);
-    match values.choice(variables.attitude.source) {
-        AttitudeSource::Guided => true,
-        AttitudeSource::Commanded | AttitudeSource::Controlled => from_guidance,
-        AttitudeSource::Free => false,
-    }
-}
+use crate::momentum_plant::variables::choices::AttitudeSource;
 
 /// Zero stands for none.
 fn or_none(value: f64) -> f64 {
     if value == 0.0 { f64::INFINITY } else { value }
 }
 
-/// What parameters say about dynamics and control.
+/// What parameters say of a flight in this mode.
 pub fn settings(
+    context: &Plan<'_>,
+    values: &Values,
+    configuration: &Configuration,
+    is_dynamic: bool,
+) -> Result<ModeSettings, Failure> {
+    Ok(match is_dynamic {
+        true => ModeSettings::Dynamic(dynamics_settings(context, values, configuration)?.into()),
+        false => ModeSettings::Ideal(ideal_settings(context, values)?),
+    })
+}
+
+/// What parameters say about dynamics and control.
+fn dynamics_settings(
     context: &Plan<'_>,
     values: &Values,
     configuration: &Configuration,
@@ -88,7 +80,7 @@ pub fn settings(
         }
     }
     let axes: Vec<_> = wheels.iter().map(|wheel| wheel.axis_body).collect();
-    let appendages = flexibility::appendages(context, values)?;
+    let appendages = appendages(context, values)?;
     let gyrostat = Gyrostat::new(configuration.inertia_body_kg_m2, wheels)
         .and_then(|rigid| {
             rigid.with_appendages(appendages, configuration.mass_kg, configuration.center_of_mass_body_m)
@@ -137,9 +129,9 @@ pub fn settings(
             drift_m_s2_sqrt_s: real(v.accelerometer.drift),
             seed,
         },
-        dump: configuration.momentum.policy,
         grid_s: real(v.solver.dynamics_step),
         panels_have_mass: context.setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some()),
+        start: start_motion(context, values, configuration.attitude.guided().is_some())?,
     })
 }
 
@@ -191,15 +183,8 @@ fn control(context: &Plan<'_>, values: &Values) -> Result<Control, Failure> {
 fn sun_sensors(context: &Plan<'_>, values: &Values) -> Result<Vec<SunSensor>, Failure> {
     let sensors = context.variables.sun_sensor.iter().enumerate();
     let sensors = sensors.map(|(index, sensor)| {
-        let found = values.vector(sensor.axis);
-        let axis_body = Vector3::from(found).try_normalize(0.0).ok_or_else(|| {
-            Failure::new(format!(
-                "sunSensor[{}].axis: found {found:?}, allowed: a vector of any length but zero",
-                index.saturating_add(1)
-            ))
-        })?;
         Ok(SunSensor {
-            axis_body,
+            axis_body: direction(values, sensor.axis, "sunSensor", index)?,
             half_field_of_view_rad: values.real(sensor.field_of_view),
             noise_rad: values.real(sensor.noise),
         })
@@ -207,8 +192,24 @@ fn sun_sensors(context: &Plan<'_>, values: &Values) -> Result<Vec<SunSensor>, Fa
     sensors.collect()
 }
 
+/// Unit vector along the axis of a device, body frame.
+fn direction(
+    values: &Values,
+    axis: RealVector<3>,
+    device: &str,
+    index: usize,
+) -> Result<Vector3<f64>, Failure> {
+    let found = values.vector(axis);
+    Vector3::from(found).try_normalize(0.0).ok_or_else(|| {
+        let number = index.saturating_add(1);
+        Failure::new(format!(
+            "{device}[{number}].axis: found {found:?}, allowed: a vector of any length but zero"
+        ))
+    })
+}
+
 /// Wheels and sensors of a flight that is followed ideally.
-pub fn ideal_settings(context: &Plan<'_>, values: &Values) -> Result<IdealSettings, Failure> {
+fn ideal_settings(context: &Plan<'_>, values: &Values) -> Result<IdealSettings, Failure> {
     let v = context.variables;
     Ok(IdealSettings {
         array: wheel_array(context, values),
@@ -216,6 +217,7 @@ pub fn ideal_settings(context: &Plan<'_>, values: &Values) -> Result<IdealSettin
         sun_sensors: sun_sensors(context, values)?,
         rate_hz: values.real(v.control.rate),
         seed: values.integer(v.noise.seed).unsigned_abs().into(),
+        start_momentum_body_n_m_s: Vector3::from(values.vector(v.start.momentum)),
     })
 }
 
@@ -226,67 +228,51 @@ pub fn wheel_array(context: &Plan<'_>, values: &Values) -> Option<WheelArray> {
     WheelArray::new(&axes.collect::<Option<Vec<_>>>()?)
 }
 
-/// What the inputs of a step say beside `command`, in this memory if there is any.
-pub fn step_inputs(
-    context: &Plan<'_>,
-    values: &Values,
-    command: Command,
-    memory: Option<DynamicsInputs>,
-) -> DynamicsInputs {
+/// Flexible modes, propellant and rotors out of balance.
+fn appendages(context: &Plan<'_>, values: &Values) -> Result<Appendages, Failure> {
     let v = context.variables;
-    let tracked = if guides_itself(context, values) {
-        Tracked::Guidance
-    } else if matches!(values.choice(v.command.kind), CommandKind(Kind::RateOnly)) {
-        Tracked::Rate(command.rate_body_rad_s)
-    } else {
-        Tracked::Attitude(command)
-    };
-    let thrust = propulsion::thrust_command(context, values);
-    // The spare takes over where the first star tracker has failed.
-    let health = SensorHealth {
-        star_tracker: !(values.boolean(v.star_tracker.failed) && values.boolean(v.star_tracker.spare_failed)),
-        gyro: !values.boolean(v.gyro.failed),
-    };
-    let mut inputs = memory.unwrap_or_else(|| DynamicsInputs::new(tracked, thrust, health));
-    (inputs.tracked, inputs.thrust, inputs.health) = (tracked, thrust, health);
-    inputs.refill(
-        v.wheel.iter().map(|it| (values.real(it.torque_command), values.boolean(it.failed))),
-        v.sun_sensor.iter().map(|it| values.boolean(it.failed)),
-        v.thruster
-            .iter()
-            .map(|it| PulseCommand { delay_s: values.real(it.on_delay), on_s: values.real(it.on_time) }),
-    );
-    inputs
+    let real = |handle: Real| values.real(handle);
+    let modes = v.flexible_mode.iter().map(|mode| FlexibleMode {
+        frequency_hz: real(mode.frequency),
+        damping: real(mode.damping),
+        coupling_body_sqrt_kg_m: Vector3::from(values.vector(mode.coupling)),
+    });
+    let sloshes = v.slosh.iter().enumerate().map(|(index, slosh)| {
+        Ok(SloshPendulum {
+            mass_kg: real(slosh.mass),
+            length_m: real(slosh.length),
+            pivot_body_m: Vector3::from(values.vector(slosh.pivot)),
+            axis_body: direction(values, slosh.axis, "slosh", index)?,
+            coast_frequency_hz: real(slosh.coast_frequency),
+            damping: real(slosh.damping),
+        })
+    });
+    let wheels = v.wheel.iter().enumerate().filter(|(_, wheel)| real(wheel.static_imbalance) > 0.0);
+    Ok(Appendages {
+        modes: modes.collect(),
+        sloshes: sloshes.collect::<Result<_, Failure>>()?,
+        imbalances: wheels
+            .map(|(index, wheel)| RotorImbalance {
+                wheel: index,
+                static_imbalance_kg_m: real(wheel.static_imbalance),
+                position_body_m: Vector3::from(values.vector(wheel.position)),
+            })
+            .collect(),
+    })
 }
 
-/// Force and torque from outside at a time, and how they change.
-pub fn external(
-    context: &Plan<'_>,
-    values: &Values,
-    inputs: InputsOverTime<'_>,
-    time_s: f64,
-) -> [ForceTorque; 2] {
-    let v = context.variables;
-    let value = |handle: RealVector<3>| Vector3::from(inputs.vector(values, handle, time_s));
-    let rate =
-        |handle: RealVector<3>| Vector3::from([0, 1, 2].map(|i| inputs.rate(handle.element(i), time_s)));
-    [
-        ForceTorque { force_body_n: value(v.force.applied), torque_body_n_m: value(v.torque.applied) },
-        ForceTorque { force_body_n: rate(v.force.applied), torque_body_n_m: rate(v.torque.applied) },
-    ]
-}
-
-/// What start.q and start.rate say of the motion at the start.
-pub fn start_motion(context: &Plan<'_>, values: &Values) -> Result<StartMotion, Failure> {
+/// What start.q, start.rate and wheel[k].startMomentum say of the motion at the start.
+fn start_motion(context: &Plan<'_>, values: &Values, guides_itself: bool) -> Result<StartMotion, Failure> {
     let start = &context.variables.start;
     let q = values.vector(start.q);
     let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
     let given = context.given(values, &[start.q.into(), start.rate.into()]);
-    let attitude_is_guided = guides_itself(context, values) && !given.has(start.q);
+    let attitude_is_guided = guides_itself && !given.has(start.q);
     Ok(StartMotion {
         attitude,
         rate_body_rad_s: Vector3::from(values.vector(start.rate)),
         attitude_is_guided,
         rate_is_guided: attitude_is_guided && !given.has(start.rate),
+        wheels_n_m_s: context.variables.wheel.iter().map(|it| values.real(it.start_momentum)).collect(),
     })
 }

@@ -1,118 +1,165 @@
-//! From parameters and inputs to the physics' configuration; refuses what cannot be simulated, by name.
+//! One reading of parameters and inputs into what the physics takes; refuses what cannot be simulated, by name.
 
-pub mod center;
-pub mod dynamics;
-mod flexibility;
-mod given;
+mod center;
+mod configuration;
+mod dynamics;
 pub mod propulsion;
+pub mod step_inputs;
 
-use fmi_export::{Elements, Failure, InputsOverTime, Real, Values};
-use nalgebra::Vector3;
-use physics::bodies::{Body, BodyData};
-use physics::constants;
-use physics::environment::CartesianState;
-use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
+use fmi_export::{Failure, InputsOverTime, Step, Values};
+use physics::attitude::Attitude;
+use physics::bodies::surface::PlanetSurface;
 use physics::environment::time;
-use physics::guidance::Guided;
-use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
-use physics::guidance::pointing::boresight::MdisRange;
+use physics::guidance::ChosenPlace;
 use physics::management::Manager;
-use physics::momentum::{DumpPolicy, Reinitialise, Settings};
 use physics::plant::{
-    self, Configuration, DynamicAttitude, Laws, Motion, PanelSetting, RadiationSettings, RadiationSolver,
-    Ramp,
+    Changes, Configuration, DownlinkForecast, External, Laws, ModeSettings, PlantError, PreparedSpacecraft,
+    RadiationSolver, ReactionControlSettings, StepContext, SunPlanner, Thrusters,
 };
-use physics::spacecraft::{PanelControl, SunshadeModel};
 
 use self::center::Center;
-use self::given::given_state;
-pub use self::given::{is_given, panels_move};
+use self::step_inputs::{AppliedLoad, StepInputs};
 use super::setup::Plan;
 use super::state::PlantState;
-use super::variables::PlantVariables;
-use super::variables::choices::{AttitudeSource, DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource};
+use super::variables::choices::EphemerisSource;
 use crate::common::effects::unused_map;
 use crate::common::ephemeris;
-use crate::common::management::{Limits, check_windows};
-use crate::common::spacecraft::inertia_body_kg_m2;
+pub use dynamics::wheel_array;
 
-/// The configuration that parameters, inputs and state describe, in the memory of `panels`; angles of panels move as the inputs do.
-pub fn configuration(
-    context: &Plan<'_>,
+/// What parameters and inputs say to one step, beside what [`PlantState::inputs`] hold.
+pub struct Reading<'a> {
+    /// What is another than at the last step; `None` where nothing was set.
+    pub changes: Option<Changes>,
+    /// Whether the flight begins, everything it needs being known.
+    pub begins: bool,
+    /// What flies, where that is another or not known yet.
+    pub configured: Option<Configured>,
+    /// Whether it is.
+    pub is_reconfigured: bool,
+    applied: AppliedLoad<'a>,
+    manager: Manager<'a>,
+    prepared: PreparedSpacecraft<'a>,
+    work_limit: u32,
+}
+
+/// What flies.
+pub struct Configured {
+    /// What follows from inputs and tunable parameters, among others.
+    pub configuration: Configuration,
+    /// Settings, where they follow from them too.
+    pub settings: Option<ModeSettings>,
+    /// What follows from other parameters alone, where it is not known yet.
+    pub fixed: Option<FixedParameters>,
+}
+
+/// What follows from parameters that stay.
+pub struct FixedParameters {
+    /// Effects in closed form.
+    pub laws: Laws,
+    /// Light and heat beyond direct sunlight.
+    pub light: Option<RadiationSolver>,
+    /// Thrusters and tanks.
+    pub thrusters: ReactionControlSettings,
+}
+
+impl Reading<'_> {
+    /// Force and torque from outside.
+    pub fn external(&self) -> impl Fn(f64) -> [physics::loads::ForceTorque; 2] + '_ {
+        |time_s| self.applied.at(time_s)
+    }
+
+    /// The choice of the Sun's place.
+    pub fn planner(
+        &self,
+    ) -> impl Fn(&mut DownlinkForecast<'_>) -> Result<Option<ChosenPlace>, PlantError> + '_ {
+        |forecast| self.manager.choose(forecast)
+    }
+
+    /// What the flight is given with the load from outside.
+    pub fn given<'r>(&'r self, external: &'r External<'r>, planner: &'r SunPlanner<'r>) -> StepContext<'r> {
+        StepContext { prepared: self.prepared, external, planner, work_limit: self.work_limit }
+    }
+}
+
+/// Reads what a step goes by; `state` takes over what is another than before.
+pub fn read<'a>(
+    context: &Plan<'a>,
     values: &Values,
-    state: &PlantState,
-    over_time: InputsOverTime<'_>,
-    mut panels: Vec<PanelSetting>,
-) -> Result<Configuration, Failure> {
+    state: &mut PlantState,
+    step: &Step<'a>,
+) -> Result<Reading<'a>, Failure> {
     let variables = context.variables;
-    let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
-    let center = Center::of(context, values);
-    let (body, data) = (center.body, center.data());
-    let switches = [variables.planet_light.enabled, variables.thermal.recoil.enabled];
-    let orbit = orbit(&center, variables, values, state, epoch_minus_time_s)?;
-    let limit_m = data.radius_m;
-    let lowest_m = orbit.elements().periapsis_distance_m();
-    let from_elements = !is_given(variables, values);
-    if from_elements && lowest_m <= limit_m {
-        return Err(Failure::new(format!(
-            "orbit.semiMajorAxis, orbit.eccentricity: the periapsis at {lowest_m:.0} m lies inside {}, whose \
-             planet.radius is {limit_m:.0} m",
-            data.name
-        )));
+    let mut changes = None;
+    if step.changed || !state.inputs.are_read {
+        state.inputs.update(context, values, step.inputs);
+        changes = Some(state.take_inputs(step.start_s)?).filter(|_| step.changed);
     }
-    let epoch_s = values.real(variables.start.epoch);
-    if !matches!(values.choice(variables.ephemeris.source), EphemerisSource::Inputs) {
-        ephemeris::check_start(epoch_s)?;
-    }
-    let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
-    panels.clear();
-    panels.extend(variables.panel.iter().map(|panel| {
-        if !values.boolean(panel.enabled) {
-            return PanelSetting::Disabled;
-        }
-        let ramp = |input: Real| Ramp {
-            angle_rad: values.real(input),
-            rate_rad_s: over_time.rate(input, over_time.start_s()),
-            since_s: over_time.start_s(),
-        };
-        let offset = |offset| PanelSetting::SunOffset { offset, tilt_sign: values.choice(panel.tilt).sign() };
-        match values.choice(panel.control).0 {
-            PanelControl::Angle => PanelSetting::Angle(ramp(panel.angle)),
-            PanelControl::SunOffset => offset(Ramp::held(values.real(panel.sun_offset))),
-            PanelControl::Command => offset(ramp(panel.sun_offset_command)),
-        }
-    }));
-    Ok(Configuration {
-        epoch_minus_time_s,
-        center: body,
-        attitude: attitude(context, values, state, body, &orbit)?,
-        orbit,
-        motion: motion(variables, values, &data, time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s)),
-        ephemeris: ephemeris_source(&center, context, values, state)?,
-        light: variables.solar.read(values),
-        shadow: variables.eclipse.read(values, data.radius_m, values.real(variables.sun.radius))?,
-        light_and_heat: RadiationSettings {
-            storage: values.boolean(variables.thermal.storage),
-            shadowing: values.boolean(variables.shadowing.enabled),
-            sun_disc: values.boolean(variables.shadowing.sun_disc),
-            grid_s: values.real(variables.solver.disturbance_step),
-            tolerance: values.real(variables.solver.disturbance_tolerance),
-        },
-        sunshade: values.choice(variables.sunshade.shape).0,
-        panels,
-        center_of_mass_body_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass)),
-        mass_kg: values.real(variables.spacecraft.mass),
-        inertia_body_kg_m2,
-        effects: variables.laws.active(values, switches),
-        momentum: settings(context, values),
+    let begins = state.waiting && state.inputs.unset_places.is_empty();
+    state.waiting &= !begins;
+    let sunshade = values.choice(variables.sunshade.shape).0;
+    let limits_rad = [variables.keep_in.azimuth, variables.keep_in.elevation].map(|limit| values.real(limit));
+    let (management, spacecraft) = (&variables.momentum.management, &context.setup.spacecraft);
+    let strategy = values.choice(management.strategy).0;
+    let configured = configured(context, values, state, step.inputs, (begins, changes))?;
+    Ok(Reading {
+        changes,
+        begins,
+        is_reconfigured: configured.is_some(),
+        configured,
+        applied: state.inputs.applied_load(variables, step.inputs),
+        manager: management.aim.manager(values, strategy, limits_rad, (spacecraft, sunshade)),
+        prepared: context.setup.prepared_spacecraft(sunshade)?,
+        work_limit: variables.solver.work.units(values),
     })
 }
 
-/// What effects in closed form go by, about the centre as it acts.
-pub fn laws(context: &Plan<'_>, values: &Values) -> Laws {
+/// What flies: anew where the flight begins, was restored or waits for inputs, changed where inputs or tunables say so.
+fn configured(
+    context: &Plan<'_>,
+    values: &Values,
+    state: &mut PlantState,
+    over_time: InputsOverTime<'_>,
+    (begins, changes): (bool, Option<Changes>),
+) -> Result<Option<Configured>, Failure> {
+    let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
+    let is_anew = begins || !state.flight.is_configured() || (state.waiting && changes.is_some());
+    let is_changed = changes.is_some_and(|it| !is_dynamic || it.orbit || it.light || it.tunables);
+    if !is_anew && !is_changed {
+        return Ok(None);
+    }
+    let center = Center::read(context, values);
+    let moving = (over_time, state.flight.take_panels());
+    let configuration = configuration::read(context, values, state, &center, moving)?;
+    let settings = if is_anew || is_dynamic {
+        Some(dynamics::settings(context, values, &configuration, is_dynamic)?)
+    } else {
+        None
+    };
     let gm = context.variables.planet.gravitational_parameter;
-    let gm_m3_s2 = Center::of(context, values).data().gm_m3_s2;
-    context.variables.laws.read(gm, |real| if real == gm { gm_m3_s2 } else { values.real(real) })
+    let about_center = |real| if real == gm { center.data.gm_m3_s2 } else { values.real(real) };
+    let fixed = if is_anew {
+        Some(FixedParameters {
+            laws: context.variables.laws.read(gm, about_center),
+            light: match state.waiting {
+                true => None,
+                false => light(context, values, &configuration, &center.surface)?,
+            },
+            thrusters: propulsion::reaction_control(context, values)?,
+        })
+    } else {
+        None
+    };
+    Ok(Some(Configured { configuration, settings, fixed }))
+}
+
+/// Reads what a flight begins with.
+pub fn start(context: &Plan<'_>, values: &Values, start_s: f64) -> Result<PlantState, Failure> {
+    let mut inputs = StepInputs::default();
+    inputs.update(context, values, InputsOverTime::held());
+    let q = values.vector(context.variables.start.q);
+    let attitude = Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))?;
+    let thrusters = Thrusters::new(propulsion::reaction_control(context, values)?, start_s);
+    PlantState::new(inputs, attitude, thrusters, start_s)
 }
 
 /// Warns of what is set, or stands in the file, and is without effect.
@@ -133,11 +180,10 @@ pub fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure>
 /// Writes the parameters that follow `orbit.center` as they act.
 pub fn settle(context: &Plan<'_>, values: &mut Values) {
     let ellipse = &context.variables.ephemeris.ellipse;
-    let center = Center::of(context, values);
-    let elements = ellipse.read(context.given(values, &ellipse.group()), center.body);
-    let settled = center.settled();
+    let center = Center::read(context, values);
+    let elements = ellipse.read(context, values, center.data.body);
     ellipse.write(values, &elements);
-    settled.write(context.variables, values);
+    center.write(context.variables, values);
 }
 
 /// Refuses a step that leaves the span of the onboard ephemerides it goes by.
@@ -154,21 +200,21 @@ pub fn check_span(
     };
     let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
     let end_epoch_s = time::epoch_at_s(end_s, epoch_minus_time_s);
-    let center = Center::of(context, values).body;
+    let center = values.choice(variables.orbit.center).0;
     ephemeris::check_onboard(carried, center, "the epoch at the end of the step", end_epoch_s)
 }
 
 /// What light and heat need beyond the configuration; `None` where direct sunlight is all there is.
-pub fn light(
+fn light(
     context: &Plan<'_>,
     values: &Values,
     configuration: &Configuration,
+    surface: &PlanetSurface,
 ) -> Result<Option<RadiationSolver>, Failure> {
     let variables = context.variables;
     if !configuration.has_light_and_heat() && variables.plate.is_empty() {
         return Ok(None);
     }
-    let surface = Center::of(context, values).surface();
     let nodes = usize::try_from(values.integer(variables.planet_light.nodes)).unwrap_or(0);
     let spacecraft = &context.setup.spacecraft;
     let requested = spacecraft.sunshade.as_ref().map_or(configuration.sunshade, |shade| shade.model);
@@ -177,194 +223,7 @@ pub fn light(
             "sunshade.shape: found another than the spacecraft file's, allowed: the file's, whose faces plate[k] are",
         ));
     }
-    RadiationSolver::new(spacecraft, configuration, &surface, nodes)
+    RadiationSolver::new(spacecraft, configuration, surface, nodes)
         .map(Some)
         .map_err(|error| Failure::new(format!("planet.*, planetLight.nodes, sunshade.shape: {error}")))
-}
-
-fn orbit(
-    center: &Center<'_>,
-    variables: &PlantVariables,
-    values: &Values,
-    state: &PlantState,
-    epoch_minus_time_s: f64,
-) -> Result<TwoBodyOrbit, Failure> {
-    let (orbit, data) = (&variables.orbit, center.data());
-    match values.choice(orbit.source) {
-        // Nothing is computed on it before position and velocity are set.
-        OrbitSource::Inputs | OrbitSource::Held if state.waiting => {
-            circle(1e10, data.gm_m3_s2, epoch_minus_time_s)
-        }
-        source @ (OrbitSource::Inputs | OrbitSource::Held) => {
-            let start = given_state(variables, values);
-            let epoch_s = time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s);
-            let found = TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_s);
-            if source == OrbitSource::Held && found.is_err() {
-                // It counts the downlinks alone.
-                return circle(start.position_m.norm(), data.gm_m3_s2, epoch_s);
-            }
-            found.map_err(|error| Failure::new(format!("orbit.position, orbit.velocity: {error}")))
-        }
-        OrbitSource::Elements => {
-            let epoch_s = values.real(variables.start.epoch);
-            plant::orbit_from_elements(center.elements(), center.frame(), &data, data.gm_m3_s2, epoch_s)
-                .map_err(|error| Failure::new(format!("orbit elements: {error}")))
-        }
-    }
-}
-
-fn circle(radius_m: f64, gm_m3_s2: f64, epoch_s: f64) -> Result<TwoBodyOrbit, Failure> {
-    TwoBodyOrbit::from_state(&CartesianState::on_circle(radius_m, gm_m3_s2), gm_m3_s2, epoch_s)
-        .map_err(|error| Failure::new(format!("planet.gravitationalParameter, orbit.position: {error}")))
-}
-
-fn motion(variables: &PlantVariables, values: &Values, center: &BodyData, given_epoch_s: f64) -> Motion {
-    let orbit = &variables.orbit;
-    if matches!(values.choice(orbit.source), OrbitSource::Held) {
-        return Motion::Held { state: given_state(variables, values), since_epoch_s: given_epoch_s };
-    }
-    if !matches!(values.choice(orbit.dynamics), OrbitDynamics::Disturbed) {
-        return Motion::TwoBody;
-    }
-    let flattening = Flattening::of(center);
-    let tide = center.body.is_planet() && values.boolean(orbit.sun_tide);
-    let gravity = Gravity {
-        mu_m3_s2: center.gm_m3_s2,
-        flattening: (flattening.j2 != 0.0).then_some(flattening),
-        tide_mu_m3_s2: tide.then_some(constants::GM_SUN_M3_S2),
-    };
-    let feedback = values.boolean(orbit.radiation_feedback);
-    Motion::Disturbed {
-        gravity,
-        segment_length_s: values.real(orbit.step),
-        radius_m: center.radius_m,
-        feedback,
-    }
-}
-
-fn ephemeris_source(
-    center: &Center<'_>,
-    context: &Plan<'_>,
-    values: &Values,
-    state: &PlantState,
-) -> Result<plant::EphemerisSource, Failure> {
-    let variables = context.variables;
-    let epoch_s = values.real(variables.start.epoch);
-    Ok(match values.choice(variables.ephemeris.source) {
-        EphemerisSource::Inputs => {
-            let sun_m = Vector3::from(values.vector(variables.sun.position));
-            let at_the_planet = center.body.is_planet() && sun_m == Vector3::from([0.0; 3]);
-            if at_the_planet && !state.waiting {
-                return Err(Failure::new(
-                    "sun.position is not set: found (0, 0, 0) m, allowed: the Sun's position from the orbit's centre, which \
-                     ephemeris.source = inputs asks for",
-                ));
-            }
-            let given = |position, velocity| CartesianState {
-                position_m: Vector3::from(values.vector(position)),
-                velocity_m_s: Vector3::from(values.vector(velocity)),
-            };
-            plant::EphemerisSource::Given {
-                sun: given(variables.sun.position, variables.sun.velocity),
-                earth: given(variables.earth.position, variables.earth.velocity),
-            }
-        }
-        EphemerisSource::Kepler => {
-            let ellipse = &variables.ephemeris.ellipse;
-            let given = context.given(values, &ellipse.group());
-            plant::EphemerisSource::Kepler(ephemeris::kepler(ellipse, given, center.body, epoch_s)?)
-        }
-        EphemerisSource::Chebyshev => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
-            Some(carried) => {
-                ephemeris::check_onboard(carried, center.body, "start.epoch", epoch_s)?;
-                plant::EphemerisSource::Simulated(carried.clone())
-            }
-            None => plant::EphemerisSource::Vsop87,
-        },
-        EphemerisSource::Vsop87 => plant::EphemerisSource::Vsop87,
-    })
-}
-
-fn attitude(
-    context: &Plan<'_>,
-    values: &Values,
-    state: &PlantState,
-    center: Body,
-    orbit: &TwoBodyOrbit,
-) -> Result<plant::AttitudeSource, Failure> {
-    let variables = context.variables;
-    let guided = || {
-        let period_s = if center.is_planet() { orbit.period_s() } else { f64::INFINITY };
-        let keep_in = KeepIn {
-            axis_body: Vector3::new(0.0, -1.0, 0.0),
-            azimuth_rad: values.real(variables.keep_in.azimuth),
-            elevation_rad: values.real(variables.keep_in.elevation),
-            method: KeepInMethod::Nearest,
-        };
-        let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
-        let camera = MdisRange::default();
-        let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, camera)?;
-        let management = &variables.momentum.management;
-        let (managed, choice) = (management.manages(values), state.flight.sun_choice());
-        variables.guided.check_unload(values, managed)?;
-        if managed && !state.waiting {
-            check_windows(&law.schedule)?;
-        }
-        let law = law.with_sun_places(choice.place(), choice.in_science());
-        Ok::<_, Failure>(Guided { managed, ..law })
-    };
-    let guides_itself = dynamics::guides_itself(context, values);
-    if dynamics::is_dynamic(context, values) {
-        let guided = if guides_itself { Some(guided()?) } else { None };
-        let (motion, rate_terms_body) = (state.command, [Vector3::from([0.0; 3]); 2]);
-        return Ok(plant::AttitudeSource::Dynamic(DynamicAttitude { motion, rate_terms_body, guided }));
-    }
-    if guides_itself {
-        guided().map(plant::AttitudeSource::Guided)
-    } else {
-        Ok(plant::AttitudeSource::Commanded(state.command))
-    }
-}
-
-/// Who chooses the Sun's place during downlinks.
-pub fn manager<'s>(context: &Plan<'s>, values: &Values, sunshade: SunshadeModel) -> Manager<'s> {
-    let variables = context.variables;
-    let limits = Limits { azimuth: variables.keep_in.azimuth, elevation: variables.keep_in.elevation };
-    let spacecraft = &context.setup.spacecraft;
-    variables.momentum.management.manager(values, limits, spacecraft, sunshade)
-}
-
-/// Whether no dump begins by itself: in free flight, where the master controls, unless thresholds are set.
-pub fn is_left_to_master(context: &Plan<'_>, values: &Values) -> bool {
-    let variables = context.variables;
-    let is_free = matches!(values.choice(variables.attitude.source), AttitudeSource::Free);
-    let dump = &variables.dump;
-    let others = [dump.reinit_fraction, dump.required_spacing, dump.torque, dump.pulse_period];
-    let [a, b, c, d] = others.map(Elements::from);
-    let given = context.given(values, &[dump.threshold.into(), a, b, c, d]);
-    is_free && !given.has(dump.threshold)
-}
-
-fn settings(context: &Plan<'_>, values: &Values) -> Settings {
-    let variables = context.variables;
-    let dump = &variables.dump;
-    Settings {
-        grid_s: values.real(variables.solver.step),
-        tolerance: values.real(variables.solver.tolerance),
-        convention: values.choice(variables.momentum.convention).0,
-        policy: DumpPolicy {
-            threshold_body_n_m_s: match is_left_to_master(context, values) {
-                true => Vector3::repeat(f64::INFINITY),
-                false => Vector3::from(values.vector(dump.threshold)),
-            },
-            reinitialise: match values.choice(dump.reinit_to) {
-                DumpReinitTo::Target => {
-                    Reinitialise::Target { momentum_body_n_m_s: Vector3::from(values.vector(dump.target)) }
-                }
-                DumpReinitTo::Opposite => {
-                    Reinitialise::Opposite { fraction: values.real(dump.reinit_fraction) }
-                }
-            },
-        },
-    }
 }

@@ -1,8 +1,7 @@
 //! From parameters and inputs to thrusters, tanks and delta-v; refuses what cannot be simulated, by name.
 
 use fmi_export::{Failure, Step, Values};
-use nalgebra::Vector3;
-use physics::plant::{DynamicsInputs, ReactionControlSettings, ThrustCommand, Thrusters};
+use physics::plant::{Configuration, DynamicsInputs, Flight, ReactionControlSettings, Report};
 use physics::propulsion::{PulseCommand, ThrustErrors};
 use physics::spacecraft::{Tank, Thruster, ValveTiming};
 
@@ -53,9 +52,10 @@ pub fn reaction_control(context: &Plan<'_>, values: &Values) -> Result<ReactionC
 }
 
 /// Refuses tanks that hold more than there is.
-pub fn check(settings: &ReactionControlSettings, mass_kg: f64) -> Result<(), Failure> {
-    let held_kg: f64 = settings.tanks.iter().map(|tank| tank.propellant_kg).sum();
-    if held_kg >= mass_kg {
+pub fn check(flight: &Flight) -> Result<(), Failure> {
+    let Some(Configuration { mass_kg, .. }) = flight.configuration() else { return Ok(()) };
+    let held_kg: f64 = flight.thrusters.settings.tanks.iter().map(|tank| tank.propellant_kg).sum();
+    if held_kg >= *mass_kg {
         return Err(Failure::new(format!(
             "tank[k].propellant: found {held_kg:?} kg in all tanks, allowed: less than spacecraft.mass = {mass_kg:?} kg, of which \
              it is a part"
@@ -64,36 +64,19 @@ pub fn check(settings: &ReactionControlSettings, mass_kg: f64) -> Result<(), Fai
     Ok(())
 }
 
-/// Says once that a dump found no thrusters, `before` dumps having done so already.
-pub fn warn_unserved(
-    context: &Plan<'_>,
-    values: &Values,
-    thrusters: &Thrusters,
-    said: &mut ThrusterWarnings,
-    before: u32,
-) {
-    let center_of_mass_body_m = Vector3::from(values.vector(context.variables.center_of_mass));
-    if said.unserved || before == thrusters.unserved_dumps() {
+/// Says once that a dump found no thrusters.
+pub fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, said: &mut ThrusterWarnings) {
+    if said.unserved || report.thrusters.unserved_dumps() == 0 {
         return;
     }
-    if let Err(error) = thrusters.settings.dump_selection(&center_of_mass_body_m) {
+    let center_of_mass_body_m = report.evaluation.mass.center_of_mass_body_m;
+    if let Err(error) = report.thrusters.settings.dump_selection(&center_of_mass_body_m) {
         said.unserved = true;
         context.log.warning(&format!(
             "dump.count: {error} (centerOfMass = {:?} m); dumps are as those of a file without [[thrusters]]: at once in guided \
              and commanded flight, by dump.torque in controlled and free flight, without propellant",
             center_of_mass_body_m.as_slice()
         ));
-    }
-}
-
-/// The delta-v commanded.
-pub fn thrust_command(context: &Plan<'_>, values: &Values) -> ThrustCommand {
-    let thrust = &context.variables.thrust;
-    let set = values.choice(thrust.request).0;
-    let stop_s = values.real(thrust.stop);
-    ThrustCommand {
-        set: set.filter(|_| values.boolean(thrust.command)),
-        stop_s: if stop_s < 0.0 { f64::INFINITY } else { stop_s },
     }
 }
 

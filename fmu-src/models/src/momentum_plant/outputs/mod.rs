@@ -2,6 +2,4 @@
 
 mod write;
 
-pub use write::{
-    derivative, failure, flyable, log_dump, write, write_calculated, write_guaranteed, write_plates,
-};
+pub use write::{derivative, failure, flyable, log_dump, write, write_faces, write_guaranteed};

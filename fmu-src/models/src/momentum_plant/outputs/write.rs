@@ -6,17 +6,20 @@ use physics::attitude::{Attitude, SunAngles};
 use physics::environment::time;
 use physics::loads::Effect;
 use physics::momentum::DumpEvent;
-use physics::plant::{Configuration, Cost, Evaluation, Flight, PlantError, Report};
+use physics::plant::{Configuration, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report};
 use physics::propulsion::hits_a_surface;
 use physics::radiation::{TorquePolynomial, polynomial_valid};
 
-use super::super::inputs::dynamics;
+use super::super::inputs::wheel_array;
 use super::super::setup::Plan;
 use super::super::state::PlantState;
 use crate::common::loads;
 
-/// Writes every output but those of single faces.
-pub fn write(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
+/// Writes every output but those of single faces, and what follows from parameters where these are others.
+pub fn write(context: &Plan<'_>, values: &mut Values, report: &Report<'_>, is_reconfigured: bool) {
+    if is_reconfigured {
+        write_polynomial(context, values, report.configuration);
+    }
     write_motion(context, values, report);
     write_momentum(context, values, report);
     write_sensors(context, values, report);
@@ -172,18 +175,16 @@ fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>)
 }
 
 /// Writes the faces that are reported one by one; those of panels that are left out stay 0, and all while the flight waits.
-pub fn write_plates(
+pub fn write_faces(
     context: &Plan<'_>,
     values: &mut Values,
     flight: &mut Flight,
-    time_s: f64,
+    (prepared, time_s): (PreparedSpacecraft<'_>, f64),
 ) -> Result<(), Failure> {
     let v = context.variables;
     if v.plate.is_empty() || flight.is_waiting() {
         return Ok(());
     }
-    let shape = values.choice(v.sunshade.shape).0;
-    let prepared = context.setup.prepared_spacecraft(shape)?;
     let mut faces = v.plate.iter().zip(&context.setup.reported_faces);
     let write = |temperature_k, force_body_n: Vector3<f64>| {
         let is_there = |panel: usize| v.panel.get(panel).is_none_or(|it| values.boolean(it.enabled));
@@ -195,20 +196,19 @@ pub fn write_plates(
     flight.faces(prepared, time_s, write).map_err(failure)
 }
 
-/// Writes what follows from parameters alone.
-pub fn write_calculated(context: &Plan<'_>, values: &mut Values, configuration: &Configuration) {
-    let variables = context.variables;
+/// Writes the polynomial of the shade's torque.
+fn write_polynomial(context: &Plan<'_>, values: &mut Values, configuration: &Configuration) {
     let polynomial = context.setup.spacecraft.sunshade.as_ref().and_then(|shade| {
         let center_of_mass_body_m = &configuration.center_of_mass_body_m;
         TorquePolynomial::of_sunshade(shade, configuration.sunshade, center_of_mass_body_m).ok()
     });
-    values.set_matrix(variables.sunshade.coefficient, polynomial.map_or([[0.0; 9]; 3], |p| p.k));
+    values.set_matrix(context.variables.sunshade.coefficient, polynomial.map_or([[0.0; 9]; 3], |p| p.k));
 }
 
-/// Writes what dump thresholds the wheels guarantee.
+/// Writes what dump thresholds the wheels guarantee, which follows from parameters alone.
 pub fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
     let capacities_n_m_s = context.variables.wheel.iter().map(|wheel| values.real(wheel.capacity));
-    let array = dynamics::wheel_array(context, values);
+    let array = wheel_array(context, values);
     let guaranteed_n_m_s = array.map_or(0.0, |it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
     values.set_real(context.variables.dump.guaranteed_threshold, guaranteed_n_m_s);
 }

@@ -45,6 +45,13 @@ pub enum OrbitSource {
     Held = 3,
 }
 
+impl OrbitSource {
+    /// Whether position and velocity are inputs.
+    pub fn is_given(self) -> bool {
+        matches!(self, Self::Inputs | Self::Held)
+    }
+}
+
 /// What moves the spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 pub enum OrbitDynamics {

@@ -26,10 +26,10 @@ use physics::spin::spinner::Spinner;
 pub struct SpinVariables {
     /// Moments of inertia about the body axes through the centre of mass, the principal ones where productsOfInertia is 0. The
     /// principal axis nearest to the third is the spin axis.
-    #[parameter(unit = "kg.m2", min = 1e-9, max = 1e12, start = initial_inertia(setup))]
+    #[parameter(unit = "kg.m2", min = 1e-9, max = 1e12, start = setup.mass_properties.moments_kg_m2(setup.mass_properties.initial_propellant_kg))]
     pub inertia: RealVector<3>,
     /// Products of inertia 12, 13, 23 about the body axes: elements of the inertia tensor, -integral of x_i x_j dm.
-    #[parameter(unit = "kg.m2", min = -1e12, max = 1e12, start = initial_products(setup))]
+    #[parameter(unit = "kg.m2", min = -1e12, max = 1e12, start = setup.mass_properties.products_kg_m2(setup.mass_properties.initial_propellant_kg))]
     pub products_of_inertia: RealVector<3>,
     /// I3/IT with IT = sqrt(I1 I2) of the principal moments, paper 002 eq 11.
     #[output(unit = "1", nominal = 1.0)]
@@ -92,16 +92,4 @@ pub struct SpinVariables {
     pub seed: Integer,
     #[group]
     pub solver: WorkLimit,
-}
-
-/// The moments in force at the start: the setup's table at the initial propellant.
-fn initial_inertia(setup: &Spinner) -> [f64; 3] {
-    let mass = &setup.mass_properties;
-    mass.moments_kg_m2(mass.initial_propellant_kg)
-}
-
-/// The products in force at the start.
-fn initial_products(setup: &Spinner) -> [f64; 3] {
-    let mass = &setup.mass_properties;
-    mass.products_kg_m2(mass.initial_propellant_kg)
 }

@@ -8,7 +8,7 @@ use fmi_export::model_description::{Description, Unknown};
 use fmi_export::{Context, Declare, InputsOverTime, Model, Step, Values, Variables};
 
 use super::super::named_model::{Tables, with_file_starts};
-use super::random::RandomNumbers;
+use super::super::random::RandomNumbers;
 use super::variable::{Base, Variable, natural, variables};
 
 /// Lengths of the two steps, in s: what falls by ten from the first to the second acts through a state.

@@ -3,8 +3,8 @@
 use fmi_export::Model;
 
 use super::super::named_model::Tables;
+use super::super::random::RandomNumbers;
 use super::bench::Bench;
-use super::random::RandomNumbers;
 use super::variable::Base;
 
 /// How a variable is drawn.

@@ -4,6 +4,4 @@
 mod bench;
 mod draw;
 mod models;
-pub mod random;
-pub mod spacecraft;
 mod variable;

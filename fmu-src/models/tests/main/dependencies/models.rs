@@ -4,13 +4,13 @@ use fmi_export::Model;
 use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 
 use super::super::named_model::Tables;
+use super::super::spacecraft::{ALL, RADIATING};
 use super::bench::Bench;
 use super::draw::Draw::{Between, Flag, Rotation, Vector, Whole};
 use super::draw::{Kept, Row, draw, redraw};
-use super::spacecraft::{ALL, RADIATING};
 
 /// In a long search there are so many times as many states.
-const LONG: usize = 40;
+const LONG: usize = 80;
 
 /// Forces and torques are fitted so closely that nothing is left of what lies ahead.
 const CLOSE: &[Row] = &[
@@ -257,17 +257,17 @@ macro_rules! searches {
 }
 
 searches! {
-    momentum_plant, momentum_plant_long, 16: plant(MomentumPlant::DEFAULT_SETUP);
-    momentum_plant_per_plate, momentum_plant_per_plate_long, 12: plant(RADIATING);
-    momentum_plant_with_everything, momentum_plant_with_everything_long, 12: plant(ALL);
-    momentum_plant_with_thrusters, momentum_plant_with_thrusters_long, 16: plant(FULL);
-    momentum_plant_controlled, momentum_plant_controlled_long, 12: plant(&controlled());
-    disturbance_torque, disturbance_torque_long, 16:
+    momentum_plant, momentum_plant_long, 8: plant(MomentumPlant::DEFAULT_SETUP);
+    momentum_plant_per_plate, momentum_plant_per_plate_long, 6: plant(RADIATING);
+    momentum_plant_with_everything, momentum_plant_with_everything_long, 6: plant(ALL);
+    momentum_plant_with_thrusters, momentum_plant_with_thrusters_long, 8: plant(FULL);
+    momentum_plant_controlled, momentum_plant_controlled_long, 6: plant(&controlled());
+    disturbance_torque, disturbance_torque_long, 8:
         Search::<DisturbanceTorque>::new(DisturbanceTorque::DEFAULT_SETUP, DISTURBANCE);
-    disturbance_torque_per_plate, disturbance_torque_per_plate_long, 16:
+    disturbance_torque_per_plate, disturbance_torque_per_plate_long, 8:
         Search::<DisturbanceTorque>::new(RADIATING, DISTURBANCE);
-    disturbance_torque_with_everything, disturbance_torque_with_everything_long, 16:
+    disturbance_torque_with_everything, disturbance_torque_with_everything_long, 8:
         Search::<DisturbanceTorque>::new(ALL, DISTURBANCE);
-    spin_plant, spin_plant_long, 50: Search::<SpinPlant>::new(SpinPlant::DEFAULT_SETUP, SPIN);
-    guidance_shipped, guidance_shipped_long, 50: guidance();
+    spin_plant, spin_plant_long, 25: Search::<SpinPlant>::new(SpinPlant::DEFAULT_SETUP, SPIN);
+    guidance_shipped, guidance_shipped_long, 25: guidance();
 }

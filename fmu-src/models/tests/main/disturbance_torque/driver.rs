@@ -9,38 +9,13 @@ use fmi_export::{Entry, Library, Status};
 use model_description::Causality;
 use models::DisturbanceTorque;
 
+use super::super::random::RandomNumbers;
+use super::super::spacecraft::RADIATING;
+
 pub static LIBRARY: Library = Library { entries: &[Entry::of::<DisturbanceTorque>()] };
 
-/// A spacecraft whose panel is shadowed by a shade at many directions of the Sun, with skew axes everywhere.
+/// What the spacecraft with shadows starts with.
 const SHADOWED: &str = r#"
-name = "Shadowed"
-per_plate_outputs = true
-[mass_properties]
-mass_kg = 100
-center_of_mass_m = [0.1, 0.05, -0.2]
-inertia_kg_m2 = [[10, 0.5, -0.2], [0.5, 12, 0.3], [-0.2, 0.3, 15]]
-[optics.white]
-specular = 0.2
-diffuse = 0.5
-emissivity = 0.8
-infrared_absorptivity = 0.7
-[[plates]]
-polygon_m = [[-0.5, -1.2, -0.4], [0.6, -1.2, -0.4], [0.5, -1.2, 0.6], [-0.4, -1.2, 0.5]]
-normal = [0.0, -1.0, 0.0]
-optics = "white"
-rear_optics = "white"
-[[plates]]
-polygon_m = [[-1.0, 0.3, -1.0], [1.0, 0.0, -1.0], [1.0, 0.0, 1.0], [-1.0, 0.3, 1.0]]
-normal = [-0.1483404, -0.9889364, 0.0]
-optics = "white"
-[[panels]]
-polygon_m = [[0.2, -0.2, -1.0], [1.6, -0.2, -1.0], [1.6, -0.2, 1.0], [0.2, -0.2, 1.0]]
-axis = [1.0, 0.0, 0.0]
-zero_normal = [0.0, -1.0, 0.0]
-optics = "white"
-rear_optics = "white"
-control = "angle"
-thermal.conduction = { conductance_w_m2_k = 10.0, radiative_exchange = 0.1 }
 [start]
 "planetLight.enabled" = true
 "thermal.enabled" = true
@@ -82,7 +57,7 @@ impl Disturbance {
 
     /// The spacecraft with shadows.
     pub fn shadowed() -> Self {
-        Self::of("shadowed", SHADOWED)
+        Self::of("shadowed", &format!("{RADIATING}{SHADOWED}"))
     }
 
     /// The spacecraft of a TOML text, in a folder of its own.
@@ -150,21 +125,7 @@ impl Disturbance {
     }
 }
 
-/// Numbers in [0, 1) that are the same every time.
-pub struct RandomNumbers(pub u64);
-
 impl RandomNumbers {
-    pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn direction(&mut self) -> [f64; 3] {
-        let (azimuth, z) = (core::f64::consts::TAU * self.next(), 2.0 * self.next() - 1.0);
-        let rho = (1.0 - z * z).sqrt();
-        [rho * azimuth.cos(), rho * azimuth.sin(), z]
-    }
-
     /// Sun, planet, centre of mass, angles, in the order of the inputs' names.
     pub fn inputs(&mut self, fmu: &Disturbance, in_shadow: bool) -> (Vec<u32>, Vec<f64>) {
         let sun = self.direction();

@@ -5,7 +5,8 @@ use fmi_export::{Model, Status};
 use model_description::{Causality, validate};
 use models::DisturbanceTorque;
 
-use super::driver::{Disturbance, RandomNumbers};
+use super::super::random::RandomNumbers;
+use super::driver::Disturbance;
 
 #[test]
 fn the_description_is_valid_and_structured() {
@@ -18,10 +19,10 @@ fn the_description_is_valid_and_structured() {
     let has = |name| fmu.find(name).is_some();
     assert!(has("panel[2].angle") && !has("panel[3].angle"));
     assert!(!has("plate[1].temperature"));
-    // Two plates, one with a rear, and a panel with both.
+    // Three plates and two panels, two of them with rears.
     let fmu = Disturbance::shadowed();
     let has = |name| fmu.find(name).is_some();
-    assert!(has("plate[5].force[3]") && !has("plate[6].temperature"));
+    assert!(has("plate[7].force[3]") && !has("plate[8].temperature"));
 }
 
 /// Straight into the Sun with the planet far away: the shade's front half and the panels by hand.
@@ -112,6 +113,29 @@ fn impossible_geometries_are_refused_by_name() {
     let inertia = refusal(|fmu| fmu.put("spacecraft.inertia[1,2]", 900.0));
     for word in ["spacecraft.inertia is [[", "900.0", "allowed: a symmetric matrix"] {
         assert!(inertia.contains(word), "{inertia}");
+    }
+}
+
+#[test]
+fn an_impossible_place_fails_the_step_by_name_and_reset_forgets_it() {
+    let whole = |fmu: &mut Disturbance| {
+        fmu.start();
+        assert_eq!(fmu.step(), Status::Ok);
+        fmu.vector("torque.total")
+    };
+    let mut fmu = Disturbance::messenger();
+    let before = whole(&mut fmu);
+    for (name, place, why) in [
+        ("planet.positionBody", [1e6, -1e6, 0.0], "radius"),
+        ("planet.positionBody", [0.0, 0.0, 1.0], "radius"),
+        ("sun.positionBody", [2e6, 3e6, 9e6], "Sun"),
+    ] {
+        fmu.put_vector(name, place);
+        assert_eq!(fmu.step(), Status::Error);
+        let text: String = fmu.fmu.take_messages().into_iter().map(|Message { text, .. }| text).collect();
+        assert!(text.contains(name) && text.contains(why), "{text}");
+        assert_eq!(fmu.fmu.reset(), Status::Ok);
+        assert_eq!(whole(&mut fmu), before);
     }
 }
 

@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use model_description::Causality;
 use model_description::Status;
 
-use super::driver::{Disturbance, RandomNumbers};
+use super::super::random::RandomNumbers;
+use super::driver::Disturbance;
 
 /// Slopes of every output along every input, against central differences over many geometries.
 fn check_slopes(mut fmu: Disturbance, seed: u64, in_shadow: bool) {

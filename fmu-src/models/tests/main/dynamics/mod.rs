@@ -5,14 +5,13 @@ mod control;
 mod flexibility;
 mod momentum;
 mod panel_momentum;
-mod panels;
 mod refusals;
 mod sensors;
 mod spin_light;
 mod thrusters;
 
 use models::MomentumPlant;
-use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::named_model::{NamedInstance, NamedModel};
 
@@ -32,8 +31,7 @@ fn with<'a>(parts: &[Start<'a>]) -> Vec<(&'a str, f64)> {
 
 /// Body to inertial, from the output quaternion.
 fn to_inertial(flight: &Flight<'_>) -> UnitQuaternion<f64> {
-    let q = [1, 2, 3, 4].map(|i| flight.real(&format!("attitude.q[{i}]")));
-    UnitQuaternion::from_quaternion(Quaternion::new(q[3], q[0], q[1], q[2]))
+    flight.to_inertial("attitude.q")
 }
 
 fn inertia() -> Matrix3<f64> {
@@ -45,18 +43,18 @@ fn axes(flight: &Flight<'_>) -> Vec<Vector3<f64>> {
     (1..=4).map(|k| flight.vector(&format!("wheel[{k}].axis")).normalize()).collect()
 }
 
+fn held_momentum(flight: &Flight<'_>) -> Vector3<f64> {
+    let wheels = (1..).zip(axes(flight));
+    wheels.map(|(k, axis)| axis * flight.real(&format!("wheel[{k}].momentum"))).sum()
+}
+
 /// C(q) transposed applied to J w + sum of h a, from the outputs.
 fn formed_momentum(flight: &Flight<'_>) -> Vector3<f64> {
-    let wheels = axes(flight).into_iter().enumerate();
-    let held: Vector3<f64> =
-        wheels.map(|(k, axis)| axis * flight.real(&format!("wheel[{}].momentum", k + 1))).sum();
-    to_inertial(flight) * (inertia() * flight.vector("attitude.rate") + held)
+    to_inertial(flight) * (inertia() * flight.vector("attitude.rate") + held_momentum(flight))
 }
 
 fn set_quaternion(flight: &mut Flight<'_>, name: &str, attitude: &UnitQuaternion<f64>) {
-    for (i, value) in attitude.coords.iter().enumerate() {
-        flight.set(&format!("{name}[{}]", i + 1), *value);
-    }
+    flight.set_elements(name, attitude.coords.iter());
 }
 
 fn fly<'a>(named: &'a NamedModel<MomentumPlant>, parts: &[Start<'_>]) -> Flight<'a> {

@@ -4,8 +4,8 @@
 use models::MomentumPlant;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::super::named_model::{NamedModel, assert_same};
-use super::{DARK, FREE, Flight, Start, fly, to_inertial};
+use super::super::named_model::{NamedModel, assert_cuts_change_nothing};
+use super::{DARK, FREE, Flight, Start, fly, held_momentum, to_inertial};
 
 const MASS_KG: f64 = 700.0;
 const LOCKED: Start<'_> =
@@ -68,8 +68,8 @@ impl Spacecraft {
         Self { panels: [(right, hinge), (left, -hinge)], rest: (inertia, moment) }
     }
 
-    /// Inertia about the centre of mass, and momentum by unit rate of each panel.
-    fn at(&self, angles: [f64; 2]) -> (Matrix3<f64>, [Vector3<f64>; 2]) {
+    /// Centre of mass, inertia about it, and momentum by unit rate of each panel.
+    fn at(&self, angles: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>, [Vector3<f64>; 2]) {
         let turned: Vec<Points> = (self.panels.iter().zip(angles))
             .map(|((points, hinge), angle)| {
                 let turn = Rotation3::new(Vector3::x() * angle);
@@ -88,7 +88,7 @@ impl Spacecraft {
             let each = turned[k].iter();
             each.map(|(mass, at)| (at - center).cross(&Vector3::x().cross(&(at - hinge))) * *mass).sum()
         });
-        (inertia + skew * skew * MASS_KG, momenta)
+        (center, inertia + skew * skew * MASS_KG, momenta)
     }
 
     /// Rate of the body and of the panels that stand at `law(time, attitude)`.
@@ -107,7 +107,7 @@ impl Spacecraft {
                 |sign: f64| attitude * UnitQuaternion::from_scaled_axis(Vector3::ith(i, sign * step));
             difference(law(time_s, &turned(1.0)), law(time_s, &turned(-1.0)), 2.0 * step)
         });
-        let (inertia, momenta) = self.at(law(time_s, attitude));
+        let (_, inertia, momenta) = self.at(law(time_s, attitude));
         let mut matrix = inertia;
         let mut rest = attitude.inverse() * momentum;
         for k in 0..2 {
@@ -193,7 +193,7 @@ fn a_pair_of_panels_turns_the_body_back() {
 
 /// J w + h from outputs, the panels at these angles and rates.
 fn formed(flight: &Flight<'_>, spacecraft: &Spacecraft, angles: [f64; 2], rates: [f64; 2]) -> Vector3<f64> {
-    let (inertia, momenta) = spacecraft.at(angles);
+    let (_, inertia, momenta) = spacecraft.at(angles);
     let panels = momenta[0] * rates[0] + momenta[1] * rates[1];
     to_inertial(flight) * (inertia * flight.vector("attitude.rate") + panels)
 }
@@ -232,11 +232,17 @@ fn a_tumbling_body_gives_way_to_panels_that_move_evenly_and_at_once() {
         worst_deg = worst_deg.max(degrees_between(&to_inertial(&flight), &attitude));
         worst_momentum = worst_momentum.max((formed(&flight, &spacecraft, angles, rates) - momentum).norm());
         assert_eq!(flight.vector("momentum.inertial"), momentum);
+        assert!((flight.vector("centerOfMass") - spacecraft.at(angles).0).norm() < 1e-12);
         now_s = until_s;
     }
     println!("{worst_deg:.1e} deg, {:.1e} of the momentum", worst_momentum / momentum.norm());
     assert!(worst_deg < 1e-5, "{worst_deg:e}");
     assert!(worst_momentum < 1e-12 * momentum.norm(), "{worst_momentum:e}");
+    // Begun at an angle, the rate is the one requested.
+    let turned = fly(&named, &[FREE, DARK, LOCKED, BY_ANGLE, TUMBLING, &[("panel[1].angle", 0.9)]]);
+    assert!((turned.vector("attitude.rate") - Vector3::new(4e-3, -7e-3, 5e-3)).norm() < 1e-17);
+    let begun = formed(&turned, &spacecraft, [0.9, 0.0], [0.0; 2]);
+    assert!((turned.vector("momentum.inertial") - begun).norm() < 1e-13);
 }
 
 #[test]
@@ -293,13 +299,8 @@ fn ideal_wheels_hold_what_the_panels_do_not() {
     flight.set("command.rate[3]", -1e-3);
     let rates = [0.05, -0.02];
     flight.step_moving(7.0, &[("panel[1].angle", rates[0]), ("panel[2].angle", rates[1])]).unwrap();
-    let held: Vector3<f64> = super::axes(&flight)
-        .into_iter()
-        .enumerate()
-        .map(|(k, axis)| axis * flight.real(&format!("wheel[{}].momentum", k + 1)))
-        .sum();
-    let whole =
-        formed(&flight, &spacecraft, rates.map(|rate| 7.0 * rate), rates) + to_inertial(&flight) * held;
+    let held = to_inertial(&flight) * held_momentum(&flight);
+    let whole = formed(&flight, &spacecraft, rates.map(|rate| 7.0 * rate), rates) + held;
     let reported = flight.vector("momentum.inertial");
     assert!((whole - reported).norm() < 1e-12 * reported.norm(), "{whole} {reported}");
 }
@@ -308,24 +309,34 @@ fn ideal_wheels_hold_what_the_panels_do_not() {
 fn how_the_motion_of_panels_is_cut_changes_no_bit() {
     let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
     let spinning: Start<'_> = &[("start.rate[1]", 0.03), ("start.rate[2]", 0.004)];
-    let ends_at = |step_s: f64| {
-        let mut flight = fly(&named, &[FREE, spinning]);
-        flight.fly_to(20.0, step_s).unwrap();
-        flight.set("panel[1].sunOffset", 0.3);
-        flight.fly_to(40.0, step_s).unwrap();
-        flight
+    let fly = || fly(&named, &[FREE, spinning]);
+    assert_cuts_change_nothing(fly, [0.017, 5.5, 20.0, 40.0], &[1.3, 0.013, 0.5, 7.0], |flight| {
+        if flight.time_s() == 20.0 {
+            flight.set("panel[1].sunOffset", 0.3);
+        }
+    });
+}
+
+#[test]
+fn light_turns_the_body_about_its_moved_centre() {
+    // Sunlight on the panels has an arm from the centre of mass, which the first panel moves.
+    let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
+    let start: Start<'_> =
+        &[("attitude.source", 2.0), ("panel[1].control", 2.0), ("gravityGradient.enabled", 0.0)];
+    let mut flight = fly(&named, &[start]);
+    let torque_about_origin = |flight: &Flight<'_>| {
+        let force = flight.vector("force.solar");
+        (flight.vector("torque.solar") + flight.vector("centerOfMass").cross(&force), force)
     };
-    let whole = ends_at(1000.0);
-    for step_s in [0.013, 0.5, 7.0] {
-        assert_same(&whole, &ends_at(step_s));
-    }
-    let mut flight = fly(&named, &[FREE, spinning]);
-    for time_s in [0.017, 5.5, 20.0] {
-        flight = flight.restored();
-        flight.step_to(time_s).unwrap();
-    }
-    flight.set("panel[1].sunOffset", 0.3);
-    flight = flight.restored();
-    flight.step_to(40.0).unwrap();
-    assert_same(&whole, &flight);
+    flight.set("panel[1].angle", 1.2);
+    flight.step_to(10.0).unwrap();
+    let moved = torque_about_origin(&flight);
+    let shipped = NamedModel::<MomentumPlant>::shipped();
+    let mut rigid = fly(&shipped, &[start]);
+    rigid.set("panel[1].angle", 1.2);
+    rigid.step_to(10.0).unwrap();
+    let fixed = torque_about_origin(&rigid);
+    assert!(flight.vector("centerOfMass").norm() > 0.01 && rigid.vector("centerOfMass").norm() == 0.0);
+    assert!((moved.1 - fixed.1).norm() < 1e-12 * fixed.1.norm());
+    assert!((moved.0 - fixed.0).norm() < 1e-10 * fixed.0.norm(), "{} {}", moved.0, fixed.0);
 }

@@ -1,14 +1,13 @@
 //! Sensors: what they say, what their failures do, noise that repeats.
 
 use models::MomentumPlant;
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 
 use super::super::named_model::{NamedModel, assert_same};
 use super::{CONTROLLED, FREE, Flight, GUIDANCE, Start, fly, to_inertial};
 
 fn estimate(flight: &Flight<'_>) -> UnitQuaternion<f64> {
-    let q = [1, 2, 3, 4].map(|i| flight.real(&format!("estimate.q[{i}]")));
-    UnitQuaternion::from_quaternion(Quaternion::new(q[3], q[0], q[1], q[2]))
+    flight.to_inertial("estimate.q")
 }
 
 const NOISE: Start<'_> = &[

@@ -3,54 +3,11 @@
 use models::MomentumPlant;
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::super::named_model::NamedModel;
+use super::super::named_model::{NamedModel, assert_cuts_change_nothing};
+use super::super::spacecraft::{EXHAUST_M_S, SIMPLE, couples, thruster};
 use super::{CONTROLLED, DARK, FREE, Flight, Start, fly, set_quaternion, to_inertial};
 
 const FULL: &str = include_str!("../../../../resources/messenger-full.toml");
-
-/// Two couples about X and one thruster that pushes along +Z off the axis, on a body of simple numbers.
-const SIMPLE: &str = r#"
-name = "simple"
-[mass_properties]
-mass_kg = 500.0
-center_of_mass_m = [0.0, 0.0, 0.0]
-inertia_kg_m2 = [[200.0, 0.0, 0.0], [0.0, 300.0, 0.0], [0.0, 0.0, 400.0]]
-[optics.black]
-specular = 0.0
-diffuse = 0.0
-[[plates]]
-area_m2 = 1.0
-center_m = [0.0, 0.0, 0.0]
-normal = [0.0, -1.0, 0.0]
-optics = "black"
-[[tanks]]
-position_m = [0.0, 0.0, 0.0]
-propellant_kg = 50.0
-"#;
-
-/// One thruster of `SIMPLE`.
-fn thruster(position: [f64; 3], direction: [f64; 3], force_n: f64, more: &str) -> String {
-    format!(
-        "[[thrusters]]\nposition_m = {position:?}\ndirection = {direction:?}\nforce_n = {force_n:?}\n\
-         specific_impulse_s = 220.0\n{more}\n"
-    )
-}
-
-/// Couples each way about all axes: thrusters 1 to 12 of 5 N, arms of 1 m.
-fn couples(more: &str) -> String {
-    let mut text = String::new();
-    for axis in 0..3 {
-        for sense in [1.0, -1.0] {
-            for side in [1.0, -1.0] {
-                let (mut at, mut force) = ([0.0; 3], [0.0; 3]);
-                at[(axis + 1) % 3] = side;
-                force[(axis + 2) % 3] = side * sense;
-                text += &thruster(at, force, 5.0, more);
-            }
-        }
-    }
-    text
-}
 
 fn craft(thrusters: &str) -> NamedModel<MomentumPlant> {
     NamedModel::<MomentumPlant>::with("simple.toml", &format!("{SIMPLE}{thrusters}"))
@@ -63,8 +20,6 @@ fn momentum(flight: &Flight<'_>) -> Vector3<f64> {
 /// No dump comes in between.
 const NO_DUMPS: Start<'_> =
     &[("dump.threshold[1]", 1e9), ("dump.threshold[2]", 1e9), ("dump.threshold[3]", 1e9)];
-
-const EXHAUST_M_S: f64 = 220.0 * 9.80665;
 
 #[test]
 fn a_pulse_train_gives_force_times_lever_times_time() {
@@ -192,9 +147,7 @@ fn a_dump_in_controlled_flight_is_that_of_guided_flight() {
     simulated.step_to(10.0).unwrap();
     let before = momentum(&simulated);
     let ask = |flight: &mut Flight<'_>| {
-        for (i, value) in target.iter().enumerate() {
-            flight.set(&format!("dump.target[{}]", i + 1), *value);
-        }
+        flight.set_elements("dump.target", target.iter());
         flight.set("dump.request", 1.0);
     };
     ask(&mut simulated);
@@ -305,44 +258,26 @@ fn cutting_and_saving_change_no_bit() {
         ("thrust.jitter", 1e-3),
         ("accelerometer.noise", 1e-4),
     ];
-    let fly_in = |step_s: f64| {
+    let fly = || {
         let mut flight = fly(&named, &[CONTROLLED, held]);
         flight.set("dump.request", 1.0);
-        flight.fly_to(60.0, step_s).unwrap();
-        flight.set("thrust.request", 2.0);
-        flight.set("thrust.command", 1.0);
-        flight.set("thrust.stop", 75.321);
-        flight.fly_to(90.0, step_s).unwrap();
-        let names = [
-            "attitude.q[1]",
-            "attitude.rate[2]",
-            "momentum.inertial[3]",
-            "deltaV[3]",
-            "propellant.used",
-            "mass",
-            "accelerometer.deltaV[3]",
-            "wheel[3].momentum",
-            "thruster[6].pulses",
-        ];
-        names.map(|name| {
-            if name.ends_with("pulses") { f64::from(flight.integer(name)) } else { flight.real(name) }
-                .to_bits()
-        })
+        flight
     };
-    let whole = fly_in(30.0);
-    for step_s in [0.013, 0.25, 7.0] {
-        assert_eq!(fly_in(step_s), whole, "{step_s}");
-    }
+    assert_cuts_change_nothing(fly, [30.0, 60.0, 90.0], &[0.9, 0.013, 0.25, 7.0], |flight| {
+        if flight.time_s() == 60.0 {
+            flight.set("thrust.request", 2.0);
+            flight.set("thrust.command", 1.0);
+            flight.set("thrust.stop", 75.321);
+        }
+    });
 }
 
 #[test]
 fn what_cannot_fire_is_refused_or_flagged() {
-    let refused = |file: &str, start: Start<'_>| named_error(file, start);
-    let full = format!("{SIMPLE}{}", couples(""));
-    let message = refused(&full, &[("tank[1].propellant", 600.0)]);
+    let message = craft(&couples("")).refusal(&[("tank[1].propellant", 600.0)]);
     assert!(message.contains("tank[k].propellant") && message.contains("500"), "{message}");
-    let bounded = format!("{SIMPLE}allowed_pressure_pa = [1e6, 3e6]\n{}", couples(""));
-    let message = refused(&bounded, &[("tank[1].pressure", 5e5)]);
+    let bounded = craft(&format!("allowed_pressure_pa = [1e6, 3e6]\n{}", couples("")));
+    let message = bounded.refusal(&[("tank[1].pressure", 5e5)]);
     assert!(message.contains("tank[1].pressure") && message.contains("1000000"), "{message}");
 
     let named = craft(&(couples("min_on_time_s = 0.02")));
@@ -440,9 +375,4 @@ fn a_dump_without_thrusters_after_the_centre_of_mass_moved_is_said() {
         assert_eq!(dump(&mut flight), served_kg);
         assert_eq!((flight.integer("dump.count"), warnings(&named)), (2, 1));
     }
-}
-
-fn named_error(file: &str, start: Start<'_>) -> String {
-    let named = NamedModel::<MomentumPlant>::with("simple.toml", file);
-    named.fly(0.0, start).err().expect("refused").to_string()
 }

@@ -2,8 +2,8 @@
 
 use models::{Guidance, MomentumPlant};
 
-use super::super::named_model::{NamedInstance, NamedModel};
-use super::{quaternion, with};
+use super::super::named_model::NamedModel;
+use super::with;
 
 const OPERATIONAL: i32 = 1;
 
@@ -26,13 +26,6 @@ fn scan(reversal_rad: f64) -> Vec<(&'static str, f64)> {
     ]
 }
 
-/// Sets an array's elements.
-fn put<M: fmi_export::Model>(flight: &mut NamedInstance<'_, M>, name: &str, values: &[f64]) {
-    for (i, value) in values.iter().enumerate() {
-        flight.set(&format!("{name}[{}]", i + 1), *value);
-    }
-}
-
 #[test]
 fn an_ordinary_scan_near_the_boundary_does_not_end_in_safe_hold() {
     let (plants, guidances) = (NamedModel::<MomentumPlant>::shipped(), NamedModel::<Guidance>::shipped());
@@ -51,7 +44,7 @@ fn an_ordinary_scan_near_the_boundary_does_not_end_in_safe_hold() {
             ("velocity[3]", velocity.z),
         ];
         let mut guidance = guidances.fly(0.0, &with(&[&at_start, &scan(reversal_rad)])).unwrap();
-        let start_q = quaternion(&guidance, "command.q");
+        let start_q = guidance.quaternion("command.q");
         let names = [1, 2, 3, 4].map(|i| format!("start.q[{i}]"));
         let mut start: Vec<_> = names.iter().map(String::as_str).zip(start_q).collect();
         start.push(("attitude.source", 3.0));
@@ -60,12 +53,12 @@ fn an_ordinary_scan_near_the_boundary_does_not_end_in_safe_hold() {
             // Both take what the other had at the step's begin.
             let kind = guidance.integer("command.kind");
             plant.set("command.kind", f64::from(kind));
-            put(&mut plant, "command.q", &quaternion(&guidance, "command.q"));
-            put(&mut plant, "command.rate", guidance.vector("command.rate").as_slice());
+            plant.set_elements("command.q", &guidance.quaternion("command.q"));
+            plant.set_elements("command.rate", &guidance.vector("command.rate"));
             for name in ["position", "velocity"] {
-                put(&mut guidance, name, plant.vector(name).as_slice());
+                guidance.set_elements(name, &plant.vector(name));
             }
-            put(&mut guidance, "estimate.q", &quaternion(&plant, "estimate.q"));
+            guidance.set_elements("estimate.q", &plant.quaternion("estimate.q"));
             guidance.step_to(f64::from(second + 1)).unwrap();
             plant.step_to(f64::from(second + 1)).unwrap();
             assert_eq!(guidance.integer("mode.active"), OPERATIONAL, "{reversal_rad} {second} s");

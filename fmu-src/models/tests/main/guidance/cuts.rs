@@ -2,12 +2,12 @@
 
 use models::Guidance;
 
-use super::super::named_model::{NamedModel, assert_same};
-use super::{Flight, PLACED, with};
+use super::super::named_model::{NamedModel, assert_cuts_change_nothing};
+use super::{PLACED, with};
 
 /// A scan; the monitor at work in Safe Hold; windows of the orbit phase with slews; a burn that times out; downlinks that put
 /// the Sun elsewhere, of the scenario and of the orbit phase; science that unloads.
-const CASES: [&[(&str, f64)]; 7] = [
+pub const CUT: [&[(&str, f64)]; 7] = [
     &[
         ("pointing.scenario", 2.0),
         ("aimpoint.option", 7.0),
@@ -84,90 +84,15 @@ const CASES: [&[(&str, f64)]; 7] = [
     ],
 ];
 
-/// What `assert_same` leaves out: outputs that change at samples only.
-fn discrete(flight: &Flight<'_>) -> Vec<u64> {
-    let names = [
-        "command.rate[1]",
-        "command.rate[2]",
-        "command.error[1]",
-        "mdis.angle",
-        "earth.sunSeparation",
-        "dump.target[3]",
-    ];
-    let bits = names.map(|name| flight.real(name).to_bits());
-    let items = ["command.kind", "mode.active", "antenna.select"].map(|name| flight.integer(name) as u64);
-    [&bits[..], &items[..]].concat()
-}
-
 #[test]
-fn the_cut_changes_no_bit() {
+fn neither_cuts_nor_saving_change_a_bit() {
     let named = NamedModel::<Guidance>::shipped();
-    for case in CASES {
+    for case in CUT {
         for start_s in [0.0, -800.25, 1e9] {
             let sets = with(&[PLACED, case]);
-            let fly = || named.fly(start_s, &sets).unwrap();
-            let mut whole = fly();
-            let mut cut: Vec<Flight<'_>> = [0.1, 0.3, 7.0, 60.0].map(|_| fly()).into();
             let ends_s = [60.0, 61.5, 180.0].map(|length_s| start_s + length_s);
-            for end_s in ends_s {
-                whole.step_to(end_s).unwrap();
-                for (flight, step_s) in cut.iter_mut().zip([0.1, 0.3, 7.0, 60.0]) {
-                    // Accumulated, as masters do.
-                    while flight.time_s() + step_s < end_s {
-                        flight.step_to(flight.time_s() + step_s).unwrap();
-                    }
-                    if flight.time_s() < end_s {
-                        flight.step_to(end_s).unwrap();
-                    }
-                    assert_same(&whole, flight);
-                    assert_eq!(discrete(&whole), discrete(flight), "{step_s} s to {end_s} s");
-                }
-            }
+            let fly = || named.fly(start_s, &sets).unwrap();
+            assert_cuts_change_nothing(fly, ends_s, &[1.7, 0.1, 0.3, 7.0, 60.0], |_| {});
         }
     }
-}
-
-#[test]
-fn a_restored_flight_goes_on_to_the_bit() {
-    let named = NamedModel::<Guidance>::shipped();
-    for case in CASES {
-        let mut whole = named.fly(0.0, &with(&[PLACED, case])).unwrap();
-        let mut relay = named.fly(0.0, &with(&[PLACED, case])).unwrap();
-        for number in 1..100 {
-            let end_s = f64::from(number) * 1.7;
-            whole.step_to(end_s).unwrap();
-            relay = relay.restored();
-            relay.step_to(end_s).unwrap();
-            assert_same(&whole, &relay);
-            assert_eq!(discrete(&whole), discrete(&relay));
-        }
-    }
-}
-
-/// Wherever a number may stand in a state, one that is none or no flight's is put there: the state is refused, or the step
-/// leaves finite outputs.
-#[test]
-fn a_forged_number_anywhere_is_refused_or_leaves_finite_outputs() {
-    let named = NamedModel::<Guidance>::shipped();
-    let (mut refused, mut simulated) = (0, 0);
-    for case in CASES {
-        let mut flight = named.fly(0.0, &with(&[PLACED, case])).unwrap();
-        flight.step_to(20.5).unwrap();
-        let state = flight.state_bytes();
-        for at in 0..state.len() - 8 {
-            for forged in [f64::NAN, f64::INFINITY, -1e308, 1e200, 1e-308, -1.0] {
-                let mut torn = state.clone();
-                torn[at..at + 8].copy_from_slice(&forged.to_le_bytes());
-                let Some(mut other) = flight.with_state(&torn) else {
-                    refused += 1;
-                    continue;
-                };
-                if other.step_to(23.0).is_ok() {
-                    simulated += 1;
-                    assert_eq!(other.not_finite(), None, "{forged} at {at}");
-                }
-            }
-        }
-    }
-    assert!(refused > 100 && simulated > 10, "{refused} {simulated}");
 }

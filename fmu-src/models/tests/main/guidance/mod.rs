@@ -11,15 +11,16 @@ mod predictive;
 mod same_law;
 mod zeros;
 
+pub use cuts::CUT;
 use models::Guidance;
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::UnitQuaternion;
 
 use super::named_model::NamedInstance;
 
 type Flight<'a> = NamedInstance<'a, Guidance>;
 
 /// Above Mercury, with Sun and Earth as inputs.
-const PLACED: &[(&str, f64)] = &[
+pub const PLACED: &[(&str, f64)] = &[
     ("ephemeris.source", 3.0),
     ("position[1]", 3e6),
     ("position[2]", 1e6),
@@ -42,18 +43,7 @@ fn with<'a>(lists: &[&[(&'a str, f64)]]) -> Vec<(&'a str, f64)> {
     lists.concat()
 }
 
-fn quaternion(flight: &NamedInstance<'_, impl fmi_export::Model>, name: &str) -> [f64; 4] {
-    [1, 2, 3, 4].map(|i| flight.real(&format!("{name}[{i}]")))
-}
-
 /// From body to inertial components.
 fn to_inertial(flight: &Flight<'_>) -> UnitQuaternion<f64> {
-    let [x, y, z, w] = quaternion(flight, "command.q");
-    UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
-}
-
-fn set_vector(flight: &mut Flight<'_>, name: &str, vector: &Vector3<f64>) {
-    for (i, value) in vector.iter().enumerate() {
-        flight.set(&format!("{name}[{}]", i + 1), *value);
-    }
+    flight.to_inertial("command.q")
 }

@@ -4,7 +4,7 @@ use models::Guidance;
 use nalgebra::Vector3;
 
 use super::super::named_model::{NamedModel, assert_same};
-use super::{Flight, PLACED, quaternion, set_vector, to_inertial, with};
+use super::{Flight, PLACED, to_inertial, with};
 
 const OPERATIONAL: i32 = 1;
 const SAFE_HOLD: i32 = 2;
@@ -59,11 +59,11 @@ fn earth_acquisition_turns_slowly_about_the_sun_line_and_the_search_about_each_a
         assert_eq!(flight.vector("command.rate"), axis * 0.01);
     }
     flight.set("sun.sensedValid", 1.0);
-    set_vector(&mut flight, "sun.sensed", &Vector3::new(1.0, -1.0, 0.0));
+    flight.set_elements("sun.sensed", &Vector3::new(1.0, -1.0, 0.0));
     flight.step_to(41.0).unwrap();
     assert_eq!(flight.vector("command.rate"), -Vector3::y() * flight.real("earthAcquisition.rate"));
     // A turn of 45 deg about Z takes -Y to the Sun.
-    let [x, y, z, w] = quaternion(&flight, "command.error");
+    let [x, y, z, w] = flight.quaternion("command.error");
     assert!(x == 0.0 && y == 0.0 && (w - 22.5_f64.to_radians().cos()).abs() < 1e-15, "{z} {w}");
     assert!((z.abs() - 22.5_f64.to_radians().sin()).abs() < 1e-15);
 }
@@ -78,12 +78,10 @@ fn the_monitor_demotes_after_its_persistence_and_watches_no_estimate_of_zero() {
     near.step_to(30.0).unwrap();
     assert_eq!(near.integer("mode.active"), OPERATIONAL);
     // An estimate with the Sun far outside the zone: its +Y at the Sun.
-    let [x, y, z, w] = quaternion(&flight, "command.q");
+    let [x, y, z, w] = flight.quaternion("command.q");
     let away = to_inertial(&flight) * nalgebra::UnitQuaternion::from_scaled_axis(Vector3::z() * 3.0);
     assert!([x, y, z, w].iter().all(|it| it.is_finite()));
-    for (i, value) in away.coords.iter().enumerate() {
-        flight.set(&format!("estimate.q[{}]", i + 1), *value);
-    }
+    flight.set_elements("estimate.q", away.coords.iter());
     for second in 1..=11 {
         let [mode, _] = step(&mut flight, &[]);
         // From the sample at 0 on; Safe Hold is given as long again to turn.
@@ -127,10 +125,10 @@ fn safe_hold_ignores_all_but_downlink() {
 fn without_an_estimate_nothing_is_demoted_and_the_start_attitude_is_held() {
     let named = NamedModel::<Guidance>::shipped();
     let mut flight = named.fly(0.0, PLACED).unwrap();
-    let held = quaternion(&flight, "command.q");
+    let held = flight.quaternion("command.q");
     flight.step_to(600.0).unwrap();
     assert_eq!(["mode.active", "command.kind"].map(|name| flight.integer(name)), [OPERATIONAL, 0]);
-    assert_eq!(quaternion(&flight, "command.q"), held);
+    assert_eq!(flight.quaternion("command.q"), held);
 }
 
 #[test]
@@ -145,7 +143,7 @@ fn the_last_law_stays_within_its_zone_when_nothing_is_commanded() {
         for it in [&mut flight, &mut other] {
             it.step_to(f64::from(second)).unwrap();
         }
-        assert_eq!(quaternion(&flight, "command.q"), quaternion(&other, "command.q"), "{second}");
+        assert_eq!(flight.quaternion("command.q"), other.quaternion("command.q"), "{second}");
     }
 }
 
@@ -159,7 +157,7 @@ fn an_aim_without_direction_leaves_the_law_before_it() {
     flight.set("aimpoint.option", 1.0);
     flight.step_to(60.0).unwrap();
     other.step_to(60.0).unwrap();
-    assert_eq!(quaternion(&flight, "command.q"), quaternion(&other, "command.q"));
+    assert_eq!(flight.quaternion("command.q"), other.quaternion("command.q"));
     assert!(flight.boolean("geometry.degenerate") && !other.boolean("geometry.degenerate"));
 }
 

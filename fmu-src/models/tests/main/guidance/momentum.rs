@@ -5,7 +5,7 @@ use models::{Guidance, MomentumPlant};
 use nalgebra::Vector3;
 
 use super::super::named_model::{NamedInstance, NamedModel};
-use super::{Flight, PLACED, quaternion, set_vector, with};
+use super::{Flight, PLACED, with};
 
 const HOUR_S: f64 = 3600.0;
 const SPAN_S: f64 = 8.0 * HOUR_S;
@@ -60,9 +60,7 @@ const FOLLOWS: &[(&str, f64)] = &[
 ];
 
 fn follow(plant: &mut NamedInstance<'_, MomentumPlant>, guidance: &Flight<'_>) {
-    for (i, value) in (1..).zip(quaternion(guidance, "command.q")) {
-        plant.set(&format!("command.q[{i}]"), value);
-    }
+    plant.set_elements("command.q", &guidance.quaternion("command.q"));
     for k in 1..=2 {
         let offset_rad = guidance.real(&format!("panel[{k}].sunOffset"));
         plant.set(&format!("panel[{k}].sunOffsetCommand"), offset_rad);
@@ -91,10 +89,10 @@ fn a_plant_that_follows_reaches_an_attainable_target() {
                 let clamped = guidance.boolean("momentum.targetClamped");
                 follow(&mut plant, &guidance);
                 // What is held while the downlink lasts, whatever the momentum does.
-                set_vector(&mut guidance, "momentum.body", &Vector3::new(-1.0, 1.0, 1.0));
-                let held = quaternion(&guidance, "command.q");
+                guidance.set_elements("momentum.body", &Vector3::new(-1.0, 1.0, 1.0));
+                let held = guidance.quaternion("command.q");
                 guidance.step_to(600.0).unwrap();
-                assert_eq!(quaternion(&guidance, "command.q"), held);
+                assert_eq!(guidance.quaternion("command.q"), held);
                 plant.step_to(SPAN_S).unwrap();
                 let seen = (plant.real("sun.azimuth"), plant.real("sun.elevation"));
                 let reported = (guidance.real("sun.azimuth"), guidance.real("sun.elevation"));
@@ -135,7 +133,7 @@ fn a_window_of_the_orbit_phase_aims_at_its_own_end() {
     assert!(guidance.real("sun.azimuth").abs() < 1e-12);
     // The momentum at the window's begin counts.
     plant.step_to(3.0).unwrap();
-    set_vector(&mut guidance, "momentum.body", &plant.vector("momentum.body"));
+    guidance.set_elements("momentum.body", &plant.vector("momentum.body"));
     guidance.step_to(4.0).unwrap();
     assert!(!guidance.boolean("momentum.targetClamped"));
     follow(&mut plant, &guidance);
@@ -170,7 +168,7 @@ fn an_antenna_of_its_own_leaves_the_momentum_alone() {
     let own = [("boresight.option", 4.0), ("boresight.azimuth", -0.6)];
     let q = [1.0, 2.0].map(|strategy| {
         let sets = with(&[&still(60.0), QUIET, &own, &[("momentum.strategy", strategy)]]);
-        quaternion(&named.fly(0.0, &sets).unwrap(), "command.q")
+        named.fly(0.0, &sets).unwrap().quaternion("command.q")
     });
     assert_eq!(q[0], q[1]);
 }
@@ -182,7 +180,7 @@ fn a_component_beyond_its_threshold_asks_once() {
     let mut flight = named.fly(0.0, &with(&[PLACED, &limits])).unwrap();
     let mut end_s = 0.0;
     let mut sample = |flight: &mut Flight<'_>, momentum: [f64; 3]| {
-        set_vector(flight, "momentum.body", &momentum.into());
+        flight.set_elements("momentum.body", &momentum);
         end_s += 1.0;
         flight.step_to(end_s).unwrap();
         (flight.boolean("dump.request"), flight.vector("dump.target"))
@@ -210,9 +208,7 @@ fn a_request_makes_a_plant_dump_to_its_target() {
     let mut plant = plants.fly(0.0, &with(&[&still(60.0), FOLLOWS])).unwrap();
     guidance.step_to(1.0).unwrap();
     plant.set("dump.request", f64::from(u8::from(guidance.boolean("dump.request"))));
-    for (i, value) in (1..).zip(guidance.vector("dump.target").iter()) {
-        plant.set(&format!("dump.target[{i}]"), *value);
-    }
+    plant.set_elements("dump.target", &guidance.vector("dump.target"));
     plant.step_to(1e-3).unwrap();
     assert_eq!(plant.integer("dump.count"), 1);
     let after = plant.vector("momentum.body");
@@ -232,7 +228,7 @@ fn zero_inputs_and_bad_ones() {
         flight.step_to(60.0).unwrap();
         assert_eq!(flight.not_finite(), None);
     }
-    let refused = |sets: &[(&str, f64)]| named.fly(0.0, sets).err().unwrap().to_string();
+    let refused = |sets: &[(&str, f64)]| named.refusal(sets);
     for strategy in [2.0, 3.0] {
         let never = [("momentum.strategy", strategy), ("guided.downlinkEnd", 7200.0)];
         let found = refused(&never);
@@ -242,6 +238,6 @@ fn zero_inputs_and_bad_ones() {
     let (head, tail) = <Guidance as Model>::DEFAULT_SETUP.split_once("[sunshade.cylinder]").unwrap();
     let rest = tail.split_once("\n[").unwrap().1;
     let plates = NamedModel::<Guidance>::with("plates.toml", &format!("{head}[{rest}"));
-    let found = plates.fly(0.0, &[("sunshade.shape", 2.0)]).err().unwrap().to_string();
+    let found = plates.refusal(&[("sunshade.shape", 2.0)]);
     assert!(found.contains("sunshade.shape"), "{found}");
 }

@@ -3,7 +3,7 @@
 use models::{Guidance, MomentumPlant};
 
 use super::super::named_model::{NamedInstance, NamedModel};
-use super::{Flight, quaternion, set_vector, with};
+use super::{Flight, with};
 
 const HOUR_S: f64 = 3600.0;
 const CYCLE_S: f64 = 24.0 * HOUR_S;
@@ -45,11 +45,9 @@ fn observe(guidance: &mut Flight<'_>, plant: &NamedInstance<'_, MomentumPlant>) 
     for (input, output) in
         [("position", "position"), ("velocity", "velocity"), ("momentum.body", "momentum.body")]
     {
-        set_vector(guidance, input, &plant.vector(output));
+        guidance.set_elements(input, &plant.vector(output));
     }
-    for (i, value) in (1..).zip(quaternion(plant, "attitude.q")) {
-        guidance.set(&format!("estimate.q[{i}]"), value);
-    }
+    guidance.set_elements("estimate.q", &plant.quaternion("attitude.q"));
 }
 
 /// Where a downlink begins, a hundredth of a second into it.
@@ -104,12 +102,8 @@ fn dumps_by_samples(strategy: f64) -> i32 {
         let end_s = plant.time_s() + 600.0;
         observe(&mut guidance, &plant);
         guidance.step_to(end_s).unwrap();
-        for (i, value) in (1..).zip(quaternion(&guidance, "command.q")) {
-            plant.set(&format!("command.q[{i}]"), value);
-        }
-        for (i, value) in (1..).zip(guidance.vector("command.rate").iter()) {
-            plant.set(&format!("command.rate[{i}]"), *value);
-        }
+        plant.set_elements("command.q", &guidance.quaternion("command.q"));
+        plant.set_elements("command.rate", &guidance.vector("command.rate"));
         plant.step_to(end_s).unwrap();
     }
     plant.integer("dump.count")
@@ -143,7 +137,7 @@ fn without_a_cycle_to_come_a_target_is_the_given_one() {
         let chosen = |strategy: f64, more: &[(&str, f64)]| {
             let flight =
                 named.fly(0.0, &with(&[&craft(strategy, convention), GUIDANCE, &place, more])).unwrap();
-            quaternion(&flight, "command.q")
+            flight.quaternion("command.q")
         };
         let cycles = [("guided.downlinkEvery", 2.0)];
         assert_ne!(chosen(2.0, &cycles), chosen(3.0, &cycles));

@@ -3,7 +3,7 @@
 use models::{Guidance, MomentumPlant};
 
 use super::super::named_model::{NamedInstance, NamedModel};
-use super::{quaternion, with};
+use super::with;
 
 const ORBIT_S: f64 = 43_200.0;
 
@@ -30,7 +30,7 @@ fn compare(plant_sets: &[(&str, f64)], guidance_sets: &[(&str, f64)], length_s: 
         }
         // Just after the sample, which belongs to the step that begins here.
         guidance.step_to(time_s + 1e-9).unwrap();
-        let (a, b) = (quaternion(&guidance, "command.q"), quaternion(&plant, "attitude.q"));
+        let (a, b) = (guidance.quaternion("command.q"), plant.quaternion("attitude.q"));
         let difference = |sign: f64| a.iter().zip(b).map(|(a, b)| (a - sign * b).powi(2)).sum::<f64>().sqrt();
         let off = difference(1.0).min(difference(-1.0));
         assert!(off < 1e-12, "{off:e} at {time_s} s: {a:?} {b:?}");

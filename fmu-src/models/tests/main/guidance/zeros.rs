@@ -3,9 +3,9 @@
 use models::Guidance;
 use nalgebra::Vector3;
 
-use super::super::dependencies::random::RandomNumbers;
 use super::super::named_model::NamedModel;
-use super::{PLACED, quaternion, with};
+use super::super::random::RandomNumbers;
+use super::{PLACED, with};
 
 #[test]
 fn zero_on_every_input_holds_the_attitude_with_one_warning() {
@@ -24,7 +24,7 @@ fn zero_on_every_input_holds_the_attitude_with_one_warning() {
             // An estimate that is all zero and not valid is not connected while the spacecraft is not placed.
             assert_eq!(flight.integer("mode.active"), 1);
             assert_eq!(flight.integer("command.kind"), 0);
-            assert_eq!(quaternion(&flight, "command.q"), [0.6, 0.0, 0.0, 0.8]);
+            assert_eq!(flight.quaternion("command.q"), [0.6, 0.0, 0.0, 0.8]);
             assert_eq!(flight.vector("command.rate"), Vector3::zeros());
         }
         let warnings = named.warnings()[before..].to_vec();
@@ -50,7 +50,7 @@ fn the_first_values_start_the_command_and_bodies_that_are_missing_hold_it() {
         flight.step_to(2.0).unwrap();
         assert_eq!(flight.integer("command.kind"), 1, "{missing}");
         flight.step_to(2.0 + 1e-9).unwrap();
-        let (found, expected) = (quaternion(&flight, "command.q"), quaternion(&whole, "command.q"));
+        let (found, expected) = (flight.quaternion("command.q"), whole.quaternion("command.q"));
         let along: f64 = found.iter().zip(expected).map(|(a, b)| a * b).sum();
         assert!((along.abs() - 1.0).abs() < 1e-12, "{missing}: {found:?} {expected:?}");
     }
@@ -113,7 +113,7 @@ fn any_inputs_within_their_limits_leave_finite_outputs() {
                 break;
             }
             assert_eq!(flight.not_finite(), None, "{sets:?}");
-            let norm: f64 = quaternion(&flight, "command.q").iter().map(|x| x * x).sum();
+            let norm: f64 = flight.quaternion("command.q").iter().map(|x| x * x).sum();
             assert!((norm - 1.0).abs() < 1e-9, "{norm}");
             degenerate += flight.boolean("geometry.degenerate") as usize;
             simulated += 1;

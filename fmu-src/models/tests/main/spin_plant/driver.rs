@@ -4,14 +4,10 @@ use core::ops::{Deref, DerefMut};
 
 use client::{Message, NamedInstance};
 use fmi_export::{Entry, Library, Status};
-use model_description::{Causality, Description, VariableKind};
+use model_description::{Causality, VariableKind};
 use models::SpinPlant;
 
-pub static LIBRARY: Library = Library { entries: &[Entry::of::<SpinPlant>()] };
-
-pub fn description() -> Description {
-    LIBRARY.find("SpinPlant").unwrap().describe(None, None).unwrap()
-}
+static LIBRARY: Library = Library { entries: &[Entry::of::<SpinPlant>()] };
 
 pub struct Spinner {
     named: NamedInstance,

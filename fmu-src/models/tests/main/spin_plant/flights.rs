@@ -2,68 +2,12 @@
 
 use client::StatePointer;
 use model_description::Status;
-use model_description::validate;
+use models::SpinPlant;
 
-use super::driver::{Spinner, description};
+use super::driver::Spinner;
+use crate::named_model::{NamedModel, assert_cuts_change_nothing};
 
 const PERIOD_S: f64 = 12.0;
-
-#[test]
-fn the_description_is_valid_and_names_the_contract() {
-    let description = description();
-    assert_eq!(validate(&description), vec![]);
-    let names: Vec<&str> = description.variables.iter().map(|v| v.name.as_str()).collect();
-    for name in [
-        "inertia[3]",
-        "productsOfInertia[3]",
-        "thruster[10].minOnTime",
-        "thruster[10].riseTime",
-        "thruster[10].tailOffTime",
-        "thruster[10].scatter",
-        "spin.initialRate",
-        "start.q[4]",
-        "start.nutation",
-        "start.nutationPhase",
-        "burn.start",
-        "burn.thruster",
-        "burn.oppositeThruster",
-        "burn.pulseWidth",
-        "burn.turnsPerPulse",
-        "burn.count",
-        "burn.targetDirection[3]",
-        "burn.timing",
-        "burn.plan",
-        "damper.timeConstant",
-        "thruster[10].onDelay",
-        "thruster[10].onTime",
-        "thruster[10].fire",
-        "torque.applied[3]",
-        "sun.direction[3]",
-        "earth.direction[3]",
-        "star.direction[3]",
-        "attitude.q[4]",
-        "attitude.rate[3]",
-        "nutation.angle",
-        "nutation.predicted",
-        "spin.rate",
-        "spin.period",
-        "spin.periodVariation",
-        "momentum.inertial[3]",
-        "spinAxis.inertial[3]",
-        "spinAxis.displacement",
-        "sun.angle",
-        "earth.angle",
-        "burn.pulsesFired",
-        "burn.active",
-        "inertiaRatio",
-        "propellant.used",
-        "force.thruster[3]",
-        "deltaV[3]",
-        "starTracker.declination",
-    ] {
-        assert!(names.contains(&name), "{name}");
-    }
-}
 
 #[test]
 fn the_default_flight_is_the_papers_manoeuvre() {
@@ -83,113 +27,47 @@ fn the_default_flight_is_the_papers_manoeuvre() {
 }
 
 #[test]
-fn any_communication_grid_gives_the_same_bits() {
-    let whole = {
-        let mut spinner = Spinner::new().start();
-        spinner.to(1400.0);
-        spinner.outputs()
-    };
-    for step_s in [0.032, 0.7, 12.0, 280.0] {
-        let mut spinner = Spinner::new().start();
-        let steps = (1400.0_f64 / step_s).round() as u32;
-        for i in 1..steps {
-            spinner.to(f64::from(i) * step_s);
-        }
-        spinner.to(1400.0);
-        assert_eq!(spinner.outputs(), whole, "{step_s}");
-    }
-    // 1 ms over part of the flight.
-    let mut spinner = Spinner::new().start();
-    for i in 1..=60_000 {
-        spinner.to(f64::from(i) * 0.001);
-    }
-    spinner.to(1400.0);
-    assert_eq!(spinner.outputs(), whole);
+fn neither_cuts_nor_saving_change_a_bit() {
+    let named = NamedModel::<SpinPlant>::shipped();
+    let steps_s = [3.7, 0.032, 0.7, 12.0, 280.0];
+    assert_cuts_change_nothing(|| named.fly(0.0, &[]).unwrap(), [60.0], &[0.4, 0.001], |_| {});
+    assert_cuts_change_nothing(|| named.fly(0.0, &[]).unwrap(), [1400.0], &steps_s, |_| {});
+    // In the middle of pulses.
+    let sets = [("burn.pulseWidth", 1.0), ("inertia[1]", 230.0), ("burn.count", 20.0), ("burn.timing", 3.0)];
+    let fly = || named.fly(0.0, &sets).unwrap();
+    let edge_s = fly().real("burn.nextEdge");
+    let ends_s = (0..12).map(|turn| edge_s + 0.4 + PERIOD_S * f64::from(turn));
+    let mut active = 0;
+    assert_cuts_change_nothing(fly, ends_s, &[3.7], |flight| {
+        active += i32::from(flight.boolean("burn.active") && flight.boolean("thruster[8].active"));
+    });
+    assert!(active > 3, "{active}");
 }
 
-#[test]
-fn a_state_saved_in_the_middle_of_a_pulse_continues_to_the_bit() {
-    let configured = || {
-        Spinner::new()
-            .set("burn.pulseWidth", 1.0)
-            .set("inertia[1]", 230.0)
-            .set_integer("burn.count", 20)
-            .set_integer("burn.timing", 3)
-    };
-    let mut spinner = configured().start();
-    let edge_s = spinner.real("burn.nextEdge");
-    spinner.to(edge_s + 2.0 * PERIOD_S + 0.4);
-    assert!(spinner.boolean("burn.active") && spinner.boolean("thruster[8].active"));
-    let (status, bytes) = spinner.fmu.state_bytes();
-    assert_eq!(status, Status::Ok);
-    let mut state = StatePointer::null();
-    assert_eq!(spinner.fmu.get_state(&mut state), Status::Ok);
-    let saved_s = spinner.time_s;
-    let fly_on = |spinner: &mut Spinner| {
-        (1..=50)
-            .map(|i| {
-                spinner.to(saved_s + 3.7 * f64::from(i));
-                spinner.outputs()
-            })
-            .collect::<Vec<_>>()
-    };
-    let expected = fly_on(&mut spinner);
-    assert_eq!(spinner.fmu.set_state(&state), Status::Ok);
-    spinner.time_s = saved_s;
-    assert_eq!(fly_on(&mut spinner), expected);
-    // And in another instance.
-    let mut other = configured().start();
-    let (status, state) = other.fmu.deserialize(&bytes);
-    assert_eq!(status, Status::Ok);
-    assert_eq!(other.fmu.set_state(&state), Status::Ok);
-    other.time_s = saved_s;
-    assert_eq!(fly_on(&mut other), expected);
-}
-
-/// Slow valves, scatter, products of inertia, and pulses from outside beside the burn's.
+/// Slow valves, scatter, products of inertia, and pulses from outside beside the burn's; saved in the midst of the rise, of the
+/// full thrust and of the tail-off.
 #[test]
 fn a_state_saved_in_a_ramp_of_the_thrust_continues_to_the_bit() {
-    let configured = || {
-        let mut spinner = Spinner::new()
-            .set("burn.pulseWidth", 1.0)
-            .set("productsOfInertia[2]", 3.0)
-            .set_integer("burn.count", 6)
-            .set_integer("burn.timing", 3);
-        for k in 1..=10 {
-            spinner.put(&format!("thruster[{k}].riseTime"), 0.4);
-            spinner.put(&format!("thruster[{k}].tailOffTime"), 0.6);
-            spinner.put(&format!("thruster[{k}].minOnTime"), 0.02);
-            spinner.put(&format!("thruster[{k}].scatter"), 0.1);
-        }
-        spinner
-    };
-    let fly_on = |spinner: &mut Spinner, points: &[f64]| {
-        for point in points {
-            spinner.to(*point);
-        }
-        spinner.outputs()
-    };
-    let whole = fly_on(&mut configured().start(), &[100.0]);
-    let edge_s = configured().start().real("burn.nextEdge");
-    // In the midst of the rise, of the full thrust and of the tail-off.
-    for (into_s, share) in [(0.1, 0.25), (0.6, 1.0), (1.2, 0.5)] {
-        let mut spinner = configured().start();
-        spinner.to(edge_s + into_s);
-        let force = (1..=3).map(|i| spinner.real(&format!("force.thruster[{i}]")).powi(2)).sum::<f64>();
-        let scattered = force.sqrt() / (4.448 * share);
-        assert!((scattered - 1.0).abs() < 0.4 && scattered != 1.0, "{into_s}: {scattered}");
-        let (saved_s, saved) = (spinner.time_s, spinner.outputs());
-        let (status, bytes) = spinner.fmu.state_bytes();
-        assert_eq!(status, Status::Ok);
-        assert_eq!(fly_on(&mut spinner, &[40.0, 41.0, 66.6, 100.0]), whole, "{into_s}");
-        let mut other = configured().start();
-        let (status, state) = other.fmu.deserialize(&bytes);
-        assert_eq!(status, Status::Ok);
-        assert_eq!(other.fmu.set_state(&state), Status::Ok);
-        other.time_s = saved_s;
-        assert_eq!(other.outputs(), saved, "{into_s}");
-        assert_eq!(fly_on(&mut other, &[100.0]), whole, "{into_s}");
-    }
+    let named = NamedModel::<SpinPlant>::shipped();
+    let valves = [("riseTime", 0.4), ("tailOffTime", 0.6), ("minOnTime", 0.02), ("scatter", 0.1)];
+    let valves: Vec<(String, f64)> =
+        (1..=10).flat_map(|k| valves.map(|(name, value)| (format!("thruster[{k}].{name}"), value))).collect();
+    let mut sets: Vec<(&str, f64)> = valves.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+    sets.extend([
+        ("burn.pulseWidth", 1.0),
+        ("productsOfInertia[2]", 3.0),
+        ("burn.count", 6.0),
+        ("burn.timing", 3.0),
+    ]);
+    let fly = || named.fly(0.0, &sets).unwrap();
+    let edge_s = fly().real("burn.nextEdge");
+    let shares = [(0.1, 0.25), (0.6, 1.0), (1.2, 0.5)].map(|(into_s, share)| (edge_s + into_s, share));
+    let ends_s = shares.map(|(at_s, _)| at_s).into_iter().chain([100.0]);
+    assert_cuts_change_nothing(fly, ends_s, &[7.0, 0.7], |flight| {
+        let Some((_, share)) = shares.iter().find(|(at_s, _)| *at_s == flight.time_s()) else { return };
+        let scattered = flight.vector("force.thruster").norm() / (4.448 * share);
+        assert!((scattered - 1.0).abs() < 0.4 && scattered != 1.0, "{share}: {scattered}");
+    });
 }
 
 #[test]

@@ -4,6 +4,5 @@ mod driver;
 mod extremes;
 mod flights;
 mod refusals;
-mod torn_states;
 mod unknown_directions;
 mod warnings;

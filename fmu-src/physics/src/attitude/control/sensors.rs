@@ -49,7 +49,7 @@ pub fn sample_number(time_s: f64, rate_hz: f64) -> u64 {
 }
 
 /// Which sensors work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SensorHealth {
     /// Whether the star tracker works.
     pub star_tracker: bool,

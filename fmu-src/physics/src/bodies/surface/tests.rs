@@ -5,14 +5,7 @@ use approx::assert_relative_eq;
 use super::*;
 
 fn mercury(day_temperature: DayTemperature) -> PlanetSurface {
-    PlanetSurface {
-        radius_m: 2.44e6,
-        absorptivity: 0.88,
-        diffuse_reflectivity: 0.12,
-        emissivity: 0.9,
-        night_temperature_k: 100.0,
-        day_temperature,
-    }
+    PlanetSurface { day_temperature, ..MERCURY }
 }
 
 /// Power through the day hemisphere by rings of equal zenith angle, per pi R2.
@@ -57,7 +50,10 @@ fn temperatures_are_mercurys() {
 fn impossible_surfaces_are_refused_by_name() {
     let good = mercury(DayTemperature::Uniform);
     assert_eq!(good.validate(), Ok(()));
-    let name = |surface: PlanetSurface| surface.validate().unwrap_err().quantity;
+    let name = |surface: PlanetSurface| {
+        let refusal = surface.validate().unwrap_err();
+        refusal.found.split('`').nth(1).unwrap().to_owned()
+    };
     assert_eq!(name(PlanetSurface { radius_m: 0.0, ..good }), "radius");
     assert_eq!(name(PlanetSurface { emissivity: f64::NAN, ..good }), "emissivity");
     assert_eq!(name(PlanetSurface { emissivity: 0.0, ..good }), "emissivity");

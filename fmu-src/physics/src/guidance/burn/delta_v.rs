@@ -105,7 +105,7 @@ pub struct BurnAim {
 }
 
 /// State of the steering.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BurnState {
     phase: BurnPhase,
     /// Whether a burn was commanded at the last sample.
@@ -129,20 +129,6 @@ impl BurnSettings {
             LEAST_ACCELERATION_M_S2
         };
         acceleration_m_s2 >= least_m_s2
-    }
-}
-
-impl Default for BurnState {
-    fn default() -> Self {
-        Self {
-            phase: BurnPhase::None,
-            is_commanded: false,
-            last: None,
-            velocity_m_s: Vector3::zeros(),
-            magnitude_m_s: 0.0,
-            thrust_body: None,
-            accelerations_m_s2: [0.0; 2],
-        }
     }
 }
 

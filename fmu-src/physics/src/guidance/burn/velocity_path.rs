@@ -86,11 +86,6 @@ impl VelocityPath {
         self.length_m_s
     }
 
-    /// Where it ends, in m/s.
-    pub fn end_m_s(&self) -> Vector3<f64> {
-        self.coefficients_m_s.iter().sum()
-    }
-
     /// The point after this length, in m/s; before the beginning it is the beginning.
     pub fn point(&self, length_m_s: f64) -> PathPoint {
         let progress = self.progress(length_m_s);

@@ -45,20 +45,12 @@ impl Constraints {
             }
             None => (vectors.pointing()?, false),
         };
-        let Some(cone) = &self.hot_pole else {
-            return Some(ConstrainedPointing {
-                pointing,
-                sun_keep_in,
-                hot_pole: None,
-                hot_pole_reached: true,
-            });
-        };
-        let kept = cone.constrained(&pointing, surroundings, last_turn);
+        let kept = self.hot_pole.as_ref().map(|cone| cone.constrained(&pointing, surroundings, last_turn));
         Some(ConstrainedPointing {
-            pointing: kept.pointing,
+            pointing: kept.map_or(pointing, |kept| kept.pointing),
             sun_keep_in,
-            hot_pole: kept.side,
-            hot_pole_reached: kept.reached,
+            hot_pole: kept.and_then(|kept| kept.side),
+            hot_pole_reached: kept.is_none_or(|kept| kept.reached),
         })
     }
 

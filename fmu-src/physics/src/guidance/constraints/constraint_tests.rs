@@ -6,11 +6,10 @@ use super::keep_in::{KeepIn, KeepInMethod};
 use crate::attitude::SunAngles;
 use crate::guidance::geometry::moving::{unit, value};
 use crate::guidance::geometry::test_orbit::{TestOrbit, rate_error};
-use crate::guidance::pointing::aimpoint::AIMPOINTS;
 use crate::guidance::pointing::command::{ExternalRollOption, PointingCommand, Scenario};
 use crate::guidance::pointing::scenario::{PointingProgress, aim};
 use crate::guidance::pointing::scenario_tests::{
-    FLOOR_RAD_S, SCENARIOS, STEP_S, aimpoint, command, hardware,
+    FLOOR_RAD_S, SCENARIOS, STEP_S, aimpoint, command, every, hardware,
 };
 use crate::guidance::{EphemerisAtTime, Pointing, PointingVectors};
 use nalgebra::Vector3;
@@ -112,15 +111,15 @@ fn the_rate_is_the_derivative_with_a_constraint_in_force() {
         [(zone(KeepInMethod::Nearest), 40, 10), (zone(KeepInMethod::Clamp), 40, 10), (hot_pole(), 10, 4)];
     for (constraints, least, aims) in rows {
         let mut compared_by_aim = Vec::new();
-        for row in &AIMPOINTS {
+        for option in every() {
             let mut command = command(Scenario::Generic);
-            command.aimpoint = aimpoint(row.option);
+            command.aimpoint = aimpoint(option);
             // The Sun as reference would span no plane with itself.
             command.external_roll.option = Some(ExternalRollOption::Vector);
             let (worst, compared) =
                 worst(&constraints, |s, elapsed_s| vectors_of(&command, s, elapsed_s), &orbit);
-            assert!(worst < 1e-7, "{worst:e} {:?} {constraints:?}", row.option);
-            compared_by_aim.push((row.option, compared));
+            assert!(worst < 1e-7, "{worst:e} {option:?} {constraints:?}");
+            compared_by_aim.push((option, compared));
         }
         let enough = compared_by_aim.iter().filter(|(_, compared)| *compared >= least).count();
         assert!(enough >= aims, "{constraints:?}: {compared_by_aim:?}");

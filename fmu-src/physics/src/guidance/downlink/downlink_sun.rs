@@ -29,22 +29,6 @@ pub struct WindowStart<'a> {
     pub law: Guided,
 }
 
-/// Who chooses the Sun's place.
-pub trait SunChooser {
-    /// The place; `None` where the Sun is to stand on -Y.
-    fn choose(&self, start: &WindowStart<'_>) -> Option<ChosenPlace>;
-}
-
-/// Leaves the Sun on -Y.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SunOnMinusY;
-
-impl SunChooser for SunOnMinusY {
-    fn choose(&self, _start: &WindowStart<'_>) -> Option<ChosenPlace> {
-        None
-    }
-}
-
 /// The last choice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DownlinkSun {

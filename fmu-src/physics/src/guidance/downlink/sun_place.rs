@@ -19,7 +19,7 @@ use crate::attitude::{SunAngles, angle_between_rad, direction_from_angles};
 use crate::constants::DEG_RAD;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{Moving, MovingVector, PARALLEL_RAD, direction, fixed, unit, value};
-use crate::guidance::pointing::antenna::{Antenna, AntennaAzimuth, BOUND_RAD};
+use crate::guidance::pointing::antenna::{AntennaAzimuth, BOUND_RAD};
 use crate::guidance::pointing::law::PointingVectors;
 use crate::numerics::scalar::Scalar;
 
@@ -64,10 +64,8 @@ pub struct ChosenPlace {
 pub struct Downlink {
     /// The antenna at the Earth, the Sun toward its place.
     pub vectors: PointingVectors,
-    /// The antenna that looks at the Earth.
-    pub antenna: Antenna,
-    /// Where it looks, in its quadrant.
-    pub antenna_azimuth_rad: f64,
+    /// The antenna that looks at the Earth, and where in its quadrant.
+    pub antenna: AntennaAzimuth,
     /// Whether elevation or antenna stands at a bound, off what was requested.
     pub clamped: bool,
 }
@@ -103,10 +101,9 @@ pub fn downlink(
             (requested.unwrap_or_else(|| solutions.preferred()), solutions.sun_body, solutions.clamped)
         }
     };
-    let AntennaAzimuth { antenna, azimuth_rad: antenna_azimuth_rad, outside_rad } =
-        AntennaAzimuth::of(azimuth.re);
-    let at_bound = outside_rad > BOUND_RAD;
-    let boresight_azimuth = if at_bound { Moving::constant(antenna_azimuth_rad) } else { azimuth };
+    let antenna = AntennaAzimuth::of(azimuth.re);
+    let at_bound = antenna.outside_rad > BOUND_RAD;
+    let boresight_azimuth = if at_bound { Moving::constant(antenna.azimuth_rad) } else { azimuth };
     Some(Downlink {
         vectors: PointingVectors {
             boresight_body: direction(boresight_azimuth, Moving::constant(0.0)),
@@ -115,7 +112,6 @@ pub fn downlink(
             external_roll: *to_sun,
         },
         antenna,
-        antenna_azimuth_rad,
         clamped: cut || at_bound,
     })
 }

@@ -4,10 +4,8 @@
 //! the direction from the planet to the Sun), up x reference, and up. Azimuth is right-handed about up from the reference,
 //! elevation is toward up.
 
-use nalgebra::Vector3;
-
 use super::ephemeris_at_time::EphemerisAtTime;
-use super::moving::{MovingMatrix, MovingVector, fixed, unit, unit_normal};
+use super::moving::{MovingMatrix, MovingVector, fixed, spherical, unit, unit_normal};
 use crate::guidance::pointing::command::AzimuthReference;
 
 /// Axes of the local frame as columns in EME2000; `None` where the reference has no horizontal part.
@@ -28,10 +26,7 @@ pub fn lvlh_direction(
     azimuth_rad: f64,
     elevation_rad: f64,
 ) -> Option<MovingVector> {
-    let (sin_a, cos_a) = azimuth_rad.sin_cos();
-    let (sin_e, cos_e) = elevation_rad.sin_cos();
-    let direction_lvlh = fixed(Vector3::new(cos_e * cos_a, cos_e * sin_a, sin_e));
-    Some(lvlh_axes(surroundings, reference)? * direction_lvlh)
+    Some(lvlh_axes(surroundings, reference)? * fixed(spherical(azimuth_rad, elevation_rad)))
 }
 
 #[cfg(test)]
@@ -42,6 +37,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
     use core::f64::consts::FRAC_PI_2;
+    use nalgebra::Vector3;
 
     /// Above +X, flying toward +Y and upward; the Sun in the X-Z plane.
     fn above_x() -> EphemerisAtTime {

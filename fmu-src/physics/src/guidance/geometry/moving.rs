@@ -73,6 +73,13 @@ pub fn direction(azimuth: Moving, elevation: Moving) -> MovingVector {
     MovingVector::new(cos_e * sin_a, -cos_e * cos_a, -sin_e)
 }
 
+/// Unit vector of a longitude about z from x, and a latitude above the x-y plane: right ascension and declination as well.
+pub fn spherical(longitude_rad: f64, latitude_rad: f64) -> Vector3<f64> {
+    let (sin_lon, cos_lon) = longitude_rad.sin_cos();
+    let (sin_lat, cos_lat) = latitude_rad.sin_cos();
+    Vector3::new(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat)
+}
+
 /// Rotation by `angle_rad` about the axis `0` x, `1` y or `2` z, right-handed.
 pub fn rotation_about(axis: usize, angle_rad: Moving) -> MovingMatrix {
     let (sine, cosine) = angle_rad.sin_cos();

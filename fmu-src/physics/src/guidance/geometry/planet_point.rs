@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use super::ephemeris_at_time::EphemerisAtTime;
-use super::moving::MovingVector;
+use super::moving::{MovingVector, spherical};
 use crate::numerics::scalar::Scalar;
 
 /// Distance from the centre to the ellipsoid in a direction of unit length along the planet's axes, in m.
@@ -22,9 +22,7 @@ pub fn geographic_m(
     longitude_rad: f64,
     height_m: f64,
 ) -> Vector3<f64> {
-    let (sin_lat, cos_lat) = latitude_rad.sin_cos();
-    let (sin_lon, cos_lon) = longitude_rad.sin_cos();
-    let direction = Vector3::new(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat);
+    let direction = spherical(longitude_rad, latitude_rad);
     direction * (radius_m(radii_m, &direction) + height_m)
 }
 

@@ -3,7 +3,13 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::moving::{MovingVector, matrix_value, moving};
+use crate::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
 use crate::guidance::pointing::law::Pointing;
+
+/// The zone about -Y with its nearest boundary point.
+pub fn nearest_zone(azimuth_rad: f64, elevation_rad: f64) -> KeepIn {
+    KeepIn { axis_body: -Vector3::y(), azimuth_rad, elevation_rad, method: KeepInMethod::Nearest }
+}
 
 /// Numbers of SplitMix64 (Steele, Lea and Flood 2014).
 pub struct Random(pub u64);

@@ -5,15 +5,50 @@ use core::cell::RefCell;
 use nalgebra::{Matrix3, Vector3};
 
 use super::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
-use super::moving::{MovingMatrix, matrix_value, moving};
+use super::moving::{MovingMatrix, fixed, matrix_value, moving};
 use crate::bodies::Body;
 use crate::constants::DEG_RAD;
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::{Elements, TwoBodyOrbit, semi_major_axis_m};
+use crate::guidance::{Guided, Schedule, ScienceRule};
 
 /// 2011-04-06, a whole number of seconds past J2000: times in steps of powers of two are exact.
 const EPOCH_S: f64 = 355_363_200.0;
+
+/// Science by a rule between downlinks of these windows, from `start_s` to `end_s` after every `every`-th periapsis.
+pub fn guided(science: ScienceRule, period_s: f64, [start_s, end_s]: [f64; 2], every: u32) -> Guided {
+    let schedule = Schedule {
+        periapsis_s: 0.0,
+        period_s,
+        downlink_start_s: start_s,
+        downlink_end_s: end_s,
+        every,
+        once: false,
+    };
+    Guided {
+        schedule,
+        science,
+        elevation_limit_rad: 0.2,
+        slew_rate_rad_s: 0.0,
+        keep_in: None,
+        sun_place: None,
+        managed: false,
+    }
+}
+
+/// At epoch 0 about Mercury, with Sun and Earth that stand still.
+pub fn about_mercury(position: Vector3<f64>, sun: Vector3<f64>, earth: Vector3<f64>) -> EphemerisAtTime {
+    EphemerisAtTime {
+        epoch_s: 0.0,
+        planet: TargetPlanet::of(Body::Mercury.data()),
+        position: fixed(position),
+        velocity: fixed(Vector3::y() * 3e3),
+        sun: fixed(sun),
+        earth: fixed(earth),
+        bodies: [None; Body::ALL.len()],
+    }
+}
 
 /// The orbit of paper 001: periapsis at 200 km, 60 deg north, inclined by 80 deg, about a triaxial Mercury.
 pub struct TestOrbit {

@@ -4,13 +4,18 @@
 use nalgebra::Vector3;
 
 use super::system::{GuidanceState, SampleInputs};
-use super::test_burn::{BurnFlight, guidance_settings, sample_inputs, settings, surroundings};
+use super::test_burn::{BurnFlight, guidance_settings, sample_inputs, settings, still_inputs, surroundings};
 use crate::attitude::Attitude;
 use crate::attitude::control::AccelerometerSettings;
 use crate::constants::DEG_RAD;
 use crate::guidance::burn::delta_v::{BurnPhase, BurnSettings};
 use crate::guidance::burn::velocity_path::VelocityPath;
-use crate::guidance::downlink::downlink_sun::SunOnMinusY;
+use crate::guidance::pointing::command::Scenario;
+
+/// Where a path ends.
+fn end_m_s(path: &VelocityPath) -> Vector3<f64> {
+    path.point(path.length_m_s()).velocity_m_s
+}
 
 /// Root mean square over seeds 1 to 16 of the true direction's error with these corrections, in deg.
 fn direction_error_deg(predictive: bool, reactive: bool, bias_m_s2: f64) -> f64 {
@@ -18,7 +23,7 @@ fn direction_error_deg(predictive: bool, reactive: bool, bias_m_s2: f64) -> f64 
         let mut flight = BurnFlight::new(seed);
         (flight.settings.predictive, flight.settings.reactive) = (predictive, reactive);
         flight.accelerometers.bias_m_s2 = bias_m_s2;
-        let end = flight.settings.path.unwrap().end_m_s();
+        let end = end_m_s(&flight.settings.path.unwrap());
         let simulated = flight.fly(140);
         (simulated.velocity_m_s.angle(&end) / DEG_RAD).powi(2)
     });
@@ -66,8 +71,8 @@ fn magnitude_error_m_s(stops_between: bool, delta_v_m_s: f64) -> f64 {
         flight.accelerometers = AccelerometerSettings::default();
         flight.stops_between = stops_between;
         let simulated = flight.fly(140);
-        let wanted = flight.settings.path.unwrap().length_m_s();
-        (simulated.velocity_m_s.norm() - wanted).powi(2)
+        let requested = flight.settings.path.unwrap().length_m_s();
+        (simulated.velocity_m_s.norm() - requested).powi(2)
     });
     (squares.sum::<f64>() / 16.0).sqrt()
 }
@@ -109,7 +114,7 @@ fn a_powered_turn_is_followed() {
     flight.thrust.exhaust_m_s = 3100.0;
     flight.accelerometers = AccelerometerSettings::default();
     let simulated = flight.fly(400);
-    let end = flight.settings.path.unwrap().end_m_s();
+    let end = end_m_s(&flight.settings.path.unwrap());
     let error = simulated.velocity_m_s - end;
     assert!(simulated.velocity_m_s.angle(&end) < 0.01 * DEG_RAD, "{error}");
     assert!(error.norm() < 0.05, "{error}");
@@ -123,9 +128,9 @@ fn a_powered_turn_is_followed() {
 fn under_way(burn: &BurnSettings, count: u32) -> (GuidanceState, SampleInputs) {
     let settings = guidance_settings(*burn);
     let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
-    let mut inputs = sample_inputs(Attitude::default(), Vector3::zeros());
+    let mut inputs = still_inputs();
     for _ in 0..count {
-        guidance.sample(&settings, &inputs, &SunOnMinusY);
+        guidance.sample(&settings, &inputs, |_| None);
         let command = *guidance.command();
         let next_s = guidance.next_sample_s();
         inputs = sample_inputs(command.attitude_at(next_s), inputs.delta_v_body_m_s);
@@ -141,7 +146,7 @@ fn the_commanded_rate_turns_the_thrust_along_the_path() {
     let burn = BurnSettings { path: Some(powered_turn()), ..settings(Vector3::x()) };
     let (mut guidance, inputs) = under_way(&burn, 900);
     let before = *guidance.command();
-    guidance.sample(&guidance_settings(burn), &inputs, &SunOnMinusY);
+    guidance.sample(&guidance_settings(burn), &inputs, |_| None);
     let after = *guidance.command();
     let turn = before.attitude_at(900.0 - 1.0).rotation_vector_to(&after.attitude_at(900.0));
     let mean = (before.rate_body_rad_s + after.rate_body_rad_s) * 0.5;
@@ -171,9 +176,9 @@ fn a_burn_without_acceleration_times_out() {
     let burn = BurnSettings { timeout_s: 20.5, ..settings(Vector3::x() * 10.0) };
     let all = guidance_settings(burn);
     let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
-    let inputs = sample_inputs(Attitude::default(), Vector3::zeros());
+    let inputs = still_inputs();
     for second in 0..60 {
-        guidance.sample(&all, &inputs, &SunOnMinusY);
+        guidance.sample(&all, &inputs, |_| None);
         let expected = (5..26).contains(&second).then_some(25.5);
         assert_eq!(guidance.burn().stop_s(), expected, "{second} s");
         assert!(guidance.is_valid());
@@ -191,32 +196,32 @@ fn a_burn_interrupted_does_not_go_on_by_itself() {
     let mut guidance = burning;
     let mut lost = inputs;
     lost.sensed.estimate = None;
-    guidance.sample(&all, &lost, &SunOnMinusY);
+    guidance.sample(&all, &lost, |_| None);
     assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: false });
     let mut promoted = inputs;
     promoted.sensed.request = Some(super::mode::Mode::Operational);
     for _ in 0..10 {
-        guidance.sample(&all, &promoted, &SunOnMinusY);
+        guidance.sample(&all, &promoted, |_| None);
         assert_eq!(guidance.burn().stop_s(), None);
     }
     // Another scenario ends it, the same one again is another burn.
     let mut guidance = burning;
     let mut other = inputs;
-    other.command.scenario = Some(crate::guidance::pointing::command::Scenario::Nadir);
-    guidance.sample(&all, &other, &SunOnMinusY);
+    other.command.scenario = Some(Scenario::Nadir);
+    guidance.sample(&all, &other, |_| None);
     assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: false });
-    guidance.sample(&all, &inputs, &SunOnMinusY);
+    guidance.sample(&all, &inputs, |_| None);
     assert!(guidance.burn().stop_s().is_some());
     assert_eq!(guidance.burn().velocity_m_s(), &Vector3::zeros());
     // An entry of a timeline that goes on with its scenario does not begin it anew, one that names it does.
     let mut guidance = burning;
     let mut planned = inputs;
     planned.entries.scenario = Some(7);
-    guidance.sample(&all, &planned, &SunOnMinusY);
+    guidance.sample(&all, &planned, |_| None);
     assert_eq!(guidance.burn().velocity_m_s(), &Vector3::zeros());
     planned.entries.scenario = None;
     planned.delta_v_body_m_s += Vector3::z() * 0.088;
-    guidance.sample(&all, &planned, &SunOnMinusY);
+    guidance.sample(&all, &planned, |_| None);
     assert!(guidance.burn().velocity_m_s().norm() > 0.08);
 }
 
@@ -233,7 +238,7 @@ fn no_thrust_without_direction_or_off_the_aim() {
     all.modes.operational.keep_in = Some(all.keep_in);
     let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
     for _ in 0..20 {
-        guidance.sample(&all, &sample_inputs(Attitude::default(), Vector3::zeros()), &SunOnMinusY);
+        guidance.sample(&all, &still_inputs(), |_| None);
     }
     assert!(guidance.status().sun_keep_in && !guidance.status().reachable);
     assert_eq!(guidance.burn().phase(), BurnPhase::Waiting { since_s: 0.0, refused: true });
@@ -249,7 +254,7 @@ fn a_burn_that_cannot_begin_says_so_and_times_out() {
         all.modes.operational.keep_in = Some(all.keep_in);
         let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
         for second in 0..40 {
-            guidance.sample(&all, &sample_inputs(Attitude::default(), Vector3::zeros()), &SunOnMinusY);
+            guidance.sample(&all, &still_inputs(), |_| None);
             // Due at 5 s.
             assert_eq!(guidance.burn().is_missed(), second >= 5, "{second}");
             assert_eq!(guidance.burn().is_requested(), second < 25, "{second}");
@@ -262,7 +267,7 @@ fn a_burn_that_cannot_begin_says_so_and_times_out() {
     let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
     for second in 0..12 {
         all.modes.operational.keep_in = (second < 9).then_some(all.keep_in);
-        guidance.sample(&all, &sample_inputs(Attitude::default(), Vector3::zeros()), &SunOnMinusY);
+        guidance.sample(&all, &still_inputs(), |_| None);
         assert_eq!(guidance.burn().is_missed(), (5..9).contains(&second), "{second}");
         assert_eq!(guidance.burn().stop_s().is_some(), second >= 9, "{second}");
     }
@@ -274,17 +279,17 @@ fn a_burn_that_another_scenario_ends_before_it_began_says_so() {
     let all = guidance_settings(burn);
     let (waiting, inputs) = under_way(&burn, 3);
     let mut other = inputs;
-    other.command.scenario = Some(crate::guidance::pointing::command::Scenario::Nadir);
+    other.command.scenario = Some(Scenario::Nadir);
     let mut lost = inputs;
     lost.sensed.estimate = None;
     for ending in [other, lost] {
         let mut guidance = waiting;
-        guidance.sample(&all, &ending, &SunOnMinusY);
+        guidance.sample(&all, &ending, |_| None);
         assert_eq!(guidance.burn().phase(), BurnPhase::Ended { timed_out: true });
         assert!(guidance.burn().is_missed() && !guidance.burn().is_requested());
         // Commanded anew it is another burn.
         if ending.sensed.estimate.is_some() {
-            guidance.sample(&all, &inputs, &SunOnMinusY);
+            guidance.sample(&all, &inputs, |_| None);
             assert!(!guidance.burn().is_missed() && guidance.burn().is_requested());
         }
     }

@@ -5,19 +5,18 @@ use nalgebra::Vector3;
 use super::body_positions::BodyPositions;
 use super::guidance_command::CommandStatus;
 use super::system::{GuidanceSettings, GuidanceState, SampleInputs};
-use super::test_burn::{guidance_settings, sample_inputs, settings};
+use super::test_burn::{guidance_settings, sample_inputs, settings, still_inputs};
 use crate::attitude::{Attitude, SunAngles};
 use crate::constants::DEG_RAD;
 use crate::guidance::constraints::constrained::Constraints;
 use crate::guidance::constraints::hot_pole::{CONE_RAD, HotPole};
-use crate::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
-use crate::guidance::downlink::downlink_sun::SunOnMinusY;
+use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::downlink::sun_place::SunPlace;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::limb::terminator_limb;
 use crate::guidance::geometry::moving::value;
-use crate::guidance::geometry::test_geometry::Random;
-use crate::guidance::geometry::test_orbit::TestOrbit;
+use crate::guidance::geometry::test_geometry::{Random, nearest_zone};
+use crate::guidance::geometry::test_orbit::{TestOrbit, guided};
 use crate::guidance::orbit_phase::schedule::Schedule;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::guidance::pointing::scenario_tests::{SCENARIOS, command, hardware};
@@ -26,31 +25,15 @@ use crate::guidance::{Guided, ScienceRule, lines_of_sight};
 const HALF_DAY_S: u32 = 43_200;
 
 fn zone() -> KeepIn {
-    KeepIn {
-        axis_body: -Vector3::y(),
-        azimuth_rad: 15.0 * DEG_RAD,
-        elevation_rad: 13.0 * DEG_RAD,
-        method: KeepInMethod::Nearest,
-    }
+    nearest_zone(15.0 * DEG_RAD, 13.0 * DEG_RAD)
 }
 
 /// A downlink after every periapsis of an orbit of twelve hours, begun at it.
 fn law(science: ScienceRule, slew_rate_rad_s: f64) -> Guided {
     Guided {
-        schedule: Schedule {
-            periapsis_s: 0.0,
-            period_s: f64::INFINITY,
-            downlink_start_s: 2.0 * 3600.0,
-            downlink_end_s: 10.0 * 3600.0,
-            every: 1,
-            once: false,
-        },
-        science,
         elevation_limit_rad: zone().elevation_rad,
         slew_rate_rad_s,
-        keep_in: None,
-        sun_place: None,
-        managed: false,
+        ..guided(science, f64::INFINITY, [2.0 * 3600.0, 10.0 * 3600.0], 1)
     }
 }
 
@@ -97,7 +80,7 @@ fn fly(all: &GuidanceSettings<'_>, command: PointingCommand, places: &[Ephemeris
             places: BodyPositions::in_every_mode(Some(*surroundings)),
             ..sample_inputs(led_to, Vector3::zeros())
         };
-        guidance.sample(all, &inputs, &SunOnMinusY);
+        guidance.sample(all, &inputs, |_| None);
         simulated.flags.push(flags(guidance.status()));
         let now = guidance.command();
         let jump_rad = led_to.rotation_vector_to(&now.attitude_at(time_s)).norm();
@@ -259,10 +242,10 @@ fn a_downlink_of_the_orbit_phase_reaches_the_earth_beyond_a_right_angle_from_the
         let inputs = SampleInputs {
             command,
             places: BodyPositions::in_every_mode(Some(surroundings)),
-            ..sample_inputs(Attitude::default(), Vector3::zeros())
+            ..still_inputs()
         };
         let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
-        guidance.sample(&all, &inputs, &SunOnMinusY);
+        guidance.sample(&all, &inputs, |_| None);
         let earth = guidance.command().attitude_at(0.0).to_body(&value(&surroundings.to_earth()).normalize());
         assert!(earth.z.abs() < 1e-9);
         assert!(guidance.status().reachable, "{day}");
@@ -289,8 +272,8 @@ fn a_scan_that_changes_begins_anew() {
     let sample = |guidance: &mut GuidanceState, second: u32, command: PointingCommand| {
         let surroundings = orbit.surroundings(20_000.0 + f64::from(second));
         let places = BodyPositions::in_every_mode(Some(surroundings));
-        let inputs = SampleInputs { command, places, ..sample_inputs(Attitude::default(), Vector3::zeros()) };
-        guidance.sample(&all, &inputs, &SunOnMinusY);
+        let inputs = SampleInputs { command, places, ..still_inputs() };
+        guidance.sample(&all, &inputs, |_| None);
         guidance.command().attitude_at(f64::from(second))
     };
     let mut changed = GuidanceState::new(Attitude::default(), 0.0);

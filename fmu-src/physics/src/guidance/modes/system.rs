@@ -19,8 +19,8 @@ use crate::guidance::burn::delta_v::{BurnSettings, BurnState, MeasuredMotion};
 use crate::guidance::constraints::constrained::{ConstrainedPointing, Constraints};
 use crate::guidance::constraints::hot_pole::TurnSide;
 use crate::guidance::constraints::keep_in::KeepIn;
-use crate::guidance::downlink::downlink_sun::{DownlinkSun, SunChooser, WindowStart};
-use crate::guidance::downlink::sun_place::{LinkLimits, SunPlace, link};
+use crate::guidance::downlink::downlink_sun::{DownlinkSun, WindowStart};
+use crate::guidance::downlink::sun_place::{ChosenPlace, LinkLimits, SunPlace, link};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{MovingVector, value};
 use crate::guidance::orbit_phase::guided::Guided;
@@ -183,14 +183,14 @@ impl GuidanceState {
         (self.next_sample_s < end_s - tolerance_s).then_some(self.next_sample_s)
     }
 
-    /// Takes the sample that is due; `chooser` puts the Sun where a downlink begins, or science that unloads. Whether it was requested.
+    /// Takes the sample that is due; `choose` puts the Sun where a downlink begins, or science that unloads. Whether it was requested.
     pub fn sample(
         &mut self,
         settings: &GuidanceSettings<'_>,
         inputs: &SampleInputs,
-        chooser: &impl SunChooser,
+        choose: impl Fn(&WindowStart<'_>) -> Option<ChosenPlace>,
     ) -> bool {
-        let mut is_asked = false;
+        let mut is_chosen = false;
         let time_s = self.next_sample_s;
         self.next_sample_s = next_whole_s(time_s);
         let sensed = Sensed { time_s, ..inputs.sensed };
@@ -221,7 +221,7 @@ impl GuidanceState {
                 let settings = &GuidanceSettings { orbit_phase, ..*settings };
                 if let Some(surroundings) = surroundings.filter(|_| command.scenario.is_some()) {
                     let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
-                    is_asked = self.place_sun(settings, &command, surroundings, attitude, chooser);
+                    is_chosen = self.place_sun(settings, &command, surroundings, attitude, choose);
                     self.compute_attitude(
                         &SampleContext { settings, constraints, surroundings, time_s },
                         &command,
@@ -247,7 +247,7 @@ impl GuidanceState {
             self.burn.end();
             self.downlink_sun.end();
         }
-        is_asked
+        is_chosen
     }
 
     /// Puts the Sun where a downlink begins, or science that unloads; whether one does.
@@ -257,7 +257,7 @@ impl GuidanceState {
         command: &PointingCommand,
         surroundings: &EphemerisAtTime,
         attitude: Attitude,
-        chooser: &impl SunChooser,
+        choose: impl Fn(&WindowStart<'_>) -> Option<ChosenPlace>,
     ) -> bool {
         let (windows, epoch_s) = (&settings.orbit_phase.schedule, surroundings.epoch_s);
         let found = match command.scenario {
@@ -280,15 +280,15 @@ impl GuidanceState {
             self.downlink_sun.end();
             return false;
         };
-        let choose = || {
+        let chosen = || {
             let law = Guided { schedule, ..settings.orbit_phase };
             let is_span = span_s.is_finite() && span_s > 0.0;
             let start = WindowStart { activity, surroundings, attitude, span_s, law };
-            is_span.then(|| chooser.choose(&start)).flatten()
+            is_span.then(|| choose(&start)).flatten()
         };
         match activity {
-            Activity::Downlink => self.downlink_sun.last(scenario, self.entries.scenario, choose),
-            Activity::Science => self.downlink_sun.last_in_science(choose),
+            Activity::Downlink => self.downlink_sun.last(scenario, self.entries.scenario, chosen),
+            Activity::Science => self.downlink_sun.last_in_science(chosen),
         }
     }
 
@@ -432,13 +432,10 @@ impl GuidanceState {
         let keeps_nadir = attitude.window.activity == Activity::Science && law.science.unloads();
         let earth_body = || value(&pointing.to_body(&surroundings.to_earth()));
         Aimed {
-            vectors: pointing.vectors(),
-            mdis: None,
             second: keeps_nadir.then(|| surroundings.to_planet()),
             antenna: is_downlink.then(|| Beam::AtTheEarth(AntennaAzimuth::toward(&earth_body()))),
             reachable: !attitude.slewing && attitude.margins.iter().all(|margin| *margin >= 0.0),
-            clamped: false,
-            scan_active: false,
+            ..Aimed::at(pointing.vectors())
         }
     }
 

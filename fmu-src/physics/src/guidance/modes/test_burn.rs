@@ -2,6 +2,7 @@
 //!
 //! Guidance and spacecraft exchange as a master does that calls both over the same step: each sees the other's last results.
 
+use crate::guidance::geometry::test_geometry::nearest_zone;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::body_positions::BodyPositions;
@@ -14,14 +15,10 @@ use crate::constants::DEG_RAD;
 use crate::guidance::burn::delta_v::{BurnPhase, BurnSettings, GAIN, LOOK_AHEAD_S};
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::constraints::constrained::Constraints;
-use crate::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
-use crate::guidance::downlink::downlink_sun::SunOnMinusY;
 use crate::guidance::downlink::sun_place::LinkLimits;
-use crate::guidance::geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
-use crate::guidance::geometry::moving::fixed;
+use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
+use crate::guidance::geometry::test_orbit::{about_mercury, guided};
 use crate::guidance::orbit_phase::attitudes::ScienceRule;
-use crate::guidance::orbit_phase::guided::Guided;
-use crate::guidance::orbit_phase::schedule::Schedule;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::guidance::pointing::scenario::GuidanceHardware;
 use crate::numerics::noise::{Channel, normal_vector};
@@ -78,16 +75,8 @@ pub struct Simulated {
 
 /// The Sun to the side of burns along x.
 pub fn surroundings() -> EphemerisAtTime {
-    let planet = TargetPlanet::of(Body::Mercury.data());
-    EphemerisAtTime {
-        epoch_s: 0.0,
-        planet,
-        position: fixed(Vector3::x() * planet.radii_m.x * 2.0),
-        velocity: fixed(Vector3::y() * 3e3),
-        sun: fixed(Vector3::new(1e10, 5e10, 2e10)),
-        earth: fixed(Vector3::new(4e10, 8e10, 1e10)),
-        bodies: [None; Body::ALL.len()],
-    }
+    let position = Vector3::x() * Body::Mercury.data().radius_m * 2.0;
+    about_mercury(position, Vector3::new(1e10, 5e10, 2e10), Vector3::new(4e10, 8e10, 1e10))
 }
 
 /// 10 m/s by 88 N on 1000 kg along +Z.
@@ -107,12 +96,7 @@ pub fn settings(delta_v_m_s: Vector3<f64>) -> BurnSettings {
 
 /// Without constraints.
 pub fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static> {
-    let keep_in = KeepIn {
-        axis_body: -Vector3::y(),
-        azimuth_rad: 0.3,
-        elevation_rad: 0.3,
-        method: KeepInMethod::Nearest,
-    };
+    let keep_in = nearest_zone(0.3, 0.3);
     GuidanceSettings {
         hardware: GuidanceHardware::default(),
         modes: ModeSettings {
@@ -129,22 +113,7 @@ pub fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static> {
         keep_in,
         keep_in_distance_m: 1e13,
         link: LinkLimits { sun_separation_rad: 0.05, coverage_rad: 0.05 },
-        orbit_phase: Guided {
-            schedule: Schedule {
-                periapsis_s: 0.0,
-                period_s: f64::INFINITY,
-                downlink_start_s: 0.0,
-                downlink_end_s: 0.0,
-                every: 0,
-                once: false,
-            },
-            science: ScienceRule::Nadir,
-            elevation_limit_rad: 0.2,
-            slew_rate_rad_s: 0.0,
-            keep_in: None,
-            sun_place: None,
-            managed: false,
-        },
+        orbit_phase: guided(ScienceRule::Nadir, f64::INFINITY, [0.0, 0.0], 0),
         burn,
     }
 }
@@ -158,6 +127,11 @@ pub fn sample_inputs(attitude: Attitude, delta_v_body_m_s: Vector3<f64>) -> Samp
         sensed: Sensed { time_s: 0.0, request: None, estimate: Some(attitude), sun_body: None },
         delta_v_body_m_s,
     }
+}
+
+/// The same at rest.
+pub fn still_inputs() -> SampleInputs {
+    sample_inputs(Attitude::default(), Vector3::zeros())
 }
 
 impl BurnFlight {
@@ -206,7 +180,7 @@ impl BurnFlight {
         let path = self.settings.path.unwrap();
         let dt = 1.0 / f64::from(RATE_HZ);
         let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
-        guidance.sample(&settings, &sample_inputs(Attitude::default(), Vector3::zeros()), &SunOnMinusY);
+        guidance.sample(&settings, &still_inputs(), |_| None);
         // The turn to the burn is done.
         let mut attitude = guidance.command().attitude_at(0.0);
         let mut accelerometers = AccelerometerState::new(&self.accelerometers);
@@ -222,7 +196,7 @@ impl BurnFlight {
                 let to_s = time_s + dt * f64::from(self.samples_per_exchange);
                 while guidance.due_before(to_s).is_some() {
                     let inputs = sample_inputs(attitude, *accelerometers.delta_v_body_m_s());
-                    guidance.sample(&settings, &inputs, &SunOnMinusY);
+                    guidance.sample(&settings, &inputs, |_| None);
                     let rate = guidance.command().rate_body_rad_s;
                     if guidance.burn().stop_s().is_some() {
                         fastest_rad_s = fastest_rad_s.max(rate.norm());

@@ -152,17 +152,9 @@ fn planet_orbit(lines: &LinesOfSight) -> AttitudeCommand {
 pub fn downlink(lines: &LinesOfSight) -> AttitudeCommand {
     let cosine = lines.sun.direction.dot(&lines.earth.direction);
     let (sun, earth) = (&lines.sun, &lines.earth);
-    let (normal, normal_rate) = if cosine > 0.0 {
-        (
-            earth.direction.cross(&sun.direction),
-            earth.rate_1_s.cross(&sun.direction) + earth.direction.cross(&sun.rate_1_s),
-        )
-    } else {
-        (
-            sun.direction.cross(&earth.direction),
-            sun.rate_1_s.cross(&earth.direction) + sun.direction.cross(&earth.rate_1_s),
-        )
-    };
+    let (from, to) = if cosine > 0.0 { (earth, sun) } else { (sun, earth) };
+    let normal = from.direction.cross(&to.direction);
+    let normal_rate = from.rate_1_s.cross(&to.direction) + from.direction.cross(&to.rate_1_s);
     if normal.norm() < 1e-9 {
         return sun_pointing(lines);
     }

@@ -1,6 +1,5 @@
-//! The aimpoint options of paper 001's Table 2 as one table, and any body.
+//! The aimpoint options of paper 001's Table 2, and any body.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::command::{AimpointCommand, AimpointOption, AzimuthReference};
@@ -8,7 +7,7 @@ use crate::bodies::Body;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::{SubsolarMethod, optimal_lighting_m, subsolar_m};
 use crate::guidance::geometry::lvlh::lvlh_direction;
-use crate::guidance::geometry::moving::{MovingVector, fixed, moving, value};
+use crate::guidance::geometry::moving::{MovingVector, fixed, moving, spherical, value};
 use crate::guidance::geometry::planet_point::{geographic_m, planet_fixed};
 
 /// What an aim is, which decides how it can be scanned.
@@ -22,11 +21,6 @@ pub enum AimKind {
     Point,
     /// The target planet, or a point that belongs to it.
     PlanetPoint,
-}
-
-impl AimKind {
-    /// All kinds, in order.
-    pub const ALL: [Self; 4] = [Self::Direction, Self::LocalDirection, Self::Point, Self::PlanetPoint];
 }
 
 /// Where to aim.
@@ -48,48 +42,24 @@ impl Aim {
     }
 }
 
-/// The vector of an option from the spacecraft; `None` where it has none.
-type AimpointLaw = fn(&AimpointCommand, &EphemerisAtTime, SubsolarMethod) -> Option<MovingVector>;
-
-/// One option, its law, and what its aim is.
-pub struct Aimpoint {
-    /// The option.
-    pub option: AimpointOption,
-    /// Its law.
-    law: AimpointLaw,
-    /// What its aim is.
-    pub kind: AimKind,
-}
-
-/// Every option, in the order of [`AimpointOption`].
-pub const AIMPOINTS: [Aimpoint; 15] = {
-    use AimKind::{Direction, LocalDirection, PlanetPoint, Point};
-    use AimpointOption as Option;
-    const fn row(option: Option, law: AimpointLaw, kind: AimKind) -> Aimpoint {
-        Aimpoint { option, law, kind }
+/// What the aim of an option is.
+pub fn aim_kind(option: AimpointOption) -> AimKind {
+    match option {
+        AimpointOption::Vector | AimpointOption::RightAscensionDeclination => AimKind::Direction,
+        AimpointOption::LvlhDowntrack | AimpointOption::LvlhSun => AimKind::LocalDirection,
+        AimpointOption::EarthCentered
+        | AimpointOption::SunCentered
+        | AimpointOption::Sun
+        | AimpointOption::Earth
+        | AimpointOption::Body => AimKind::Point,
+        AimpointOption::PlanetCentered
+        | AimpointOption::PlanetFixed
+        | AimpointOption::LatitudeLongitude
+        | AimpointOption::Nadir
+        | AimpointOption::Subsolar
+        | AimpointOption::OptimalLighting => AimKind::PlanetPoint,
     }
-    [
-        row(Option::Vector, |c, _, _| Some(fixed(c.vector)), Direction),
-        row(
-            Option::RightAscensionDeclination,
-            |c, _, _| Some(fixed(celestial(c.right_ascension_rad, c.declination_rad))),
-            Direction,
-        ),
-        row(Option::EarthCentered, |c, s, _| Some(s.to_earth() + given(c)), Point),
-        row(Option::SunCentered, |c, s, _| Some(s.to_sun() + given(c)), Point),
-        row(Option::PlanetCentered, |c, s, _| Some(s.to_planet() + given(c)), PlanetPoint),
-        row(Option::PlanetFixed, |c, s, _| Some(s.to_planet() + planet_fixed(s, &given(c))), PlanetPoint),
-        row(Option::LatitudeLongitude, latitude_longitude, PlanetPoint),
-        row(Option::LvlhDowntrack, |c, s, _| lvlh(c, s, AzimuthReference::Downtrack), LocalDirection),
-        row(Option::LvlhSun, |c, s, _| lvlh(c, s, AzimuthReference::Sun), LocalDirection),
-        row(Option::Sun, |_, s, _| Some(s.to_sun()), Point),
-        row(Option::Earth, |_, s, _| Some(s.to_earth()), Point),
-        row(Option::Nadir, |_, s, _| Some(s.to_planet()), PlanetPoint),
-        row(Option::Subsolar, |_, s, method| Some(s.to_planet() + subsolar_m(s, method)?), PlanetPoint),
-        row(Option::OptimalLighting, |_, s, _| Some(s.to_planet() + optimal_lighting_m(s)?), PlanetPoint),
-        row(Option::Body, |c, s, _| c.body.map(|body| to_body(s, body)), Point),
-    ]
-};
+}
 
 /// The commanded aim; `None` where nothing is commanded or it has no direction, such as a zero vector or a body whose place
 /// is not known.
@@ -99,46 +69,41 @@ pub fn aimpoint(
     method: SubsolarMethod,
 ) -> Option<Aim> {
     let option = command.option?;
-    let row = AIMPOINTS.iter().find(|row| row.option == option)?;
-    Aim::new((row.law)(command, surroundings, method)?, row.kind)
-}
-
-/// Unit vector of right ascension and declination, EME2000.
-pub fn celestial(right_ascension_rad: f64, declination_rad: f64) -> Vector3<f64> {
-    let (sin_ra, cos_ra) = right_ascension_rad.sin_cos();
-    let (sin_dec, cos_dec) = declination_rad.sin_cos();
-    Vector3::new(cos_dec * cos_ra, cos_dec * sin_ra, sin_dec)
-}
-
-/// The position that is given, with its motion.
-fn given(command: &AimpointCommand) -> MovingVector {
-    moving(command.position_m, command.velocity_m_s)
-}
-
-fn latitude_longitude(
-    command: &AimpointCommand,
-    surroundings: &EphemerisAtTime,
-    _: SubsolarMethod,
-) -> Option<MovingVector> {
-    let radii_m = &surroundings.planet.radii_m;
-    let at_m = geographic_m(radii_m, command.latitude_rad, command.longitude_rad, command.height_m);
-    Some(surroundings.to_planet() + planet_fixed(surroundings, &fixed(at_m)))
-}
-
-fn lvlh(
-    command: &AimpointCommand,
-    surroundings: &EphemerisAtTime,
-    reference: AzimuthReference,
-) -> Option<MovingVector> {
-    lvlh_direction(surroundings, reference, command.azimuth_rad, command.elevation_rad)
-}
-
-fn to_body(surroundings: &EphemerisAtTime, body: Body) -> MovingVector {
-    match body {
-        Body::Sun => surroundings.to_sun(),
-        Body::Earth => surroundings.to_earth(),
-        other => surroundings.to_body(other),
-    }
+    let position = moving(command.position_m, command.velocity_m_s);
+    let lvlh =
+        |reference| lvlh_direction(surroundings, reference, command.azimuth_rad, command.elevation_rad);
+    let toward = match option {
+        AimpointOption::Vector => fixed(command.vector),
+        AimpointOption::RightAscensionDeclination => {
+            fixed(spherical(command.right_ascension_rad, command.declination_rad))
+        }
+        AimpointOption::EarthCentered => surroundings.to_earth() + position,
+        AimpointOption::SunCentered => surroundings.to_sun() + position,
+        AimpointOption::PlanetCentered => surroundings.to_planet() + position,
+        AimpointOption::PlanetFixed => surroundings.to_planet() + planet_fixed(surroundings, &position),
+        AimpointOption::LatitudeLongitude => {
+            let at_m = geographic_m(
+                &surroundings.planet.radii_m,
+                command.latitude_rad,
+                command.longitude_rad,
+                command.height_m,
+            );
+            surroundings.to_planet() + planet_fixed(surroundings, &fixed(at_m))
+        }
+        AimpointOption::LvlhDowntrack => lvlh(AzimuthReference::Downtrack)?,
+        AimpointOption::LvlhSun => lvlh(AzimuthReference::Sun)?,
+        AimpointOption::Sun => surroundings.to_sun(),
+        AimpointOption::Earth => surroundings.to_earth(),
+        AimpointOption::Nadir => surroundings.to_planet(),
+        AimpointOption::Subsolar => surroundings.to_planet() + subsolar_m(surroundings, method)?,
+        AimpointOption::OptimalLighting => surroundings.to_planet() + optimal_lighting_m(surroundings)?,
+        AimpointOption::Body => match command.body? {
+            Body::Sun => surroundings.to_sun(),
+            Body::Earth => surroundings.to_earth(),
+            other => surroundings.to_body(other),
+        },
+    };
+    Aim::new(toward, aim_kind(option))
 }
 
 #[cfg(test)]

@@ -45,15 +45,6 @@ pub enum Beam {
     Commanded(AntennaAzimuth),
 }
 
-impl Beam {
-    /// Where it looks unless a constraint moves it.
-    pub fn azimuth(&self) -> &AntennaAzimuth {
-        match self {
-            Self::AtTheEarth(azimuth) | Self::Commanded(azimuth) => azimuth,
-        }
-    }
-}
-
 impl Antenna {
     /// Both antennas.
     pub const ALL: [Self; 2] = [Self::Sunshade, Self::Back];

@@ -1,4 +1,4 @@
-//! The boresight options of paper 001's Table 1 as one table: vectors, the MDIS camera, the phased-array antennas.
+//! The boresight options of paper 001's Table 1: vectors, the MDIS camera, the phased-array antennas.
 
 use core::f64::consts::{PI, TAU};
 
@@ -114,24 +114,17 @@ impl Boresight {
     }
 }
 
-/// The boresight of an option.
-type BoresightLaw = fn(&BoresightCommand, &MdisRange) -> Boresight;
-
-/// Every option and its law, in the order of [`BoresightOption`].
-pub const BORESIGHTS: [(BoresightOption, BoresightLaw); 4] = [
-    (BoresightOption::Vector, |c, _| Boresight::of(c.vector)),
-    (BoresightOption::AzimuthElevation, |c, _| {
-        let angles = SunAngles { azimuth_rad: c.azimuth_rad, elevation_rad: c.elevation_rad };
-        Boresight::of(direction_from_angles(angles))
-    }),
-    (BoresightOption::Mdis, |c, range| Boresight::mdis(c.angle_rad, range)),
-    (BoresightOption::PhasedArray, |c, _| Boresight::antenna(c.azimuth_rad)),
-];
-
 /// The commanded boresight; `None` where none is commanded.
 pub fn boresight(command: &BoresightCommand, mdis: &MdisRange) -> Option<Boresight> {
-    let option = command.option?;
-    BORESIGHTS.iter().find(|(of, _)| *of == option).map(|(_, law)| law(command, mdis))
+    Some(match command.option? {
+        BoresightOption::Vector => Boresight::of(command.vector),
+        BoresightOption::AzimuthElevation => Boresight::of(direction_from_angles(SunAngles {
+            azimuth_rad: command.azimuth_rad,
+            elevation_rad: command.elevation_rad,
+        })),
+        BoresightOption::Mdis => Boresight::mdis(command.angle_rad, mdis),
+        BoresightOption::PhasedArray => Boresight::antenna(command.azimuth_rad),
+    })
 }
 
 #[cfg(test)]

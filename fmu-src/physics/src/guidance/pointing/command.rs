@@ -178,110 +178,126 @@ enumeration! {
     }
 }
 
-/// The boresight, body frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct BoresightCommand {
-    /// How it is given.
-    pub option: Option<BoresightOption>,
-    /// Components, of any length.
-    pub vector: Vector3<f64>,
-    /// Azimuth; also of the antenna.
-    pub azimuth_rad: f64,
-    /// Elevation.
-    pub elevation_rad: f64,
-    /// MDIS angle.
-    pub angle_rad: f64,
-    /// Instrument of a scenario: 0 is +Z, then the rows of the instrument table from 1.
-    pub instrument: u32,
+/// Commands that are given field by field.
+macro_rules! commands {
+    ($($(#[$of:meta])* pub struct $name:ident { $($(#[$doc:meta])* pub $field:ident: $type:ty,)+ })+) => {$(
+        $(#[$of])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+        pub struct $name {
+            $($(#[$doc])* pub $field: $type,)+
+        }
+
+        impl $name {
+            /// Field by field: this one where it is not zero or nothing, otherwise the planned one.
+            #[must_use]
+            pub fn over(&self, planned: &Self) -> Self {
+                let nothing = Self::default();
+                Self { $($field: if self.$field == nothing.$field { planned.$field } else { self.$field }),+ }
+            }
+        }
+    )+};
 }
 
-/// An aimpoint.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct AimpointCommand {
-    /// What it is.
-    pub option: Option<AimpointOption>,
-    /// EME2000 direction, of any length.
-    pub vector: Vector3<f64>,
-    /// Position of options centred on a body.
-    pub position_m: Vector3<f64>,
-    /// How it moves, in m/s: with it, an ephemeris given from outside is tracked.
-    pub velocity_m_s: Vector3<f64>,
-    /// Right ascension.
-    pub right_ascension_rad: f64,
-    /// Declination.
-    pub declination_rad: f64,
-    /// Planetocentric latitude.
-    pub latitude_rad: f64,
-    /// East longitude.
-    pub longitude_rad: f64,
-    /// Height above the ellipsoid along the radius.
-    pub height_m: f64,
-    /// Azimuth in the local frame, right-handed about up.
-    pub azimuth_rad: f64,
-    /// Elevation in the local frame, toward up.
-    pub elevation_rad: f64,
-    /// The body.
-    pub body: Option<Body>,
-}
+commands! {
+    /// The boresight, body frame.
+    pub struct BoresightCommand {
+        /// How it is given.
+        pub option: Option<BoresightOption>,
+        /// Components, of any length.
+        pub vector: Vector3<f64>,
+        /// Azimuth; also of the antenna.
+        pub azimuth_rad: f64,
+        /// Elevation.
+        pub elevation_rad: f64,
+        /// MDIS angle.
+        pub angle_rad: f64,
+        /// Instrument of a scenario: 0 is +Z, then the rows of the instrument table from 1.
+        pub instrument: u32,
+    }
 
-/// The body roll vector.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct BodyRollCommand {
-    /// How it is given.
-    pub option: Option<BodyRollOption>,
-    /// Components, body frame, of any length.
-    pub vector: Vector3<f64>,
-    /// Azimuth.
-    pub azimuth_rad: f64,
-    /// Elevation.
-    pub elevation_rad: f64,
-}
+    /// An aimpoint.
+    pub struct AimpointCommand {
+        /// What it is.
+        pub option: Option<AimpointOption>,
+        /// EME2000 direction, of any length.
+        pub vector: Vector3<f64>,
+        /// Position of options centred on a body.
+        pub position_m: Vector3<f64>,
+        /// How it moves, in m/s: with it, an ephemeris given from outside is tracked.
+        pub velocity_m_s: Vector3<f64>,
+        /// Right ascension.
+        pub right_ascension_rad: f64,
+        /// Declination.
+        pub declination_rad: f64,
+        /// Planetocentric latitude.
+        pub latitude_rad: f64,
+        /// East longitude.
+        pub longitude_rad: f64,
+        /// Height above the ellipsoid along the radius.
+        pub height_m: f64,
+        /// Azimuth in the local frame, right-handed about up.
+        pub azimuth_rad: f64,
+        /// Elevation in the local frame, toward up.
+        pub elevation_rad: f64,
+        /// The body.
+        pub body: Option<Body>,
+    }
 
-/// The external roll reference.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ExternalRollCommand {
-    /// How it is given.
-    pub option: Option<ExternalRollOption>,
-    /// EME2000 direction, of any length.
-    pub vector: Vector3<f64>,
-    /// Right ascension.
-    pub right_ascension_rad: f64,
-    /// Declination.
-    pub declination_rad: f64,
-}
+    /// The body roll vector.
+    pub struct BodyRollCommand {
+        /// How it is given.
+        pub option: Option<BodyRollOption>,
+        /// Components, body frame, of any length.
+        pub vector: Vector3<f64>,
+        /// Azimuth.
+        pub azimuth_rad: f64,
+        /// Elevation.
+        pub elevation_rad: f64,
+    }
 
-/// Where at the limb, and how it is scanned.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct LimbCommand {
-    /// Azimuth about the local vertical, right-handed about up.
-    pub azimuth_rad: f64,
-    /// From where it counts; downtrack unless given.
-    pub reference: Option<AzimuthReference>,
-    /// Height along the radius of the limb point, when the scenario starts.
-    pub height_m: f64,
-    /// How it grows, in m/s.
-    pub height_rate_m_s: f64,
-}
+    /// The external roll reference.
+    pub struct ExternalRollCommand {
+        /// How it is given.
+        pub option: Option<ExternalRollOption>,
+        /// EME2000 direction, of any length.
+        pub vector: Vector3<f64>,
+        /// Right ascension.
+        pub right_ascension_rad: f64,
+        /// Declination.
+        pub declination_rad: f64,
+    }
 
-/// A scan pattern: on each axis a motion at constant rate, a pause, and again, possibly back.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ScanCommand {
-    /// Its frame.
-    pub frame: Option<ScanFrame>,
-    /// From where the local frame's azimuth counts; downtrack unless given.
-    pub reference: Option<AzimuthReference>,
-    /// Rates of rotations about x, y, z, in rad/s.
-    pub rate_rad_s: [f64; 3],
-    /// Speeds of translations along x, y, z, in m/s.
-    pub speed_m_s: [f64; 3],
-    /// How long an axis moves, in s.
-    pub duration_s: [f64; 3],
-    /// How long it holds after a motion, in s.
-    pub pause_s: [f64; 3],
-    /// How often it moves; 0 without end.
-    pub segments: [u32; 3],
-    /// Whether every second motion goes back.
-    pub reverse: [bool; 3],
+    /// Where at the limb, and how it is scanned.
+    pub struct LimbCommand {
+        /// Azimuth about the local vertical, right-handed about up.
+        pub azimuth_rad: f64,
+        /// From where it counts; downtrack unless given.
+        pub reference: Option<AzimuthReference>,
+        /// Height along the radius of the limb point, when the scenario starts.
+        pub height_m: f64,
+        /// How it grows, in m/s.
+        pub height_rate_m_s: f64,
+    }
+
+    /// A scan pattern: on each axis a motion at constant rate, a pause, and again, possibly back.
+    pub struct ScanCommand {
+        /// Its frame.
+        pub frame: Option<ScanFrame>,
+        /// From where the local frame's azimuth counts; downtrack unless given.
+        pub reference: Option<AzimuthReference>,
+        /// Rates of rotations about x, y, z, in rad/s.
+        pub rate_rad_s: [f64; 3],
+        /// Speeds of translations along x, y, z, in m/s.
+        pub speed_m_s: [f64; 3],
+        /// How long an axis moves, in s.
+        pub duration_s: [f64; 3],
+        /// How long it holds after a motion, in s.
+        pub pause_s: [f64; 3],
+        /// How often it moves; 0 without end.
+        pub segments: [u32; 3],
+        /// Whether every second motion goes back.
+        pub reverse: [bool; 3],
+    }
 }
 
 /// Everything that says where to point.
@@ -304,49 +320,6 @@ pub struct PointingCommand {
     /// Scan pattern.
     pub scan: ScanCommand,
 }
-
-/// Commands set together field by field.
-macro_rules! field_by_field {
-    ($type:ident { $($field:ident),+ $(,)? }) => {
-        impl $type {
-            /// Field by field: this one where it is not zero or nothing, otherwise the planned one.
-            #[must_use]
-            pub fn over(&self, planned: &Self) -> Self {
-                let nothing = Self::default();
-                Self { $($field: if self.$field == nothing.$field { planned.$field } else { self.$field }),+ }
-            }
-        }
-    };
-}
-
-field_by_field!(BoresightCommand { option, vector, azimuth_rad, elevation_rad, angle_rad, instrument });
-field_by_field!(AimpointCommand {
-    option,
-    vector,
-    position_m,
-    velocity_m_s,
-    right_ascension_rad,
-    declination_rad,
-    latitude_rad,
-    longitude_rad,
-    height_m,
-    azimuth_rad,
-    elevation_rad,
-    body,
-});
-field_by_field!(BodyRollCommand { option, vector, azimuth_rad, elevation_rad });
-field_by_field!(ExternalRollCommand { option, vector, right_ascension_rad, declination_rad });
-field_by_field!(LimbCommand { azimuth_rad, reference, height_m, height_rate_m_s });
-field_by_field!(ScanCommand {
-    frame,
-    reference,
-    rate_rad_s,
-    speed_m_s,
-    duration_s,
-    pause_s,
-    segments,
-    reverse,
-});
 
 impl PointingCommand {
     /// Field by field: this one where it is not zero or nothing, otherwise the planned one.

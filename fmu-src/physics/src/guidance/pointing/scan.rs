@@ -20,13 +20,13 @@ use crate::numerics::spacing::spacing;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ScanCompatibility {
     /// By [`ScanFrame`], then by [`AimKind`].
-    pub allowed: [[bool; AimKind::ALL.len()]; SCANS.len()],
+    pub allowed: [[bool; 4]; 5],
 }
 
 /// Body scans go with everything (said by the paper), and so do inertial rotations. A translation needs a point at a
 /// distance (the paper's example), along the planet's axes one that belongs to the planet. A rotation in the local frame goes
 /// with what stands in that frame: its own directions and the planet. By [`ScanFrame`], then by [`AimKind`].
-pub const DEFAULT_COMPATIBILITY: [[bool; AimKind::ALL.len()]; SCANS.len()] = [
+pub const DEFAULT_COMPATIBILITY: [[bool; 4]; 5] = [
     // direction, local direction, point, planet point
     [true, true, true, true],
     [true, true, true, true],
@@ -66,34 +66,6 @@ pub struct ScanTime {
     pub tolerance_s: f64,
 }
 
-/// The moved vectors at a time of a scan; `None` where its frame does not exist.
-type ScanLaw = fn(&Scanned, &ScanCommand, &EphemerisAtTime, ScanTime) -> Option<Scanned>;
-
-/// Every frame and its law, in the order of [`ScanFrame`].
-pub const SCANS: [(ScanFrame, ScanLaw); 5] = [
-    (ScanFrame::Body, |basic, command, _, time| {
-        Some(Scanned { boresight_body: rotation(command, time) * basic.boresight_body, ..*basic })
-    }),
-    (ScanFrame::InertialRotation, |basic, command, _, time| {
-        Some(Scanned { toward: rotation(command, time) * basic.toward, ..*basic })
-    }),
-    (ScanFrame::InertialTranslation, |basic, command, _, time| {
-        Some(Scanned { toward: basic.toward + translation_m(command, time), ..*basic })
-    }),
-    (ScanFrame::PlanetTranslation, |basic, command, surroundings, time| {
-        let planet_from_inertial = surroundings.planet.planet_from_inertial(surroundings.epoch_s);
-        let offset = planet_from_inertial.tr_mul(&translation_m(command, time));
-        Some(Scanned { toward: basic.toward + offset, ..*basic })
-    }),
-    (ScanFrame::LvlhRotation, |basic, command, surroundings, time| {
-        let inertial_from_lvlh = lvlh_axes(surroundings, command.reference.unwrap_or_default())?;
-        // The change alone is turned back: a turn by nothing then changes no bit.
-        let change = rotation(command, time) - MovingMatrix::identity();
-        let moved = inertial_from_lvlh * (change * inertial_from_lvlh.tr_mul(&basic.toward));
-        Some(Scanned { toward: basic.toward + moved, ..*basic })
-    }),
-];
-
 /// The boresight and aim at a time of a scan; `None` where none is commanded, it does not go with the aim,
 /// or the moved aim has no direction: then the basic pointing stands.
 pub fn scanned(
@@ -105,9 +77,22 @@ pub fn scanned(
     time: ScanTime,
 ) -> Option<Scanned> {
     let frame = command.frame.filter(|frame| compatibility.allows(*frame, aim.kind))?;
-    let (_, law) = SCANS.iter().find(|(of, _)| *of == frame)?;
-    let basic = Scanned { boresight_body: *boresight_body, toward: aim.toward };
-    let moved = law(&basic, command, surroundings, time)?;
+    let mut moved = Scanned { boresight_body: *boresight_body, toward: aim.toward };
+    match frame {
+        ScanFrame::Body => moved.boresight_body = rotation(command, time) * boresight_body,
+        ScanFrame::InertialRotation => moved.toward = rotation(command, time) * aim.toward,
+        ScanFrame::InertialTranslation => moved.toward += translation_m(command, time),
+        ScanFrame::PlanetTranslation => {
+            let planet_from_inertial = surroundings.planet.planet_from_inertial(surroundings.epoch_s);
+            moved.toward += planet_from_inertial.tr_mul(&translation_m(command, time));
+        }
+        ScanFrame::LvlhRotation => {
+            let inertial_from_lvlh = lvlh_axes(surroundings, command.reference.unwrap_or_default())?;
+            // The change alone is turned back: a turn by nothing then changes no bit.
+            let change = rotation(command, time) - MovingMatrix::identity();
+            moved.toward += inertial_from_lvlh * (change * inertial_from_lvlh.tr_mul(&aim.toward));
+        }
+    }
     Aim::new(moved.toward, aim.kind).is_some().then_some(moved)
 }
 

@@ -1,19 +1,19 @@
-//! The scenarios of paper 001's Table 5 as one table: which vectors each sets, with limb and scan.
+//! The scenarios of paper 001's Table 5: which vectors each sets, with limb and scan.
 //!
 //! All but the generic one roll -Y toward the Sun. A scan goes on top of any but downlink and burn.
 
 use nalgebra::Vector3;
 
 use super::aimpoint::{Aim, AimKind, aimpoint};
-use super::antenna::{AntennaAzimuth, Beam};
+use super::antenna::Beam;
 use super::boresight::{Boresight, DeviceAngle, MdisRange, boresight, instrument_boresight};
-use super::command::{BoresightOption, PointingCommand, Scenario};
+use super::command::{BoresightOption, LimbCommand, PointingCommand, Scenario};
 use super::law::{Pointing, PointingVectors};
 use super::roll::{body_roll, external_roll};
 use super::scan::{ScanCompatibility, ScanTime, scanned};
 use crate::attitude::SunAngles;
 use crate::guidance::burn::delta_v::BurnAim;
-use crate::guidance::downlink::sun_place::{Downlink, DownlinkRequest, SunPlace, downlink};
+use crate::guidance::downlink::sun_place::{DownlinkRequest, SunPlace, downlink};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::SubsolarMethod;
 use crate::guidance::geometry::limb::{LimbPoint, generic_limb, terminator_limb};
@@ -65,6 +65,9 @@ pub struct Aimed {
     pub scan_active: bool,
 }
 
+/// A limb point by its command and how long its scan lasts.
+type LimbLaw = fn(&EphemerisAtTime, &LimbCommand, f64) -> Option<LimbPoint>;
+
 /// What a scenario reads.
 struct Reading<'a> {
     command: &'a PointingCommand,
@@ -72,55 +75,6 @@ struct Reading<'a> {
     surroundings: &'a EphemerisAtTime,
     progress: &'a PointingProgress,
 }
-
-/// The vectors of a scenario; `None` where boresight or aim has no direction.
-type ScenarioLaw = fn(&Reading<'_>) -> Option<Aimed>;
-
-/// Every scenario and its law, in the order of [`Scenario`].
-const SCENARIOS: [(Scenario, ScenarioLaw); 9] = [
-    (Scenario::Generic, |r| {
-        let boresight = boresight(&r.command.boresight, &r.hardware.mdis)?;
-        let mut aimed = r.sunward(boresight, r.aimpoint()?);
-        aimed.vectors.body_roll = body_roll(&r.command.body_roll);
-        aimed.vectors.external_roll = external_roll(&r.command.external_roll, r.surroundings);
-        Some(aimed)
-    }),
-    (Scenario::PlusZ, |r| Some(r.sunward(r.instrument()?, r.aimpoint()?))),
-    (Scenario::Nadir, |r| {
-        let nadir = Aim::new(r.surroundings.to_planet(), AimKind::PlanetPoint)?;
-        Some(r.sunward(r.instrument()?, nadir))
-    }),
-    (Scenario::Mdis, |r| {
-        let camera = Boresight::mdis(r.command.boresight.angle_rad, &r.hardware.mdis);
-        Some(r.sunward(camera, r.aimpoint()?))
-    }),
-    (Scenario::DoubleTarget, |r| {
-        let aimed = r.sunward(r.instrument()?, r.aimpoint()?);
-        let second = aimpoint(&r.command.second_aimpoint, r.surroundings, r.hardware.subsolar);
-        Some(Aimed { second: second.map(|second| second.toward), ..aimed })
-    }),
-    (Scenario::Downlink, antenna_at_the_earth),
-    (Scenario::LimbTerminator, |r| {
-        let limb = terminator_limb(r.surroundings, &r.command.limb, r.progress.limb_elapsed_s)?;
-        Some(r.sunward(r.instrument()?, r.limb_aim(&limb)?))
-    }),
-    (Scenario::LimbGeneric, |r| {
-        let limb = generic_limb(r.surroundings, &r.command.limb, r.progress.limb_elapsed_s)?;
-        Some(r.sunward(r.instrument()?, r.limb_aim(&limb)?))
-    }),
-    (Scenario::Burn, |r| {
-        let burn = r.progress.burn.as_ref()?;
-        Some(Aimed {
-            vectors: r.rolled_sunward(fixed(burn.boresight_body), burn.direction),
-            mdis: None,
-            second: None,
-            antenna: None,
-            reachable: true,
-            clamped: false,
-            scan_active: false,
-        })
-    }),
-];
 
 /// The vectors of a command, its scan included; `None` where it has no scenario, or boresight or aim no direction: then the
 /// last command stays.
@@ -130,14 +84,57 @@ pub fn aim(
     surroundings: &EphemerisAtTime,
     progress: &PointingProgress,
 ) -> Option<Aimed> {
-    let (_, law) = SCENARIOS.iter().find(|(scenario, _)| Some(*scenario) == command.scenario)?;
-    let aimed = law(&Reading { command, hardware, surroundings, progress })?;
+    let r = Reading { command, hardware, surroundings, progress };
+    let aimed = match command.scenario? {
+        Scenario::Generic => {
+            let boresight = boresight(&command.boresight, &hardware.mdis)?;
+            let mut aimed = r.sunward(boresight, r.aimpoint()?);
+            aimed.vectors.body_roll = body_roll(&command.body_roll);
+            aimed.vectors.external_roll = external_roll(&command.external_roll, surroundings);
+            aimed
+        }
+        Scenario::PlusZ => r.sunward(r.instrument()?, r.aimpoint()?),
+        Scenario::Nadir => {
+            let nadir = Aim::new(surroundings.to_planet(), AimKind::PlanetPoint)?;
+            r.sunward(r.instrument()?, nadir)
+        }
+        Scenario::Mdis => {
+            r.sunward(Boresight::mdis(command.boresight.angle_rad, &hardware.mdis), r.aimpoint()?)
+        }
+        Scenario::DoubleTarget => {
+            let second = aimpoint(&command.second_aimpoint, surroundings, hardware.subsolar);
+            let second = second.map(|second| second.toward);
+            Aimed { second, ..r.sunward(r.instrument()?, r.aimpoint()?) }
+        }
+        Scenario::Downlink => r.antenna_at_the_earth()?,
+        Scenario::LimbTerminator => r.limb(terminator_limb)?,
+        Scenario::LimbGeneric => r.limb(generic_limb)?,
+        Scenario::Burn => {
+            let burn = progress.burn.as_ref()?;
+            Aimed::at(r.rolled_sunward(fixed(burn.boresight_body), burn.direction))
+        }
+        // Its own law gives the attitude, not vectors of a scenario.
+        Scenario::OrbitPhase => return None,
+    };
     let directed =
         |vector: &MovingVector| value(vector).amax() > 0.0 && vector.iter().all(|x| x.re.is_finite());
     directed(&aimed.vectors.boresight_body).then_some(aimed)
 }
 
 impl Aimed {
+    /// These vectors without a device.
+    pub fn at(vectors: PointingVectors) -> Self {
+        Self {
+            vectors,
+            mdis: None,
+            second: None,
+            antenna: None,
+            reachable: true,
+            clamped: false,
+            scan_active: false,
+        }
+    }
+
     /// The camera's angle in the attitude that is commanded in the end.
     pub fn camera(&self, pointing: &Pointing, range: &MdisRange) -> Option<DeviceAngle> {
         let followed = self.second.map(|second| range.toward(&value(&pointing.to_body(&second))));
@@ -154,9 +151,10 @@ impl Reading<'_> {
         aimpoint(&self.command.aimpoint, self.surroundings, self.hardware.subsolar)
     }
 
-    fn limb_aim(&self, limb: &LimbPoint) -> Option<Aim> {
+    fn limb(&self, law: LimbLaw) -> Option<Aimed> {
+        let limb = law(self.surroundings, &self.command.limb, self.progress.limb_elapsed_s)?;
         let aim = Aim::new(self.surroundings.to_planet() + limb.position, AimKind::PlanetPoint)?;
-        Some(Aim { reachable: limb.exists, ..aim })
+        Some(self.sunward(self.instrument()?, Aim { reachable: limb.exists, ..aim }))
     }
 
     /// -Y rolled toward the Sun.
@@ -189,31 +187,23 @@ impl Reading<'_> {
             scan_active: scan.is_some(),
         }
     }
-}
 
-/// A phased-array antenna at the Earth: at the commanded azimuth where the boresight is an antenna, otherwise where it puts
-/// the Sun in its place. No scan moves it.
-fn antenna_at_the_earth(r: &Reading<'_>) -> Option<Aimed> {
-    let boresight = &r.command.boresight;
-    let commanded = boresight.option == Some(BoresightOption::PhasedArray);
-    let request = DownlinkRequest {
-        antenna_azimuth_rad: commanded.then_some(boresight.azimuth_rad),
-        sun_body: r.progress.downlink_sun.map_or(SunAngles::default(), |place| place.angles),
-        earth_ahead: r.progress.downlink_sun.map(|place| place.earth_ahead),
-    };
-    let Downlink { vectors, antenna, antenna_azimuth_rad, clamped } =
-        downlink(&r.surroundings.to_sun(), &r.surroundings.to_earth(), &request)?;
-    Some(Aimed {
-        vectors,
-        mdis: None,
-        second: None,
-        antenna: Some(Beam::AtTheEarth(AntennaAzimuth {
-            antenna,
-            azimuth_rad: antenna_azimuth_rad,
-            outside_rad: 0.0,
-        })),
-        reachable: true,
-        clamped,
-        scan_active: false,
-    })
+    /// A phased-array antenna at the Earth: at the commanded azimuth where the boresight is an antenna, otherwise where it puts
+    /// the Sun in its place. No scan moves it.
+    fn antenna_at_the_earth(&self) -> Option<Aimed> {
+        let boresight = &self.command.boresight;
+        let commanded = boresight.option == Some(BoresightOption::PhasedArray);
+        let place = self.progress.downlink_sun;
+        let request = DownlinkRequest {
+            antenna_azimuth_rad: commanded.then_some(boresight.azimuth_rad),
+            sun_body: place.map_or(SunAngles::default(), |place| place.angles),
+            earth_ahead: place.map(|place| place.earth_ahead),
+        };
+        let found = downlink(&self.surroundings.to_sun(), &self.surroundings.to_earth(), &request)?;
+        Some(Aimed {
+            antenna: Some(Beam::AtTheEarth(found.antenna)),
+            clamped: found.clamped,
+            ..Aimed::at(found.vectors)
+        })
+    }
 }

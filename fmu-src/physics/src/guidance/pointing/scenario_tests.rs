@@ -7,14 +7,15 @@ use std::sync::OnceLock;
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
-use super::aimpoint::AIMPOINTS;
-use super::boresight::{BORESIGHTS, mdis_boresight};
+use super::aimpoint::aim_kind;
+use super::antenna::Beam;
+use super::boresight::mdis_boresight;
 use super::command::*;
-use super::roll::{BODY_ROLLS, EXTERNAL_ROLLS};
-use super::scan::{SCANS, ScanTime};
+use super::scan::ScanTime;
 use super::scenario::{Aimed, GuidanceHardware, PointingProgress, aim};
 use crate::attitude::angle_between_rad;
 use crate::bodies::Body;
+use crate::enumeration::Enumerated;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{fixed, value};
 use crate::guidance::geometry::test_orbit::{TestOrbit, rate_error};
@@ -23,6 +24,11 @@ use crate::spacecraft::Instrument;
 /// 1e-7 of the rate, or of this.
 pub(crate) const FLOOR_RAD_S: f64 = 1e-5;
 pub(crate) const STEP_S: f64 = 0.25;
+
+/// Every item of an enumeration.
+pub(crate) fn every<T: Enumerated>() -> impl Iterator<Item = T> + Clone {
+    T::ITEMS.iter().map(|item| item.variant)
+}
 
 pub(crate) const SCENARIOS: [Scenario; 8] = [
     Scenario::Generic,
@@ -160,20 +166,19 @@ fn the_rate_is_the_derivative_for_every_combination_of_options() {
     let orbit = TestOrbit::new(12.0);
     let mut largest: f64 = 0.0;
     let mut found = 0;
-    for (boresight, _) in BORESIGHTS {
-        for row in &AIMPOINTS {
-            for (body_roll, _) in BODY_ROLLS {
-                for (external_roll, _) in EXTERNAL_ROLLS {
+    for boresight in every() {
+        for option in every() {
+            for body_roll in every() {
+                for external_roll in every() {
                     let mut command = command(Scenario::Generic);
                     command.boresight.option = Some(boresight);
-                    command.aimpoint = aimpoint(row.option);
+                    command.aimpoint = aimpoint(option);
                     command.body_roll.option = Some(body_roll);
                     command.external_roll.option = Some(external_roll);
                     let worst = worst(&command, None, &orbit);
                     assert!(
                         worst < 1e-7,
-                        "{worst:e} {boresight:?} {:?} {body_roll:?} {external_roll:?}",
-                        row.option
+                        "{worst:e} {boresight:?} {option:?} {body_roll:?} {external_roll:?}"
                     );
                     largest = largest.max(worst);
                     found += 1;
@@ -193,7 +198,7 @@ fn the_rate_is_the_derivative_for_every_scenario_with_every_scan() {
             let mut command = command(scenario);
             let basic = worst(&command, None, &orbit);
             assert!(basic < 1e-7, "{basic:e} {scenario:?}");
-            for (frame, _) in SCANS {
+            for frame in every() {
                 command.scan = scan(frame);
                 for scan_s in SCAN_TIMES_S {
                     let worst = worst(&command, Some(scan_s), &orbit);
@@ -208,20 +213,20 @@ fn the_rate_is_the_derivative_for_every_scenario_with_every_scan() {
 fn the_rate_is_the_derivative_for_every_aimpoint_with_every_scan() {
     let orbit = TestOrbit::new(12.0);
     let mut active = 0;
-    for row in &AIMPOINTS {
-        for (frame, _) in SCANS {
+    for option in every() {
+        for frame in every() {
             let mut command = command(Scenario::Generic);
-            command.aimpoint = aimpoint(row.option);
+            command.aimpoint = aimpoint(option);
             // An aim that leaves the Sun by metres spans no plane with it.
             command.external_roll.option = Some(ExternalRollOption::Vector);
             command.scan = scan(frame);
             for scan_s in SCAN_TIMES_S {
                 let worst = worst(&command, Some(scan_s), &orbit);
-                assert!(worst < 1e-7, "{worst:e} {:?} {frame:?} {scan_s}", row.option);
+                assert!(worst < 1e-7, "{worst:e} {option:?} {frame:?} {scan_s}");
             }
             let progress = PointingProgress { scan: Some(scan_at(10.0)), ..PointingProgress::default() };
             let aimed = aim(&command, &hardware(), &orbit.surroundings(11.0), &progress).unwrap();
-            assert_eq!(aimed.scan_active, hardware().scans.allows(frame, row.kind));
+            assert_eq!(aimed.scan_active, hardware().scans.allows(frame, aim_kind(option)));
             active += usize::from(aimed.scan_active);
         }
     }
@@ -310,9 +315,9 @@ fn an_incompatible_scan_and_one_with_downlink_leave_the_basic_pointing() {
 fn the_camera_comes_nearest_to_the_second_aimpoint() {
     let mut in_range = 0;
     let orbit = TestOrbit::new(12.0);
-    for (step, row) in (0..45).zip(AIMPOINTS.iter().cycle()) {
+    for (step, option) in (0..45).zip(every().cycle()) {
         let mut command = command(Scenario::DoubleTarget);
-        command.second_aimpoint = aimpoint(row.option);
+        command.second_aimpoint = aimpoint(option);
         let s = orbit.surroundings(f64::from(step) * 900.0);
         let aimed = aim(&command, &hardware(), &s, &PointingProgress::default()).unwrap();
         let pointing = aimed.vectors.pointing().unwrap();
@@ -329,7 +334,7 @@ fn the_camera_comes_nearest_to_the_second_aimpoint() {
             .map(|k| range.minimum_rad + (range.maximum_rad - range.minimum_rad) * f64::from(k) / 2000.0)
             .map(off_rad)
             .fold(f64::INFINITY, f64::min);
-        assert!(off_rad(camera.angle_rad) <= best + 1e-12, "{:?}", row.option);
+        assert!(off_rad(camera.angle_rad) <= best + 1e-12, "{option:?}");
     }
     assert!(in_range > 5 && in_range < 45, "{in_range}");
 }
@@ -346,8 +351,9 @@ fn devices_stop_at_their_range_and_say_so() {
     antenna.boresight.option = Some(BoresightOption::PhasedArray);
     antenna.boresight.azimuth_rad = 0.2;
     let aimed = at(&antenna, 3000.0, &still).1.unwrap();
-    assert_eq!(aimed.antenna.unwrap().azimuth().azimuth_rad, 0.0);
-    assert!(!aimed.antenna.unwrap().azimuth().is_in_range() && aimed.mdis.is_none());
+    let Some(Beam::Commanded(antenna)) = aimed.antenna else { panic!("{:?}", aimed.antenna) };
+    assert_eq!(antenna.azimuth_rad, 0.0);
+    assert!(!antenna.is_in_range() && aimed.mdis.is_none());
 }
 
 #[test]

@@ -34,17 +34,16 @@ impl Timeline {
         if list.is_empty() {
             commands.check.report(&place, "an empty list", "at least one command");
         }
-        let times = times(&mut commands.check, &place, list);
-        let clock = times.iter().find_map(|times| Some(times.at?.clock)).unwrap_or(TimelineClock::FmiTime);
+        let (clock, times) = times(&mut commands.check, &place, list);
         let mut entries = Vec::with_capacity(list.len());
-        for ((index, description), times) in list.iter().enumerate().zip(&times) {
+        for ((index, description), [at_s, until_s]) in list.iter().enumerate().zip(times) {
             let at = place.item(index);
             let command = commands.pointing(&at, description);
             let scan = scan(&mut commands, &at, description, &command);
             entries.push(TimelineEntry {
                 line: commands.check.line(&at),
-                at_s: times.at.map_or(f64::NAN, |at| at.time_s),
-                until_s: times.until.map(|until| until.time_s),
+                at_s: at_s.unwrap_or(f64::NAN),
+                until_s,
                 command: PointingCommand { scan, ..command },
                 keep_in: commands.keep_in(&at, description.keep_in.as_ref()),
                 mode: description.mode,
@@ -75,51 +74,38 @@ impl Timeline {
     }
 }
 
-/// A time by its clock.
-#[derive(Clone, Copy)]
-struct Instant {
-    clock: TimelineClock,
-    time_s: f64,
-}
-
-/// The times of a command; `None` where there is none or it was reported.
-struct Times {
-    at: Option<Instant>,
-    until: Option<Instant>,
-}
-
-/// Times of one clock that grow, each end after its beginning and before the next one's.
-fn times(check: &mut Checker<'_>, place: &Place, list: &[CommandDescription]) -> Vec<Times> {
+/// The clock, and begin and end of each command where they are given and not reported: times of one clock that grow, each end
+/// after its beginning and before the next one's.
+fn times(
+    check: &mut Checker<'_>,
+    place: &Place,
+    list: &[CommandDescription],
+) -> (TimelineClock, Vec<[Option<f64>; 2]>) {
     let mut clock = None;
+    let mut read = |place: Place, quantity: &Quantity| {
+        let (counted_by, time_s) = instant(check, &place, quantity)?;
+        if counted_by == *clock.get_or_insert(counted_by) {
+            return Some(time_s);
+        }
+        let [found, allowed] = match counted_by {
+            TimelineClock::Epoch => ["a date", "FMI time, as in the first command: a file has one kind"],
+            TimelineClock::FmiTime => ["FMI time", "a date, as in the first command: a file has one kind"],
+        };
+        check.report(&place, format_args!("{quantity}, {found}"), allowed);
+        None
+    };
     let mut times = Vec::with_capacity(list.len());
     for (index, description) in list.iter().enumerate() {
         let at = place.item(index);
-        let mut read = |key: &str, quantity: &Quantity| {
-            let place = at.key(key);
-            let instant = instant(check, &place, quantity)?;
-            if instant.clock == *clock.get_or_insert(instant.clock) {
-                return Some(instant);
-            }
-            let [found, allowed] = match instant.clock {
-                TimelineClock::Epoch => ["a date", "FMI time, as in the first command: a file has one kind"],
-                TimelineClock::FmiTime => {
-                    ["FMI time", "a date, as in the first command: a file has one kind"]
-                }
-            };
-            check.report(&place, format_args!("{quantity}, {found}"), allowed);
-            None
-        };
-        times.push(Times {
-            at: read("at", &description.at),
-            until: description.until.as_ref().and_then(|until| read("until", until)),
-        });
+        let begin_s = read(at.key("at"), &description.at);
+        times.push([begin_s, description.until.as_ref().and_then(|until| read(at.key("until"), until))]);
     }
     let mut last: Option<(usize, f64)> = None;
-    for (index, (description, Times { at, until })) in list.iter().zip(&times).enumerate() {
+    for (index, (description, [begin_s, end_s])) in list.iter().zip(&times).enumerate() {
         let here = place.item(index);
         let next =
-            times[index + 1..].iter().zip(index + 1..).find_map(|(next, at)| Some((at, next.at?.time_s)));
-        let Some(begin_s) = at.map(|at| at.time_s) else { continue };
+            times[index + 1..].iter().zip(index + 1..).find_map(|([next_s, _], at)| Some((at, (*next_s)?)));
+        let Some(begin_s) = *begin_s else { continue };
         if let Some((before, before_s)) = last.filter(|(_, before_s)| begin_s <= *before_s) {
             let (before, relation) =
                 (place.item(before), if begin_s == before_s { "when" } else { "before" });
@@ -127,9 +113,7 @@ fn times(check: &mut Checker<'_>, place: &Place, list: &[CommandDescription]) ->
             check.report(&here.key("at"), found, "a time after the commands above");
         }
         last = Some((index, begin_s));
-        let (Some(end_s), Some(written)) = (until.map(|until| until.time_s), &description.until) else {
-            continue;
-        };
+        let (Some(end_s), Some(written)) = (*end_s, &description.until) else { continue };
         if end_s <= begin_s {
             let allowed = format!("a time after {}", description.at);
             check.report(&here.key("until"), format_args!("{written}, not after `at`"), allowed);
@@ -142,18 +126,18 @@ fn times(check: &mut Checker<'_>, place: &Place, list: &[CommandDescription]) ->
             check.report(&here.key("until"), found, allowed);
         }
     }
-    times
+    (clock.unwrap_or(TimelineClock::FmiTime), times)
 }
 
 /// A date or FMI time.
-fn instant(check: &mut Checker<'_>, at: &Place, quantity: &Quantity) -> Option<Instant> {
+fn instant(check: &mut Checker<'_>, at: &Place, quantity: &Quantity) -> Option<(TimelineClock, f64)> {
     let date = match quantity {
         Quantity::Text(text) => Some(text).filter(|text| is_date(text)),
         _ => None,
     };
     if let Some(text) = date {
         return match dates::epoch_s(text) {
-            Ok(time_s) => Some(Instant { clock: TimelineClock::Epoch, time_s }),
+            Ok(time_s) => Some((TimelineClock::Epoch, time_s)),
             Err(error) => {
                 check.report(at, format_args!("{quantity}, {error}"), ALLOWED_DATE);
                 None
@@ -167,7 +151,7 @@ fn instant(check: &mut Checker<'_>, at: &Place, quantity: &Quantity) -> Option<I
         check.report(at, quantity, allowed);
     }
     let time_s = check.finite(at, time_s?);
-    time_s.is_finite().then_some(Instant { clock: TimelineClock::FmiTime, time_s })
+    time_s.is_finite().then_some((TimelineClock::FmiTime, time_s))
 }
 
 fn is_date(text: &str) -> bool {

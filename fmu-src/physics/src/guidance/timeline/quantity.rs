@@ -1,47 +1,65 @@
 //! Quantities of a timeline: SI numbers, or strings with a unit ("10 deg").
 
 use core::fmt;
+use core::ops::RangeInclusive;
 
-use serde::de::{Deserialize, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 use crate::constants::{ASTRONOMICAL_UNIT_M, DAY_S, DEG_RAD, RPM_RAD_S};
+use crate::guidance::pointing::command::{BACK_TURN_RAD, DOWN_ANGLE_RAD, FULL_TURN_RAD, RIGHT_ANGLE_RAD};
 
 /// What stands in the file.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
 pub(super) enum Quantity {
     /// A number, SI.
     Number(f64),
     /// A string.
     Text(String),
-    /// Something else, in words.
-    Other(String),
+    /// True or false, which is no quantity.
+    Truth(bool),
+    /// A list, which is none.
+    List(Vec<IgnoredAny>),
+    /// A table, which is none.
+    Table(IgnoredAny),
 }
 
 /// A kind of quantity with the units that it can be given in, the SI unit first.
 #[derive(Debug)]
 pub(super) struct Kind {
     /// With its article.
-    pub name: &'static str,
+    name: &'static str,
     /// Names and how much of the SI unit they are.
-    pub units: &'static [(&'static str, f64)],
+    units: &'static [(&'static str, f64)],
+    /// Where an angle must lie, in words as well.
+    pub range_rad: Option<(RangeInclusive<f64>, &'static str)>,
 }
 
-/// Angles.
-pub(super) const ANGLE: Kind = Kind { name: "an angle", units: &[("rad", 1.0), ("deg", DEG_RAD)] };
+const fn kind(name: &'static str, units: &'static [(&'static str, f64)]) -> Kind {
+    Kind { name, units, range_rad: None }
+}
+
+const fn angle(range_rad: RangeInclusive<f64>, allowed: &'static str) -> Kind {
+    Kind { range_rad: Some((range_rad, allowed)), ..kind("an angle", &[("rad", 1.0), ("deg", DEG_RAD)]) }
+}
+
+/// Azimuths, longitudes and right ascensions.
+pub(super) const TURN: Kind = angle(BACK_TURN_RAD..=FULL_TURN_RAD, "an angle from -360 to 360 deg");
+/// Elevations, latitudes and declinations.
+pub(super) const LATITUDE: Kind = angle(DOWN_ANGLE_RAD..=RIGHT_ANGLE_RAD, "an angle from -90 to 90 deg");
+/// Half widths of a zone.
+pub(super) const QUARTER_TURN: Kind = angle(0.0..=RIGHT_ANGLE_RAD, "an angle from 0 to 90 deg");
 /// Rates of rotations.
-pub(super) const RATE: Kind =
-    Kind { name: "a rate", units: &[("rad/s", 1.0), ("deg/s", DEG_RAD), ("rpm", RPM_RAD_S)] };
+pub(super) const RATE: Kind = kind("a rate", &[("rad/s", 1.0), ("deg/s", DEG_RAD), ("rpm", RPM_RAD_S)]);
 /// Lengths.
-pub(super) const LENGTH: Kind = Kind {
-    name: "a length",
-    units: &[("m", 1.0), ("km", 1e3), ("cm", 1e-2), ("mm", 1e-3), ("AU", ASTRONOMICAL_UNIT_M)],
-};
+pub(super) const LENGTH: Kind =
+    kind("a length", &[("m", 1.0), ("km", 1e3), ("cm", 1e-2), ("mm", 1e-3), ("AU", ASTRONOMICAL_UNIT_M)]);
 /// Speeds.
-pub(super) const SPEED: Kind =
-    Kind { name: "a speed", units: &[("m/s", 1.0), ("km/s", 1e3), ("mm/s", 1e-3)] };
+pub(super) const SPEED: Kind = kind("a speed", &[("m/s", 1.0), ("km/s", 1e3), ("mm/s", 1e-3)]);
 /// Times.
 pub(super) const TIME: Kind =
-    Kind { name: "a time", units: &[("s", 1.0), ("ms", 1e-3), ("min", 60.0), ("h", 3600.0), ("d", DAY_S)] };
+    kind("a time", &[("s", 1.0), ("ms", 1e-3), ("min", 60.0), ("h", 3600.0), ("d", DAY_S)]);
 
 impl Quantity {
     /// The value in the SI unit; `None` where this is no quantity of this kind.
@@ -49,7 +67,7 @@ impl Quantity {
         let text = match self {
             Self::Number(number) => return Some(*number),
             Self::Text(text) => text.trim(),
-            Self::Other(_) => return None,
+            Self::Truth(_) | Self::List(_) | Self::Table(_) => return None,
         };
         // A unit holds no digit, a number ends in a digit or a point.
         let end = text.rfind(|c: char| c.is_ascii_digit() || c == '.')? + 1;
@@ -69,7 +87,9 @@ impl fmt::Display for Quantity {
         match self {
             Self::Number(number) => write!(f, "{number}"),
             Self::Text(text) => write!(f, "{text:?}"),
-            Self::Other(words) => f.write_str(words),
+            Self::Truth(truth) => write!(f, "boolean `{truth}`"),
+            Self::List(_) => f.write_str("a list"),
+            Self::Table(_) => f.write_str("a table"),
         }
     }
 }
@@ -79,48 +99,6 @@ impl fmt::Display for Kind {
         let [(si, _), others @ ..] = self.units else { return f.write_str(self.name) };
         let others: Vec<&str> = others.iter().map(|(name, _)| *name).collect();
         write!(f, "{}: a number in {si} or a string with a unit: {si}, {}", self.name, others.join(", "))
-    }
-}
-
-impl<'de> Deserialize<'de> for Quantity {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(QuantityVisitor)
-    }
-}
-
-struct QuantityVisitor;
-
-impl<'de> Visitor<'de> for QuantityVisitor {
-    type Value = Quantity;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a number or a string")
-    }
-
-    fn visit_f64<E>(self, value: f64) -> Result<Quantity, E> {
-        Ok(Quantity::Number(value))
-    }
-
-    fn visit_i64<E>(self, value: i64) -> Result<Quantity, E> {
-        Ok(Quantity::Number(value as f64))
-    }
-
-    fn visit_str<E>(self, value: &str) -> Result<Quantity, E> {
-        Ok(Quantity::Text(value.to_owned()))
-    }
-
-    fn visit_bool<E>(self, value: bool) -> Result<Quantity, E> {
-        Ok(Quantity::Other(format!("boolean `{value}`")))
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Quantity, A::Error> {
-        while list.next_element::<Self::Value>()?.is_some() {}
-        Ok(Quantity::Other("a list".to_owned()))
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut table: A) -> Result<Quantity, A::Error> {
-        while table.next_entry::<IgnoredAny, Self::Value>()?.is_some() {}
-        Ok(Quantity::Other("a table".to_owned()))
     }
 }
 
@@ -150,10 +128,10 @@ mod tests {
     fn units_are_converted() {
         let si = |text: &str, kind: &Kind| Quantity::Text(text.to_owned()).si(kind);
         for (text, kind, requested) in [
-            ("90 deg", &ANGLE, FRAC_PI_2),
-            ("-360deg", &ANGLE, -TAU),
-            ("1e-3 rad", &ANGLE, 1e-3),
-            ("0.5", &ANGLE, 0.5),
+            ("90 deg", &TURN, FRAC_PI_2),
+            ("-360deg", &TURN, -TAU),
+            ("1e-3 rad", &TURN, 1e-3),
+            ("0.5", &TURN, 0.5),
             ("200 km", &LENGTH, 2e5),
             ("1 AU", &LENGTH, 149_597_870_700.0),
             ("30 rpm", &RATE, core::f64::consts::PI),
@@ -164,11 +142,11 @@ mod tests {
             assert_eq!(si(text, kind), Some(requested), "{text}");
         }
         for (text, kind) in
-            [("10 km", &ANGLE), ("deg", &ANGLE), ("ten deg", &ANGLE), ("", &TIME), ("5 m", &TIME)]
+            [("10 km", &TURN), ("deg", &TURN), ("ten deg", &TURN), ("", &TIME), ("5 m", &TIME)]
         {
             assert_eq!(si(text, kind), None, "{text}");
         }
         assert_eq!(Quantity::Number(3.0).si(&SPEED), Some(3.0));
-        assert_eq!(Quantity::Other("a list".to_owned()).si(&SPEED), None);
+        assert_eq!(Quantity::List(Vec::new()).si(&SPEED), None);
     }
 }

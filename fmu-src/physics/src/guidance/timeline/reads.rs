@@ -13,85 +13,58 @@ pub(super) struct Keys {
     pub optional: &'static [&'static str],
 }
 
-const fn keys(needed: &'static [&'static str], optional: &'static [&'static str]) -> Keys {
+impl Keys {
+    /// Whether a key is among them.
+    pub fn has(&self, key: &str) -> bool {
+        self.needed.contains(&key) || self.optional.contains(&key)
+    }
+}
+
+/// These keys.
+pub(super) const fn keys(needed: &'static [&'static str], optional: &'static [&'static str]) -> Keys {
     Keys { needed, optional }
 }
 
-const NOTHING: Keys = keys(&[], &[]);
+/// No key.
+pub(super) const NOTHING: Keys = keys(&[], &[]);
 /// Options of vectors.
 const VECTOR: Keys = keys(&["vector"], &[]);
 const AZIMUTH_ELEVATION: Keys = keys(&["azimuth", "elevation"], &[]);
 const CELESTIAL: Keys = keys(&["rightAscension", "declination"], &[]);
 
-/// What a scenario reads of a command.
-#[derive(Clone, Copy)]
-pub(super) struct Reads {
-    pub boresight: BoresightUse,
-    pub aimpoint: AimpointUse,
-    pub second_aimpoint: bool,
-    /// `bodyRoll` and `externalRoll`.
-    pub rolls: bool,
-    pub limb: Option<Keys>,
-    pub scan: bool,
-}
+/// Tables of a command that a scenario may read.
+pub(super) const TABLES: &[&str] =
+    &["boresight", "aimpoint", "secondAimpoint", "bodyRoll", "externalRoll", "limb", "scan"];
 
-/// What a scenario reads of the boresight.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum BoresightUse {
-    /// Its option.
-    Option,
-    /// The instrument.
-    Instrument,
-    /// The camera's angle.
-    MdisAngle,
-    /// An antenna's azimuth, or nothing.
-    Antenna,
-    /// Nothing.
-    Nothing,
-}
-
-/// What a scenario reads of the aimpoint.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum AimpointUse {
-    /// Its option.
-    Option,
-    /// Nothing: it always aims at what this option stands for, which may be written.
-    Fixed(AimpointOption),
-    /// Nothing.
-    Nothing,
-}
-
-/// What a scenario reads.
-pub(super) fn reads(scenario: Scenario) -> Reads {
-    let of_instrument = Reads {
-        boresight: BoresightUse::Instrument,
-        aimpoint: AimpointUse::Option,
-        second_aimpoint: false,
-        rolls: false,
-        limb: None,
-        scan: true,
-    };
-    let of_limb = |keys| Reads { aimpoint: AimpointUse::Nothing, limb: Some(keys), ..of_instrument };
+/// Tables that a scenario reads.
+pub(super) fn tables(scenario: Scenario) -> Keys {
     match scenario {
-        Scenario::Generic => Reads { boresight: BoresightUse::Option, rolls: true, ..of_instrument },
-        Scenario::PlusZ => of_instrument,
-        Scenario::Nadir => Reads { aimpoint: AimpointUse::Fixed(AimpointOption::Nadir), ..of_instrument },
-        Scenario::Mdis => Reads { boresight: BoresightUse::MdisAngle, ..of_instrument },
-        Scenario::DoubleTarget => Reads { second_aimpoint: true, ..of_instrument },
-        Scenario::Downlink => Reads {
-            boresight: BoresightUse::Antenna,
-            aimpoint: AimpointUse::Fixed(AimpointOption::Earth),
-            scan: false,
-            ..of_instrument
-        },
-        Scenario::Burn | Scenario::OrbitPhase => Reads {
-            boresight: BoresightUse::Nothing,
-            aimpoint: AimpointUse::Nothing,
-            scan: false,
-            ..of_instrument
-        },
-        Scenario::LimbTerminator => of_limb(keys(&[], &["height", "heightRate"])),
-        Scenario::LimbGeneric => of_limb(keys(&["azimuth"], &["reference", "height", "heightRate"])),
+        Scenario::Generic => keys(&["boresight", "aimpoint", "bodyRoll", "externalRoll"], &["scan"]),
+        Scenario::PlusZ => keys(&["aimpoint"], &["boresight", "scan"]),
+        Scenario::Nadir => keys(&[], &["boresight", "aimpoint", "scan"]),
+        Scenario::Mdis => keys(&["boresight", "aimpoint"], &["scan"]),
+        Scenario::DoubleTarget => keys(&["aimpoint", "secondAimpoint"], &["boresight", "scan"]),
+        Scenario::Downlink => keys(&[], &["boresight", "aimpoint"]),
+        Scenario::LimbTerminator => keys(&[], &["boresight", "limb", "scan"]),
+        Scenario::LimbGeneric => keys(&["limb"], &["boresight", "scan"]),
+        Scenario::Burn | Scenario::OrbitPhase => NOTHING,
+    }
+}
+
+/// What a scenario always aims at, which may be written.
+pub(super) fn own_aimpoint(scenario: Scenario) -> Option<AimpointOption> {
+    match scenario {
+        Scenario::Nadir => Some(AimpointOption::Nadir),
+        Scenario::Downlink => Some(AimpointOption::Earth),
+        _ => None,
+    }
+}
+
+/// What a scenario at the limb reads of its table.
+pub(super) fn limb_keys(scenario: Scenario) -> Keys {
+    match scenario {
+        Scenario::LimbGeneric => keys(&["azimuth"], &["reference", "height", "heightRate"]),
+        _ => keys(&[], &["height", "heightRate"]),
     }
 }
 

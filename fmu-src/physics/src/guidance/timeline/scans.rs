@@ -3,8 +3,8 @@
 use super::commands::{Commands, named};
 use super::description::{CommandDescription, ScanDescription};
 use super::quantity::{RATE, SPEED, TIME};
-use super::reads::{Keys, reads, scan_keys};
-use crate::guidance::pointing::aimpoint::{AIMPOINTS, AimKind};
+use super::reads::{scan_keys, tables};
+use crate::guidance::pointing::aimpoint::{self, AimKind};
 use crate::guidance::pointing::command::{AimpointOption, PointingCommand, ScanCommand, Scenario};
 use crate::guidance::pointing::scan::ScanCompatibility;
 use crate::toml::Place;
@@ -19,20 +19,19 @@ pub(super) fn scan(
     description: &CommandDescription,
     command: &PointingCommand,
 ) -> ScanCommand {
-    let scenario = command.scenario.filter(|scenario| reads(*scenario).scan);
+    let scenario = command.scenario.filter(|scenario| tables(*scenario).has("scan"));
     let (Some(given), Some(scenario)) = (&description.scan, scenario) else { return ScanCommand::default() };
     let at = at.key("scan");
     if !commands.check.is_stand_in(&at.key("frame")) {
-        judge_frame(commands, &at, given);
+        let known = &["reference", "rate", "speed", "duration", "pause", "segments", "reverse"];
+        commands.judge(&at, known, scan_keys(given.frame), &named("the frame", given.frame));
         let aim = aim_kind(scenario, command.aimpoint.option);
         if aim.is_some_and(|aim| !ScanCompatibility::default().allows(given.frame, aim)) {
             let found = named("the frame", given.frame) + ", which does not go with this aimpoint";
             commands.check.report(&at.key("frame"), found, "a frame that does: body, inertialRotation ...");
         }
     }
-    let mut three = |key: &str, given: &Option<_>, kind| {
-        given.as_ref().map_or([0.0; 3], |given| commands.three(&at.key(key), given, kind))
-    };
+    let mut three = |key: &str, given, kind| commands.three(&at.key(key), given, kind);
     let scan = ScanCommand {
         frame: Some(given.frame),
         reference: given.reference,
@@ -45,20 +44,6 @@ pub(super) fn scan(
     };
     judge_motions(commands, &at, given, &scan);
     scan
-}
-
-fn judge_frame(commands: &mut Commands<'_, '_>, at: &Place, given: &ScanDescription) {
-    let keys = [
-        ("reference", given.reference.is_some()),
-        ("rate", given.rate.is_some()),
-        ("speed", given.speed.is_some()),
-        ("duration", given.duration.is_some()),
-        ("pause", given.pause.is_some()),
-        ("segments", given.segments.is_some()),
-        ("reverse", given.reverse.is_some()),
-    ];
-    let Keys { needed, optional } = scan_keys(given.frame);
-    commands.judge(at, &keys, needed, optional, &named("the frame", given.frame));
 }
 
 /// An axis moves, every axis that does for a time, and no time is negative.
@@ -99,7 +84,7 @@ fn aim_kind(scenario: Scenario, aimpoint: Option<AimpointOption>) -> Option<AimK
         Scenario::Nadir | Scenario::LimbTerminator | Scenario::LimbGeneric => Some(AimKind::PlanetPoint),
         Scenario::Downlink | Scenario::Burn | Scenario::OrbitPhase => None,
         Scenario::Generic | Scenario::PlusZ | Scenario::Mdis | Scenario::DoubleTarget => {
-            AIMPOINTS.iter().find(|row| Some(row.option) == aimpoint).map(|row| row.kind)
+            aimpoint.map(aimpoint::aim_kind)
         }
     }
 }

@@ -8,6 +8,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::bodies::Body;
 use crate::constants::DEG_RAD;
+use crate::enumeration::Enumerated;
 use crate::guidance::modes::mode::Mode;
 use crate::guidance::pointing::command::*;
 use crate::spacecraft::{Instrument, MESSENGER_TOML, Spacecraft};
@@ -49,39 +50,26 @@ fn the_example_is_a_day_at_mercury() {
 
 #[test]
 fn every_key_of_a_generic_command_is_read() {
+    let of = |option| BoresightCommand { option: Some(option), ..BoresightCommand::default() };
+    let (right_rad, back_rad, up_rad) = (-PI / 2.0, 135.0 * DEG_RAD, 40.0 * DEG_RAD);
+    let turned = BoresightCommand {
+        azimuth_rad: right_rad,
+        elevation_rad: 0.25,
+        ..of(BoresightOption::AzimuthElevation)
+    };
     for (boresight, expected) in [
         (
             "option = \"vector\", vector = [1, 2.5, -3]",
-            BoresightCommand {
-                option: Some(BoresightOption::Vector),
-                vector: Vector3::new(1.0, 2.5, -3.0),
-                ..BoresightCommand::default()
-            },
+            BoresightCommand { vector: Vector3::new(1.0, 2.5, -3.0), ..of(BoresightOption::Vector) },
         ),
-        (
-            "option = \"azEl\", azimuth = \"-90 deg\", elevation = 0.25",
-            BoresightCommand {
-                option: Some(BoresightOption::AzimuthElevation),
-                azimuth_rad: -PI / 2.0,
-                elevation_rad: 0.25,
-                ..BoresightCommand::default()
-            },
-        ),
+        ("option = \"azEl\", azimuth = \"-90 deg\", elevation = 0.25", turned),
         (
             "option = \"mdis\", angle = \"40 deg\"",
-            BoresightCommand {
-                option: Some(BoresightOption::Mdis),
-                angle_rad: 40.0 * DEG_RAD,
-                ..BoresightCommand::default()
-            },
+            BoresightCommand { angle_rad: up_rad, ..of(BoresightOption::Mdis) },
         ),
         (
             "option = \"phasedArray\", azimuth = \"135 deg\"",
-            BoresightCommand {
-                option: Some(BoresightOption::PhasedArray),
-                azimuth_rad: 135.0 * DEG_RAD,
-                ..BoresightCommand::default()
-            },
+            BoresightCommand { azimuth_rad: back_rad, ..of(BoresightOption::PhasedArray) },
         ),
     ] {
         let text = format!(
@@ -145,10 +133,9 @@ fn every_aimpoint_is_read_for_both_keys() {
         (
             "raDec\", rightAscension = 1, declination = -0.5".to_owned(),
             AimpointCommand {
-                option: Some(Option::RightAscensionDeclination),
                 right_ascension_rad: 1.0,
                 declination_rad: -0.5,
-                ..none
+                ..alone(Option::RightAscensionDeclination)
             },
         ),
         (format!("earthCentered\"{p}"), at(Option::EarthCentered)),
@@ -158,11 +145,10 @@ fn every_aimpoint_is_read_for_both_keys() {
         (
             "latLon\", latitude = \"-90 deg\", longitude = \"360 deg\", height = \"2 km\"".to_owned(),
             AimpointCommand {
-                option: Some(Option::LatitudeLongitude),
                 latitude_rad: -PI / 2.0,
                 longitude_rad: 2.0 * PI,
                 height_m: 2e3,
-                ..none
+                ..alone(Option::LatitudeLongitude)
             },
         ),
         (format!("lvlhDowntrack\"{l}"), local(Option::LvlhDowntrack)),
@@ -172,13 +158,10 @@ fn every_aimpoint_is_read_for_both_keys() {
         ("nadir\"".to_owned(), alone(Option::Nadir)),
         ("subsolar\"".to_owned(), alone(Option::Subsolar)),
         ("optimalLighting\"".to_owned(), alone(Option::OptimalLighting)),
-        ("body\", body = \"mercury\"".to_owned(), body(Body::Mercury)),
-        ("body\", body = \"sun\"".to_owned(), body(Body::Sun)),
-        ("body\", body = \"venus\"".to_owned(), body(Body::Venus)),
-        ("body\", body = \"earth\"".to_owned(), body(Body::Earth)),
-        ("body\", body = \"mars\"".to_owned(), body(Body::Mars)),
-        ("body\", body = \"jupiter\"".to_owned(), body(Body::Jupiter)),
-    ] {
+    ]
+    .into_iter()
+    .chain(Body::ITEMS.iter().map(|it| (format!("body\", body = \"{}\"", it.name), body(it.variant))))
+    {
         let found = command(&format!(
             "scenario = \"doubleTarget\"\naimpoint = {{ option = \"{text} }}\nsecondAimpoint = {{ option = \"{text} }}"
         ));

@@ -2,7 +2,7 @@
 use super::*;
 use crate::loads::ByEffect;
 use crate::momentum::dump::{DUMP_WINDOW_S, DumpPolicy, Reinitialise, TooManyDumps};
-use crate::momentum::torque_model::EventValues;
+use crate::momentum::torque_model::{EventValues, Sample};
 use approx::assert_relative_eq;
 use nalgebra::Rotation3;
 
@@ -15,8 +15,8 @@ const FREQUENCY_RAD_S: f64 = 2e-4;
 impl TorqueModel for Known {
     type Failure = TooManyDumps;
 
-    fn prepare(&mut self, _: f64, _: f64) -> Result<f64, Self::Failure> {
-        Ok(f64::INFINITY)
+    fn prepare(&mut self, start_s: f64, _: f64) -> Result<(f64, Rotation3<f64>), Self::Failure> {
+        Ok((f64::INFINITY, self.inertial_from_body(start_s)))
     }
 
     fn sample(&mut self, time_s: f64) -> Sample {
@@ -101,8 +101,8 @@ struct Spinning {
 impl TorqueModel for Spinning {
     type Failure = TooManyDumps;
 
-    fn prepare(&mut self, _: f64, _: f64) -> Result<f64, Self::Failure> {
-        Ok(f64::INFINITY)
+    fn prepare(&mut self, start_s: f64, _: f64) -> Result<(f64, Rotation3<f64>), Self::Failure> {
+        Ok((f64::INFINITY, self.inertial_from_body(start_s)))
     }
 
     fn sample(&mut self, time_s: f64) -> Sample {

@@ -32,6 +32,16 @@ fn reproduces_polynomials_derivative_and_integral() {
 }
 
 #[test]
+fn nodes_are_cosines_to_the_last_place() {
+    fn largest_error<const N: usize>() -> f64 {
+        let error = |(j, node): (usize, f64)| (node - (PI * (j as f64 + 0.5) / N as f64).cos()).abs();
+        Segment::<1, N>::nodes(-1.0, 1.0).into_iter().enumerate().map(error).fold(0.0, f64::max)
+    }
+    let errors = [largest_error::<2>(), largest_error::<8>(), largest_error::<13>(), largest_error::<256>()];
+    assert!(errors.iter().all(|error| *error <= 0.5 * f64::EPSILON), "{errors:?}");
+}
+
+#[test]
 fn error_of_a_sine_is_below_the_interpolation_bound() {
     // Interpolation at Chebyshev nodes: |error| <= h^N / (2^(N-1) N!) with half length h, derivatives within 1.
     let segment = Segment::<1, 12>::fit(-1.0, 1.0, |t| Vector1::new(t.sin()));

@@ -9,7 +9,8 @@ use crate::bodies::surface::PlanetSurface;
 use crate::environment::eclipse::{EclipseError, Shadow};
 use crate::loads::{Active, Effect, Loads};
 use crate::numerics::scalar::Scalar;
-use crate::radiation::disturbance::{DisturbanceModel, Geometry, GeometryError, Recoil, Workspace};
+use crate::radiation::disturbance::{DisturbanceModel, Geometry, Recoil, Workspace};
+use crate::refusal::Refusal;
 
 /// Where everything is, body frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -60,7 +61,7 @@ pub enum PositionError {
     Eclipse(#[from] EclipseError),
     /// Light and heat cannot be computed.
     #[error(transparent)]
-    Geometry(#[from] GeometryError),
+    Geometry(#[from] Refusal),
 }
 
 impl<T> Positions<T> {

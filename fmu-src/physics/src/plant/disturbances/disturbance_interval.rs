@@ -83,9 +83,8 @@ impl DisturbanceInterval {
     /// What ends a flight.
     pub fn next(&self, plant: &mut Plant<'_>, start_s: f64, grid_s: f64) -> Result<Self, PlantError> {
         plant.spend(Effort::Segment, start_s)?;
-        let known_s = plant.prepare(start_s, next_multiple_s(start_s, grid_s))?;
+        let (known_s, begin) = plant.begin(start_s, next_multiple_s(start_s, grid_s))?;
         let limit_s = plant.kinematics.smooth_until(start_s, known_s);
-        let begin = plant.instant(start_s);
         let rate_rad_s = begin.frame.rate_body_rad_s.norm();
         let turning_rad_s = rate_rad_s + orbital_rate_rad_s(&begin.geometry.spacecraft);
         let longest_s = self.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s);

@@ -291,6 +291,13 @@ impl<'a> Plant<'a> {
         }
     }
 
+    /// [`TorqueModel::prepare`] with the whole instant at `start_s`.
+    pub(crate) fn begin(&mut self, start_s: f64, limit_s: f64) -> Result<(f64, Instant), PlantError> {
+        let known_s = self.orbit_and_light(start_s)?.min(limit_s);
+        let instant = self.kinematics.instant(start_s);
+        Ok((self.kinematics.attitude_until_s(start_s, &instant, known_s), instant))
+    }
+
     fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
         if self.kinematics.trajectory.end_s() > start_s {
             return self.extend_radiation(start_s, self.kinematics.trajectory.end_s());
@@ -331,10 +338,9 @@ impl<'a> Plant<'a> {
 impl TorqueModel for Plant<'_> {
     type Failure = PlantError;
 
-    fn prepare(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
-        let known_s = self.orbit_and_light(start_s)?.min(limit_s);
-        let instant = self.kinematics.instant(start_s);
-        Ok(self.kinematics.attitude_until_s(start_s, &instant, known_s))
+    fn prepare(&mut self, start_s: f64, limit_s: f64) -> Result<(f64, Rotation3<f64>), PlantError> {
+        let (until_s, instant) = self.begin(start_s, limit_s)?;
+        Ok((until_s, instant.frame.inertial_from_body))
     }
 
     fn must_choose(&mut self, start_s: f64) -> bool {

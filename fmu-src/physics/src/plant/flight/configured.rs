@@ -41,7 +41,7 @@ pub struct StepContext<'a> {
     /// Force and torque from outside.
     pub external: &'a External<'a>,
     /// Who chooses the Sun's place in downlinks and in science that unloads; called where the guidance is managed.
-    pub planner: &'a dyn SunPlanner,
+    pub planner: &'a SunPlanner<'a>,
     /// Units of about a microsecond that a step may take.
     pub work_limit: u32,
 }
@@ -129,7 +129,7 @@ impl ConfiguredFlight<'_> {
                 separations_rad,
                 science,
             };
-            self.given.planner.choose(&mut downlink_forecast)?
+            (self.given.planner)(&mut downlink_forecast)?
         } else {
             None
         };

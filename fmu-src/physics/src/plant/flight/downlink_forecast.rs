@@ -40,15 +40,9 @@ impl StartMomentum {
     }
 }
 
-/// Who chooses the Sun's place; called once a downlink or science that unloads, and again after a dump at its very beginning.
-pub trait SunPlanner {
-    /// The place, and whether limits keep the momentum from its target; no place where the default attitude is to be simulated.
-    ///
-    /// # Errors
-    /// What ends a flight.
-    fn choose(&self, downlink_forecast: &mut DownlinkForecast<'_>)
-    -> Result<Option<ChosenPlace>, PlantError>;
-}
+/// Chooses the Sun's place, and tells whether limits keep the momentum from its target; no place where the default attitude is to be
+/// simulated. Called once a downlink or science that unloads, and again after a dump at its very beginning.
+pub type SunPlanner<'a> = dyn Fn(&mut DownlinkForecast<'_>) -> Result<Option<ChosenPlace>, PlantError> + 'a;
 
 /// Where a downlink begins, or science that unloads.
 pub struct DownlinkForecast<'o> {

@@ -19,29 +19,16 @@ use super::control_loop::{ControlLoop, Sampled};
 use super::momentum_dumps::MomentumDumps;
 use super::sensing::Sensing;
 use crate::plant::disturbances::disturbance_interval::{DisturbanceInterval, Linear};
-use crate::plant::disturbances::evaluation::{Evaluation, External, Plant};
+use crate::plant::disturbances::evaluation::{Evaluation, Plant};
 use crate::plant::mass::MassState;
 use crate::plant::motion::panel_motion::PanelMotion;
-use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
+use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings, StartMotion};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::work::Cost;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
 /// Units of work of a segment of the motion with flexible modes, slosh or imbalance; one of a rigid body's is a unit.
 const FLEXIBLE_UNITS: u32 = 8;
-
-/// How the body stands and turns where a flight begins, where nothing is measured yet.
-#[derive(Clone, Copy, Debug)]
-pub struct StartMotion {
-    /// Attitude.
-    pub attitude: Attitude,
-    /// Body rate, in rad/s.
-    pub rate_body_rad_s: Vector3<f64>,
-    /// Whether internal guidance gives the attitude.
-    pub attitude_is_guided: bool,
-    /// Whether internal guidance gives the rate too.
-    pub rate_is_guided: bool,
-}
 
 /// State of the attitude dynamics: body, panels, disturbances, sensors, control, dumps.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -56,15 +43,14 @@ pub(crate) struct AttitudeDynamics {
 }
 
 impl AttitudeDynamics {
-    /// At the start of a flight, the wheels holding these momenta, in N m s.
+    /// At the start of a flight.
     pub fn begin(
         settings: &mut DynamicsSettings,
         craft: &mut ConfiguredFlight<'_>,
-        start: &StartMotion,
-        wheels_n_m_s: impl Fn(usize) -> f64,
         time_s: f64,
     ) -> Result<Self, PlantError> {
-        let StartMotion { mut attitude, mut rate_body_rad_s, attitude_is_guided, rate_is_guided } = *start;
+        let StartMotion { mut attitude, mut rate_body_rad_s, attitude_is_guided, rate_is_guided, .. } =
+            settings.start;
         if attitude_is_guided && let Some(frame) = craft.guided_start(time_s)? {
             attitude = Attitude::from_rotation(&frame.inertial_from_body);
             if rate_is_guided {
@@ -84,8 +70,9 @@ impl AttitudeDynamics {
             settings.set_mass_properties(&mass);
         }
         let gyrostat = &settings.gyrostat;
+        let wheel_n_m_s = |k: usize| settings.start.wheels_n_m_s.get(k).copied().unwrap_or(0.0);
         let mut begun = Self {
-            motion: GyrostatMotion::new(gyrostat, time_s, unit, &rate_body_rad_s, wheels_n_m_s),
+            motion: GyrostatMotion::new(gyrostat, time_s, unit, &rate_body_rad_s, wheel_n_m_s),
             mass: MassState::new(mass),
             panels: PanelMotion::default(),
             disturbance: DisturbanceInterval::before(),
@@ -149,9 +136,10 @@ impl AttitudeDynamics {
             let edge_s = craft.thrusters.next_edge_s();
             let limit_s = self.sensing.next_s().min(self.disturbance.end_s()).min(edge_s);
             let limit_s = limit_s.min(self.dumps.until_s());
-            let mut load = self.load(craft.given.external, craft.thrusters, time_s);
+            let external = (craft.given.external)(time_s);
+            let mut load = self.load(&external, craft.thrusters, time_s);
             load.internal = self.panels.internal(craft.given.prepared.panels, &self.mass.now, time_s);
-            self.dumps.torques = self.torques_by_source(craft.given.external, time_s);
+            self.dumps.torques = self.torques_by_source(&external, time_s);
             self.motion.advance(&settings.gyrostat, self.control.wheels.motors(), &load, limit_s);
             craft.take_thrust(&self.motion)?;
         }
@@ -174,6 +162,7 @@ impl AttitudeDynamics {
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
         let due_s = time_s + tolerance_s(time_s);
+        self.motion.remembered_at(&settings.gyrostat, time_s);
         self.dumps.accumulate(&self.motion, self.dumps.is_dumping(craft.thrusters, time_s));
         if !craft.thrusters.load().law.is_none() {
             let Thrusters { propellant, settings: known, .. } = &*craft.thrusters;
@@ -294,12 +283,13 @@ impl AttitudeDynamics {
         inputs: &DynamicsInputs,
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
-        let body = self.motion.at(&settings.gyrostat, time_s);
+        let body = self.motion.remembered_at(&settings.gyrostat, time_s);
         let number = self.sensing.sample(settings, inputs, time_s, &body, self.disturbance.sun_at(time_s));
         let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
         let is_free = self.dumps.are_over(craft.thrusters) && !self.control.by_thrusters;
-        if is_free && craft.thrusters.burning().is_none() && settings.dump.exceeded(&momentum_body) {
-            self.begin_dump(craft, &momentum_body, settings.dump.after(&momentum_body));
+        let policy = craft.world.configuration.momentum.policy;
+        if is_free && craft.thrusters.burning().is_none() && policy.exceeded(&momentum_body) {
+            self.begin_dump(craft, &momentum_body, policy.after(&momentum_body));
             self.dumps.dumps.check()?;
         }
         craft.thrusters.sample_dump(&self.motion, &body.momentum_inertial_n_m_s, &self.mass.known);
@@ -338,9 +328,8 @@ impl AttitudeDynamics {
     }
 
     /// What acts from `time_s` on.
-    fn load(&self, external: &External<'_>, thrusters: &Thrusters, time_s: f64) -> BodyLoad {
+    fn load(&self, [now, slope]: &[ForceTorque; 2], thrusters: &Thrusters, time_s: f64) -> BodyLoad {
         let [[force, force_slope], [torque, torque_slope]] = self.disturbance.total_at(time_s);
-        let [now, slope] = external(time_s);
         let dump = self.dumps.torque_body_n_m();
         let thrusters = thrusters.load();
         let [thrust, thrust_slope] = thrusters.law.force_body_n;
@@ -362,9 +351,9 @@ impl AttitudeDynamics {
     }
 
     /// Torque by effect from `time_s` on.
-    fn torques_by_source(&self, external: &External<'_>, time_s: f64) -> ByEffect<Option<Linear>> {
+    fn torques_by_source(&self, external: &[ForceTorque; 2], time_s: f64) -> ByEffect<Option<Linear>> {
         ByEffect::of(|effect| match effect {
-            Effect::Applied => Some(external(time_s).map(|load| load.torque_body_n_m)),
+            Effect::Applied => Some(external.map(|load| load.torque_body_n_m)),
             effect if effect.row().momentum_apart => self.disturbance.torque_at(effect, time_s),
             _ => None,
         })

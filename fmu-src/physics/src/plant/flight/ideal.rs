@@ -105,7 +105,6 @@ impl IdealFlight {
     fn push(&mut self, spacecraft: &mut ConfiguredFlight<'_>, event: &DumpEvent) {
         let time_s = event.time_s;
         let mut plant = spacecraft.plant();
-        let sample = plant.sample(time_s);
         let instant = plant.instant(time_s);
         let mass = plant.mass_properties(&instant, time_s);
         let push_body_n_s = spacecraft.thrusters.dump_at_once(event, &mass.center_of_mass_body_m);
@@ -113,7 +112,7 @@ impl IdealFlight {
             self.dump_delta_v_inertial_m_s = Vector3::zeros();
             return;
         };
-        let delta_v_inertial_m_s = sample.inertial_from_body * push_body_n_s / mass.mass_kg;
+        let delta_v_inertial_m_s = instant.frame.inertial_from_body * push_body_n_s / mass.mass_kg;
         self.dump_delta_v_inertial_m_s = delta_v_inertial_m_s;
         self.integrator.push(&delta_v_inertial_m_s);
         let loaded = spacecraft.world.configuration.loaded();

@@ -17,13 +17,13 @@ pub mod sun_choice;
 pub mod wheel_control;
 
 pub use configured::StepContext;
-pub use dynamic::StartMotion;
 pub use fork::ForecastMomentum;
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::control::{Estimate, sample_number, sensed_sun};
+use crate::environment::ephemeris::Ephemeris;
 use crate::momentum::{DumpEvent, Totals};
 
 use crate::loads::ForceTorque;
@@ -79,14 +79,6 @@ pub enum ModeSettings {
     Ideal(IdealSettings),
     /// Of a flight by torque.
     Dynamic(Box<DynamicsSettings>),
-}
-
-/// How a flight begins.
-pub enum Start<W> {
-    /// With this momentum, body frame, in N m s, in an attitude that is followed ideally.
-    Ideal(Vector3<f64>),
-    /// With this motion, the wheels holding these momenta, in N m s.
-    Dynamic(StartMotion, W),
 }
 
 /// What changes.
@@ -148,6 +140,11 @@ impl Flight {
     /// The configuration that is simulated.
     pub fn configuration(&self) -> Option<&Configuration> {
         self.setup.as_ref().map(|setup| &setup.world.configuration)
+    }
+
+    /// The planets as far as they were looked up.
+    pub fn ephemeris(&self) -> Option<&Ephemeris> {
+        self.setup.as_ref().map(|setup| &setup.world.ephemeris)
     }
 
     /// Whether it waits.
@@ -255,23 +252,21 @@ impl Flight {
     ///
     /// # Errors
     /// What ends a flight.
-    pub fn begin<W: Fn(usize) -> f64>(
+    pub fn begin(
         &mut self,
         given: StepContext<'_>,
-        start: Start<W>,
         time_s: f64,
         log: &mut dyn FnMut(&DumpEvent),
     ) -> Result<(), PlantError> {
         let (mut flight, settings, mode) = self.parts(given, log)?;
         *flight.propagator = PropagatorState::new(&flight.world.configuration, time_s)?;
-        *mode = match (start, settings) {
-            (Start::Ideal(momentum_body_n_m_s), ModeSettings::Ideal(_)) => {
-                Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, momentum_body_n_m_s)?))
+        *mode = match settings {
+            ModeSettings::Ideal(IdealSettings { start_momentum_body_n_m_s, .. }) => {
+                Mode::Ideal(Box::new(IdealFlight::begin(&mut flight, time_s, *start_momentum_body_n_m_s)?))
             }
-            (Start::Dynamic(start, wheels_n_m_s), ModeSettings::Dynamic(settings)) => Mode::Dynamic(
-                Box::new(AttitudeDynamics::begin(settings, &mut flight, &start, wheels_n_m_s, time_s)?),
-            ),
-            _ => return Err(PlantError::OtherMode),
+            ModeSettings::Dynamic(settings) => {
+                Mode::Dynamic(Box::new(AttitudeDynamics::begin(settings, &mut flight, time_s)?))
+            }
         };
         Ok(())
     }
@@ -336,8 +331,8 @@ impl Flight {
         (self.mode, self.thrusters) = (mode, thrusters);
     }
 
-    /// Everything at `time_s`, where the flight has come; a flight that waits holds the attitude of `command`, its system the
-    /// momentum of `start`, body frame, in N m s.
+    /// Everything at `time_s`, where the flight has come; one that waits holds the attitude of `held`, and the momentum of its
+    /// start.
     ///
     /// # Errors
     /// A state that belongs to another mode than the settings.
@@ -345,35 +340,25 @@ impl Flight {
         &mut self,
         given: StepContext<'_>,
         inputs: &DynamicsInputs,
-        held: (Command, Vector3<f64>),
+        held: &Command,
         time_s: f64,
     ) -> Result<Report<'_>, PlantError> {
-        let frame = held.0.frame_at(time_s);
+        let (is_waiting, frame) = (self.is_waiting(), held.frame_at(time_s));
         let Self { propagator, thrusters, setup: Some(setup), mode } = self else {
             return Err(PlantError::OtherMode);
         };
         let FlightSetup { world, settings, evaluation } = &mut **setup;
         let mut flight = ConfiguredFlight { given, world, propagator, thrusters, log: &mut |_| {} };
-        let body = match (&*mode, &mut *settings) {
+        let (evaluation, shown) = match (mode, settings) {
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
                 dynamics.resume(settings, &mut flight);
-                Some(dynamics.motion.at(&settings.gyrostat, time_s))
+                let body = dynamics.motion.remembered_at(&settings.gyrostat, time_s);
+                let evaluation =
+                    &*evaluation.insert(dynamics.evaluation(settings, &mut flight, &body, time_s));
+                (evaluation, dynamic(dynamics, settings, flight.thrusters, body, time_s))
             }
-            _ => None,
-        };
-        let evaluation = &*evaluation.insert(match (&*mode, &mut *settings, &body) {
-            (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings), Some(body)) => {
-                dynamics.evaluation(settings, &mut flight, body, time_s)
-            }
-            (Mode::Waiting, ..) => Evaluation::without_position(frame, flight.world.mass_at_zero),
-            _ => flight.plant().evaluate(time_s),
-        });
-        let (configuration, thrusters) = (&world.configuration, &*thrusters);
-        let shown = match (&*mode, &*settings, body) {
-            (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings), Some(body)) => {
-                dynamic(dynamics, settings, thrusters, body, time_s)
-            }
-            (Mode::Ideal(simulated), ModeSettings::Ideal(settings), _) => {
+            (Mode::Ideal(simulated), ModeSettings::Ideal(settings)) => {
+                let evaluation = &*evaluation.insert(flight.plant().evaluate(time_s));
                 let mut shown = ideal(simulated, settings, evaluation, inputs, time_s);
                 let Instant { sun_body, lit_fraction, .. } = &evaluation.instant;
                 shown.sun_sensed_body = sensed_sun(
@@ -384,17 +369,21 @@ impl Flight {
                     settings.seed,
                     sample_number(time_s, settings.rate_hz),
                 );
-                shown
+                (evaluation, shown)
             }
-            (Mode::Waiting, ModeSettings::Ideal(settings), _) => {
-                let totals = Totals::at_start(held.1, &frame.inertial_from_body);
-                ideal(&IdealFlight::new(time_s, totals), settings, evaluation, inputs, time_s)
+            (Mode::Waiting, ModeSettings::Ideal(settings)) => {
+                let evaluated = Evaluation::without_position(frame, flight.world.mass_at_zero);
+                let evaluation = &*evaluation.insert(evaluated);
+                let momentum_body_n_m_s = settings.start_momentum_body_n_m_s;
+                let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
+                (evaluation, ideal(&IdealFlight::new(time_s, totals), settings, evaluation, inputs, time_s))
             }
             _ => return Err(PlantError::OtherMode),
         };
-        let since_periapsis_s = match mode {
-            Mode::Waiting => 0.0,
-            _ => propagator.trajectory.time_since_periapsis_s(configuration, time_s),
+        let (configuration, thrusters) = (&world.configuration, &*thrusters);
+        let since_periapsis_s = match is_waiting {
+            true => 0.0,
+            false => propagator.trajectory.time_since_periapsis_s(configuration, time_s),
         };
         let target_is_clamped = propagator.sun_choice.is_clamped();
         Ok(Report {

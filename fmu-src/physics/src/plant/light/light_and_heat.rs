@@ -6,7 +6,8 @@ use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::loads::{ByEffect, Effect, ForceTorque};
 use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::chebyshev::Segment;
-use crate::radiation::disturbance::{GeometryError, PlanetGeometry};
+use crate::radiation::disturbance::PlanetGeometry;
+use crate::refusal::Refusal;
 use crate::spacecraft::Panel;
 
 use super::radiation_node::RadiationNode;
@@ -165,7 +166,7 @@ impl RadiationBuilder<'_, '_> {
         start_k: &[f64],
         start_s: f64,
         end_s: f64,
-    ) -> Result<ByEffect<Option<LoadSeries>>, GeometryError> {
+    ) -> Result<ByEffect<Option<LoadSeries>>, Refusal> {
         let RadiationSolver { model, panels, nodes, heat_rule } = light;
         let times_s = LoadSeries::nodes(start_s, end_s);
         for (node, time_s) in nodes.iter_mut().zip(times_s) {
@@ -236,7 +237,7 @@ impl RadiationBuilder<'_, '_> {
         acts && light.model.stores_heat()
     }
 
-    fn no_light(&self, time_s: f64, source: GeometryError) -> PlantError {
+    fn no_light(&self, time_s: f64, source: Refusal) -> PlantError {
         let Kinematics { configuration, trajectory, .. } = &*self.kinematics;
         let position_m = trajectory.state_at(configuration, time_s).position_m.into();
         PlantError::Light { time_s, position_m, source }

@@ -3,9 +3,8 @@
 use nalgebra::Vector3;
 
 use crate::loads::{Effect, Loads};
-use crate::radiation::disturbance::{
-    self, DisturbanceModel, GeometryError, PlanetGeometry, Recoil, Workspace,
-};
+use crate::radiation::disturbance::{self, DisturbanceModel, PlanetGeometry, Recoil, Workspace};
+use crate::refusal::Refusal;
 
 /// One time at which light and heat are computed.
 #[derive(Clone, Debug)]
@@ -49,14 +48,14 @@ impl RadiationNode {
     }
 
     /// Computes light and heat, every surface in balance with its light.
-    pub fn balance(&mut self, model: &DisturbanceModel) -> Result<(), GeometryError> {
+    pub fn balance(&mut self, model: &DisturbanceModel) -> Result<(), Refusal> {
         self.found = model.evaluate(&self.viewing.geometry(), Recoil::Balance, &mut self.workspace)?;
         model.heat_w(&self.workspace, &mut self.heat_w);
         Ok(())
     }
 
     /// After [`RadiationNode::balance`]: the recoil anew, at this node's stored temperatures.
-    pub fn radiate_stored(&mut self, model: &DisturbanceModel) -> Result<(), GeometryError> {
+    pub fn radiate_stored(&mut self, model: &DisturbanceModel) -> Result<(), Refusal> {
         let stored = Recoil::Stored(&self.temperatures_k);
         self.found[Effect::Thermal] = model.recoil(&self.viewing.geometry(), stored, &mut self.workspace)?;
         Ok(())

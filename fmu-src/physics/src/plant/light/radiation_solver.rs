@@ -2,7 +2,8 @@
 
 use crate::bodies::surface::PlanetSurface;
 use crate::loads::Effect;
-use crate::radiation::disturbance::{DisturbanceModel, ModelError, Options, PlanetLightMethod};
+use crate::radiation::disturbance::{DisturbanceModel, Options, PlanetLightMethod};
+use crate::refusal::Refusal;
 use crate::spacecraft::Spacecraft;
 
 use super::radiation_node::RadiationNode;
@@ -32,7 +33,7 @@ impl RadiationSolver {
         configuration: &Configuration,
         planet: &PlanetSurface,
         quadrature_nodes: usize,
-    ) -> Result<Self, ModelError> {
+    ) -> Result<Self, Refusal> {
         let takes_part = |index: &usize| configuration.panels.get(*index) != Some(&PanelSetting::Disabled);
         let panels: Vec<usize> = (0..spacecraft.panels.len()).filter(takes_part).collect();
         let mut simulated = spacecraft.clone();

@@ -2,11 +2,10 @@
 
 use nalgebra::Vector3;
 
-use crate::attitude::Gyrostat;
 use crate::attitude::control::{
     AccelerometerSettings, ControllerSettings, SensorHealth, SensorSettings, SunSensor,
 };
-use crate::momentum::DumpPolicy;
+use crate::attitude::{Attitude, Gyrostat};
 use crate::propulsion::PulseCommand;
 use crate::spacecraft::MassProperties;
 
@@ -29,12 +28,27 @@ pub struct DynamicsSettings {
     pub sun_sensors: Vec<SunSensor>,
     /// The controller; absent where wheel torques come from outside.
     pub control: Option<Control>,
-    /// Thresholds and what a dump leaves.
-    pub dump: DumpPolicy,
     /// Edges of the disturbance grid are multiples of this, in s.
     pub grid_s: f64,
     /// Whether panels that turn have a mass: the inertia then follows them from one edge of the grid to the next.
     pub panels_have_mass: bool,
+    /// Where the flight begins.
+    pub start: StartMotion,
+}
+
+/// How body and wheels turn where a flight begins, where nothing is measured yet.
+#[derive(Clone, Debug)]
+pub struct StartMotion {
+    /// Attitude.
+    pub attitude: Attitude,
+    /// Body rate, in rad/s.
+    pub rate_body_rad_s: Vector3<f64>,
+    /// Whether internal guidance gives the attitude.
+    pub attitude_is_guided: bool,
+    /// Whether internal guidance gives the rate too.
+    pub rate_is_guided: bool,
+    /// Momentum of each wheel, in N m s.
+    pub wheels_n_m_s: Vec<f64>,
 }
 
 impl DynamicsSettings {
@@ -77,9 +91,10 @@ impl ThrusterControl {
 }
 
 /// What is commanded to the controller.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Tracked {
     /// The orbit phase's own guidance.
+    #[default]
     Guidance,
     /// An attitude, turning on at a constant rate.
     Attitude(Command),
@@ -88,7 +103,7 @@ pub enum Tracked {
 }
 
 /// What the inputs of a step say; filled anew in every step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct DynamicsInputs {
     /// What the controller tracks.
     pub tracked: Tracked,
@@ -106,40 +121,4 @@ pub struct DynamicsInputs {
     pub health: SensorHealth,
     /// Momentum that a dump which is requested leaves, body frame, in N m s.
     pub dump_to_body_n_m_s: Option<Vector3<f64>>,
-}
-
-impl DynamicsInputs {
-    /// Of a spacecraft without wheels, Sun sensors and thrusters.
-    pub fn new(tracked: Tracked, thrust: ThrustCommand, health: SensorHealth) -> Self {
-        Self {
-            tracked,
-            wheel_torques_n_m: Vec::new(),
-            wheel_failed: Vec::new(),
-            sun_sensor_failed: Vec::new(),
-            pulses: Vec::new(),
-            thrust,
-            health,
-            dump_to_body_n_m_s: None,
-        }
-    }
-
-    /// Puts these in the place of the last ones: torque of each wheel in N m and whether it failed, which Sun sensors failed,
-    /// pulses of the thrusters.
-    pub fn refill(
-        &mut self,
-        wheels: impl Iterator<Item = (f64, bool)>,
-        sun_sensors: impl Iterator<Item = bool>,
-        pulses: impl Iterator<Item = PulseCommand>,
-    ) {
-        self.wheel_torques_n_m.clear();
-        self.wheel_failed.clear();
-        for (torque_n_m, failed) in wheels {
-            self.wheel_torques_n_m.push(torque_n_m);
-            self.wheel_failed.push(failed);
-        }
-        self.sun_sensor_failed.clear();
-        self.sun_sensor_failed.extend(sun_sensors);
-        self.pulses.clear();
-        self.pulses.extend(pulses);
-    }
 }

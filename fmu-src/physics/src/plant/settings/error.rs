@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::work::WorkExceeded;
 use crate::environment::orbit::OrbitIntegrationError;
 use crate::momentum::TooManyDumps;
-use crate::radiation::disturbance::GeometryError;
+use crate::refusal::Refusal;
 
 /// Why a flight ends.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -34,7 +34,7 @@ pub enum PlantError {
         /// Position about the orbit's centre, EME2000, in m.
         position_m: [f64; 3],
         /// Why.
-        source: GeometryError,
+        source: Refusal,
     },
     /// Restored bytes of another spacecraft.
     #[error("the state holds {found} temperatures, allowed: {allowed}, one for each face")]

@@ -1,5 +1,7 @@
 //! What parameters say about wheels and sensors where the attitude is followed ideally.
 
+use nalgebra::Vector3;
+
 use crate::attitude::control::SunSensor;
 use crate::momentum::WheelArray;
 
@@ -16,4 +18,6 @@ pub struct IdealSettings {
     pub rate_hz: f64,
     /// Of the sensors' noise.
     pub seed: u64,
+    /// The system's momentum where the flight begins, body frame, in N m s.
+    pub start_momentum_body_n_m_s: Vector3<f64>,
 }

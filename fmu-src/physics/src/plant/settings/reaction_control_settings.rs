@@ -94,7 +94,7 @@ impl Feed<'_> {
 }
 
 /// What is commanded for a delta-v.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ThrustCommand {
     /// The thrusters that are to fire; none = no thrust.
     pub set: Option<ThrusterSet>,

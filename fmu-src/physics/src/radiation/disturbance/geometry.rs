@@ -6,8 +6,7 @@ use crate::constants::{RADIUS_SUN_M, SPEED_OF_LIGHT_M_S};
 use crate::environment::sun::{SunError, flux_w_m2};
 use crate::numerics::scalar::Scalar;
 use crate::radiation::flat_plate::Beam;
-use crate::radiation::grid::GridError;
-use crate::radiation::ring::ViewError;
+use crate::refusal::Refusal;
 
 /// One moment's geometry, in the body frame.
 #[derive(Clone, Copy, Debug)]
@@ -50,46 +49,20 @@ pub enum Recoil<'a> {
     Stored(&'a [f64]),
 }
 
-/// A geometry light and heat cannot be computed for.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum GeometryError {
-    /// The Sun has no direction.
-    #[error("the Sun is at a distance of {distance_m} m, allowed: a finite distance above 0 m")]
-    Sun {
-        /// Distance found.
-        distance_m: f64,
-    },
-    /// Not one angle for each panel.
-    #[error("{found} panel angles, allowed: {allowed}, one for each panel")]
-    PanelAngles {
-        /// How many were given.
-        found: usize,
-        /// How many panels there are.
-        allowed: usize,
-    },
-    /// Not one temperature for each face.
-    #[error("{found} face temperatures, allowed: {allowed}, one for each face")]
-    Temperatures {
-        /// How many were given.
-        found: usize,
-        /// How many faces there are.
-        allowed: usize,
-    },
-    /// Something is not a number or infinite.
-    #[error("{what} is not finite, allowed: finite numbers")]
-    NotFinite {
-        /// What.
-        what: &'static str,
-    },
-    /// The planet.
-    #[error(transparent)]
-    Planet(#[from] ViewError),
-    /// The planet's cells.
-    #[error(transparent)]
-    Cells(#[from] GridError),
-}
-
 impl<'a, T: Scalar> Geometry<'a, T> {
+    /// In sunlight alone, of a Sun that is a point; without panels, torque about the body frame's origin.
+    pub fn sunlit(sun_direction_body: Vector3<T>, sun_flux_w_m2: T) -> Self {
+        Self {
+            sun_direction_body,
+            sun_sine: T::constant(0.0),
+            sun_flux_w_m2,
+            lit_fraction: T::constant(1.0),
+            planet: None,
+            panel_angles_rad: &[],
+            center_of_mass_body_m: Vector3::zeros(),
+        }
+    }
+
     /// Geometry from positions: fluxes follow the inverse square of the distance (paper 004 eq 22).
     ///
     /// `sun_position_body_m` and `planet_position_body_m` point from the spacecraft to the centres. The planet's pole is
@@ -104,11 +77,14 @@ impl<'a, T: Scalar> Geometry<'a, T> {
         lit_fraction: T,
         panel_angles_rad: &'a [T],
         center_of_mass_body_m: Vector3<T>,
-    ) -> Result<Self, GeometryError> {
-        let flux = |position_m: &Vector3<T>| -> Result<(T, T), GeometryError> {
+    ) -> Result<Self, Refusal> {
+        let flux = |position_m: &Vector3<T>| -> Result<(T, T), Refusal> {
             let distance_m = position_m.dot(position_m).sqrt();
-            let flux_w_m2 = flux_w_m2(flux_at_1_au_w_m2, distance_m)
-                .map_err(|SunError::Distance { found_m }| GeometryError::Sun { distance_m: found_m })?;
+            let flux_w_m2 =
+                flux_w_m2(flux_at_1_au_w_m2, distance_m).map_err(|SunError::Distance { found_m }| {
+                    let found = format_args!("the Sun is at a distance of {found_m} m");
+                    Refusal::new(found, "a finite distance above 0 m")
+                })?;
             Ok((flux_w_m2, distance_m))
         };
         let (sun_flux_w_m2, distance_m) = flux(sun_position_body_m)?;
@@ -149,11 +125,15 @@ impl<'a, T: Scalar> Geometry<'a, T> {
         }
     }
 
-    pub(super) fn check(&self, panels: usize) -> Result<(), GeometryError> {
+    pub(super) fn check(&self, panels: usize) -> Result<(), Refusal> {
         if self.panel_angles_rad.len() != panels {
-            return Err(GeometryError::PanelAngles { found: self.panel_angles_rad.len(), allowed: panels });
+            let found = format_args!("{} panel angles", self.panel_angles_rad.len());
+            return Err(Refusal::new(found, format_args!("{panels}, one for each panel")));
         }
-        let finite = |what, good: bool| if good { Ok(()) } else { Err(GeometryError::NotFinite { what }) };
+        let finite = |what, good: bool| {
+            let refused = || Refusal::new(format_args!("{what} is not finite"), "finite numbers");
+            good.then_some(()).ok_or_else(refused)
+        };
         let vector = |v: &Vector3<T>| v.iter().all(|x| x.value().is_finite());
         finite("the Sun's direction", vector(&self.sun_direction_body))?;
         finite("the Sun's angular radius", self.sun_sine.value().is_finite())?;

@@ -4,14 +4,12 @@ use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
 use super::*;
-use crate::bodies::surface::{DayTemperature, PlanetSurface};
-use crate::constants::SPEED_OF_LIGHT_M_S;
+use crate::bodies::surface::{MERCURY, PlanetSurface};
+use crate::constants::{RADIUS_MERCURY_M as RADIUS_M, SPEED_OF_LIGHT_M_S};
 use crate::loads::Effect::{Solar as SOLAR, Thermal as RECOIL};
 use crate::spacecraft::{
     BusLink, Emission, FaceThermal, MESSENGER_THERMAL_TOML, Optics, Plate, Polygon, Spacecraft, Thermal,
 };
-
-const RADIUS_M: f64 = 2.4394e6;
 
 fn spacecraft(plates: Vec<Plate>) -> Spacecraft {
     let whole = Spacecraft::from_toml("messenger-thermal.toml", MESSENGER_THERMAL_TOML).unwrap();
@@ -23,28 +21,11 @@ fn square(normal: Vector3<f64>, center_m: Vector3<f64>, half_m: f64, optics: Opt
     let north = normal.cross(&east);
     let corner = |a: f64, b: f64| center_m + (east * a + north * b) * half_m;
     let vertices = vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-    Plate {
-        name: "square".to_owned(),
-        area_m2: 4.0 * half_m * half_m,
-        center_m,
-        normal,
-        optics,
-        rear_optics: None,
-        thermal: Thermal::insulated(&optics, None),
-        polygon: Some(Polygon::new(vertices).unwrap()),
-    }
+    Plate::outlined("square".to_owned(), Polygon::new(vertices).unwrap(), optics, None)
 }
 
 fn sunlit(sun_direction_body: Vector3<f64>) -> Geometry<'static, f64> {
-    Geometry {
-        sun_direction_body,
-        sun_sine: 0.0,
-        sun_flux_w_m2: 9000.0,
-        lit_fraction: 1.0,
-        planet: None,
-        panel_angles_rad: &[],
-        center_of_mass_body_m: Vector3::zeros(),
-    }
+    Geometry::sunlit(sun_direction_body, 9000.0)
 }
 
 /// A plate that faces a planet at night sees it under the square of radius over distance; how much of that heats it is
@@ -57,12 +38,11 @@ fn planet_heat_is_absorbed_by_infrared_optics() {
         emission: Emission { emissivity: 0.6, slope_per_k: 0.0, reference_temperature_k: 300.0 },
     };
     let surface = PlanetSurface {
-        radius_m: RADIUS_M,
         absorptivity: 0.9,
         diffuse_reflectivity: 0.1,
         emissivity: 0.95,
         night_temperature_k: 400.0,
-        day_temperature: DayTemperature::Uniform,
+        ..MERCURY
     };
     let options =
         Options { planet: Some(surface), planet_light: PlanetLightMethod::Rings(16), ..Options::default() };

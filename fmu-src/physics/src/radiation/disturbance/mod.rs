@@ -3,7 +3,6 @@
 //! [`DisturbanceModel::evaluate`] is the one call: geometry in, force and torque by effect and by face out. It is
 //! generic over the number type, so that dual numbers give exact derivatives by any part of the geometry.
 
-mod error;
 mod face_loads;
 mod geometry;
 mod model;
@@ -19,8 +18,7 @@ mod tests;
 #[cfg(test)]
 mod whole_tests;
 
-pub use error::ModelError;
-pub use geometry::{Geometry, GeometryError, PlanetGeometry, Recoil};
+pub use geometry::{Geometry, PlanetGeometry, Recoil};
 pub use model::{DisturbanceModel, Options};
 pub use planet_rule::PlanetLightMethod;
 pub use workspace::{FaceResult, Workspace};

@@ -2,9 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::error::ModelError;
 use super::face_loads::FaceLoads;
-use super::geometry::{Geometry, GeometryError, Recoil};
+use super::geometry::{Geometry, Recoil};
 use super::planet_rule::{PlanetLightMethod, PlanetRule};
 use super::workspace::Workspace;
 use crate::bodies::surface::PlanetSurface;
@@ -13,6 +12,7 @@ use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::radiation::faces::{Faces, Normal};
 use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::shadow::{DIRECTIONS, ShadowScene, SunDisc};
+use crate::refusal::Refusal;
 use crate::spacecraft::{Panel, Spacecraft, SunshadeModel};
 
 /// What an evaluation takes into account.
@@ -59,7 +59,7 @@ impl DisturbanceModel {
     ///
     /// # Errors
     /// An impossible planet surface, number of nodes or cells, or form of the sunshade.
-    pub fn new(spacecraft: &Spacecraft, options: &Options) -> Result<Self, ModelError> {
+    pub fn new(spacecraft: &Spacecraft, options: &Options) -> Result<Self, Refusal> {
         if let Some(planet) = &options.planet {
             planet.validate()?;
         }
@@ -111,10 +111,16 @@ impl DisturbanceModel {
     /// Refuses a model whose evaluation takes more than `limit_units` of work, of about a microsecond each.
     ///
     /// # Errors
-    /// [`ModelError::Work`].
-    pub fn within(self, limit_units: u32) -> Result<Self, ModelError> {
+    /// More work than that.
+    pub fn within(self, limit_units: u32) -> Result<Self, Refusal> {
         let found = self.evaluation_units();
-        if found > limit_units { Err(ModelError::Work { found, limit: limit_units }) } else { Ok(self) }
+        if found > limit_units {
+            return Err(Refusal::new(
+                format_args!("one evaluation takes {found} units of work"),
+                limit_units,
+            ));
+        }
+        Ok(self)
     }
 
     /// Whether any surface can shadow another at some direction of the Sun and angle of the panels.
@@ -139,7 +145,7 @@ impl DisturbanceModel {
         geometry: &Geometry<'_, T>,
         recoil: Recoil<'_>,
         workspace: &mut Workspace<T>,
-    ) -> Result<Loads<T>, GeometryError> {
+    ) -> Result<Loads<T>, Refusal> {
         let surface = self.planet.map(|surface| surface.constant());
         self.evaluate_on(surface.as_ref(), geometry, recoil, workspace)
     }
@@ -155,7 +161,7 @@ impl DisturbanceModel {
         geometry: &Geometry<'_, T>,
         recoil: Recoil<'_>,
         workspace: &mut Workspace<T>,
-    ) -> Result<Loads<T>, GeometryError> {
+    ) -> Result<Loads<T>, Refusal> {
         geometry.check(self.panels.len())?;
         self.check_temperatures(recoil)?;
         workspace.prepare(self.faces.normals.len(), self.faces.faces.len());
@@ -189,12 +195,9 @@ impl DisturbanceModel {
         geometry: &Geometry<'_, T>,
         recoil: Recoil<'_>,
         workspace: &mut Workspace<T>,
-    ) -> Result<ForceTorque<T>, GeometryError> {
+    ) -> Result<ForceTorque<T>, Refusal> {
         self.check_temperatures(recoil)?;
-        let (found, allowed) = (workspace.faces.len(), self.faces.faces.len());
-        if found != allowed {
-            return Err(GeometryError::Temperatures { found, allowed });
-        }
+        self.check_faces(workspace.faces.len())?;
         Ok(self.loads(geometry).radiate(recoil, workspace))
     }
 
@@ -223,14 +226,20 @@ impl DisturbanceModel {
         }
     }
 
-    fn check_temperatures(&self, recoil: Recoil<'_>) -> Result<(), GeometryError> {
-        let allowed = self.faces.faces.len();
+    fn check_temperatures(&self, recoil: Recoil<'_>) -> Result<(), Refusal> {
         match recoil {
-            Recoil::Stored(temperatures_k) if temperatures_k.len() != allowed => {
-                Err(GeometryError::Temperatures { found: temperatures_k.len(), allowed })
-            }
-            _ => Ok(()),
+            Recoil::Stored(temperatures_k) => self.check_faces(temperatures_k.len()),
+            Recoil::Balance => Ok(()),
         }
+    }
+
+    fn check_faces(&self, found: usize) -> Result<(), Refusal> {
+        let allowed = self.face_count();
+        if found == allowed {
+            return Ok(());
+        }
+        let found = format_args!("{found} face temperatures");
+        Err(Refusal::new(found, format_args!("{allowed}, one for each face")))
     }
 
     fn loads<'a, T: Scalar>(&'a self, geometry: &'a Geometry<'a, T>) -> FaceLoads<'a, T> {
@@ -257,7 +266,7 @@ impl DisturbanceModel {
         surface: Option<&PlanetSurface<T>>,
         geometry: &Geometry<'_, T>,
         workspace: &mut Workspace<T>,
-    ) -> Result<(), GeometryError> {
+    ) -> Result<(), Refusal> {
         let (Some(surface), Some(planet)) = (surface, &geometry.planet) else {
             workspace.lights.fill(PlanetLight::dark());
             return Ok(());

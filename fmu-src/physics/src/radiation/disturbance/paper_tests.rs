@@ -43,9 +43,6 @@ fn around_orbit_by(
         let position_body_m = frames.dcm_sc_from_mci() * position_mci_m;
         let (lit_fraction, _) = shadow.fraction_and_gaps(&position_body_m, &(sun_body * sun_distance_m));
         let geometry = Geometry {
-            sun_direction_body: sun_body,
-            sun_sine: 0.0,
-            sun_flux_w_m2,
             lit_fraction,
             planet: Some(PlanetGeometry {
                 position_body_m: -position_body_m,
@@ -54,7 +51,7 @@ fn around_orbit_by(
                 pole_body: -Vector3::z(),
             }),
             panel_angles_rad: &[0.0, 0.0],
-            center_of_mass_body_m: Vector3::zeros(),
+            ..Geometry::sunlit(sun_body, sun_flux_w_m2)
         };
         let found = model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();
         // The table leaves eclipses out of its extremes of solar pressure and recoil.

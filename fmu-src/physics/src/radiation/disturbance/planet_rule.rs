@@ -2,13 +2,13 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::error::ModelError;
-use super::geometry::{GeometryError, PlanetGeometry};
+use super::geometry::PlanetGeometry;
 use crate::bodies::surface::{PlanetSurface, SurfaceExitance};
 use crate::numerics::scalar::Scalar;
 use crate::radiation::grid::{PlanetGrid, sun_fixed_axes};
 use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::ring::{PlanetView, RingRule};
+use crate::refusal::Refusal;
 use crate::spacecraft::PlanetMap;
 
 /// What is requested.
@@ -52,7 +52,7 @@ pub(super) enum PlanetSource<'r, T: Scalar> {
 }
 
 impl PlanetRule {
-    pub(super) fn new(method: &PlanetLightMethod) -> Result<Self, ModelError> {
+    pub(super) fn new(method: &PlanetLightMethod) -> Result<Self, Refusal> {
         Ok(match method {
             PlanetLightMethod::Rings(nodes) => Self::Rings(RingRule::new(*nodes)?),
             PlanetLightMethod::Cells(belts) => Self::Cells(PlanetGrid::new(*belts)?),
@@ -73,7 +73,7 @@ impl PlanetRule {
         &self,
         surface: &PlanetSurface<T>,
         planet: &PlanetGeometry<T>,
-    ) -> Result<PlanetSource<'_, T>, GeometryError> {
+    ) -> Result<PlanetSource<'_, T>, Refusal> {
         let view =
             PlanetView::new(&planet.position_body_m, &planet.sun_from_planet_body_m, surface.radius_m)?;
         Ok(match self {

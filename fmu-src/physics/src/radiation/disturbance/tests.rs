@@ -7,32 +7,18 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::prelude::*;
 
 use super::*;
-use crate::bodies::surface::{DayTemperature, PlanetSurface};
-use crate::constants::{SPEED_OF_LIGHT_M_S, STEFAN_BOLTZMANN_W_M2_K4};
+use crate::bodies::surface::{MERCURY, PlanetSurface};
+use crate::constants::{RADIUS_MERCURY_M as RADIUS_M, SPEED_OF_LIGHT_M_S, STEFAN_BOLTZMANN_W_M2_K4};
 use crate::loads::Effect::{self, Solar as SOLAR, Thermal as RECOIL};
 use crate::loads::{Active, ForceTorque, Loads};
 use crate::numerics::scalar::{Dual64, Scalar};
 use crate::radiation::{Beam, SolarModel};
 use crate::spacecraft::{
     Emission, FaceThermal, MESSENGER_THERMAL_TOML, MESSENGER_TOML, Optics, Plate, Spacecraft, SunshadeModel,
-    Thermal,
 };
 
-const RADIUS_M: f64 = 2.4394e6;
-
-fn mercury() -> PlanetSurface {
-    PlanetSurface {
-        radius_m: RADIUS_M,
-        absorptivity: 0.88,
-        diffuse_reflectivity: 0.12,
-        emissivity: 0.9,
-        night_temperature_k: 100.0,
-        day_temperature: DayTemperature::Uniform,
-    }
-}
-
 fn options(nodes: usize) -> Options {
-    Options { planet: Some(mercury()), planet_light: PlanetLightMethod::Rings(nodes), ..Options::default() }
+    Options { planet: Some(MERCURY), planet_light: PlanetLightMethod::Rings(nodes), ..Options::default() }
 }
 
 fn thermal_messenger() -> Spacecraft {
@@ -49,9 +35,7 @@ fn bare(plates: Vec<Plate>) -> Spacecraft {
 }
 
 fn plate(normal: Vector3<f64>, center_m: Vector3<f64>, area_m2: f64, optics: Optics) -> Plate {
-    let thermal = Thermal::insulated(&optics, None);
-    let name = "plate".to_owned();
-    Plate { name, area_m2, center_m, normal, optics, rear_optics: None, thermal, polygon: None }
+    Plate::insulated("plate".to_owned(), area_m2, center_m, normal, optics, None)
 }
 
 /// A closed crooked body: a tetrahedron with a different material on each face.
@@ -70,7 +54,7 @@ fn tetrahedron(optics: [Optics; 4]) -> Vec<Plate> {
 
 /// All of the sky equally bright: two planets nearly touched on opposite sides, at night.
 fn in_isotropic_light(spacecraft: &Spacecraft) -> [ForceTorque<f64>; 2] {
-    let surface = PlanetSurface { night_temperature_k: 400.0, ..mercury() };
+    let surface = PlanetSurface { night_temperature_k: 400.0, ..MERCURY };
     let options = Options { planet: Some(surface), ..options(40) };
     let model = DisturbanceModel::new(spacecraft, &options).unwrap();
     let mut light = ForceTorque::zero();
@@ -78,18 +62,13 @@ fn in_isotropic_light(spacecraft: &Spacecraft) -> [ForceTorque<f64>; 2] {
     for side in [-1.0, 1.0] {
         let nadir = direction(0.7, 0.3) * side;
         let geometry = Geometry {
-            sun_direction_body: nadir,
-            sun_sine: 0.0,
-            sun_flux_w_m2: 0.0,
-            lit_fraction: 1.0,
             planet: Some(PlanetGeometry {
                 position_body_m: nadir * RADIUS_M * (1.0 + 1e-13),
                 sun_from_planet_body_m: nadir,
                 sun_flux_w_m2: 0.0,
                 pole_body: Vector3::z(),
             }),
-            panel_angles_rad: &[],
-            center_of_mass_body_m: Vector3::zeros(),
+            ..Geometry::sunlit(nadir, 0.0)
         };
         let found = model.evaluate(&geometry, Recoil::Balance, &mut Workspace::default()).unwrap();
         light += found[Effect::Infrared];
@@ -125,15 +104,7 @@ fn an_insulated_black_plate_recoils_by_two_thirds_of_the_light() {
     // The law is that of absolutely cold space.
     let spacecraft = Spacecraft { background_k: 0.0, ..spacecraft };
     let model = DisturbanceModel::new(&spacecraft, &Options::default()).unwrap();
-    let geometry = Geometry {
-        sun_direction_body: -Vector3::y(),
-        sun_sine: 0.0,
-        sun_flux_w_m2: 9000.0,
-        lit_fraction: 0.5,
-        planet: None,
-        panel_angles_rad: &[],
-        center_of_mass_body_m: Vector3::zeros(),
-    };
+    let geometry = Geometry { lit_fraction: 0.5, ..Geometry::sunlit(-Vector3::y(), 9000.0) };
     let mut workspace = Workspace::default();
     let found = model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();
     let push = 2.0 * 4500.0 / SPEED_OF_LIGHT_M_S;
@@ -150,15 +121,7 @@ fn heat_from_inside_pushes_where_it_leaves() {
     let mut body = plate(Vector3::z(), Vector3::x(), 1.0, Optics::from_reflectivities(0.2, 0.0));
     body.thermal.internal_heat_w[0] = 300.0;
     let model = DisturbanceModel::new(&bare(vec![body]), &Options::default()).unwrap();
-    let dark = Geometry {
-        sun_direction_body: -Vector3::z(),
-        sun_sine: 0.0,
-        sun_flux_w_m2: 1361.0,
-        lit_fraction: 1.0,
-        planet: None,
-        panel_angles_rad: &[],
-        center_of_mass_body_m: Vector3::zeros(),
-    };
+    let dark = Geometry::sunlit(-Vector3::z(), 1361.0);
     let found = model.evaluate(&dark, Recoil::Balance, &mut Workspace::default()).unwrap();
     let expected = -Vector3::z() * (2.0 / 3.0 * 300.0 / SPEED_OF_LIGHT_M_S);
     assert_relative_eq!(found[RECOIL].force_body_n, expected, epsilon = 1e-20);
@@ -288,7 +251,7 @@ fn impossible_geometries_and_options_are_refused() {
     let sun_at = |m: f64| Geometry::at(1361.0, &Vector3::new(m, 0.0, 0.0), None, 1.0, &[], Vector3::zeros());
     assert!(sun_at(0.0).unwrap_err().to_string().contains("Sun is at a distance of 0 m"));
     assert!(sun_at(f64::NAN).is_err());
-    let surface = PlanetSurface { emissivity: 2.0, ..mercury() };
+    let surface = PlanetSurface { emissivity: 2.0, ..MERCURY };
     let options = Options { planet: Some(surface), ..options(6) };
     assert!(DisturbanceModel::new(&spacecraft, &options).unwrap_err().to_string().contains("emissivity"));
     let options = Options { planet_light: PlanetLightMethod::Rings(0), ..Options::default() };

@@ -27,13 +27,9 @@ fn sunlight(
     sun_body: Vector3<f64>,
 ) -> (ForceTorque<f64>, Vec<(String, ForceTorque<f64>)>) {
     let geometry = Geometry {
-        sun_direction_body: sun_body,
-        sun_sine: 0.0,
-        sun_flux_w_m2: 9000.0,
-        lit_fraction: 1.0,
-        planet: None,
         panel_angles_rad: &ANGLES_RAD,
         center_of_mass_body_m: Vector3::new(0.01, -0.02, 0.03),
+        ..Geometry::sunlit(sun_body, 9000.0)
     };
     let mut workspace = Workspace::default();
     let found = model.evaluate(&geometry, Recoil::Balance, &mut workspace).unwrap();

@@ -6,7 +6,7 @@ use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
 
 use super::*;
-use crate::bodies::surface::{DayTemperature, PlanetSurface};
+use crate::bodies::surface::{MERCURY, PlanetSurface};
 use crate::constants::SPEED_OF_LIGHT_M_S;
 use crate::numerics::scalar::{Dual64, Scalar};
 
@@ -41,14 +41,7 @@ fn light<T: Scalar>(
 ) -> [T; 8] {
     let moved = |i: usize| geometry[i].map(T::constant) + by[i].map(|x| seed * x);
     let view = PlanetView::new(&moved(0), &moved(1), T::constant(1.0)).unwrap();
-    let surface = PlanetSurface {
-        radius_m: 1.0,
-        absorptivity: 0.88,
-        diffuse_reflectivity: 0.12,
-        emissivity: 0.9,
-        night_temperature_k: 100.0,
-        day_temperature: DayTemperature::Uniform,
-    };
+    let surface = PlanetSurface { radius_m: 1.0, ..MERCURY };
     let normal = moved(2);
     let exitance = surface.constant().exitance(T::constant(FLUX_W_M2));
     let light = rule.receive(&view, &exitance, &(normal / normal.dot(&normal).sqrt()));

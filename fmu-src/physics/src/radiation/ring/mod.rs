@@ -24,8 +24,8 @@ mod segments;
 mod sums;
 mod view;
 
-pub use rule::{NodesError, RingRule};
-pub use view::{PlanetView, ViewError};
+pub use rule::RingRule;
+pub use view::PlanetView;
 
 #[cfg(test)]
 mod degenerate_tests;

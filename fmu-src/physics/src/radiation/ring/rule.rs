@@ -16,6 +16,7 @@ use crate::numerics::quadrature::gauss_legendre;
 use crate::numerics::scalar::Scalar;
 use crate::radiation::flat_plate::ReceivedLight;
 use crate::radiation::planet_light::PlanetLight;
+use crate::refusal::Refusal;
 
 /// Greatest number of nodes a segment may have.
 const MOST_NODES: usize = 64;
@@ -40,14 +41,6 @@ pub struct RingRule {
     closest_singularity: f64,
 }
 
-/// A number of nodes that is not offered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{found} quadrature nodes a segment, allowed: 1 to 64 (6 for 1e-4, 16 for 1e-5)")]
-pub struct NodesError {
-    /// The number requested.
-    pub found: usize,
-}
-
 /// A plate with what every ring needs of it, in its own frame: z to nadir, x where its normal leans.
 struct Plate<T: Scalar> {
     /// Direction of x from east.
@@ -67,9 +60,12 @@ impl RingRule {
     ///
     /// # Errors
     /// Unless there are 1 to 64 nodes.
-    pub fn new(nodes_per_segment: usize) -> Result<Self, NodesError> {
+    pub fn new(nodes_per_segment: usize) -> Result<Self, Refusal> {
         if !(1..=MOST_NODES).contains(&nodes_per_segment) {
-            return Err(NodesError { found: nodes_per_segment });
+            return Err(Refusal::new(
+                format_args!("{nodes_per_segment} quadrature nodes a segment"),
+                "1 to 64 (6 for 1e-4, 16 for 1e-5)",
+            ));
         }
         let mut positions = vec![0.0; nodes_per_segment];
         let mut weights = vec![0.0; nodes_per_segment];

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::arcs::Azimuth;
 use crate::numerics::scalar::Scalar;
+use crate::refusal::Refusal;
 
 /// A planet of parallel sunlight, seen from the spacecraft's reference point; all vectors in one frame.
 #[derive(Clone, Copy, Debug)]
@@ -36,48 +37,27 @@ pub struct PlanetView<T: Scalar> {
     pub(super) terminator: Option<T>,
 }
 
-/// A geometry in which planet light has no meaning.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum ViewError {
-    /// The reference point is not above the surface.
-    #[error(
-        "spacecraft {distance_m} m from the planet's centre, allowed: more than its radius of {radius_m} m"
-    )]
-    InsidePlanet {
-        /// Distance found.
-        distance_m: f64,
-        /// Radius of the planet.
-        radius_m: f64,
-    },
-    /// The Sun has no direction.
-    #[error("Sun {distance_m} m from the planet's centre, allowed: a finite distance above 0 m")]
-    NoSun {
-        /// Distance found.
-        distance_m: f64,
-    },
-}
-
 impl<T: Scalar> PlanetView<T> {
     /// The view of a planet `planet_m` away, whose Sun stands `sun_from_planet_m` from its centre.
     ///
     /// # Errors
     /// When the spacecraft is not above the surface, when the Sun has no direction, when anything is not finite.
-    pub fn new(
-        planet_m: &Vector3<T>,
-        sun_from_planet_m: &Vector3<T>,
-        radius_m: T,
-    ) -> Result<Self, ViewError> {
+    pub fn new(planet_m: &Vector3<T>, sun_from_planet_m: &Vector3<T>, radius_m: T) -> Result<Self, Refusal> {
         let distance_m = planet_m.dot(planet_m).sqrt();
         let sun_distance_m = sun_from_planet_m.dot(sun_from_planet_m).sqrt();
         let above = distance_m.value() > radius_m.value() && radius_m.value() > 0.0;
         if !(above && distance_m.value().is_finite()) {
-            return Err(ViewError::InsidePlanet {
-                distance_m: distance_m.value(),
-                radius_m: radius_m.value(),
-            });
+            let (distance_m, radius_m) = (distance_m.value(), radius_m.value());
+            return Err(Refusal::new(
+                format_args!("spacecraft {distance_m} m from the planet's centre"),
+                format_args!("more than its radius of {radius_m} m"),
+            ));
         }
         if !(sun_distance_m.value() > 0.0 && sun_distance_m.value().is_finite()) {
-            return Err(ViewError::NoSun { distance_m: sun_distance_m.value() });
+            return Err(Refusal::new(
+                format_args!("Sun {} m from the planet's centre", sun_distance_m.value()),
+                "a finite distance above 0 m",
+            ));
         }
         let nadir = planet_m / distance_m;
         let sun = sun_from_planet_m / sun_distance_m;

@@ -122,7 +122,7 @@ fn repeated(check: &mut Checker<'_>, at: &Place, repeat: &RepeatDescription) -> 
         }
         (None, Some(axis)) => {
             let axis = check.unit_vector(&at.key("axis"), axis);
-            let point_m = check.vector(&at.key("point_m"), repeat.point_m.unwrap_or_default());
+            let point_m = check.vector(&at.key("point_m"), repeat.point_m());
             let angle_deg = repeat.angle_deg.map_or(360.0 / f64::from(count), f64::from);
             let turned = |k: u32| {
                 let matrix = turn(&axis, angle_deg * f64::from(k));

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::describe_thermal::ThermalDescription;
-use crate::toml::{Copies, Corners, Positive, Rings, TurnEither};
+use crate::toml::{Copies, Corners, Positive, Rings, TurnEither, tables};
 
 /// A plane of the body frame, through its origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -18,23 +18,6 @@ pub(crate) enum MirrorPlane {
     Y,
     /// z = 0.
     Z,
-}
-
-/// Copies in a row (`step_m`) or around an axis (`axis`).
-#[derive(Debug, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct RepeatDescription {
-    /// How many there are, the one that is written among them.
-    pub count: Copies,
-    /// From each to the next, in m.
-    pub step_m: Option<[f64; 3]>,
-    /// Unit vector of the axis that each is turned about from the one before.
-    pub axis: Option<[f64; 3]>,
-    /// Angle from each to the next, right-handed about `axis`, in deg; 360 over the count unless given.
-    pub angle_deg: Option<TurnEither>,
-    /// A point of the axis, in m; the origin unless given.
-    pub point_m: Option<[f64; 3]>,
 }
 
 /// Face of a box, in its own axes.
@@ -55,35 +38,6 @@ pub(crate) enum BoxFace {
     MinusZ,
 }
 
-/// A box: six rectangles, fronts outside, called `name.+X` to `name.-Z`.
-#[derive(Debug, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct BoxDescription {
-    /// Name that those of its faces begin with; numbered unless given.
-    pub name: Option<String>,
-    /// Centre, in m.
-    pub center_m: [f64; 3],
-    /// Lengths along its own X, Y and Z axis, in m.
-    pub size_m: [f64; 3],
-    /// Turns of the box about the body's X, then Y, then Z direction through its centre, in deg; its axes are the body's
-    /// unless given.
-    pub rotation_deg: Option<[f64; 3]>,
-    /// Material of the outside.
-    pub optics: String,
-    /// Materials of single faces instead: `+X`, `-X`, `+Y`, `-Y`, `+Z`, `-Z`.
-    pub face_optics: Option<BTreeMap<String, String>>,
-    /// Material of the inside, if light can reach it.
-    pub rear_optics: Option<String>,
-    /// Faces that it lacks.
-    pub open_faces: Option<Vec<BoxFace>>,
-    /// Heat of each face; heat from inside is that of the whole box, shared among its faces by area.
-    pub thermal: Option<ThermalDescription>,
-    /// Mirrored copies besides: in the plane x = 0, y = 0 or z = 0 of the body frame, one after the other.
-    pub mirror: Option<Vec<MirrorPlane>>,
-    pub repeat: Option<RepeatDescription>,
-}
-
 /// End of a cylinder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -94,66 +48,101 @@ pub(crate) enum CylinderEnd {
     Minus,
 }
 
+tables! {
+/// Copies in a row (`step_m`) or around an axis (`axis`).
+struct RepeatDescription {
+    /// How many there are, the one that is written among them.
+    count: Copies,
+    /// From each to the next, in m.
+    step_m: Option<[f64; 3]>,
+    /// Unit vector of the axis that each is turned about from the one before.
+    axis: Option<[f64; 3]>,
+    /// Angle from each to the next, right-handed about `axis`, in deg; 360 over the count unless given.
+    angle_deg: Option<TurnEither>,
+    /// A point of the axis, in m.
+    point_m: [f64; 3] = [0.0, 0.0, 0.0],
+}
+
+/// A box: six rectangles, fronts outside, called `name.+X` to `name.-Z`.
+struct BoxDescription {
+    /// Name that those of its faces begin with; numbered unless given.
+    name: Option<String>,
+    /// Centre, in m.
+    center_m: [f64; 3],
+    /// Lengths along its own X, Y and Z axis, in m.
+    size_m: [Positive; 3],
+    /// Turns of the box about the body's X, then Y, then Z direction through its centre, in deg; its axes are the body's
+    /// unless given.
+    rotation_deg: Option<[TurnEither; 3]>,
+    /// Material of the outside.
+    optics: String,
+    /// Materials of single faces instead: `+X`, `-X`, `+Y`, `-Y`, `+Z`, `-Z`.
+    face_optics: Option<BTreeMap<String, String>>,
+    /// Material of the inside, if light can reach it.
+    rear_optics: Option<String>,
+    /// Faces that it lacks.
+    open_faces: Option<Vec<BoxFace>>,
+    /// Heat of each face; heat from inside is that of the whole box, shared among its faces by area.
+    thermal: Option<ThermalDescription>,
+    /// Mirrored copies besides: in the plane x = 0, y = 0 or z = 0 of the body frame, one after the other.
+    mirror: Option<Vec<MirrorPlane>>,
+    repeat: Option<RepeatDescription>,
+}
+
 /// A cylinder of flat facets, fronts outside, called `name.side[1]` and so on, and two ends, `name.+axis` and `name.-axis`.
 ///
 /// Areas of side and ends are those of the cylinder, and so is the area that the side shows broadside, on average over the
 /// directions around the axis; from one direction it is off by at most 1 - x / tan x with x = pi / facets: 5.2 % with 8
 /// facets, 1.3 % with 16, 0.32 % with 32. For that it is shorter by half of this part. The first facet faces along the body axis that is most
 /// across the cylinder's, made perpendicular; the others follow right-handed about the axis.
-#[derive(Debug, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct FacetedCylinderDescription {
+struct FacetedCylinderDescription {
     /// Name that those of its facets begin with; numbered unless given.
-    pub name: Option<String>,
+    name: Option<String>,
     /// Middle of its axis, in m.
-    pub center_m: [f64; 3],
-    /// Unit vector of its axis; +Z unless given.
-    pub axis: Option<[f64; 3]>,
+    center_m: [f64; 3],
+    /// Unit vector of its axis.
+    axis: [f64; 3] = [0.0, 0.0, 1.0],
     /// Radius, in m.
-    pub radius_m: Positive,
+    radius_m: Positive,
     /// Length along the axis, in m.
-    pub height_m: Positive,
-    /// How many flat facets the side has; 16 unless given.
-    pub facets: Option<Corners>,
+    height_m: Positive,
+    /// How many flat facets the side has.
+    facets: Corners = 16,
     /// Material of the outside.
-    pub optics: String,
+    optics: String,
     /// Material of both ends, outside; that of the side unless given.
-    pub end_optics: Option<String>,
+    end_optics: Option<String>,
     /// Material of the inside, if light can reach it.
-    pub rear_optics: Option<String>,
+    rear_optics: Option<String>,
     /// Ends that it lacks.
-    pub open_ends: Option<Vec<CylinderEnd>>,
+    open_ends: Option<Vec<CylinderEnd>>,
     /// Heat of each facet; heat from inside is that of the whole cylinder, shared among facets and ends by area.
-    pub thermal: Option<ThermalDescription>,
+    thermal: Option<ThermalDescription>,
     /// Mirrored copies besides: in the plane x = 0, y = 0 or z = 0 of the body frame, one after the other.
-    pub mirror: Option<Vec<MirrorPlane>>,
-    pub repeat: Option<RepeatDescription>,
+    mirror: Option<Vec<MirrorPlane>>,
+    repeat: Option<RepeatDescription>,
 }
 
 /// A round disc: one plate with a regular outline of the disc's area.
-#[derive(Debug, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct DiscDescription {
+struct DiscDescription {
     /// Name of the plate; numbered unless given.
-    pub name: Option<String>,
+    name: Option<String>,
     /// Centre, in m.
-    pub center_m: [f64; 3],
+    center_m: [f64; 3],
     /// Unit vector out of the front face.
-    pub normal: [f64; 3],
+    normal: [f64; 3],
     /// Radius, in m.
-    pub radius_m: Positive,
-    /// How many corners its outline has; 24 unless given.
-    pub corners: Option<Corners>,
+    radius_m: Positive,
+    /// How many corners its outline has.
+    corners: Corners = 24,
     /// Material of the front face.
-    pub optics: String,
+    optics: String,
     /// Material of the rear face, if light can reach it.
-    pub rear_optics: Option<String>,
-    pub thermal: Option<ThermalDescription>,
+    rear_optics: Option<String>,
+    thermal: Option<ThermalDescription>,
     /// Mirrored copies besides: in the plane x = 0, y = 0 or z = 0 of the body frame, one after the other.
-    pub mirror: Option<Vec<MirrorPlane>>,
-    pub repeat: Option<RepeatDescription>,
+    mirror: Option<Vec<MirrorPlane>>,
+    repeat: Option<RepeatDescription>,
 }
 
 /// A dish, a paraboloid of flat facets in rings, fronts inside the hollow, called `name.ring[1][1]` and so on from the vertex
@@ -163,31 +152,29 @@ pub(crate) struct DiscDescription {
 /// deeper than `depth_m`, by up to 15 % with 2 rings, 7.6 % with 3, 4.8 % with 4, and its corners lie outside of `radius_m`
 /// by (pi / facets)^2 / 3: 2.3 % with 12 facets. The first facet of a ring faces along the body axis that is most across the
 /// dish's, made perpendicular; the others follow right-handed about the axis.
-#[derive(Debug, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct DishDescription {
+struct DishDescription {
     /// Name that those of its facets begin with; numbered unless given.
-    pub name: Option<String>,
+    name: Option<String>,
     /// Its deepest point, in m.
-    pub vertex_m: [f64; 3],
+    vertex_m: [f64; 3],
     /// Unit vector of its axis, from the vertex out of the hollow.
-    pub axis: [f64; 3],
+    axis: [f64; 3],
     /// Radius of the rim, in m.
-    pub radius_m: Positive,
+    radius_m: Positive,
     /// From the vertex to the plane of the rim, in m.
-    pub depth_m: Positive,
-    /// How many facets each ring has; 12 unless given.
-    pub facets: Option<Corners>,
-    /// How many rings; 3 unless given.
-    pub rings: Option<Rings>,
+    depth_m: Positive,
+    /// How many facets each ring has.
+    facets: Corners = 12,
+    /// How many rings.
+    rings: Rings = 3,
     /// Material of the hollow side.
-    pub optics: String,
+    optics: String,
     /// Material of the back, if light can reach it.
-    pub rear_optics: Option<String>,
+    rear_optics: Option<String>,
     /// Heat of each facet; heat from inside is that of the whole dish, shared among its facets by area.
-    pub thermal: Option<ThermalDescription>,
+    thermal: Option<ThermalDescription>,
     /// Mirrored copies besides: in the plane x = 0, y = 0 or z = 0 of the body frame, one after the other.
-    pub mirror: Option<Vec<MirrorPlane>>,
-    pub repeat: Option<RepeatDescription>,
+    mirror: Option<Vec<MirrorPlane>>,
+    repeat: Option<RepeatDescription>,
+}
 }

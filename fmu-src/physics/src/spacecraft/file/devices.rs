@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::description::{InstrumentDescription, SunSensorDescription, WheelDescription};
 use super::names::Named;
 use crate::spacecraft::instruments::Instrument;
-use crate::spacecraft::sun_sensors::{HALF_FIELD_OF_VIEW_DEG, MountedSunSensor};
+use crate::spacecraft::sun_sensors::MountedSunSensor;
 use crate::spacecraft::wheels::{SPEED_AT_CAPACITY_RAD_S, TIME_TO_CAPACITY_S, Wheel};
 use crate::toml::{Checker, Place};
 
@@ -16,7 +16,7 @@ pub(crate) fn wheel(
     description: &WheelDescription,
 ) -> Wheel {
     let capacity_n_m_s = description.capacity_n_m_s.0;
-    let static_imbalance_kg_m = description.static_imbalance_kg_m.map_or(0.0, f64::from);
+    let static_imbalance_kg_m = description.static_imbalance_kg_m();
     if static_imbalance_kg_m > 0.0 && description.position_m.is_none() {
         check.report(
             &at.key("static_imbalance_kg_m"),
@@ -30,8 +30,8 @@ pub(crate) fn wheel(
             .position_m
             .map_or(Vector3::zeros(), |place| check.vector(&at.key("position_m"), place)),
         name: description.called(index),
-        coulomb_friction_n_m: description.coulomb_friction_n_m.map_or(0.0, f64::from),
-        viscous_friction_n_m_s: description.viscous_friction_n_m_s.map_or(0.0, f64::from),
+        coulomb_friction_n_m: description.coulomb_friction_n_m(),
+        viscous_friction_n_m_s: description.viscous_friction_n_m_s(),
         axis_body: check.unit_vector(&at.key("axis"), description.axis),
         capacity_n_m_s,
         inertia_kg_m2: description.inertia_kg_m2.map_or(capacity_n_m_s / SPEED_AT_CAPACITY_RAD_S, f64::from),
@@ -45,11 +45,10 @@ pub(crate) fn sun_sensor(
     index: usize,
     description: &SunSensorDescription,
 ) -> MountedSunSensor {
-    let half_deg = description.half_field_of_view_deg.map_or(HALF_FIELD_OF_VIEW_DEG, f64::from);
     MountedSunSensor {
         name: description.called(index),
         axis_body: check.unit_vector(&at.key("axis"), description.axis),
-        half_field_of_view_rad: half_deg.to_radians(),
+        half_field_of_view_rad: description.half_field_of_view_deg().to_radians(),
     }
 }
 

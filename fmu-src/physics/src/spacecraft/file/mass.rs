@@ -7,33 +7,40 @@ use crate::spacecraft::mass::{MassProperties, PanelMass, check_inertia};
 use crate::toml::{Checker, Place, Positive};
 
 pub(crate) fn mass(check: &mut Checker<'_>, at: &Place, description: &MassDescription) -> MassProperties {
-    let [x, y, z] = description.inertia_kg_m2.map(|row| Vector3::from(row).transpose());
-    let inertia_body_kg_m2 = Matrix3::from_rows(&[x, y, z]);
-    if let Err(allowed) = check_inertia(&inertia_body_kg_m2) {
-        let found = format!("{:?}", description.inertia_kg_m2);
-        check.report(&at.key("inertia_kg_m2"), found, allowed);
-    }
     MassProperties {
+        inertia_body_kg_m2: inertia_kg_m2(check, at, description.inertia_kg_m2),
         mass_kg: description.mass_kg.0,
         center_of_mass_body_m: check.vector(&at.key("center_of_mass_m"), description.center_of_mass_m),
-        inertia_body_kg_m2,
     }
 }
 
-/// Panels are a part of the spacecraft's mass.
-pub(crate) fn panels_fit(check: &mut Checker<'_>, panels: Option<&[PanelDescription]>, whole_kg: f64) {
+/// Parts of one kind, each with its mass if it has one, are a part of the spacecraft's mass.
+pub(crate) fn parts_fit(
+    check: &mut Checker<'_>,
+    (kind, key): (&str, &str),
+    masses_kg: impl Iterator<Item = Option<f64>>,
+    whole_kg: f64,
+) {
     let mut sum_kg = 0.0;
-    for (index, panel) in panels.unwrap_or_default().iter().enumerate() {
-        let Some(Positive(mass_kg)) = panel.mass_kg else { continue };
+    for (index, mass_kg) in masses_kg.enumerate() {
+        let Some(mass_kg) = mass_kg else { continue };
         sum_kg += mass_kg;
         if sum_kg >= whole_kg {
-            let at = Place::root().key("panels").item(index).key("mass_kg");
-            let found = format!("{mass_kg}, with the panels before it {sum_kg}");
+            let at = Place::root().key(kind).item(index).key(key);
+            let found = format!("{mass_kg}, with the {kind} before it {sum_kg}");
             let allowed = format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part");
             check.report(&at, found, allowed);
             return;
         }
     }
+}
+
+fn inertia_kg_m2(check: &mut Checker<'_>, at: &Place, rows: [[f64; 3]; 3]) -> Matrix3<f64> {
+    let inertia_kg_m2 = Matrix3::from(rows).transpose();
+    if let Err(allowed) = check_inertia(&inertia_kg_m2) {
+        check.report(&at.key("inertia_kg_m2"), format!("{rows:?}"), allowed);
+    }
+    inertia_kg_m2
 }
 
 /// A panel's mass in the panel frame.
@@ -59,11 +66,7 @@ pub(crate) fn panel_mass(
     let place = description.mass_center_m.map(|place| check.vector(&at.key("mass_center_m"), place));
     let mut mass = PanelMass::square_plate(mass_kg, area_m2, place.unwrap_or(center_m), normal);
     if let Some(rows) = description.inertia_kg_m2 {
-        let [x, y, z] = rows.map(|row| Vector3::from(row).transpose());
-        mass.inertia_body_kg_m2 = Matrix3::from_rows(&[x, y, z]);
-        if let Err(allowed) = check_inertia(&mass.inertia_body_kg_m2) {
-            check.report(&at.key("inertia_kg_m2"), format!("{rows:?}"), allowed);
-        }
+        mass.inertia_body_kg_m2 = inertia_kg_m2(check, at, rows);
     }
     Some(mass)
 }

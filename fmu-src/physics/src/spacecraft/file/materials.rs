@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use super::describe_thermal::SurroundingsDescription;
 use super::description::{Description, OpticsDescription};
 use crate::spacecraft::optics::Optics;
-use crate::spacecraft::thermal::{BACKGROUND_K, EMISSIVITY_REFERENCE_TEMPERATURE_K, Emission, FaceThermal};
-use crate::toml::{Checker, Fraction, Place, nearest, rounded};
+use crate::spacecraft::thermal::{Emission, FaceThermal};
+use crate::toml::{Checker, Fraction, Place, hint, rounded};
 
 /// What a file says of a material.
 #[derive(Clone, Copy)]
@@ -39,10 +40,11 @@ pub(crate) struct Materials {
 impl Materials {
     /// Those of a file.
     pub fn read(check: &mut Checker<'_>, description: &Description) -> Self {
-        let thermal = description.thermal.as_ref();
+        let none = SurroundingsDescription::default();
+        let thermal = description.thermal.as_ref().unwrap_or(&none);
         let surroundings = ThermalEnvironment {
-            background_k: thermal.and_then(|it| it.background_k).map_or(BACKGROUND_K, f64::from),
-            bus_temperature_k: thermal.and_then(|it| it.bus_temperature_k).map(f64::from),
+            background_k: thermal.background_k(),
+            bus_temperature_k: thermal.bus_temperature_k.map(f64::from),
         };
         let materials = description.optics.iter().map(|(name, description)| {
             let at = Place::root().key("optics").key(name);
@@ -62,9 +64,8 @@ impl Materials {
             return Material::BLACK;
         }
         let known: Vec<&str> = self.by_name.keys().map(String::as_str).collect();
-        let hint = nearest(name, &known).map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default();
         let allowed = format!("a material under [optics]: {}", known.join(", "));
-        check.report(at, format_args!("the unknown material `{name}`{hint}"), allowed);
+        check.report(at, format_args!("the unknown material `{name}`{}", hint(name, &known)), allowed);
         Material::BLACK
     }
 }
@@ -103,10 +104,8 @@ fn face_thermal(
     let like_sunlight = FaceThermal::like_sunlight(sunlight).emission.emissivity;
     let emission = Emission {
         emissivity: description.emissivity.map_or(like_sunlight, f64::from),
-        slope_per_k: description.emissivity_per_k.map_or(0.0, f64::from),
-        reference_temperature_k: description
-            .emissivity_temperature_k
-            .map_or(EMISSIVITY_REFERENCE_TEMPERATURE_K, f64::from),
+        slope_per_k: description.emissivity_per_k(),
+        reference_temperature_k: description.emissivity_temperature_k(),
     };
     if !emission.grows() {
         check.report_across(

@@ -79,34 +79,24 @@ fn names<D: Named>(at: Place, items: Option<&[D]>) -> Vec<Name> {
     items.map(|(i, item)| (at.item(i), item.called(i), item.name().is_some())).collect()
 }
 
+/// Names of the lists of these keys.
+macro_rules! names_of {
+    ($description:ident: $($key:ident),+) => {
+        [$(names(Place::root().key(stringify!($key)), $description.$key.as_deref())),+]
+    };
+}
+
 /// Two parts of one kind with one name could not be distinguished; all plates are one kind, the shade's among them.
 pub(crate) fn check_names(check: &mut Checker<'_>, description: &Description) {
-    let at = |key: &str| Place::root().key(key);
-    let of_shade = description
-        .sunshade
-        .as_ref()
-        .map_or_else(Vec::new, |shade| names(at("sunshade").key("plates"), shade.plates.as_deref()));
-    let plates = [
-        names(at("plates"), description.plates.as_deref()),
-        names(at("boxes"), description.boxes.as_deref()),
-        names(at("cylinders"), description.cylinders.as_deref()),
-        names(at("discs"), description.discs.as_deref()),
-        names(at("dishes"), description.dishes.as_deref()),
-        of_shade,
-    ];
-    let kinds = [
-        plates.concat(),
-        names(at("panels"), description.panels.as_deref()),
-        names(at("wheels"), description.wheels.as_deref()),
-        names(at("sun_sensors"), description.sun_sensors.as_deref()),
-        names(at("instruments"), description.instruments.as_deref()),
-        names(at("tanks"), description.tanks.as_deref()),
-        names(at("thrusters"), description.thrusters.as_deref()),
-        names(at("flexible_modes"), description.flexible_modes.as_deref()),
-        names(at("slosh"), description.slosh.as_deref()),
-    ];
-    for kind in &kinds {
-        check_kind(check, kind);
+    let shade = description.sunshade.as_ref().and_then(|shade| shade.plates.as_deref());
+    let of_shade = [names(Place::root().key("sunshade").key("plates"), shade)];
+    let plates = names_of!(description: plates, boxes, cylinders, discs, dishes);
+    let others = names_of!(
+        description: panels, wheels, sun_sensors, instruments, tanks, thrusters, flexible_modes, slosh
+    );
+    let kinds = [plates.into_iter().chain(of_shade).flatten().collect()].into_iter().chain(others);
+    for kind in kinds {
+        check_kind(check, &kind);
     }
 }
 

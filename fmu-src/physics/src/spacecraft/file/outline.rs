@@ -54,9 +54,7 @@ pub(crate) fn checked_outline(
             Some(if along < 0.0 { polygon.reversed() } else { polygon })
         }
         Err(error) => {
-            let text = error.to_string();
-            let (found, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "a polygon"));
-            check.report(&place, found, allowed);
+            check.report(&place, error.found, error.allowed);
             None
         }
     }

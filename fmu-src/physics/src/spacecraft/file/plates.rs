@@ -10,7 +10,7 @@ use super::names::{Named, list};
 use super::outline::{checked_area, checked_center, checked_normal, checked_outline};
 use super::shapes::{box_plates, cylinder_plates, disc_plates, dish_plates, distinct_plates};
 use super::thermal::thermal;
-use crate::spacecraft::panel::{Panel, PanelControl};
+use crate::spacecraft::panel::Panel;
 use crate::spacecraft::surface::{Cylinder, MOST_SURFACES, Plate, Sunshade, SunshadeModel};
 use crate::toml::{Checker, Place};
 
@@ -155,14 +155,9 @@ pub(crate) fn panel(
         ("rotation_deg", description.rotation_deg),
         ("dcm_body_from_panel", description.dcm_body_from_panel),
     );
-    let axis = check.unit_vector(&at.key("axis"), description.axis.unwrap_or([1.0, 0.0, 0.0]));
-    let zero_normal = check.perpendicular(
-        &at.key("zero_normal"),
-        description.zero_normal.unwrap_or([0.0, -1.0, 0.0]),
-        &axis,
-        "axis",
-    );
-    let tilt_sign = description.tilt_sign.unwrap_or(1);
+    let axis = check.unit_vector(&at.key("axis"), description.axis());
+    let zero_normal = check.perpendicular(&at.key("zero_normal"), description.zero_normal(), &axis, "axis");
+    let tilt_sign = description.tilt_sign();
     if tilt_sign.abs() != 1 {
         check.report(&at.key("tilt_sign"), tilt_sign, "1 or -1");
     }
@@ -184,9 +179,9 @@ pub(crate) fn panel(
         rear_optics: rear.map(|rear| rear.optics),
         thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
         polygon: outline.as_ref().map(|polygon| polygon.moved(|v| dcm_body_from_panel * v)),
-        control: description.control.unwrap_or(PanelControl::SunOffset),
-        sun_offset_rad: description.sun_offset_deg.map_or(0.0, f64::from).to_radians(),
+        control: description.control(),
+        sun_offset_rad: description.sun_offset_deg().to_radians(),
         tilt_sign: if tilt_sign < 0 { -1.0 } else { 1.0 },
-        angle_rad: check.angle(&at.key("angle_deg"), description.angle_deg.unwrap_or(0.0), -360.0, 360.0),
+        angle_rad: description.angle_deg().to_radians(),
     }
 }

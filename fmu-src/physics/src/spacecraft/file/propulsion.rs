@@ -5,20 +5,16 @@ use nalgebra::Vector3;
 use super::description::{TankDescription, ThrusterDescription};
 use super::names::Named;
 use crate::constants::STANDARD_GRAVITY_M_S2;
-use crate::spacecraft::tank::{Blowdown, HYDRAZINE_KG_M3, Tank};
+use crate::spacecraft::tank::{Blowdown, Tank};
 use crate::spacecraft::thruster::{Thruster, ValveTiming};
-use crate::toml::{Checker, Place, nearest};
-
-/// Pressure of a tank whose file gives none, in Pa; only its ratio counts. Assumed.
-const PRESSURE_PA: f64 = 2e6;
+use crate::toml::{Checker, Place, hint};
 
 /// A tank that holds a part of `mass_kg`.
 pub(crate) fn tank(check: &mut Checker<'_>, at: &Place, index: usize, description: &TankDescription) -> Tank {
-    let pressure_pa = description.pressure_pa.map_or(PRESSURE_PA, f64::from);
-    let blowdown = description.ullage_m3.map(|ullage_m3| Blowdown {
-        ullage_m3: ullage_m3.0,
-        density_kg_m3: description.density_kg_m3.map_or(HYDRAZINE_KG_M3, f64::from),
-    });
+    let pressure_pa = description.pressure_pa();
+    let blowdown = description
+        .ullage_m3
+        .map(|ullage_m3| Blowdown { ullage_m3: ullage_m3.0, density_kg_m3: description.density_kg_m3() });
     if blowdown.is_none() && description.density_kg_m3.is_some() {
         check.report(&at.key("density_kg_m3"), "no ullage_m3 beside it", "with ullage_m3 alone (blowdown)");
     }
@@ -41,21 +37,6 @@ pub(crate) fn tank(check: &mut Checker<'_>, at: &Place, index: usize, descriptio
     }
 }
 
-/// Tanks hold a part of the spacecraft's mass.
-pub(crate) fn tanks_fit(check: &mut Checker<'_>, tanks: &[Tank], whole_kg: f64) {
-    let mut sum_kg = 0.0;
-    for (index, tank) in tanks.iter().enumerate() {
-        sum_kg += tank.propellant_kg;
-        if sum_kg >= whole_kg {
-            let at = Place::root().key("tanks").item(index).key("propellant_kg");
-            let found = format!("{}, with the tanks before it {sum_kg}", tank.propellant_kg);
-            let allowed = format!("less than mass_properties.mass_kg = {whole_kg}, of which it is a part");
-            check.report(&at, found, allowed);
-            return;
-        }
-    }
-}
-
 /// A thruster that one of `tanks` feeds.
 pub(crate) fn thruster(
     check: &mut Checker<'_>,
@@ -66,9 +47,9 @@ pub(crate) fn thruster(
 ) -> Thruster {
     let force_n = description.force_n.0;
     let valve = ValveTiming {
-        min_on_s: description.min_on_time_s.map_or(0.0, f64::from),
-        rise_s: description.rise_time_s.map_or(0.0, f64::from),
-        tail_off_s: description.tail_off_time_s.map_or(0.0, f64::from),
+        min_on_s: description.min_on_time_s(),
+        rise_s: description.rise_time_s(),
+        tail_off_s: description.tail_off_time_s(),
     };
     let position_body_m = check.vector(&at.key("position_m"), description.position_m);
     let direction: Vector3<f64> = check.unit_vector(&at.key("direction"), description.direction);
@@ -80,11 +61,11 @@ pub(crate) fn thruster(
         torque_body_n_m: position_body_m.cross(&force_body_n),
         flow_kg_s: force_n / (description.specific_impulse_s.0 * STANDARD_GRAVITY_M_S2),
         valve,
-        scatter: description.scatter.map_or(0.0, f64::from),
+        scatter: description.scatter(),
         set: description.set,
         tank: tank_of(check, tanks, at, description.tank.as_deref()),
         at_pressure_pa: description.at_pressure_pa.map(f64::from),
-        plume_half_angle_rad: description.plume_half_angle_deg.map_or(0.0, f64::from).to_radians(),
+        plume_half_angle_rad: description.plume_half_angle_deg().to_radians(),
     }
 }
 
@@ -100,9 +81,8 @@ fn tank_of(check: &mut Checker<'_>, tanks: &[Tank], at: &Place, name: Option<&st
     let Some(name) = name else { return 0 };
     let names: Vec<&str> = tanks.iter().map(|tank| tank.name.as_str()).collect();
     names.iter().position(|known| *known == name).unwrap_or_else(|| {
-        let hint = nearest(name, &names).map(|it| format!(" (did you mean `{it}`?)")).unwrap_or_default();
         let allowed = format!("a name under [[tanks]]: {}", names.join(", "));
-        check.report(&place, format_args!("the unknown tank `{name}`{hint}"), allowed);
+        check.report(&place, format_args!("the unknown tank `{name}`{}", hint(name, &names)), allowed);
         0
     })
 }

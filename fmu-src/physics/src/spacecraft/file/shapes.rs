@@ -16,7 +16,7 @@ use super::thermal::thermal;
 use crate::spacecraft::polygon::Polygon;
 use crate::spacecraft::surface::Plate;
 use crate::spacecraft::thermal::Thermal;
-use crate::toml::{Checker, Place, nearest};
+use crate::toml::{Checker, Place, hint};
 
 /// What all shapes have.
 struct Shape<'s> {
@@ -47,9 +47,11 @@ pub(crate) fn box_plates(
         let names = BOX_FACES.map(|(.., name)| name);
         match BOX_FACES.iter().find(|(.., name)| name == face) {
             None => {
-                let hint =
-                    nearest(face, &names).map(|n| format!(" (did you mean `{n}`?)")).unwrap_or_default();
-                check.report(&place, format_args!("the unknown face `{face}`{hint}"), names.join(", "));
+                check.report(
+                    &place,
+                    format_args!("the unknown face `{face}`{}", hint(face, &names)),
+                    names.join(", "),
+                );
             }
             Some((which, ..)) if description.open_faces.iter().flatten().any(|open| open == which) => {
                 check.report(&place, "a face that is open too", "a face that the box has");
@@ -58,12 +60,7 @@ pub(crate) fn box_plates(
         }
     }
     let rear = rear(check, materials, at, description.rear_optics.as_deref());
-    let size = at.key("size_m");
-    let mut axis = 0;
-    let size_m = Vector3::from(description.size_m.map(|length_m| {
-        axis += 1;
-        check.positive(&size.item(axis - 1), length_m)
-    }));
+    let size_m = Vector3::from(description.size_m.map(f64::from));
     let shape = Shape {
         name: description.called(index),
         turn: check.rotation(at, ("rotation_deg", description.rotation_deg), ("", None)),
@@ -90,15 +87,14 @@ pub(crate) fn cylinder_plates(
     let end = description.end_optics.as_ref();
     let end = end.map_or(front, |name| materials.find(check, &at.key("end_optics"), name));
     let rear = rear(check, materials, at, description.rear_optics.as_deref());
-    let axis = check.unit_vector(&at.key("axis"), description.axis.unwrap_or([0.0, 0.0, 1.0]));
+    let axis = check.unit_vector(&at.key("axis"), description.axis());
     let (radius_m, height_m) = (description.radius_m.0, description.height_m.0);
-    let facets = description.facets.map_or(16, u32::from);
     let open = description.open_ends.as_deref().unwrap_or_default();
     let shape = Shape {
         name: description.called(index),
         turn: frame(&axis),
         shift_m: check.vector(&at.key("center_m"), description.center_m),
-        facets: cylinder_facets(radius_m, height_m, facets, open),
+        facets: cylinder_facets(radius_m, height_m, description.facets(), open),
         rear,
         thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
@@ -119,12 +115,11 @@ pub(crate) fn disc_plates(
     let front = materials.find(check, &at.key("optics"), &description.optics);
     let rear = rear(check, materials, at, description.rear_optics.as_deref());
     let normal = check.unit_vector(&at.key("normal"), description.normal);
-    let corners = description.corners.map_or(24, u32::from);
     let shape = Shape {
         name: description.called(index),
         turn: frame(&normal),
         shift_m: check.vector(&at.key("center_m"), description.center_m),
-        facets: disc(description.radius_m.0, corners),
+        facets: disc(description.radius_m.0, description.corners()),
         rear,
         thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
@@ -145,13 +140,11 @@ pub(crate) fn dish_plates(
     let rear = rear(check, materials, at, description.rear_optics.as_deref());
     let axis = check.unit_vector(&at.key("axis"), description.axis);
     let (radius_m, depth_m) = (description.radius_m.0, description.depth_m.0);
-    let facets = description.facets.map_or(12, u32::from);
-    let rings = description.rings.map_or(3, u32::from);
     let shape = Shape {
         name: description.called(index),
         turn: frame(&axis),
         shift_m: check.vector(&at.key("vertex_m"), description.vertex_m),
-        facets: dish_facets(radius_m, depth_m, facets, rings),
+        facets: dish_facets(radius_m, depth_m, description.facets(), description.rings()),
         rear,
         thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
         mirror: description.mirror.as_deref(),
@@ -219,16 +212,8 @@ impl Shape<'_> {
         let mut thermal = self.thermal;
         thermal.front = front.thermal;
         let dot = if facet.name.is_empty() { "" } else { "." };
-        Plate {
-            name: format!("{name}{dot}{}", facet.name),
-            area_m2: outline.area_m2(),
-            center_m: outline.centroid_m(),
-            normal: outline.normal(),
-            optics: front.optics,
-            rear_optics: self.rear.map(|rear| rear.optics),
-            thermal,
-            polygon: Some(outline),
-        }
+        let (name, rear) = (format!("{name}{dot}{}", facet.name), self.rear.map(|rear| rear.optics));
+        Plate { thermal, ..Plate::outlined(name, outline, front.optics, rear) }
     }
 
     /// Heat from inside leaves through all plates alike.

@@ -4,11 +4,8 @@ use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
 use super::names::Named;
 use crate::attitude::{Appendages, FlexibleMode, Gyrostat, GyrostatError, SloshPendulum};
 use crate::spacecraft::mass::MassProperties;
-use crate::spacecraft::swinging::{COAST_FREQUENCY_HZ, NamedMode, NamedSlosh};
+use crate::spacecraft::swinging::{NamedMode, NamedSlosh};
 use crate::toml::{Checker, Place};
-
-/// Damping ratio where the file gives none. Assumed.
-const DAMPING: f64 = 0.005;
 
 /// A flexible mode.
 pub(crate) fn mode(
@@ -21,7 +18,7 @@ pub(crate) fn mode(
         name: description.called(index),
         mode: FlexibleMode {
             frequency_hz: description.frequency_hz.0,
-            damping: description.damping.map_or(DAMPING, f64::from),
+            damping: description.damping(),
             coupling_body_sqrt_kg_m: check
                 .vector(&at.key("coupling_sqrt_kg_m"), description.coupling_sqrt_kg_m),
         },
@@ -42,8 +39,8 @@ pub(crate) fn slosh(
             length_m: description.length_m.0,
             pivot_body_m: check.vector(&at.key("pivot_m"), description.pivot_m),
             axis_body: check.unit_vector(&at.key("axis"), description.axis),
-            damping: description.damping.map_or(DAMPING, f64::from),
-            coast_frequency_hz: description.coast_frequency_hz.map_or(COAST_FREQUENCY_HZ, f64::from),
+            damping: description.damping(),
+            coast_frequency_hz: description.coast_frequency_hz(),
         },
     }
 }

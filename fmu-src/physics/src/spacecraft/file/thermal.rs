@@ -32,11 +32,8 @@ pub(crate) fn thermal(
         front: front.thermal,
         rear: rear.map(|rear| rear.thermal),
         bus,
-        internal_heat_w: [
-            description.internal_heat_w.map_or(0.0, f64::from),
-            description.rear_internal_heat_w.map_or(0.0, f64::from),
-        ],
-        heat_capacity_j_m2_k: description.heat_capacity_j_m2_k.map_or(0.0, f64::from),
+        internal_heat_w: [description.internal_heat_w(), description.rear_internal_heat_w()],
+        heat_capacity_j_m2_k: description.heat_capacity_j_m2_k(),
         conduction: description.conduction.as_ref().map(|c| conduction(check, &at.key("conduction"), c)),
     }
 }

@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 
 use super::*;
 
-fn polygon(points: &[[f64; 3]]) -> Result<Polygon, PolygonError> {
+fn polygon(points: &[[f64; 3]]) -> Result<Polygon, Refusal> {
     Polygon::new(points.iter().map(|p| Vector3::from(*p)).collect())
 }
 

@@ -27,12 +27,14 @@ pub struct Directions {
 /// Where the sensors' directions come from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct DirectionSource {
-    present: Directions,
+    /// Those the sensors look for now.
+    pub present: Directions,
     /// The L1 orbit; without it Sun and Earth stand where they are given.
     l1: Option<L1Ephemeris>,
     refresh_count: i64,
+    /// When those of the L1 orbit are next looked up, in s; infinite without it.
     #[serde(with = "or_infinite")]
-    refresh_s: f64,
+    pub refresh_s: f64,
 }
 
 impl Directions {
@@ -63,16 +65,6 @@ impl DirectionSource {
             source.refresh();
         }
         source
-    }
-
-    /// Those the sensors look for now.
-    pub fn present(&self) -> &Directions {
-        &self.present
-    }
-
-    /// When those of the L1 orbit are next looked up, in s; infinite without it.
-    pub fn refresh_s(&self) -> f64 {
-        self.refresh_s
     }
 
     /// New directions; with the L1 orbit in charge, only the star of `given` counts.

@@ -47,8 +47,10 @@ enumeration! {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Propulsion {
     mass_source: MassSource,
-    initial_propellant_kg: f64,
-    pub(super) valves: Valves,
+    /// Propellant at the start, in kg.
+    pub initial_propellant_kg: f64,
+    /// Valves, and what the thrusters exert.
+    pub valves: Valves,
     used_kg: f64,
     delta_v_inertial_m_s: Vector3<f64>,
     /// Up to when delta-v is summed, in s.
@@ -76,19 +78,9 @@ impl Propulsion {
         }
     }
 
-    /// Valves, and what the thrusters exert.
-    pub fn valves(&self) -> &Valves {
-        &self.valves
-    }
-
     /// Nutation by the linear theory after the last pulse, in rad.
     pub fn predicted_nutation_rad(&self) -> f64 {
         self.predicted.angle_rad()
-    }
-
-    /// Propellant at the start, in kg.
-    pub fn initial_propellant_kg(&self) -> f64 {
-        self.initial_propellant_kg
     }
 
     /// Whether the tank is empty: nothing fires any more.
@@ -98,11 +90,11 @@ impl Propulsion {
 
     /// An outside torque with that of the thrusters.
     pub(super) fn with_thrusters(&self, applied: &BodyTorque) -> BodyTorque {
-        let law = self.valves.law();
+        let law = &self.valves.law;
         if law.is_none() { *applied } else { applied.plus_linear(&law.torque_body_n_m, law.since_s) }
     }
 
-    /// Books what the thrusters used and did since they were last booked; whether they did anything.
+    /// Accumulates what the thrusters used and did since the last call; whether they did anything.
     pub(super) fn accumulate(
         &mut self,
         spinner: &Spinner,
@@ -110,11 +102,11 @@ impl Propulsion {
         theory: &Spin,
         now_s: f64,
     ) -> bool {
-        if self.valves.law().is_none() {
+        if self.valves.law.is_none() {
             return false;
         }
         self.delta_v_inertial_m_s = self.delta_v_at(spinner, motion, now_s);
-        let ThrustLaw { since_s, torque_body_n_m, .. } = self.valves.law();
+        let ThrustLaw { since_s, torque_body_n_m, .. } = &self.valves.law;
         let inertia = motion.inertia();
         let across = torque_body_n_m.map(|it| inertia.spin_frame_from_body(&it).xy().into());
         self.predicted.pulse(theory, across, *since_s, now_s);
@@ -122,7 +114,7 @@ impl Propulsion {
         true
     }
 
-    /// Nothing is left in the tank at `now_s`; what came out was settled.
+    /// Nothing is left in the tank at `now_s`; what flowed out was accumulated before.
     pub(super) fn empty(&mut self, now_s: f64) {
         self.used_kg = self.initial_propellant_kg;
         self.valves.shut(now_s);
@@ -130,7 +122,7 @@ impl Propulsion {
 
     /// When the thrusters that are on empty the tank, in s; infinite while none is.
     pub(super) fn depletion_time_s(&self) -> f64 {
-        let law = self.valves.law();
+        let law = &self.valves.law;
         if law.is_none() {
             return f64::INFINITY;
         }
@@ -156,7 +148,7 @@ impl Propulsion {
 
     /// Propellant used until `time_s`, in kg.
     pub fn used_at(&self, time_s: f64) -> f64 {
-        let law = self.valves.law();
+        let law = &self.valves.law;
         if law.is_none() {
             return self.used_kg;
         }
@@ -171,7 +163,7 @@ impl Propulsion {
 
     /// Sums delta-v to the end of the motion's present segment.
     pub(super) fn leave_segment(&mut self, spinner: &Spinner, motion: &Motion, work: &mut Work) {
-        if !self.valves.law().is_none() {
+        if !self.valves.law.is_none() {
             work.spend(Cost::Impulse);
             let end_s = motion.segment_end_s();
             self.delta_v_inertial_m_s = self.delta_v_at(spinner, motion, end_s);
@@ -190,7 +182,7 @@ impl Propulsion {
         time_s: f64,
         work: &mut Work,
     ) -> Result<(), WorkExceeded> {
-        let law = *self.valves.law();
+        let law = self.valves.law;
         if law.is_none() || !motion.segment_end_s().is_infinite() {
             return Ok(());
         }
@@ -210,7 +202,7 @@ impl Propulsion {
 
     /// Delta-v until `time_s` in the present segment, inertial, in m/s: the turning force over the mass left at each instant.
     pub fn delta_v_at(&self, spinner: &Spinner, motion: &Motion, time_s: f64) -> Vector3<f64> {
-        let law = self.valves.law();
+        let law = &self.valves.law;
         if law.is_none() {
             return self.delta_v_inertial_m_s;
         }

@@ -51,17 +51,21 @@ pub(super) enum Sensor {
 /// Sun sensor and star tracker with what they saw so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sensors {
-    pub(super) sun: CrossingDetector,
+    /// Sun crossings.
+    pub sun: CrossingDetector,
     pub(super) star: CrossingDetector,
-    sun_sample_rad: f64,
+    /// Last reading of the Sun sensor, in rad.
+    pub sun_sample_rad: f64,
     sampling: Sampling,
     clock_period_s: f64,
     clock_start_s: f64,
     clock_count: u64,
     /// One turn in so many sees the star.
     every: u32,
-    sample: StarSample,
-    estimator: NutationEstimator,
+    /// Last star tracker sample.
+    pub sample: StarSample,
+    /// Estimator over the samples since the last pulse.
+    pub estimator: NutationEstimator,
     estimator_since_s: f64,
     azimuths: SensorAzimuths,
     seed: u64,
@@ -107,26 +111,6 @@ impl Sensors {
         }
     }
 
-    /// Sun crossings.
-    pub fn sun_crossings(&self) -> &CrossingDetector {
-        &self.sun
-    }
-
-    /// Last reading of the Sun sensor, in rad.
-    pub fn sun_sample_rad(&self) -> f64 {
-        self.sun_sample_rad
-    }
-
-    /// Last star tracker sample.
-    pub fn sample(&self) -> StarSample {
-        self.sample
-    }
-
-    /// Estimator over the samples since the last pulse.
-    pub fn estimator(&self) -> &NutationEstimator {
-        &self.estimator
-    }
-
     /// Nominal time between samples of one star, in s.
     pub fn sample_spacing_s(&self, theory: &Spin) -> f64 {
         match self.sampling {
@@ -156,11 +140,12 @@ impl Sensors {
         work: &mut Work,
     ) -> Option<(Sensor, f64)> {
         let azimuths = self.azimuths;
-        let look = |body, inertial| move || Crossing { body, inertial, pole: Pole::SpinAxis };
+        let crossing = |body, inertial| move || Crossing { body, inertial, pole: Pole::SpinAxis };
         let due_s = |detector: &mut CrossingDetector, body, inertial: Vector3<f64>, work: &mut Work| {
             // A direction of 0 is none.
             let known = inertial != Vector3::zeros();
-            let due_s = known.then(|| detector.due_s(motion, look(body, inertial), until_s, work)).flatten();
+            let due_s =
+                known.then(|| detector.due_s(motion, crossing(body, inertial), until_s, work)).flatten();
             due_s.unwrap_or(f64::INFINITY)
         };
         let sun_s = due_s(&mut self.sun, azimuths.sun, directions.sun_inertial, work);
@@ -173,7 +158,13 @@ impl Sensors {
         if sun_s.is_infinite() && star_s.is_infinite() {
             return None;
         }
-        Some(if sun_s <= star_s { (Sensor::Sun, sun_s) } else { (Sensor::StarTracker, star_s) })
+        if sun_s <= star_s {
+            return Some((Sensor::Sun, sun_s));
+        }
+        if self.sampling == Sampling::Clock {
+            work.spend(Cost::ClockSample);
+        }
+        Some((Sensor::StarTracker, star_s))
     }
 
     /// The Sun sensor's reading as the Sun crosses it.
@@ -186,7 +177,7 @@ impl Sensors {
     ) {
         let state = motion.at(time_s);
         let angle = angle_between_rad(&state.attitude.spin_axis_inertial(), sun_inertial);
-        let noise = normal(self.seed, Channel::SunSensor, self.sun.count());
+        let noise = normal(self.seed, Channel::SunSensor, self.sun.count);
         self.sun_sample_rad = angle + spinner.sun_sensor.noise_deg.to_radians() * noise;
         self.sun.pass(time_s, state.rate_rad_s(motion.inertia()).z);
     }
@@ -199,7 +190,6 @@ impl Sensors {
         directions: &Directions,
         theory: &Spin,
         time_s: f64,
-        work: &mut Work,
     ) {
         let state = motion.at(time_s);
         let tracker = &spinner.star_tracker;
@@ -209,13 +199,12 @@ impl Sensors {
             && declination.abs() <= 0.5 * tracker.field_of_view_deg.to_radians();
         let turn = match self.sampling {
             Sampling::Clock => {
-                work.spend(Cost::ClockSample);
                 self.clock_count = self.clock_count.saturating_add(1);
                 None
             }
             Sampling::Spins => {
                 self.star.pass(time_s, state.rate_rad_s(motion.inertia()).z);
-                Some(self.star.count().wrapping_sub(1))
+                Some(self.star.count.wrapping_sub(1))
             }
         };
         // Pickets count from the Sun pulse: without a Sun there are none.

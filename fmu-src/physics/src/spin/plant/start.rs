@@ -9,7 +9,8 @@ use super::sensors::Sampling;
 use crate::attitude::{InertiaError, Quaternion, angle_between_rad};
 use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::{
-    burn::{BurnError, BurnRequest},
+    burn::BurnRequest,
+    burn_error::{BurnError, ParameterError},
     damper::SHORTEST_TIME_CONSTANT_S,
     execution::PulseExecution,
     forecast::Timing,
@@ -75,15 +76,8 @@ pub enum StartError {
     #[error(transparent)]
     Work(#[from] WorkExceeded),
     /// Another parameter.
-    #[error("{name} is {found}; {allowed}")]
-    Parameter {
-        /// FMI name.
-        name: &'static str,
-        /// What was found.
-        found: String,
-        /// What is allowed.
-        allowed: String,
-    },
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
 }
 
 /// What a flight started with.
@@ -110,9 +104,8 @@ impl InitialConditions {
 impl Start {
     /// What can be wrong with its numbers, and the attitude they give.
     pub(super) fn check(&self, spinner: &Spinner) -> Result<Quaternion, StartError> {
-        let refuse = |name, found: String, allowed: &str| {
-            Err(StartError::Parameter { name, found, allowed: allowed.to_owned() })
-        };
+        let refuse =
+            |name, found: String, allowed: &str| Err(ParameterError::new(name, found, allowed).into());
         let rate = self.spin_rate_rad_s;
         if !(SLOWEST_RAD_S..=FASTEST_RAD_S).contains(&rate) {
             return refuse("spin.initialRate", format!("{rate} rad/s"), "allowed is 1e-4 to 1e4 rad/s");
@@ -178,12 +171,9 @@ impl Start {
         let angle = angle_between_rad(momentum_inertial, sun_inertial);
         let least = self.nutation_rad.max(1e-3);
         if by_sun && *sun_inertial != Vector3::zeros() && angle.sin() <= least {
-            return Err(StartError::Parameter {
-                name: "burn.timing",
-                found: format!("Sun crossing with the Sun {:.4} deg off the spin axis", angle.to_degrees()),
-                allowed: "a Sun crossing needs the Sun farther off the axis than nutation takes it"
-                    .to_owned(),
-            });
+            let found = format!("Sun crossing with the Sun {:.4} deg off the spin axis", angle.to_degrees());
+            let allowed = "a Sun crossing needs the Sun farther off the axis than nutation takes it";
+            return Err(ParameterError::new("burn.timing", found, allowed).into());
         }
         Ok(())
     }

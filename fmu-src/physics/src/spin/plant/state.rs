@@ -16,7 +16,7 @@ use crate::spin::{
     motion::{Motion, MotionError},
     nutation::Spin,
     sequencer::{Phase, Sequencer},
-    series::BodyTorque,
+    series::{Anchor, BodyTorque},
     spinner::Spinner,
     work::{Cost, Work, WorkExceeded},
 };
@@ -101,7 +101,8 @@ impl Plant {
         };
         let damper = Damper::new(start.damper_time_constant_s, &inertia);
         let quiet = BodyTorque::constant(Vector3::zeros());
-        let motion = Motion::new(inertia, damper, quiet, start_s, attitude, momentum_inertial, f64::INFINITY);
+        let anchor = Anchor { time_s: start_s, attitude, momentum_inertial };
+        let motion = Motion::new(inertia, damper, quiet, anchor, f64::INFINITY);
         let mut plant = Self {
             present: Some(motion.at(start_s)),
             motion,
@@ -125,10 +126,8 @@ impl Plant {
             sensors: Sensors::new(spinner, start.sampling, start.nominal_rate_rad_s, start.seed, start_s),
             work_limit: start.work_limit,
         };
-        start.refuse_blind_timing(
-            &plant.state().momentum_inertial,
-            &plant.directions.present().sun_inertial,
-        )?;
+        start
+            .refuse_blind_timing(&plant.state().momentum_inertial, &plant.directions.present.sun_inertial)?;
         let mut work = Work::new(start.work_limit);
         plant.schedule(start_s, &mut work);
         work.check(start_s)?;
@@ -173,12 +172,12 @@ impl Plant {
 
     /// Thrusters for which the last step commanded a pulse that does not open their valves, bit by bit.
     pub fn too_short(&self) -> u32 {
-        self.propulsion.valves().too_short_mask()
+        self.propulsion.valves.too_short_mask()
     }
 
     /// Directions that the sensors look for now.
     pub fn directions(&self) -> &Directions {
-        self.directions.present()
+        &self.directions.present
     }
 
     /// Directions at a time: on the L1 orbit they move.
@@ -190,9 +189,9 @@ impl Plant {
     ///
     /// With the L1 orbit in charge, only the star of `directions` counts.
     pub fn command(&mut self, commands: Commands, directions: Directions) {
-        let before = *self.directions.present();
+        let before = self.directions.present;
         self.directions.give(directions);
-        let now = self.directions.present();
+        let now = self.directions.present;
         if now.sun_inertial != before.sun_inertial {
             self.sensors.sun.forget(self.time_s);
         }
@@ -214,11 +213,11 @@ impl Plant {
         let near_s = end_s + SAME_TIME * end_s.abs().max(from_s.abs());
         // The last edge, and the last thing of any kind that happened.
         let (mut now_s, mut reached_s) = (from_s, from_s);
-        let waiting_s = self.propulsion.valves().edge_before_s(f64::INFINITY);
+        let waiting_s = self.propulsion.valves.edge_before_s(f64::INFINITY);
         if self.commanded || self.commands.fires() || waiting_s <= due_s(from_s) {
             self.propulsion.valves.command(&self.commands, from_s, end_s);
             // An edge where the last step ended waited for this command.
-            let edge_s = self.propulsion.valves().edge_before_s(end_s);
+            let edge_s = self.propulsion.valves.edge_before_s(end_s);
             if edge_s <= due_s(from_s) {
                 now_s = edge_s;
             }
@@ -229,11 +228,11 @@ impl Plant {
         loop {
             work.check(reached_s)?;
             let plan_s = self.sequencer.as_ref().map_or(f64::INFINITY, |s| s.next_edge_s().max(now_s));
-            let command_s = self.propulsion.valves().edge_before_s(end_s);
+            let command_s = self.propulsion.valves.edge_before_s(end_s);
             let depletion_time_s = self.propulsion.depletion_time_s().max(now_s);
-            let ramp_s = self.propulsion.valves().ramp_end_s().max(now_s);
+            let ramp_s = self.propulsion.valves.ramp_end_s().max(now_s);
             let edge_s =
-                plan_s.min(command_s).min(self.directions.refresh_s()).min(depletion_time_s).min(ramp_s);
+                plan_s.min(command_s).min(self.directions.refresh_s).min(depletion_time_s).min(ramp_s);
             let (until_s, segment_end_s) = (edge_s.min(end_s), self.motion.segment_end_s());
             // What is seen may move the plan's edge.
             if let Some(seen_s) = self.observe(spinner, until_s.min(segment_end_s), work)? {
@@ -250,7 +249,7 @@ impl Plant {
             }
             (now_s, reached_s) = (edge_s, edge_s);
             work.spend(Cost::Edge);
-            if self.directions.refresh_s() <= edge_s {
+            if self.directions.refresh_s <= edge_s {
                 work.spend(Cost::Direction);
                 if let Some(from_s) = self.directions.refresh() {
                     self.sensors.sun.forget(from_s);
@@ -290,16 +289,16 @@ impl Plant {
         let requested = plan | self.propulsion.valves.pulsing_mask(now_s);
         let mask = if self.propulsion.is_dry() { 0 } else { requested };
         let turns_valves =
-            mask != self.propulsion.valves.open_mask() || self.propulsion.valves().ramp_end_s() <= now_s;
+            mask != self.propulsion.valves.open_mask() || self.propulsion.valves.ramp_end_s() <= now_s;
         let applied = self.commands.torque;
         if turns_valves || self.propulsion.with_thrusters(&applied) != *self.motion.torque() {
             self.reach(spinner, now_s, work)?;
-            self.settle_pulse(spinner, now_s);
+            self.accumulate_pulse(spinner, now_s);
             let inertia = self.propulsion.inertia(spinner, &self.motion);
             work.spend_segment(self.motion.damper());
             self.propulsion.valves.open(spinner, mask, now_s);
             let torque = self.propulsion.with_thrusters(&applied);
-            let ramp_s = (self.propulsion.valves().ramp_end_s() - now_s).max(SHORTEST_RAMP_HINT_S);
+            let ramp_s = (self.propulsion.valves.ramp_end_s() - now_s).max(SHORTEST_RAMP_HINT_S);
             self.motion = self.motion.followed_by(now_s, inertia, torque, hint_s.min(1.001 * ramp_s));
             self.motion.check()?;
             self.sensors.forget_motion(now_s);
@@ -310,8 +309,8 @@ impl Plant {
         Ok(())
     }
 
-    /// Books what the thrusters that were on used and did.
-    fn settle_pulse(&mut self, spinner: &Spinner, now_s: f64) {
+    /// Accumulates what the thrusters that were on used and did.
+    fn accumulate_pulse(&mut self, spinner: &Spinner, now_s: f64) {
         if self.propulsion.accumulate(spinner, &self.motion, &self.initial.theory, now_s) {
             self.sensors.restart_estimate(now_s);
         }
@@ -320,7 +319,7 @@ impl Plant {
     /// Empties the tank at `now_s`; the burn ends with the pulse it cut.
     fn run_dry(&mut self, spinner: &Spinner, now_s: f64, work: &mut Work) -> Result<(), SpinPlantError> {
         self.reach(spinner, now_s, work)?;
-        self.settle_pulse(spinner, now_s);
+        self.accumulate_pulse(spinner, now_s);
         self.propulsion.empty(now_s);
         if let Some(sequencer) = &mut self.sequencer {
             sequencer.stop();
@@ -335,7 +334,7 @@ impl Plant {
         until_s: f64,
         work: &mut Work,
     ) -> Result<Option<f64>, SpinPlantError> {
-        let directions = *self.directions.present();
+        let directions = self.directions.present;
         let Some((sensor, time_s)) = self.sensors.next_reading(&self.motion, &directions, until_s, work)
         else {
             return Ok(None);
@@ -351,7 +350,7 @@ impl Plant {
             }
             Sensor::StarTracker => {
                 let theory = &self.initial.theory;
-                self.sensors.read_star(spinner, &self.motion, &directions, theory, time_s, work);
+                self.sensors.read_star(spinner, &self.motion, &directions, theory, time_s);
             }
         }
         Ok(Some(time_s))
@@ -382,13 +381,13 @@ impl Plant {
             return;
         }
         // What a rising or falling thrust does to the motion is known where it ends.
-        let is_ramping = self.propulsion.valves().ramp_end_s().is_finite();
+        let is_ramping = self.propulsion.valves.ramp_end_s().is_finite();
         if let Some(sequencer) = self.sequencer.as_mut().filter(|it| !(is_ramping && it.follows_motion())) {
-            sequencer.schedule(&self.motion, now_s, &self.directions.present().sun_inertial, work);
+            sequencer.schedule(&self.motion, now_s, &self.directions.present.sun_inertial, work);
         }
     }
 
-    /// Whether a decoded state can be flown on: its thrusters exist, its numbers belong together.
+    /// Whether a decoded state can be advanced: its thrusters exist, its numbers belong together.
     pub fn fits(&self, spinner: &Spinner) -> bool {
         let burn = self.sequencer().map(Sequencer::burn);
         let known = (1_u64 << spinner.thrusters.len()) - 1;

@@ -16,7 +16,8 @@ pub struct Valves {
     schedule: [PulseSchedule; MOST_THRUSTERS],
     /// Of the scatter.
     seed: u64,
-    law: ThrustLaw,
+    /// What the thrusters exert.
+    pub law: ThrustLaw,
 }
 
 impl Valves {
@@ -31,19 +32,9 @@ impl Valves {
         }
     }
 
-    /// How thrusters execute pulses.
-    pub fn execution(&self) -> &[PulseExecution; MOST_THRUSTERS] {
-        &self.execution
-    }
-
     /// Thrusters whose valves are open, bit by bit.
     pub fn open_mask(&self) -> u32 {
         self.valves.iter().enumerate().map(|(k, valve)| u32::from(valve.is_open()) << k).sum()
-    }
-
-    /// What the thrusters exert.
-    pub fn law(&self) -> &ThrustLaw {
-        &self.law
     }
 
     /// When a thrust next stops rising or falling, in s; infinite where none does either.

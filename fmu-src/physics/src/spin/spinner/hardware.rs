@@ -33,8 +33,9 @@ impl MassTable {
 
     /// Moments about the body axes with `propellant_kg` on board, in kg m2.
     pub fn moments_kg_m2(&self, propellant_kg: f64) -> [f64; 3] {
-        let spin = self.interpolate(&self.spin_inertia_kg_m2, propellant_kg);
-        let transverse = spin / self.interpolate(&self.inertia_ratio, propellant_kg);
+        let at = |values: &[f64]| self.interpolate(propellant_kg, |k| values.get(k).copied());
+        let spin = at(&self.spin_inertia_kg_m2);
+        let transverse = spin / at(&self.inertia_ratio);
         let root = self.transverse_quotient.sqrt();
         [transverse * root, transverse / root, spin]
     }
@@ -42,38 +43,26 @@ impl MassTable {
     /// Products of inertia 12, 13, 23 with `propellant_kg` on board, in kg m2.
     pub fn products_kg_m2(&self, propellant_kg: f64) -> [f64; 3] {
         let Some(products) = &self.products_of_inertia_kg_m2 else { return [0.0; 3] };
-        let (k, share) = self.interval(propellant_kg);
-        let first = products.get(k).or(products.first()).copied().unwrap_or([0.0; 3]);
-        let next = products.get(k.saturating_add(1)).copied().unwrap_or(first);
-        core::array::from_fn(|i| first[i] + share * (next[i] - first[i]))
+        core::array::from_fn(|i| self.interpolate(propellant_kg, |k| products.get(k).map(|it| it[i])))
     }
 
-    /// The point at or before `propellant_kg`, and how far on the way to the next it is, 0 to 1.
-    fn interval(&self, propellant_kg: f64) -> (usize, f64) {
+    /// A value between those at the points around `propellant_kg`; outside the table that at its end.
+    fn interpolate(&self, propellant_kg: f64, value: impl Fn(usize) -> Option<f64>) -> f64 {
         let points = &self.propellant_kg;
         let after = points.iter().skip(1).position(|point| propellant_kg < *point);
         let k = after.unwrap_or(points.len().saturating_sub(2));
-        match (points.get(k), points.get(k.saturating_add(1))) {
-            (Some(from), Some(to)) => (k, ((propellant_kg - from) / (to - from)).clamp(0.0, 1.0)),
-            _ => (0, 0.0),
-        }
+        let share = match (points.get(k), points.get(k.saturating_add(1))) {
+            (Some(from), Some(to)) => ((propellant_kg - from) / (to - from)).clamp(0.0, 1.0),
+            _ => 0.0,
+        };
+        let first = value(k).or(value(0)).unwrap_or(0.0);
+        let next = value(k.saturating_add(1)).unwrap_or(first);
+        first + share * (next - first)
     }
 
     /// Propellant at the last point of the table, in kg.
     pub fn most_propellant_kg(&self) -> f64 {
         self.propellant_kg.last().copied().unwrap_or(0.0)
-    }
-
-    fn interpolate(&self, values: &[f64], propellant_kg: f64) -> f64 {
-        let points = &self.propellant_kg;
-        let mut result = values.first().copied().unwrap_or(0.0);
-        for (x, y) in points.windows(2).zip(values.windows(2)) {
-            if propellant_kg >= x[0] {
-                let share = ((propellant_kg - x[0]) / (x[1] - x[0])).clamp(0.0, 1.0);
-                result = y[0] + share * (y[1] - y[0]);
-            }
-        }
-        result
     }
 }
 

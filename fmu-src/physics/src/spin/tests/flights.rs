@@ -3,7 +3,9 @@
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
-use super::{ace, directions, paper_start, request, uniform_train_rad};
+use super::{
+    ace, burning, directions, firing, launch, paper_start, pulses, request, undamped, uniform_train_rad,
+};
 use crate::attitude::angle_between_rad;
 use crate::spacecraft::ValveTiming;
 use crate::spin::{
@@ -11,15 +13,11 @@ use crate::spin::{
     forecast::Timing,
     nutation::Spin,
     outputs::Outputs,
-    plant::{Commands, MassSource, Plant, PulseCommand, PulseExecution, Start},
+    plant::{Commands, MassSource, Plant, PulseExecution, Start},
     predictions::Predictions,
     spinner::Spinner,
     train::Shape,
 };
-
-fn launch(spinner: &Spinner, start: &Start) -> Plant {
-    Plant::start(spinner, start, directions(), Commands::none(), 0.0).unwrap()
-}
 
 fn fly(spinner: &Spinner, start: &Start, end_s: f64) -> Plant {
     let mut plant = launch(spinner, start);
@@ -33,8 +31,7 @@ fn nutation_follows_eq_8_with_the_nutation_kick_pulse_by_pulse() {
     for ratio in [1.471, 1.478, 1.483, 1.49, 1.5] {
         for (width_s, count) in [(0.032, 114), (1.0, 11)] {
             for turns in [1.0, 0.5, 1.5, 2.0] {
-                let mut start = paper_start(ratio);
-                start.damper_time_constant_s = 0.0;
+                let mut start = undamped(ratio);
                 start.burn =
                     Some(BurnRequest { pulse_width_s: width_s, turns_per_pulse: turns, count, ..request() });
                 let mut plant = launch(&spinner, &start);
@@ -98,8 +95,7 @@ fn the_momentum_moves_toward_the_target_by_the_sum_of_eq_3() {
             (Shape::Tapered { order: 2 }, 31, 1.5),
             (Shape::Split, 114, 1.0),
         ] {
-            let mut start = paper_start(1.483);
-            start.burn = Some(BurnRequest { shape, count, turns_per_pulse: turns, timing, ..request() });
+            let start = burning(BurnRequest { shape, count, turns_per_pulse: turns, timing, ..request() });
             let plant = fly(&spinner, &start, 3000.0);
             let outputs = Outputs::of(&plant, &spinner);
             assert!(outputs.burn_done, "{timing:?} {shape:?} {turns}: {} pulses", outputs.pulses_fired);
@@ -122,8 +118,7 @@ fn the_tapered_train_turns_2_deg_in_11_4_min_and_stays_under_0_0033_deg() {
     let spinner = ace();
     for i in 0..=23 {
         let ratio = 1.471 + 0.001 * f64::from(i);
-        let mut start = paper_start(ratio);
-        start.damper_time_constant_s = 0.0;
+        let mut start = undamped(ratio);
         start.burn = Some(BurnRequest { shape: Shape::Tapered { order: 1 }, count: 58, ..request() });
         let plant = fly(&spinner, &start, 720.0);
         let outputs = Outputs::of(&plant, &spinner);
@@ -137,8 +132,7 @@ fn the_tapered_train_turns_2_deg_in_11_4_min_and_stays_under_0_0033_deg() {
 #[test]
 fn a_split_train_leaves_no_nutation_when_the_ratio_is_known() {
     let spinner = ace();
-    let mut start = paper_start(1.483);
-    start.damper_time_constant_s = 0.0;
+    let mut start = undamped(1.483);
     start.burn = Some(BurnRequest { shape: Shape::Split, count: 114, ..request() });
     let outputs = Outputs::of(&fly(&spinner, &start, 3000.0), &spinner);
     assert!(outputs.burn_done);
@@ -183,8 +177,7 @@ fn any_grid_gives_the_same_bits() {
 #[test]
 fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
     let spinner = ace();
-    let mut start = paper_start(1.483);
-    start.burn = Some(BurnRequest { count: 5, ..request() });
+    let mut start = burning(BurnRequest { count: 5, ..request() });
     let planned = launch(&spinner, &start);
     let (first, period) = (planned.sequencer().unwrap().next_edge_s(), planned.initial().theory.period_s());
     let expected = Outputs::of(&fly(&spinner, &start, 60.0), &spinner);
@@ -192,11 +185,8 @@ fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
     start.burn = None;
     let mut plant = launch(&spinner, &start);
     for i in 0..5 {
-        let mut commands = Commands::none();
         let from = f64::from(i) * period;
-        commands.pulses[7] = PulseCommand { delay_s: first + f64::from(i) * period - from, on_s: 0.032 };
-        commands.any_pulse = true;
-        plant.command(commands, directions());
+        plant.command(pulses(&[8], first + f64::from(i) * period - from, 0.032), directions());
         plant.advance(&spinner, from + period).unwrap();
     }
     plant.command(Commands::none(), directions());
@@ -209,7 +199,7 @@ fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
     for i in 0..5 {
         let on = first + f64::from(i) * period;
         plant.advance(&spinner, on).unwrap();
-        plant.command(Commands { fire: 1 << 7, ..Commands::none() }, directions());
+        plant.command(firing(&[8]), directions());
         plant.advance(&spinner, on + 0.016).unwrap();
         plant.advance(&spinner, on + 0.032).unwrap();
         plant.command(Commands::none(), directions());
@@ -224,8 +214,7 @@ fn commanded_pulses_and_held_thrusters_do_what_the_plan_does() {
 fn spin_couples_change_the_rate_alone() {
     let spinner = ace();
     for (group, sign) in [("spin up", 1.0), ("spin down", -1.0)] {
-        let mut start = paper_start(1.483);
-        start.burn = Some(BurnRequest { group: group.into(), count: 3, pulse_width_s: 4.0, ..request() });
+        let start = burning(BurnRequest { group: group.into(), count: 3, pulse_width_s: 4.0, ..request() });
         let outputs = Outputs::of(&fly(&spinner, &start, 60.0), &spinner);
         // Two arms of 0.78 m, canted by 45 deg.
         let torque = 2.0 * 4.448 * 0.78 * std::f64::consts::FRAC_1_SQRT_2;
@@ -239,8 +228,7 @@ fn spin_couples_change_the_rate_alone() {
 #[test]
 fn delta_v_of_one_pulse_is_that_of_a_turning_force() {
     let spinner = ace();
-    let mut start = paper_start(1.483);
-    start.burn = Some(BurnRequest { count: 1, pulse_width_s: 3.0, ..request() });
+    let mut start = burning(BurnRequest { count: 1, pulse_width_s: 3.0, ..request() });
     let outputs = Outputs::of(&fly(&spinner, &start, 30.0), &spinner);
     let rate = std::f64::consts::PI / 6.0;
     let mass_kg = 562.0 + 97.5 - 1.5 * 4.448 / (220.0 * 9.80665);
@@ -251,7 +239,7 @@ fn delta_v_of_one_pulse_is_that_of_a_turning_force() {
     // Thrusters that turn nothing: pure delta-v along the axis.
     start.burn = None;
     let mut plant = launch(&spinner, &start);
-    plant.command(Commands { fire: 1 << 6 | 1 << 8, ..Commands::none() }, directions());
+    plant.command(firing(&[7, 9]), directions());
     for i in 1..=20 {
         plant.advance(&spinner, 5.0 * f64::from(i)).unwrap();
     }
@@ -263,14 +251,14 @@ fn delta_v_of_one_pulse_is_that_of_a_turning_force() {
 }
 
 #[test]
-fn inertia_follows_the_propellant_when_asked() {
+fn inertia_follows_the_propellant_when_requested() {
     let spinner = ace();
     let mut start = paper_start(1.483);
     start.mass_source = MassSource::Propellant;
     start.burn = None;
     let mut plant = launch(&spinner, &start);
     let before = Outputs::of(&plant, &spinner);
-    plant.command(Commands { fire: 1 << 6 | 1 << 8, ..Commands::none() }, directions());
+    plant.command(firing(&[7, 9]), directions());
     plant.advance(&spinner, 5000.0).unwrap();
     plant.command(Commands::none(), directions());
     plant.advance(&spinner, 5001.0).unwrap();
@@ -292,8 +280,7 @@ fn a_clock_that_runs_wrong_turns_the_burn_away_and_sun_pulses_do_not() {
     let spinner = ace();
     let mut moved = Vec::new();
     for timing in [Timing::Clock, Timing::SunCrossing] {
-        let mut start = paper_start(1.483);
-        start.burn = Some(BurnRequest { timing, spin_rate_error: 0.002, count: 114, ..request() });
+        let start = burning(BurnRequest { timing, spin_rate_error: 0.002, count: 114, ..request() });
         let outputs = Outputs::of(&fly(&spinner, &start, 1600.0), &spinner);
         assert!(outputs.burn_done);
         moved.push(outputs.momentum_displacement_rad.to_degrees());
@@ -347,8 +334,7 @@ fn where_the_sun_sensor_sits_does_not_turn_the_burn() {
     for azimuth_deg in [0.0, 75.0, -140.0] {
         let mut spinner = ace();
         spinner.sun_sensor.azimuth_deg = azimuth_deg;
-        let mut start = paper_start(1.483);
-        start.burn = Some(BurnRequest { timing: Timing::SunCrossing, ..request() });
+        let start = burning(BurnRequest { timing: Timing::SunCrossing, ..request() });
         let outputs = Outputs::of(&fly(&spinner, &start, 1600.0), &spinner);
         assert!(outputs.burn_done && !outputs.burn_active);
         // The momentum began along Z and was to move toward the target, square to it.

@@ -15,18 +15,20 @@ mod theory;
 mod valves;
 mod work;
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
-use crate::attitude::{Inertia, RigidBodyState};
+use crate::attitude::{Inertia, Quaternion, RigidBodyState, angle_between_rad};
 
 use super::{
     burn::BurnRequest,
+    damper::Damper,
     forecast::Timing,
     motion::Motion,
     nutation::Spin,
-    plant::{Directions, MassSource, Sampling, Start},
+    plant::{Commands, Directions, MassSource, Plant, PulseCommand, Sampling, Start},
+    series::{Anchor, BodyTorque},
     spinner::Spinner,
-    train::Shape,
+    train::{Pulses, Shape, Train, TrainError},
 };
 
 const ACE: &str = include_str!("../../../../resources/ace.toml");
@@ -44,6 +46,97 @@ fn energy_j(state: &RigidBodyState, inertia: &Inertia) -> f64 {
 fn reach(motion: &mut Motion, time_s: f64) {
     while motion.segment_end_s() < time_s {
         motion.next_segment();
+    }
+}
+
+/// A flight at 0 s without commands.
+fn launch(spinner: &Spinner, start: &Start) -> Plant {
+    Plant::start(spinner, start, directions(), Commands::none(), 0.0).unwrap()
+}
+
+/// Thrusters, numbered from 1, that fire over whole steps.
+fn firing(thrusters: &[u32]) -> Commands {
+    Commands { fire: thrusters.iter().map(|k| 1 << (k - 1)).sum(), ..Commands::none() }
+}
+
+/// A pulse of thrusters numbered from 1.
+fn pulses(thrusters: &[usize], delay_s: f64, on_s: f64) -> Commands {
+    let mut commands = Commands { any_pulse: true, ..Commands::none() };
+    for k in thrusters {
+        commands.pulses[k - 1] = PulseCommand { delay_s, on_s };
+    }
+    commands
+}
+
+/// The paper's spinner without a damper.
+fn undamped(ratio: f64) -> Start {
+    Start { damper_time_constant_s: 0.0, ..paper_start(ratio) }
+}
+
+/// The paper's spinner with a burn.
+fn burning(burn: BurnRequest) -> Start {
+    Start { burn: Some(burn), ..paper_start(1.483) }
+}
+
+/// The inertia tensor of moments and products 12, 13, 23.
+fn tensor([a, b, c]: [f64; 3], [p, q, r]: [f64; 3]) -> Matrix3<f64> {
+    Matrix3::new(a, p, q, p, b, r, q, r, c)
+}
+
+/// An attitude along no axis.
+fn tilted() -> Quaternion {
+    Quaternion([0.1, -0.3, 0.2, 0.9]).normalized()
+}
+
+/// The motion at 0 s of a body of this tensor, which `inertia` says too.
+fn started(
+    inertia: &Inertia,
+    body: &Matrix3<f64>,
+    damper_s: f64,
+    rate: Vector3<f64>,
+    torque: Vector3<f64>,
+) -> Motion {
+    let momentum_inertial = tilted().inertial_from_body(&(body * rate));
+    let anchor = Anchor { time_s: 0.0, attitude: tilted(), momentum_inertial };
+    let damper = Damper::new(damper_s, inertia);
+    Motion::new(*inertia, damper, BodyTorque::constant(torque), anchor, f64::INFINITY)
+}
+
+/// J w' = T - w x J w and the attitude's matrix by classical Runge-Kutta, extrapolated once.
+fn runge_kutta(
+    body: &Matrix3<f64>,
+    rate: Vector3<f64>,
+    torque: impl Fn(f64) -> Vector3<f64>,
+    end_s: f64,
+    steps: usize,
+) -> (Vector3<f64>, Matrix3<f64>) {
+    let columns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| tilted().inertial_from_body(&axis));
+    let inverse = body.try_inverse().unwrap();
+    let slope = |t: f64, w: &Vector3<f64>, m: &Matrix3<f64>| {
+        (inverse * (torque(t) - w.cross(&(body * w))), m * w.cross_matrix())
+    };
+    let run = |steps: usize| {
+        let dt = end_s / steps as f64;
+        let (mut w, mut m) = (rate, Matrix3::from_columns(&columns));
+        for i in 0..steps {
+            let t = i as f64 * dt;
+            let k1 = slope(t, &w, &m);
+            let k2 = slope(t + 0.5 * dt, &(w + k1.0 * (0.5 * dt)), &(m + k1.1 * (0.5 * dt)));
+            let k3 = slope(t + 0.5 * dt, &(w + k2.0 * (0.5 * dt)), &(m + k2.1 * (0.5 * dt)));
+            let k4 = slope(t + dt, &(w + k3.0 * dt), &(m + k3.1 * dt));
+            w += (k1.0 + (k2.0 + k3.0) * 2.0 + k4.0) * (dt / 6.0);
+            m += (k1.1 + (k2.1 + k3.1) * 2.0 + k4.1) * (dt / 6.0);
+        }
+        (w, m)
+    };
+    let (coarse, fine) = (run(steps), run(2 * steps));
+    (fine.0 + (fine.0 - coarse.0) / 15.0, fine.1 + (fine.1 - coarse.1) / 15.0)
+}
+
+fn assert_same_attitude(attitude: Quaternion, matrix: &Matrix3<f64>, tolerance_rad: f64) {
+    for (i, axis) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
+        let off_rad = angle_between_rad(&attitude.inertial_from_body(axis), &matrix.column(i).into());
+        assert!(off_rad < tolerance_rad, "axis {i}: {off_rad} rad");
     }
 }
 
@@ -82,6 +175,12 @@ fn request() -> BurnRequest {
 /// The paper's spinner at 5 rpm.
 fn paper_spin(ratio: f64) -> Spin {
     Spin { rate_rad_s: std::f64::consts::PI / 6.0, ratio, inertia_kg_m2: 353.82 }
+}
+
+/// A train in steps of ACE's shortest pulse.
+fn train(shape: Shape, count: u32, unit_width_s: f64, turns: f64, spin: &Spin) -> Result<Train, TrainError> {
+    let pulses = Pulses { shape, unit_width_s, turns_per_pulse: turns, resolution_s: 0.032 };
+    Train::new(&pulses, count, spin)
 }
 
 fn paper_start(ratio: f64) -> Start {

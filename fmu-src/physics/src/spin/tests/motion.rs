@@ -3,72 +3,19 @@
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::{energy_j, reach};
+use super::{assert_same_attitude, energy_j, reach, runge_kutta, started, tensor};
 use crate::attitude::{Inertia, Quaternion, RigidBodyState, angle_between_rad};
-use crate::spin::{damper::Damper, motion::Motion, series::BodyTorque};
+use crate::spin::{motion::Motion, series::BodyTorque};
 
 const OMEGA_RAD_S: f64 = std::f64::consts::PI / 6.0;
 
 fn start(inertia: Inertia, damper_s: f64, rate: Vector3<f64>, torque: Vector3<f64>) -> Motion {
-    let [a, b, c] = inertia.principal_kg_m2();
-    let attitude = Quaternion([0.1, -0.3, 0.2, 0.9]).normalized();
-    let momentum = attitude.inertial_from_body(&Vector3::new(a * rate.x, b * rate.y, c * rate.z));
-    let damper = Damper::new(damper_s, &inertia);
-    Motion::new(inertia, damper, BodyTorque::constant(torque), 0.0, attitude, momentum, f64::INFINITY)
+    started(&inertia, &tensor(inertia.principal_kg_m2(), [0.0; 3]), damper_s, rate, torque)
 }
 
 fn state_at(mut motion: Motion, time_s: f64) -> RigidBodyState {
     reach(&mut motion, time_s);
     motion.at(time_s)
-}
-
-/// Euler's and the matrix form of the kinematic equations by classical Runge-Kutta, extrapolated once.
-fn runge_kutta(
-    inertia: &Inertia,
-    rate: Vector3<f64>,
-    torque: impl Fn(f64) -> Vector3<f64>,
-    end_s: f64,
-    steps: usize,
-) -> (Vector3<f64>, Matrix3<f64>) {
-    let attitude = Quaternion([0.1, -0.3, 0.2, 0.9]).normalized();
-    let columns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| attitude.inertial_from_body(&axis));
-    let [a, b, c] = inertia.principal_kg_m2();
-    let slope = |t: f64, w: &Vector3<f64>, m: &Matrix3<f64>| {
-        let load = torque(t);
-        let w_dot = Vector3::new(
-            (load.x - (c - b) * w.y * w.z) / a,
-            (load.y - (a - c) * w.z * w.x) / b,
-            (load.z - (b - a) * w.x * w.y) / c,
-        );
-        (w_dot, m * w.cross_matrix())
-    };
-    let run = |steps: usize| {
-        let dt = end_s / steps as f64;
-        let (mut w, mut m) = (rate, Matrix3::from_columns(&columns));
-        for i in 0..steps {
-            let t = i as f64 * dt;
-            let k1 = slope(t, &w, &m);
-            let k2 = slope(t + 0.5 * dt, &(w + k1.0 * (0.5 * dt)), &(m + k1.1 * (0.5 * dt)));
-            let k3 = slope(t + 0.5 * dt, &(w + k2.0 * (0.5 * dt)), &(m + k2.1 * (0.5 * dt)));
-            let k4 = slope(t + dt, &(w + k3.0 * dt), &(m + k3.1 * dt));
-            w += (k1.0 + (k2.0 + k3.0) * 2.0 + k4.0) * (dt / 6.0);
-            m += (k1.1 + (k2.1 + k3.1) * 2.0 + k4.1) * (dt / 6.0);
-        }
-        (w, m)
-    };
-    let (coarse, fine) = (run(steps), run(2 * steps));
-    (fine.0 + (fine.0 - coarse.0) / 15.0, fine.1 + (fine.1 - coarse.1) / 15.0)
-}
-
-fn assert_same_attitude(attitude: Quaternion, matrix: &Matrix3<f64>, tolerance_rad: f64) {
-    for (i, axis) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
-        let other: Vector3<f64> = matrix.column(i).into();
-        assert!(
-            angle_between_rad(&attitude.inertial_from_body(axis), &other) < tolerance_rad,
-            "axis {i}: {} rad",
-            angle_between_rad(&attitude.inertial_from_body(axis), &other)
-        );
-    }
 }
 
 /// Complete and incomplete Jacobi functions by descending Landen (arithmetic-geometric mean): sn, cn, dn.
@@ -115,7 +62,8 @@ fn triaxial_attitude_agrees_with_runge_kutta() {
     let inertia = Inertia::new([200.0, 260.0, 353.82]).unwrap();
     let rate = Vector3::new(0.05, -0.08, OMEGA_RAD_S);
     let state = state_at(start(inertia, 0.0, rate, Vector3::zeros()), 100.0);
-    let (w, m) = runge_kutta(&inertia, rate, |_| Vector3::zeros(), 100.0, 20_000);
+    let (w, m) =
+        runge_kutta(&tensor(inertia.principal_kg_m2(), [0.0; 3]), rate, |_| Vector3::zeros(), 100.0, 20_000);
     assert!((state.rate_rad_s(&inertia) - w).norm() < 1e-11);
     assert_same_attitude(state.attitude, &m, 1e-10);
 }
@@ -126,7 +74,8 @@ fn constant_torque_with_an_axial_part_agrees_with_runge_kutta() {
         let inertia = Inertia::new(principal).unwrap();
         let (rate, torque) = (Vector3::new(0.01, 0.02, OMEGA_RAD_S), Vector3::new(1.779, -0.4, 3.0));
         let state = state_at(start(inertia, 0.0, rate, torque), 30.0);
-        let (w, m) = runge_kutta(&inertia, rate, |_| torque, 30.0, 10_000);
+        let (w, m) =
+            runge_kutta(&tensor(inertia.principal_kg_m2(), [0.0; 3]), rate, |_| torque, 30.0, 10_000);
         assert!((state.rate_rad_s(&inertia) - w).norm() < 1e-11);
         assert_same_attitude(state.attitude, &m, 1e-10);
     }
@@ -190,7 +139,7 @@ fn a_torque_polynomial_in_time_agrees_with_runge_kutta() {
     let quiet = start(inertia, 0.0, rate, Vector3::zeros());
     let motion = quiet.followed_by(0.0, inertia, torque, f64::INFINITY);
     let state = state_at(motion, 20.0);
-    let (w, m) = runge_kutta(&inertia, rate, law, 20.0, 8_000);
+    let (w, m) = runge_kutta(&tensor(inertia.principal_kg_m2(), [0.0; 3]), rate, law, 20.0, 8_000);
     assert!((state.rate_rad_s(&inertia) - w).norm() < 1e-11);
     assert_same_attitude(state.attitude, &m, 1e-10);
 }

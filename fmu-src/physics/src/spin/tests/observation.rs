@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
-use super::{ace, directions, paper_start};
+use super::{ace, directions, launch, paper_start, undamped};
 use crate::attitude::angle_between_rad;
 use crate::numerics::noise::{Channel, normal};
 use crate::spin::{
@@ -19,9 +19,8 @@ use crate::spin::{
 fn sun_crossing_periods_spread_as_eq_1_says_for_small_nutation() {
     let spinner = ace();
     for beta_deg in [5.0_f64, 10.0, 20.0] {
-        let mut start = paper_start(1.483);
+        let mut start = undamped(1.483);
         start.nutation_rad = 0.01_f64.to_radians();
-        start.damper_time_constant_s = 0.0;
         let beta = beta_deg.to_radians();
         let sun = Directions { sun_inertial: Vector3::new(0.0, beta.sin(), beta.cos()), ..directions() };
         // Put the momentum, not the body axis, at that Sun angle.
@@ -29,7 +28,7 @@ fn sun_crossing_periods_spread_as_eq_1_says_for_small_nutation() {
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         for i in 1..2000 {
             plant.advance(&spinner, 6.0 * f64::from(i)).unwrap();
-            if let Some(period) = plant.sensors().sun_crossings().period_s() {
+            if let Some(period) = plant.sensors().sun.period_s {
                 least = least.min(period);
                 most = most.max(period);
             }
@@ -44,10 +43,10 @@ fn sun_crossing_periods_spread_as_eq_1_says_for_small_nutation() {
 #[test]
 fn a_quiet_spinner_crosses_the_sun_once_a_period() {
     let spinner = ace();
-    let mut plant = Plant::start(&spinner, &paper_start(1.483), directions(), Commands::none(), 0.0).unwrap();
+    let mut plant = launch(&spinner, &paper_start(1.483));
     plant.advance(&spinner, 1200.5).unwrap();
     let outputs = Outputs::of(&plant, &spinner);
-    assert_eq!(plant.sensors().sun_crossings().count(), 101);
+    assert_eq!(plant.sensors().sun.count, 101);
     assert_relative_eq!(outputs.period_s, 12.0, max_relative = 1e-12);
     assert!(outputs.sector_error.abs() < 1e-6);
     assert_relative_eq!(outputs.sun_angle_rad.to_degrees(), 10.0, max_relative = 1e-12);
@@ -71,11 +70,11 @@ fn the_star_is_sampled_every_eight_spins_or_every_96_s() {
         let mut start = paper_start(1.483);
         start.spin_rate_rad_s = 4.9 * PI / 30.0;
         start.sampling = sampling;
-        let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+        let mut plant = launch(&spinner, &start);
         let mut times = Vec::new();
         for i in 1..2000 {
             plant.advance(&spinner, f64::from(i)).unwrap();
-            let sample = plant.sensors().sample();
+            let sample = plant.sensors().sample;
             if times.last() != Some(&sample.time_s) && sample.count > 0 {
                 times.push(sample.time_s);
             }
@@ -90,10 +89,9 @@ fn the_star_is_sampled_every_eight_spins_or_every_96_s() {
 #[test]
 fn declination_swings_by_the_nutation_angle_either_way() {
     let spinner = ace();
-    let mut start = paper_start(1.483);
+    let mut start = undamped(1.483);
     start.nutation_rad = 0.02_f64.to_radians();
-    start.damper_time_constant_s = 0.0;
-    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let mut plant = launch(&spinner, &start);
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     for i in 1..10_000 {
         plant.advance(&spinner, 0.01 * f64::from(i)).unwrap();
@@ -110,14 +108,13 @@ fn the_estimator_finds_the_nutation_angle_within_its_own_error() {
     let spinner = ace();
     let mut hits = 0;
     for seed in 0..20 {
-        let mut start = paper_start(1.478);
+        let mut start = undamped(1.478);
         start.nutation_rad = 0.03_f64.to_radians();
-        start.damper_time_constant_s = 0.0;
         start.seed = seed;
-        let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+        let mut plant = launch(&spinner, &start);
         plant.advance(&spinner, 4.0 * 3600.0).unwrap();
         let estimate = Outputs::of(&plant, &spinner).estimate;
-        assert!(plant.sensors().estimator().count() > 100);
+        assert!(plant.sensors().estimator.count > 100);
         assert!(estimate.sigma_rad.to_degrees() < 0.004);
         hits += i32::from((estimate.nutation_rad - start.nutation_rad).abs() < estimate.sigma_rad);
     }
@@ -185,7 +182,7 @@ fn directions_on_the_l1_orbit_do_not_depend_on_the_grid() {
     let axis = Vector3::z().cross(&sun).normalize();
     let q = crate::attitude::Quaternion::turn(&axis, angle_between_rad(&Vector3::z(), &sun) + 0.1);
     start.attitude = q.0;
-    let launch = || Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let launch = || launch(&spinner, &start);
     let mut whole = launch();
     whole.advance(&spinner, 4000.0).unwrap();
     let mut cut = launch();
@@ -193,20 +190,19 @@ fn directions_on_the_l1_orbit_do_not_depend_on_the_grid() {
         cut.advance(&spinner, f64::from(i)).unwrap();
     }
     assert_eq!(Outputs::of(&whole, &spinner), Outputs::of(&cut, &spinner));
-    assert!(whole.sensors().sun_crossings().count() > 330);
+    assert!(whole.sensors().sun.count > 330);
 }
 
 #[test]
 fn the_sector_error_is_what_a_spin_divided_by_the_period_before_is_off() {
     let spinner = ace();
-    let mut start = paper_start(1.4);
+    let mut start = undamped(1.4);
     start.nutation_rad = 1.0_f64.to_radians();
-    start.damper_time_constant_s = 0.0;
-    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let mut plant = launch(&spinner, &start);
     let (mut crossings, mut most) = (Vec::new(), 0.0_f64);
     for i in 1..2000 {
         plant.advance(&spinner, 0.1 * f64::from(i)).unwrap();
-        let seen_s = plant.sensors().sun_crossings().last_s();
+        let seen_s = plant.sensors().sun.last_s;
         if crossings.last() != seen_s.as_ref() {
             crossings.extend(seen_s);
         }
@@ -243,33 +239,32 @@ fn a_star_is_sampled_where_it_passes_the_boresight_also_after_another_is_chosen(
         3.0,
         max_relative = 1e-12
     );
-    let seen = plant.sensors().sample();
+    let seen = plant.sensors().sample;
     assert_eq!(seen.count, 2);
     assert_relative_eq!(seen.time_s, 16.0, max_relative = 1e-12);
     assert_relative_eq!(seen.declination_rad.to_degrees(), 3.0, max_relative = 1e-12);
     // At 26 s the boresight is at 150 deg; a star at 240 deg comes 3 s later, the old one would in 2 s.
     plant.command(Commands::none(), star(240.0, -9.9));
     plant.advance(&spinner, 28.5).unwrap();
-    assert_eq!(plant.sensors().sample().count, 2);
+    assert_eq!(plant.sensors().sample.count, 2);
     plant.advance(&spinner, 30.0).unwrap();
-    let seen = plant.sensors().sample();
+    let seen = plant.sensors().sample;
     assert_eq!(seen.count, 3);
     assert_relative_eq!(seen.time_s, 29.0, max_relative = 1e-12);
     assert_relative_eq!(seen.declination_rad.to_degrees(), -9.9, max_relative = 1e-12);
     // The field of view is 20 deg, 10 to either side.
     plant.command(Commands::none(), star(240.0, 10.1));
     plant.advance(&spinner, 90.0).unwrap();
-    assert_eq!(plant.sensors().sample().count, 3);
+    assert_eq!(plant.sensors().sample.count, 3);
 }
 
 #[test]
 fn a_pulse_begins_the_estimate_anew() {
     let mut spinner = ace();
     spinner.star_tracker.noise_deg = 0.0;
-    let mut start = paper_start(1.478);
+    let mut start = undamped(1.478);
     start.nutation_rad = 0.05_f64.to_radians();
-    start.damper_time_constant_s = 0.0;
-    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let mut plant = launch(&spinner, &start);
     plant.advance(&spinner, 4.0 * 3600.0).unwrap();
     let before = Outputs::of(&plant, &spinner);
     assert_relative_eq!(before.estimate.nutation_rad, before.nutation_rad, max_relative = 0.01);
@@ -277,7 +272,7 @@ fn a_pulse_begins_the_estimate_anew() {
     plant.advance(&spinner, 4.0 * 3600.0 + 0.2).unwrap();
     plant.command(Commands::none(), directions());
     plant.advance(&spinner, 4.0 * 3600.0 + 3.0).unwrap();
-    assert_eq!(plant.sensors().estimator().count(), 0);
+    assert_eq!(plant.sensors().estimator.count, 0);
     plant.advance(&spinner, 8.0 * 3600.0).unwrap();
     let after = Outputs::of(&plant, &spinner);
     assert!((after.nutation_rad - before.nutation_rad).abs() > 0.2 * before.nutation_rad);

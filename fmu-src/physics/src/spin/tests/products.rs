@@ -1,65 +1,27 @@
 //! Bodies with products of inertia: the tensor's own equations of motion, invariants, and the same body in principal axes.
 
 use approx::assert_relative_eq;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
-use super::{ace, directions, paper_start, reach, request};
+use super::{
+    ace, assert_same_attitude, directions, launch, paper_start, reach, request, runge_kutta, started, tensor,
+};
 use crate::attitude::{Inertia, Quaternion};
 use crate::spin::{
     burn::BurnRequest,
-    damper::Damper,
     forecast::Timing,
     motion::Motion,
     outputs::Outputs,
     plant::{Commands, Plant, PulseCommand},
     predictions::Predictions,
-    series::BodyTorque,
     spinner::Spinner,
 };
 
 const DIAGONAL: [f64; 3] = [225.0, 250.0, 353.82];
 const PRODUCTS: [f64; 3] = [6.0, -9.0, 4.0];
 
-fn tensor([a, b, c]: [f64; 3], [p, q, r]: [f64; 3]) -> Matrix3<f64> {
-    Matrix3::new(a, p, q, p, b, r, q, r, c)
-}
-
 fn motion(inertia: &Inertia, rate: Vector3<f64>, torque: Vector3<f64>, damper_s: f64) -> Motion {
-    let attitude = Quaternion([0.1, -0.3, 0.2, 0.9]).normalized();
-    let momentum = attitude.inertial_from_body(&(tensor(DIAGONAL, PRODUCTS) * rate));
-    let damper = Damper::new(damper_s, inertia);
-    Motion::new(*inertia, damper, BodyTorque::constant(torque), 0.0, attitude, momentum, f64::INFINITY)
-}
-
-/// J w' = T - w x J w and the attitude's matrix by classical Runge-Kutta, extrapolated once.
-fn runge_kutta(
-    body: &Matrix3<f64>,
-    rate: Vector3<f64>,
-    torque: Vector3<f64>,
-    end_s: f64,
-    steps: usize,
-) -> (Vector3<f64>, Matrix3<f64>) {
-    let attitude = Quaternion([0.1, -0.3, 0.2, 0.9]).normalized();
-    let columns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| attitude.inertial_from_body(&axis));
-    let inverse = body.try_inverse().unwrap();
-    let slope = |w: &Vector3<f64>, m: &Matrix3<f64>| {
-        (inverse * (torque - w.cross(&(body * w))), m * w.cross_matrix())
-    };
-    let run = |steps: usize| {
-        let dt = end_s / steps as f64;
-        let (mut w, mut m) = (rate, Matrix3::from_columns(&columns));
-        for _ in 0..steps {
-            let k1 = slope(&w, &m);
-            let k2 = slope(&(w + k1.0 * (0.5 * dt)), &(m + k1.1 * (0.5 * dt)));
-            let k3 = slope(&(w + k2.0 * (0.5 * dt)), &(m + k2.1 * (0.5 * dt)));
-            let k4 = slope(&(w + k3.0 * dt), &(m + k3.1 * dt));
-            w += (k1.0 + (k2.0 + k3.0) * 2.0 + k4.0) * (dt / 6.0);
-            m += (k1.1 + (k2.1 + k3.1) * 2.0 + k4.1) * (dt / 6.0);
-        }
-        (w, m)
-    };
-    let (coarse, fine) = (run(steps), run(2 * steps));
-    (fine.0 + (fine.0 - coarse.0) / 15.0, fine.1 + (fine.1 - coarse.1) / 15.0)
+    started(inertia, &tensor(DIAGONAL, PRODUCTS), damper_s, rate, torque)
 }
 
 #[test]
@@ -70,12 +32,9 @@ fn motion_in_body_axes_agrees_with_runge_kutta_on_the_full_tensor() {
         let mut motion = motion(&inertia, rate, torque, 0.0);
         reach(&mut motion, 40.0);
         let state = motion.at(40.0);
-        let (w, m) = runge_kutta(&tensor(DIAGONAL, PRODUCTS), rate, torque, 40.0, 10_000);
+        let (w, m) = runge_kutta(&tensor(DIAGONAL, PRODUCTS), rate, |_| torque, 40.0, 10_000);
         assert!((state.rate_rad_s(&inertia) - w).norm() < 1e-11);
-        for (k, axis) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
-            let expected: Vector3<f64> = m.column(k).into();
-            assert!((state.attitude.inertial_from_body(axis) - expected).norm() < 1e-10, "{torque} {k}");
-        }
+        assert_same_attitude(state.attitude, &m, 1e-10);
     }
 }
 
@@ -185,7 +144,7 @@ fn a_start_without_nutation_turns_about_the_principal_axis() {
     let spinner = ace();
     let mut start = paper_start(1.483);
     (start.inertia_kg_m2, start.products_kg_m2) = (DIAGONAL, PRODUCTS);
-    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let mut plant = launch(&spinner, &start);
     let body = tensor(DIAGONAL, PRODUCTS);
     let w = Outputs::of(&plant, &spinner).rate_rad_s;
     assert!(w.cross(&(body * w)).norm() < 1e-13 * (body * w).norm());
@@ -195,7 +154,7 @@ fn a_start_without_nutation_turns_about_the_principal_axis() {
     assert!((later.rate_rad_s - w).norm() < 1e-13 && later.nutation_rad < 1e-13);
     // With nutation: the angle and the azimuth requested.
     (start.nutation_rad, start.nutation_phase_rad) = (0.1, 2.0);
-    let plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let plant = launch(&spinner, &start);
     let seen = Outputs::of(&plant, &spinner);
     assert_relative_eq!(seen.nutation_rad, 0.1, max_relative = 1e-13);
     assert_relative_eq!(seen.nutation_phase_rad, 2.0, max_relative = 1e-13);
@@ -211,7 +170,7 @@ fn burns_of_a_coning_spacecraft_point_at_their_target() {
         let mut start = paper_start(1.483);
         start.products_kg_m2 = [0.0, 1.0, -0.5];
         start.burn = Some(BurnRequest { timing, count: 57, ..request() });
-        let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+        let mut plant = launch(&spinner, &start);
         let from = plant.state().momentum_inertial.normalize();
         plant.advance(&spinner, 1500.0).unwrap();
         let seen = Outputs::of(&plant, &spinner);

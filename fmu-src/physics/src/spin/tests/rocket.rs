@@ -3,10 +3,10 @@
 use approx::assert_relative_eq;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use super::{ace, directions, paper_start};
+use super::{ace, directions, firing, launch, paper_start, pulses};
 use crate::spin::{
     outputs::Outputs,
-    plant::{Commands, Plant, PulseCommand, Start},
+    plant::{Commands, Plant, Start},
     spinner::Spinner,
 };
 
@@ -14,10 +14,8 @@ const FORCE_N: f64 = 4.448;
 const EXHAUST_M_S: f64 = 220.0 * 9.806_65;
 const FULL_KG: f64 = 562.0 + 97.5;
 
-fn firing(spinner: &Spinner, start: &Start, thrusters: &[u32]) -> Plant {
-    let fire = thrusters.iter().map(|k| 1 << (k - 1)).sum();
-    let commands = Commands { fire, ..Commands::none() };
-    Plant::start(spinner, start, directions(), commands, 0.0).unwrap()
+fn started(spinner: &Spinner, start: &Start, thrusters: &[u32]) -> Plant {
+    Plant::start(spinner, start, directions(), firing(thrusters), 0.0).unwrap()
 }
 
 /// Two thrusters along the axis, whose torques cancel, up to the last drop and beyond.
@@ -29,7 +27,7 @@ fn axial_thrust_follows_the_rocket_equation_at_every_reading() {
     // With a rate so slow that a panel is limited by the mass it loses, too.
     for rate_rad_s in [std::f64::consts::PI / 6.0, 1e-4] {
         let mut plant =
-            firing(&spinner, &Start { spin_rate_rad_s: rate_rad_s, ..paper_start(1.483) }, &[7, 9]);
+            started(&spinner, &Start { spin_rate_rad_s: rate_rad_s, ..paper_start(1.483) }, &[7, 9]);
         for share in [1e-9, 1e-6, 1e-4, 0.01, 0.1, 0.123, 0.5, 0.87, 0.99, 0.999_999, 1.01, 1.1] {
             let time_s = share * depletion_time_s;
             plant.advance(&spinner, time_s).unwrap();
@@ -47,7 +45,7 @@ fn axial_thrust_follows_the_rocket_equation_at_every_reading() {
 fn radial_thrust_turns_with_the_body() {
     let spinner = ace();
     let start = Start { nutation_rad: 0.02, ..paper_start(1.483) };
-    let mut plant = firing(&spinner, &start, &[8]);
+    let mut plant = started(&spinner, &start, &[8]);
     let force_body_n = spinner.thrusters[7].force_body_n;
     assert!(force_body_n.z == 0.0);
     let (step_s, intervals) = (0.01, 12_000_u32);
@@ -83,15 +81,9 @@ fn radial_thrust_turns_with_the_body() {
 #[test]
 fn a_pulse_fired_in_two_gives_what_it_gives_in_one() {
     let spinner = ace();
-    let pulse = |thruster: usize, on_s: f64| {
-        let mut commands = Commands::none();
-        commands.pulses[thruster - 1] = PulseCommand { delay_s: 0.0, on_s };
-        commands.any_pulse = true;
-        commands
-    };
+    let pulse = |thruster: usize, on_s: f64| pulses(&[thruster], 0.0, on_s);
     for (thruster, whole_s) in [(8, 1.1), (7, 1.1), (8, 100.0), (7, 100.0)] {
-        let launch =
-            || Plant::start(&spinner, &paper_start(1.483), directions(), Commands::none(), 0.0).unwrap();
+        let launch = || launch(&spinner, &paper_start(1.483));
         let mut one = launch();
         one.command(pulse(thruster, whole_s), directions());
         one.advance(&spinner, 2.0 * whole_s).unwrap();

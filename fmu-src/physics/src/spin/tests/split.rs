@@ -1,20 +1,19 @@
 //! A split train moves the momentum as far as it says, whatever the ratio leaves of its halves.
 
-use super::{ace, directions, paper_spin, paper_start, request};
+use super::{ace, directions, launch, paper_spin, paper_start, request, train, undamped};
 use crate::spin::{
     burn::BurnRequest,
     forecast::Timing,
     outputs::Outputs,
     plant::{Commands, Plant},
     predictions::Predictions,
-    train::{Shape, Train, TrainError},
+    train::{Shape, TrainError},
 };
 
 /// Planned and simulated move of a train for 2 deg, in rad, and the nutation it leaves.
 fn simulated(ratio: f64, turns_per_pulse: f64) -> (f64, f64, f64) {
     let spinner = ace();
-    let mut start = paper_start(ratio);
-    start.damper_time_constant_s = 0.0;
+    let mut start = undamped(ratio);
     start.burn = Some(BurnRequest {
         shape: Shape::Split,
         timing: Timing::TruePhase,
@@ -23,7 +22,7 @@ fn simulated(ratio: f64, turns_per_pulse: f64) -> (f64, f64, f64) {
         turns_per_pulse,
         ..request()
     });
-    let mut plant = Plant::start(&spinner, &start, directions(), Commands::none(), 0.0).unwrap();
+    let mut plant = launch(&spinner, &start);
     let planned = Predictions::of(&plant);
     plant.advance(&spinner, planned.duration_s + 60.0).unwrap();
     let outputs = Outputs::of(&plant, &spinner);
@@ -40,7 +39,7 @@ fn a_split_train_turns_by_what_it_plans() {
     ] {
         for ratio in ratios {
             let (planned, moved, nutation) = simulated(ratio, turns);
-            assert!((moved / planned - 1.0).abs() < 1e-3, "{ratio}: {planned} planned, {moved} flown");
+            assert!((moved / planned - 1.0).abs() < 1e-3, "{ratio}: {planned} planned, {moved} simulated");
             assert!((moved.to_degrees() - 2.0).abs() < 0.02, "{ratio}: {} deg", moved.to_degrees());
             // What one pulse leaves is 0.017 deg.
             assert!(nutation.to_degrees() < 1e-4, "{ratio}: {} deg left", nutation.to_degrees());
@@ -63,7 +62,7 @@ fn an_angle_that_no_split_train_reaches_is_refused() {
 fn halves_that_undo_each_other_are_refused() {
     // Nutation gains a third of a turn a turn: the halves never point less than half a turn apart.
     let spin = paper_spin(4.0 / 3.0);
-    let error = Train::new(Shape::Split, 114, 0.032, 1.0, &spin, 0.032).unwrap_err();
+    let error = train(Shape::Split, 114, 0.032, 1.0, &spin).unwrap_err();
     assert!(matches!(error, TrainError::OffsetHalves { .. }), "{error}");
     assert!(error.to_string().contains("0.500 turns apart with inertia ratio 1.3333"), "{error}");
 }

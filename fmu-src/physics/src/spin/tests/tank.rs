@@ -2,11 +2,11 @@
 
 use approx::assert_relative_eq;
 
-use super::{ace, directions, paper_start, request};
+use super::{ace, directions, firing, paper_start, pulses, request};
 use crate::spin::{
     burn::BurnRequest,
     outputs::Outputs,
-    plant::{Commands, Plant, PulseCommand, Start},
+    plant::{Commands, Plant, Start},
     predictions::Predictions,
     spinner::Spinner,
 };
@@ -19,10 +19,6 @@ fn start(propellant_kg: f64) -> Start {
 
 fn launch(spinner: &Spinner, start: &Start, commands: Commands) -> Plant {
     Plant::start(spinner, start, directions(), commands, 0.0).unwrap()
-}
-
-fn firing(thrusters: &[u32]) -> Commands {
-    Commands { fire: thrusters.iter().map(|k| 1 << (k - 1)).sum(), ..Commands::none() }
 }
 
 #[test]
@@ -50,10 +46,7 @@ fn a_held_thruster_goes_off_when_the_last_drop_is_gone() {
     assert!(ends.iter().all(|other| other == end));
     assert_eq!((end.propellant_used_kg, end.propellant_left_kg), (0.01, 0.0));
     // A pulse of that length does the same to a spinner that has enough.
-    let mut commands = Commands::none();
-    commands.pulses[7] = PulseCommand { delay_s: 0.0, on_s: depletion_time_s };
-    commands.any_pulse = true;
-    let mut rich = launch(&spinner, &start(97.5), commands);
+    let mut rich = launch(&spinner, &start(97.5), pulses(&[8], 0.0, depletion_time_s));
     rich.advance(&spinner, 20.0).unwrap();
     let expected = Outputs::of(&rich, &spinner);
     assert!((end.state.momentum_inertial - expected.state.momentum_inertial).norm() < 1e-9);

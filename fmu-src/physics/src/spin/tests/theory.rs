@@ -3,15 +3,20 @@
 use approx::assert_relative_eq;
 use std::f64::consts::PI;
 
-use super::{paper_spin, tapered_bound_rad, uniform_train_rad};
+use super::{paper_spin, tapered_bound_rad, train, uniform_train_rad};
 use crate::spin::{
     forecast::{ForecastCase, Range, Timing},
-    nutation::{allowed_nutation_rad, exact_envelope_rad, period_variation_s},
+    nutation::{Spin, allowed_nutation_rad, exact_envelope_rad, period_variation_s},
     tracker::{observation_time_eq20_s, observation_time_s},
     train::{Shape, Train, TrainError},
 };
 
 const TORQUE_N_M: f64 = 4.448 * 0.40;
+
+/// A radial thruster on a spinner whose rate is known.
+fn case(spin: Spin, timing: Timing) -> ForecastCase {
+    ForecastCase { spin, assumed_rate_rad_s: spin.rate_rad_s, timing, torque_n_m: TORQUE_N_M }
+}
 
 #[test]
 fn the_papers_numbers_come_out() {
@@ -77,13 +82,8 @@ fn a_tapered_train_stays_under_its_bound_at_any_length() {
         for order in 1..=4 {
             for count in 2 * order + 1..80 {
                 let spin = paper_spin(ratio);
-                let train = Train::new(Shape::Tapered { order }, count, 0.032, 1.0, &spin, 0.032).unwrap();
-                let flight = ForecastCase {
-                    spin,
-                    assumed_rate_rad_s: spin.rate_rad_s,
-                    timing: Timing::Clock,
-                    torque_n_m: TORQUE_N_M,
-                };
+                let train = train(Shape::Tapered { order }, count, 0.032, 1.0, &spin).unwrap();
+                let flight = case(spin, Timing::Clock);
                 let end = flight.forecast(&train).final_nutation_rad;
                 let bound = tapered_bound_rad(q, 2.0 * PI * ratio, order);
                 // Whole steps of width have the whole multiples of the kick to 1e-4 only.
@@ -101,13 +101,8 @@ fn forecasts_of_uniform_trains_are_eq_8() {
     for turns in [0.5, 1.0, 1.5, 2.0] {
         for count in [1, 2, 17, 114] {
             let spin = paper_spin(1.479);
-            let train = Train::new(Shape::Uniform, count, 0.064, turns, &spin, 0.032).unwrap();
-            let flight = ForecastCase {
-                spin,
-                assumed_rate_rad_s: spin.rate_rad_s,
-                timing: Timing::Clock,
-                torque_n_m: TORQUE_N_M,
-            };
+            let train = train(Shape::Uniform, count, 0.064, turns, &spin).unwrap();
+            let flight = case(spin, Timing::Clock);
             let seen = flight.forecast(&train);
             let kick = spin.nutation_kick_rad(TORQUE_N_M, 0.064);
             let expected = uniform_train_rad(kick, spin.phase_advance_rad(turns), count);
@@ -146,8 +141,6 @@ fn scanned(flight: &ForecastCase, range: &Range, train: &Train) -> [f64; 2] {
 #[test]
 fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
     let spin = paper_spin(1.4825);
-    let flight =
-        |timing| ForecastCase { spin, assumed_rate_rad_s: spin.rate_rad_s, timing, torque_n_m: TORQUE_N_M };
     let known = Range { ratio: 0.0115, rate_rad_s: 0.0 };
     let vague = Range { ratio: 0.06, rate_rad_s: 0.0 };
     let mut cases = Vec::new();
@@ -158,7 +151,7 @@ fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
                     [Shape::Uniform, Shape::Tapered { order: 1 }, Shape::Tapered { order: 3 }, Shape::Split];
                 for shape in shapes {
                     cases.extend(
-                        Train::new(shape, count, 0.032, turns, &spin, 0.032)
+                        train(shape, count, 0.032, turns, &spin)
                             .map(|train| (train, range, Timing::TruePhase)),
                     );
                 }
@@ -168,11 +161,11 @@ fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
     // By the clock the rate counts as much as the ratio, alone or with it.
     for (ratio, rate) in [(0.0, 0.02), (0.0115, 0.002)] {
         let range = Range { ratio, rate_rad_s: rate * spin.rate_rad_s };
-        let train = Train::new(Shape::Uniform, 40, 0.032, 1.0, &spin, 0.032).unwrap();
+        let train = train(Shape::Uniform, 40, 0.032, 1.0, &spin).unwrap();
         cases.extend([Timing::Clock, Timing::SunCrossing].map(|timing| (train, range, timing)));
     }
     for (train, range, timing) in cases {
-        let flight = flight(timing);
+        let flight = case(spin, timing);
         let worst = range.worst(&flight, &train);
         let found = [worst.final_nutation_rad, worst.peak_nutation_rad];
         for (found, finest) in found.into_iter().zip(scanned(&flight, &range, &train)) {
@@ -191,7 +184,7 @@ fn the_worst_of_a_range_is_what_a_fine_scan_finds() {
 #[test]
 fn trains_that_make_no_sense_are_refused() {
     let spin = paper_spin(1.483);
-    let make = |shape, count, width, turns| Train::new(shape, count, width, turns, &spin, 0.032);
+    let make = |shape, count, width, turns| train(shape, count, width, turns, &spin);
     assert!(matches!(make(Shape::Uniform, 5, 0.032, 0.7), Err(TrainError::Turns { .. })));
     assert!(matches!(make(Shape::Uniform, 5, 0.032, f64::NAN), Err(TrainError::Turns { .. })));
     assert!(matches!(make(Shape::Uniform, 0, 0.032, 1.0), Err(TrainError::Count { .. })));

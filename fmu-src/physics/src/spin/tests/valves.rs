@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Vector3};
 
-use super::{ACE, ace, directions, paper_start, request};
+use super::{ACE, ace, assert_same_attitude, directions, launch, paper_start, pulses, request, tensor};
 use crate::numerics::noise::{Channel, normal};
 use crate::spacecraft::ValveTiming;
 use crate::spin::{
@@ -11,7 +11,7 @@ use crate::spin::{
     forecast::Timing,
     nutation::{LinearNutation, Spin},
     outputs::Outputs,
-    plant::{Commands, Plant, PulseCommand, PulseExecution, Start},
+    plant::{Commands, Plant, PulseExecution, Start},
     predictions::Predictions,
     spinner::Spinner,
     train::Shape,
@@ -23,19 +23,6 @@ const TIMING: ValveTiming = ValveTiming { min_on_s: 0.02, rise_s: 0.06, tail_off
 
 fn start(valve: ValveTiming, scatter: f64) -> Start {
     Start { execution: [PulseExecution { valve, scatter }; 24], ..paper_start(1.483) }
-}
-
-fn launch(spinner: &Spinner, start: &Start) -> Plant {
-    Plant::start(spinner, start, directions(), Commands::none(), 0.0).unwrap()
-}
-
-fn pulses(thrusters: &[usize], delay_s: f64, on_s: f64) -> Commands {
-    let mut commands = Commands::none();
-    for k in thrusters {
-        commands.pulses[k - 1] = PulseCommand { delay_s, on_s };
-    }
-    commands.any_pulse = true;
-    commands
 }
 
 /// One pulse after a delay of half a second, and what is left of it.
@@ -84,7 +71,7 @@ fn a_train_of_pulses_leaves_the_integral_of_its_torque_over_the_turning_body() {
     start.damper_time_constant_s = 0.0;
     (start.inertia_kg_m2, start.products_kg_m2) = ([225.0, 250.0, 353.82], [6.0, -9.0, 4.0]);
     let mut plant = launch(&spinner, &start);
-    let body = Matrix3::new(225.0, 6.0, -9.0, 6.0, 250.0, 4.0, -9.0, 4.0, 353.82);
+    let body = tensor(start.inertia_kg_m2, start.products_kg_m2);
     let inverse = body.try_inverse().unwrap();
     let torque = spinner.thrusters[7].position_body_m.cross(&spinner.thrusters[7].force_body_n)
         + spinner.thrusters[0].position_body_m.cross(&spinner.thrusters[0].force_body_n);
@@ -134,11 +121,7 @@ fn a_train_of_pulses_leaves_the_integral_of_its_torque_over_the_turning_body() {
     assert!((seen.rate_rad_s - w).norm() < 1e-13);
     assert!((seen.delta_v_inertial_m_s - delta_v).norm() < 1e-11 * delta_v.norm());
     assert_relative_eq!(seen.propellant_used_kg, used_kg, max_relative = 1e-12);
-    let columns = [Vector3::x(), Vector3::y(), Vector3::z()];
-    for (k, axis) in columns.iter().enumerate() {
-        let expected: Vector3<f64> = m.column(k).into();
-        assert!((seen.state.attitude.inertial_from_body(axis) - expected).norm() < 1e-11);
-    }
+    assert_same_attitude(seen.state.attitude, &m, 1e-11);
 }
 
 #[test]

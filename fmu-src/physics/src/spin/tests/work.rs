@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::{ace, directions, paper_start, request};
+use super::{ace, directions, paper_start, request, train};
 use crate::spin::{
     burn::BurnRequest,
     plant::{Commands, Plant, Sampling, SpinPlantError, Start},
@@ -84,12 +84,12 @@ fn the_longest_trains_are_planned_in_time() {
 /// A train's move is the sum over its pulses, however it is added up.
 #[test]
 fn the_move_of_a_train_is_the_sum_over_its_pulses() {
-    use crate::spin::train::{MOST_ORDER, Train};
+    use crate::spin::train::MOST_ORDER;
     let spin = super::paper_spin(1.483);
     let shapes = (1..=MOST_ORDER).map(|order| Shape::Tapered { order }).chain([Shape::Uniform, Shape::Split]);
     for shape in shapes {
         for count in 1..60 {
-            let Ok(train) = Train::new(shape, count, 0.064, 1.0, &spin, 0.032) else { continue };
+            let Ok(train) = train(shape, count, 0.064, 1.0, &spin) else { continue };
             let sum: f64 = (0..count)
                 .map(|k| {
                     let off = (std::f64::consts::TAU * train.offset_turns(k)).cos();

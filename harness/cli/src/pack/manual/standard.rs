@@ -41,11 +41,7 @@ pub fn facts(description: &Description) -> Section {
         row(&format!("log category {}", category.name), category.description.as_deref().unwrap_or(""));
     }
     if let Some(flags) = &description.co_simulation {
-        row("modelIdentifier", &flags.model_identifier);
-        for (name, value) in info::flags(flags) {
-            row(name, if value { "yes" } else { "no" });
-        }
-        row("maxOutputDerivativeOrder", &flags.max_output_derivative_order.to_string());
+        info::capability_rows(flags).for_each(|(name, value)| row(name, &value));
     }
     ("facts", "Facts and capabilities", format!("<table>\n{}</table>\n", rows.concat()))
 }

@@ -15,7 +15,7 @@ use std::{
 
 use tempfile::TempDir;
 
-use crate::{built, heliotorque, run, shown, text};
+use crate::{built, heliotorque, run, says, shown, text};
 
 const DESCRIPTION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="Hostile" guid="{hostile}">

@@ -3,21 +3,17 @@ use std::f64::consts::PI;
 
 use super::*;
 use crate::bodies::Body;
-use crate::guidance::geometry::ephemeris_at_time::TargetPlanet;
 use crate::guidance::geometry::moving::{MovingMatrix, MovingVector, moving};
 use crate::guidance::geometry::test_geometry::{Motion, Random, difference_rad_s};
+use crate::guidance::geometry::test_orbit::about_mercury;
 use crate::guidance::pointing::law::PointingVectors;
 
 fn surroundings(position: MovingVector, sun: MovingVector) -> EphemerisAtTime {
     let far = Moving::constant(1e7);
     EphemerisAtTime {
-        epoch_s: 0.0,
-        planet: TargetPlanet::of(Body::Mercury.data()),
         position: position * far,
-        velocity: fixed(Vector3::x()),
         sun: sun * far * Moving::constant(1e4),
-        earth: fixed(Vector3::y()),
-        bodies: [None; Body::ALL.len()],
+        ..about_mercury(Vector3::x(), Vector3::x(), Vector3::y())
     }
 }
 

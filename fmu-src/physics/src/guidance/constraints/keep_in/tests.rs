@@ -6,7 +6,9 @@ use approx::assert_relative_eq;
 use super::*;
 use crate::attitude::{angle_between_rad, direction_from_angles};
 use crate::guidance::geometry::moving::{matrix_value, moving, rate};
-use crate::guidance::geometry::test_geometry::{Motion, Random, cube_directions, difference_rad_s};
+use crate::guidance::geometry::test_geometry::{
+    Motion, Random, cube_directions, difference_rad_s, nearest_zone,
+};
 
 const METHODS: [KeepInMethod; 2] = [KeepInMethod::Nearest, KeepInMethod::Clamp];
 
@@ -187,12 +189,7 @@ fn a_sun_on_an_axis_is_kept_in() {
 #[test]
 fn rounding_about_an_axis_does_not_choose_the_boundary_point() {
     let mut random = Random(9);
-    let zone = KeepIn {
-        axis_body: -Vector3::y(),
-        azimuth_rad: 0.26,
-        elevation_rad: 0.22,
-        method: KeepInMethod::Nearest,
-    };
+    let zone = nearest_zone(0.26, 0.22);
     for axis in [Vector3::z(), -Vector3::z(), Vector3::y()] {
         for method in METHODS {
             let at = |noise: Vector3<f64>| {

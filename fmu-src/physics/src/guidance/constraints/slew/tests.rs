@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Unit};
 use super::*;
 use crate::attitude::{angle_between_rad, direction_from_angles};
 use crate::guidance::constraints::keep_in::KeepInMethod;
-use crate::guidance::geometry::test_geometry::Random;
+use crate::guidance::geometry::test_geometry::{Random, nearest_zone};
 
 const RATE_RAD_S: f64 = 5e-3;
 
@@ -146,12 +146,7 @@ fn within_the_zone_both_angles_go_straight_and_the_roll_in_proportion() {
 #[test]
 fn what_the_new_attitudes_sun_may_move_is_a_margin() {
     // A turn about the Sun line, the Sun standing 0.01 rad inside a corner's sides at its nearest.
-    let zone = KeepIn {
-        axis_body: -Vector3::y(),
-        azimuth_rad: 0.3,
-        elevation_rad: 0.3,
-        method: KeepInMethod::Nearest,
-    };
+    let zone = nearest_zone(0.3, 0.3);
     let to_sun = Vector3::x();
     let sun_body = direction_from_angles(SunAngles { azimuth_rad: 0.29, elevation_rad: 0.0 });
     let [from, to] = [0.0, 0.5].map(|roll_rad| MovingFrame {

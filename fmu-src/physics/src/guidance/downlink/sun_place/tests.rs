@@ -5,9 +5,10 @@ use nalgebra::Vector3;
 
 use super::*;
 use crate::bodies::Body;
-use crate::guidance::geometry::ephemeris_at_time::TargetPlanet;
 use crate::guidance::geometry::moving::moving;
 use crate::guidance::geometry::test_geometry::{Motion, Random, difference_rad_s};
+use crate::guidance::geometry::test_orbit::about_mercury;
+use crate::guidance::pointing::antenna::Antenna;
 
 /// Azimuth in -90..0 or 90..180 deg, typed anew, -180 counting as 180.
 fn in_quadrant(antenna: Antenna, azimuth_rad: f64) -> bool {
@@ -50,8 +51,8 @@ fn sun_at_its_angles_and_earth_in_the_plane() {
 
         earth_worst_rad = earth_worst_rad.max(earth.z.abs());
         let earth_azimuth_rad = SunAngles::of(&earth).azimuth_rad;
-        assert!(in_quadrant(found.antenna, earth_azimuth_rad), "{found:?} {earth_azimuth_rad}");
-        assert!((found.antenna_azimuth_rad - earth_azimuth_rad).sin().abs() < 1e-12);
+        assert!(in_quadrant(found.antenna.antenna, earth_azimuth_rad), "{found:?} {earth_azimuth_rad}");
+        assert!((found.antenna.azimuth_rad - earth_azimuth_rad).sin().abs() < 1e-12);
         let cut_rad = sun_body.elevation_rad.clamp(-most_rad, most_rad);
         let requested = direction_from_angles(SunAngles { elevation_rad: cut_rad, ..sun_body });
         let off_rad = angle_between_rad(&sun, &requested);
@@ -68,7 +69,7 @@ fn sun_at_its_angles_and_earth_in_the_plane() {
             seen[3] += 1;
         } else {
             sun_worst_rad = sun_worst_rad.max(off_rad);
-            seen[if found.clamped { 2 } else { usize::from(found.antenna == Antenna::Back) }] += 1;
+            seen[if found.clamped { 2 } else { usize::from(found.antenna.antenna == Antenna::Back) }] += 1;
         }
     }
     assert!(sun_worst_rad < 1e-12 && earth_worst_rad < 1e-12, "{sun_worst_rad:e} {earth_worst_rad:e}");
@@ -84,8 +85,8 @@ fn the_default_puts_the_sun_on_minus_y_and_the_earth_by_its_distance() {
         let theta_rad = angle_between_rad(&value(&to_sun), &value(&to_earth));
         let (antenna, azimuth_rad) =
             if theta_rad < FRAC_PI_2 { (Antenna::Sunshade, -theta_rad) } else { (Antenna::Back, theta_rad) };
-        assert_eq!(found.antenna, antenna);
-        assert!((found.antenna_azimuth_rad - azimuth_rad).abs() < 1e-12 && !found.clamped);
+        assert_eq!(found.antenna.antenna, antenna);
+        assert!((found.antenna.azimuth_rad - azimuth_rad).abs() < 1e-12 && !found.clamped);
         let sun = value(&found.vectors.pointing().unwrap().to_body(&unit(&to_sun).unwrap()));
         assert!((sun + Vector3::y()).norm() < 1e-12, "{sun} {theta_rad}");
     }
@@ -112,14 +113,14 @@ fn one_two_or_no_azimuth_lies_in_a_quadrant() {
         let sun_body = SunAngles { azimuth_rad: f64::to_radians(sun_deg), elevation_rad: 0.0 };
         let request = DownlinkRequest { sun_body, ..DownlinkRequest::default() };
         let found = downlink(&fixed(Vector3::x()), &earth, &request).unwrap();
-        let off_deg = found.antenna_azimuth_rad.to_degrees() - expected_deg;
+        let off_deg = found.antenna.azimuth_rad.to_degrees() - expected_deg;
         assert!(off_deg.abs() < 1e-10, "{sun_deg} {theta_deg}: {found:?}");
-        assert_eq!((found.antenna, found.clamped), (antenna, clamped), "{sun_deg} {theta_deg}");
+        assert_eq!((found.antenna.antenna, found.clamped), (antenna, clamped), "{sun_deg} {theta_deg}");
     }
 }
 
 #[test]
-fn an_asked_azimuth_looks_at_the_earth_or_its_nearest_bound_does() {
+fn a_requested_azimuth_looks_at_the_earth_or_its_nearest_bound_does() {
     let mut random = Random(23);
     for _ in 0..10_000 {
         let [to_sun, to_earth] = random_lines(&mut random);
@@ -137,13 +138,13 @@ fn an_asked_azimuth_looks_at_the_earth_or_its_nearest_bound_does() {
             _ => (Antenna::Back, 90.0),
         };
         assert_eq!(
-            (found.antenna, found.clamped),
+            (found.antenna.antenna, found.clamped),
             (antenna, degrees != expected_deg && (degrees - expected_deg).abs() > 1e-9)
         );
-        assert!((found.antenna_azimuth_rad.to_degrees() - expected_deg).abs() < 1e-10);
+        assert!((found.antenna.azimuth_rad.to_degrees() - expected_deg).abs() < 1e-10);
         let pointing = found.vectors.pointing().unwrap();
         let earth = value(&pointing.to_body(&unit(&to_earth).unwrap()));
-        let at = SunAngles { azimuth_rad: found.antenna_azimuth_rad, elevation_rad: 0.0 };
+        let at = SunAngles { azimuth_rad: found.antenna.azimuth_rad, elevation_rad: 0.0 };
         assert!((earth - direction_from_angles(at)).norm() < 1e-12);
         // -Y and the Sun on one side of the boresight, in one plane with it.
         let sun = value(&pointing.to_body(&unit(&to_sun).unwrap()));
@@ -163,7 +164,7 @@ fn the_rate_is_the_difference_of_the_attitude() {
         let at = |time_s: f64| {
             let [to_sun, to_earth] = motions.map(|motion| motion.at(time_s));
             let found = downlink(&to_sun, &to_earth, &request)?;
-            Some((found.vectors.pointing()?, found.antenna, found.clamped))
+            Some((found.vectors.pointing()?, found.antenna.antenna, found.clamped))
         };
         let (pointing, antenna, clamped) = at(0.0).unwrap();
         let found = pointing.frame().rate_body_rad_s;
@@ -195,21 +196,12 @@ fn in_line_the_attitude_is_finite_and_nothing_without_direction() {
 
 #[test]
 fn the_link_needs_antenna_distance_from_the_sun_and_a_free_line() {
-    let planet = TargetPlanet::of(Body::Mercury.data());
-    let radius_m = planet.radii_m.x;
     let degrees = f64::to_radians;
     let limits = LinkLimits { sun_separation_rad: degrees(3.0), coverage_rad: degrees(2.0) };
-    let around = |position: Vector3<f64>, theta_deg: f64| EphemerisAtTime {
-        epoch_s: 0.0,
-        planet,
-        position: fixed(position * radius_m),
-        velocity: fixed(Vector3::x()),
-        sun: fixed(
-            position * radius_m
-                + Vector3::new(degrees(theta_deg).cos(), degrees(theta_deg).sin(), 0.0) * 5e10,
-        ),
-        earth: fixed(position * radius_m + Vector3::x() * 1e11),
-        bodies: [None; Body::ALL.len()],
+    let around = |position: Vector3<f64>, theta_deg: f64| {
+        let position = position * Body::Mercury.data().radius_m;
+        let sun = Vector3::new(degrees(theta_deg).cos(), degrees(theta_deg).sin(), 0.0) * 5e10;
+        about_mercury(position, position + sun, position + Vector3::x() * 1e11)
     };
     let free = Vector3::new(2.0, 0.0, 0.0);
     for (position, theta_deg, off_deg, antenna, expected) in [

@@ -1,12 +1,11 @@
 //! Excesses sample by sample, and what the monitor makes of them.
+use crate::guidance::geometry::test_geometry::nearest_zone;
 use nalgebra::{Rotation3, Vector3};
 
 use super::*;
 use crate::bodies::Body;
 use crate::guidance::constraints::hot_pole::HotPole;
-use crate::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
-use crate::guidance::geometry::ephemeris_at_time::TargetPlanet;
-use crate::guidance::geometry::moving::fixed;
+use crate::guidance::geometry::test_orbit::about_mercury;
 
 const MONITOR: Monitor = Monitor { margin_rad: 0.1, persistence_s: 3.0 };
 
@@ -41,22 +40,11 @@ fn a_safing_turn_that_makes_progress_is_left_alone() {
 
 #[test]
 fn sun_and_hot_pole_are_watched_in_the_body_frame() {
-    let zone = KeepIn {
-        axis_body: -Vector3::y(),
-        azimuth_rad: 0.3,
-        elevation_rad: 0.2,
-        method: KeepInMethod::Nearest,
-    };
+    let zone = nearest_zone(0.3, 0.2);
     let cone = HotPole { altitude_m: 1e6, angle_rad: 0.5, cone_rad: 1.0 };
-    let planet = TargetPlanet::of(Body::Mercury.data());
-    let around = |height_m: f64| EphemerisAtTime {
-        epoch_s: 0.0,
-        planet,
-        position: fixed(Vector3::x() * (planet.radii_m.x + height_m)),
-        velocity: fixed(Vector3::y()),
-        sun: fixed(Vector3::x() * 5e10),
-        earth: fixed(Vector3::y() * 1e11),
-        bodies: [None; Body::ALL.len()],
+    let radius_m = Body::Mercury.data().radius_m;
+    let around = |height_m: f64| {
+        about_mercury(Vector3::x() * (radius_m + height_m), Vector3::x() * 5e10, Vector3::y() * 1e11)
     };
     // -Y at the Sun (+x), then turned by an angle about the body's own axis.
     let facing = Rotation3::from_axis_angle(&Vector3::z_axis(), std::f64::consts::FRAC_PI_2);

@@ -8,21 +8,16 @@ use super::*;
 use crate::attitude::angle_between_rad;
 use crate::bodies::Body;
 use crate::guidance::constraints::hot_pole::HotPole;
-use crate::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
+use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::downlink::sun_place::{DownlinkRequest, downlink};
-use crate::guidance::geometry::ephemeris_at_time::TargetPlanet;
-use crate::guidance::geometry::moving::{fixed, unit};
-use crate::guidance::geometry::test_geometry::{Random, cube_directions};
+use crate::guidance::geometry::moving::unit;
+use crate::guidance::geometry::test_geometry::{Random, cube_directions, nearest_zone};
+use crate::guidance::geometry::test_orbit::about_mercury;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use Mode::{EarthAcquisition, Operational, SafeHold};
 
 fn zone(limit_rad: f64) -> KeepIn {
-    KeepIn {
-        axis_body: -Vector3::y(),
-        azimuth_rad: limit_rad,
-        elevation_rad: limit_rad,
-        method: KeepInMethod::Nearest,
-    }
+    nearest_zone(limit_rad, limit_rad)
 }
 
 fn settings() -> ModeSettings {
@@ -40,16 +35,12 @@ fn settings() -> ModeSettings {
 }
 
 fn surroundings() -> EphemerisAtTime {
-    let planet = TargetPlanet::of(Body::Mercury.data());
-    EphemerisAtTime {
-        epoch_s: 0.0,
-        planet,
-        position: fixed(Vector3::x() * planet.radii_m.x * 2.0),
-        velocity: fixed(Vector3::y() * 3e3),
-        sun: fixed(Vector3::x() * 5e10),
-        earth: fixed(Vector3::new(4e10, 8e10, 1e10)),
-        bodies: [None; Body::ALL.len()],
-    }
+    let position = Vector3::x() * Body::Mercury.data().radius_m * 2.0;
+    about_mercury(position, Vector3::x() * 5e10, Vector3::new(4e10, 8e10, 1e10))
+}
+
+fn known() -> BodyPositions {
+    BodyPositions::in_every_mode(Some(surroundings()))
 }
 
 /// -Y at the Sun along +x, turned on by `angle_rad` about Z: that is the Sun's azimuth, save for its sign.
@@ -95,9 +86,7 @@ fn the_modes_change_by_the_table() {
         for sun_body in [None, Some(Vector3::x())] {
             let mut state = ModeState { mode, last_request, ..ModeState::default() };
             let sensed = Sensed { sun_body, ..sensed(request, estimate) };
-            let steering = state
-                .sample(&settings(), &sensed, &BodyPositions::in_every_mode(Some(surroundings())))
-                .unwrap();
+            let steering = state.sample(&settings(), &sensed, &known()).unwrap();
             assert_eq!(state.mode, expected, "row {row}");
             let lost = estimate.is_none() && sun_body.is_none();
             match steering {
@@ -121,7 +110,7 @@ fn without_ephemeris_or_monitor_nothing_is_judged() {
     state.sample(&settings(), &far_off, &BodyPositions::in_every_mode(None)).unwrap();
     assert_eq!(state.mode, Operational);
     let unwatched = ModeSettings { monitor: None, ..settings() };
-    state.sample(&unwatched, &far_off, &BodyPositions::in_every_mode(Some(surroundings()))).unwrap();
+    state.sample(&unwatched, &far_off, &known()).unwrap();
     assert_eq!(state.mode, Operational);
 }
 
@@ -142,7 +131,7 @@ fn after_a_promotion_a_violation_counts_in_full() {
         (8.0, 1.3, Some(Operational), SafeHold),
     ] {
         let sensed = Sensed { time_s, ..sensed(request, Some(estimate(angle_rad))) };
-        state.sample(&settings, &sensed, &BodyPositions::in_every_mode(Some(surroundings()))).unwrap();
+        state.sample(&settings, &sensed, &known()).unwrap();
         assert_eq!(state.mode, expected, "{time_s}");
     }
 }
@@ -154,13 +143,7 @@ fn a_demoted_mode_commands_a_safe_attitude_at_once() {
     let cone = HotPole { altitude_m: 1e8, angle_rad: 0.5, cone_rad: 1.7 };
     settings.safe_hold.hot_pole = Some(cone);
     let mut state = ModeState::default();
-    let sample = state
-        .sample(
-            &settings,
-            &sensed(None, Some(estimate(2.0))),
-            &BodyPositions::in_every_mode(Some(surroundings)),
-        )
-        .unwrap();
+    let sample = state.sample(&settings, &sensed(None, Some(estimate(2.0))), &known()).unwrap();
     let Steering::Pointing(constraints) = sample else { panic!("{sample:?}") };
     assert_eq!(state.mode, SafeHold);
     for azimuth_rad in [None, Some(-1.5), Some(2.0)] {
@@ -192,13 +175,7 @@ fn safe_hold_takes_downlink_without_scan_and_nothing_else() {
 fn losing_the_sun_sensors_alone_demotes_nothing() {
     let mut state = ModeState::default();
     for request in [None, Some(SafeHold)] {
-        state
-            .sample(
-                &settings(),
-                &sensed(request, Some(estimate(0.0))),
-                &BodyPositions::in_every_mode(Some(surroundings())),
-            )
-            .unwrap();
+        state.sample(&settings(), &sensed(request, Some(estimate(0.0))), &known()).unwrap();
         assert_eq!(state.mode, request.unwrap_or(Operational));
     }
 }
@@ -208,8 +185,7 @@ fn the_search_turns_about_x_y_and_z_until_the_sun_is_back() {
     let mut state = ModeState::default();
     let mut at = |time_s: f64, estimate, sun_body| {
         let sensed = Sensed { time_s, request: None, estimate, sun_body };
-        let steering =
-            state.sample(&settings(), &sensed, &BodyPositions::in_every_mode(Some(surroundings()))).unwrap();
+        let steering = state.sample(&settings(), &sensed, &known()).unwrap();
         assert_eq!(state.mode, EarthAcquisition);
         (steering, state.search_since_s)
     };

@@ -20,22 +20,8 @@ fn lines(t: f64) -> LinesOfSight {
 }
 
 fn guided(slew_rate_rad_s: f64) -> Guided {
-    Guided {
-        schedule: Schedule {
-            periapsis_s: 0.0,
-            period_s: 43_200.0,
-            downlink_start_s: 7200.0,
-            downlink_end_s: 36_000.0,
-            every: 2,
-            once: false,
-        },
-        science: ScienceRule::Nadir,
-        elevation_limit_rad: 0.2,
-        slew_rate_rad_s,
-        keep_in: None,
-        sun_place: None,
-        managed: false,
-    }
+    let law = crate::guidance::geometry::test_orbit::guided;
+    Guided { slew_rate_rad_s, ..law(ScienceRule::Nadir, 43_200.0, [7200.0, 36_000.0], 2) }
 }
 
 #[test]

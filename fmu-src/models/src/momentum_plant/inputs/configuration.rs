@@ -1,0 +1,286 @@
+//! From parameters, inputs and state to what flies, where, and under which light; refuses what cannot be simulated, by name.
+
+use fmi_export::{Elements, Failure, InputsOverTime, Real, Values};
+use nalgebra::Vector3;
+use physics::bodies::{Body, BodyData};
+use physics::constants;
+use physics::environment::CartesianState;
+use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
+use physics::environment::time;
+use physics::guidance::Guided;
+use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
+use physics::guidance::pointing::boresight::MdisRange;
+use physics::management::Strategy;
+use physics::momentum::{DumpPolicy, Reinitialise, Settings};
+use physics::plant::{self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, Ramp};
+use physics::spacecraft::PanelControl;
+
+use super::center::Center;
+use crate::common::ephemeris;
+use crate::common::management::check_windows;
+use crate::common::spacecraft::inertia_body_kg_m2;
+use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::state::PlantState;
+use crate::momentum_plant::variables::PlantVariables;
+use crate::momentum_plant::variables::choices::{
+    AttitudeSource, DumpReinitTo, EphemerisSource, OrbitDynamics, OrbitSource,
+};
+
+/// The configuration that parameters, inputs and state describe, about `center` and in the memory of `panels`; angles of panels
+/// move as the inputs do.
+pub fn read(
+    context: &Plan<'_>,
+    values: &Values,
+    state: &PlantState,
+    center: &Center,
+    (over_time, mut panels): (InputsOverTime<'_>, Vec<PanelSetting>),
+) -> Result<Configuration, Failure> {
+    let variables = context.variables;
+    let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
+    let data = &center.data;
+    let switches = [variables.planet_light.enabled, variables.thermal.recoil.enabled];
+    let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
+    let orbit = orbit(center, variables, values, state, epoch_minus_time_s)?;
+    let limit_m = data.radius_m;
+    let lowest_m = orbit.elements().periapsis_distance_m();
+    if !state.inputs.orbit_is_given && lowest_m <= limit_m {
+        return Err(Failure::new(format!(
+            "orbit.semiMajorAxis, orbit.eccentricity: the periapsis at {lowest_m:.0} m lies inside {}, whose \
+             planet.radius is {limit_m:.0} m",
+            data.name
+        )));
+    }
+    let epoch_s = values.real(variables.start.epoch);
+    if !matches!(values.choice(variables.ephemeris.source), EphemerisSource::Inputs) {
+        ephemeris::check_start(epoch_s)?;
+    }
+    panels.clear();
+    panels.extend(variables.panel.iter().map(|panel| {
+        if !values.boolean(panel.enabled) {
+            return PanelSetting::Disabled;
+        }
+        let ramp = |input: Real| Ramp {
+            angle_rad: values.real(input),
+            rate_rad_s: over_time.rate(input, over_time.start_s()),
+            since_s: over_time.start_s(),
+        };
+        let offset = |offset| PanelSetting::SunOffset { offset, tilt_sign: values.choice(panel.tilt).sign() };
+        match values.choice(panel.control).0 {
+            PanelControl::Angle => PanelSetting::Angle(ramp(panel.angle)),
+            PanelControl::SunOffset => offset(Ramp::held(values.real(panel.sun_offset))),
+            PanelControl::Command => offset(ramp(panel.sun_offset_command)),
+        }
+    }));
+    Ok(Configuration {
+        epoch_minus_time_s,
+        center: data.body,
+        attitude: attitude(variables, values, state, &orbit)?,
+        orbit,
+        motion: motion(variables, values, data, time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s)),
+        ephemeris: ephemeris_source(data.body, context, values, state.waiting)?,
+        light: variables.solar.read(values),
+        shadow: variables.eclipse.read(values, data.radius_m, values.real(variables.sun.radius))?,
+        light_and_heat: RadiationSettings {
+            storage: values.boolean(variables.thermal.storage),
+            shadowing: values.boolean(variables.shadowing.enabled),
+            sun_disc: values.boolean(variables.shadowing.sun_disc),
+            grid_s: values.real(variables.solver.disturbance_step),
+            tolerance: values.real(variables.solver.disturbance_tolerance),
+        },
+        sunshade: values.choice(variables.sunshade.shape).0,
+        panels,
+        center_of_mass_body_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass)),
+        mass_kg: values.real(variables.spacecraft.mass),
+        inertia_body_kg_m2,
+        effects: variables.laws.active(values, switches),
+        momentum: settings(context, values),
+    })
+}
+
+/// Position and velocity that are set.
+fn given_state(variables: &PlantVariables, values: &Values) -> CartesianState {
+    CartesianState {
+        position_m: Vector3::from(values.vector(variables.orbit.position)),
+        velocity_m_s: Vector3::from(values.vector(variables.orbit.velocity)),
+    }
+}
+
+fn orbit(
+    center: &Center,
+    variables: &PlantVariables,
+    values: &Values,
+    state: &PlantState,
+    epoch_minus_time_s: f64,
+) -> Result<TwoBodyOrbit, Failure> {
+    let (orbit, data) = (&variables.orbit, &center.data);
+    match values.choice(orbit.source) {
+        // Nothing is computed on it before position and velocity are set.
+        OrbitSource::Inputs | OrbitSource::Held if state.waiting => {
+            circle(1e10, data.gm_m3_s2, epoch_minus_time_s)
+        }
+        source @ (OrbitSource::Inputs | OrbitSource::Held) => {
+            let start = given_state(variables, values);
+            let epoch_s = time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s);
+            let found = TwoBodyOrbit::from_state(&start, data.gm_m3_s2, epoch_s);
+            if source == OrbitSource::Held && found.is_err() {
+                // It counts the downlinks alone.
+                return circle(start.position_m.norm(), data.gm_m3_s2, epoch_s);
+            }
+            found.map_err(|error| Failure::new(format!("orbit.position, orbit.velocity: {error}")))
+        }
+        OrbitSource::Elements => {
+            let epoch_s = values.real(variables.start.epoch);
+            plant::orbit_from_elements(center.elements, center.frame, data, data.gm_m3_s2, epoch_s)
+                .map_err(|error| Failure::new(format!("orbit elements: {error}")))
+        }
+    }
+}
+
+fn circle(radius_m: f64, gm_m3_s2: f64, epoch_s: f64) -> Result<TwoBodyOrbit, Failure> {
+    TwoBodyOrbit::from_state(&CartesianState::on_circle(radius_m, gm_m3_s2), gm_m3_s2, epoch_s)
+        .map_err(|error| Failure::new(format!("planet.gravitationalParameter, orbit.position: {error}")))
+}
+
+fn motion(variables: &PlantVariables, values: &Values, center: &BodyData, given_epoch_s: f64) -> Motion {
+    let orbit = &variables.orbit;
+    if matches!(values.choice(orbit.source), OrbitSource::Held) {
+        return Motion::Held { state: given_state(variables, values), since_epoch_s: given_epoch_s };
+    }
+    if !matches!(values.choice(orbit.dynamics), OrbitDynamics::Disturbed) {
+        return Motion::TwoBody;
+    }
+    let flattening = Flattening::of(center);
+    let tide = center.body.is_planet() && values.boolean(orbit.sun_tide);
+    let gravity = Gravity {
+        mu_m3_s2: center.gm_m3_s2,
+        flattening: (flattening.j2 != 0.0).then_some(flattening),
+        tide_mu_m3_s2: tide.then_some(constants::GM_SUN_M3_S2),
+    };
+    let feedback = values.boolean(orbit.radiation_feedback);
+    Motion::Disturbed {
+        gravity,
+        segment_length_s: values.real(orbit.step),
+        radius_m: center.radius_m,
+        feedback,
+    }
+}
+
+fn ephemeris_source(
+    center: Body,
+    context: &Plan<'_>,
+    values: &Values,
+    waiting: bool,
+) -> Result<plant::EphemerisSource, Failure> {
+    let variables = context.variables;
+    let epoch_s = values.real(variables.start.epoch);
+    Ok(match values.choice(variables.ephemeris.source) {
+        EphemerisSource::Inputs => {
+            let sun_m = Vector3::from(values.vector(variables.sun.position));
+            let at_the_planet = center.is_planet() && sun_m == Vector3::from([0.0; 3]);
+            if at_the_planet && !waiting {
+                return Err(Failure::new(
+                    "sun.position is not set: found (0, 0, 0) m, allowed: the Sun's position from the orbit's centre, which \
+                     ephemeris.source = inputs asks for",
+                ));
+            }
+            let given = |position, velocity| CartesianState {
+                position_m: Vector3::from(values.vector(position)),
+                velocity_m_s: Vector3::from(values.vector(velocity)),
+            };
+            plant::EphemerisSource::Given {
+                sun: given(variables.sun.position, variables.sun.velocity),
+                earth: given(variables.earth.position, variables.earth.velocity),
+            }
+        }
+        EphemerisSource::Kepler => {
+            let ellipse = variables.ephemeris.ellipse.read(context, values, center);
+            plant::EphemerisSource::Kepler(ephemeris::kepler(ellipse, epoch_s)?)
+        }
+        EphemerisSource::Chebyshev => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
+            Some(carried) => {
+                ephemeris::check_onboard(carried, center, "start.epoch", epoch_s)?;
+                plant::EphemerisSource::Simulated(carried.clone())
+            }
+            None => plant::EphemerisSource::Vsop87,
+        },
+        EphemerisSource::Vsop87 => plant::EphemerisSource::Vsop87,
+    })
+}
+
+fn attitude(
+    variables: &PlantVariables,
+    values: &Values,
+    state: &PlantState,
+    orbit: &TwoBodyOrbit,
+) -> Result<plant::AttitudeSource, Failure> {
+    let guided = || {
+        let period_s = if values.choice(variables.orbit.center).0.is_planet() {
+            orbit.period_s()
+        } else {
+            f64::INFINITY
+        };
+        let keep_in = KeepIn {
+            axis_body: Vector3::new(0.0, -1.0, 0.0),
+            azimuth_rad: values.real(variables.keep_in.azimuth),
+            elevation_rad: values.real(variables.keep_in.elevation),
+            method: KeepInMethod::Nearest,
+        };
+        let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
+        let camera = MdisRange::default();
+        let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, camera)?;
+        let management = &variables.momentum.management;
+        let (managed, choice) =
+            (values.choice(management.strategy).0 != Strategy::DumpsOnly, state.flight.sun_choice());
+        variables.guided.check_unload(values, managed)?;
+        if managed && !state.waiting {
+            check_windows(&law.schedule)?;
+        }
+        let law = law.with_sun_places(choice.place(), choice.in_science());
+        Ok::<_, Failure>(Guided { managed, ..law })
+    };
+    let source = state.inputs.source;
+    let guided = if source.guides_itself { Some(guided()?) } else { None };
+    Ok(match guided {
+        _ if source.is_dynamic => {
+            let (motion, rate_terms_body) = (state.command, [Vector3::from([0.0; 3]); 2]);
+            plant::AttitudeSource::Dynamic(DynamicAttitude { motion, rate_terms_body, guided })
+        }
+        Some(guided) => plant::AttitudeSource::Guided(guided),
+        None => plant::AttitudeSource::Commanded(state.command),
+    })
+}
+
+/// Whether no dump begins by itself: in free flight, where the master controls, unless thresholds are set.
+fn is_left_to_master(context: &Plan<'_>, values: &Values) -> bool {
+    let variables = context.variables;
+    let is_free = matches!(values.choice(variables.attitude.source), AttitudeSource::Free);
+    let dump = &variables.dump;
+    let others = [dump.reinit_fraction, dump.required_spacing, dump.torque, dump.pulse_period];
+    let [a, b, c, d] = others.map(Elements::from);
+    let given = context.given(values, &[dump.threshold.into(), a, b, c, d]);
+    is_free && !given.has(dump.threshold)
+}
+
+fn settings(context: &Plan<'_>, values: &Values) -> Settings {
+    let variables = context.variables;
+    let dump = &variables.dump;
+    Settings {
+        grid_s: values.real(variables.solver.step),
+        tolerance: values.real(variables.solver.tolerance),
+        convention: values.choice(variables.momentum.convention).0,
+        policy: DumpPolicy {
+            threshold_body_n_m_s: match is_left_to_master(context, values) {
+                true => Vector3::repeat(f64::INFINITY),
+                false => Vector3::from(values.vector(dump.threshold)),
+            },
+            reinitialise: match values.choice(dump.reinit_to) {
+                DumpReinitTo::Target => {
+                    Reinitialise::Target { momentum_body_n_m_s: Vector3::from(values.vector(dump.target)) }
+                }
+                DumpReinitTo::Opposite => {
+                    Reinitialise::Opposite { fraction: values.real(dump.reinit_fraction) }
+                }
+            },
+        },
+    }
+}

@@ -1,0 +1,210 @@
+//! What inputs and tunable parameters say to a step, as they are set.
+
+use fmi_export::{Enumeration, InputsOverTime, Real, RealVector, Values};
+use nalgebra::Vector3;
+use physics::attitude::control::SensorHealth;
+use physics::bodies::Body;
+use physics::guidance::modes::guidance_command::CommandKind as Kind;
+use physics::loads::ForceTorque;
+use physics::plant::{DynamicsInputs, ThrustCommand};
+use physics::propulsion::PulseCommand;
+use serde::{Deserialize, Serialize};
+
+use crate::common::choices::{CommandKind, OrbitCenter};
+use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::variables::PlantVariables;
+use crate::momentum_plant::variables::choices::{
+    AttitudeSource, CommandSource, EphemerisSource, OrbitSource,
+};
+
+/// What was set when inputs were last read.
+#[derive(Clone, Debug, Default)]
+pub struct StepInputs {
+    /// Whether they have been read since the start or a restore.
+    pub are_read: bool,
+    /// How the attitude comes about.
+    pub source: SourceChoice,
+    /// The command inputs.
+    pub command: CommandInputs,
+    /// Whether position and velocity are inputs.
+    pub orbit_is_given: bool,
+    /// Position and velocity.
+    pub orbit: [[f64; 3]; 2],
+    /// On which light and heat depend, beside command and orbit.
+    pub light: Vec<f64>,
+    /// Whether a panel's angle moves as an input.
+    pub panels_move: bool,
+    /// Mass and dumps.
+    pub tunables: [f64; 8],
+    /// Force and torque from outside.
+    pub applied: [[f64; 3]; 2],
+    /// The inputs without which there is no flight and that are not set yet.
+    pub unset_places: Vec<&'static str>,
+    /// Whether the Earth's position is an input and not set yet.
+    pub earth_is_unset: bool,
+    /// Whether a dump is requested, and what it leaves, body frame, in N m s.
+    pub dump: (bool, Vector3<f64>),
+    /// What wheels, sensors and thrusters are given; the controller's command follows from the state.
+    pub dynamics: DynamicsInputs,
+}
+
+/// How the attitude comes about.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SourceChoice {
+    /// By dynamics.
+    pub is_dynamic: bool,
+    /// The orbit phase's own guidance gives the commands that are followed or tracked.
+    pub guides_itself: bool,
+    /// The inputs `command.*` are followed or tracked.
+    pub is_commanded: bool,
+}
+
+impl SourceChoice {
+    fn read(variables: &PlantVariables, values: &Values) -> Self {
+        let source = values.choice(variables.attitude.source);
+        let from_guidance = matches!(values.choice(variables.command.source), CommandSource::Guidance);
+        let follows = matches!(source, AttitudeSource::Commanded | AttitudeSource::Controlled);
+        Self {
+            is_dynamic: matches!(source, AttitudeSource::Controlled | AttitudeSource::Free),
+            guides_itself: matches!(source, AttitudeSource::Guided) || (follows && from_guidance),
+            is_commanded: follows && !from_guidance,
+        }
+    }
+}
+
+/// The inputs `command.*`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CommandInputs {
+    kind: i32,
+    /// Attitude.
+    pub q: [f64; 4],
+    /// Body rate, in rad/s.
+    pub rate: [f64; 3],
+    /// Attitude error.
+    pub error: [f64; 4],
+}
+
+impl CommandInputs {
+    /// What a command gives.
+    pub fn kind(&self) -> Kind {
+        CommandKind::from_value(self.kind).unwrap_or(CommandKind::FIRST).0
+    }
+
+    /// With everything that the kind of command does not give left out; an error that was applied gives no more.
+    pub fn given(self, error_is_applied: bool) -> Self {
+        let (no_q, no_rate) = ([0.0; 4], [0.0; 3]);
+        match self.kind() {
+            Kind::None => Self { q: no_q, rate: no_rate, error: no_q, ..self },
+            Kind::RateOnly => Self { q: no_q, error: no_q, ..self },
+            Kind::ErrorQuaternion if error_is_applied => Self { q: no_q, error: no_q, ..self },
+            Kind::ErrorQuaternion => Self { q: no_q, ..self },
+            Kind::Attitude => Self { error: no_q, ..self },
+        }
+    }
+}
+
+/// Force and torque from outside over a step.
+pub struct AppliedLoad<'a> {
+    inputs: [RealVector<3>; 2],
+    held: [[f64; 3]; 2],
+    over_time: InputsOverTime<'a>,
+}
+
+impl AppliedLoad<'_> {
+    /// At a time, and how they change.
+    pub fn at(&self, time_s: f64) -> [ForceTorque; 2] {
+        let Self { inputs: [force, torque], held: [force_now, torque_now], over_time } = self;
+        let value = |handle: &RealVector<3>, held: &[f64; 3]| {
+            Vector3::from([0, 1, 2].map(|i| over_time.from_held(held[i], handle.element(i), time_s)))
+        };
+        let rate = |handle: &RealVector<3>| {
+            Vector3::from([0, 1, 2].map(|i| over_time.rate(handle.element(i), time_s)))
+        };
+        [
+            ForceTorque { force_body_n: value(force, force_now), torque_body_n_m: value(torque, torque_now) },
+            ForceTorque { force_body_n: rate(force), torque_body_n_m: rate(torque) },
+        ]
+    }
+}
+
+impl StepInputs {
+    /// Reads all of them.
+    pub fn update(&mut self, context: &Plan<'_>, values: &Values, over_time: InputsOverTime<'_>) {
+        let v = context.variables;
+        let real = |handle: Real| values.real(handle);
+        self.are_read = true;
+        self.source = SourceChoice::read(v, values);
+        self.command = CommandInputs {
+            kind: values.choice(v.command.kind).value(),
+            q: values.vector(v.command.q),
+            rate: values.vector(v.command.rate),
+            error: values.vector(v.command.error),
+        };
+        let [position, velocity] = [v.orbit.position, v.orbit.velocity];
+        self.orbit = [position, velocity].map(|vector| values.vector(vector));
+        let center_of_mass = v.spacecraft.center_of_mass;
+        let vectors = [v.sun.position, v.sun.velocity, v.earth.position, v.earth.velocity, center_of_mass];
+        self.light.clear();
+        self.light.extend(vectors.into_iter().flat_map(|vector| values.vector(vector)));
+        self.light
+            .extend(v.panel.iter().flat_map(|it| [it.angle, it.sun_offset, it.sun_offset_command].map(real)));
+        let moves = |input: Real| over_time.derivatives(input).next().is_some();
+        self.panels_move = v.panel.iter().any(|panel| moves(panel.angle) || moves(panel.sun_offset_command));
+        let ([a, b, c], [d, e, f]) = (values.vector(v.dump.threshold), values.vector(v.dump.target));
+        self.tunables = [real(v.spacecraft.mass), real(v.dump.reinit_fraction), a, b, c, d, e, f];
+        self.applied = [v.force.applied, v.torque.applied].map(|vector| values.vector(vector));
+        self.dump = (values.boolean(v.dump.request), Vector3::new(d, e, f));
+
+        let orbit_source = values.choice(v.orbit.source);
+        let is_unset = |place: RealVector<3>| values.vector(place) == [0.0; 3];
+        let is_sun_given = matches!(values.choice(v.ephemeris.source), EphemerisSource::Inputs);
+        // About the Sun, the Sun is at zero.
+        let is_planet = !matches!(values.choice(v.orbit.center), OrbitCenter(Body::Sun));
+        self.orbit_is_given = orbit_source.is_given();
+        let is_moving = matches!(orbit_source, OrbitSource::Inputs);
+        let places = [
+            (self.orbit_is_given, position, "orbit.position"),
+            (is_moving, velocity, "orbit.velocity"),
+            (is_sun_given && is_planet, v.sun.position, "sun.position"),
+        ];
+        let unset = places.into_iter().filter(|(is_given, place, _)| *is_given && is_unset(*place));
+        self.unset_places.clear();
+        self.unset_places.extend(unset.map(|(_, _, name)| name));
+        self.earth_is_unset = is_sun_given && is_unset(v.earth.position);
+
+        let dynamics = &mut self.dynamics;
+        refill(&mut dynamics.wheel_torques_n_m, v.wheel.iter().map(|it| real(it.torque_command)));
+        refill(&mut dynamics.wheel_failed, v.wheel.iter().map(|it| values.boolean(it.failed)));
+        refill(&mut dynamics.sun_sensor_failed, v.sun_sensor.iter().map(|it| values.boolean(it.failed)));
+        let pulses =
+            v.thruster.iter().map(|it| PulseCommand { delay_s: real(it.on_delay), on_s: real(it.on_time) });
+        refill(&mut dynamics.pulses, pulses);
+        let stop_s = real(v.thrust.stop);
+        dynamics.thrust = ThrustCommand {
+            set: values.choice(v.thrust.request).0.filter(|_| values.boolean(v.thrust.command)),
+            stop_s: if stop_s < 0.0 { f64::INFINITY } else { stop_s },
+        };
+        // The spare takes over where the first star tracker has failed.
+        let tracker = &v.star_tracker;
+        dynamics.health = SensorHealth {
+            star_tracker: !(values.boolean(tracker.failed) && values.boolean(tracker.spare_failed)),
+            gyro: !values.boolean(v.gyro.failed),
+        };
+    }
+
+    /// Force and torque from outside over a step, of which they hold the values at its start.
+    pub fn applied_load<'a>(
+        &self,
+        variables: &PlantVariables,
+        over_time: InputsOverTime<'a>,
+    ) -> AppliedLoad<'a> {
+        let inputs = [variables.force.applied, variables.torque.applied];
+        AppliedLoad { inputs, held: self.applied, over_time }
+    }
+}
+
+/// Puts `items` in the place of those before: a step allocates nothing.
+fn refill<T>(memory: &mut Vec<T>, items: impl Iterator<Item = T>) {
+    memory.clear();
+    memory.extend(items);
+}

@@ -1,0 +1,43 @@
+//! Why a flight of the spinner does not begin: parameters out of their ranges, burns that cannot be simulated.
+
+use super::train::TrainError;
+
+/// A parameter out of its range.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{name} is {found}; {allowed}")]
+pub struct ParameterError {
+    /// FMI name.
+    pub name: &'static str,
+    /// What was found.
+    pub found: String,
+    /// What is allowed.
+    pub allowed: String,
+}
+
+impl ParameterError {
+    /// Of a parameter by its FMI name.
+    pub fn new(name: &'static str, found: impl ToString, allowed: impl Into<String>) -> Self {
+        Self { name, found: found.to_string(), allowed: allowed.into() }
+    }
+}
+
+/// Why a burn is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BurnError {
+    /// A parameter out of its range.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// A train that cannot be simulated.
+    #[error("the burn cannot be simulated: {0}")]
+    Train(#[from] TrainError),
+    /// Limits that the plan breaks.
+    #[error("the burn does not fit its limits: {what} would be {found}, the limit is {limit}")]
+    Limit {
+        /// What.
+        what: &'static str,
+        /// What it would be.
+        found: String,
+        /// What is allowed.
+        limit: String,
+    },
+}

@@ -1,0 +1,84 @@
+//! What is written wins, and the rest of the file stays.
+
+use model_description::RealAttributes;
+
+use super::*;
+
+fn description() -> Description {
+    let variables = ["ship.mass", "arm[1]", "arm[2]"].map(|name| {
+        format!(
+            "<ScalarVariable name=\"{name}\" valueReference=\"0\" causality=\"parameter\" variability=\"tunable\">\
+             <Real start=\"0\" max=\"9\"/></ScalarVariable>"
+        )
+    });
+    let xml = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?><fmiModelDescription fmiVersion=\"2.0\" modelName=\"Ship\" guid=\"g\">\
+         <ModelVariables>{}</ModelVariables><ModelStructure/></fmiModelDescription>",
+        variables.concat()
+    );
+    model_description::parse(xml.as_bytes()).unwrap().description
+}
+
+fn written(text: &str, sets: &[&str]) -> String {
+    with_values(text, START, "Plant", &description(), &settings(sets)).unwrap()
+}
+
+fn settings(sets: &[&str]) -> Vec<(String, String)> {
+    sets.iter().map(|set| (format!("--set {set}"), (*set).to_owned())).collect()
+}
+
+#[test]
+fn the_table_is_made_or_added_to() {
+    let rest = "# mine\nname = \"A\" # say\n[mass]\nkg = 1\n";
+    let made = written(rest, &["ship.mass=2", "arm=1,2.5"]);
+    assert_eq!(made, format!("{rest}\n[start]\n\"ship.mass\" = 2.0\n\"arm[1]\" = 1.0\n\"arm[2]\" = 2.5\n"));
+    let added = written("[start] # here\n\"ship.mass\" = 1 # old\n[mass]\n", &["ship.mass=2", "arm[2]=3"]);
+    assert_eq!(added, "[start] # here\n\"ship.mass\" = 2.0 # old\n\"arm[2]\" = 3.0\n[mass]\n");
+    let inline = written("start = { \"ship.mass\" = 1 }\n", &["ship.mass=2"]);
+    assert_eq!(inline, "start = { \"ship.mass\" = 2.0 }\n");
+    assert_eq!(written("\u{feff}name = \"A\"\n", &[]), "\u{feff}name = \"A\"\n");
+}
+
+#[test]
+fn an_epoch_takes_a_date() {
+    let mut description = description();
+    let epoch = &mut description.variables[0];
+    epoch.name = "start.epoch".to_owned();
+    epoch.description = Some("Epoch, seconds past J2000 TDB.".to_owned());
+    if let VariableKind::Real { attributes, .. } = &mut epoch.kind {
+        *attributes = RealAttributes { unit: Some("s".to_owned()), ..RealAttributes::default() };
+    }
+    let written = |set: &str| with_values("", START, "Plant", &description, &settings(&[set]));
+    let text = written("Start.Epoch=2009-04-06 TDB").unwrap();
+    assert_eq!(text, "[start]\n\"start.epoch\" = 292248000.0\n");
+    let refused = written("start.epoch=2009-04-06").unwrap_err().to_string();
+    assert!(refused.contains("does not end in UTC or TDB"), "{refused}");
+}
+
+#[test]
+fn a_table_for_the_model_alone_is_the_one_that_counts() {
+    let text = "[start]\n\"ship.mass\" = 1\n[start.Plant]\n\"ship.mass\" = 3\n";
+    assert_eq!(
+        written(text, &["ship.mass=2"]),
+        "[start]\n\"ship.mass\" = 1\n[start.Plant]\n\"ship.mass\" = 2.0\n"
+    );
+    let other = "[start.Other]\n\"ship.mass\" = 3\n";
+    let with_both = written(other, &["ship.mass=2"]);
+    let read: toml::Table = with_both.parse().unwrap();
+    assert_eq!(read["start"]["ship.mass"].as_float(), Some(2.0), "{with_both}");
+    assert_eq!(read["start"]["Other"]["ship.mass"].as_integer(), Some(3), "{with_both}");
+}
+
+#[test]
+fn what_no_variable_takes_is_refused() {
+    for (set, expected) in [
+        ("ship.mas=1", "near it: ship.mass"),
+        ("ship.mass=10", "ship.mass: found 10, allowed: a number up to 9"),
+        ("arm=1", "1 values given for its 2 elements"),
+        ("ship.mass", "name=value"),
+    ] {
+        let refused = with_values("", START, "Plant", &description(), &settings(&[set])).unwrap_err();
+        let text = refused.to_string();
+        assert!(text.contains(expected) && text.contains("--set"), "{set}: {text}");
+    }
+}

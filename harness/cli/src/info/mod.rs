@@ -1,0 +1,264 @@
+//! `heliotorque info`: what an FMU is, takes and gives; what a system joins.
+
+mod coefficients;
+mod experiment;
+mod system;
+
+use std::path::PathBuf;
+
+use clap::Args;
+use loader::{Fmu, Value};
+use model_description::{
+    Causality, CoSimulation, Description, ScalarVariable, SimpleTypeKind, Variability, VariableKind, value,
+};
+use systems::System;
+
+use crate::{
+    carried, epoch,
+    outcome::{self, Outcome},
+    patience::Patience,
+    variables::selected,
+};
+use experiment::times;
+
+/// `heliotorque info`.
+#[derive(Debug, Args)]
+pub struct Info {
+    /// The FMU, an .fmu file or the folder it was unpacked into; or a system, an .ssp file
+    pub fmu: PathBuf,
+    /// List the variables too
+    #[arg(long)]
+    pub variables: bool,
+    /// Show only these variables and the options they take: names, vectors, patterns with *
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub only: Vec<String>,
+    /// Show what the FMU computes from its parameters: the sunshade's torque coefficients, torque and force by source at
+    /// the start, what the wheels guarantee
+    #[arg(long, conflicts_with_all = ["variables", "only"])]
+    pub coefficients: bool,
+    /// Set a parameter before --coefficients; repeatable, written as for `run`: sunshade.shape=cylinder,
+    /// 'spacecraft.centerOfMass[3]=-2.54cm'
+    #[arg(long, value_name = "NAME=VALUE", requires = "coefficients")]
+    pub set: Vec<String>,
+    /// How long --coefficients waits
+    #[command(flatten)]
+    pub patience: Patience,
+}
+
+/// Prints the tables.
+pub fn run(arguments: &Info) -> Outcome {
+    let text = if systems::is_system(&arguments.fmu) {
+        if arguments.coefficients {
+            return Err("--coefficients is for an FMU, and this is a system".into());
+        }
+        let system = System::open(&arguments.fmu)?;
+        let description = system.description();
+        match chosen(description, arguments)? {
+            Some(tables) => tables,
+            None if arguments.variables => {
+                let all: Vec<usize> = (0..description.variables.len()).collect();
+                [vec![system::text(&system)], variables_and_options(description, &all)].concat()
+            }
+            None => vec![system::text(&system)],
+        }
+    } else {
+        let fmu = Fmu::open(&arguments.fmu)?;
+        let description = fmu.description();
+        if arguments.coefficients {
+            return outcome::printed(&coefficients::text(&fmu, &arguments.set)?);
+        }
+        match chosen(description, arguments)? {
+            Some(tables) => tables,
+            None => {
+                let mut text = vec![summary(&fmu), capabilities(&fmu)];
+                if arguments.variables {
+                    let all: Vec<usize> = (0..description.variables.len()).collect();
+                    text.push(units(description));
+                    text.extend(enumerations(description, &all));
+                    text.push(variables(description, &all));
+                }
+                text
+            }
+        }
+    };
+    outcome::printed(&text.join("\n\n"))
+}
+
+/// The tables of what `--only` names, if it is given.
+fn chosen(description: &Description, arguments: &Info) -> Result<Option<Vec<String>>, loader::Error> {
+    if arguments.only.is_empty() {
+        return Ok(None);
+    }
+    let positions = selected(description, &arguments.only, loader::select)?;
+    Ok(Some(variables_and_options(description, &positions)))
+}
+
+fn variables_and_options(description: &Description, positions: &[usize]) -> Vec<String> {
+    [variables(description, positions)].into_iter().chain(enumerations(description, positions)).collect()
+}
+
+fn summary(fmu: &Fmu) -> String {
+    let description = fmu.description();
+    let mut table = terminal::table(&[description.model_name.as_str(), ""]);
+    let mut row = |name: &str, value: Option<String>| {
+        if let Some(value) = value.filter(|value| !value.is_empty()) {
+            table.add_row([name.to_owned(), value]);
+        }
+    };
+    row("description", description.description.clone());
+    row("version", description.version.clone());
+    row("author", description.author.clone());
+    row("copyright", description.copyright.clone());
+    row("license", description.license.clone());
+    row("made by", description.generation_tool.clone());
+    row("GUID", Some(description.guid.clone()));
+    row("variables", Some(count_by_causality(description)));
+    if let Some(experiment) = description.default_experiment {
+        row("default experiment", Some(times(&experiment)));
+    }
+    let platforms = match fmu.binary_path() {
+        Ok(path) => {
+            let shown = path.strip_prefix(fmu.folder()).unwrap_or(&path).display().to_string();
+            format!("{shown} (for this computer)")
+        }
+        Err(error) => error.to_string(),
+    };
+    row("library", Some(platforms));
+    for (file, read) in carried::of(fmu) {
+        let problems =
+            |problems: String| format!("with {} problems: see `heliotorque check`", problems.lines().count());
+        row(file.trim_end_matches(".toml"), Some(read.unwrap_or_else(problems)));
+    }
+    if description.model_exchange.is_some() {
+        row("also", Some("model exchange, which is not used here".to_owned()));
+    }
+    table.to_string()
+}
+
+/// Causalities in reading order, in words.
+const CAUSALITIES: [(Causality, &str); 6] = [
+    (Causality::Parameter, "parameter"),
+    (Causality::CalculatedParameter, "calculated parameter"),
+    (Causality::Input, "input"),
+    (Causality::Output, "output"),
+    (Causality::Local, "local"),
+    (Causality::Independent, "independent"),
+];
+
+fn count_by_causality(description: &Description) -> String {
+    let parts = CAUSALITIES.into_iter().filter_map(|(causality, name)| {
+        let count = description.variables.iter().filter(|variable| variable.causality == causality).count();
+        let plural = if causality == Causality::Independent { "" } else { "s" };
+        (count > 0).then(|| format!("{count} {name}{plural}"))
+    });
+    parts.collect::<Vec<_>>().join(", ")
+}
+
+fn capabilities(fmu: &Fmu) -> String {
+    let Some(flags) = &fmu.description().co_simulation else {
+        return "No co-simulation: this FMU cannot be stepped here.".to_owned();
+    };
+    let mut table = terminal::table(&["co-simulation", ""]);
+    capability_rows(flags).for_each(|(name, value)| table.add_row([name, value.as_str()]));
+    table.to_string()
+}
+
+/// The capabilities by the standard's names.
+pub fn capability_rows(flags: &CoSimulation) -> impl Iterator<Item = (&'static str, String)> {
+    let switches = [
+        ("canHandleVariableCommunicationStepSize", flags.can_handle_variable_communication_step_size),
+        ("canInterpolateInputs", flags.can_interpolate_inputs),
+        ("canGetAndSetFMUstate", flags.can_get_and_set_fmu_state),
+        ("canSerializeFMUstate", flags.can_serialize_fmu_state),
+        ("providesDirectionalDerivative", flags.provides_directional_derivative),
+        ("canRunAsynchronuously", flags.can_run_asynchronuously),
+        ("canBeInstantiatedOnlyOncePerProcess", flags.can_be_instantiated_only_once_per_process),
+        ("canNotUseMemoryManagementFunctions", flags.can_not_use_memory_management_functions),
+        ("needsExecutionTool", flags.needs_execution_tool),
+    ];
+    let switches = switches.map(|(name, is_on)| (name, if is_on { "yes" } else { "no" }.to_owned()));
+    let order = ("maxOutputDerivativeOrder", flags.max_output_derivative_order.to_string());
+    [("modelIdentifier", flags.model_identifier.clone())].into_iter().chain(switches).chain([order])
+}
+
+fn units(description: &Description) -> String {
+    let mut table = terminal::table(&["unit", "also shown as"]);
+    for unit in &description.units {
+        let displays: Vec<&str> = unit.display_units.iter().map(|display| display.name.as_str()).collect();
+        table.add_row([unit.name.clone(), displays.join(", ")]);
+    }
+    table.to_string()
+}
+
+/// The items of the options that these variables take.
+fn enumerations(description: &Description, positions: &[usize]) -> Option<String> {
+    let is_taken = |name: &str| {
+        positions.iter().any(|&position| match &description.variables[position].kind {
+            VariableKind::Enumeration { declared_type, .. } => declared_type == name,
+            _ => false,
+        })
+    };
+    let mut table = terminal::table(&["option", "item", "number", "meaning"]);
+    for simple_type in description.types.iter().filter(|it| is_taken(&it.name)) {
+        let SimpleTypeKind::Enumeration { items, .. } = &simple_type.kind else { continue };
+        for (index, item) in items.iter().enumerate() {
+            table.add_row([
+                if index == 0 { simple_type.name.clone() } else { String::new() },
+                item.name.clone(),
+                item.value.to_string(),
+                item.description.clone().unwrap_or_default(),
+            ]);
+        }
+    }
+    (!table.is_empty()).then(|| table.to_string())
+}
+
+fn variables(description: &Description, positions: &[usize]) -> String {
+    let mut table = terminal::table(&["variable", "causality", "start", "unit", "description"]);
+    for &position in positions {
+        let variable = &description.variables[position];
+        table.add_row([
+            variable.name.clone(),
+            causality(variable),
+            start(description, variable),
+            loader::unit(description, variable).unwrap_or_default().to_owned(),
+            variable.description.clone().unwrap_or_default(),
+        ]);
+    }
+    table.to_string()
+}
+
+/// Causality, with what the variability adds to it.
+fn causality(variable: &ScalarVariable) -> String {
+    let name = CAUSALITIES.iter().find(|(it, _)| *it == variable.causality).map_or("", |(_, name)| name);
+    match (variable.causality, variable.variability) {
+        (Causality::Parameter, Variability::Tunable) => "tunable parameter".to_owned(),
+        (_, Variability::Constant) => format!("constant {name}"),
+        (Causality::Input | Causality::Output, Variability::Discrete) => format!("{name}, discrete"),
+        _ => name.to_owned(),
+    }
+}
+
+/// The start value, in the variable's unit, with the display unit or date behind it and the item's name.
+pub fn start(description: &Description, variable: &ScalarVariable) -> String {
+    match value::start(variable) {
+        Some(Value::Real(start)) => {
+            let date = epoch::is_epoch(description, variable).then(|| epoch::date(start)).flatten();
+            match (date, loader::display_unit(description, variable)) {
+                (Some(date), _) => format!("{start} ({date})"),
+                (None, Some((name, factor, offset))) if start != 0.0 => {
+                    let shown = terminal::short(factor * start + offset);
+                    format!("{} ({shown} {name})", terminal::short(start))
+                }
+                _ => terminal::short(start),
+            }
+        }
+        Some(Value::Integer(start)) => {
+            let item = value::items(description, variable).iter().find(|item| item.value == start);
+            item.map_or_else(|| start.to_string(), |item| format!("{start} ({})", item.name))
+        }
+        Some(Value::Text(start)) => format!("{start:?}"),
+        Some(truth) => truth.to_string(),
+        None => String::new(),
+    }
+}

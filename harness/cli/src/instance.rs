@@ -1,0 +1,23 @@
+//! An instance whose parameters and outputs can be read.
+
+use loader::{Error, Fmu, Instance, InstanceOptions, Value};
+
+/// An instance just initialised with these values: from then on parameters can be read too.
+pub fn started(fmu: &Fmu, name: &str, start_s: f64, sets: &[(String, Value)]) -> Result<Instance, Error> {
+    let mut instance = Instance::new(fmu, name, &InstanceOptions::default())?;
+    instance.setup_experiment(None, start_s, None)?;
+    let mut inputs = Vec::new();
+    for (name, value) in sets {
+        if loader::set_early(fmu.variable(name)?)? {
+            instance.set(name, value)?;
+        } else {
+            inputs.push((name, value));
+        }
+    }
+    instance.enter_initialization_mode()?;
+    for (name, value) in inputs {
+        instance.set(name, value)?;
+    }
+    instance.exit_initialization_mode()?;
+    Ok(instance)
+}

@@ -1,0 +1,148 @@
+//! Whether a run keeps its mission's limits: when each was first broken, and what it came to.
+
+use loader::Recording;
+use model_description::Description;
+
+use super::shown::Shown;
+use crate::epoch;
+
+/// Bounds of one variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// The variable.
+    pub name: String,
+    /// The smallest value that is kept, in the variable's unit.
+    pub min: Option<f64>,
+    /// The largest.
+    pub max: Option<f64>,
+    /// Where the file says so.
+    pub at: String,
+}
+
+/// How a limit fares.
+struct Judged {
+    limit: Limit,
+    /// Time in s and value when it was first broken.
+    broken: Option<(f64, f64)>,
+    smallest: f64,
+    largest: f64,
+}
+
+/// The limits of a run.
+pub struct Judge {
+    judged: Vec<Judged>,
+    rows: usize,
+}
+
+impl Judge {
+    /// Before the first row.
+    pub fn new(limits: Vec<Limit>) -> Self {
+        let judged = limits.into_iter().map(|limit| Judged {
+            limit,
+            broken: None,
+            smallest: f64::INFINITY,
+            largest: f64::NEG_INFINITY,
+        });
+        Self { judged: judged.collect(), rows: 0 }
+    }
+
+    /// Judges the rows that were added.
+    pub fn update(&mut self, recording: &Recording) {
+        let rows = recording.times_s.len();
+        for judged in &mut self.judged {
+            let Some(column) = recording.column(&judged.limit.name) else { continue };
+            for row in self.rows..rows {
+                let value = column.number(row);
+                judged.smallest = judged.smallest.min(value);
+                judged.largest = judged.largest.max(value);
+                let is_kept = judged.limit.min.is_none_or(|min| value >= min)
+                    && judged.limit.max.is_none_or(|max| value <= max);
+                if !is_kept && judged.broken.is_none() {
+                    judged.broken = Some((recording.times_s[row], value));
+                }
+            }
+        }
+        self.rows = rows;
+    }
+
+    /// Whether all were kept.
+    pub fn is_kept(&self) -> bool {
+        self.judged.iter().all(|judged| judged.broken.is_none())
+    }
+
+    /// A line for each limit; `epoch_minus_time_s` gives dates.
+    pub fn report(&self, described: &Description, epoch_minus_time_s: Option<f64>) -> Vec<String> {
+        self.judged.iter().map(|judged| judged.line(described, epoch_minus_time_s)).collect()
+    }
+}
+
+impl Judged {
+    fn line(&self, described: &Description, epoch_minus_time_s: Option<f64>) -> String {
+        let shown = Shown::of(described, &self.limit.name);
+        let number = |value: f64| shown.text(shown.value(value));
+        let unit = if shown.unit.is_empty() || shown.unit == "1" {
+            String::new()
+        } else {
+            format!(" {}", shown.unit)
+        };
+        let bounds = match (self.limit.min, self.limit.max) {
+            (Some(min), Some(max)) => format!("from {} to {}{unit}", number(min), number(max)),
+            (Some(min), None) => format!("from {}{unit} up", number(min)),
+            (None, Some(max)) => format!("up to {}{unit}", number(max)),
+            (None, None) => String::new(),
+        };
+        let range = format!("it went from {} to {}{unit}", number(self.smallest), number(self.largest));
+        let Some((time_s, value)) = self.broken else {
+            return format!("kept: {} {bounds}; {range}", self.limit.name);
+        };
+        let date = epoch_minus_time_s.and_then(|zero_s| epoch::date(zero_s + time_s));
+        let date = date.map(|date| format!(" ({date})")).unwrap_or_default();
+        format!(
+            "{}: found {}{unit} at {} s{date}, the first time, allowed: {} {bounds}; {range}",
+            self.limit.at,
+            number(value),
+            terminal::short(time_s),
+            self.limit.name,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! The first row outside is the one that is reported; NaN is outside.
+
+    use loader::Column;
+
+    use super::*;
+
+    fn judge(values: &[f64], min: Option<f64>, max: Option<f64>) -> Judge {
+        let limit = Limit { name: "x".to_owned(), min, max, at: "m.toml:3: limits.x".to_owned() };
+        let mut judge = Judge::new(vec![limit]);
+        // Row by row, as a run would show them.
+        for rows in 1..=values.len() {
+            judge.update(&Recording {
+                times_s: (0..rows).map(|k| 60.0 * k as f64).collect(),
+                names: vec!["x".to_owned()],
+                units: vec![String::new()],
+                columns: vec![Column::Real(values[..rows].to_vec())],
+            });
+        }
+        judge
+    }
+
+    #[test]
+    fn the_first_row_outside_is_reported() {
+        let judge_of = |values: &[f64]| judge(values, Some(-1.0), Some(2.0));
+        assert!(judge_of(&[-1.0, 0.0, 2.0]).is_kept(), "bounds are kept at themselves");
+        let broken = judge_of(&[0.0, 3.0, -5.0, 1.0]);
+        assert!(!broken.is_kept());
+        let [line] = broken.report(&Description::default(), None).try_into().unwrap();
+        assert_eq!(
+            line,
+            "m.toml:3: limits.x: found 3 at 60 s, the first time, allowed: x from -1 to 2; it went from -5 to 3"
+        );
+        let dated = broken.report(&Description::default(), Some(0.0)).remove(0);
+        assert!(dated.contains("at 60 s (2000-01-01T11:59:55.816 UTC)"), "{dated}");
+        assert!(!judge(&[1.0, f64::NAN], Some(0.0), None).is_kept());
+    }
+}

@@ -1,0 +1,315 @@
+//! The picture of `run --plot`: one panel per vector or variable, in display units.
+
+use std::{
+    error::Error,
+    path::{Path, PathBuf},
+};
+
+use drawing::{COLOURS, Chart, Mark, Panel, Series};
+use files::Destination;
+use loader::{Column, Recording};
+use model_description::{Causality, Description};
+
+use super::{
+    exporter::Exporter,
+    known::Known,
+    shown::{ANGLE_UNIT, ROUNDING, find},
+};
+use crate::variables::vector;
+
+/// Panels drawn at most; more would not be readable.
+const PANELS: usize = 10;
+
+/// Eclipses shaded at most; more would be stripes.
+const ECLIPSES: usize = 60;
+
+/// Time units for the horizontal axis: from how long a run on, name, seconds.
+const TIME_UNITS: [(f64, &str, f64); 4] =
+    [(3.0 * 86_400.0, "d", 86_400.0), (3.0 * 3600.0, "h", 3600.0), (600.0, "min", 60.0), (0.0, "s", 1.0)];
+
+/// What is drawn together: the elements of a vector, or the same quantity of everything that is counted.
+fn group(name: &str) -> String {
+    match (vector(name), name.rsplit_once('[')) {
+        (Some(vector), _) => vector.to_owned(),
+        (None, Some((counted, rest))) => {
+            let (_, quantity) = rest.split_once(']').unwrap_or(("", rest));
+            format!("{counted}{quantity}")
+        }
+        (None, None) => name.to_owned(),
+    }
+}
+
+/// The picture, drawn at the end.
+pub struct Svg {
+    /// The file, of which nothing is written yet.
+    pub file: Destination,
+    /// The variables that it shows; `None`: everything recorded.
+    pub names: Option<Vec<String>>,
+    /// What is known of them.
+    pub known: Known,
+}
+
+impl Svg {
+    fn draw(&self, described: &Description, recording: &Recording) -> Result<String, Box<dyn Error>> {
+        let only = self.names.as_ref().map(|names| recording.only(names));
+        let (mut chart, seconds) = chart(described, only.as_ref().unwrap_or(recording), &self.known);
+        let mut eclipses = eclipses(recording, seconds);
+        if eclipses.len() > ECLIPSES {
+            terminal::note(&format!("{} eclipses, so not shaded", eclipses.len()));
+            eclipses.clear();
+        }
+        for panel in &mut chart.panels {
+            panel.shades.clone_from(&eclipses);
+        }
+        if let Some(first) = chart.panels.first_mut().filter(|_| !eclipses.is_empty()) {
+            first.shade_label = "eclipse".to_owned();
+        }
+        Ok(drawing::svg(&[&chart])?)
+    }
+}
+
+impl Exporter for Svg {
+    fn existing(&self) -> Option<&Path> {
+        self.file.existing()
+    }
+
+    fn finish(self: Box<Self>, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
+        let svg = self.draw(described, recording)?;
+        Ok(self.file.fill(|file| file.write_all(svg.as_bytes()))?)
+    }
+
+    fn leave(self: Box<Self>, described: &Description, recording: &Recording) -> Option<PathBuf> {
+        if recording.times_s.is_empty() {
+            return None;
+        }
+        let svg = self.draw(described, recording).ok()?;
+        let mut file = self.file.grow(&[]).ok()?;
+        file.append(svg.as_bytes()).ok()?;
+        file.leave()
+    }
+}
+
+/// The chart of a recording, and how many seconds a unit of its horizontal axis has.
+fn chart(described: &Description, recording: &Recording, known: &Known) -> (Chart, f64) {
+    let ends_s = recording.times_s.first().zip(recording.times_s.last());
+    let span_s = ends_s.map_or(0.0, |(first_s, last_s)| last_s - first_s);
+    let (_, time_unit, seconds) =
+        TIME_UNITS.into_iter().find(|(from_s, _, _)| span_s >= *from_s).unwrap_or((0.0, "s", 1.0));
+    let mut groups: Vec<Group> = Vec::new();
+    for (name, column) in drawn(described, recording) {
+        let vector = group(name);
+        let variable = find(described, name);
+        let display = variable.and_then(|variable| loader::display_unit(described, variable));
+        let own = variable.and_then(|variable| loader::unit(described, variable)).unwrap_or_default();
+        let (unit, factor, offset) = display.unwrap_or((own, 1.0, 0.0));
+        let points = recording.times_s.iter().zip(column.numbers());
+        let points = points.map(|(time_s, value)| (time_s / seconds, factor * value + offset)).collect();
+        let series = match column {
+            Column::Real(_) => Series::line(name, points),
+            _ => Series::steps(name, points),
+        };
+        let y_label =
+            if unit.is_empty() || unit == "1" { vector.clone() } else { format!("{vector} [{unit}]") };
+        // What belongs together may stand apart in the description: wheel[1].momentum, wheel[1].speed, wheel[2]...
+        let with_space = groups.iter().position(|group| {
+            group.name == vector && group.panel.y_label == y_label && group.panel.series.len() < COLOURS.len()
+        });
+        let position = with_space.unwrap_or_else(|| {
+            let scale = (own == ANGLE_UNIT).then_some(factor.abs());
+            groups.push(Group::new(vector, y_label, scale));
+            groups.len() - 1
+        });
+        groups[position].add(series, known, |value| factor * value + offset);
+    }
+    groups.iter_mut().for_each(Group::still);
+    let constant = leave_out_constants(&mut groups);
+    if !constant.is_empty() {
+        terminal::note(&format!("constant, so not drawn: {}", constant.join(", ")));
+    }
+    if let Some(beyond) = groups.get(PANELS..) {
+        let left_out: usize = beyond.iter().map(|group| group.panel.series.len()).sum();
+        if left_out > 0 {
+            let limit = format!("the picture shows the first {PANELS} panels");
+            terminal::note(&format!("{limit} and leaves out {left_out} variables: see --record"));
+        }
+        groups.truncate(PANELS);
+    }
+    let vectors = groups.iter().filter(|group| group.is_vector()).count();
+    let panels = groups.into_iter().map(|group| group.labelled(vectors > 1, known)).collect();
+    let legend =
+        if vectors > 1 { AXES[..3].iter().map(|axis| (*axis).to_owned()).collect() } else { Vec::new() };
+    let (title, x_label) = (described.model_name.clone(), format!("time [{time_unit}]"));
+    (Chart { title, x_label, panels, legend }, seconds)
+}
+
+/// Components of vectors and, with the scalar last, of quaternions.
+const AXES: [&str; 4] = ["x", "y", "z", "w"];
+
+/// A panel with its name.
+struct Group {
+    name: String,
+    panel: Panel,
+    /// Marks that are drawn only near the lines, with what they are.
+    bounds: Vec<(&'static str, f64)>,
+    /// What its values are large or small against; `None`: the largest of them.
+    scale: Option<f64>,
+}
+
+impl Group {
+    fn new(name: String, y_label: String, scale: Option<f64>) -> Self {
+        let panel = Panel { y_label, is_whole: true, ..Panel::default() };
+        Self { name, panel, bounds: Vec::new(), scale }
+    }
+
+    fn add(&mut self, series: Series, known: &Known, shown: impl Fn(f64) -> f64) {
+        if let Some((what, value)) = known.bound(&series.label) {
+            self.bounds.extend([-value, value].map(|value| (what, shown(value))));
+        }
+        self.panel.marks.extend(known.limits(&series.label).iter().map(|value| shown(*value)));
+        self.panel.is_whole &= series.mark == Mark::Steps;
+        self.panel.series.push(series);
+    }
+
+    fn values(&self) -> impl Iterator<Item = f64> {
+        let points = self.panel.series.iter().flat_map(|series| &series.points);
+        points.map(|(_, value)| *value).filter(|value| value.is_finite())
+    }
+
+    /// Makes lines that vary by nothing but rounding straight.
+    fn still(&mut self) {
+        let largest = self.values().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        let rounding = ROUNDING * self.scale.unwrap_or(largest);
+        for series in self.panel.series.iter_mut().filter(|series| series.mark == Mark::Line) {
+            let values = || series.points.iter().map(|(_, value)| *value);
+            let (low, high) = range(values());
+            let Some(first) = values().next().filter(|_| high - low < rounding) else { continue };
+            let all_finite = values().all(f64::is_finite);
+            let value = if low.abs().max(high.abs()) < rounding { 0.0 } else { first };
+            for point in series.points.iter_mut().filter(|_| all_finite) {
+                point.1 = value;
+            }
+        }
+    }
+
+    fn is_constant(&self) -> bool {
+        self.panel.series.iter().all(|series| {
+            let mut values = series.points.iter().map(|(_, value)| value);
+            values.next().is_some_and(|first| values.all(|value| value == first))
+        })
+    }
+
+    /// Whether its lines are x, y and z of one vector.
+    fn is_vector(&self) -> bool {
+        let of_vector = |(k, series): (usize, &Series)| series.label == format!("{}[{}]", self.name, k + 1);
+        self.panel.series.len() == 3 && self.panel.series.iter().enumerate().all(of_vector)
+    }
+
+    /// The panel with its lines named, and the bounds that are near them.
+    fn labelled(mut self, is_shared: bool, known: &Known) -> Panel {
+        let (low, high) = range(self.values());
+        let reach = (high - low).max(low.abs()).max(high.abs());
+        let is_near = |mark: &f64| *mark > low - reach && *mark < high + reach;
+        let near: Vec<_> = self.bounds.iter().copied().filter(|(_, mark)| is_near(mark)).collect();
+        let limit = (!self.panel.marks.is_empty()).then_some("limit");
+        let mut labels: Vec<&str> = near.iter().map(|(what, _)| *what).chain(limit).collect();
+        labels.dedup();
+        self.panel.mark_label = labels.join(", ");
+        self.panel.marks.extend(near.iter().map(|(_, mark)| mark));
+        self.panel.marks.sort_by(f64::total_cmp);
+        self.panel.marks.dedup();
+        let is_vector = self.is_vector();
+        let is_alone = matches!(self.panel.series.as_slice(), [only] if only.label == self.name);
+        let components = self.panel.series.len() <= AXES.len();
+        for series in &mut self.panel.series {
+            let index = series
+                .label
+                .strip_prefix(&self.name)
+                .and_then(|rest| rest.strip_prefix('[')?.strip_suffix(']')?.parse::<usize>().ok());
+            let axis = index.filter(|_| components).and_then(|index| AXES.get(index.checked_sub(1)?));
+            // A lone variable is named by its axis, the components of vectors by the legend beside the title.
+            series.label = if is_alone || is_vector && is_shared {
+                String::new()
+            } else if let Some(axis) = axis {
+                (*axis).to_owned()
+            } else {
+                known.name(&series.label).map_or_else(|| series.label.clone(), str::to_owned)
+            };
+        }
+        self.panel
+    }
+}
+
+/// The least and the greatest value.
+fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+}
+
+/// Takes out what stays the same, unless nothing else is there; their names with their values.
+fn leave_out_constants(groups: &mut Vec<Group>) -> Vec<String> {
+    /// More are only counted.
+    const NAMED: usize = 5;
+    if groups.iter().all(Group::is_constant) {
+        return Vec::new();
+    }
+    let (constant, varying): (Vec<Group>, Vec<Group>) =
+        std::mem::take(groups).into_iter().partition(Group::is_constant);
+    *groups = varying;
+    let named = constant.iter().take(NAMED).map(|group| {
+        let values: Vec<String> = group
+            .panel
+            .series
+            .iter()
+            .filter_map(|series| Some(terminal::short(series.points.first()?.1)))
+            .collect();
+        format!("{} = {}", group.panel.y_label, values.join(", "))
+    });
+    let mut named: Vec<String> = named.collect();
+    if constant.len() > NAMED {
+        named.push(format!("{} more", constant.len() - NAMED));
+    }
+    named
+}
+
+/// When the Sun was not whole, where the recording says so, in units of so many seconds.
+fn eclipses(recording: &Recording, seconds: f64) -> Vec<(f64, f64)> {
+    let Some(position) = recording.names.iter().position(|name| is_lit_fraction(name)) else {
+        return Vec::new();
+    };
+    let lit = recording.columns[position].numbers();
+    let mut spans: Vec<(f64, f64)> = Vec::new();
+    let mut since = None;
+    for (time_s, lit) in recording.times_s.iter().zip(&lit) {
+        match (since, *lit < 1.0) {
+            (None, true) => since = Some(*time_s),
+            (Some(from_s), false) => {
+                spans.push((from_s / seconds, time_s / seconds));
+                since = None;
+            }
+            _ => {}
+        }
+    }
+    let last_s = recording.times_s.last().copied();
+    spans.extend(since.zip(last_s).map(|(from_s, last_s)| (from_s / seconds, last_s / seconds)));
+    spans
+}
+
+/// Whether a variable is the part of the Sun's disc that is seen.
+pub fn is_lit_fraction(name: &str) -> bool {
+    const LIT_FRACTION: &str = "sun.litFraction";
+    name.strip_suffix(LIT_FRACTION).is_some_and(|part| part.is_empty() || part.ends_with('.'))
+}
+
+/// The columns worth drawing: no texts, and no inputs that nobody used, unless there is nothing else.
+fn drawn<'a>(described: &Description, recording: &'a Recording) -> Vec<(&'a str, &'a Column)> {
+    let columns = recording.names.iter().map(String::as_str).zip(&recording.columns);
+    let numbers: Vec<_> = columns.filter(|(_, column)| !matches!(column, Column::Text(_))).collect();
+    let unused = |name: &str, column: &Column| {
+        find(described, name).is_some_and(|variable| variable.causality == Causality::Input)
+            && column.numbers().iter().all(|value| *value == 0.0)
+    };
+    let used: Vec<_> = numbers.iter().copied().filter(|(name, column)| !unused(name, column)).collect();
+    if used.is_empty() { numbers } else { used }
+}
+
+#[cfg(test)]
+mod tests;

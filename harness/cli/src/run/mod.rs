@@ -1,0 +1,181 @@
+//! `heliotorque run`: runs an FMU or a system in a process of its own, records, writes, draws.
+
+mod child;
+mod options;
+mod settings;
+mod simulated;
+mod subject;
+
+use std::{
+    error::Error,
+    fs::File,
+    io,
+    path::{Path, PathBuf},
+    process::ExitCode,
+    time::Instant,
+};
+
+use files::Scratch;
+use loader::{Collector, Ended, RecordedPoints};
+
+use crate::{
+    child::Bounds,
+    interrupt::INTERRUPTED,
+    low_orbit,
+    outcome::Outcome,
+    output::{self, Judge, Known, Outputs},
+};
+pub use child::{RunInChild, run as run_in_child};
+pub use options::Run;
+pub use settings::Settings;
+use simulated::Simulated;
+pub use simulated::{Assemble, assemble_into};
+use subject::Subject;
+
+/// Why a run ends before its stop.
+const LOST_READER: &str = "nobody reads the standard output any more";
+
+/// A run of which everything was accepted that can be refused without the FMU's library.
+pub struct Prepared {
+    /// The arguments and the mission.
+    pub simulated: Simulated,
+    /// What is run.
+    pub subject: Subject,
+    /// What they mean.
+    pub settings: Settings,
+    /// Points that will be recorded.
+    pub points: u64,
+    outputs: Outputs,
+    /// What the standard input held, for parent and child.
+    input_copy: Option<PathBuf>,
+    // The packed FMU of a mission and the copy, as long as they are in use.
+    _scratch: [Option<Scratch>; 2],
+}
+
+impl Prepared {
+    /// Opens what flies and every output.
+    ///
+    /// # Errors
+    /// Whatever is refused, by the flag or the mission's line.
+    pub fn of(arguments: &Run) -> Result<Self, Box<dyn Error>> {
+        if let Some(path) = &arguments.plot {
+            output::check_svg_path(path, "--plot")?;
+        }
+        let simulated = Simulated::of(arguments)?;
+        let (subject, packed) = simulated.open()?;
+        subject.check_options(&simulated.run)?;
+        let copied =
+            copied_input(&simulated.run).map_err(|error| format!("standard input: {error}: see --input"))?;
+        let (copy, input_copy) = copied.unzip();
+        let settings = Settings::of(&subject, &simulated, input_copy.as_deref())?;
+        subject.check_libraries()?;
+        let described = subject.description();
+        let known = Known::of(&subject.parts(), described, &settings.sets, &settings.limits);
+        let collector = Collector::new(described, &settings.positions);
+        let outputs = Outputs::open(&settings.requested, collector.recording(), &known, &simulated.reads())?;
+        let points = RecordedPoints::new(&settings.times, simulated.run.every)?.count();
+        collector.fits(points)?;
+        Ok(Self { simulated, subject, settings, points, outputs, input_copy, _scratch: [packed, copy] })
+    }
+}
+
+/// A file with what the standard input holds, in a folder that goes with it, where `--input -` says so.
+fn copied_input(arguments: &Run) -> io::Result<Option<(Scratch, PathBuf)>> {
+    if arguments.input.as_deref() != Some(Path::new("-")) {
+        return Ok(None);
+    }
+    let scratch = Scratch::new()?;
+    let path = scratch.path().join("input.csv");
+    io::copy(&mut io::stdin().lock(), &mut File::create_new(&path)?)?;
+    Ok(Some((scratch, path)))
+}
+
+/// Runs in a child process.
+pub fn run(arguments: &Run) -> Outcome {
+    let prepared = Prepared::of(arguments)?;
+    let Prepared { simulated, subject, settings, points, mut outputs, input_copy, _scratch } = prepared;
+    let arguments = &simulated.run;
+    let described = subject.description();
+    let warnings = low_orbit::warnings(described, &settings.sets);
+    let Settings { times, positions, limits, requested, .. } = settings;
+    if !arguments.quiet {
+        warnings.iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));
+    }
+    let is_judged = !limits.is_empty();
+    let mut judge = Judge::new(limits);
+    let mut collector = Collector::new(described, &positions);
+    let child = child::start(&subject, input_copy.as_deref())
+        .map_err(|error| format!("the process of the FMU cannot be started: {error}"))?;
+    let bounds = Bounds { call_s: arguments.timeout, ..Bounds::default() };
+
+    let progress = terminal::progress((times.stop_s - times.start_s) as u64, "s", arguments.quiet);
+    let began = Instant::now();
+    let result = child::simulate(child, &subject, bounds, points, &mut collector, |recording, time_s| {
+        if let Some(time_s) = time_s {
+            progress.set_position((time_s - times.start_s).max(0.0) as u64);
+        }
+        judge.update(recording);
+        outputs.update(recording)?;
+        if outputs.has_lost_reader() { Err(LOST_READER.to_owned()) } else { Ok(()) }
+    });
+    let elapsed = began.elapsed();
+    progress.finish_and_clear();
+
+    let recording = collector.recording();
+    judge.update(recording);
+    if arguments.log {
+        result.messages.iter().for_each(|it| terminal::note(&format!("{} {it}", it.status)));
+    }
+    let last_s = recording.times_s.last().copied().unwrap_or(times.start_s);
+    let last = terminal::short(last_s);
+    if outputs.has_lost_reader() {
+        // Nobody is there for the rest; what is drawn and judged at the end is not, and that is no success.
+        return if requested.plots.is_empty() && !is_judged {
+            Ok(ExitCode::SUCCESS)
+        } else {
+            Err(format!("{LOST_READER}: the run ends at {last} s, without pictures and judgement").into())
+        };
+    }
+    let rows = recording.times_s.len();
+    let so_far = |kept: Vec<PathBuf>| -> String {
+        kept.iter().map(|path| format!("\n{rows} rows so far: {}", path.display())).collect()
+    };
+    let ended = match result.outcome {
+        Ok(ended) => ended,
+        Err(error) => {
+            // What was simulated until then is worth keeping.
+            return Err(format!("{error}{}", so_far(outputs.leave(described, recording))).into());
+        }
+    };
+    // Part of a recording does not replace a complete one.
+    let kept = match ended {
+        Ended::Cancelled => outputs.stop(described, recording)?,
+        _ => outputs.finish(described, recording).map(|()| Vec::new())?,
+    };
+    if !arguments.quiet {
+        let steps = ((last_s - times.start_s) / times.step_s).ceil();
+        terminal::note(&format!("{steps} steps to {last} s in {:.3} s", elapsed.as_secs_f64()));
+    }
+    if !arguments.quiet || !judge.is_kept() {
+        let zero_s = simulated.mission.as_ref().and_then(|mission| Some(mission.epoch_s.as_ref()?.it));
+        let lines = judge.report(described, zero_s.map(|zero_s| zero_s - times.start_s));
+        lines.iter().for_each(|line| terminal::note(line));
+    }
+    match ended {
+        Ended::AtStop => {}
+        Ended::ByItself => terminal::note(&format!("{} ended by itself at {last} s", subject.name())),
+        Ended::Cancelled => {
+            let kept = so_far(kept);
+            terminal::note(&format!(
+                "interrupted at {last} s; what was recorded until then is written{kept}"
+            ));
+            return Ok(ExitCode::from(INTERRUPTED));
+        }
+    }
+    match result.fault {
+        // The recording is complete, the FMU is not what it should be.
+        Some(fault) => Err(fault.into()),
+        None if !judge.is_kept() => Ok(ExitCode::FAILURE),
+        None => Ok(ExitCode::SUCCESS),
+    }
+}

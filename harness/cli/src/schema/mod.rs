@@ -1,0 +1,41 @@
+//! `heliotorque schema`: the JSON Schemas of files, kept in step with their readers by tests of `physics` and of the mission.
+
+use clap::{Args, ValueEnum};
+
+use crate::outcome::{self, Outcome};
+
+/// `heliotorque schema`.
+#[derive(Debug, Args)]
+pub struct Schema {
+    /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; mission, which `run` flies; timeline, which `pack --timeline` takes; or ephemeris, which `pack --ephemeris` takes
+    #[arg(value_enum, default_value_t, hide_possible_values = true)]
+    pub kind: SchemaKind,
+}
+
+/// A kind of file that has a schema.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum SchemaKind {
+    /// A spacecraft.
+    #[default]
+    Spacecraft,
+    /// A spin-stabilised spacecraft.
+    Spinner,
+    /// A flight.
+    Mission,
+    /// Commands over time.
+    Timeline,
+    /// Positions over time.
+    Ephemeris,
+}
+
+/// Prints the schema.
+pub fn run(arguments: &Schema) -> Outcome {
+    let schema = match arguments.kind {
+        SchemaKind::Spacecraft => include_str!("../../../../fmu-src/resources/spacecraft.schema.json"),
+        SchemaKind::Spinner => include_str!("../../../../fmu-src/resources/spinner.schema.json"),
+        SchemaKind::Mission => include_str!("../../../../fmu-src/resources/mission.schema.json"),
+        SchemaKind::Timeline => include_str!("../../../../fmu-src/resources/timeline.schema.json"),
+        SchemaKind::Ephemeris => include_str!("../../../../fmu-src/resources/ephemeris.schema.json"),
+    };
+    outcome::printed(schema.trim_end())
+}
