@@ -5,7 +5,7 @@
 
 #[cfg(feature = "reader")]
 use crate::reader::{Fields, ReadError};
-use crate::write::Writer;
+use crate::writer::Writer;
 
 /// An element with attributes.
 pub(crate) trait Element: Sized {
@@ -81,7 +81,7 @@ macro_rules! element {
                 })
             }
 
-            fn write(&self, out: &mut $crate::write::Writer) {
+            fn write(&self, out: &mut $crate::writer::Writer) {
                 $($crate::element::write_attribute!(out, &self.$field, $presence $(($default))? $name);)*
             }
         }
@@ -131,7 +131,7 @@ macro_rules! elements {
                 }))
             }
 
-            pub(crate) fn write(&self, out: &mut $crate::write::Writer) {
+            pub(crate) fn write(&self, out: &mut $crate::writer::Writer) {
                 match self {
                     $(Self::$variant { $($field),* } => {
                         $($crate::element::write_attribute!(out, $field, $presence $($name)?);)*

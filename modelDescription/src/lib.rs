@@ -22,6 +22,7 @@ pub mod validate;
 pub mod value;
 mod words;
 mod write;
+mod writer;
 
 pub use base_type::BaseType;
 pub use description::{
@@ -35,4 +36,5 @@ pub use reader::{MAX_BYTES, Parsed, ReadError, Start, Xml, parse};
 pub use status::Status;
 pub use validate::validate;
 pub use words::{Causality, DependencyKind, Initial, NamingConvention, Variability};
-pub use write::{escape, to_xml};
+pub use write::to_xml;
+pub use writer::escape;

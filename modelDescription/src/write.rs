@@ -1,7 +1,7 @@
 //! The XML writer: UTF-8, two spaces a level, attributes left out where they equal their default.
 
 use crate::element::Element;
-use crate::lexical::Lexical;
+use crate::writer::Writer;
 use crate::{Description, ScalarVariable, SimpleType, SimpleTypeKind, Unit, Unknown};
 
 /// The `modelDescription.xml` of a description, in the order of the FMI 2.0.5 schema.
@@ -15,34 +15,6 @@ pub fn to_xml(description: &Description) -> String {
 /// The attributes that hold what XML cannot carry: element, name, the first such character.
 pub(crate) fn illegal_characters(description: &Description) -> Vec<(&'static str, &'static str, char)> {
     written(description).illegal
-}
-
-/// `text` as the content of a double-quoted attribute; tab and line breaks survive attribute normalisation.
-pub fn escape(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    push_escaped(&mut out, text);
-    out
-}
-
-/// Whether XML 1.0 can carry the character.
-pub(crate) fn is_xml_char(c: char) -> bool {
-    matches!(c, '\t' | '\n' | '\r' | '\u{20}'..='\u{D7FF}' | '\u{E000}'..='\u{FFFD}' | '\u{10000}'..)
-}
-
-fn push_escaped(out: &mut String, text: &str) {
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\t' => out.push_str("&#9;"),
-            '\n' => out.push_str("&#10;"),
-            '\r' => out.push_str("&#13;"),
-            c if is_xml_char(c) => out.push(c),
-            _ => out.push('\u{FFFD}'),
-        }
-    }
 }
 
 fn written(description: &Description) -> Writer {
@@ -74,65 +46,9 @@ fn written(description: &Description) -> Writer {
     out
 }
 
-/// The document so far.
-#[derive(Default)]
-pub(crate) struct Writer {
-    text: String,
-    open: Vec<&'static str>,
-    in_tag: bool,
-    illegal: Vec<(&'static str, &'static str, char)>,
-}
-
 impl Writer {
-    fn indent(&mut self) {
-        for _ in 0..self.open.len() {
-            self.text.push_str("  ");
-        }
-    }
-
-    fn element(&mut self, name: &'static str, content: impl FnOnce(&mut Self)) {
-        if self.in_tag {
-            self.text.push_str(">\n");
-        }
-        self.indent();
-        self.text.push('<');
-        self.text.push_str(name);
-        self.open.push(name);
-        self.in_tag = true;
-        content(self);
-        self.open.pop();
-        if self.in_tag {
-            self.text.push_str("/>\n");
-        } else {
-            self.indent();
-            self.text.push_str("</");
-            self.text.push_str(name);
-            self.text.push_str(">\n");
-        }
-        self.in_tag = false;
-    }
-
-    /// An attribute of the element last opened, before its content.
-    pub(crate) fn attribute(&mut self, name: &'static str, value: &impl Lexical) {
-        let text = value.text();
-        if let Some(c) = text.chars().find(|c| !is_xml_char(*c)) {
-            self.illegal.push((self.open.last().copied().unwrap_or_default(), name, c));
-        }
-        self.text.push(' ');
-        self.text.push_str(name);
-        self.text.push_str("=\"");
-        push_escaped(&mut self.text, &text);
-        self.text.push('"');
-    }
-
     fn leaf(&mut self, name: &'static str, element: &impl Element) {
         self.element(name, |out| element.write(out));
-    }
-
-    fn list<T>(&mut self, name: &'static str, items: &[T], mut item: impl FnMut(&mut Self, &T)) {
-        if !items.is_empty() {
-            self.element(name, |out| items.iter().for_each(|value| item(out, value)));
-        }
     }
 
     fn interface(&mut self, name: &'static str, flags: &impl Element, source_files: &[String]) {
@@ -169,11 +85,6 @@ impl Writer {
                 }
             });
         });
-    }
-
-    /// An attribute that may be left out.
-    pub(crate) fn optional(&mut self, name: &'static str, value: &Option<impl Lexical>) {
-        value.iter().for_each(|value| self.attribute(name, value));
     }
 
     fn variable(&mut self, variable: &ScalarVariable) {

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use model_description::BaseType;
 use serde::Serialize;
 
-use crate::variables::{Element, Elements};
+use crate::variables::{Boolean, Choice, Element, Elements, Integer, Real, RealMatrix, RealVector, Text};
 
 /// A set of scalar variables of any type: for each table of values one bit a place, in words up to the last that is not
 /// zero.
@@ -87,6 +87,27 @@ impl<T: Into<Knowns>> FromIterator<T> for Knowns {
     fn from_iter<I: IntoIterator<Item = T>>(parts: I) -> Self {
         parts.into_iter().fold(Self::default(), Self::and)
     }
+}
+
+/// Every handle is a set.
+macro_rules! handles {
+    ($([$($generics:tt)*] $handle:ty;)*) => { $(
+        impl<$($generics)*> From<$handle> for Knowns {
+            fn from(handle: $handle) -> Self {
+                Self::span(handle.into())
+            }
+        }
+    )* };
+}
+
+handles! {
+    [] Real;
+    [] Integer;
+    [] Boolean;
+    [] Text;
+    [E] Choice<E>;
+    [const N: usize] RealVector<N>;
+    [const R: usize, const C: usize] RealMatrix<R, C>;
 }
 
 impl From<&Knowns> for Knowns {

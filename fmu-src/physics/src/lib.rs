@@ -7,10 +7,11 @@
 #![forbid(unsafe_code)]
 
 pub mod constants;
-pub mod enumeration;
 pub mod math;
-pub mod numerics;
+pub mod enumeration;
 pub mod refusal;
+
+pub mod numerics;
 
 pub mod bodies;
 

@@ -6,7 +6,7 @@ use quick_xml::reader::Reader;
 
 use super::ReadError;
 use crate::finding::{Code, Finding};
-use crate::write::is_xml_char;
+use crate::writer::is_xml_char;
 
 /// Larger files are refused; the largest real ones, with a million variables, have about 300 MB.
 pub const MAX_BYTES: usize = 512 << 20;

@@ -7,7 +7,6 @@ use model_description::BaseType;
 use serde::{Deserialize, Serialize};
 
 use super::variable::{Element, EnumerationType};
-use crate::dependencies::Knowns;
 
 /// Scalars that follow one another in the table of their type: what a handle stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,12 +29,6 @@ macro_rules! elements {
         impl<$($generics)*> From<$handle> for Elements {
             fn from(handle: $handle) -> Self {
                 Self { first: Element { base: BaseType::$base, place: handle.0 }, count: $count }
-            }
-        }
-
-        impl<$($generics)*> From<$handle> for Knowns {
-            fn from(handle: $handle) -> Self {
-                Self::span(handle.into())
             }
         }
     )* };

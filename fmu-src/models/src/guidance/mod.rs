@@ -4,6 +4,7 @@ mod dependencies;
 mod inputs;
 mod outputs;
 mod setup;
+mod state;
 mod variables;
 
 use fmi_export::{
@@ -19,35 +20,13 @@ use physics::guidance::modes::system::{
 };
 use physics::management::{DumpRequests, SampledManager};
 use physics::numerics::work::Work;
-use serde::{Deserialize, Serialize};
 
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
 use inputs::{Fixed, Reader, management};
 pub use setup::Guidance;
 use setup::{GuidanceSetup, Plan};
+use state::State;
 use variables::GuidanceVariables;
-
-/// What guidance remembers between steps.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct State {
-    system: GuidanceState,
-    dumps: DumpRequests,
-    /// The communication point reached, in s.
-    time_s: f64,
-    /// Epoch less time, in s.
-    epoch_minus_time_s: f64,
-    /// Whether the warning was given that places are not connected.
-    warned_unconnected: bool,
-    /// Cache, not state: the same epoch gives the same bits.
-    #[serde(skip)]
-    ephemeris: Ephemeris,
-    /// Cache likewise.
-    #[serde(skip)]
-    coarse: CoarseEphemeris,
-    /// Cache of what parameters fix.
-    #[serde(skip)]
-    fixed: Option<Fixed>,
-}
 
 impl Model for Guidance {
     const NAME: &'static str = "Guidance";

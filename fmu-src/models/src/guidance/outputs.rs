@@ -5,8 +5,8 @@ use fmi_export::{Real, Values};
 use physics::guidance::burn::delta_v::{BurnSettings, BurnState};
 use physics::guidance::modes::system::GuidanceState;
 
-use super::State;
 use super::setup::Plan;
+use super::state::State;
 use super::variables::choices::{ActiveMode, AntennaSelect, EphemerisModel, EphemerisSource};
 use crate::common::choices::{CommandKind, ThrustRequest};
 

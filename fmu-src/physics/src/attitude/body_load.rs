@@ -1,6 +1,6 @@
 //! What acts on a body over a segment of its motion, and the body at one time.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::internal_motion::InternalMotion;
@@ -54,6 +54,18 @@ impl BodyLoad {
     pub(super) fn mass_after_kg(&self, elapsed_s: f64) -> f64 {
         let [flow_kg_s, slope_kg_s2] = self.flow_kg_s;
         self.mass_kg - (flow_kg_s + 0.5 * slope_kg_s2 * elapsed_s) * elapsed_s
+    }
+
+    /// Inverse of the inertia of body and held rotors after `elapsed_s`, from that at the start, in 1/(kg m2).
+    pub(super) fn inverse_inertia_after(&self, at_start: &Matrix3<f64>, elapsed_s: f64) -> Matrix3<f64> {
+        let Self { mass_flow, internal, .. } = self;
+        if mass_flow.is_none() && internal.is_none() {
+            return *at_start;
+        }
+        let by_flow = mass_flow.map_or(Matrix3::zeros(), |flow| flow.inertia_rate_kg_m2_s * elapsed_s);
+        let turned = internal.as_ref().map_or(Matrix3::zeros(), |it| it.inertia_change_after(elapsed_s));
+        let grown = Matrix3::identity() + at_start * (by_flow + turned);
+        grown.try_inverse().map_or(*at_start, |inverse| inverse * at_start)
     }
 
     /// Acceleration at the start and its slope there, in m/s2 and m/s3.

@@ -23,7 +23,7 @@ use super::imbalance::ImbalanceMotion;
 use super::internal_motion::InternalMotion;
 use super::oscillator::OscillatorMotion;
 use super::quaternion::Quaternion;
-use super::rotor_motion::RotorMotion;
+use super::rotor_motion::{self, RotorMotion};
 use super::series::{ORDER, ROUNDING, RotationSeries, TERMS, exact_length_s, polynomial, slope};
 use super::wheel::{Motor, Rotor};
 use crate::numerics::quadrature::GAUSS_3;
@@ -93,7 +93,7 @@ impl GyrostatMotion {
             let wheel = gyrostat.wheels().get(imbalance.wheel)?;
             Some(ImbalanceMotion::new(imbalance, &wheel.axis_body, gyrostat.center_of_mass_body_m()))
         }));
-        motion.set_inverse_inertia(gyrostat);
+        motion.inverse_inertia = motion.inverse_inertia_of(gyrostat);
         motion
     }
 
@@ -139,7 +139,7 @@ impl GyrostatMotion {
         self.load.internal = internal;
         (self.start_s, self.series.order) = (self.end_s, 0);
         self.series.attitude[0] = attitude.0.into();
-        self.set_inverse_inertia(gyrostat);
+        self.inverse_inertia = self.inverse_inertia_of(gyrostat);
     }
 
     /// What turns the body at once by a momentum within, in 1/(kg m2), where it has the inertia of `gyrostat`: rotors that turn
@@ -211,22 +211,10 @@ impl GyrostatMotion {
         let rest = self.load.internal.iter().fold(rest, |rest, it| rest - it.momentum_after(elapsed_s));
         BodyMotion {
             attitude,
-            rate_body_rad_s: self.inverse_inertia_after(elapsed_s) * rest,
+            rate_body_rad_s: self.load.inverse_inertia_after(&self.inverse_inertia, elapsed_s) * rest,
             momentum_inertial_n_m_s,
             delta_v_inertial_m_s,
         }
-    }
-
-    /// Inverse of the inertia that body and held rotors have alone, after `elapsed_s`, in 1/(kg m2).
-    fn inverse_inertia_after(&self, elapsed_s: f64) -> Matrix3<f64> {
-        let BodyLoad { mass_flow, internal, .. } = &self.load;
-        if mass_flow.is_none() && internal.is_none() {
-            return self.inverse_inertia;
-        }
-        let simulated = mass_flow.map_or(Matrix3::zeros(), |flow| flow.inertia_rate_kg_m2_s * elapsed_s);
-        let turned = internal.as_ref().map_or(Matrix3::zeros(), |it| it.inertia_change_after(elapsed_s));
-        let grown = Matrix3::identity() + self.inverse_inertia * (simulated + turned);
-        grown.try_inverse().map_or(self.inverse_inertia, |inverse| inverse * self.inverse_inertia)
     }
 
     /// Change of the total momentum since the start of the segment by each of these torques, body frame in N m with slopes in
@@ -343,19 +331,22 @@ impl GyrostatMotion {
         self.build(gyrostat, motors, longest_s);
         // One rotor after another, as each that is set free or held changes what drives the others.
         for _ in 0..ROUNDS_A_ROTOR * self.rotors.len() {
-            if !self.settle_one(gyrostat, motors) {
+            let rate = &self.series.rate[..=self.series.order];
+            if !rotor_motion::change_one(&mut self.rotors, gyrostat.wheels(), motors, rate) {
                 break;
             }
             self.build(gyrostat, motors, longest_s);
         }
         let converged_s = self.converged_s(gyrostat, longest_s);
-        let event_s = self.first_event_s(gyrostat, motors, converged_s);
+        let rate = &self.series.rate[..=self.series.order];
+        let event_s =
+            rotor_motion::first_event_s(&mut self.rotors, gyrostat.wheels(), motors, rate, converged_s);
         self.end_s = if event_s < longest_s { start_s + event_s } else { limit_s };
     }
 
     /// Computes the coefficients, as many as count within `longest_s`.
     fn build(&mut self, gyrostat: &Gyrostat, motors: &[Motor], longest_s: f64) {
-        self.set_inverse_inertia(gyrostat);
+        self.inverse_inertia = self.inverse_inertia_of(gyrostat);
         let scale = self.momentum_scale_n_m_s(gyrostat);
         let (mut power, mut small) = (1.0, 0);
         self.series.order = 0;
@@ -414,10 +405,6 @@ impl GyrostatMotion {
         self.inverse_inertia * rest
     }
 
-    fn set_inverse_inertia(&mut self, gyrostat: &Gyrostat) {
-        self.inverse_inertia = self.inverse_inertia_of(gyrostat);
-    }
-
     /// Greatest coefficient `j` of what swings, as a momentum: no coupling exceeds the root of the inertia.
     fn swing_n_m_s(&self, gyrostat: &Gyrostat, j: usize) -> f64 {
         if self.oscillators.is_empty() {
@@ -455,44 +442,6 @@ impl GyrostatMotion {
         )
     }
 
-    #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
-    /// Sets the held rotor free that is driven off most, or holds the one that would move through its rest or beyond its
-    /// capacity at once; whether there was one.
-    fn settle_one(&mut self, gyrostat: &Gyrostat, motors: &[Motor]) -> bool {
-        let mut worst: Option<(usize, f64, Rotor)> = None;
-        for k in 0..self.rotors.len() {
-            let (wheel, motor, it) = (&gyrostat.wheels()[k], &motors[k], &self.rotors[k]);
-            let found = it.change_at_start(wheel, motor, &self.series.rate[..=self.series.order]);
-            if let Some((excess, rotor)) = found
-                && worst.is_none_or(|(_, most, _)| excess > most)
-            {
-                worst = Some((k, excess, rotor));
-            }
-        }
-        let Some((k, _, rotor)) = worst else { return false };
-        self.rotors[k].rotor = rotor;
-        true
-    }
-
-    #[expect(clippy::needless_range_loop, reason = "rotors, wheels and motors are indexed alike")]
-    /// When the first rotor changes how it moves, at most `longest_s` after the start, in s; that rotor is reported.
-    fn first_event_s(&mut self, gyrostat: &Gyrostat, motors: &[Motor], longest_s: f64) -> f64 {
-        let mut first: Option<(usize, f64, Rotor)> = None;
-        for k in 0..self.rotors.len() {
-            let until_s = first.map_or(longest_s, |(_, at_s, _)| at_s);
-            let rate = &self.series.rate[..=self.series.order];
-            if let Some((at_s, rotor)) =
-                self.rotors[k].event(&gyrostat.wheels()[k], &motors[k], rate, until_s)
-            {
-                first = Some((k, at_s, rotor));
-            }
-        }
-        let Some((k, at_s, rotor)) = first else { return longest_s };
-        self.rotors[k].next = Some(rotor);
-        // Time always goes on.
-        at_s.max(longest_s * 1e-9)
-    }
-
     /// EME2000 to body at `time_s` within the segment.
     pub fn attitude_at(&self, time_s: f64) -> Quaternion {
         self.series.attitude_after(time_s - self.start_s)
@@ -500,18 +449,15 @@ impl GyrostatMotion {
 
     /// Angular rate at `time_s` within the segment, body frame, in rad/s.
     pub fn rate_at(&self, time_s: f64) -> Vector3<f64> {
-        self.rate_after(time_s - self.start_s)
-    }
-
-    fn rate_after(&self, elapsed_s: f64) -> Vector3<f64> {
-        polynomial(&self.series.rate[..=self.series.order], elapsed_s)
+        polynomial(&self.series.rate[..=self.series.order], time_s - self.start_s)
     }
 
     /// Torque and acceleration by the load, rotors out of balance and what swings under the acceleration, body frame.
     fn loads_after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
         let [mut torque, mut acceleration] = self.load.after(elapsed_s);
         if let Some(flow) = &self.load.mass_flow {
-            torque += flow.jet_torque_n_m(elapsed_s, &self.rate_after(elapsed_s));
+            torque += flow
+                .jet_torque_n_m(elapsed_s, &polynomial(&self.series.rate[..=self.series.order], elapsed_s));
         }
         for it in &self.imbalances {
             let [imbalance, force] = it.after(self.series.order, elapsed_s);

@@ -107,6 +107,48 @@ impl RotorMotion {
     }
 }
 
+/// Sets the held rotor free that is driven off most, or holds the one that would move through its rest or beyond its capacity at
+/// once; whether there was one. `rate` is the series of the body's.
+pub(super) fn change_one(
+    rotors: &mut [RotorMotion],
+    wheels: &[ReactionWheel],
+    motors: &[Motor],
+    rate: &[Vector3<f64>],
+) -> bool {
+    let mut worst: Option<(&mut RotorMotion, f64, Rotor)> = None;
+    for ((it, wheel), motor) in rotors.iter_mut().zip(wheels).zip(motors) {
+        if let Some((excess, rotor)) = it.change_at_start(wheel, motor, rate)
+            && worst.as_ref().is_none_or(|(_, most, _)| excess > *most)
+        {
+            worst = Some((it, excess, rotor));
+        }
+    }
+    let Some((it, _, rotor)) = worst else { return false };
+    it.rotor = rotor;
+    true
+}
+
+/// When the first rotor changes how it moves, at most `longest_s` after the start, in s; that rotor is told.
+pub(super) fn first_event_s(
+    rotors: &mut [RotorMotion],
+    wheels: &[ReactionWheel],
+    motors: &[Motor],
+    rate: &[Vector3<f64>],
+    longest_s: f64,
+) -> f64 {
+    let mut first: Option<(&mut RotorMotion, f64, Rotor)> = None;
+    for ((it, wheel), motor) in rotors.iter_mut().zip(wheels).zip(motors) {
+        let until_s = first.as_ref().map_or(longest_s, |(_, at_s, _)| *at_s);
+        if let Some((at_s, rotor)) = it.event(wheel, motor, rate, until_s) {
+            first = Some((it, at_s, rotor));
+        }
+    }
+    let Some((it, at_s, rotor)) = first else { return longest_s };
+    it.next = Some(rotor);
+    // Time always goes on.
+    at_s.max(longest_s * 1e-9)
+}
+
 /// What drives a held rotor off its speed at the start, along its axis, as a polynomial in time, in N m.
 fn drive_n_m(wheel: &ReactionWheel, motor: &Motor, held_n_m_s: f64, rate: &[Vector3<f64>]) -> [f64; TERMS] {
     let mut drive = [0.0; TERMS];

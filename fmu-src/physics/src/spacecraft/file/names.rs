@@ -88,13 +88,14 @@ macro_rules! names_of {
 
 /// Two parts of one kind with one name could not be distinguished; all plates are one kind, the shade's among them.
 pub(crate) fn check_names(check: &mut Checker<'_>, description: &Description) {
-    let shade = description.sunshade.as_ref().and_then(|shade| shade.plates.as_deref());
-    let of_shade = [names(Place::root().key("sunshade").key("plates"), shade)];
+    let of_shade = description.sunshade.as_ref().map_or_else(Vec::new, |shade| {
+        names(Place::root().key("sunshade").key("plates"), shade.plates.as_deref())
+    });
     let plates = names_of!(description: plates, boxes, cylinders, discs, dishes);
     let others = names_of!(
         description: panels, wheels, sun_sensors, instruments, tanks, thrusters, flexible_modes, slosh
     );
-    let kinds = [plates.into_iter().chain(of_shade).flatten().collect()].into_iter().chain(others);
+    let kinds = [plates.into_iter().chain([of_shade]).flatten().collect()].into_iter().chain(others);
     for kind in kinds {
         check_kind(check, &kind);
     }

@@ -1,0 +1,33 @@
+//! State of the model between steps.
+
+use physics::environment::coarse_ephemeris::CoarseEphemeris;
+use physics::environment::ephemeris::Ephemeris;
+use physics::guidance::modes::system::GuidanceState;
+use physics::management::DumpRequests;
+use serde::{Deserialize, Serialize};
+
+use super::inputs::Fixed;
+
+/// What guidance remembers between steps.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct State {
+    /// Modes, constraints, scans and the command in force.
+    pub system: GuidanceState,
+    /// Requests of dumps.
+    pub dumps: DumpRequests,
+    /// The communication point reached, in s.
+    pub time_s: f64,
+    /// Epoch less time, in s.
+    pub epoch_minus_time_s: f64,
+    /// Whether the warning was given that places are not connected.
+    pub warned_unconnected: bool,
+    /// Cache, not state: the same epoch gives the same bits.
+    #[serde(skip)]
+    pub ephemeris: Ephemeris,
+    /// Cache likewise.
+    #[serde(skip)]
+    pub coarse: CoarseEphemeris,
+    /// Cache of what parameters fix.
+    #[serde(skip)]
+    pub fixed: Option<Fixed>,
+}
