@@ -19,7 +19,7 @@ const MANUAL_FOLDER: [&str; 3] = ["share", "man", "man1"];
 /// Builds and packs everything, then copies it below the prefix that `options` name, otherwise `~/.local`.
 pub fn install(options: &[String]) -> Outcome {
     let prefix = prefix(options)?;
-    let built = dist::shipped()?;
+    let built = dist::dist()?;
     let binaries = prefix.join("bin");
     let folder = LIBRARY_FOLDER.iter().fold(prefix.clone(), |path, part| path.join(part));
     let program = built.heliotorque.clone();

@@ -118,7 +118,10 @@ mod tests {
             for (index, (ours, systems)) in pairs.iter().enumerate() {
                 let (found, expected) = (ours(x), systems(x));
                 // Three units in the last place.
-                assert!((found - expected).abs() <= 7e-16 * expected.abs(), "{index} of {x}: {found} {expected}");
+                assert!(
+                    (found - expected).abs() <= 7e-16 * expected.abs(),
+                    "{index} of {x}: {found} {expected}"
+                );
             }
             assert_eq!(sin_cos(x), (sin(x), cos(x)));
         }

@@ -115,6 +115,31 @@ pub fn acos<T: Scalar>(x: T) -> T {
     x.chain(math::acos(x.value()), || -1.0 / (1.0 - x.value() * x.value()).sqrt())
 }
 
+/// Angle in (-pi/2, pi/2) with the tangent `x`, in rad.
+#[inline]
+pub fn atan<T: Scalar>(x: T) -> T {
+    x.chain(math::atan(x.value()), || 1.0 / (1.0 + x.value() * x.value()))
+}
+
+/// Sine of an angle in rad.
+#[inline]
+pub fn sin<T: Scalar>(angle_rad: T) -> T {
+    angle_rad.chain(math::sin(angle_rad.value()), || math::cos(angle_rad.value()))
+}
+
+/// Cosine of an angle in rad.
+#[inline]
+pub fn cos<T: Scalar>(angle_rad: T) -> T {
+    angle_rad.chain(math::cos(angle_rad.value()), || -math::sin(angle_rad.value()))
+}
+
+/// Tangent of an angle in rad.
+#[inline]
+pub fn tan<T: Scalar>(angle_rad: T) -> T {
+    let value = math::tan(angle_rad.value());
+    angle_rad.chain(value, || 1.0 + value * value)
+}
+
 /// Sine and cosine of an angle in rad.
 #[inline]
 pub fn sin_cos<T: Scalar>(angle_rad: T) -> (T, T) {

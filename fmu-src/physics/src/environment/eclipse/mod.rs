@@ -24,6 +24,7 @@ use thiserror::Error;
 use crate::enumeration::enumeration;
 use crate::{
     constants::RADIUS_SUN_M,
+    math,
     numerics::scalar::{Scalar, vector_value},
 };
 
@@ -223,7 +224,7 @@ impl Shadow {
     /// Angle between the antisolar direction and the spacecraft, seen from the planet's centre, beyond the shadow
     /// cylinder's.
     fn cylinder_gap_rad(&self, spacecraft_m: &Vector3<f64>, sun_m: &Vector3<f64>) -> f64 {
-        let from_axis_rad = spacecraft_m.cross(sun_m).norm().atan2(-spacecraft_m.dot(sun_m));
-        from_axis_rad - (self.planet_radius_m / spacecraft_m.norm()).min(1.0).asin()
+        let from_axis_rad = math::atan2(spacecraft_m.cross(sun_m).norm(), -spacecraft_m.dot(sun_m));
+        from_axis_rad - math::asin((self.planet_radius_m / spacecraft_m.norm()).min(1.0))
     }
 }
