@@ -109,6 +109,12 @@ pub fn ln<T: Scalar>(x: T) -> T {
     x.chain(math::ln(x.value()), || 1.0 / x.value())
 }
 
+/// Angle in [-pi/2, pi/2] with the sine `x`, in rad.
+#[inline]
+pub fn asin<T: Scalar>(x: T) -> T {
+    x.chain(math::asin(x.value()), || 1.0 / (1.0 - x.value() * x.value()).sqrt())
+}
+
 /// Angle in [0, pi] with the cosine `x`, in rad.
 #[inline]
 pub fn acos<T: Scalar>(x: T) -> T {
