@@ -2,6 +2,7 @@
 
 use nalgebra::{Rotation3, Unit, Vector3};
 
+use crate::math;
 use crate::spacecraft::{Panel, Polygon, Spacecraft, Thruster};
 
 /// Whether a corner or the centre of a plate or panel stands in the cone of the thruster's plume, the panels at these angles (by
@@ -15,7 +16,7 @@ pub fn hits_a_surface(
         return false;
     }
     let exhaust = -thruster.force_body_n.normalize();
-    let least = thruster.plume_half_angle_rad.cos();
+    let least = math::cos(thruster.plume_half_angle_rad);
     let is_in = |point: &Vector3<f64>| {
         let from_nozzle = point - thruster.position_body_m;
         from_nozzle.dot(&exhaust) > least * from_nozzle.norm()

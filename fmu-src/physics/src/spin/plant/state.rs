@@ -9,6 +9,7 @@ use super::propulsion::{MassSource, Propulsion};
 use super::sensors::{Sensor, Sensors};
 use super::start::{InitialConditions, LEAST_WORK, MOST_WORK, Start, StartError};
 use crate::attitude::{Inertia, RigidBodyState};
+use crate::math;
 use crate::propulsion::due_s;
 use crate::spin::{
     burn::{Burn, BurnInitialConditions},
@@ -76,8 +77,8 @@ impl Plant {
         };
         let attitude = start.check(spinner)?;
         let spin_n_m_s = inertia.spin_kg_m2() * start.spin_rate_rad_s;
-        let across = spin_n_m_s * start.nutation_rad.tan();
-        let (sine, cosine) = start.nutation_phase_rad.sin_cos();
+        let across = spin_n_m_s * math::tan(start.nutation_rad);
+        let (sine, cosine) = math::sin_cos(start.nutation_phase_rad);
         let momentum = Vector3::new(across * cosine, across * sine, spin_n_m_s);
         let momentum_inertial = attitude.inertial_from_body(&inertia.body_from_spin_frame(&momentum));
         let theory = Spin {
