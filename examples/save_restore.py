@@ -7,7 +7,7 @@ dist, pictures = folders(__doc__)
 DAY_S, STEP_S = 86400.0, 600.0
 
 
-def go_on(plant, days):
+def advance(plant, days):
     """Times in days and X momentum of the days to come."""
     rows = []
     for _ in range(round(days * DAY_S / STEP_S)):
@@ -17,17 +17,17 @@ def go_on(plant, days):
 
 
 with Fmu(dist / "MomentumPlant.fmu") as plant:
-    first = go_on(plant, 5)
+    first = advance(plant, 5)
     (pictures / "five-days.state").write_bytes(plant.save())
-    original = go_on(plant, 5)
+    original = advance(plant, 5)
 
 blob = (pictures / "five-days.state").read_bytes()
 with Fmu(dist / "MomentumPlant.fmu") as plant:
     plant.restore(blob, 5 * DAY_S)
-    restored = go_on(plant, 5)
+    restored = advance(plant, 5)
     plant.restore(blob, 5 * DAY_S)
     plant.set("spacecraft.centerOfMass", [0.0, 0.0, -0.0508])
-    moved = go_on(plant, 5)
+    moved = advance(plant, 5)
 
 same = "every bit the same" if restored == original else "different"
 print(f"{len(blob)} bytes; restored: {same}, X momentum after ten days {restored[-1][1]!r} N.m.s; "

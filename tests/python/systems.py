@@ -90,7 +90,7 @@ def flown_by_libcosim(ssp, folder, step_s, steps, names):
         references = {it.name.decode(): it.reference for it in execution.slave_variables(slave_index=component)}
         own = [name for name in names if name.startswith(f"{part.name}.")]
         if own:
-            wanted = [references[name.partition(".")[2]] for name in own]
-            last = observer.last_real_values(slave_index=component, variable_references=wanted)
+            expected = [references[name.partition(".")[2]] for name in own]
+            last = observer.last_real_values(slave_index=component, variable_references=expected)
             values |= dict(zip(own, last, strict=True))
     return [values[name] for name in names]

@@ -1,4 +1,4 @@
-"""Files and pages hold on other machines too: GUIDs do not depend on the host's mathematics, the README's commands run."""
+"""Files and pages hold on other machines too: neither GUIDs nor results depend on the host's mathematics, the README's commands run."""
 
 import os
 import pathlib
@@ -18,12 +18,12 @@ TURNED = "rotation_deg = [7.84, 24.78, 7.93]"
 OTHER_PROCESSOR = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2"}
 
 
-def test_a_guid_is_the_same_on_every_processor(heliotorque, dist, tmp_path, monkeypatch):
+def test_guid_and_results_are_the_same_on_every_processor(heliotorque, dist, tmp_path, monkeypatch):
     text = (RESOURCES / "messenger.toml").read_text(encoding="utf-8")
     text = re.sub(r"(?m)^rotation_deg = .*", TURNED, text, count=1)
     assert TURNED in text
     (tmp_path / "turned.toml").write_text(text, encoding="utf-8")
-    guids = []
+    guids, results = [], []
     for name, environment in (("Here", {}), ("There", OTHER_PROCESSOR)):
         with monkeypatch.context() as context:
             for variable, value in environment.items():
@@ -39,7 +39,8 @@ def test_a_guid_is_the_same_on_every_processor(heliotorque, dist, tmp_path, monk
             simulated = call(heliotorque, "run", tmp_path / "Here.fmu", "--stop", "1h", "--output", tmp_path / f"{name}.csv")
             assert simulated.returncode == 0, simulated.stderr
         guids.append(read_model_description(str(fmu)).guid)
-    assert guids[0] == guids[1]
+        results.append((tmp_path / f"{name}.csv").read_bytes())
+    assert guids[0] == guids[1] and results[0] == results[1]
 
 
 def test_the_readmes_lines_for_fmpy_run(dist):

@@ -240,8 +240,8 @@ def test_the_response_settles_as_long_as_its_limits_take_and_differs_from_the_pa
 
         def is_off(row):
             error = turn_deg(attitude(row, "estimate_q1 estimate_q2 estimate_q3 estimate_q4"), attitude(row, commanded))
-            wanted = vector(row, "command_x_rad_s command_y_rad_s command_z_rad_s")
-            return error > 0.1 or math.degrees(np.linalg.norm(vector(row, RATE) - wanted)) > 0.005
+            expected = vector(row, "command_x_rad_s command_y_rad_s command_z_rad_s")
+            return error > 0.1 or math.degrees(np.linalg.norm(vector(row, RATE) - expected)) > 0.005
 
         settled = max(time for time, row in at.items() if is_off(row)) + 1.0 - 500.0
         row = found["time to settle"]

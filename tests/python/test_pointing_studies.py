@@ -116,9 +116,9 @@ def test_limb_points_lie_at_their_azimuths_and_touch_the_ellipsoid(limb, to_plan
         assert abs(closest_m(row, boresight, to_planet)) < 1e-6
         downtrack, left, _ = level(row)
         found = math.degrees(math.atan2(boresight @ left, boresight @ downtrack))
-        wanted = float(row["azimuth_deg"])
-        assert abs((found - wanted + 180.0) % 360.0 - 180.0) < 1e-10
-        assert abs((float(row["found_azimuth_deg"]) - wanted + 180.0) % 360.0 - 180.0) < 1e-10
+        expected = float(row["azimuth_deg"])
+        assert abs((found - expected + 180.0) % 360.0 - 180.0) < 1e-10
+        assert abs((float(row["found_azimuth_deg"]) - expected + 180.0) % 360.0 - 180.0) < 1e-10
         assert abs(float(row["height_m"])) < 1e-6 and row["reachable"] == "true"
         off_nadir = math.degrees(math.asin(off(boresight, -position(row))))
         assert float(row["off_nadir_deg"]) == pytest.approx(off_nadir, abs=1e-10)

@@ -54,10 +54,10 @@ def test_a_plan_turns_as_far_as_it_says_whatever_fires(heliotorque, spin_plant, 
     planned = subprocess.run(command, capture_output=True, text=True)
     text = planned.stdout
     assert planned.returncode == 1 and planned.stderr == f"limits broken: {broken}\n"
-    moved = re.search(r"moved ([0-9.]+) to ([0-9.]+) deg \(foreseen ([0-9.]+) to ([0-9.]+)\)", text)
-    least, most, foreseen, _ = map(float, moved.groups())
-    assert least == pytest.approx(foreseen, rel=2e-3) and most == pytest.approx(foreseen, rel=2e-3)
-    assert foreseen == pytest.approx(angle_deg, rel=0.02)
+    moved = re.search(r"moved ([0-9.]+) to ([0-9.]+) deg \(predicted ([0-9.]+) to ([0-9.]+)\)", text)
+    least, most, predicted, _ = map(float, moved.groups())
+    assert least == pytest.approx(predicted, rel=2e-3) and most == pytest.approx(predicted, rel=2e-3)
+    assert predicted == pytest.approx(angle_deg, rel=0.02)
 
 
 def test_a_plan_that_the_fmu_does_not_simulate_as_foreseen_is_no_plan(heliotorque, spin_plant, tmp_path):

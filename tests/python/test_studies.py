@@ -39,8 +39,8 @@ def long_unless(daily, names):
 def test_results_are_whole(studied, name):
     _, files = studied(name)
     own = name.split("/")[1]
-    wanted = {f"table{number}.csv" for number in (2, 3, 4, 5)} if own == "tables" else {f"{own}.csv"}
-    assert wanted <= files.keys() and (f"{own}.svg" in files or not own.startswith("figure"))
+    expected = {f"table{number}.csv" for number in (2, 3, 4, 5)} if own == "tables" else {f"{own}.csv"}
+    assert expected <= files.keys() and (f"{own}.svg" in files or not own.startswith("figure"))
     for file in files:
         if file.endswith(".csv"):
             table(files, file)

@@ -92,33 +92,6 @@ fn the_library_exports_what_it_must_and_nothing_else() {
     }
 }
 
-/// The newest glibc that the library requires, so that it loads on systems older than the one it is built on.
-const NEWEST_GLIBC: [u32; 2] = [2, 34];
-
-#[test]
-fn the_library_loads_on_older_systems() {
-    let Some(library) = built("HELIOTORQUE_LIBRARY") else { return };
-    let arguments = ["-D", "--undefined-only", "--with-symbol-versions"];
-    let output = std::process::Command::new("nm").args(arguments).arg(&library).output();
-    // Another machine's linker takes what that machine has.
-    let Ok(output) = output else {
-        assert!(std::env::var_os("CI").is_none(), "nm is missing");
-        return;
-    };
-    let listed = String::from_utf8(output.stdout).unwrap();
-    let symbols = listed.lines().filter_map(|line| line.split_whitespace().last()?.split_once("@GLIBC_"));
-    let versions: Vec<(&str, Vec<u32>)> = symbols
-        .map(|(name, version)| (name, version.split('.').map(|part| part.parse().unwrap()).collect()))
-        .collect();
-    assert!(versions.iter().any(|(name, _)| *name == "exp"), "{listed}");
-    let newer: Vec<_> = versions.iter().filter(|(_, version)| version[..2] > NEWEST_GLIBC[..]).collect();
-    if std::env::var_os("CI").is_some() {
-        assert!(newer.is_empty(), "{newer:?} would keep the library from older systems");
-    } else if !newer.is_empty() {
-        eprintln!("built here the library needs {newer:?}");
-    }
-}
-
 /// `fmi2Functions.h` of the standard without the model-exchange part, and the packer's function.
 const EXPORTS: [&str; 36] = [
     "fmi2GetTypesPlatform",

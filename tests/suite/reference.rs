@@ -1,7 +1,7 @@
 //! Recorded trajectories under `tests/reference`: a change that moves a number is seen, and made on purpose.
 //!
 //! Every simulation is a `heliotorque run` of a packed FMU. A value may differ from the recorded one by 1e-12 of its column's
-//! largest magnitude (sines come from the host's libm), a time of an event by 1e-9 s and four units in the last place.
+//! largest magnitude (which a reordered sum stays below), a time of an event by 1e-9 s and four units in the last place.
 //! After a deliberate change `cargo xtask bless reference` writes the files and their pictures anew.
 
 use std::fs;

@@ -2,10 +2,10 @@
 //! run side by side.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fmi_export::Enumeration;
-use loader::{Fmu, Instance, InstanceOptions, Value, platform_folders};
+use loader::{Fmu, Instance, InstanceOptions, Requirements, Value, platform_folders};
 use probe::panicking::Fault;
 
 use crate::support::{LIBRARY, built, description};
@@ -58,17 +58,48 @@ fn panics_stay_inside_the_library() {
     }
 }
 
-/// An importer may run where GCC's runtime is not installed; the names of needed libraries stand in the file as they are.
+/// An importer may run where GCC's runtime is not installed.
 #[cfg(target_os = "linux")]
 #[test]
 fn the_unwinder_is_part_of_the_library() {
     for variable in ["HELIOTORQUE_LIBRARY", "HELIOTORQUE_PROBE_LIBRARY"] {
         let Some(library) = built(variable) else { return };
-        let bytes = fs::read(library).unwrap();
-        let names = |name: &[u8]| bytes.windows(name.len()).any(|part| part == name);
-        assert!(names(b"libc.so.6"), "{variable}");
-        assert!(!names(b"libgcc_s"), "{variable} needs libgcc_s");
+        let libraries = Requirements::read(&library).unwrap().libraries;
+        assert!(libraries.iter().any(|name| name == "libc.so.6"), "{variable}: {libraries:?}");
+        assert!(!libraries.iter().any(|name| name.starts_with("libgcc_s")), "{variable}: {libraries:?}");
     }
+}
+
+/// Where the library for old systems is, if `cargo xtask dist` has built it: in a folder of its own beside that of this machine.
+fn portable(library: &Path) -> Option<PathBuf> {
+    let (profile, target) = (library.parent()?, library.parent()?.parent()?);
+    let path = target.join("x86_64-unknown-linux-gnu").join(profile.file_name()?).join(library.file_name()?);
+    path.exists().then_some(path)
+}
+
+/// The rounding of these is the system's own: with one of them, results would hang on the platform.
+#[test]
+fn the_library_takes_no_elementary_function_from_the_system() {
+    let Some(library) = built("HELIOTORQUE_LIBRARY") else { return };
+    for library in [Some(library.clone()), portable(&library)].into_iter().flatten() {
+        let requirements = Requirements::read(&library).unwrap();
+        assert!(!requirements.imports.is_empty(), "{}", library.display());
+        let found: Vec<&str> = requirements.elementary_functions().collect();
+        assert!(found.is_empty(), "{} imports {found:?}: see physics::math", library.display());
+    }
+}
+
+#[test]
+fn the_library_for_old_systems_asks_for_no_later_glibc() {
+    let Some(library) = built("HELIOTORQUE_LIBRARY") else { return };
+    let Some(library) = portable(&library) else {
+        eprintln!("skipped: `cargo xtask dist` has built no library for old systems");
+        return;
+    };
+    let requirements = Requirements::read(&library).unwrap();
+    let version: Vec<u32> =
+        requirements.glibc.as_ref().unwrap().split('.').map(|part| part.parse().unwrap()).collect();
+    assert!(version[..] <= [2, 17][..], "{requirements}");
 }
 
 #[test]

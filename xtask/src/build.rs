@@ -1,9 +1,10 @@
 //! Building the library and the command line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::shell::{self, cargo, root, run, target};
+use crate::python;
+use crate::shell::{self, cargo, command, root, run, target};
 
 /// What a build leaves.
 pub struct Built {
@@ -25,14 +26,51 @@ pub fn build() -> Result<Built, String> {
     Ok(built())
 }
 
+/// The oldest system that what is shipped loads on.
+const SHIPPED_FOR: &str = "x86_64-unknown-linux-gnu.2.17";
+
+/// Builds library and program for glibc 2.17 with the pinned linker; where that cannot be had, for this machine, and says so.
+pub fn portable() -> Result<Built, String> {
+    if !cfg!(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu")) {
+        eprintln!("note: built for this machine; libraries for {SHIPPED_FOR} are made on x86-64 Linux only");
+        return build();
+    }
+    let programs = match python::zig_programs() {
+        Ok(programs) => programs,
+        Err(problem) => {
+            eprintln!(
+                "note: built for this machine, whose glibc users must have; for {SHIPPED_FOR} the packages of \
+                 xtask/zig-requirements.txt are missing: {problem}"
+            );
+            return build();
+        }
+    };
+    let others = std::env::var_os("PATH").unwrap_or_default();
+    let path = std::env::join_paths(std::iter::once(programs.clone()).chain(std::env::split_paths(&others)))
+        .map_err(|error| format!("PATH: {error}"))?;
+    let zigbuild = |arguments: &[&str]| {
+        run(command(programs.join("cargo-zigbuild"))
+            .args(["zigbuild", "--locked", "--target", SHIPPED_FOR])
+            .args(arguments)
+            .env("PATH", &path))
+    };
+    zigbuild(&["--profile", "fmu", "-p", "component"])?;
+    zigbuild(&["--release", "-p", "heliotorque", "--all-features"])?;
+    Ok(built_in(&target().join("x86_64-unknown-linux-gnu")))
+}
+
 /// Where a build leaves what it made.
 pub fn built() -> Built {
+    built_in(&target())
+}
+
+fn built_in(target: &Path) -> Built {
     let library = |folder: &str, name: &str| {
         let file = format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-        target().join(folder).join(file)
+        target.join(folder).join(file)
     };
     Built {
-        heliotorque: target().join("release").join(format!("heliotorque{}", std::env::consts::EXE_SUFFIX)),
+        heliotorque: target.join("release").join(format!("heliotorque{}", std::env::consts::EXE_SUFFIX)),
         library: library("fmu", "heliotorque"),
         probe: library("fmu", "probe"),
     }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::build::{Built, build, scratch};
+use crate::build::{Built, build, portable, scratch};
 use crate::shell::{Outcome, command, root, run, target};
 use crate::systems;
 
@@ -41,6 +41,13 @@ pub fn pack_all(built: &Built) -> Outcome {
     // Only here is everything packed, and `current` looks at it.
     let stamp = stamp();
     fs::write(&stamp, "").map_err(|error| format!("{}: {error}", stamp.display()))
+}
+
+/// Builds what is shipped, for old systems where that is possible, and packs it.
+pub fn shipped() -> Result<Built, String> {
+    let built = portable()?;
+    pack_all(&built)?;
+    Ok(built)
 }
 
 /// Packs what was built, where program or library are newer than what is packed.

@@ -34,7 +34,7 @@ cargo xtask <task>
   bless golden|reference|schema|mistakes|guide
           write anew what tests compare with, after a change that is meant
   env     build everything, then print the variables that the tests read, as `export NAME='value'`
-  dist    build and pack every shipped FMU and system into dist/
+  dist    build for Linux with glibc 2.17 or later and pack every shipped FMU and system into dist/
   install build and pack everything, then put the program, its library and the FMUs below a prefix: ~/.local or
           --prefix FOLDER; the program then works in any folder
   bench   measure speed and memory; prints `bench <name> <value> <unit>` lines
@@ -58,7 +58,7 @@ fn main() -> ExitCode {
         },
         "bless" => selected::bless(option.unwrap_or_default()),
         "env" => test::print_environment(),
-        "dist" => dist::dist().map(|_| ()),
+        "dist" => dist::shipped().map(|_| ()),
         "install" => install::install(arguments.get(1..).unwrap_or_default()),
         "bench" => bench::all(),
         "guide" => guide::build(),

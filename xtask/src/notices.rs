@@ -30,8 +30,10 @@ Apache licence; its text is given below.
 The crate hifitime is under the Mozilla Public License 2.0, given below; its source code is at
 https://crates.io/crates/hifitime.
 
-On Linux GCC's unwinder (libgcc_eh and libgcc) is linked in too: GPL-3.0-or-later WITH GCC-exception-3.1, by the Free
-Software Foundation; the exception lets it be passed on as part of this library under the licences of this folder.
+On Linux an unwinder is linked in too. In libraries for glibc 2.17 and later it is LLVM's (libunwind and compiler-rt):
+Apache-2.0 WITH LLVM-exception, by the LLVM project's contributors; the text of the Apache licence is given below. In
+others it is GCC's (libgcc_eh and libgcc): GPL-3.0-or-later WITH GCC-exception-3.1, by the Free Software Foundation; the
+exception lets it be passed on as part of this library under the licences of this folder.
 
 ";
 

@@ -1,15 +1,25 @@
-//! The pinned Python environment of the tests, under `target/`.
+//! Pinned Python environments under `target/`: the tests', and the linker's for an older glibc.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::shell::{self, command, output, root, run};
 
 /// Python interpreter of the tests' environment, set up on first use and again when the pins change.
 pub fn interpreter() -> Result<PathBuf, String> {
-    let requirements = root().join("tests").join("python").join("requirements.txt");
-    let expected = std::fs::read_to_string(&requirements)
+    environment("python", &root().join("tests/python/requirements.txt"))
+}
+
+/// Folder with the programs `cargo-zigbuild` and `python -m ziglang`, which link for an older glibc.
+pub fn zig_programs() -> Result<PathBuf, String> {
+    let python = environment("zig", &root().join("xtask/zig-requirements.txt"))?;
+    python.parent().map(Path::to_path_buf).ok_or_else(|| format!("{} stands in no folder", python.display()))
+}
+
+/// The interpreter of a virtual environment under `target/` with pinned packages.
+fn environment(name: &str, requirements: &Path) -> Result<PathBuf, String> {
+    let expected = std::fs::read_to_string(requirements)
         .map_err(|error| format!("cannot read {}: {error}", requirements.display()))?;
-    let folder = shell::target().join("python");
+    let folder = shell::target().join(name);
     let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     let stamp = folder.join("requirements.txt");
     if std::fs::read_to_string(&stamp).is_ok_and(|installed| installed == expected) && shell_ok(&python) {
@@ -18,7 +28,7 @@ pub fn interpreter() -> Result<PathBuf, String> {
     run(command("python3").args(["-m", "venv", "--clear"]).arg(&folder))?;
     run(command(&python)
         .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"])
-        .arg(&requirements))?;
+        .arg(requirements))?;
     std::fs::write(&stamp, expected).map_err(|error| format!("cannot write {}: {error}", stamp.display()))?;
     Ok(python)
 }

@@ -13,9 +13,6 @@ extern crate self as fmi_export;
 
 mod bounded;
 mod dependencies;
-#[allow(unsafe_code, reason = "calls the C library to find unwind tables")]
-#[cfg(all(target_os = "linux", target_env = "gnu", any(target_arch = "x86_64", target_arch = "aarch64")))]
-mod find_object;
 pub mod fmi2;
 mod library;
 mod location;

@@ -15,6 +15,7 @@ use physics::constants::{ASTRONOMICAL_UNIT_M, GM_MERCURY_M3_S2, GM_SUN_M3_S2};
 use physics::environment::frames::rotation_z;
 use physics::environment::kepler_planet::{MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use physics::environment::orbit::Elements;
+use physics::math;
 use physics::numerics::scalar::{Dual64, Scalar, constant_vector};
 use physics::radiation::disturbance::{
     DisturbanceModel, Geometry, Options, PlanetGeometry, Recoil, Workspace,
@@ -49,7 +50,7 @@ fn main() -> Result<(), Failure> {
 fn orbit() -> Result<(Vec<Vector3<f64>>, f64), Failure> {
     let planet = Elements { true_anomaly_rad: 279_f64.to_radians(), ..MERCURY_AS_PRINTED };
     let distance_m = planet.state(GM_SUN_M3_S2)?.position_m.norm();
-    let flux_w_m2 = 1365.0 * (ASTRONOMICAL_UNIT_M / distance_m).powi(2);
+    let flux_w_m2 = 1365.0 * math::powi(ASTRONOMICAL_UNIT_M / distance_m, 2);
     // The Sun along -y, z against the planet's orbit normal (the paper's eqs 2 to 4).
     let dcm_pl_from_mci =
         rotation_z(planet.true_anomaly_rad + planet.periapsis_argument_rad + PI).transpose();
@@ -253,7 +254,7 @@ fn drum(hull: usize, shaded: usize) -> Result<Vec<Polygon>, physics::refusal::Re
     let mut polygons = Vec::new();
     for i in 0..hull {
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), i as f64 * TAU / hull as f64);
-        let half_width = (TAU / 2.0 / hull as f64).tan();
+        let half_width = math::tan(TAU / 2.0 / hull as f64);
         polygons.push(rectangle(turn * Vector3::x(), turn * Vector3::y() * half_width, Vector3::z() * 0.5)?);
     }
     for i in 0..shaded {
@@ -291,7 +292,8 @@ fn shadows(hull: usize, shaded: usize) -> Result<(), Failure> {
     let sun = |i: usize| {
         let azimuth = (i % 100) as f64 * TAU / 100.0;
         let tilt = 0.25 + 0.15 * (i % 8) as f64 / 8.0;
-        Vector3::new(tilt.sin() * azimuth.cos(), tilt.sin() * azimuth.sin(), tilt.cos())
+        math::sin(tilt) * Vector3::new(math::cos(azimuth), math::sin(azimuth), 0.0)
+            + math::cos(tilt) * Vector3::z()
     };
     let mut workspace = ShadowWorkspace::default();
     let mut pairs = 0;

@@ -6,6 +6,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use nalgebra::Vector3;
+use physics::math;
 use physics::numerics::scalar::{Dual64, Scalar, constant_vector};
 use physics::radiation::{Beam, SolarModel, TorquePolynomial};
 use physics::spacecraft::{MESSENGER_TOML, Plate, Spacecraft, SunshadeModel};
@@ -65,7 +66,7 @@ fn hedgehog(plates: usize) -> Result<Spacecraft, FileError> {
                 let z = 1.0 - (2 * i + 1) as f64 / plates as f64;
                 let azimuth = i as f64 * 2.399963229728653;
                 let rho = (1.0 - z * z).sqrt();
-                let normal = Vector3::new(rho * azimuth.cos(), rho * azimuth.sin(), z);
+                let normal = Vector3::new(rho * math::cos(azimuth), rho * math::sin(azimuth), z);
                 Plate { normal, center_m: normal, ..plate.clone() }
             })
         })

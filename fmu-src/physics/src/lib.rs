@@ -5,9 +5,14 @@
 //! radians; frames and units stand in the identifiers.
 
 #![forbid(unsafe_code)]
+#![cfg_attr(
+    test,
+    allow(clippy::disallowed_methods, reason = "what a test expects may come from the system's functions")
+)]
 
 pub mod constants;
 pub mod enumeration;
+pub mod math;
 pub mod refusal;
 
 pub mod numerics;

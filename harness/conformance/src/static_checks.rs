@@ -35,6 +35,10 @@ pub fn archive(fmu: &Fmu) -> Vec<Finding> {
         }
         Err(error) => findings.push(Finding::bad(error.to_string())),
     }
+    findings.extend(fmu.requirements().into_iter().map(|(path, read)| match read {
+        Ok(requirements) => Finding::good(format!("{}: {requirements}", path.display())),
+        Err(error) => Finding::note(error.to_string()),
+    }));
     separators(fmu, &mut findings);
     source_files(fmu, &mut findings);
     top_level(fmu, &mut findings);

@@ -57,6 +57,14 @@ pub enum Error {
         /// The loader's whole chain of reasons.
         chain: String,
     },
+    /// The requirements of a shared library cannot be read from its file.
+    #[error("{}: {what}", path.display())]
+    NotReadable {
+        /// The shared library.
+        path: PathBuf,
+        /// What was found and what is allowed.
+        what: String,
+    },
     /// An FMI call failed.
     #[error(transparent)]
     Call(#[from] Box<CallError>),

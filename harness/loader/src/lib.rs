@@ -19,6 +19,7 @@ mod inputs;
 mod instance;
 mod recorder;
 mod recording;
+mod requirements;
 mod select;
 mod simulate;
 mod status;
@@ -40,6 +41,7 @@ pub use model_description::Status;
 pub use model_description::value::{Value, display_unit, unit};
 pub use recorder::{Collector, Row, Rows};
 pub use recording::{Column, Recording};
+pub use requirements::Requirements;
 pub use select::{select, select_outputs};
 pub use simulate::{
     Ended, Options, RecordedPoints, Simulation, Stopped, Times, initialize, outputs, set_early, simulate,

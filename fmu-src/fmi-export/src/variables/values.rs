@@ -45,7 +45,9 @@ impl SetBits {
     }
 
     pub(crate) fn copy_from(&mut self, other: &Self) {
-        self.0.clone_from(&other.0);
+        if self != other {
+            self.0.clone_from(&other.0);
+        }
     }
 }
 

@@ -156,7 +156,7 @@ impl Model for Guidance {
     }
 
     fn settle_parameters(context: &Plan<'_>, values: &mut Values) {
-        inputs::settle(context, values);
+        inputs::resolve_start(context, values);
     }
 
     fn check_state(_setup: &GuidanceSetup, state: &State) -> Result<(), Failure> {

@@ -98,7 +98,7 @@ impl Model for MomentumPlant {
     }
 
     fn settle_parameters(context: &Plan<'_>, values: &mut Values) {
-        inputs::settle(context, values);
+        inputs::resolve_start(context, values);
     }
 
     fn tolerance(variables: &PlantVariables) -> Option<Real> {

@@ -3,6 +3,8 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::math;
+
 /// Azimuth A and elevation E of a direction: u = [cos E sin A, -cos E cos A, -sin E].
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct SunAngles {
@@ -15,9 +17,9 @@ pub struct SunAngles {
 impl SunAngles {
     /// Of a body-frame direction of any length; along the Z axis the azimuth is 0.
     pub fn of(direction_body: &Vector3<f64>) -> Self {
-        let across = libm::hypot(direction_body.x, direction_body.y);
-        let azimuth_rad = if across == 0.0 { 0.0 } else { direction_body.x.atan2(-direction_body.y) };
-        Self { azimuth_rad, elevation_rad: (-direction_body.z).atan2(across) }
+        let across = math::hypot(direction_body.x, direction_body.y);
+        let azimuth_rad = if across == 0.0 { 0.0 } else { math::atan2(direction_body.x, -direction_body.y) };
+        Self { azimuth_rad, elevation_rad: math::atan2(-direction_body.z, across) }
     }
 
     /// Distance inside a keep-in zone that is symmetric in both angles, in rad; negative outside.
@@ -28,15 +30,15 @@ impl SunAngles {
 
 /// Body-frame unit vector of azimuth and elevation.
 pub fn direction_from_angles(angles: SunAngles) -> Vector3<f64> {
-    let (sin_a, cos_a) = angles.azimuth_rad.sin_cos();
-    let (sin_e, cos_e) = angles.elevation_rad.sin_cos();
+    let (sin_a, cos_a) = math::sin_cos(angles.azimuth_rad);
+    let (sin_e, cos_e) = math::sin_cos(angles.elevation_rad);
     Vector3::new(cos_e * sin_a, -cos_e * cos_a, -sin_e)
 }
 
 /// Angle between two vectors of any length, in rad, accurate near 0 and near pi.
 #[inline]
 pub fn angle_between_rad(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
-    a.cross(b).norm().atan2(a.dot(b))
+    math::atan2(a.cross(b).norm(), a.dot(b))
 }
 
 #[cfg(test)]

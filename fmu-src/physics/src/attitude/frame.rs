@@ -2,6 +2,8 @@
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
+use crate::math;
+
 /// A unit vector and its time derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MovingUnit {
@@ -34,7 +36,7 @@ impl MovingUnit {
         }
         let cosine_rate = self.rate_1_s.dot(&other.direction) + self.direction.dot(&other.rate_1_s);
         let part_rate = other.rate_1_s - self.rate_1_s * cosine - self.direction * cosine_rate;
-        Some((Self::of(part, part_rate)?, sine.atan2(cosine), -cosine_rate / sine))
+        Some((Self::of(part, part_rate)?, math::atan2(sine, cosine), -cosine_rate / sine))
     }
 }
 

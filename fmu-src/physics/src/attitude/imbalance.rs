@@ -13,6 +13,8 @@ use serde::{Deserialize, Serialize};
 use super::series::{TERMS, polynomial, product};
 use super::slosh::across;
 
+use crate::math;
+
 /// Static imbalance of one rotor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotorImbalance {
@@ -102,13 +104,13 @@ impl ImbalanceMotion {
     }
 
     pub(super) fn is_valid(&self) -> bool {
-        (libm::hypot(self.cosine[0], self.sine[0]) - 1.0).abs() < 1e-9
+        (math::hypot(self.cosine[0], self.sine[0]) - 1.0).abs() < 1e-9
     }
 
     /// Cosine and sine.
     fn phase_after(&self, order: usize, elapsed_s: f64) -> [f64; 2] {
         let [cosine, sine] = [&self.cosine, &self.sine].map(|terms| polynomial(&terms[..=order], elapsed_s));
-        let norm = libm::hypot(cosine, sine);
+        let norm = math::hypot(cosine, sine);
         [cosine / norm, sine / norm]
     }
 

@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 use super::principal_axes::principal_axes;
 use super::quaternion::Quaternion;
 
+use crate::math;
+
 /// Moments that differ by less than this (relative) count as equal: the body is axisymmetric.
 const AXISYMMETRY: f64 = 1e-13;
 
@@ -165,7 +167,7 @@ impl Inertia {
     /// Angle between the body's third axis and the third principal axis, in rad (Wertz: coning).
     pub fn coning_rad(&self) -> f64 {
         let axis = self.spin_axis_body();
-        libm::hypot(axis.x, axis.y).atan2(axis.z)
+        math::atan2(math::hypot(axis.x, axis.y), axis.z)
     }
 
     /// Angular rate J^-1 h of the momentum `momentum_body`, body components, in rad/s.

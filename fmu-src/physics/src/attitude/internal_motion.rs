@@ -13,6 +13,8 @@ use serde::{Deserialize, Serialize};
 
 use super::series::{TERMS, polynomial};
 
+use crate::math;
+
 /// A mass that turns on a hinge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HingedMass {
@@ -38,11 +40,11 @@ impl HingedMass {
     /// Momentum relative to the body about the centre of mass of the whole, body frame, in N m s.
     pub fn momentum_body_n_m_s(&self, center_of_mass_body_m: &Vector3<f64>) -> Vector3<f64> {
         let [along, cosine, sine] = self.arm_parts();
-        let (sin, cos) = self.angle_rad.sin_cos();
+        let (sin, cos) = math::sin_cos(self.angle_rad);
         let arm = along + cosine * cos + sine * sin;
         let from_center = self.hinge_body_m + arm - center_of_mass_body_m;
         let [still, c, s, c2, s2] = self.inertia_parts();
-        let (sin2, cos2) = (2.0 * self.angle_rad).sin_cos();
+        let (sin2, cos2) = math::sin_cos(2.0 * self.angle_rad);
         let own = (still + c * cos + s * sin + c2 * cos2 + s2 * sin2) * self.axis_body;
         (own + from_center.cross(&self.axis_body.cross(&arm)) * self.mass_kg) * self.rate_rad_s
     }
@@ -72,7 +74,7 @@ impl HingedMass {
 
     /// Series of the cosine and sine of `times` the angle.
     fn cosine_and_sine(&self, times: f64) -> [[f64; TERMS]; 2] {
-        let (sin, cos) = (times * self.angle_rad).sin_cos();
+        let (sin, cos) = math::sin_cos(times * self.angle_rad);
         let [rate, acceleration] = [self.rate_rad_s, self.acceleration_rad_s2].map(|it| times * it);
         let (mut cosine, mut sine) = ([0.0; TERMS], [0.0; TERMS]);
         (cosine[0], sine[0]) = (cos, sin);

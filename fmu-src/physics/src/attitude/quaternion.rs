@@ -3,6 +3,8 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::math;
+
 /// Attitude as a unit quaternion `[x, y, z, w]` from EME2000 to body (passive, the order of Wertz).
 ///
 /// The same four numbers, read as Hamilton's quaternion, turn body components into inertial ones, so that
@@ -16,7 +18,7 @@ impl Quaternion {
 
     /// A turn of the body by `angle_rad` about the unit vector `axis`.
     pub fn turn(axis: &Vector3<f64>, angle_rad: f64) -> Self {
-        let (sine, cosine) = (0.5 * angle_rad).sin_cos();
+        let (sine, cosine) = math::sin_cos(0.5 * angle_rad);
         Self([axis.x * sine, axis.y * sine, axis.z * sine, cosine])
     }
 

@@ -8,6 +8,8 @@ use nalgebra::Vector3;
 use super::inertia::Inertia;
 use super::quaternion::Quaternion;
 
+use crate::math;
+
 /// Where the body is and how it turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidBodyState {
@@ -30,6 +32,6 @@ impl RigidBodyState {
     #[inline]
     pub fn nutation_rad(&self, inertia: &Inertia) -> f64 {
         let h = inertia.principal_from_body(&self.momentum_body);
-        libm::hypot(h.x, h.y).atan2(h.z)
+        math::atan2(math::hypot(h.x, h.y), h.z)
     }
 }

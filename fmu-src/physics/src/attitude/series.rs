@@ -15,6 +15,8 @@ use serde::{Deserialize, Serialize};
 
 use super::quaternion::Quaternion;
 
+use crate::math;
+
 /// Highest order of a gyrostat's series.
 pub(super) const ORDER: usize = 10;
 /// Its terms.
@@ -65,8 +67,8 @@ pub(crate) fn through<const N: usize>(nodes: &[f64; N], mut values: [f64; N]) ->
 /// How long a series whose terms `j` have these sizes relative to the whole is exact to rounding, at most `longest_s`, in s.
 pub(crate) fn exact_length_s(longest_s: f64, sizes: impl Iterator<Item = (usize, f64)>) -> f64 {
     sizes.fold(longest_s, |length_s, (j, size)| {
-        let is_longer = size * length_s.powi(j as i32) > ROUNDING;
-        if is_longer { (ROUNDING / size).powf(1.0 / j as f64) } else { length_s }
+        let is_longer = size * math::powi(length_s, j as i32) > ROUNDING;
+        if is_longer { math::powf(ROUNDING / size, 1.0 / j as f64) } else { length_s }
     })
 }
 

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::constants::{self, DEG_RAD};
 use crate::enumeration::enumeration;
+use crate::math;
 use surface::{DayTemperature, PlanetSurface};
 
 enumeration! {
@@ -117,8 +118,8 @@ impl BodyData {
 
     /// Unit vector to the north pole, in EME2000.
     pub fn pole(&self) -> Vector3<f64> {
-        let (sin_ra, cos_ra) = self.pole_right_ascension_rad.sin_cos();
-        let (sin_dec, cos_dec) = self.pole_declination_rad.sin_cos();
+        let (sin_ra, cos_ra) = math::sin_cos(self.pole_right_ascension_rad);
+        let (sin_dec, cos_dec) = math::sin_cos(self.pole_declination_rad);
         Vector3::new(cos_ra * cos_dec, sin_ra * cos_dec, sin_dec)
     }
 }

@@ -106,7 +106,8 @@ impl<T: Scalar> PlanetSurface<T> {
     /// Infrared exitance of the night side in W/m2.
     #[inline]
     pub fn night_exitance_w_m2(&self) -> T {
-        self.emissivity * STEFAN_BOLTZMANN_W_M2_K4 * self.night_temperature_k.powi(4)
+        let squared_k2 = self.night_temperature_k * self.night_temperature_k;
+        self.emissivity * STEFAN_BOLTZMANN_W_M2_K4 * (squared_k2 * squared_k2)
     }
 
     /// What leaves the surface while `solar_flux_w_m2` arrives at the planet.

@@ -18,6 +18,7 @@ use super::onboard::{CoarseElements, KeplerianElements, OnboardEphemeris};
 use super::time::julian_date;
 use crate::bodies::Body;
 use crate::constants::{ASTRONOMICAL_UNIT_M, DAY_S};
+use crate::math;
 use crate::numerics::chebyshev::Segment;
 
 /// Length of a window.
@@ -99,21 +100,21 @@ fn classical(e: &vsop87::VSOP87Elements) -> KeplerianElements {
     let half_cos = (1.0 - e.q * e.q - e.p * e.p).sqrt();
     let normal =
         Vector3::new(2.0 * e.p * half_cos, -2.0 * e.q * half_cos, 1.0 - 2.0 * (e.q * e.q + e.p * e.p));
-    let longitude_rad = e.h.atan2(e.k);
-    let (sin, cos) = longitude_rad.sin_cos();
+    let longitude_rad = math::atan2(e.h, e.k);
+    let (sin, cos) = math::sin_cos(longitude_rad);
     let tilt = 2.0 * (e.p * cos - e.q * sin);
     let toward_periapsis = Vector3::new(cos - e.p * tilt, sin + e.q * tilt, -tilt * half_cos);
     let turn = eme2000_from_vsop87();
     let (normal, toward_periapsis) = (turn * normal, turn * toward_periapsis);
-    let node_rad = normal.x.atan2(-normal.y);
-    let toward_node = Vector3::new(node_rad.cos(), node_rad.sin(), 0.0);
+    let node_rad = math::atan2(normal.x, -normal.y);
+    let toward_node = Vector3::new(math::cos(node_rad), math::sin(node_rad), 0.0);
     let across_node = normal.cross(&toward_node);
     KeplerianElements::from([
         e.a * ASTRONOMICAL_UNIT_M,
-        libm::hypot(e.k, e.h),
-        libm::hypot(normal.x, normal.y).atan2(normal.z),
+        math::hypot(e.k, e.h),
+        math::atan2(math::hypot(normal.x, normal.y), normal.z),
         node_rad,
-        toward_periapsis.dot(&across_node).atan2(toward_periapsis.dot(&toward_node)),
+        math::atan2(toward_periapsis.dot(&across_node), toward_periapsis.dot(&toward_node)),
         e.l - longitude_rad,
     ])
 }

@@ -19,6 +19,7 @@ use core::f64::consts::TAU;
 use nalgebra::{Matrix3, SVector, Vector3};
 
 use super::{CartesianState, orbit::kepler::eccentric_anomaly_rad, time::julian_date};
+use crate::math;
 use crate::{
     bodies::Body,
     constants::{ASTRONOMICAL_UNIT_M, DAY_S},
@@ -215,14 +216,14 @@ fn from_rectangular(p: vsop87::RectangularCoordinates) -> Vector3<f64> {
 /// EME2000 position of VSOP87's elements: semi-major axis in AU, mean longitude, k + ih = e exp(i periapsis longitude),
 /// q + ip = sin(inclination / 2) exp(i node).
 fn from_elements([a, mean_longitude_rad, k, h, q, p]: [f64; 6]) -> Vector3<f64> {
-    let e = libm::hypot(k, h);
-    let periapsis_longitude_rad = h.atan2(k);
+    let e = math::hypot(k, h);
+    let periapsis_longitude_rad = math::atan2(h, k);
     let (sin_anomaly, cos_anomaly) =
-        eccentric_anomaly_rad(mean_longitude_rad - periapsis_longitude_rad, e).sin_cos();
+        math::sin_cos(eccentric_anomaly_rad(mean_longitude_rad - periapsis_longitude_rad, e));
     // In the orbital plane, first axis toward periapsis, then toward the origin of longitudes.
     let along = cos_anomaly - e;
     let across = ((1.0 - e) * (1.0 + e)).sqrt() * sin_anomaly;
-    let (sin, cos) = periapsis_longitude_rad.sin_cos();
+    let (sin, cos) = math::sin_cos(periapsis_longitude_rad);
     let (x, y) = (along * cos - across * sin, along * sin + across * cos);
     let cos_half_inclination = (1.0 - q * q - p * p).sqrt();
     let tilt = 2.0 * (p * x - q * y);

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bodies::BodyData;
 use crate::enumeration::enumeration;
+use crate::math;
 
 /// Obliquity of the ecliptic at J2000, rad: 84381.448 arc seconds (IAU 1976, SPICE's ECLIPJ2000).
 pub const OBLIQUITY_J2000_RAD: f64 = 84_381.448 / 3600.0 * core::f64::consts::PI / 180.0;
@@ -62,19 +63,20 @@ pub fn dcm_from_pole(right_ascension_rad: f64, declination_rad: f64) -> Matrix3<
 
 /// Turns a vector by `angle_rad` about x.
 pub fn rotation_x(angle_rad: f64) -> Matrix3<f64> {
-    let (s, c) = angle_rad.sin_cos();
+    let (s, c) = math::sin_cos(angle_rad);
     Matrix3::new(1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c)
 }
 
 /// Turns a vector by `angle_rad` about z.
 pub fn rotation_z(angle_rad: f64) -> Matrix3<f64> {
-    let (s, c) = angle_rad.sin_cos();
+    let (s, c) = math::sin_cos(angle_rad);
     Matrix3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
 }
 
 /// Unit vector at a right ascension and declination.
 pub fn direction(right_ascension_rad: f64, declination_rad: f64) -> Vector3<f64> {
-    let ((sin_ra, cos_ra), (sin_dec, cos_dec)) = (right_ascension_rad.sin_cos(), declination_rad.sin_cos());
+    let ((sin_ra, cos_ra), (sin_dec, cos_dec)) =
+        (math::sin_cos(right_ascension_rad), math::sin_cos(declination_rad));
     Vector3::new(cos_ra * cos_dec, sin_ra * cos_dec, sin_dec)
 }
 

@@ -12,6 +12,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 use crate::attitude::SunAngles;
 use crate::guidance::SunPlace;
+use crate::math;
 
 /// Limits of the Sun's place about -Y.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,8 +77,8 @@ impl Branch {
         let most_rad = self.limits.azimuth_rad.min(FRAC_PI_2);
         let Some(middle_rad) = self.middle_rad else { return Some([-most_rad, most_rad]) };
         let middles_rad = self.separations_rad.map(|separation_rad| {
-            let cosine = (separation_rad.cos() / elevation_rad.cos()).clamp(-1.0, 1.0);
-            let delta_rad = if self.earth_ahead { cosine.acos() } else { -cosine.acos() };
+            let cosine = (math::cos(separation_rad) / math::cos(elevation_rad)).clamp(-1.0, 1.0);
+            let delta_rad = if self.earth_ahead { math::acos(cosine) } else { -math::acos(cosine) };
             (middle_rad - delta_rad + PI).rem_euclid(TAU) - PI
         });
         let low_rad = middles_rad.into_iter().fold(-most_rad, |low_rad, it| low_rad.max(it - FRAC_PI_4));

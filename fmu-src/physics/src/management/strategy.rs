@@ -97,27 +97,27 @@ impl Manager<'_> {
     ///
     /// # Errors
     /// What ends a flight.
-    pub fn choose(&self, outlook: &mut DownlinkForecast<'_>) -> Result<Option<ChosenPlace>, PlantError> {
-        let Some(to_earth) = outlook.to_earth.filter(|_| self.strategy != Strategy::DumpsOnly) else {
+    pub fn choose(&self, forecast: &mut DownlinkForecast<'_>) -> Result<Option<ChosenPlace>, PlantError> {
+        let Some(to_earth) = forecast.to_earth.filter(|_| self.strategy != Strategy::DumpsOnly) else {
             return Ok(None);
         };
-        let ahead = self.ahead(outlook)?;
-        let linear = self.linear(&outlook.center_of_mass_body_m());
-        let torque = |sun_body: &Vector3<f64>| outlook.torque_body_n_m(sun_body);
+        let ahead = self.ahead(forecast)?;
+        let linear = self.linear(&forecast.center_of_mass_body_m());
+        let torque = |sun_body: &Vector3<f64>| forecast.torque_body_n_m(sun_body);
         let aim = DownlinkState {
-            to_sun: outlook.to_sun,
+            to_sun: forecast.to_sun,
             to_earth,
-            momentum: outlook.momentum,
-            span_s: outlook.science.as_ref().map_or(outlook.span_s, ScienceCourse::light_s),
+            momentum: forecast.momentum,
+            span_s: forecast.science.as_ref().map_or(forecast.span_s, ScienceCourse::light_s),
             torque_body_n_m: &torque,
-            pressure_pa: outlook.pressure_pa,
+            pressure_pa: forecast.pressure_pa,
             linear,
-            science: outlook
+            science: forecast
                 .science
                 .as_ref()
-                .map(|course| ScienceAim { course, convention: DownlinkForecast::convention(outlook) }),
+                .map(|course| ScienceAim { course, convention: DownlinkForecast::convention(forecast) }),
         };
-        let separations_rad = outlook.separations_rad;
+        let separations_rad = forecast.separations_rad;
         Ok(self.place(aim, ahead.as_ref(), separations_rad))
     }
 

@@ -17,6 +17,7 @@ use super::linear::LinearTorque;
 use crate::attitude::{MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
 use crate::enumeration::enumeration;
 use crate::guidance::{LinesOfSight, ScienceCourse, SunPlace, downlink_toward};
+use crate::math;
 use crate::momentum::Convention;
 use crate::numerics::roots;
 use crate::plant::StartMomentum;
@@ -191,7 +192,7 @@ impl Targeting {
 
     fn branches(&self, separation_rad: f64) -> Option<[Branch; 4]> {
         // Neither places nor separation is known where one has no direction.
-        let has_plane = separation_rad.sin() > 1e-9;
+        let has_plane = math::sin(separation_rad) > 1e-9;
         has_plane.then(|| Branch::all(self.limits(), separation_rad))
     }
 

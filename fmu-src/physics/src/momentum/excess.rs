@@ -9,6 +9,7 @@
 
 use nalgebra::{SVector, Vector3};
 
+use crate::math;
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
 use crate::numerics::intervals::first_change_s;
@@ -82,7 +83,7 @@ impl Watched {
         let mut is_below = |at_s: f64| momentum(at_s)[axis].abs() < thresholds_n_m_s[axis];
         // Where a dump left the component at its threshold it need not be below at the start.
         let from_s = (0..MOST_HALVINGS)
-            .map(|halvings| beyond_s - (beyond_s - start_s) * 0.5_f64.powi(halvings))
+            .map(|halvings| beyond_s - (beyond_s - start_s) * math::powi(0.5_f64, halvings))
             .find(|&at_s| is_below(at_s));
         let time_s = from_s.map_or(beyond_s, |from_s| first_change_s(from_s, beyond_s, is_below));
         Some(Excess { time_s, components })

@@ -12,6 +12,8 @@
 
 use super::intervals::next_multiple_s;
 
+use crate::math;
+
 /// Of what the estimate allows, as much is used.
 const SAFETY: f64 = 0.9;
 
@@ -65,7 +67,7 @@ impl AdaptiveInterval {
     /// s, if it is accepted; otherwise this one is now shorter.
     pub fn accept(&mut self, unresolved: f64, tolerance: f64, terms: usize) -> Option<f64> {
         let length_s = self.end_s - self.start_s;
-        let growth = SAFETY * (tolerance / unresolved).powf(1.0 / terms as f64);
+        let growth = SAFETY * math::powf(tolerance / unresolved, 1.0 / terms as f64);
         let shorter_s = self.start_s + length_s * growth.clamp(0.1, 0.7);
         // A number that is not finite cannot be resolved by shortening; it shows in the outputs.
         let accepted = unresolved <= tolerance

@@ -8,6 +8,8 @@ use rand_chacha::{
     rand_core::{Rng, SeedableRng},
 };
 
+use crate::math;
+
 /// Who draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
@@ -76,14 +78,14 @@ impl NormalPairs {
         // 53 random bits, shifted off 0 so that the logarithm is finite.
         let mut uniform = || ((self.0.next_u64() >> 11) as f64 + 0.5) / 9_007_199_254_740_992.0;
         let (first, second) = (uniform(), uniform());
-        ((-2.0 * first.ln()).sqrt(), 2.0 * PI * second)
+        ((-2.0 * math::ln(first)).sqrt(), 2.0 * PI * second)
     }
 }
 
 /// A normally distributed number of mean 0 and variance 1.
 pub fn normal(seed: u64, channel: Channel, event: u64) -> f64 {
     let (radius, angle) = NormalPairs::new(seed, channel, event).polar();
-    radius * angle.cos()
+    radius * math::cos(angle)
 }
 
 /// Three independent normally distributed numbers of mean 0 and variance 1; the first is that of [`normal`].
@@ -91,7 +93,7 @@ pub fn normal_vector(seed: u64, channel: Channel, event: u64) -> Vector3<f64> {
     let mut pairs = NormalPairs::new(seed, channel, event);
     let (radius, angle) = pairs.polar();
     let (third_radius, third_angle) = pairs.polar();
-    Vector3::new(radius * angle.cos(), radius * angle.sin(), third_radius * third_angle.cos())
+    Vector3::new(radius * math::cos(angle), radius * math::sin(angle), third_radius * math::cos(third_angle))
 }
 
 #[cfg(test)]

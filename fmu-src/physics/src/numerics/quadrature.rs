@@ -9,6 +9,8 @@
 
 use core::f64::consts::PI;
 
+use crate::math;
+
 /// Nodes and weights of Gauss-Legendre quadrature of order 4 on [0, 1].
 pub const GAUSS_2: [(f64, f64); 2] = {
     let [first, last] = pair(1.0 / 3.0);
@@ -78,7 +80,7 @@ impl<const N: usize> Rule<N> {
 pub fn gauss_legendre(nodes: &mut [f64], weights: &mut [f64]) {
     let n = nodes.len().min(weights.len());
     for i in 0..n.div_ceil(2) {
-        let mut x = -(PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
+        let mut x = -math::cos(PI * (i as f64 + 0.75) / (n as f64 + 0.5));
         for _ in 0..8 {
             let (p, derivative) = legendre(n, x);
             let change = p / derivative;

@@ -6,6 +6,8 @@ use core::ops::{Add, Div, Mul, Sub};
 
 use nalgebra::{RealField, Vector3};
 
+use crate::math;
+
 /// A number with its derivative along one seed direction: `Dual64::new(value, derivative)`.
 ///
 /// Comparisons look at the value only, so that a kernel takes the same branches as with plain numbers. The
@@ -30,6 +32,9 @@ pub trait Scalar:
     /// Whether two numbers agree, derivatives included.
     fn same(self, other: Self) -> bool;
 
+    /// A function of this number by its value and, where the number carries a derivative, its slope.
+    fn chain(self, value: f64, slope: impl FnOnce() -> f64) -> Self;
+
     /// Angle in (-pi, pi] from the x axis to the direction (x, y), in rad. Its derivative is finite in every direction;
     /// the origin has none and counts as one that stays. (That of `atan2` divides y by x.)
     fn polar_angle(y: Self, x: Self) -> Self;
@@ -52,8 +57,13 @@ impl Scalar for f64 {
     }
 
     #[inline]
+    fn chain(self, value: f64, _: impl FnOnce() -> f64) -> Self {
+        value
+    }
+
+    #[inline]
     fn polar_angle(y: Self, x: Self) -> Self {
-        y.atan2(x)
+        math::atan2(y, x)
     }
 }
 
@@ -74,11 +84,73 @@ impl Scalar for Dual64 {
     }
 
     #[inline]
+    fn chain(self, value: f64, slope: impl FnOnce() -> f64) -> Self {
+        Self::new(value, slope() * self.eps)
+    }
+
+    #[inline]
     fn polar_angle(y: Self, x: Self) -> Self {
         let squared = x.re * x.re + y.re * y.re;
         let slope = if squared > 0.0 { (x.re * y.eps - y.re * x.eps) / squared } else { 0.0 };
-        Self::new(y.re.atan2(x.re), slope)
+        Self::new(math::atan2(y.re, x.re), slope)
     }
+}
+
+/// e to the power `x`.
+#[inline]
+pub fn exp<T: Scalar>(x: T) -> T {
+    let value = math::exp(x.value());
+    x.chain(value, || value)
+}
+
+/// Natural logarithm.
+#[inline]
+pub fn ln<T: Scalar>(x: T) -> T {
+    x.chain(math::ln(x.value()), || 1.0 / x.value())
+}
+
+/// Angle in [-pi/2, pi/2] with the sine `x`, in rad.
+#[inline]
+pub fn asin<T: Scalar>(x: T) -> T {
+    x.chain(math::asin(x.value()), || 1.0 / (1.0 - x.value() * x.value()).sqrt())
+}
+
+/// Angle in [0, pi] with the cosine `x`, in rad.
+#[inline]
+pub fn acos<T: Scalar>(x: T) -> T {
+    x.chain(math::acos(x.value()), || -1.0 / (1.0 - x.value() * x.value()).sqrt())
+}
+
+/// Angle in (-pi/2, pi/2) with the tangent `x`, in rad.
+#[inline]
+pub fn atan<T: Scalar>(x: T) -> T {
+    x.chain(math::atan(x.value()), || 1.0 / (1.0 + x.value() * x.value()))
+}
+
+/// Sine of an angle in rad.
+#[inline]
+pub fn sin<T: Scalar>(angle_rad: T) -> T {
+    angle_rad.chain(math::sin(angle_rad.value()), || math::cos(angle_rad.value()))
+}
+
+/// Cosine of an angle in rad.
+#[inline]
+pub fn cos<T: Scalar>(angle_rad: T) -> T {
+    angle_rad.chain(math::cos(angle_rad.value()), || -math::sin(angle_rad.value()))
+}
+
+/// Tangent of an angle in rad.
+#[inline]
+pub fn tan<T: Scalar>(angle_rad: T) -> T {
+    let value = math::tan(angle_rad.value());
+    angle_rad.chain(value, || 1.0 + value * value)
+}
+
+/// Sine and cosine of an angle in rad.
+#[inline]
+pub fn sin_cos<T: Scalar>(angle_rad: T) -> (T, T) {
+    let (sin, cos) = math::sin_cos(angle_rad.value());
+    (angle_rad.chain(sin, || cos), angle_rad.chain(cos, || -sin))
 }
 
 /// A constant vector as kernel numbers.

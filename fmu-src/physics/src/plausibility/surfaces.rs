@@ -4,6 +4,7 @@ use core::f64::consts::FRAC_PI_4;
 
 use nalgebra::{Rotation3, Unit, Vector3};
 
+use crate::math;
 use crate::spacecraft::{Cylinder, Panel, PanelControl, Plate, Polygon, Spacecraft, SunshadeModel};
 
 /// A flat surface in the body frame.
@@ -81,7 +82,7 @@ fn corners(plate: &Plate) -> Vec<Vector3<f64>> {
     let north = normal.cross(&east);
     let half_diagonal_m = (plate.area_m2 / 2.0).sqrt();
     let corner = |k: u8| {
-        let (sin, cos) = libm::sincos(f64::from(2 * k + 1) * FRAC_PI_4);
+        let (sin, cos) = math::sin_cos(f64::from(2 * k + 1) * FRAC_PI_4);
         center_m + (east * cos + north * sin) * half_diagonal_m
     };
     (0..4).map(corner).collect()
@@ -92,7 +93,7 @@ fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
     let width_rad = 2.0 * cylinder.half_angle_rad / f64::from(STRIPS);
     (0..STRIPS).filter_map(move |k| {
         let edge = |k: u32| {
-            let (sin, cos) = libm::sincos(-cylinder.half_angle_rad + width_rad * f64::from(k));
+            let (sin, cos) = math::sin_cos(-cylinder.half_angle_rad + width_rad * f64::from(k));
             Vector3::new(sin, -cos, 0.0) * cylinder.radius_m
         };
         let up_m = Vector3::z() * (cylinder.height_m / 2.0);

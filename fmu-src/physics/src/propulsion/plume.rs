@@ -2,6 +2,7 @@
 
 use nalgebra::{Rotation3, Unit, Vector3};
 
+use crate::math;
 use crate::spacecraft::{Panel, Plate, Polygon, Spacecraft, Thruster};
 
 /// The first plate or panel of which a corner or the centre stands in the cone of the thruster's plume, by name, the panels at
@@ -15,7 +16,7 @@ pub fn surface_in_plume<'s>(
         return None;
     }
     let exhaust = -thruster.force_body_n.normalize();
-    let least = thruster.plume_half_angle_rad.cos();
+    let least = math::cos(thruster.plume_half_angle_rad);
     let is_in = |point: &Vector3<f64>| {
         let from_nozzle = point - thruster.position_body_m;
         from_nozzle.dot(&exhaust) > least * from_nozzle.norm()

@@ -113,6 +113,16 @@ impl PulseSchedule {
         self.next.map_or(f64::INFINITY, |next| next.opens_s)
     }
 
+    /// Whether no pulse is current or ahead.
+    pub fn is_idle(&self) -> bool {
+        self.open.is_none() && self.next.is_none()
+    }
+
+    /// When it next opens or closes, in s; infinite where it does neither.
+    pub fn next_edge_s(&self) -> f64 {
+        self.opens_s().min(self.closes_s())
+    }
+
     /// Takes note that the current pulse is over; whether it is by `due_s`, in s.
     pub fn take_closing(&mut self, due_s: f64) -> bool {
         let closes = self.closes_s() <= due_s;

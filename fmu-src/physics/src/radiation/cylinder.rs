@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::flat_plate::Beam;
 use crate::loads::ForceTorque;
-use crate::numerics::scalar::Scalar;
+use crate::numerics::scalar::{Scalar, sin_cos};
 use crate::spacecraft::Cylinder;
 
 /// A cylindrical section with its orientation in the body.
@@ -108,8 +108,8 @@ impl<T: Scalar> Moments<T> {
     }
 
     fn over(from: T, to: T, sun: &Vector3<T>) -> Self {
-        let (sin_to, cos_to) = to.sin_cos();
-        let (sin_from, cos_from) = from.sin_cos();
+        let (sin_to, cos_to) = sin_cos(to);
+        let (sin_from, cos_from) = sin_cos(from);
         // c = u sin + v cos
         let u = sun.x;
         let v = -sun.y;

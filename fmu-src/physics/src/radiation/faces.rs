@@ -6,6 +6,7 @@ use super::cylinder::CylinderFace;
 use super::shadow::{Hinge, Outline};
 use super::thermal::balance::FaceEnvironment;
 use super::thermal::transient::HeatStore;
+use crate::math;
 use crate::refusal::Refusal;
 use crate::spacecraft::{
     BusLink, Cylinder, Emission, FaceThermal, Optics, Plate, Spacecraft, SunshadeModel, Thermal,
@@ -197,7 +198,7 @@ fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
     let width_rad = 2.0 * cylinder.half_angle_rad / f64::from(CYLINDER_STRIPS);
     (0..CYLINDER_STRIPS).map(move |i| {
         let angle_rad = (f64::from(i) + 0.5) * width_rad - cylinder.half_angle_rad;
-        let normal = Vector3::new(angle_rad.sin(), -angle_rad.cos(), 0.0);
+        let normal = Vector3::new(math::sin(angle_rad), -math::cos(angle_rad), 0.0);
         let name = format!("shade strip {}", i + 1);
         let area_m2 = cylinder.radius_m * width_rad * cylinder.height_m;
         Plate::insulated(name, area_m2, normal * cylinder.radius_m, normal, cylinder.optics, None)

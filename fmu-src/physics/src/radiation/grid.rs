@@ -13,6 +13,7 @@ use super::planet_light::PlanetLight;
 use super::ring::PlanetView;
 use crate::bodies::surface::PlanetSurface;
 use crate::constants::SPEED_OF_LIGHT_M_S;
+use crate::math;
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::refusal::Refusal;
 use crate::spacecraft::PlanetMap;
@@ -65,10 +66,10 @@ impl PlanetGrid {
         let belts = (0..resolution).map(|belt| {
             let latitude = -FRAC_PI_2 + PI * (belt as f64 + 0.5) / n;
             let (south, north) = (latitude - FRAC_PI_2 / n, latitude + FRAC_PI_2 / n);
-            let area = PI / n * (north.sin() - south.sin());
-            Belt { sin_latitude: latitude.sin(), cos_latitude: latitude.cos(), area }
+            let area = PI / n * (math::sin(north) - math::sin(south));
+            Belt { sin_latitude: math::sin(latitude), cos_latitude: math::cos(latitude), area }
         });
-        let meridians = (0..2 * resolution).map(|step| (-PI + PI * (step as f64 + 0.5) / n).sin_cos());
+        let meridians = (0..2 * resolution).map(|step| math::sin_cos(-PI + PI * (step as f64 + 0.5) / n));
         Ok(Self { belts: belts.collect(), meridians: meridians.collect(), map: None })
     }
 

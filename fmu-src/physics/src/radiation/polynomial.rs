@@ -13,6 +13,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::cylinder::lit_angle_rad;
 use super::faces::no_such_sunshade;
 use super::flat_plate::Beam;
+use crate::math;
 use crate::numerics::scalar::Scalar;
 use crate::refusal::Refusal;
 use crate::spacecraft::{Cylinder, Optics, Plate, Sunshade, SunshadeModel};
@@ -142,15 +143,15 @@ impl Moments {
     /// r = R n + z Z - r_c, n = [sin, -cos, 0], angles within +-theta0: odd powers of z and of sin vanish.
     fn of_cylinder(cylinder: &Cylinder, center_of_mass_m: &Vector3<f64>) -> Self {
         let half = cylinder.half_angle_rad;
-        let (sin, cos) = half.sin_cos();
+        let (sin, cos) = math::sin_cos(half);
         let strip_m2 = cylinder.radius_m * cylinder.height_m;
         // int n, int n n, and int n n n by its third index.
         let first = -Vector3::y() * (2.0 * sin * strip_m2);
         let sin_sin = (half - sin * cos) * strip_m2;
         let cos_cos = (half + sin * cos) * strip_m2;
         let second = Matrix3::from_diagonal(&Vector3::new(sin_sin, cos_cos, 0.0));
-        let sin_sin_cos = 2.0 / 3.0 * sin.powi(3) * strip_m2;
-        let cos_cos_cos = 2.0 * (sin - sin.powi(3) / 3.0) * strip_m2;
+        let sin_sin_cos = 2.0 / 3.0 * math::powi(sin, 3) * strip_m2;
+        let cos_cos_cos = 2.0 * (sin - math::powi(sin, 3) / 3.0) * strip_m2;
         let along_x =
             Matrix3::from_fn(|a, b| if (a, b) == (0, 1) || (a, b) == (1, 0) { -sin_sin_cos } else { 0.0 });
         let along_y = -Matrix3::from_diagonal(&Vector3::new(sin_sin_cos, cos_cos_cos, 0.0));

@@ -9,7 +9,7 @@ use super::polygon::Polygon;
 use super::surface::Plate;
 use super::thermal::Thermal;
 use crate::enumeration::enumeration;
-use crate::numerics::scalar::{Scalar, constant_vector};
+use crate::numerics::scalar::{Scalar, acos, constant_vector, cos, sin_cos};
 
 enumeration! {
     /// How a panel's angle comes about.
@@ -79,7 +79,7 @@ impl Panel {
 
     /// Unit normal of the cell side at an angle about the axis (paper 000, eq 9, for any axis and zero direction).
     pub fn normal_body<T: Scalar>(&self, angle_rad: T) -> Vector3<T> {
-        let (sin, cos) = angle_rad.sin_cos();
+        let (sin, cos) = sin_cos(angle_rad);
         constant_vector::<T>(&self.zero_normal_body) * cos
             + constant_vector::<T>(&self.quarter_normal()) * sin
     }
@@ -104,13 +104,13 @@ impl Panel {
         }
         let facing = T::polar_angle(toward_quarter, toward_zero);
         // n.s = |s in the plane| cos(angle - facing): at least -|s|, at most |s|.
-        let cos_tilt = in_plane_squared.sqrt().recip() * sun_offset_rad.cos();
+        let cos_tilt = in_plane_squared.sqrt().recip() * cos(sun_offset_rad);
         let tilt = if cos_tilt.value() >= 1.0 {
             T::constant(0.0)
         } else if cos_tilt.value() <= -1.0 {
             T::constant(core::f64::consts::PI)
         } else {
-            cos_tilt.acos()
+            acos(cos_tilt)
         };
         facing + tilt * tilt_sign
     }

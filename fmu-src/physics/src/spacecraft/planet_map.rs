@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::constants::STEFAN_BOLTZMANN_W_M2_K4;
+use crate::math;
 use crate::numerics::scalar::Scalar;
 use crate::refusal::Refusal;
 
@@ -35,7 +36,7 @@ impl PlanetCell {
 
     /// Infrared exitance in W/m2 (eq 34).
     pub fn infrared_w_m2(&self) -> f64 {
-        self.emissivity * STEFAN_BOLTZMANN_W_M2_K4 * self.temperature_k.powi(4)
+        self.emissivity * STEFAN_BOLTZMANN_W_M2_K4 * math::powi(self.temperature_k, 4)
     }
 
     fn is_possible(&self) -> bool {

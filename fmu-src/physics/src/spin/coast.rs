@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::damper::Damper;
 use crate::attitude::{Inertia, Quaternion};
+use crate::math;
 
 /// A torque-free arc of an axisymmetric body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,13 +45,13 @@ impl Coast {
         let across = spin_axis.cross(&axis);
         let (sine, along) = (across.norm(), spin_axis.dot(&axis));
         let node = if sine > 0.0 { across / sine } else { attitude.inertial_from_body(&Vector3::x()) };
-        let angle_rad = sine.atan2(along.abs());
+        let angle_rad = math::atan2(sine, along.abs());
         Self {
             attitude,
             axis,
             node,
             angle_rad,
-            cosine: angle_rad.cos(),
+            cosine: math::cos(angle_rad),
             upright: along >= 0.0,
             precession_rad_s: momentum / transverse,
             relative_spin_rad_s: momentum * (spin.recip() - transverse.recip()),
@@ -70,7 +71,7 @@ impl Coast {
         } else {
             (self.attitude, self.cosine * dt_s)
         };
-        let (sine, cosine) = (0.5 * side * self.relative_spin_rad_s * cosine_s).sin_cos();
+        let (sine, cosine) = math::sin_cos(0.5 * side * self.relative_spin_rad_s * cosine_s);
         precession.after(moved).after(Quaternion([0.0, 0.0, sine, cosine]))
     }
 }

@@ -7,6 +7,7 @@ use super::{
     work::{Cost, Work},
 };
 use crate::attitude::RigidBodyState;
+use crate::math;
 use crate::numerics::spacing::spacing;
 
 /// About which axis the angle is counted.
@@ -57,12 +58,12 @@ impl Crossing {
         let seen = state.attitude.body_from_inertial(&self.inertial);
         if self.pole == Pole::SpinAxis {
             let (x, y) = (self.body.x, self.body.y);
-            return (x * seen.y - y * seen.x).atan2(x * seen.x + y * seen.y);
+            return math::atan2(x * seen.y - y * seen.x, x * seen.x + y * seen.y);
         }
         let pole = state.momentum_body.normalize();
         let sine = pole.dot(&self.body.cross(&seen));
         let cosine = self.body.dot(&seen) - pole.dot(&self.body) * pole.dot(&seen);
-        sine.atan2(cosine)
+        math::atan2(sine, cosine)
     }
 
     /// First crossing at or after `from_s`, a time within the motion's present segment or after it; `None` if the body

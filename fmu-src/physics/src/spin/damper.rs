@@ -13,6 +13,7 @@
 //! accelerations of nutation, smooth at 90 deg.
 
 use crate::attitude::Inertia;
+use crate::math;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -57,15 +58,15 @@ impl Damper {
 
     /// G of the module's equation, in 1/(N m s2), for the momentum `h` in body components.
     pub fn gain(&self, h: &Vector3<f64>) -> f64 {
-        let across = libm::hypot(h.x, h.y);
-        let norm = libm::hypot(across, h.z);
+        let across = math::hypot(h.x, h.y);
+        let norm = math::hypot(across, h.z);
         if self.rate_1_s == 0.0 || norm == 0.0 {
             return 0.0;
         }
         if self.grows {
             return -self.rate_1_s * h.z / (norm * norm);
         }
-        let pole_angle = across.atan2(h.z.abs());
+        let pole_angle = math::atan2(across, h.z.abs());
         let sine = across / norm;
         let shape = if sine < 1e-4 { 1.0 + sine * sine / 6.0 } else { pole_angle / sine };
         (self.rate_1_s * shape / norm).copysign(h.z)
@@ -75,17 +76,17 @@ impl Damper {
     pub fn angle_after_rad(&self, angle_rad: f64, dt_s: f64) -> f64 {
         let x = self.rate_1_s * dt_s;
         if self.grows {
-            let (sine, cosine) = angle_rad.sin_cos();
+            let (sine, cosine) = math::sin_cos(angle_rad);
             // e^-x on the cosine instead of e^x on the sine: no overflow, and exact at both ends.
-            return sine.atan2(cosine * (-x).exp());
+            return math::atan2(sine, cosine * math::exp(-x));
         }
-        angle_rad * (-x).exp()
+        angle_rad * math::exp(-x)
     }
 
     /// Integral of cos(angle) over `dt_s` from `angle_rad`, in s, with no torque on an axisymmetric body.
     pub fn cosine_integral_s(&self, angle_rad: f64, dt_s: f64) -> f64 {
         if self.rate_1_s == 0.0 {
-            return dt_s * angle_rad.cos();
+            return dt_s * math::cos(angle_rad);
         }
         let x = self.rate_1_s * dt_s;
         if self.grows {
@@ -93,7 +94,7 @@ impl Damper {
         }
         // cos(a u) with u = e^-s, s from 0 to x: sum over k of (-1)^k a^2k (1 - u^2k) / ((2k)! 2k).
         let square = angle_rad * angle_rad;
-        let first = -(-2.0 * x).exp_m1();
+        let first = -math::exp_m1(-2.0 * x);
         let (mut term, mut missing, mut sum) = (1.0, first, 0.0);
         for k in 1..=16_u32 {
             let even = f64::from(2 * k);
@@ -111,17 +112,17 @@ impl Damper {
 
 /// Integral over s from 0 to x of cos(phi), where tan(phi) = tan(a) e^s.
 fn growing_integral(angle_rad: f64, x: f64) -> f64 {
-    let (sine, cosine) = angle_rad.sin_cos();
+    let (sine, cosine) = math::sin_cos(angle_rad);
     if x < 1.0 && cosine > 1e-3 {
         // x + ln[(1 + sec a) / (1 + sec phi)], written without cancellation.
         let tangent = sine / cosine;
-        let (secant, secant_end) = (cosine.recip(), libm::hypot(tangent * x.exp(), 1.0));
-        let difference = -tangent * tangent * (2.0 * x).exp_m1() / (secant + secant_end);
-        return x + (difference / (1.0 + secant_end)).ln_1p();
+        let (secant, secant_end) = (cosine.recip(), math::hypot(tangent * math::exp(x), 1.0));
+        let difference = -tangent * tangent * math::exp_m1(2.0 * x) / (secant + secant_end);
+        return x + math::ln_1p(difference / (1.0 + secant_end));
     }
     if sine == 0.0 {
         return x;
     }
     let cotangent = cosine / sine;
-    libm::asinh(cotangent) - libm::asinh(cotangent * (-x).exp())
+    math::asinh(cotangent) - math::asinh(cotangent * math::exp(-x))
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{nutation::Spin, train::Train};
 use crate::enumeration::enumeration;
+use crate::math;
 
 enumeration! {
     /// What pulses are timed by.
@@ -66,16 +67,16 @@ impl ForecastCase {
                 last_width_s = width_s;
             }
             let time_s = train.turns(k) * period_s;
-            let (sine, cosine) = (nutation * (time_s - last_s)).sin_cos();
+            let (sine, cosine) = math::sin_cos(nutation * (time_s - last_s));
             (re, im) = (re * cosine - im * sine, re * sine + im * cosine);
             let half_turns = train.half_turns(k);
             re += if half_turns % 2 == 1 { -kick } else { kick };
             last_s = time_s;
-            sum.final_nutation_rad = libm::hypot(re, im);
+            sum.final_nutation_rad = math::hypot(re, im);
             sum.peak_nutation_rad = sum.peak_nutation_rad.max(sum.final_nutation_rad);
-            let (late_sine, late_cosine) = (spin.rate_rad_s * time_s + 2.0 * PI * train.offset_turns(0)
-                - PI * f64::from(half_turns))
-            .sin_cos();
+            let (late_sine, late_cosine) = math::sin_cos(
+                spin.rate_rad_s * time_s + 2.0 * PI * train.offset_turns(0) - PI * f64::from(half_turns),
+            );
             sum.moved_rad += move_rad * late_cosine;
             sum.aside_rad += move_rad * late_sine;
         }

@@ -8,6 +8,8 @@ use core::f64::consts::PI;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::math;
+
 /// Linear Lissajous motion about the Sun-Earth L1 point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -80,15 +82,15 @@ impl L1Orbit {
     pub fn sun_earth(&self, phases: &L1Phases, time_s: f64) -> SunEarth {
         let rate = self.line_rate_rad_s();
         let line = phases.longitude_rad + rate * time_s;
-        let (sin_xy, cos_xy) = (phases.in_plane_rad + self.in_plane_frequency * rate * time_s).sin_cos();
-        let sin_z = (phases.out_of_plane_rad + self.out_of_plane_frequency * rate * time_s).sin();
+        let (sin_xy, cos_xy) = math::sin_cos(phases.in_plane_rad + self.in_plane_frequency * rate * time_s);
+        let sin_z = math::sin(phases.out_of_plane_rad + self.out_of_plane_frequency * rate * time_s);
         // From L1: x away from the Sun, y along the Earth's motion, z to ecliptic north.
         let [ax, ay, az] = self.amplitude_m;
         let offset = Vector3::new(-ax * cos_xy, ay * sin_xy, az * sin_z);
         let earth = Vector3::new(self.earth_l1_distance_m, 0.0, 0.0) - offset;
         let sun = Vector3::new(self.earth_l1_distance_m - self.sun_earth_distance_m, 0.0, 0.0) - offset;
-        let (sin_line, cos_line) = line.sin_cos();
-        let (sin_obliquity, cos_obliquity) = (self.obliquity_deg * (PI / 180.0)).sin_cos();
+        let (sin_line, cos_line) = math::sin_cos(line);
+        let (sin_obliquity, cos_obliquity) = math::sin_cos(self.obliquity_deg * (PI / 180.0));
         let to_equator = |v: Vector3<f64>| {
             let (x, y) = (v.x * cos_line - v.y * sin_line, v.x * sin_line + v.y * cos_line);
             Vector3::new(x, y * cos_obliquity - v.z * sin_obliquity, y * sin_obliquity + v.z * cos_obliquity)

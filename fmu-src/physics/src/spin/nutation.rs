@@ -6,6 +6,8 @@
 
 use core::f64::consts::PI;
 
+use crate::math;
+
 /// Spin and nutation of an axisymmetric spinner, as planners know them.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Spin {
@@ -31,7 +33,7 @@ impl Spin {
     /// Gamma of one pulse: how far it moves the momentum, in rad (eq 3 with alpha = Omega l/2).
     pub fn manoeuvre_rad(&self, torque_n_m: f64, width_s: f64) -> f64 {
         let half_arc = 0.5 * self.rate_rad_s * width_s;
-        2.0 * torque_n_m * half_arc.sin() / (self.inertia_kg_m2 * self.rate_rad_s * self.rate_rad_s)
+        2.0 * torque_n_m * math::sin(half_arc) / (self.inertia_kg_m2 * self.rate_rad_s * self.rate_rad_s)
     }
 
     /// Nutation angle one pulse raises from rest, in rad.
@@ -46,8 +48,8 @@ impl Spin {
         if nutation == 0.0 {
             return Some(factor * width_s);
         }
-        let sine = factor * (0.5 * nutation * width_s).sin();
-        (sine.abs() <= 1.0).then(|| 2.0 * sine.asin() / nutation)
+        let sine = factor * math::sin(0.5 * nutation * width_s);
+        (sine.abs() <= 1.0).then(|| 2.0 * math::asin(sine) / nutation)
     }
 
     /// phi: angle by which nutation advances from pulse to pulse (paper, before eq 4; "3 pi" belongs to 1 1/2 turns).
@@ -59,13 +61,13 @@ impl Spin {
 /// 2 sin(lambda l/2)/lambda, the width of the impulse that leaves the same nutation.
 fn effective_width_s(nutation_rad_s: f64, width_s: f64) -> f64 {
     let half = 0.5 * nutation_rad_s * width_s;
-    if half.abs() < 1e-5 { width_s * (1.0 - half * half / 6.0) } else { width_s * half.sin() / half }
+    if half.abs() < 1e-5 { width_s * (1.0 - half * half / 6.0) } else { width_s * math::sin(half) / half }
 }
 
 /// Integral of u sin(lambda u) over the middle of a pulse, by its effective width, in s.
 fn first_moment_s(nutation_rad_s: f64, width_s: f64) -> f64 {
     let half = 0.5 * nutation_rad_s * width_s;
-    let (sine, cosine) = half.sin_cos();
+    let (sine, cosine) = math::sin_cos(half);
     // (sin h - h cos h) / sin h / lambda, h^2/3 (1 + h^2/15) / lambda where both cancel.
     if half.abs() < 1e-3 {
         return width_s * half / 6.0 * (1.0 + half * half / 15.0);
@@ -75,17 +77,17 @@ fn first_moment_s(nutation_rad_s: f64, width_s: f64) -> f64 {
 
 /// Greatest nutation eq 8 reaches at any count: (Gamma/n) / |sin(phi/2)|; infinite where the kicks add up.
 pub fn exact_envelope_rad(kick_rad: f64, phase_rad: f64) -> f64 {
-    kick_rad / (0.5 * phase_rad).sin().abs()
+    kick_rad / math::sin(0.5 * phase_rad).abs()
 }
 
 /// Eq 1: spread of the Sun-crossing period by nutation, in s. Diverges as the Sun angle goes to 0.
 pub fn period_variation_s(nutation_rad: f64, spin_rate_rad_s: f64, sun_angle_rad: f64) -> f64 {
-    2.0 * nutation_rad / (spin_rate_rad_s * sun_angle_rad.tan())
+    2.0 * nutation_rad / (spin_rate_rad_s * math::tan(sun_angle_rad))
 }
 
 /// Eq 1 solved for the nutation angle that a period variation allows, in rad.
 pub fn allowed_nutation_rad(period_variation_s: f64, spin_rate_rad_s: f64, sun_angle_rad: f64) -> f64 {
-    0.5 * period_variation_s * spin_rate_rad_s * sun_angle_rad.tan()
+    0.5 * period_variation_s * spin_rate_rad_s * math::tan(sun_angle_rad)
 }
 
 /// Running nutation of the linear theory, pulse by pulse, for any train: transverse over axial momentum in the body.
@@ -100,9 +102,9 @@ impl LinearNutation {
     /// `to_s`.
     pub fn pulse(&mut self, spin: &Spin, torque_n_m: [[f64; 2]; 2], from_s: f64, to_s: f64) {
         let nutation = spin.body_nutation_rad_s();
-        let (sine, cosine) = (nutation * (to_s - self.time_s)).sin_cos();
+        let (sine, cosine) = math::sin_cos(nutation * (to_s - self.time_s));
         let [x, y] = self.across;
-        let (sine_half, cosine_half) = (0.5 * nutation * (to_s - from_s)).sin_cos();
+        let (sine_half, cosine_half) = math::sin_cos(0.5 * nutation * (to_s - from_s));
         let scale = effective_width_s(nutation, to_s - from_s) / (spin.inertia_kg_m2 * spin.rate_rad_s);
         let [start, slope] = torque_n_m;
         let half_s = 0.5 * (to_s - from_s);
@@ -121,6 +123,6 @@ impl LinearNutation {
 
     /// Nutation angle, in rad: the theory's sum is the tangent.
     pub fn angle_rad(&self) -> f64 {
-        libm::hypot(self.across[0], self.across[1]).atan()
+        math::atan(math::hypot(self.across[0], self.across[1]))
     }
 }

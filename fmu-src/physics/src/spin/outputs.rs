@@ -13,6 +13,7 @@ use super::{
     tracker::NutationEstimate,
 };
 use crate::attitude::{RigidBodyState, angle_between_rad};
+use crate::math;
 
 /// Limits in SI units, as the master may have set them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -169,7 +170,7 @@ impl Outputs {
             rate_rad_s,
             spin_rate_rad_s,
             nutation_rad,
-            nutation_phase_rad: spin_momentum.y.atan2(spin_momentum.x),
+            nutation_phase_rad: math::atan2(spin_momentum.y, spin_momentum.x),
             coning_rad: inertia.coning_rad(),
             predicted_nutation_rad: plant.propulsion().predicted_nutation_rad(),
             energy_j: 0.5 * rate_rad_s.dot(&state.momentum_body),
@@ -192,7 +193,7 @@ impl Outputs {
             sun_angle_rad,
             sun_angle_measured_rad: plant.sensors().sun_sample_rad,
             earth_angle_rad: angle_to_rad(&-spin_axis_inertial, &directions.earth_inertial),
-            declination_rad: spin_axis_inertial.dot(&directions.star_inertial).clamp(-1.0, 1.0).asin(),
+            declination_rad: math::asin(spin_axis_inertial.dot(&directions.star_inertial).clamp(-1.0, 1.0)),
             sample: plant.sensors().sample,
             estimate: plant.sensors().estimator.estimate(spinner.star_tracker.noise_deg.to_radians()),
             pulses_fired: sequencer.map_or(0, |s| s.fired()),

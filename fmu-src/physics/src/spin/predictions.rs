@@ -12,6 +12,7 @@ use super::{
     tracker::{observation_time_eq20_s, observation_time_s},
 };
 use crate::attitude::angle_between_rad;
+use crate::math;
 
 /// A Sun-timed burn that comes closer to the Sun's line than so many pulses and kicks is not well timed.
 const SUN_CLEARANCE: f64 = 4.0;
@@ -97,8 +98,8 @@ impl Predictions {
         let toward = (burn.target_inertial - from * from.dot(&burn.target_inertial)).normalize();
         let way_rad = self.manoeuvre_rad;
         let clearance = |line: Vector3<f64>| {
-            let nearest = line.dot(&toward).atan2(line.dot(&from)).rem_euclid(2.0 * PI);
-            let along = |angle: f64| from * angle.cos() + toward * angle.sin();
+            let nearest = math::atan2(line.dot(&toward), line.dot(&from)).rem_euclid(2.0 * PI);
+            let along = |angle: f64| from * math::cos(angle) + toward * math::sin(angle);
             let ends = angle_between_rad(&line, &from).min(angle_between_rad(&line, &along(way_rad)));
             if nearest <= way_rad { ends.min(angle_between_rad(&line, &along(nearest))) } else { ends }
         };

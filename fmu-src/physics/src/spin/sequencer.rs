@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::Inertia;
+use crate::math;
 
 use super::{
     burn::Burn,
@@ -265,11 +266,12 @@ impl Sequencer {
         let azimuth = |direction: &Vector3<f64>| {
             let seen = state.attitude.body_from_inertial(&(direction - pole * pole.dot(direction)));
             let seen = inertia.spin_frame_from_body(&seen);
-            seen.y.atan2(seen.x)
+            math::atan2(seen.y, seen.x)
         };
         let torque = inertia.spin_frame_from_body(&torque);
-        let spin = azimuth(&self.burn.target_inertial) - torque.y.atan2(torque.x) - azimuth(sun_inertial)
-            + self.crossing_azimuth_rad(inertia, sun_inertial.dot(&pole));
+        let spin =
+            azimuth(&self.burn.target_inertial) - math::atan2(torque.y, torque.x) - azimuth(sun_inertial)
+                + self.crossing_azimuth_rad(inertia, sun_inertial.dot(&pole));
         let period_s = self.burn.assumed_period_s();
         let delay_s = spin.rem_euclid(2.0 * PI) / (2.0 * PI) * period_s;
         let first_s = crossing_s + delay_s;
@@ -280,14 +282,14 @@ impl Sequencer {
     /// Azimuth about the spin axis at which a Sun whose angle from it has this cosine crosses the slit: that of the slit, and a
     /// little off it where the slit is not parallel to the spin axis.
     fn crossing_azimuth_rad(&self, inertia: &Inertia, cosine: f64) -> f64 {
-        let (sine_slit, cosine_slit) = self.sensor_azimuth_rad.sin_cos();
+        let (sine_slit, cosine_slit) = math::sin_cos(self.sensor_azimuth_rad);
         let normal = inertia.spin_frame_from_body(&Vector3::new(-sine_slit, cosine_slit, 0.0));
         if normal.z == 0.0 {
             return self.sensor_azimuth_rad;
         }
         // Normal and Sun are perpendicular: sin(azimuth - slit) = -n3 cot(angle) / |n12|.
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        let off = (-normal.z * cosine / (normal.xy().norm() * sine)).clamp(-1.0, 1.0).asin();
-        (-normal.x).atan2(normal.y) + off
+        let off = math::asin((-normal.z * cosine / (normal.xy().norm() * sine)).clamp(-1.0, 1.0));
+        math::atan2(-normal.x, normal.y) + off
     }
 }

@@ -4,6 +4,8 @@ use core::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
+use crate::math;
+
 /// Picket of a star `ahead_rad` of spin after the Sun pulse, from 0.
 pub fn picket_of(ahead_rad: f64, pickets: u32) -> u32 {
     let share = ahead_rad.rem_euclid(2.0 * PI) / (2.0 * PI);
@@ -57,7 +59,7 @@ pub struct NutationEstimate {
 impl NutationEstimator {
     /// Adds a sample.
     pub fn add(&mut self, phase_rad: f64, declination_rad: f64) {
-        let (s, c) = phase_rad.sin_cos();
+        let (s, c) = math::sin_cos(phase_rad);
         for (sum, term) in self.sums.iter_mut().zip([1.0, c, s, c * c, c * s, s * s]) {
             *sum += term;
         }
@@ -89,7 +91,7 @@ impl NutationEstimator {
             return unknown;
         }
         let (a, b) = ((a22 * b1 - a12 * b2) / determinant, (a11 * b2 - a12 * b1) / determinant);
-        let amplitude = libm::hypot(a, b);
+        let amplitude = math::hypot(a, b);
         let trace = (a11 + a22) / determinant;
         // Along the estimated direction; without an amplitude, the mean over directions.
         let variance = if amplitude > 0.0 {

@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::nutation::Spin;
 
+use crate::math;
+
 /// Highest order of a taper.
 pub const MOST_ORDER: u32 = 6;
 /// Longest train.
@@ -301,7 +303,7 @@ impl Train {
     /// off the exact direction. The halves of a split train are off to either side alike.
     pub fn manoeuvre_rad(&self, spin: &Spin, torque_n_m: f64) -> f64 {
         let one =
-            |k: u32| (TAU * self.offset_turns(k)).cos() * spin.manoeuvre_rad(torque_n_m, self.width_s(k));
+            |k: u32| math::cos(TAU * self.offset_turns(k)) * spin.manoeuvre_rad(torque_n_m, self.width_s(k));
         // What does not rise or fall is alike within each half.
         let (rise, fall) =
             (self.order.min(self.count), self.count.saturating_sub(self.order).max(self.order));

@@ -11,6 +11,8 @@ use super::place::Place;
 use super::ranges::{GREATEST, TurnEither, short};
 use super::reader::{Findings, MOST_KEPT};
 
+use crate::math;
+
 /// How far a direction's length, or a matrix's orthonormality, may be off before it is refused.
 ///
 /// Printed tables round to three or four digits; what is off by more is a mistake, not rounding.
@@ -209,7 +211,7 @@ impl<'d> Checker<'d> {
             (Some(angles_deg), None) => {
                 // The matrix enters an FMU's GUID: no digit may hang on the machine's own library of functions.
                 let [(sx, cx), (sy, cy), (sz, cz)] =
-                    angles_deg.map(|angle| libm::sincos(angle.0.to_radians()));
+                    angles_deg.map(|angle| math::sin_cos(angle.0.to_radians()));
                 let about_x = Matrix3::new(1.0, 0.0, 0.0, 0.0, cx, -sx, 0.0, sx, cx);
                 let about_y = Matrix3::new(cy, 0.0, sy, 0.0, 1.0, 0.0, -sy, 0.0, cy);
                 let about_z = Matrix3::new(cz, -sz, 0.0, sz, cz, 0.0, 0.0, 0.0, 1.0);

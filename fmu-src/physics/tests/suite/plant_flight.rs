@@ -269,11 +269,11 @@ fn a_span_ahead_is_asked_of_a_clone() {
     torques(&mut simulated, &[0.0, 600.0]);
     let before = requested.propagator.clone();
     let ahead_s = [1200.0, 5000.0, 9000.0];
-    let foreseen = torques(&mut requested, &ahead_s);
+    let predicted = torques(&mut requested, &ahead_s);
     requested.propagator = before;
     assert_eq!(requested.propagator, simulated.propagator);
-    assert_eq!(torques(&mut requested, &ahead_s), foreseen);
-    assert_eq!(torques(&mut simulated, &ahead_s), foreseen);
+    assert_eq!(torques(&mut requested, &ahead_s), predicted);
+    assert_eq!(torques(&mut simulated, &ahead_s), predicted);
 }
 
 /// An attitude sampled every 10 s and propagated in between gives the light of the motion it was sampled from.

@@ -126,6 +126,10 @@ fn summary(fmu: &Fmu) -> String {
         Err(error) => error.to_string(),
     };
     row("library", Some(platforms));
+    for (path, read) in fmu.requirements() {
+        let told = read.map_or_else(|error| error.to_string(), |it| it.to_string());
+        row(&path.display().to_string(), Some(told));
+    }
     for (file, read) in carried::of(fmu) {
         let problems =
             |problems: String| format!("with {} problems: see `heliotorque check`", problems.lines().count());

@@ -32,8 +32,8 @@ fn a_plan_is_simulated_through_the_fmu_in_dist() {
         let rest = line.split_once(before).unwrap().1;
         rest.split([' ', ')']).next().unwrap().parse().unwrap()
     };
-    let (simulated, foreseen) = (degrees("worst final "), degrees("deg (foreseen "));
-    assert!(simulated > 0.9 * foreseen && simulated < foreseen + 1.8e-5, "{line}");
+    let (simulated, predicted) = (degrees("worst final "), degrees("deg (predicted "));
+    assert!(simulated > 0.9 * predicted && simulated < predicted + 1.8e-5, "{line}");
     // What is no FMU of this machine does not stop a plan that did not name it, but one that did.
     std::fs::write(&fmu, "not an archive").unwrap();
     let (status, text) = plan(&[]);

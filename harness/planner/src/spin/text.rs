@@ -244,8 +244,8 @@ fn kept(task: &Task, row: &Row, simulated: &Verification) -> String {
     let rates =
         if simulated.rates > 1 { format!(" at {} spin rates", simulated.rates) } else { String::new() };
     format!(
-        "{} ratios{rates}, worst final {:.6} deg (foreseen {:.6}), worst peak {:.5} deg (foreseen {:.5}), moved {:.4} to \
-         {:.4} deg (foreseen {:.4} to {:.4}), at most {:.2} min: {}",
+        "{} ratios{rates}, worst final {:.6} deg (predicted {:.6}), worst peak {:.5} deg (predicted {:.5}), moved {:.4} to \
+         {:.4} deg (predicted {:.4} to {:.4}), at most {:.2} min: {}",
         simulated.ratios,
         simulated.final_rad.to_degrees(),
         row.final_rad.to_degrees(),

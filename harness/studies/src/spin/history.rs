@@ -86,8 +86,13 @@ pub fn figure4(run: &mut Run<'_>) -> Outcome {
             verdict_text(simulated.last(2) == 1.0, &found.verdict()),
         ));
         csv.extend(simulated.times_s.iter().zip(degrees(0)).zip(degrees(1)).map(
-            |((time_s, angle), foreseen)| {
-                vec![case.label.clone(), format!("{time_s}"), format!("{angle:.9}"), format!("{foreseen:.9}")]
+            |((time_s, angle), predicted)| {
+                vec![
+                    case.label.clone(),
+                    format!("{time_s}"),
+                    format!("{angle:.9}"),
+                    format!("{predicted:.9}"),
+                ]
             },
         ));
         panels.push(Panel::new("nutation [deg]").range(0.0, 0.05).with([
@@ -106,7 +111,7 @@ pub fn figure4(run: &mut Run<'_>) -> Outcome {
          does not if it is about Y. The paper prints neither axis nor quotient: both are choices, and the range they give is\n\
          no confirmation.",
     );
-    run.csv("figure4.csv", "case | time_s | nutation_deg | foreseen_deg", csv)?;
+    run.csv("figure4.csv", "case | time_s | nutation_deg | predicted_deg", csv)?;
     let chart = Chart::new("Nutation during the 2 deg manoeuvre", "time [s]").with(panels);
     run.picture("figure4.svg", &chart)
 }

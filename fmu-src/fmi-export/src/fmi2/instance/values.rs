@@ -40,7 +40,7 @@ macro_rules! setter {
             /// One of `fmi2SetXXX`.
             pub(crate) fn $name(&mut self, references: &[u32], values: &[$value]) -> Result<(), Problem> {
                 let needed = self.settable_flag();
-                let (mut lenient, mut differs) = (false, false);
+                let (mut lenient, mut differs, mut is_first) = (false, false, false);
                 let table = &self.state.values.$table;
                 let set = &self.state.values.set[BaseType::$base as usize];
                 let flags = self.access.flags(BaseType::$base);
@@ -57,12 +57,13 @@ macro_rules! setter {
                         lenient = true;
                     }
                     $check(&self.access, reference, value)?;
-                    differs |= $differs(stored, value) || !set.is_set(index);
+                    differs |= $differs(stored, value);
+                    is_first |= !set.is_set(index);
                 }
                 if lenient {
                     self.note_input_before_initialization();
                 }
-                if differs {
+                if differs || is_first {
                     self.before_change();
                     let table = &mut self.state.values.$table;
                     let set = &mut self.state.values.set[BaseType::$base as usize];
@@ -70,6 +71,8 @@ macro_rules! setter {
                         let index = references::index(BaseType::$base, reference);
                         if let Some(stored) = table.get_mut(index) {
                             $write(stored, value);
+                        }
+                        if is_first {
                             set.mark(index);
                         }
                     }

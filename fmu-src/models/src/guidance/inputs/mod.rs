@@ -115,7 +115,7 @@ fn target(context: &Plan<'_>, values: &Values) -> (Body, TargetPlanet) {
 }
 
 /// Writes the parameters that follow `target.planet` as they act.
-pub fn settle(context: &Plan<'_>, values: &mut Values) {
+pub fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     let (v, ellipse) = (&context.variables.planet, &context.variables.ephemeris.ellipse);
     let (body, planet) = target(context, values);
     let elements = ellipse.read(context, values, &context.setup.body(body));

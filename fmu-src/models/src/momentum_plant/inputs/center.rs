@@ -98,7 +98,7 @@ impl Center {
     }
 }
 
-/// Warns of elements that nobody gave and that are another's than the centre of the start values, before they are settled.
+/// Warns of elements that nobody gave and that are another's than the centre of the start values, before they are resolved.
 pub fn say_followed(context: &Plan<'_>, values: &Values) {
     let orbit = &context.variables.orbit;
     let body = values.choice(orbit.center).0;

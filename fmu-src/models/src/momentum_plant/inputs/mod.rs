@@ -178,7 +178,7 @@ pub fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure>
 }
 
 /// Writes the parameters that follow `orbit.center` as they act.
-pub fn settle(context: &Plan<'_>, values: &mut Values) {
+pub fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     let ellipse = &context.variables.ephemeris.ellipse;
     let center = Center::read(context, values);
     let elements = ellipse.read(context, values, &context.setup.body(center.data.body));

@@ -111,7 +111,7 @@ pub struct NutationVariables {
     /// Azimuth of the transverse momentum about the spin axis, from body X toward Y.
     #[output(unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1], nominal = 1.0)]
     pub phase: Real,
-    /// Foreseen after the last pulse by the linear theory (paper 002 eq 8 with the nutation kick for Gamma/n, for any
+    /// Predicted after the last pulse by the linear theory (paper 002 eq 8 with the nutation kick for Gamma/n, for any
     /// train), without damper and initial nutation.
     #[output(discrete, unit = "rad", display = "deg", nominal = 1e-4)]
     pub predicted: Real,

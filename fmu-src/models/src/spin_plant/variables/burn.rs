@@ -74,8 +74,8 @@ pub struct BurnVariables {
     /// Whether its last pulse ended.
     #[output]
     pub done: Boolean,
-    /// Next edge of the burn as foreseen from the present motion; -1 while none is timed. Before the first pulse, and always
-    /// with burn.timing 2 and 3, it moves as torques and Sun crossings change what is foreseen.
+    /// Next edge of the burn as predicted from the present motion; -1 while none is timed. Before the first pulse, and always
+    /// with burn.timing 2 and 3, it moves as torques and Sun crossings change what is predicted.
     #[output(discrete, unit = "s")]
     pub next_edge: Real,
     /// Pulses of the plan.

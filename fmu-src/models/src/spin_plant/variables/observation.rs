@@ -8,6 +8,8 @@ use super::choices::{GeometrySource, StarSampling};
 use physics::constants::QUARTER_TURNS_RAD;
 use physics::spin::{plant::Sampling, spinner::Spinner};
 
+use physics::math;
+
 /// Where Sun and Earth stand.
 #[derive(Variables)]
 #[variables(setup = Spinner)]
@@ -37,7 +39,7 @@ pub struct GeometryVariables {
 pub struct SunVariables {
     /// Direction of the Sun in EME2000, of any length; 0 = not known yet, nothing is seen. Unused on the L1 orbit. The default is 10 deg off the spin axis,
     /// across the way to the default target: a burn timed by the Sun does not run into it.
-    #[input(unit = "1", start = [0.0, libm::sin(10.0_f64.to_radians()), libm::cos(10.0_f64.to_radians())])]
+    #[input(unit = "1", start = [0.0, math::sin(10.0_f64.to_radians()), math::cos(10.0_f64.to_radians())])]
     pub direction: RealVector<3>,
     /// From the spin axis +Z to the Sun.
     #[output(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, nominal = 0.1)]

@@ -82,14 +82,14 @@ fn an_error_quaternion_is_turned_out_whenever_it_changes() {
     let named = NamedModel::<MomentumPlant>::shipped();
     // From the start on.
     let mut flight = fly(&named, &[CONTROLLED, &[("command.kind", 2.0)]]);
-    let wanted = UnitQuaternion::new(Vector3::new(0.3, -0.2, 0.5));
+    let expected = UnitQuaternion::new(Vector3::new(0.3, -0.2, 0.5));
     // From the commanded to the actual frame, measured anew every second as a Sun sensor would.
     for second in 1..=400 {
-        let error = wanted.inverse() * to_inertial(&flight);
+        let error = expected.inverse() * to_inertial(&flight);
         set_quaternion(&mut flight, "command.error", &error);
         flight.step_to(f64::from(second)).unwrap();
     }
-    assert!(off(&flight, &wanted) < 1e-4, "{:e}", off(&flight, &wanted));
+    assert!(off(&flight, &expected) < 1e-4, "{:e}", off(&flight, &expected));
 }
 
 #[test]

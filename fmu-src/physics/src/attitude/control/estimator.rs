@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use super::estimate::Estimate;
 use super::sensors::{SensorHealth, SensorSettings};
 use crate::attitude::rotation::Attitude;
+use crate::math;
 use crate::numerics::noise::{Channel, normal_vector};
 
 /// Variance of a rate of which nothing is known, in rad2/s2.
@@ -185,7 +186,7 @@ impl EstimatorState {
         self.samples_since_fix = self.samples_since_fix.saturating_add(1);
         let (angle_walk, rate_walk) =
             (settings.gyro.angle_random_walk_rad_sqrt_s, settings.gyro.rate_random_walk_rad_s_sqrt_s);
-        self.covariance.propagate(angle_walk.powi(2), rate_walk.powi(2), dt);
+        self.covariance.propagate(math::powi(angle_walk, 2), math::powi(rate_walk, 2), dt);
         match &mut self.without_gyros {
             Some(filter) => {
                 filter.covariance.propagate(0.0, settings.rate_density_rad2_s3(), dt);
@@ -205,7 +206,7 @@ impl EstimatorState {
             (SensorHealth { gyro: false, star_tracker: true }, None) => {
                 let known = self.rate_body_rad_s.filter(|_| self.last_truth.is_some() && !self.is_lost);
                 let of_gyros_rad2_s2 =
-                    settings.gyro.angle_random_walk_rad_sqrt_s.powi(2) / settings.interval_s;
+                    math::powi(settings.gyro.angle_random_walk_rad_sqrt_s, 2) / settings.interval_s;
                 self.without_gyros = Some(RateFilter {
                     rate_body_rad_s: known.unwrap_or_default(),
                     covariance: Covariance {

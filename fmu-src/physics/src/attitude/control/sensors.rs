@@ -2,6 +2,8 @@
 
 use nalgebra::Vector3;
 
+use crate::math;
+
 /// A greater acceleration than this, in rad/s2, is not distinguished from one without limit.
 const GREATEST_ACCELERATION_RAD_S2: f64 = 1e3;
 
@@ -67,6 +69,6 @@ impl SensorSettings {
     /// Spectral density of the acceleration by which the rate moves, in rad2/s3.
     pub(super) fn rate_density_rad2_s3(&self) -> f64 {
         let acceleration_rad_s2 = self.acceleration_rad_s2.min(GREATEST_ACCELERATION_RAD_S2);
-        acceleration_rad_s2.powi(2) * (self.samples_per_fix() as f64 * self.interval_s)
+        math::powi(acceleration_rad_s2, 2) * (self.samples_per_fix() as f64 * self.interval_s)
     }
 }

@@ -5,6 +5,7 @@ use core::f64::consts::FRAC_PI_3;
 use nalgebra::Vector3;
 
 use crate::attitude::angles::angle_between_rad;
+use crate::math;
 use crate::numerics::noise::{Channel, normal_vector};
 
 /// Far above the rounding of a unit vector's components.
@@ -33,7 +34,7 @@ impl SunSensor {
     /// Whether the Sun is in its field of view.
     pub fn sees(&self, sun_body: &Vector3<f64>) -> bool {
         // 1 - h^2 / 2 <= cos h <= 1 - h^2 / 2 + h^4 / 24: the angle itself is needed near the cone alone.
-        let (cosine, square) = (self.axis_body.dot(sun_body), self.half_field_of_view_rad.powi(2));
+        let (cosine, square) = (self.axis_body.dot(sun_body), math::powi(self.half_field_of_view_rad, 2));
         let least = 1.0 - 0.5 * square;
         if cosine < least - ROUNDING {
             return false;

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use crate::numerics::scalar::Scalar;
+use crate::numerics::scalar::{Scalar, atan, sin, tan};
 
 /// Sun and planet as seen from the spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,8 +45,8 @@ impl<T: Scalar> Discs<T> {
         }
         // 1 - cos without cancellation: a cap of radius x has the solid angle 2 pi cap(x).
         let cap = |x: T| {
-            let sin = (x * 0.5).sin();
-            sin * sin * 2.0
+            let sine = sin(x * 0.5);
+            sine * sine * 2.0
         };
         if self.inner_gap_rad().value() <= 0.0 {
             return if b.value() >= a.value() { dark } else { full - cap(b) / cap(a) };
@@ -55,11 +55,10 @@ impl<T: Scalar> Discs<T> {
         let half = (a + b + c) * 0.5;
         let (to_a, to_b, to_c) = ((b - a + c) * 0.5, (a - b + c) * 0.5, (a + b - c) * 0.5);
         let root = |x: T| if x.value() > 0.0 { x.sqrt() } else { dark };
-        let at_sun_rad = T::polar_angle(root(to_a.sin() * to_c.sin()), root(half.sin() * to_b.sin())) * 2.0;
-        let at_planet_rad =
-            T::polar_angle(root(to_b.sin() * to_c.sin()), root(half.sin() * to_a.sin())) * 2.0;
-        let tangents = (half * 0.5).tan() * (to_a * 0.5).tan() * (to_b * 0.5).tan() * (to_c * 0.5).tan();
-        let excess = root(tangents).atan() * 4.0;
+        let at_sun_rad = T::polar_angle(root(sin(to_a) * sin(to_c)), root(sin(half) * sin(to_b))) * 2.0;
+        let at_planet_rad = T::polar_angle(root(sin(to_b) * sin(to_c)), root(sin(half) * sin(to_a))) * 2.0;
+        let tangents = tan(half * 0.5) * tan(to_a * 0.5) * tan(to_b * 0.5) * tan(to_c * 0.5);
+        let excess = atan(root(tangents)) * 4.0;
         // The lens: a sector of each circle less the two triangles counted twice.
         let lens = (at_sun_rad * cap(a) + at_planet_rad * cap(b) - excess) * 2.0;
         let lit = full - lens / (cap(a) * (2.0 * PI));

@@ -24,7 +24,8 @@ use thiserror::Error;
 use crate::enumeration::enumeration;
 use crate::{
     constants::RADIUS_SUN_M,
-    numerics::scalar::{Scalar, vector_value},
+    math,
+    numerics::scalar::{Scalar, asin, vector_value},
 };
 
 pub use discs::Discs;
@@ -153,16 +154,13 @@ impl Shadow {
             let radius_m = self.sun_radius_m;
             return Err(EclipseError::InsideSun { distance_m: sun_distance_m, radius_m });
         }
-        let planet_radius_rad = if sin_planet < 1.0 {
-            (planet_radius_m / planet_distance).asin()
-        } else {
-            T::constant(FRAC_PI_2)
-        };
+        let planet_radius_rad =
+            if sin_planet < 1.0 { asin(planet_radius_m / planet_distance) } else { T::constant(FRAC_PI_2) };
         // Cross and dot of the directions to the Sun and to the planet; no cancellation at any angle.
         let cross = spacecraft_m.cross(sun_m).norm_squared();
         let across = if cross.value() > 0.0 { cross.sqrt() } else { T::constant(0.0) };
         Ok(Discs {
-            sun_radius_rad: (sun_radius_m / sun_distance).asin(),
+            sun_radius_rad: asin(sun_radius_m / sun_distance),
             planet_radius_rad,
             separation_rad: T::polar_angle(across, -spacecraft_m.dot(&to_sun)),
             planet_in_front: planet_distance_m < sun_distance_m,
@@ -223,7 +221,7 @@ impl Shadow {
     /// Angle between the antisolar direction and the spacecraft, seen from the planet's centre, beyond the shadow
     /// cylinder's.
     fn cylinder_gap_rad(&self, spacecraft_m: &Vector3<f64>, sun_m: &Vector3<f64>) -> f64 {
-        let from_axis_rad = spacecraft_m.cross(sun_m).norm().atan2(-spacecraft_m.dot(sun_m));
-        from_axis_rad - (self.planet_radius_m / spacecraft_m.norm()).min(1.0).asin()
+        let from_axis_rad = math::atan2(spacecraft_m.cross(sun_m).norm(), -spacecraft_m.dot(sun_m));
+        from_axis_rad - math::asin((self.planet_radius_m / spacecraft_m.norm()).min(1.0))
     }
 }

@@ -12,6 +12,7 @@ use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::orbit::Elements;
 use crate::environment::orbit::kepler::eccentric_anomaly_rad;
+use crate::math;
 use crate::numerics::chebyshev::Segment;
 
 /// Coefficients of an element: fourth degree.
@@ -85,14 +86,14 @@ impl CoarseElements {
         if !(0.0..1.0).contains(&e) {
             return None;
         }
-        let (sin, cos) = eccentric_anomaly_rad(mean_rad % TAU, e).sin_cos();
+        let (sin, cos) = math::sin_cos(eccentric_anomaly_rad(mean_rad % TAU, e));
         let elements = Elements {
             semi_major_axis_m: a_m,
             eccentricity: e,
             inclination_rad,
             ascending_node_rad: node_rad,
             periapsis_argument_rad: periapsis_rad,
-            true_anomaly_rad: (((1.0 - e) * (1.0 + e)).sqrt() * sin).atan2(cos - e),
+            true_anomaly_rad: math::atan2(((1.0 - e) * (1.0 + e)).sqrt() * sin, cos - e),
         };
         elements.state(self.center.data().gm_m3_s2).ok()
     }
@@ -105,14 +106,14 @@ fn classical(state: &CartesianState, center: Body) -> Option<KeplerianElements> 
     if e >= 1.0 {
         return None;
     }
-    let (sin, cos) = elements.true_anomaly_rad.sin_cos();
-    let eccentric_rad = (((1.0 - e) * (1.0 + e)).sqrt() * sin).atan2(cos + e);
+    let (sin, cos) = math::sin_cos(elements.true_anomaly_rad);
+    let eccentric_rad = math::atan2(((1.0 - e) * (1.0 + e)).sqrt() * sin, cos + e);
     Some(KeplerianElements::from([
         elements.semi_major_axis_m,
         e,
         elements.inclination_rad,
         elements.ascending_node_rad,
         elements.periapsis_argument_rad,
-        eccentric_rad - e * eccentric_rad.sin(),
+        eccentric_rad - e * math::sin(eccentric_rad),
     ]))
 }

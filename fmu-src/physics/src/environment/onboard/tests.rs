@@ -11,6 +11,7 @@ use crate::environment::ephemeris::Ephemeris;
 use crate::environment::kepler_planet::MESSENGER_AS_PRINTED;
 use crate::environment::orbit::{Elements, TwoBodyOrbit};
 use crate::environment::time::MOMENTUM_STUDY_START_S as START_S;
+use crate::math;
 use crate::numerics::chebyshev::Segment;
 
 const SPAN_S: [f64; 2] = [START_S, START_S + 40.0 * DAY_S];
@@ -218,7 +219,7 @@ fn coarse_mercury_keeps_its_period() {
     let [start_s, end_s] = motion.span_s;
     let [first, last] = [start_s, end_s].map(|at_s| motion.elements.value(at_s));
     let motion_rad_s = (last[5] - first[5]) / (end_s - start_s);
-    let a_m = libm::cbrt(GM_SUN_M3_S2 / (motion_rad_s * motion_rad_s));
+    let a_m = math::cbrt(GM_SUN_M3_S2 / (motion_rad_s * motion_rad_s));
     assert!((a_m / first[0] - 1.0).abs() < 1e-5, "{}", a_m / first[0]);
 }
 

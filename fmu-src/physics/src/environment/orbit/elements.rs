@@ -9,6 +9,7 @@ use thiserror::Error;
 use crate::bodies::{Body, BodyData};
 use crate::constants::ASTRONOMICAL_UNIT_M;
 use crate::environment::CartesianState;
+use crate::math;
 
 /// Below this eccentricity an orbit counts as circular, below this sine of inclination as equatorial.
 const DEGENERATE: f64 = 1e-13;
@@ -72,7 +73,7 @@ pub enum OrbitError {
 /// Semi-major axis of an ellipse of this period, m (Kepler's third law). The same to the last digit on every machine.
 pub fn semi_major_axis_m(mu_m3_s2: f64, period_s: f64) -> f64 {
     let mean_motion_rad_s = TAU / period_s;
-    libm::cbrt(mu_m3_s2 / (mean_motion_rad_s * mean_motion_rad_s))
+    math::cbrt(mu_m3_s2 / (mean_motion_rad_s * mean_motion_rad_s))
 }
 
 /// Period of an ellipse of this semi-major axis, s (Kepler's third law).
@@ -136,7 +137,7 @@ impl Elements {
         ] {
             check(what, found, found.is_finite(), "a finite number")?;
         }
-        let on_branch = 1.0 + e * self.true_anomaly_rad.cos() > 0.0;
+        let on_branch = 1.0 + e * math::cos(self.true_anomaly_rad) > 0.0;
         check("true anomaly in rad", self.true_anomaly_rad, on_branch, "between the hyperbola's asymptotes")
     }
 
@@ -148,7 +149,7 @@ impl Elements {
     pub fn state(&self, mu_m3_s2: f64) -> Result<CartesianState, OrbitError> {
         self.check()?;
         check_mu(mu_m3_s2)?;
-        let (sin_anomaly, cos_anomaly) = self.true_anomaly_rad.sin_cos();
+        let (sin_anomaly, cos_anomaly) = math::sin_cos(self.true_anomaly_rad);
         let e = self.eccentricity;
         let parameter_m = self.semi_latus_rectum_m();
         let distance_m = parameter_m / (1.0 + e * cos_anomaly);
@@ -185,7 +186,7 @@ impl Elements {
             return Err(OrbitError::Parabolic { eccentricity });
         }
         let normal = momentum / momentum_norm;
-        let sin_inclination = libm::hypot(normal.x, normal.y);
+        let sin_inclination = math::hypot(normal.x, normal.y);
         let to_node = if sin_inclination < DEGENERATE {
             Vector3::x()
         } else {
@@ -196,15 +197,15 @@ impl Elements {
             (to_node, 0.0)
         } else {
             let direction = eccentricity_vector / eccentricity;
-            (direction, positive(direction.dot(&across_node).atan2(direction.dot(&to_node))))
+            (direction, positive(math::atan2(direction.dot(&across_node), direction.dot(&to_node))))
         };
         let to_latus = normal.cross(&to_periapsis);
-        let anomaly_rad = to_spacecraft.dot(&to_latus).atan2(to_spacecraft.dot(&to_periapsis));
+        let anomaly_rad = math::atan2(to_spacecraft.dot(&to_latus), to_spacecraft.dot(&to_periapsis));
         Ok(Self {
             semi_major_axis_m: 1.0 / inverse_axis,
             eccentricity,
-            inclination_rad: sin_inclination.atan2(normal.z),
-            ascending_node_rad: positive(to_node.y.atan2(to_node.x)),
+            inclination_rad: math::atan2(sin_inclination, normal.z),
+            ascending_node_rad: positive(math::atan2(to_node.y, to_node.x)),
             periapsis_argument_rad,
             true_anomaly_rad: if eccentricity < 1.0 { positive(anomaly_rad) } else { anomaly_rad },
         })
@@ -222,9 +223,9 @@ impl Elements {
 
     /// Unit vectors in the orbital plane: toward periapsis, and a quarter turn ahead of it.
     pub(super) fn in_plane_axes(&self) -> [Vector3<f64>; 2] {
-        let (sin_node, cos_node) = self.ascending_node_rad.sin_cos();
-        let (sin_inc, cos_inc) = self.inclination_rad.sin_cos();
-        let (sin_arg, cos_arg) = self.periapsis_argument_rad.sin_cos();
+        let (sin_node, cos_node) = math::sin_cos(self.ascending_node_rad);
+        let (sin_inc, cos_inc) = math::sin_cos(self.inclination_rad);
+        let (sin_arg, cos_arg) = math::sin_cos(self.periapsis_argument_rad);
         let to_node = Vector3::new(cos_node, sin_node, 0.0);
         let across_node = Vector3::new(-sin_node * cos_inc, cos_node * cos_inc, sin_inc);
         [to_node * cos_arg + across_node * sin_arg, across_node * cos_arg - to_node * sin_arg]

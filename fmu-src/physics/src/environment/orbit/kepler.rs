@@ -2,6 +2,8 @@
 
 use core::f64::consts::{PI, TAU};
 
+use crate::math;
+
 /// Eccentric anomaly E of `M = E - e sin E` for `0 <= e < 1`, in rad, on the same revolution as M.
 ///
 /// Markley's method (Celestial Mechanics 63, 1995): a cubic start and one correction of fifth order, no iteration.
@@ -17,10 +19,10 @@ pub fn eccentric_anomaly_rad(mean_anomaly_rad: f64, eccentricity: f64) -> f64 {
     let d = 3.0 * (1.0 - e) + alpha * e;
     let q = 2.0 * alpha * d * (1.0 - e) - m * m;
     let r = 3.0 * alpha * d * (d - 1.0 + e) * m + m * m * m;
-    let cube_root = (r.abs() + (q * q * q + r * r).max(0.0).sqrt()).cbrt();
+    let cube_root = math::cbrt(r.abs() + (q * q * q + r * r).max(0.0).sqrt());
     let w = cube_root * cube_root;
     let start = (2.0 * r * w / (w * w + w * q + q * q) + m) / d;
-    let (sin, cos) = start.sin_cos();
+    let (sin, cos) = math::sin_cos(start);
     let f0 = start - e * sin - m;
     let f1 = 1.0 - e * cos;
     let (f2, f3) = (e * sin, e * cos);
@@ -39,10 +41,10 @@ pub fn hyperbolic_anomaly(mean_anomaly_rad: f64, eccentricity: f64) -> f64 {
         return mean_anomaly_rad;
     }
     // e sinh H - H >= (e - 1) H + e H^3 / 6 >= each term alone, and sinh H >= M / e.
-    let mut h = (m / (e - 1.0)).min((6.0 * m / e).cbrt()).min((2.0 * m / e + 2.0).ln() + 1.0);
-    h = h.max(libm::asinh(m / e));
+    let mut h = (m / (e - 1.0)).min(math::cbrt(6.0 * m / e)).min(math::ln(2.0 * m / e + 2.0) + 1.0);
+    h = h.max(math::asinh(m / e));
     for _ in 0..60 {
-        let (f2, f3) = (e * h.sinh(), e * h.cosh());
+        let (f2, f3) = (e * math::sinh(h), e * math::cosh(h));
         let (f0, f1) = (f2 - h - m, f3 - 1.0);
         let change = -f0 / (f1 - 0.5 * f0 * f2 / f1);
         h += change;

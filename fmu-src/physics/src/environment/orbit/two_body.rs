@@ -10,6 +10,7 @@ use super::{
     kepler::{eccentric_anomaly_rad, hyperbolic_anomaly},
 };
 use crate::environment::CartesianState;
+use crate::math;
 
 /// Motion about one centre under its gravity alone, elliptic or hyperbolic, in closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,15 +36,15 @@ impl TwoBodyOrbit {
         let axis_m = elements.semi_major_axis_m.abs();
         let mean_motion_rad_s = (mu_m3_s2 / axis_m).sqrt() / axis_m;
         let e = elements.eccentricity;
-        let (sin_half, cos_half) = (0.5 * elements.true_anomaly_rad).sin_cos();
+        let (sin_half, cos_half) = math::sin_cos(0.5 * elements.true_anomaly_rad);
         let mean_anomaly_rad = if e < 1.0 {
-            let anomaly = 2.0 * ((1.0 - e).sqrt() * sin_half).atan2((1.0 + e).sqrt() * cos_half);
+            let anomaly = 2.0 * math::atan2((1.0 - e).sqrt() * sin_half, (1.0 + e).sqrt() * cos_half);
             // The nearest periapsis: within half a turn.
-            let mean = anomaly - e * anomaly.sin();
+            let mean = anomaly - e * math::sin(anomaly);
             mean - (mean / TAU).round() * TAU
         } else {
-            let anomaly = 2.0 * (((e - 1.0) / (e + 1.0)).sqrt() * sin_half / cos_half).atanh();
-            e * anomaly.sinh() - anomaly
+            let anomaly = 2.0 * math::atanh(((e - 1.0) / (e + 1.0)).sqrt() * sin_half / cos_half);
+            e * math::sinh(anomaly) - anomaly
         };
         let [to_periapsis, to_latus] = elements.in_plane_axes();
         Ok(Self {
@@ -71,12 +72,12 @@ impl TwoBodyOrbit {
         // Coordinates in the plane over |a|, their derivative by the anomaly, and r / |a|.
         let (along, across, d_along, d_across, distance) = if e < 1.0 {
             let minor = ((1.0 - e) * (1.0 + e)).sqrt();
-            let (sin, cos) = eccentric_anomaly_rad(mean_anomaly, e).sin_cos();
+            let (sin, cos) = math::sin_cos(eccentric_anomaly_rad(mean_anomaly, e));
             (cos - e, minor * sin, -sin, minor * cos, 1.0 - e * cos)
         } else {
             let minor = ((e - 1.0) * (e + 1.0)).sqrt();
             let anomaly = hyperbolic_anomaly(mean_anomaly, e);
-            let (sinh, cosh) = (anomaly.sinh(), anomaly.cosh());
+            let (sinh, cosh) = (math::sinh(anomaly), math::cosh(anomaly));
             (e - cosh, minor * sinh, -sinh, minor * cosh, e * cosh - 1.0)
         };
         let length_m = a.abs();

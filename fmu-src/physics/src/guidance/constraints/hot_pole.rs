@@ -14,6 +14,7 @@ use crate::attitude::angle_between_rad;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{Moving, PARALLEL_RAD, fixed, unit, value};
 use crate::guidance::pointing::law::Pointing;
+use crate::math;
 use crate::numerics::scalar::Scalar;
 
 /// The axis that must not look at the planet, body frame.
@@ -95,11 +96,11 @@ impl HotPole {
         let deck = fixed(TOP_DECK_BODY);
         let along = sun_body.dot(&deck) * sun_body.dot(&planet_body);
         let (a, b) = (deck.dot(&planet_body) - along, sun_body.cross(&deck).dot(&planet_body));
-        let c = Moving::constant(self.cone_rad.cos()) - along;
+        let c = Moving::constant(math::cos(self.cone_rad)) - along;
         // With Sun, deck and planet in one plane either sense is as far; rounding does not choose it.
         let smaller = if b.re < -PARALLEL_RAD { TurnSide::Ahead } else { TurnSide::Behind };
         let side = last.unwrap_or(smaller);
-        if libm::hypot(a.re, b.re) < PARALLEL_RAD {
+        if math::hypot(a.re, b.re) < PARALLEL_RAD {
             // Planet or deck on the Sun line: no turn changes the angle.
             return KeptOut { side: Some(side), reached: false, ..free };
         }

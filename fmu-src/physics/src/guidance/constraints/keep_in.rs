@@ -19,7 +19,8 @@ use crate::guidance::geometry::moving::{
     Moving, MovingMatrix, MovingVector, PARALLEL_RAD, direction, fixed, unit, value,
 };
 use crate::guidance::pointing::law::{Pointing, PointingVectors};
-use crate::numerics::scalar::Scalar;
+use crate::math;
+use crate::numerics::scalar::{Scalar, sin_cos};
 
 /// Distance from the Sun, in m, inside which the spacecraft has to hide behind its sunshade in cruise: 0.85 AU.
 pub const DISTANCE_M: f64 = 0.85 * ASTRONOMICAL_UNIT_M;
@@ -112,7 +113,7 @@ impl KeepIn {
         // Neither a sign of zero nor rounding may show on the far side.
         let up = if up.re <= 0.0 { Moving::constant(0.0) } else { up };
         let [azimuth_limit, elevation_limit] = [self.azimuth_rad, self.elevation_rad].map(Moving::constant);
-        let at_pole = libm::hypot(x.re, y.re) < PARALLEL_RAD;
+        let at_pole = math::hypot(x.re, y.re) < PARALLEL_RAD;
         let beyond_azimuth = !at_pole && now.azimuth_rad.abs() > self.azimuth_rad;
         let azimuth = if beyond_azimuth {
             azimuth_limit
@@ -122,7 +123,7 @@ impl KeepIn {
             Moving::polar_angle(x, -y)
         };
         let foot = if beyond_azimuth && self.method == KeepInMethod::Nearest {
-            let (sine, cosine) = azimuth.sin_cos();
+            let (sine, cosine) = sin_cos(azimuth);
             Moving::polar_angle(up, x * sine - y * cosine)
         } else {
             let across = if at_pole { Moving::constant(0.0) } else { (x * x + y * y).sqrt() };
@@ -145,8 +146,8 @@ impl KeepIn {
         let axis = turn.try_normalize(0.0).unwrap_or_default();
         let along = axis * axis.dot(&from);
         let (across, ahead) = (from - along, axis.cross(&from));
-        let (sin_a, cos_a) = self.azimuth_rad.sin_cos();
-        let up = self.elevation_rad.sin();
+        let (sin_a, cos_a) = math::sin_cos(self.azimuth_rad);
+        let up = math::sin(self.elevation_rad);
         let planes = [
             (Vector3::new(-cos_a, -sin_a, 0.0), 0.0),
             (Vector3::new(cos_a, -sin_a, 0.0), 0.0),
@@ -156,10 +157,10 @@ impl KeepIn {
         let least = planes.map(|(normal, offset)| {
             // The distance after a turn by phi is mean + c cos(phi) + s sin(phi).
             let (mean, c, s) = (offset + normal.dot(&along), normal.dot(&across), normal.dot(&ahead));
-            let lowest_rad = libm::atan2(-s, -c).rem_euclid(core::f64::consts::TAU);
-            let (sin_end, cos_end) = angle_rad.sin_cos();
+            let lowest_rad = math::atan2(-s, -c).rem_euclid(core::f64::consts::TAU);
+            let (sin_end, cos_end) = math::sin_cos(angle_rad);
             let at_ends = (mean + c).min(mean + c * cos_end + s * sin_end);
-            if lowest_rad < angle_rad { at_ends.min(mean - libm::hypot(c, s)) } else { at_ends }
+            if lowest_rad < angle_rad { at_ends.min(mean - math::hypot(c, s)) } else { at_ends }
         });
         least.into_iter().fold(f64::INFINITY, f64::min)
     }

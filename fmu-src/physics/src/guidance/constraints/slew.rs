@@ -16,6 +16,7 @@ use super::keep_in::{BOUNDARY_RAD, KeepIn};
 use crate::attitude::{MovingFrame, MovingUnit, SunAngles, rotation_vector};
 use crate::guidance::geometry::moving::{Moving, MovingVector, PARALLEL_RAD, rotation_about, value};
 use crate::guidance::pointing::law::Pointing;
+use crate::math;
 use crate::numerics::scalar::Scalar;
 
 /// Where a turn begins.
@@ -77,7 +78,7 @@ impl Slew {
         let (angles_from, angles_to) = (angles(&sun_from), angles(&sun_to));
         let frame = |angles: SunAngles| body_from_zone * pointed(angles);
         let back = frame(angles_to).transpose() * (to.inverse() * from).matrix() * frame(angles_from);
-        let back_rad = libm::atan2(back[(0, 2)] - back[(2, 0)], back[(0, 0)] + back[(2, 2)]);
+        let back_rad = math::atan2(back[(0, 2)] - back[(2, 0)], back[(0, 0)] + back[(2, 2)]);
         // Half a turn either way is as far; rounding does not choose it.
         let half = core::f64::consts::PI;
         let back_rad = if back_rad < PARALLEL_RAD - half { back_rad + 2.0 * half } else { back_rad };
@@ -85,7 +86,7 @@ impl Slew {
             angles_to.azimuth_rad - angles_from.azimuth_rad,
             angles_to.elevation_rad - angles_from.elevation_rad,
         );
-        let mixed = [angles_from, angles_to].map(|it| back_rad * across_rad * it.elevation_rad.sin());
+        let mixed = [angles_from, angles_to].map(|it| back_rad * across_rad * math::sin(it.elevation_rad));
         let squared =
             back_rad * back_rad + across_rad * across_rad + up_rad * up_rad + 2.0 * mixed[0].max(mixed[1]);
         let length_rad = squared.max(0.0).sqrt();
@@ -131,7 +132,7 @@ fn pointed(angles: SunAngles) -> Matrix3<f64> {
 /// Azimuth and elevation of a moving direction, as [`SunAngles::of`]; at the pole the azimuth is 0.
 fn moving_angles(sun: &MovingVector) -> [Moving; 2] {
     let [x, y, z] = [sun.x, sun.y, sun.z];
-    if libm::hypot(x.re, y.re) < PARALLEL_RAD {
+    if math::hypot(x.re, y.re) < PARALLEL_RAD {
         let SunAngles { elevation_rad, .. } = SunAngles::of(&value(sun));
         return [Moving::constant(0.0), Moving::constant(elevation_rad)];
     }

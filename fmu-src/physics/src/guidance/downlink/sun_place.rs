@@ -21,6 +21,7 @@ use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{Moving, MovingVector, PARALLEL_RAD, direction, fixed, unit, value};
 use crate::guidance::pointing::antenna::{AntennaAzimuth, BOUND_RAD};
 use crate::guidance::pointing::law::PointingVectors;
+use crate::math;
 use crate::numerics::scalar::Scalar;
 
 /// What a downlink attitude is requested.
@@ -129,7 +130,7 @@ pub fn both_solutions(
     // Sun and Earth in line: the plane of both is the law's fallback, theta stays.
     let sine = if squared.re > PARALLEL_RAD * PARALLEL_RAD { squared.sqrt() } else { Moving::constant(0.0) };
     let azimuth = Moving::constant(sun_body.azimuth_rad);
-    let sine_elevation = sun_body.elevation_rad.sin();
+    let sine_elevation = math::sin(sun_body.elevation_rad);
     let above = sine_elevation.abs() >= sine.re;
     let (elevation, delta) = if above {
         // At the bound the great circle from the Sun meets the XY plane at a right angle, or on the far side.

@@ -6,6 +6,7 @@ use super::moving::{Moving, MovingMatrix, MovingVector, fixed, moving, rate, val
 use crate::bodies::{Body, BodyData};
 use crate::environment::CartesianState;
 use crate::environment::frames::{rotation_x, rotation_z};
+use crate::math;
 
 /// Shape, pole and rotation of the planet that is observed (paper 001: triaxial ellipsoid, fixed pole).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +46,7 @@ impl TargetPlanet {
         // Rx and the first Rz stand still: their product is one of plain numbers.
         let node = rotation_z(-(FRAC_PI_2 + self.pole_right_ascension_rad));
         let equator_from_inertial = rotation_x(-(FRAC_PI_2 - self.pole_declination_rad)) * node;
-        let (sine, cosine) = turned_rad.sin_cos();
+        let (sine, cosine) = math::sin_cos(turned_rad);
         let sine = Moving::new(sine, self.rotation_rate_rad_s * cosine);
         let cosine = Moving::new(cosine, -self.rotation_rate_rad_s * sine.re);
         let [x, y, z] = [0, 1, 2].map(|row| equator_from_inertial.row(row).into_owned());

@@ -16,7 +16,8 @@ use super::ephemeris_at_time::EphemerisAtTime;
 use super::moving::{Moving, MovingVector, unit, unit_normal};
 use super::planet_point::radius_m;
 use crate::enumeration::enumeration;
-use crate::numerics::scalar::Scalar;
+use crate::math;
+use crate::numerics::scalar::{Scalar, sin_cos};
 
 enumeration! {
     /// What the subsolar point of an ellipsoid is.
@@ -60,7 +61,7 @@ pub fn optimal_lighting_m(surroundings: &EphemerisAtTime) -> Option<MovingVector
     };
     let alpha_rad = Moving::polar_angle(sun.dot(&toward_sun), sun.dot(&up));
     let beta_rad = nadir_angle_rad(alpha_rad, ratio);
-    let (sine, cosine) = beta_rad.sin_cos();
+    let (sine, cosine) = sin_cos(beta_rad);
     Some((up * cosine + toward_sun * sine) * Moving::from_re(sphere_m))
 }
 
@@ -121,15 +122,15 @@ fn solve(mut low_rad: f64, mut high_rad: f64, alpha_rad: f64, ratio: f64) -> f64
 
 /// F (eq 17).
 fn value(beta_rad: f64, alpha_rad: f64, ratio: f64) -> f64 {
-    let cosine = beta_rad.cos();
-    (alpha_rad - beta_rad).cos() * (cosine - ratio) / (1.0 + ratio * (ratio - 2.0 * cosine)).sqrt()
+    let cosine = math::cos(beta_rad);
+    math::cos(alpha_rad - beta_rad) * (cosine - ratio) / (1.0 + ratio * (ratio - 2.0 * cosine)).sqrt()
 }
 
 /// F' by beta, times d^3 with d the distance to the point over r: it has the same roots, and F' its sign.
 fn slope<T: Scalar>(beta_rad: T, alpha_rad: T, ratio: T) -> T {
     let one = T::constant(1.0);
-    let (sine, cosine) = beta_rad.sin_cos();
-    let (sin_i, cos_i) = (alpha_rad - beta_rad).sin_cos();
+    let (sine, cosine) = sin_cos(beta_rad);
+    let (sin_i, cos_i) = sin_cos(alpha_rad - beta_rad);
     let squared = one + ratio * (ratio - cosine * 2.0);
     sin_i * (cosine - ratio) * squared - cos_i * sine * (one - ratio * cosine)
 }

@@ -6,7 +6,8 @@
 
 use nalgebra::{ComplexField, Matrix3, Rotation3, Vector3};
 
-use crate::numerics::scalar::Dual64;
+use crate::math;
+use crate::numerics::scalar::{Dual64, sin_cos};
 
 /// A number and its time derivative.
 pub type Moving = Dual64;
@@ -68,21 +69,21 @@ pub fn normal_of_units(a: &MovingVector, b: &MovingVector) -> Option<MovingVecto
 
 /// Body-frame unit vector of azimuth and elevation in rad, as [`crate::attitude::direction_from_angles`].
 pub fn direction(azimuth: Moving, elevation: Moving) -> MovingVector {
-    let (sin_a, cos_a) = azimuth.sin_cos();
-    let (sin_e, cos_e) = elevation.sin_cos();
+    let (sin_a, cos_a) = sin_cos(azimuth);
+    let (sin_e, cos_e) = sin_cos(elevation);
     MovingVector::new(cos_e * sin_a, -cos_e * cos_a, -sin_e)
 }
 
 /// Unit vector of a longitude about z from x, and a latitude above the x-y plane: right ascension and declination as well.
 pub fn spherical(longitude_rad: f64, latitude_rad: f64) -> Vector3<f64> {
-    let (sin_lon, cos_lon) = longitude_rad.sin_cos();
-    let (sin_lat, cos_lat) = latitude_rad.sin_cos();
+    let (sin_lon, cos_lon) = math::sin_cos(longitude_rad);
+    let (sin_lat, cos_lat) = math::sin_cos(latitude_rad);
     Vector3::new(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat)
 }
 
 /// Rotation by `angle_rad` about the axis `0` x, `1` y or `2` z, right-handed.
 pub fn rotation_about(axis: usize, angle_rad: Moving) -> MovingMatrix {
-    let (sine, cosine) = angle_rad.sin_cos();
+    let (sine, cosine) = sin_cos(angle_rad);
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
     let mut matrix = MovingMatrix::identity();
     matrix[(next, next)] = cosine;

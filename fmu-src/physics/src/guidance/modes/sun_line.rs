@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::guidance_command::GuidanceCommand;
 use crate::attitude::{Attitude, SunAngles};
 use crate::guidance::geometry::moving::{MovingVector, rate, value};
+use crate::math;
 use crate::numerics::scalar::{Dual64, Scalar};
 
 /// The line to the Sun, EME2000; zero while it is not known.
@@ -43,7 +44,7 @@ impl SunLine {
         let sun_body = to_body * to_sun_m;
         let rate_body = to_body * self.rate_m_s - command.rate_body_rad_s.cross(&sun_body);
         let [x, y, z] = [0, 1, 2].map(|i| Dual64::new(sun_body[i], rate_body[i]));
-        let across = Dual64::constant(libm::hypot(sun_body.x, sun_body.y));
+        let across = Dual64::constant(math::hypot(sun_body.x, sun_body.y));
         let across = if across.re > 0.0 {
             Dual64::new(across.re, (x * x.eps + y * y.eps).re / across.re)
         } else {

@@ -9,6 +9,7 @@ use crate::guidance::downlink::sun_place::{SunPlace, both_solutions};
 use crate::guidance::geometry::moving::{Moving, direction, fixed, moving};
 use crate::guidance::pointing::boresight::{MdisRange, mdis_direction};
 use crate::guidance::pointing::law::PointingVectors;
+use crate::math;
 use crate::numerics::scalar::Scalar;
 
 /// Directions from the spacecraft, in EME2000, with their rates.
@@ -112,12 +113,12 @@ pub fn unloading(lines: &LinesOfSight, sun: SunAngles, camera: &MdisRange) -> At
     let Some(planet) = &lines.planet else { return sun_pointing(lines) };
     let [to_sun, to_planet] = [&lines.sun, planet].map(|to| moving(to.direction, to.rate_1_s));
     let sun_body = direction_from_angles(sun);
-    let (rho, beta_rad) = (libm::hypot(sun_body.y, sun_body.z), (-sun_body.z).atan2(-sun_body.y));
+    let (rho, beta_rad) = (math::hypot(sun_body.y, sun_body.z), math::atan2(-sun_body.z, -sun_body.y));
     let cosine = to_sun.dot(&to_planet);
     let quarter = core::f64::consts::FRAC_PI_2;
     let [least_rad, greatest_rad] =
         [camera.minimum_rad, camera.maximum_rad].map(|it| (it - beta_rad).clamp(-quarter, quarter));
-    let margins = [rho * greatest_rad.sin() - cosine.re, cosine.re - rho * least_rad.sin()];
+    let margins = [rho * math::sin(greatest_rad) - cosine.re, cosine.re - rho * math::sin(least_rad)];
     let off_beta = if margins[0] <= 0.0 {
         Moving::constant(greatest_rad)
     } else if margins[1] <= 0.0 {
@@ -182,8 +183,8 @@ pub fn downlink_toward(lines: &LinesOfSight, place: &SunPlace) -> AttitudeComman
     };
     let Some(pointing) = vectors.pointing() else { return sun_pointing(lines) };
     // Beyond it no attitude has the Sun there and the Earth in the plane.
-    let sine = angle_between_rad(&lines.sun.direction, &lines.earth.direction).sin();
-    let margin = sine - place.angles.elevation_rad.sin().abs();
+    let sine = math::sin(angle_between_rad(&lines.sun.direction, &lines.earth.direction));
+    let margin = sine - math::sin(place.angles.elevation_rad).abs();
     AttitudeCommand { frame: pointing.frame(), margins: [margin, f64::INFINITY] }
 }
 

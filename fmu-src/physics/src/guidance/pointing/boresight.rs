@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-use nalgebra::{ComplexField, Vector3};
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::antenna::AntennaAzimuth;
@@ -10,6 +10,8 @@ use super::command::{BoresightCommand, BoresightOption};
 use crate::attitude::{SunAngles, direction_from_angles};
 use crate::constants::DEG_RAD;
 use crate::guidance::geometry::moving::{Moving, MovingVector, fixed};
+use crate::math;
+use crate::numerics::scalar::sin_cos;
 use crate::spacecraft::Instrument;
 
 /// Boresight of an instrument, body frame: number 0 is +Z, then the rows of the table from 1; `None` past the last row.
@@ -62,19 +64,19 @@ impl MdisRange {
 
     /// The angle that brings the camera nearest to a body-frame direction of any length.
     pub fn toward(&self, direction_body: &Vector3<f64>) -> DeviceAngle {
-        self.nearest((-direction_body.y).atan2(direction_body.z))
+        self.nearest(math::atan2(-direction_body.y, direction_body.z))
     }
 }
 
 /// Body-frame boresight of the MDIS camera.
 pub fn mdis_boresight(angle_rad: f64) -> Vector3<f64> {
-    let (sine, cosine) = angle_rad.sin_cos();
+    let (sine, cosine) = math::sin_cos(angle_rad);
     Vector3::new(0.0, -sine, cosine)
 }
 
 /// The same of an angle that moves.
 pub fn mdis_direction(angle: Moving) -> MovingVector {
-    let (sine, cosine) = angle.sin_cos();
+    let (sine, cosine) = sin_cos(angle);
     MovingVector::new(Moving::from_re(0.0), -sine, cosine)
 }
 

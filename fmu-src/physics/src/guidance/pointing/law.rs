@@ -8,12 +8,13 @@
 //! Degenerate geometry: where E lies along A it gives way to the north of EME2000, then to the equinox; where R lies along
 //! B, to -Y, then to +Z. Where A or B has no direction there is no command. Both are said by [`Pointing::degenerate`].
 
-use nalgebra::{ComplexField, Vector3};
+use nalgebra::Vector3;
 
 use crate::attitude::MovingFrame;
 use crate::guidance::geometry::moving::{
     Moving, MovingMatrix, MovingVector, angular_rate_rad_s, fixed, normal_of_units, rotation_value, unit,
 };
+use crate::numerics::scalar::sin_cos;
 
 /// What paper 001 aims: two vectors in the body frame, two in EME2000, of any length, with their rates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,7 +85,7 @@ impl Pointing {
 
     /// The attitude turned by `angle_rad` about the unit vector `axis_body`, both of them moving.
     pub fn turned(&self, axis_body: &MovingVector, angle_rad: Moving) -> Self {
-        let (sine, cosine) = angle_rad.sin_cos();
+        let (sine, cosine) = sin_cos(angle_rad);
         let cross = axis_body.cross_matrix();
         let turn = MovingMatrix::identity() + cross * sine + cross * cross * (Moving::from_re(1.0) - cosine);
         Self { inertial_from_body: self.inertial_from_body * turn, ..*self }

@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::environment::CartesianState;
 use crate::loads::{Active, ByEffect, Effect, ForceTorque, Loads};
+use crate::math;
 use crate::momentum::Effort;
 use crate::momentum::TorqueModel;
 use crate::numerics::adaptive::AdaptiveInterval;
@@ -102,7 +103,7 @@ impl DisturbanceInterval {
             }
             let ends = [start_s, interval.end_s()].map(|at_s| plant.evaluate(at_s));
             let left_out = left_out(active, &nodes, &ends);
-            let unresolved = left_out * left_out.max((rate_rad_s * span_s).powi(2) / 12.0);
+            let unresolved = left_out * left_out.max(math::powi(rate_rad_s * span_s, 2) / 12.0);
             if let Some(longest_s) = interval.accept(unresolved, tolerance, ORDER) {
                 next_longest_s = longest_s;
                 break nodes;

@@ -78,7 +78,7 @@ impl ControlLoop {
     /// What the controller is to bring the body to at the end of the motion.
     pub fn target(
         &mut self,
-        craft: &mut ConfiguredFlight<'_>,
+        flight: &mut ConfiguredFlight<'_>,
         tracked: Tracked,
         sampled: &Sampled<'_>,
     ) -> Result<ControlTarget, PlantError> {
@@ -86,7 +86,7 @@ impl ControlLoop {
         let command = match tracked {
             Tracked::Rate(rate_body_rad_s) => return Ok(ControlTarget::RateOnly { rate_body_rad_s }),
             Tracked::Attitude(command) => command,
-            Tracked::Guidance => self.guided(craft, sampled)?,
+            Tracked::Guidance => self.guided(flight, sampled)?,
         };
         Ok(ControlTarget::Attitude {
             attitude: command.attitude_at(time_s),
@@ -97,7 +97,7 @@ impl ControlLoop {
     /// The command of internal guidance, sampled anew where that is due.
     fn guided(
         &mut self,
-        craft: &mut ConfiguredFlight<'_>,
+        flight: &mut ConfiguredFlight<'_>,
         sampled: &Sampled<'_>,
     ) -> Result<Command, PlantError> {
         let (time_s, body) = (sampled.motion.end_s(), sampled.body);
@@ -114,8 +114,8 @@ impl ControlLoop {
             delta_v_inertial_m_s: body.delta_v_inertial_m_s,
         };
         let momentum = StartMomentum::Inertial(body.momentum_inertial_n_m_s);
-        craft.choose_sun_place(time_s, &totals, momentum, self.guidance.is_none())?;
-        let guided = craft.plant_at(time_s, body).kinematics.guided_attitude(time_s);
+        flight.choose_sun_place(time_s, &totals, momentum, self.guidance.is_none())?;
+        let guided = flight.plant_at(time_s, body).kinematics.guided_attitude(time_s);
         let (attitude, rate_body_rad_s) =
             guided.map_or((sampled.estimate.attitude, Vector3::zeros()), |guided| {
                 let frame = guided.frame;

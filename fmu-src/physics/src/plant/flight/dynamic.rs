@@ -48,13 +48,13 @@ impl AttitudeDynamics {
     /// At the start of a flight.
     pub fn begin(
         settings: &mut DynamicsSettings,
-        craft: &mut ConfiguredFlight<'_>,
+        flight: &mut ConfiguredFlight<'_>,
         time_s: f64,
     ) -> Result<Self, PlantError> {
         let StartMotion { mut attitude, mut rate_body_rad_s, pointing, rate_is_pointed, .. } = settings.start;
         if let Some(pointing) = pointing {
             let frame = match pointing {
-                StartPointing::Guidance(law) => craft.frame_by(&law, time_s)?,
+                StartPointing::Guidance(law) => flight.frame_by(&law, time_s)?,
                 StartPointing::Command(command) => command.frame_at(time_s),
             };
             attitude = Attitude::from_rotation(&frame.inertial_from_body);
@@ -66,10 +66,10 @@ impl AttitudeDynamics {
         let [momentum_inertial_n_m_s, delta_v_inertial_m_s] = [Vector3::zeros(); 2];
         let body =
             BodyMotion { attitude: unit, rate_body_rad_s, momentum_inertial_n_m_s, delta_v_inertial_m_s };
-        let mut mass = craft.world.configuration.loaded();
+        let mut mass = flight.world.configuration.loaded();
         if settings.panels_have_mass {
             let still = BodyMotion { rate_body_rad_s: Vector3::zeros(), ..body };
-            let mut plant = craft.plant_at(time_s, &still);
+            let mut plant = flight.plant_at(time_s, &still);
             let instant = plant.instant(time_s);
             mass = plant.mass_properties(&instant, time_s);
             settings.set_mass_properties(&mass);
@@ -86,10 +86,10 @@ impl AttitudeDynamics {
             dumps: MomentumDumps::default(),
         };
         if settings.panels_have_mass {
-            let mut plant = craft.plant_at(time_s, &body);
+            let mut plant = flight.plant_at(time_s, &body);
             let instant = plant.instant(time_s);
             begun.panels = PanelMotion::at_start(plant.hinged(), &instant, time_s);
-            let internal = begun.panels.internal(craft.given.prepared.panels, &mass, begun.motion.end_s());
+            let internal = begun.panels.internal(flight.given.prepared.panels, &mass, begun.motion.end_s());
             begun.motion.add_hinges(internal);
         }
         Ok(begun)
@@ -126,35 +126,35 @@ impl AttitudeDynamics {
     pub fn advance(
         &mut self,
         settings: &mut DynamicsSettings,
-        craft: &mut ConfiguredFlight<'_>,
+        flight: &mut ConfiguredFlight<'_>,
         inputs: &DynamicsInputs,
         end_s: f64,
     ) -> Result<(), PlantError> {
-        self.resume(settings, craft);
-        craft.world.begin_work(craft.given.work_limit);
+        self.resume(settings, flight);
+        flight.world.begin_work(flight.given.work_limit);
         let units = if settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
         while self.motion.end_s() < end_s - tolerance_s(end_s) {
             let time_s = self.motion.end_s();
-            let evaluations = craft.world.ephemeris.evaluations();
-            craft.world.work.spend(Cost::Segment, units, evaluations, time_s)?;
-            self.process_events(settings, craft, inputs)?;
-            let edge_s = craft.thrusters.next_edge_s();
+            let evaluations = flight.world.ephemeris.evaluations();
+            flight.world.work.spend(Cost::Segment, units, evaluations, time_s)?;
+            self.process_events(settings, flight, inputs)?;
+            let edge_s = flight.thrusters.next_edge_s();
             let limit_s = self.sensing.next_s().min(self.disturbance.end_s()).min(edge_s);
             let limit_s = limit_s.min(self.dumps.until_s());
-            let external = (craft.given.external)(time_s);
-            let mut load = self.load(&external, craft.thrusters, time_s);
-            load.internal = self.panels.internal(craft.given.prepared.panels, &self.mass.now, time_s);
+            let external = (flight.given.external)(time_s);
+            let mut load = self.load(&external, flight.thrusters, time_s);
+            load.internal = self.panels.internal(flight.given.prepared.panels, &self.mass.now, time_s);
             self.dumps.torques = self.torques_by_source(&external, time_s);
             self.motion.advance(&settings.gyrostat, self.control.wheels.motors(), &load, limit_s);
-            craft.take_thrust(&self.motion)?;
+            flight.take_thrust(&self.motion)?;
         }
         Ok(())
     }
 
     /// The body has the mass properties of the present segment, and what flies those of the last edge of the grid.
-    pub fn resume(&self, settings: &mut DynamicsSettings, craft: &mut ConfiguredFlight<'_>) {
+    pub fn resume(&self, settings: &mut DynamicsSettings, flight: &mut ConfiguredFlight<'_>) {
         settings.set_mass_properties(&self.mass.now);
-        let world = &mut *craft.world;
+        let world = &mut *flight.world;
         world.mass_at_zero = self.mass.left.unwrap_or_else(|| world.configuration.loaded());
     }
 
@@ -162,19 +162,19 @@ impl AttitudeDynamics {
     pub fn process_events(
         &mut self,
         settings: &mut DynamicsSettings,
-        craft: &mut ConfiguredFlight<'_>,
+        flight: &mut ConfiguredFlight<'_>,
         inputs: &DynamicsInputs,
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
         let due_s = time_s + tolerance_s(time_s);
         self.motion.remembered_at(&settings.gyrostat, time_s);
-        self.dumps.accumulate(&self.motion, self.dumps.is_dumping(craft.thrusters, time_s));
-        if !craft.thrusters.load().law.is_none() {
-            let Thrusters { propellant, settings: known, .. } = &*craft.thrusters;
+        self.dumps.accumulate(&self.motion, self.dumps.is_dumping(flight.thrusters, time_s));
+        if !flight.thrusters.load().law.is_none() {
+            let Thrusters { propellant, settings: known, .. } = &*flight.thrusters;
             self.set_mass(settings, propellant.mass_properties_since(&self.mass.now, &known.tanks, time_s));
         }
-        craft.thrusters.accumulate(&self.motion, time_s);
-        craft.thrusters.process_valve_events(time_s);
+        flight.thrusters.accumulate(&self.motion, time_s);
+        flight.thrusters.process_valve_events(time_s);
         self.dumps.end(due_s);
         self.control.wheels.fail(&inputs.wheel_failed);
         if settings.control.is_none() {
@@ -182,16 +182,16 @@ impl AttitudeDynamics {
         }
         let (sample_due, grid_due) = (self.sensing.next_s() <= due_s, self.disturbance.end_s() <= due_s);
         if grid_due {
-            self.begin_interval(settings, craft)?;
+            self.begin_interval(settings, flight)?;
         }
         if sample_due {
-            self.sample(settings, craft, inputs)?;
-            craft.thrusters.process_valve_events(time_s);
+            self.sample(settings, flight, inputs)?;
+            flight.thrusters.process_valve_events(time_s);
         }
-        self.turn_mass(settings, craft);
-        let used_kg = craft.thrusters.propellant.total_used_kg(time_s);
-        self.mass.now.mass_kg = craft.world.configuration.mass_kg - used_kg;
-        craft.thrusters.exert(&self.mass.now, time_s);
+        self.turn_mass(settings, flight);
+        let used_kg = flight.thrusters.propellant.total_used_kg(time_s);
+        self.mass.now.mass_kg = flight.world.configuration.mass_kg - used_kg;
+        flight.thrusters.exert(&self.mass.now, time_s);
         Ok(())
     }
 
@@ -199,15 +199,15 @@ impl AttitudeDynamics {
     fn begin_interval(
         &mut self,
         settings: &mut DynamicsSettings,
-        craft: &mut ConfiguredFlight<'_>,
+        flight: &mut ConfiguredFlight<'_>,
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
         let body = self.motion.at(&settings.gyrostat, time_s);
-        let world = &mut *craft.world;
+        let world = &mut *flight.world;
         let loaded = world.configuration.loaded();
-        self.mass.left = craft.thrusters.left(&loaded, time_s);
+        self.mass.left = flight.thrusters.left(&loaded, time_s);
         world.mass_at_zero = self.mass.left.unwrap_or(loaded);
-        craft.propagator.cut(&world.configuration, time_s, true);
+        flight.propagator.cut(&world.configuration, time_s, true);
         // A controller's torque lasts for a sample, and holds the rate.
         let rate_terms_body = match &settings.control {
             Some(_) => [Vector3::zeros(); 2],
@@ -216,12 +216,12 @@ impl AttitudeDynamics {
                 settings.gyrostat.torque_free_rate_terms(&body.rate_body_rad_s, &momentum_body)
             }
         };
-        let has_thrusters = !craft.thrusters.settings.thrusters.is_empty();
-        let mut plant = craft.turning_plant(time_s, &body, rate_terms_body);
+        let has_thrusters = !flight.thrusters.settings.thrusters.is_empty();
+        let mut plant = flight.turning_plant(time_s, &body, rate_terms_body);
         if settings.panels_have_mass
             && let Some(body) = self.follow_panels(settings, &mut plant)
         {
-            plant = craft.turning_plant(time_s, &body, rate_terms_body);
+            plant = flight.turning_plant(time_s, &body, rate_terms_body);
         }
         self.disturbance = self.disturbance.next(&mut plant, time_s, settings.grid_s)?;
         if settings.panels_have_mass || self.mass.left.is_some() || has_thrusters {
@@ -234,8 +234,8 @@ impl AttitudeDynamics {
             let [now, end] = [time_s, end_s].map(|at_s| plant.instant(at_s));
             self.panels.turn_until(plant.hinged(), &now, &end, end_s);
             if was_turning || self.panels.is_turning() {
-                self.turn_mass(settings, craft);
-                let internal = self.panels.internal(craft.given.prepared.panels, &self.mass.now, time_s);
+                self.turn_mass(settings, flight);
+                let internal = self.panels.internal(flight.given.prepared.panels, &self.mass.now, time_s);
                 self.motion.displace(&settings.gyrostat, self.motion.attitude_at(time_s), internal);
             }
         }
@@ -260,14 +260,14 @@ impl AttitudeDynamics {
     }
 
     /// Panels that turn have the body with the mass properties of the end of the motion.
-    fn turn_mass(&mut self, settings: &mut DynamicsSettings, craft: &ConfiguredFlight<'_>) {
+    fn turn_mass(&mut self, settings: &mut DynamicsSettings, flight: &ConfiguredFlight<'_>) {
         if !self.panels.is_turning() {
             return;
         }
         let time_s = self.motion.end_s();
-        let loaded = craft.world.configuration.loaded();
-        let left = self.mass.left.and_then(|_| craft.thrusters.left(&loaded, time_s)).unwrap_or(loaded);
-        self.set_mass(settings, self.panels.mass_properties(&left, craft.given.prepared.panels, time_s));
+        let loaded = flight.world.configuration.loaded();
+        let left = self.mass.left.and_then(|_| flight.thrusters.left(&loaded, time_s)).unwrap_or(loaded);
+        self.set_mass(settings, self.panels.mass_properties(&left, flight.given.prepared.panels, time_s));
     }
 
     fn set_mass(&mut self, settings: &mut DynamicsSettings, mass: MassProperties) {
@@ -284,20 +284,20 @@ impl AttitudeDynamics {
     fn sample(
         &mut self,
         settings: &DynamicsSettings,
-        craft: &mut ConfiguredFlight<'_>,
+        flight: &mut ConfiguredFlight<'_>,
         inputs: &DynamicsInputs,
     ) -> Result<(), PlantError> {
         let time_s = self.motion.end_s();
         let body = self.motion.remembered_at(&settings.gyrostat, time_s);
         let number = self.sensing.sample(settings, inputs, time_s, &body, self.disturbance.sun_at(time_s));
         let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
-        let is_free = self.dumps.are_over(craft.thrusters) && !self.control.by_thrusters;
-        let policy = craft.world.configuration.momentum.policy;
-        if is_free && craft.thrusters.burning().is_none() && policy.exceeded(&momentum_body) {
-            self.begin_dump(craft, &momentum_body, policy.after(&momentum_body));
+        let is_free = self.dumps.are_over(flight.thrusters) && !self.control.by_thrusters;
+        let policy = flight.world.configuration.momentum.policy;
+        if is_free && flight.thrusters.burning().is_none() && policy.exceeded(&momentum_body) {
+            self.begin_dump(flight, &momentum_body, policy.after(&momentum_body));
             self.dumps.dumps.check()?;
         }
-        craft.thrusters.sample_dump(&self.motion, &body.momentum_inertial_n_m_s, &self.mass.known);
+        flight.thrusters.sample_dump(&self.motion, &body.momentum_inertial_n_m_s, &self.mass.known);
         let Some(control) = &settings.control else { return Ok(()) };
         let sampled = Sampled {
             number,
@@ -308,8 +308,8 @@ impl AttitudeDynamics {
             mass: &self.mass.known,
             dump_body_n_m: self.dumps.torque_body_n_m(),
         };
-        let target = self.control.target(craft, inputs.tracked, &sampled)?;
-        self.control.control(control, craft.thrusters, &target, &sampled);
+        let target = self.control.target(flight, inputs.tracked, &sampled)?;
+        self.control.control(control, flight.thrusters, &target, &sampled);
         Ok(())
     }
 
@@ -317,19 +317,19 @@ impl AttitudeDynamics {
     pub fn dump_to(
         &mut self,
         settings: &DynamicsSettings,
-        craft: &mut ConfiguredFlight<'_>,
+        flight: &mut ConfiguredFlight<'_>,
         target_body_n_m_s: Vector3<f64>,
     ) {
         let body = self.motion.at(&settings.gyrostat, self.motion.end_s());
         let momentum_body = body.attitude.body_from_inertial(&body.momentum_inertial_n_m_s);
-        self.begin_dump(craft, &momentum_body, target_body_n_m_s);
+        self.begin_dump(flight, &momentum_body, target_body_n_m_s);
     }
 
-    fn begin_dump(&mut self, craft: &mut ConfiguredFlight<'_>, before: &Vector3<f64>, after: Vector3<f64>) {
+    fn begin_dump(&mut self, flight: &mut ConfiguredFlight<'_>, before: &Vector3<f64>, after: Vector3<f64>) {
         let time_s = self.motion.end_s();
         let event = DumpEvent { time_s, before_body_n_m_s: *before, after_body_n_m_s: after };
-        self.dumps.begin(event, craft.thrusters, &self.motion, &self.mass.known);
-        (craft.log)(&event);
+        self.dumps.begin(event, flight.thrusters, &self.motion, &self.mass.known);
+        (flight.log)(&event);
     }
 
     /// What acts from `time_s` on.
@@ -368,22 +368,22 @@ impl AttitudeDynamics {
     pub fn evaluation(
         &self,
         settings: &DynamicsSettings,
-        craft: &mut ConfiguredFlight<'_>,
+        flight: &mut ConfiguredFlight<'_>,
         body: &BodyMotion,
         time_s: f64,
     ) -> Evaluation {
-        let loaded = craft.world.configuration.loaded();
-        craft.world.mass_at_zero = craft.thrusters.left(&loaded, time_s).unwrap_or(loaded);
-        let mass_kg = loaded.mass_kg - craft.thrusters.propellant.total_used_kg(time_s);
-        let mut plant = craft.plant_at(time_s, body);
+        let loaded = flight.world.configuration.loaded();
+        flight.world.mass_at_zero = flight.thrusters.left(&loaded, time_s).unwrap_or(loaded);
+        let mass_kg = loaded.mass_kg - flight.thrusters.propellant.total_used_kg(time_s);
+        let mut plant = flight.plant_at(time_s, body);
         let instant = plant.instant(time_s);
         let mass = MassProperties { mass_kg, ..plant.mass_properties(&instant, time_s) };
         let panels_body_n_m_s = plant.panel_momentum_body_n_m_s(&instant, &mass, time_s);
         let mut loads = self.disturbance.loads_at(time_s);
         let [torque_body_n_m, force_body_n] = self.motion.swinging_load(&settings.gyrostat, time_s, body);
-        let [external, _] = (craft.given.external)(time_s);
+        let [external, _] = (flight.given.external)(time_s);
         loads[Effect::Applied] = external + ForceTorque { force_body_n, torque_body_n_m };
-        let thrusters = craft.thrusters.load();
+        let thrusters = flight.thrusters.load();
         loads[Effect::Thrusters] = ForceTorque {
             force_body_n: thrusters.law.force_at_n(time_s),
             torque_body_n_m: thrusters.torque_at_n_m(time_s, &body.rate_body_rad_s),

@@ -125,7 +125,7 @@ impl Thrusters {
         let mut next_s = f64::INFINITY;
         for (k, thruster) in self.settings.thrusters.iter().enumerate() {
             let (valve, pulse) = (&self.valves[k], &self.schedule[k]);
-            let edge_s = pulse.opens_s().min(pulse.closes_s());
+            let edge_s = pulse.next_edge_s();
             next_s = next_s.min(edge_s).min(valve.ramp_end_s(&thruster.valve));
         }
         if !self.load.law.is_none() {

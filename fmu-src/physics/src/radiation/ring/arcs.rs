@@ -10,7 +10,7 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use crate::numerics::scalar::Scalar;
+use crate::numerics::scalar::{Scalar, acos};
 
 /// The part of a ring where `level + reach * cos(azimuth - middle) > 0`.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +43,7 @@ impl<T: Scalar> Arc<T> {
             return Self::Empty;
         }
         let sin_half = ((cos_half * -1.0 + 1.0) * (cos_half + 1.0)).sqrt();
-        Self::Part { half: cos_half.acos(), cos_half, sin_half }
+        Self::Part { half: acos(cos_half), cos_half, sin_half }
     }
 }
 

@@ -12,8 +12,9 @@ use super::segments::{AT_NADIR, Breaks, FARTHEST_SPLIT, SPLIT_RATIO};
 use super::sums::{Tensors, Weighted};
 use super::view::PlanetView;
 use crate::bodies::surface::SurfaceExitance;
+use crate::math;
 use crate::numerics::quadrature::gauss_legendre;
-use crate::numerics::scalar::Scalar;
+use crate::numerics::scalar::{Scalar, exp, ln};
 use crate::radiation::flat_plate::ReceivedLight;
 use crate::radiation::planet_light::PlanetLight;
 use crate::refusal::Refusal;
@@ -73,7 +74,7 @@ impl RingRule {
         let on_unit = |(x, w): (&f64, &f64)| (0.5 * (1.0 + x), 0.5 * w);
         Ok(Self {
             nodes: positions.iter().zip(&weights).map(on_unit).collect(),
-            closest_singularity: 10_f64.powf(-1.2 - 0.25 * nodes_per_segment as f64),
+            closest_singularity: math::powf(10_f64, -1.2 - 0.25 * nodes_per_segment as f64),
         })
     }
 
@@ -159,7 +160,7 @@ impl<T: Scalar> Plate<T> {
         // Plate horizon: sin(eta) = |cos(tilt)|, so cos(eta) = sin(tilt).
         let along = view.relative_distance * self.reach;
         let under_root = along * along - view.limb_squared;
-        let horizon = (under_root.value() > 0.0).then(|| (view.limb / (along + under_root.sqrt())).ln());
+        let horizon = (under_root.value() > 0.0).then(|| ln(view.limb / (along + under_root.sqrt())));
         let horizon = horizon.map(|x| if x.value() > -RACING { held(view, x) } else { x });
         if horizon.is_none() && self.normal.z.value() <= 0.0 {
             return breaks;
@@ -211,8 +212,8 @@ impl<T: Scalar> Plate<T> {
             let t_squared = foot.dot(&foot) + lambda * lambda;
             // Beyond the limb the point is on the far side.
             if t_squared.value() < view.limb_squared.value() {
-                let x = (t_squared / view.limb_squared).ln() * 0.5;
-                let races = root.value().powi(2) < RACING * RACING * t_squared.value()
+                let x = ln(t_squared / view.limb_squared) * 0.5;
+                let races = math::powi(root.value(), 2) < RACING * RACING * t_squared.value()
                     || sine_squared.value() < RACING * RACING;
                 inside(if races { held(view, x) } else { x }, false);
             }
@@ -260,7 +261,7 @@ impl<T: Scalar> Ring<T> {
     /// Puts the ring at `x` with the weight `share`.
     #[inline]
     fn place(&mut self, view: &PlanetView<T>, x: T, share: T) {
-        let t = view.limb * x.exp();
+        let t = view.limb * exp(x);
         let t_squared = t * t;
         let per_twice_distance_t = T::constant(0.5) / (view.relative_distance * t);
         let cos_eta = (t_squared + view.limb_squared) * per_twice_distance_t;

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::arcs::Azimuth;
-use crate::numerics::scalar::Scalar;
+use crate::numerics::scalar::{Scalar, ln};
 use crate::refusal::Refusal;
 
 /// A planet of parallel sunlight, seen from the spacecraft's reference point; all vectors in one frame.
@@ -83,8 +83,8 @@ impl<T: Scalar> PlanetView<T> {
             relative_distance,
             limb,
             limb_squared,
-            nearest: ((relative_distance - 1.0) / limb).ln(),
-            terminator: sees_terminator.then(|| (t_squared / limb_squared).ln() * 0.5),
+            nearest: ln((relative_distance - 1.0) / limb),
+            terminator: sees_terminator.then(|| ln(t_squared / limb_squared) * 0.5),
         })
     }
 

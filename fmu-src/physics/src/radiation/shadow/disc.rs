@@ -10,6 +10,7 @@
 
 use nalgebra::Vector3;
 
+use crate::math;
 use crate::numerics::scalar::{Scalar, constant_vector};
 
 /// How many directions stand for the disc.
@@ -44,7 +45,7 @@ impl<T: Scalar> SunDisc<T> {
         if number == 0 {
             return (self.center, 0.25);
         }
-        let (sin, cos) = libm::sincos((number - 1) as f64 * core::f64::consts::FRAC_PI_3);
+        let (sin, cos) = math::sin_cos((number - 1) as f64 * core::f64::consts::FRAC_PI_3);
         let radius = self.sine * (2.0_f64 / 3.0).sqrt();
         let [first, second] = self.across;
         let outward = first * T::constant(cos) + second * T::constant(sin);

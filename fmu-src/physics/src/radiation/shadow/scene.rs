@@ -5,7 +5,7 @@ use nalgebra::{Vector2, Vector3};
 use super::clip::{Pieces, cross, drop_flat_corners, flat_m2};
 use super::convex::FlatParts;
 use super::disc::{DIRECTIONS, LitMean, SunDisc};
-use crate::numerics::scalar::{Scalar, constant_vector};
+use crate::numerics::scalar::{Scalar, constant_vector, sin_cos};
 use crate::spacecraft::Polygon;
 
 /// What lies nearer to a plane than this part of the scene's size is in it and casts no shadow on it.
@@ -298,7 +298,7 @@ impl ShadowSurface {
         let turned =
             self.hinge.and_then(|hinge| panel_angles_rad.get(hinge.panel).map(|angle| (hinge, angle)));
         let Some((hinge, angle_rad)) = turned else { return Pose { origin, east, north, normal } };
-        let (sin, cos) = angle_rad.sin_cos();
+        let (sin, cos) = sin_cos(*angle_rad);
         let axis = constant_vector::<T>(&hinge.axis_body);
         // Rodrigues' formula.
         let turn = |v: Vector3<T>| v * cos + axis.cross(&v) * sin + axis * (axis.dot(&v) * (-cos + 1.0));

@@ -8,6 +8,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::balance::{FaceEnvironment, exchange_w_m2};
+use crate::math;
 use crate::spacecraft::Conduction;
 
 /// Allowed error of one step relative to the temperature.
@@ -52,7 +53,7 @@ impl HeatStore {
             return [f64::NAN; 2];
         }
         let heat_at = |time_s: f64| from + (to - from) * (time_s / duration_s);
-        let shortest_s = duration_s * 0.5_f64.powi(MOST_HALVINGS as i32);
+        let shortest_s = duration_s * math::powi(0.5_f64, MOST_HALVINGS as i32);
         let (mut time_s, mut step_s) = (0.0, duration_s);
         let mut steps = 0;
         while time_s < duration_s {

@@ -18,6 +18,8 @@ use nalgebra::Vector3;
 
 use super::describe_shapes::{BoxFace, CylinderEnd};
 
+use crate::math;
+
 /// A flat outline with its front where the right-hand rule has its normal.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Facet {
@@ -40,7 +42,7 @@ pub(crate) const BOX_FACES: [(BoxFace, usize, f64, &str); 6] = [
 /// Sine and cosine of an angle in deg, exact at right angles.
 pub(crate) fn sincos_deg(angle_deg: f64) -> (f64, f64) {
     let quarters = (angle_deg / 90.0).round();
-    let (sin, cos) = libm::sincos((angle_deg - 90.0 * quarters).to_radians());
+    let (sin, cos) = math::sin_cos((angle_deg - 90.0 * quarters).to_radians());
     match quarters.rem_euclid(4.0) {
         1.0 => (cos, -sin),
         2.0 => (-sin, -cos),
@@ -72,7 +74,7 @@ pub(crate) fn cylinder_facets(radius_m: f64, height_m: f64, facets: u32, open: &
     let corners = ring(radius_m * of_equal_area(facets), facets);
     let x = half_step_rad(facets);
     // Half the height over the perimeter's part of that of the circle.
-    let half_m = height_m / 2.0 * (x / libm::tan(x)).sqrt();
+    let half_m = height_m / 2.0 * (x / math::tan(x)).sqrt();
     let mut found = Vec::new();
     for (k, (from, to)) in sides(&corners).enumerate() {
         let at = |corner: Vector3<f64>, z_m: f64| Vector3::new(corner.x, corner.y, z_m);
@@ -101,11 +103,11 @@ pub(crate) fn disc(radius_m: f64, corners: u32) -> Vec<Facet> {
 pub(crate) fn dish_facets(radius_m: f64, depth_m: f64, facets: u32, rings: u32) -> Vec<Facet> {
     let focal_length_m = radius_m * radius_m / (4.0 * depth_m);
     let zone_m2 = |radius_m: f64| {
-        let u = 1.0 + (radius_m / (2.0 * focal_length_m)).powi(2);
+        let u = 1.0 + math::powi(radius_m / (2.0 * focal_length_m), 2);
         2.0 / 3.0 * PI * radius_m * radius_m * (u * u + u + 1.0) / (u * u.sqrt() + 1.0)
     };
     let outer = of_equal_area(facets);
-    let inner = outer * libm::cos(half_step_rad(facets));
+    let inner = outer * math::cos(half_step_rad(facets));
     let mut found = Vec::new();
     let mut z_m = 0.0;
     for k in 0..rings {
@@ -137,7 +139,7 @@ fn half_step_rad(corners: u32) -> f64 {
 /// Outer radius of a regular polygon with the area of a circle of radius 1.
 fn of_equal_area(corners: u32) -> f64 {
     let x = half_step_rad(corners);
-    (2.0 * x / libm::sin(2.0 * x)).sqrt()
+    (2.0 * x / math::sin(2.0 * x)).sqrt()
 }
 
 /// Corners of a regular polygon about Z, counter-clockwise; its first side faces along X.

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::math;
 use crate::spacecraft::polygon::Polygon;
 use crate::toml::{Checker, Place, Positive};
 
@@ -39,7 +40,7 @@ pub(crate) fn checked_outline(
         Ok(polygon) => {
             let along = normal.map_or(1.0, |normal| polygon.normal().dot(normal));
             let off = tolerance(&polygon);
-            if let (Some(normal), true) = (normal, along.abs() < (1.0 - off.powi(2) / 2.0)) {
+            if let (Some(normal), true) = (normal, along.abs() < (1.0 - math::powi(off, 2) / 2.0)) {
                 check.report_across(
                     at,
                     &place,

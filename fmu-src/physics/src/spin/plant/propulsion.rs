@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::valves::Valves;
 use crate::attitude::Inertia;
 use crate::enumeration::enumeration;
+use crate::math;
 use crate::numerics::quadrature::Rule;
 use crate::propulsion::ThrustLaw;
 use crate::spacecraft::MOST_THRUSTERS;
@@ -208,7 +209,7 @@ impl Propulsion {
         }
         let from_s = self.delta_v_until_s.max(law.since_s);
         let mass_kg = self.mass_at_kg(spinner, from_s);
-        let fall = (mass_kg / self.mass_at_kg(spinner, time_s)).ln();
+        let fall = math::ln(mass_kg / self.mass_at_kg(spinner, time_s));
         // Panels in which the mass falls by one factor, so that its reciprocal is smooth in each.
         let panels = (fall / IMPULSE_PANEL_MASS).ceil().max(1.0);
         let mut delta_v = self.delta_v_inertial_m_s;
@@ -218,7 +219,7 @@ impl Propulsion {
             let end_s = if share >= 1.0 {
                 time_s
             } else if law.flow_kg_s[1] == 0.0 {
-                from_s - mass_kg * (-fall * share).exp_m1() / law.flow_kg_s[0]
+                from_s - mass_kg * math::exp_m1(-fall * share) / law.flow_kg_s[0]
             } else {
                 from_s + (time_s - from_s) * share
             };

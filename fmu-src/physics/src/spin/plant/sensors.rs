@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::directions::{Directions, is_unit};
 use crate::attitude::{Inertia, RigidBodyState, angle_between_rad};
 use crate::enumeration::enumeration;
+use crate::math;
 use crate::numerics::noise::{Channel, normal};
 use crate::spin::{
     crossing::{Crossing, Pole},
@@ -88,7 +89,7 @@ impl Sensors {
         start_s: f64,
     ) -> Self {
         let slit = |azimuth_deg: f64| {
-            let (sine, cosine) = azimuth_deg.to_radians().sin_cos();
+            let (sine, cosine) = math::sin_cos(azimuth_deg.to_radians());
             Vector3::new(cosine, sine, 0.0)
         };
         Self {
@@ -194,7 +195,7 @@ impl Sensors {
         let state = motion.at(time_s);
         let tracker = &spinner.star_tracker;
         let declination =
-            state.attitude.spin_axis_inertial().dot(&directions.star_inertial).clamp(-1.0, 1.0).asin();
+            math::asin(state.attitude.spin_axis_inertial().dot(&directions.star_inertial).clamp(-1.0, 1.0));
         let visible = directions.star_inertial != Vector3::zeros()
             && declination.abs() <= 0.5 * tracker.field_of_view_deg.to_radians();
         let turn = match self.sampling {
@@ -245,7 +246,7 @@ fn star_picket(spinner: &Spinner, directions: &Directions, inertia: &Inertia, st
             .attitude
             .body_from_inertial(&(direction - pole * (pole.dot(direction) / pole.norm_squared())));
         let seen = inertia.spin_frame_from_body(&seen);
-        seen.y.atan2(seen.x)
+        math::atan2(seen.y, seen.x)
     };
     // Half a picket of margin keeps a star that starts on a border off it.
     let pickets = spinner.star_tracker.pickets;

@@ -7,6 +7,7 @@ use super::directions::{has_directions, is_unit};
 use super::propulsion::MassSource;
 use super::sensors::Sampling;
 use crate::attitude::{InertiaError, Quaternion, angle_between_rad};
+use crate::math;
 use crate::spacecraft::MOST_THRUSTERS;
 use crate::spin::{
     burn::BurnRequest,
@@ -170,7 +171,7 @@ impl Start {
         let by_sun = self.burn.as_ref().is_some_and(|b| b.timing == Timing::SunCrossing);
         let angle = angle_between_rad(momentum_inertial, sun_inertial);
         let least = self.nutation_rad.max(1e-3);
-        if by_sun && *sun_inertial != Vector3::zeros() && angle.sin() <= least {
+        if by_sun && *sun_inertial != Vector3::zeros() && math::sin(angle) <= least {
             let found = format!("Sun crossing with the Sun {:.4} deg off the spin axis", angle.to_degrees());
             let allowed = "a Sun crossing needs the Sun farther off the axis than nutation takes it";
             return Err(ParameterError::new("burn.timing", found, allowed).into());

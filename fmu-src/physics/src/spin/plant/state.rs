@@ -9,6 +9,7 @@ use super::propulsion::{MassSource, Propulsion};
 use super::sensors::{Sensor, Sensors};
 use super::start::{InitialConditions, LEAST_WORK, MOST_WORK, Start, StartError};
 use crate::attitude::{Inertia, RigidBodyState};
+use crate::math;
 use crate::propulsion::due_s;
 use crate::spin::{
     burn::{Burn, BurnInitialConditions},
@@ -76,8 +77,8 @@ impl Plant {
         };
         let attitude = start.check(spinner)?;
         let spin_n_m_s = inertia.spin_kg_m2() * start.spin_rate_rad_s;
-        let across = spin_n_m_s * start.nutation_rad.tan();
-        let (sine, cosine) = start.nutation_phase_rad.sin_cos();
+        let across = spin_n_m_s * math::tan(start.nutation_rad);
+        let (sine, cosine) = math::sin_cos(start.nutation_phase_rad);
         let momentum = Vector3::new(across * cosine, across * sine, spin_n_m_s);
         let momentum_inertial = attitude.inertial_from_body(&inertia.body_from_spin_frame(&momentum));
         let theory = Spin {
@@ -129,7 +130,7 @@ impl Plant {
         start
             .refuse_blind_timing(&plant.state().momentum_inertial, &plant.directions.present.sun_inertial)?;
         let mut work = Work::new(start.work_limit);
-        plant.schedule(start_s, &mut work);
+        plant.schedule(spinner, start_s, &mut work);
         work.check(start_s)?;
         plant.command(commands, directions);
         Ok(plant)
@@ -213,11 +214,11 @@ impl Plant {
         let near_s = end_s + SAME_TIME * end_s.abs().max(from_s.abs());
         // The last edge, and the last thing of any kind that happened.
         let (mut now_s, mut reached_s) = (from_s, from_s);
-        let waiting_s = self.propulsion.valves.edge_before_s(f64::INFINITY);
+        let waiting_s = self.propulsion.valves.edge_before_s(spinner, f64::INFINITY);
         if self.commanded || self.commands.fires() || waiting_s <= due_s(from_s) {
             self.propulsion.valves.command(&self.commands, from_s, end_s);
             // An edge where the last step ended waited for this command.
-            let edge_s = self.propulsion.valves.edge_before_s(end_s);
+            let edge_s = self.propulsion.valves.edge_before_s(spinner, end_s);
             if edge_s <= due_s(from_s) {
                 now_s = edge_s;
             }
@@ -228,9 +229,9 @@ impl Plant {
         loop {
             work.check(reached_s)?;
             let plan_s = self.sequencer.as_ref().map_or(f64::INFINITY, |s| s.next_edge_s().max(now_s));
-            let command_s = self.propulsion.valves.edge_before_s(end_s);
+            let command_s = self.propulsion.valves.edge_before_s(spinner, end_s);
             let depletion_time_s = self.propulsion.depletion_time_s().max(now_s);
-            let ramp_s = self.propulsion.valves.ramp_end_s().max(now_s);
+            let ramp_s = self.propulsion.valves.ramp_end_s(spinner).max(now_s);
             let edge_s =
                 plan_s.min(command_s).min(self.directions.refresh_s).min(depletion_time_s).min(ramp_s);
             let (until_s, segment_end_s) = (edge_s.min(end_s), self.motion.segment_end_s());
@@ -268,7 +269,7 @@ impl Plant {
             }
             self.switch(spinner, now_s, hint_s, work)?;
             if self.sequencer.as_ref().is_some_and(|s| s.phase() == Phase::Idle) {
-                self.schedule(now_s, work);
+                self.schedule(spinner, now_s, work);
             }
         }
         self.reach(spinner, end_s, work)?;
@@ -289,7 +290,7 @@ impl Plant {
         let requested = plan | self.propulsion.valves.pulsing_mask(now_s);
         let mask = if self.propulsion.is_dry() { 0 } else { requested };
         let turns_valves =
-            mask != self.propulsion.valves.open_mask() || self.propulsion.valves.ramp_end_s() <= now_s;
+            mask != self.propulsion.valves.open_mask() || self.propulsion.valves.ramp_end_s(spinner) <= now_s;
         let applied = self.commands.torque;
         if turns_valves || self.propulsion.with_thrusters(&applied) != *self.motion.torque() {
             self.reach(spinner, now_s, work)?;
@@ -298,12 +299,12 @@ impl Plant {
             work.spend_segment(self.motion.damper());
             self.propulsion.valves.open(spinner, mask, now_s);
             let torque = self.propulsion.with_thrusters(&applied);
-            let ramp_s = (self.propulsion.valves.ramp_end_s() - now_s).max(SHORTEST_RAMP_HINT_S);
+            let ramp_s = (self.propulsion.valves.ramp_end_s(spinner) - now_s).max(SHORTEST_RAMP_HINT_S);
             self.motion = self.motion.followed_by(now_s, inertia, torque, hint_s.min(1.001 * ramp_s));
             self.motion.check()?;
             self.sensors.forget_motion(now_s);
             if self.sequencer.as_ref().is_some_and(Sequencer::follows_motion) {
-                self.schedule(now_s, work);
+                self.schedule(spinner, now_s, work);
             }
         }
         Ok(())
@@ -376,12 +377,12 @@ impl Plant {
         Ok(self.propulsion.sum_panels(spinner, &self.motion, time_s, work)?)
     }
 
-    fn schedule(&mut self, now_s: f64, work: &mut Work) {
+    fn schedule(&mut self, spinner: &Spinner, now_s: f64, work: &mut Work) {
         if self.propulsion.is_dry() {
             return;
         }
         // What a rising or falling thrust does to the motion is known where it ends.
-        let is_ramping = self.propulsion.valves.ramp_end_s().is_finite();
+        let is_ramping = self.propulsion.valves.ramp_end_s(spinner).is_finite();
         if let Some(sequencer) = self.sequencer.as_mut().filter(|it| !(is_ramping && it.follows_motion())) {
             sequencer.schedule(&self.motion, now_s, &self.directions.present.sun_inertial, work);
         }

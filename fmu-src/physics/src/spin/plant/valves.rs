@@ -38,9 +38,9 @@ impl Valves {
     }
 
     /// When a thrust next stops rising or falling, in s; infinite where none does either.
-    pub fn ramp_end_s(&self) -> f64 {
-        let ends = self.valves.iter().zip(&self.execution);
-        ends.map(|(valve, execution)| valve.ramp_end_s(&execution.valve)).fold(f64::INFINITY, f64::min)
+    pub(super) fn ramp_end_s(&self, spinner: &Spinner) -> f64 {
+        let ends = self.valves.iter().zip(&self.execution).zip(&spinner.thrusters);
+        ends.map(|((valve, execution), _)| valve.ramp_end_s(&execution.valve)).fold(f64::INFINITY, f64::min)
     }
 
     /// Takes what is commanded for the step from `start_s` to `end_s`, in s, by the law of [`PulseSchedule`].
@@ -69,9 +69,11 @@ impl Valves {
 
     /// The first edge of a commanded pulse clearly before `end_s`, in s: one at the end of a step waits for the next step's
     /// command, which may go on with the pulse.
-    pub(super) fn edge_before_s(&self, end_s: f64) -> f64 {
-        let edges = self.schedule.iter().flat_map(|it| [it.opens_s(), it.closes_s()]);
-        edges.filter(|edge_s| due_s(*edge_s) < end_s).fold(f64::INFINITY, f64::min)
+    pub(super) fn edge_before_s(&self, spinner: &Spinner, end_s: f64) -> f64 {
+        let used = self.schedule.iter().zip(&spinner.thrusters).map(|(schedule, _)| schedule);
+        let edges = used.filter(|it| !it.is_idle()).map(PulseSchedule::next_edge_s);
+        let edge_s = edges.fold(f64::INFINITY, f64::min);
+        if due_s(edge_s) < end_s { edge_s } else { f64::INFINITY }
     }
 
     /// Thrusters for which the last step commanded a pulse that does not open their valves, bit by bit.

@@ -81,9 +81,9 @@ fn a_reference_that_has_caught_the_command_is_the_command() {
         settled += 1;
     }
     for sample in settled..settled + 5000 {
-        let wanted = target(sample as f64 * DT_S);
-        let found = reference.step(&wanted, &LIMITS, DT_S);
-        let ControlTarget::Attitude { attitude, rate_body_rad_s } = wanted else { unreachable!() };
+        let expected = target(sample as f64 * DT_S);
+        let found = reference.step(&expected, &LIMITS, DT_S);
+        let ControlTarget::Attitude { attitude, rate_body_rad_s } = expected else { unreachable!() };
         assert!(reference.is_settled);
         assert_eq!(found.attitude, attitude);
         assert_eq!(found.rate_body_rad_s, rate_body_rad_s);
@@ -105,12 +105,12 @@ fn limits_hold_over_random_commands() {
                 // Jumps on the way.
                 target = turning(random_attitude(700 + run), random(800 + run) * 1e-3);
             }
-            let wanted = target(sample as f64 * DT_S);
+            let expected = target(sample as f64 * DT_S);
             let before = reference;
-            let found = reference.step(&wanted, &LIMITS, DT_S);
+            let found = reference.step(&expected, &LIMITS, DT_S);
             let acceleration = found.acceleration_body_rad_s2.norm();
             assert!(acceleration <= LIMITS.acceleration_rad_s2 * (1.0 + 1e-12), "{acceleration}");
-            let ControlTarget::Attitude { attitude, rate_body_rad_s } = wanted else { unreachable!() };
+            let ControlTarget::Attitude { attitude, rate_body_rad_s } = expected else { unreachable!() };
             let command_rate = before.attitude.to_body(&attitude.to_inertial(&rate_body_rad_s));
             let relative = (before.rate_body_rad_s - command_rate).norm();
             if sample != 9_000 {
