@@ -190,7 +190,8 @@ mod tests {
         let number = |tag: &str, key: &str| -> f64 {
             tag.split(&format!(" {key}=\"")).nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
         };
-        let frame = svg.split("<rect ").find(|tag| tag.contains("fill=\"none\"")).unwrap();
+        let tags = svg.split("<rect ").skip(1).filter_map(|it| it.split('>').next());
+        let frame = tags.into_iter().find(|tag| tag.contains("fill=\"none\"")).unwrap();
         let frame = format!(" {frame}");
         let (left, width) = (number(&frame, "x"), number(&frame, "width"));
         let (top, height) = (number(&frame, "y"), number(&frame, "height"));

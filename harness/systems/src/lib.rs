@@ -3,6 +3,7 @@
 //! [`System::open`] unpacks an SSP and holds it against its FMUs; [`simulate_into`] runs it with a fixed communication step;
 //! [`wire`] makes one of FMUs by the names of their variables. FMUs are loaded and called through `loader`.
 
+mod connectors;
 mod elements;
 mod error;
 mod exchange;

@@ -1,6 +1,6 @@
 //! What a spacecraft flies about, and the parameters' defaults that follow from it.
 
-use fmi_export::{Enumeration, SetupError};
+use fmi_export::SetupError;
 use physics::bodies::surface::{MERCURY, PlanetSurface};
 use physics::bodies::{Body, BodyData};
 use physics::enumeration::Enumerated;
@@ -8,7 +8,6 @@ use physics::environment::frames::Frame;
 use physics::environment::kepler_planet::{KeplerPlanet, MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use physics::environment::orbit::{self, Elements};
 use physics::spacecraft::{Spacecraft, StartEntry, StartValue};
-use physics::toml::nearest;
 
 use super::choices::OrbitCenter;
 use super::start_values::{entry_of, item};
@@ -32,14 +31,14 @@ pub struct CenterBody {
 
 /// The centre by the start value of `orbit.center` in the spacecraft's file; without one the file's own body, or Mercury.
 pub fn center_of(file: &str, spacecraft: &Spacecraft) -> Result<CenterBody, SetupError> {
-    let named = named(file, spacecraft, PLANT, "orbit.center")?;
+    let named = of_entry(entry_of(&spacecraft.start, PLANT, "orbit.center"));
     let own = if spacecraft.body.is_some() { Body::Custom } else { Body::Mercury };
     CenterBody::of(spacecraft, named.unwrap_or(own)).map_err(|error| SetupError(format!("{file}: {error}")))
 }
 
 /// The planet that is observed: that of `target.planet` in the file, else the centre.
 pub fn target_of(file: &str, spacecraft: &Spacecraft, model: &str) -> Result<CenterBody, SetupError> {
-    match named(file, spacecraft, model, "target.planet")? {
+    match of_entry(entry_of(&spacecraft.start, model, "target.planet")) {
         None => center_of(file, spacecraft),
         Some(body) => {
             CenterBody::of(spacecraft, body).map_err(|error| SetupError(format!("{file}: {error}")))
@@ -47,31 +46,11 @@ pub fn target_of(file: &str, spacecraft: &Spacecraft, model: &str) -> Result<Cen
     }
 }
 
-/// The body that a start value names; what is neither a name nor a number is refused with the variable itself.
-fn named(file: &str, spacecraft: &Spacecraft, model: &str, name: &str) -> Result<Option<Body>, SetupError> {
-    let Some(entry) = entry_of(&spacecraft.start, model, name) else { return Ok(None) };
-    let found = match &entry.value {
+fn of_entry(entry: Option<&StartEntry>) -> Option<Body> {
+    match &entry?.value {
         StartValue::Text(name) => Body::ITEMS.iter().find(|item| item.name == name).map(|item| item.variant),
         value => item::<OrbitCenter>(value).map(|it| it.0),
-    };
-    match (&entry.value, found) {
-        (StartValue::Text(name), None) => Err(unknown(file, entry, name)),
-        (StartValue::Text(name), Some(Body::Custom)) if spacecraft.body.is_none() => {
-            Err(unknown(file, entry, name))
-        }
-        _ => Ok(found),
     }
-}
-
-fn unknown(file: &str, StartEntry { key, line, .. }: &StartEntry, found: &str) -> SetupError {
-    let names: Vec<&str> = OrbitCenter::TYPE.items.iter().map(|item| item.name).collect();
-    let hint = nearest(found, &names).map_or(String::new(), |it| format!(" (did you mean \"{it}\"?)"));
-    let items: Vec<String> =
-        OrbitCenter::TYPE.items.iter().map(|item| format!("{} ({})", item.name, item.value)).collect();
-    SetupError(format!(
-        "{file}:{line}: {key}: found {found:?}{hint}, allowed: {}, and custom where the file has a table [body]",
-        items.join(", ")
-    ))
 }
 
 impl CenterBody {

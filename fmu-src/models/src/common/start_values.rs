@@ -2,11 +2,17 @@
 
 use fmi_export::{Enumeration, SetupValue, StartValue};
 use physics::{
+    bodies::Body,
+    enumeration::Enumerated,
     environment::dates,
     spacecraft::{StartEntry, StartValue as FileValue},
+    toml::nearest,
 };
 
-use super::choices::DownlinkReference;
+use super::choices::{DownlinkReference, OrbitCenter};
+
+/// Variables that take a body, which the spacecraft's file may describe.
+const BODIES: [&str; 2] = ["orbit.center", "target.planet"];
 
 /// The variable that takes a date: in s past J2000 TDB.
 const EPOCH: &str = "start.epoch";
@@ -20,11 +26,19 @@ const REFERENCE: &str = "guided.downlinkReference";
 
 /// The entries of a file's `[start]` and `[fixed]` as start values of variables of `model`, in which times count from
 /// `default_epoch_s` unless the file says another epoch; `None`: the model has none.
-pub fn start_values(entries: &[StartEntry], model: &str, default_epoch_s: Option<f64>) -> Vec<StartValue> {
+///
+/// A spacecraft's file may describe a body of its own (`has_body`).
+pub fn start_values(
+    entries: &[StartEntry],
+    model: &str,
+    default_epoch_s: Option<f64>,
+    has_body: bool,
+) -> Vec<StartValue> {
     let value = |entry: &StartEntry| {
         let FileValue::Text(text) = &entry.value else { return given(&entry.value) };
         let is_of_model = entry.model.as_deref().is_none_or(|of| of == model);
         match entry.name.as_str() {
+            name if BODIES.contains(&name) => body(text, has_body),
             _ if !dates::looks_like_date(text) => given(&entry.value),
             EPOCH => date(text),
             name if is_of_model && (name == BURN || DOWNLINKS.contains(&name)) => match default_epoch_s {
@@ -74,6 +88,19 @@ fn time(
         SetupValue::Number(at_s) => SetupValue::Number(dates::span_s(epoch_s, at_s)),
         refused => refused,
     }
+}
+
+/// A body by name; `custom` where the file describes one.
+fn body(text: &str, has_own: bool) -> SetupValue {
+    let known = OrbitCenter::TYPE.items;
+    if known.iter().any(|item| item.name == text) || (has_own && text == Body::Custom.name()) {
+        return SetupValue::Text(text.to_owned());
+    }
+    let names: Vec<&str> = known.iter().map(|item| item.name).collect();
+    let hint = nearest(text, &names).map_or(String::new(), |it| format!(" (did you mean \"{it}\"?)"));
+    let mut items: Vec<String> = known.iter().map(|item| format!("{} ({})", item.name, item.value)).collect();
+    items.push("and custom where the file has a table [body]".to_owned());
+    SetupValue::Refused { found: format!("{text:?}{hint}"), allowed: items.join(", ") }
 }
 
 fn date(text: &str) -> SetupValue {

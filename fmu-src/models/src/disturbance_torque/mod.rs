@@ -53,7 +53,12 @@ impl Model for DisturbanceTorque {
     }
 
     fn start_values(setup: &DisturbanceSetup) -> Vec<StartValue> {
-        crate::common::start_values::start_values(&setup.spacecraft.start, Self::NAME, None)
+        crate::common::start_values::start_values(
+            &setup.spacecraft.start,
+            Self::NAME,
+            None,
+            setup.spacecraft.body.is_some(),
+        )
     }
 
     fn about(setup: &DisturbanceSetup) -> About {

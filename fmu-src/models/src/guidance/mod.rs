@@ -69,6 +69,7 @@ impl Model for Guidance {
             &setup.spacecraft.start,
             Self::NAME,
             Some(time::MOMENTUM_STUDY_START_S),
+            setup.spacecraft.body.is_some(),
         )
     }
 

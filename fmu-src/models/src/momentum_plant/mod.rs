@@ -53,6 +53,7 @@ impl Model for MomentumPlant {
             &setup.spacecraft.start,
             Self::NAME,
             Some(physics::environment::time::MOMENTUM_STUDY_START_S),
+            setup.spacecraft.body.is_some(),
         )
     }
 

@@ -40,7 +40,7 @@ impl Model for SpinPlant {
     }
 
     fn start_values(setup: &Spinner) -> Vec<StartValue> {
-        crate::common::start_values::start_values(&setup.start, Self::NAME, None)
+        crate::common::start_values::start_values(&setup.start, Self::NAME, None, false)
     }
 
     fn about(setup: &Spinner) -> About {

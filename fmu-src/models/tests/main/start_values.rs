@@ -266,11 +266,11 @@ const REFUSALS: &[(&str, &str)] = &[
     ),
     (
         "[start]\n\"orbit.center\" = \"pluto\"",
-        "my.toml:+2: start.\"orbit.center\": found \"pluto\", allowed: mercury (1), sun (2), venus (3), earth (4), mars (6), jupiter (7)",
+        "my.toml:+2: start.\"orbit.center\": found \"pluto\", allowed: mercury (1), sun (2), venus (3), earth (4), mars (6), jupiter (7), and custom where the file has a table [body]",
     ),
     (
         "[start]\n\"orbit.center\" = 9",
-        "my.toml:+2: start.\"orbit.center\": found 9, allowed: mercury (1), sun (2), venus (3), earth (4), mars (6), jupiter (7)",
+        "my.toml:+2: start.\"orbit.center\": found 9, allowed: mercury (1), sun (2), venus (3), earth (4), mars (6), jupiter (7), and custom where the file has a table [body]",
     ),
     (
         "[start]\n\"orbit.eccentricity\" = 1.5",
@@ -347,7 +347,7 @@ const REFUSALS: &[(&str, &str)] = &[
     (
         "[start]\n\"dump.threshold\" = [1,\n -2, 3]\n\"orbit.center\" = \"pluto\"",
         "my.toml:+2: start.\"dump.threshold\": found -2, allowed: a number from 1e-6 to 1e100 N.m.s\n\
-         my.toml:+4: start.\"orbit.center\": found \"pluto\", allowed: mercury (1), sun (2), venus (3), earth (4), mars (6), jupiter (7)",
+         my.toml:+4: start.\"orbit.center\": found \"pluto\", allowed: mercury (1), sun (2), venus (3), earth (4), mars (6), jupiter (7), and custom where the file has a table [body]",
     ),
 ];
 

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 const ORDER: &[&str] = &[
     "constants",
     "enumeration",
+    "math",
     "refusal",
     "numerics",
     "bodies",

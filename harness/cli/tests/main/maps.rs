@@ -368,10 +368,11 @@ fn what_cannot_be_mapped_is_refused_by_name() {
     let drawn = || fs::read_to_string(&svg).unwrap();
     assert!(!drawn().contains("keep-in"));
     // What downlinks can undo is drawn where there are any.
-    assert!(drawn().contains("downlinks can undo"));
-    let none = ["--set", "guided.downlinkStart=3h", "--set", "guided.downlinkEnd=3h"];
-    run(&[&["map", shown(&bare)][..], &template[..4], &files, &none].concat(), 0);
     assert!(!drawn().contains("downlinks can undo") && drawn().contains("About Z"));
+    let windows = ["guided.downlinkStart=3h", "guided.downlinkEnd=5h", "guided.downlinkEvery=2"];
+    let windows: Vec<&str> = windows.into_iter().flat_map(|set| ["--set", set]).collect();
+    run(&[&["map", shown(&bare)][..], &template[..4], &files, &windows].concat(), 0);
+    assert!(drawn().contains("downlinks can undo"));
     for zone in [["--zone", "20deg,10deg"], ["--set", "keepIn.azimuth=20deg"]] {
         let reported = run(&[&["map", shown(&bare)][..], &template, &zone].concat(), 0);
         says(&reported, &["Sun keep-in zone: 20 deg of azimuth", "in the zone"]);

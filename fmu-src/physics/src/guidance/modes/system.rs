@@ -1,10 +1,8 @@
-//! Guidance as a sampled system (paper 001, "Guidance system architecture"): once a second a command is computed from what
-//! is known then; between samples it is propagated by its rate.
+//! Guidance as a sampled system (paper 001, "Guidance system architecture"): a command a second, propagated by its rate.
 //!
 //! A sample decides the mode, admits the command that the mode allows, aims, applies the constraints and judges the result.
-//! Samples lie at whole seconds of time, and at the start. Where no scenario is commanded, or boresight or aimpoint has no
-//! direction, the last law stays that gave an attitude, within its constraints. Where the spacecraft, Sun or Earth is not
-//! known, the last command stays and nothing is judged.
+//! Samples lie at whole seconds of time, and at the start. Without a scenario, or a direction of boresight or aimpoint, the last
+//! law stays that gave an attitude, within its constraints; without spacecraft, Sun or Earth the last command, not judged.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
