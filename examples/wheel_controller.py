@@ -17,7 +17,7 @@ def error(q):
 
 
 rows = []
-with Fmu(dist / "MomentumPlant.fmu", {"attitude.source": "free", "orbit.trueAnomaly": np.pi}) as plant:
+with Fmu(dist / "MomentumPlant.fmu", {"attitude.source": "free", "start.q": [0, 0, 0, 1], "orbit.trueAnomaly": np.pi}) as plant:
     axes = np.array([plant.get(f"wheel[{k}].axis") for k in (1, 2, 3, 4)]).T
     share = np.linalg.pinv(axes)  # torque on the body to torque of each wheel
     inertia = np.reshape(plant.get("spacecraft.inertia"), (3, 3))

@@ -368,7 +368,7 @@ struct SunKeepInDescription {
 }
 
 /// When an antenna looks at the Earth, counted from periapsis; left out, there are no downlinks. The start values of
-/// `guided.downlinkStart|End|Every`, which `[start]` does not have beside it.
+/// `guided.downlinkStart`, `guided.downlinkEnd`, `guided.downlinkEvery`, which `[start]` does not have beside it.
 struct DownlinksDescription {
     /// Begin after periapsis: s, a string with a unit ("2 h"), or a share of the orbital period ("20 %").
     start: WrittenTime,
