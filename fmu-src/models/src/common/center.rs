@@ -30,20 +30,15 @@ pub struct CenterBody {
 }
 
 /// The centre by the start value of `orbit.center` in the spacecraft's file; without one the file's own body, or Mercury.
-pub fn center_of(file: &str, spacecraft: &Spacecraft) -> Result<CenterBody, SetupError> {
-    let named = of_entry(entry_of(&spacecraft.start, PLANT, "orbit.center"));
+pub fn center_of(spacecraft: &Spacecraft) -> Body {
     let own = if spacecraft.body.is_some() { Body::Custom } else { Body::Mercury };
-    CenterBody::of(spacecraft, named.unwrap_or(own)).map_err(|error| SetupError(format!("{file}: {error}")))
+    of_entry(entry_of(&spacecraft.start, PLANT, "orbit.center")).unwrap_or(own)
 }
 
 /// The planet that is observed: that of `target.planet` in the file, else the centre.
-pub fn target_of(file: &str, spacecraft: &Spacecraft, model: &str) -> Result<CenterBody, SetupError> {
-    match of_entry(entry_of(&spacecraft.start, model, "target.planet")) {
-        None => center_of(file, spacecraft),
-        Some(body) => {
-            CenterBody::of(spacecraft, body).map_err(|error| SetupError(format!("{file}: {error}")))
-        }
-    }
+pub fn target_of(spacecraft: &Spacecraft, model: &str) -> Body {
+    let target = of_entry(entry_of(&spacecraft.start, model, "target.planet"));
+    target.unwrap_or_else(|| center_of(spacecraft))
 }
 
 fn of_entry(entry: Option<&StartEntry>) -> Option<Body> {
@@ -53,25 +48,34 @@ fn of_entry(entry: Option<&StartEntry>) -> Option<Body> {
     }
 }
 
-impl CenterBody {
-    /// What a spacecraft's file and everybody know of a body.
+/// All bodies with what a spacecraft's file says of one.
+#[derive(Clone, Copy, Debug)]
+pub struct CenterBodies {
+    custom: Option<CenterBody>,
+}
+
+impl CenterBodies {
+    /// Of a spacecraft.
     ///
     /// # Errors
-    /// A body of the file's own on no orbit about the Sun.
-    pub fn of(spacecraft: &Spacecraft, body: Body) -> Result<Self, String> {
-        let own = spacecraft.body.as_ref().filter(|_| body == Body::Custom);
-        let Some(own) = own else {
-            let data = *body.data();
-            return Ok(Self { data, radii_m: [data.radius_m; 3], motion: None });
-        };
-        let motion = own.motion.as_ref().map(KeplerPlanet::of_body).transpose();
-        Ok(Self {
-            data: own.data(),
-            radii_m: own.radii_m,
-            motion: motion.map_err(|error| format!("body: {error}"))?,
-        })
+    /// A body in the file that is on no orbit about the Sun.
+    pub fn of(file: &str, spacecraft: &Spacecraft) -> Result<Self, SetupError> {
+        let Some(custom) = &spacecraft.body else { return Ok(Self { custom: None }) };
+        let motion = custom.motion.as_ref().map(KeplerPlanet::of_body).transpose();
+        let motion = motion.map_err(|error| SetupError(format!("{file}: body: {error}")))?;
+        Ok(Self { custom: Some(CenterBody { data: custom.data(), radii_m: custom.radii_m, motion }) })
     }
 
+    /// One of them.
+    pub fn body(&self, body: Body) -> CenterBody {
+        self.custom.filter(|_| body == Body::Custom).unwrap_or_else(|| {
+            let data = *body.data();
+            CenterBody { data, radii_m: [data.radius_m; 3], motion: None }
+        })
+    }
+}
+
+impl CenterBody {
     /// Elements of an orbit to begin with: about Mercury paper 004's Table 3 with a period of 12 h, about another planet a circle
     /// of three radii over the poles, about the Sun one of 1 AU.
     pub fn elements(&self) -> Elements {

@@ -9,9 +9,10 @@ use physics::guidance::modes::guidance_command;
 use physics::momentum::Convention;
 use physics::spacecraft::{CustomBody, Panel, Spacecraft, SunshadeModel, ThrusterSet};
 
-/// Enumerations that are those of physics: `Name(type);` each, described by its doc comment.
+/// Enumerations that are those of physics: `Name(type);` each, or `Name(type) of ITEMS;` for some of its items, described by its
+/// doc comment.
 macro_rules! choices {
-    ($($(#[doc = $about:literal])+ $name:ident($type:ty);)+) => {$(
+    ($($(#[doc = $about:literal])+ $name:ident($type:ty) $(of $some:ident)?;)+) => {$(
         $(#[doc = $about])+
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub struct $name(pub $type);
@@ -24,8 +25,8 @@ macro_rules! choices {
                 description: concat!($($about),+).trim_ascii(),
                 items: &$crate::common::choices::items::<
                     $type,
-                    { <$type as ::physics::enumeration::Enumerated>::ITEMS.len() },
-                >(None),
+                    { $crate::common::choices::choices!(@items $type $(, $some)?).len() },
+                >($crate::common::choices::choices!(@items $type $(, $some)?), None),
             };
 
             fn from_value(value: i32) -> Option<Self> {
@@ -37,13 +38,15 @@ macro_rules! choices {
             }
         }
     )+};
+    (@items $type:ty) => { <$type as ::physics::enumeration::Enumerated>::ITEMS };
+    (@items $type:ty, $some:ident) => { $some };
 }
 pub(crate) use choices;
 
 /// The same for inputs, where 0 is none of the items, what masters send before the first exchange: `Name(type) or "what none
 /// means";`.
 macro_rules! optional_choices {
-    ($($(#[doc = $about:literal])+ $name:ident($type:ty) or $none:literal;)+) => {$(
+    ($($(#[doc = $about:literal])+ $name:ident($type:ty) $(of $some:ident)? or $none:literal;)+) => {$(
         $(#[doc = $about])+
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub struct $name(pub Option<$type>);
@@ -56,8 +59,8 @@ macro_rules! optional_choices {
                 description: concat!($($about),+).trim_ascii(),
                 items: &$crate::common::choices::items::<
                     $type,
-                    { <$type as ::physics::enumeration::Enumerated>::ITEMS.len() + 1 },
-                >(Some($none)),
+                    { $crate::common::choices::choices!(@items $type $(, $some)?).len() + 1 },
+                >($crate::common::choices::choices!(@items $type $(, $some)?), Some($none)),
             };
 
             fn from_value(value: i32) -> Option<Self> {
@@ -75,13 +78,8 @@ macro_rules! optional_choices {
 }
 pub(crate) use optional_choices;
 
-/// The items by their numbers, behind the one that is none of them if that has a meaning.
-pub(crate) const fn items<E: Enumerated, const N: usize>(none: Option<&'static str>) -> [Item; N] {
-    ranked(E::ITEMS, none)
-}
-
-/// The same of some items.
-pub(crate) const fn ranked<E: Enumerated, const N: usize>(
+/// Items by their numbers, behind the one that is none of them if that has a meaning.
+pub(crate) const fn items<E: Enumerated, const N: usize>(
     given: &[EnumeratedItem<E>],
     none: Option<&'static str>,
 ) -> [Item; N] {
@@ -163,32 +161,15 @@ pub enum ScienceRule {
     FixedToSunLine = 3,
 }
 
-/// Central body. 5 is kept free for the Moon, which cannot be one yet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct OrbitCenter(pub Body);
-
-/// The bodies that everybody knows; the one of a spacecraft's file stands behind them.
+/// The known bodies; the one that a spacecraft's file describes stands behind them.
 pub(crate) const KNOWN_BODIES: &[EnumeratedItem<Body>] = match Body::ITEMS.split_last() {
     Some((_custom, known)) => known,
     None => &[],
 };
 
-impl Enumeration for OrbitCenter {
-    const FIRST: Self = Self(Body::Sun);
-
-    const TYPE: EnumerationType = EnumerationType {
-        name: "OrbitCenter",
-        description: "Central body. 5 is kept free for the Moon, which cannot be one yet.",
-        items: &ranked::<Body, { KNOWN_BODIES.len() }>(KNOWN_BODIES, None),
-    };
-
-    fn from_value(value: i32) -> Option<Self> {
-        Body::from_value(value).map(Self)
-    }
-
-    fn value(self) -> i32 {
-        Enumerated::value(self.0)
-    }
+choices! {
+    /// Central body. 5 is kept free for the Moon, which cannot be one yet.
+    OrbitCenter(Body) of KNOWN_BODIES;
 }
 
 /// The item of the body that a spacecraft's file describes.

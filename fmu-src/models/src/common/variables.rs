@@ -4,8 +4,10 @@ use fmi_export::{
     Boolean, Choice, Context, Elements, Failure, Given, Integer, Model, Real, Values, Variables,
 };
 use physics::attitude::SunAngles;
+use physics::bodies::Body;
 use physics::bodies::surface::PlanetSurface;
 use physics::environment::eclipse::{Shadow, ShadowModel};
+use physics::environment::kepler_planet::KeplerPlanet;
 use physics::environment::orbit::{self, Elements as KeplerElements};
 use physics::environment::sun::SOLAR_FLUX_W_M2;
 use physics::guidance::constraints::keep_in::KeepIn;
@@ -17,6 +19,7 @@ use physics::spacecraft::{Spacecraft, TimeAfterPeriapsis};
 use super::center::CenterBody;
 use super::choices::{DayTemperature, DownlinkReference, EclipseMethod, ScienceRule};
 use super::elements::ElementHandles;
+use super::ephemeris;
 
 /// What a planet's surface does with sunlight; Mercury's fits paper 004, which prints none.
 #[derive(Variables)]
@@ -277,6 +280,26 @@ impl EllipseVariables {
     ) -> KeplerElements {
         let handles = self.handles();
         handles.read_or(context.given(values, &handles.group()), &body.ellipse())
+    }
+
+    /// The planet on the ellipse of `ephemeris.source` kepler; a body of the file's own of which nothing is given here, as that file
+    /// places it.
+    ///
+    /// # Errors
+    /// Elements that are none, a body that its file does not place.
+    pub fn planet<M: Model>(
+        &self,
+        context: &Context<'_, M>,
+        values: &Values,
+        body: &CenterBody,
+        epoch_s: f64,
+    ) -> Result<KeplerPlanet, Failure> {
+        let handles = self.handles().group();
+        let given = context.given(values, &handles);
+        if body.data.body == Body::Custom && !handles.iter().any(|handle| given.has(*handle)) {
+            return ephemeris::custom(body, "kepler");
+        }
+        ephemeris::kepler(self.read(context, values, body), epoch_s)
     }
 
     /// Writes these elements.

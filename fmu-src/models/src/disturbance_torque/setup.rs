@@ -4,7 +4,7 @@ use fmi_export::{Context, Model, SetupError};
 use physics::spacecraft::Spacecraft;
 use serde::Serialize;
 
-use crate::common::center::{CenterBody, center_of};
+use crate::common::center::{CenterBodies, CenterBody, center_of};
 use crate::common::effects::check_start;
 
 /// The memoryless disturbance model.
@@ -32,6 +32,10 @@ impl DisturbanceSetup {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
         check_start(file, &spacecraft, DisturbanceTorque::NAME)?;
         let reported_faces = crate::common::spacecraft::reported_faces(file, &spacecraft)?;
-        Ok(Self { center: center_of(file, &spacecraft)?, spacecraft, reported_faces })
+        Ok(Self {
+            center: CenterBodies::of(file, &spacecraft)?.body(center_of(&spacecraft)),
+            spacecraft,
+            reported_faces,
+        })
     }
 }

@@ -102,13 +102,13 @@ impl Model for Guidance {
             time_s: start_s,
             epoch_minus_time_s: time::epoch_minus_time_s(epoch_s, start_s),
             warned_unconnected: false,
-            windows_are_judged: false,
+            windows_are_checked: false,
             ephemeris: Ephemeris::default(),
             coarse: CoarseEphemeris::default(),
             fixed: None,
         };
         // Masters that connect inputs one by one look before all of them are set: the first step says what is missing.
-        let mut shown = State { warned_unconnected: true, windows_are_judged: true, ..state.clone() };
+        let mut shown = State { warned_unconnected: true, windows_are_checked: true, ..state.clone() };
         let mut fixed = Fixed::read(context, values)?;
         management::set_panels(context, values, &mut fixed.panels);
         let settings = inputs::settings(context, values, &fixed)?;
@@ -255,7 +255,7 @@ impl OutputRates for Guidance {
 }
 
 impl State {
-    /// The burn at hand or the last one, where `parameters` are the parameters'.
+    /// The current burn or the last one, where `parameters` are the parameters'.
     fn burn_settings(&self, context: &Plan<'_>, parameters: &BurnSettings) -> BurnSettings {
         let timeline = context.setup.timeline.as_ref();
         let found = timeline.zip(self.burn_entry).and_then(|(timeline, line)| {
@@ -330,10 +330,10 @@ impl State {
         let manager = management::manager(context, values, &fixed.panels, &keep_in)?;
         let manager = SampledManager { momentum_body_n_m_s, ..manager };
         if command.scenario == Some(Scenario::OrbitPhase)
-            && !self.windows_are_judged
+            && !self.windows_are_checked
             && let Some(windows) = self.system.windows(&settings.orbit_phase, &places)
         {
-            self.windows_are_judged = true;
+            self.windows_are_checked = true;
             if let Some(warning) = window_warning(&windows) {
                 context.log.warning(&warning);
             }

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use fmi_export::{Context, Model, SetupError};
-use physics::bodies::Body;
 use physics::environment::onboard::OnboardEphemeris;
 use physics::guidance::timeline::Timeline;
 use physics::momentum::WheelArray;
@@ -11,7 +10,7 @@ use physics::plant::ControlDefaults;
 use physics::spacecraft::{HotPoleZone, Spacecraft, SunKeepIn};
 use serde::Serialize;
 
-use crate::common::center::{CenterBody, target_of};
+use crate::common::center::{CenterBodies, CenterBody, target_of};
 use crate::common::spacecraft::{PreparedShapes, dump_threshold_n_m_s};
 use crate::common::variables::WindowDefaults;
 
@@ -29,6 +28,9 @@ pub struct GuidanceSetup {
     /// The planet that is observed by the file, and the defaults of the parameters go by.
     #[serde(skip)]
     pub target: CenterBody,
+    /// Bodies with what the file says of one.
+    #[serde(skip)]
+    pub bodies: CenterBodies,
     /// Start values of the downlink windows.
     #[serde(skip)]
     pub windows: WindowDefaults,
@@ -47,23 +49,17 @@ impl GuidanceSetup {
     /// From TOML text.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, SetupError> {
         let spacecraft = Spacecraft::from_toml(file, text).map_err(|error| SetupError(error.to_string()))?;
-        let target = target_of(file, &spacecraft, Guidance::NAME)?;
+        let bodies = CenterBodies::of(file, &spacecraft)?;
+        let target = bodies.body(target_of(&spacecraft, Guidance::NAME));
         Ok(Self {
             target,
+            bodies,
             windows: WindowDefaults::of(&spacecraft, &target),
             shapes: PreparedShapes::of(&spacecraft),
             spacecraft,
             ephemeris: None,
             timeline: None,
         })
-    }
-
-    /// A body with what the file says of it. The file was read before: its own body is on an orbit.
-    pub fn body(&self, body: Body) -> CenterBody {
-        match body == self.target.data.body {
-            true => self.target,
-            false => CenterBody::of(&self.spacecraft, body).unwrap_or(self.target),
-        }
     }
 
     /// The dump threshold, as MomentumPlant has it.

@@ -3,7 +3,6 @@
 use std::sync::{Arc, OnceLock};
 
 use fmi_export::{Context, Failure, Model, SetupError};
-use physics::bodies::Body;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::onboard::OnboardEphemeris;
 use physics::environment::orbit::OrbitMethod;
@@ -13,7 +12,7 @@ use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
 
 use super::variables::choices::{AttitudeSource, CommandSource, EphemerisSource, OrbitSource};
-use crate::common::center::{CenterBody, center_of};
+use crate::common::center::{CenterBodies, CenterBody, center_of};
 use crate::common::effects::check_start;
 use crate::common::spacecraft::{PreparedShapes, ReportedFace, reported_faces};
 use crate::common::start_values::{entry_of, fixed_item, item};
@@ -33,6 +32,9 @@ pub struct PlantSetup {
     /// What it flies about by its file, and the defaults of the parameters go by.
     #[serde(skip)]
     pub center: CenterBody,
+    /// Bodies with what the file says of one.
+    #[serde(skip)]
+    pub bodies: CenterBodies,
     /// Start values of the downlink windows.
     #[serde(skip)]
     pub windows: WindowDefaults,
@@ -67,9 +69,11 @@ impl PlantSetup {
         check_start(file, &spacecraft, MomentumPlant::NAME)?;
         let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
         let wheel_array = WheelArray::new(&axes);
-        let center = center_of(file, &spacecraft)?;
+        let bodies = CenterBodies::of(file, &spacecraft)?;
+        let center = bodies.body(center_of(&spacecraft));
         Ok(Self {
             center,
+            bodies,
             windows: WindowDefaults::of(&spacecraft, &center),
             control: ControlDefaults::of(&spacecraft, wheel_array.as_ref()),
             reported_faces: reported_faces(file, &spacecraft)?,
@@ -80,14 +84,6 @@ impl PlantSetup {
             planets_at_start: OnceLock::new(),
             spacecraft,
         })
-    }
-
-    /// A body with what the file says of it. The file was read before: its own body is on an orbit.
-    pub fn body(&self, body: Body) -> CenterBody {
-        match body == self.center.data.body {
-            true => self.center,
-            false => CenterBody::of(&self.spacecraft, body).unwrap_or(self.center),
-        }
     }
 
     /// Whether the file asks for controlled or free flight.

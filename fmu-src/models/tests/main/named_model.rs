@@ -15,7 +15,7 @@ use nalgebra::{Quaternion, UnitQuaternion};
 use physics::numerics::intervals::next_multiple_s;
 
 /// Every model: a file may give start values to another than the one that is described.
-static LIBRARY: Library = Library {
+pub static LIBRARY: Library = Library {
     entries: &[
         Entry::of::<MomentumPlant>(),
         Entry::of::<SpinPlant>(),

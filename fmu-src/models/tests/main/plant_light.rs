@@ -154,7 +154,7 @@ fn what_ends_a_cell_changes_stored_heat_by_no_more_than_the_tolerance() {
     while still.time_s() < DAY_S / 2.0 {
         let end_s = still.time_s() + 77.0;
         steps += 1;
-        // Not used with this ephemeris; it moves nothing but ends every cell at hand.
+        // Not used with this ephemeris; it moves nothing but ends every current cell.
         disturbed.set("sun.position[1]", f64::from(steps));
         still.step_to(end_s).unwrap();
         disturbed.step_to(end_s).unwrap();

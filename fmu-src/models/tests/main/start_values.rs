@@ -2,19 +2,11 @@
 
 use std::path::Path;
 
+use super::named_model::LIBRARY;
 use client::InProcess;
-use fmi_export::{Entry, Library, Model, Status};
+use fmi_export::{Model, Status};
 use model_description::{Description, VariableKind};
 use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
-
-static LIBRARY: Library = Library {
-    entries: &[
-        Entry::of::<MomentumPlant>(),
-        Entry::of::<SpinPlant>(),
-        Entry::of::<DisturbanceTorque>(),
-        Entry::of::<Guidance>(),
-    ],
-};
 
 /// The shipped file of a model with lines added at its end.
 fn text<M: Model>(lines: &str) -> String {

@@ -3,18 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use fmi_export::{Entry, Library};
+use super::named_model::LIBRARY;
 use model_description::{Causality, ScalarVariable, VariableKind};
-use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
-
-static LIBRARY: Library = Library {
-    entries: &[
-        Entry::of::<MomentumPlant>(),
-        Entry::of::<SpinPlant>(),
-        Entry::of::<DisturbanceTorque>(),
-        Entry::of::<Guidance>(),
-    ],
-};
 
 const MODELS: [&str; 4] = ["MomentumPlant", "SpinPlant", "DisturbanceTorque", "Guidance"];
 

@@ -83,7 +83,7 @@ impl Body {
     /// How many there are, that of a spacecraft's file among them.
     pub const COUNT: usize = Self::ALL.len() + 1;
 
-    /// All bodies of which the same is known to everybody.
+    /// The known bodies.
     pub const ALL: [Self; 6] =
         [Self::Sun, Self::Mercury, Self::Venus, Self::Earth, Self::Mars, Self::Jupiter];
 

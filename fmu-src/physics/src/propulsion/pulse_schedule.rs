@@ -98,7 +98,7 @@ impl PulseSchedule {
         }
     }
 
-    /// Nothing at hand and nothing ahead.
+    /// No current pulse and none ahead.
     pub fn clear(&mut self) {
         (self.open, self.next) = (None, None);
     }

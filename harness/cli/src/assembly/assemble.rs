@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     kind::FileKind,
-    mission::{Craft, Mission},
+    mission::{Mission, SpacecraftSource},
 };
 
 /// What an FMU is made of.
@@ -45,7 +45,8 @@ pub struct Parts<'a> {
 impl<'a> Parts<'a> {
     /// What a mission names, where nothing else is given; its values are left out.
     pub fn with_files_of(self, mission: &'a Mission) -> Result<Self, String> {
-        let Craft::Files { spacecraft, model, timeline, ephemeris } = &mission.craft else {
+        let SpacecraftSource::Files { spacecraft, model, timeline, ephemeris } = &mission.spacecraft_source
+        else {
             let file = mission.file.display();
             return Err(format!(
                 "{file}: found `fmu`, which is packed already, allowed: spacecraft or model"
@@ -63,7 +64,8 @@ impl<'a> Parts<'a> {
 
     /// Refuses a model that the library does not have, if the mission names it.
     fn check_model(&self, source: &Source) -> Result<(), String> {
-        let Some((mission, Craft::Files { model: Some(model), .. })) = self.origin.map(|it| (it, &it.craft))
+        let Some((mission, SpacecraftSource::Files { model: Some(model), .. })) =
+            self.origin.map(|it| (it, &it.spacecraft_source))
         else {
             return Ok(());
         };

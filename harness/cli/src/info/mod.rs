@@ -127,8 +127,8 @@ fn summary(fmu: &Fmu) -> String {
     };
     row("library", Some(platforms));
     for (path, read) in fmu.requirements() {
-        let told = read.map_or_else(|error| error.to_string(), |it| it.to_string());
-        row(&path.display().to_string(), Some(told));
+        let requirements = read.map_or_else(|error| error.to_string(), |it| it.to_string());
+        row(&path.display().to_string(), Some(requirements));
     }
     for (file, read) in carried::of(fmu) {
         let problems =

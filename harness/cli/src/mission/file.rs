@@ -29,7 +29,7 @@ pub struct At<T> {
 
 /// What flies.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Craft {
+pub enum SpacecraftSource {
     /// An FMU or system that is packed already.
     Fmu(PathBuf),
     /// Files that are packed for the run.
@@ -83,7 +83,7 @@ pub struct Mission {
     /// The file as the caller named it.
     pub file: PathBuf,
     /// What flies.
-    pub craft: Craft,
+    pub spacecraft_source: SpacecraftSource,
     /// The epoch of simulation time 0, where `start` is a date; in s past J2000 TDB.
     pub epoch_s: Option<At<f64>>,
     /// When it begins.
@@ -137,14 +137,20 @@ impl Mission {
 
     /// The files that it names and reads.
     pub fn reads(&self) -> Vec<&Path> {
-        let craft = match &self.craft {
-            Craft::Fmu(path) => [Some(path), None, None],
-            Craft::Files { spacecraft, timeline, ephemeris, .. } => {
+        let spacecraft_source = match &self.spacecraft_source {
+            SpacecraftSource::Fmu(path) => [Some(path), None, None],
+            SpacecraftSource::Files { spacecraft, timeline, ephemeris, .. } => {
                 [spacecraft.as_ref(), timeline.as_ref(), ephemeris.as_ref()]
             }
         };
         let table = if let Some(Inputs::File(path)) = &self.inputs { Some(path) } else { None };
-        craft.into_iter().flatten().chain(table).map(PathBuf::as_path).chain([self.file.as_path()]).collect()
+        spacecraft_source
+            .into_iter()
+            .flatten()
+            .chain(table)
+            .map(PathBuf::as_path)
+            .chain([self.file.as_path()])
+            .collect()
     }
 
     /// A problem at a place of the file.
@@ -168,7 +174,7 @@ struct Builder<'d> {
 impl Builder<'_> {
     fn mission(&mut self, file: &Path, description: Description) -> Mission {
         let root = Place::root();
-        let craft = self.craft(&description);
+        let spacecraft_source = self.spacecraft_source(&description);
         let (start, stop) = (root.key("start"), root.key("stop"));
         let mut epoch_s = None;
         let mut start_s = None;
@@ -198,7 +204,7 @@ impl Builder<'_> {
         let limits = description.limits.unwrap_or_default().into_iter();
         Mission {
             file: file.to_owned(),
-            craft,
+            spacecraft_source,
             epoch_s,
             start_s,
             stop_s,
@@ -221,7 +227,7 @@ impl Builder<'_> {
         At { it, key: place.to_string(), line: self.check.line(place) }
     }
 
-    fn craft(&mut self, description: &Description) -> Craft {
+    fn spacecraft_source(&mut self, description: &Description) -> SpacecraftSource {
         let root = Place::root();
         let Description { fmu, spacecraft, model, timeline, ephemeris, .. } = description;
         let Some(fmu) = fmu else {
@@ -236,7 +242,7 @@ impl Builder<'_> {
             let mut file = |key: &str, path: &Option<String>| {
                 path.as_ref().map(|path| self.input_file(&root.key(key), path))
             };
-            return Craft::Files {
+            return SpacecraftSource::Files {
                 spacecraft: file("spacecraft", spacecraft),
                 model,
                 timeline: file("timeline", timeline),
@@ -249,7 +255,7 @@ impl Builder<'_> {
             let allowed = "one of them: the FMU has its own, packed with it";
             self.check.report(&root.key(key), format_args!("`{key}` beside `fmu`"), allowed);
         }
-        Craft::Fmu(self.input_file(&root.key("fmu"), fmu))
+        SpacecraftSource::Fmu(self.input_file(&root.key("fmu"), fmu))
     }
 
     fn input_file(&mut self, place: &Place, path: &str) -> PathBuf {

@@ -121,12 +121,12 @@ fn names_of(text: &str) -> Vec<(String, String)> {
         parts.map(|(k, part)| (format!("{kind}[{}]", k + 1), name(part).clone())).collect()
     }
     let thrusters = |thrusters: &[Thruster]| counted("thruster", thrusters, |thruster| &thruster.name);
-    if let Ok(craft) = Spacecraft::from_toml("", text) {
+    if let Ok(spacecraft) = Spacecraft::from_toml("", text) {
         return [
-            counted("panel", &craft.panels, |panel| &panel.name),
-            counted("wheel", &craft.wheels, |wheel| &wheel.name),
-            thrusters(&craft.thrusters),
-            counted("tank", &craft.tanks, |tank| &tank.name),
+            counted("panel", &spacecraft.panels, |panel| &panel.name),
+            counted("wheel", &spacecraft.wheels, |wheel| &wheel.name),
+            thrusters(&spacecraft.thrusters),
+            counted("tank", &spacecraft.tanks, |tank| &tank.name),
         ]
         .concat();
     }
@@ -156,15 +156,18 @@ mod tests {
     fn names_and_bounds_are_those_of_the_part() {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("resources")).unwrap();
-        fs::write(folder.path().join("resources").join("craft.toml"), physics::spacecraft::MESSENGER_TOML)
-            .unwrap();
+        fs::write(
+            folder.path().join("resources").join("spacecraft.toml"),
+            physics::spacecraft::MESSENGER_TOML,
+        )
+        .unwrap();
         let description = model_description::parse(PLANT.as_bytes()).unwrap().description;
         let parts = [("p.".to_owned(), folder.path().to_owned())];
         let limit =
             Limit { name: "p.wheel[1].speed".to_owned(), min: None, max: Some(3.0), at: String::new() };
         let known = Known::of(&parts, &description, &[], &[limit]);
-        let craft = Spacecraft::from_toml("", physics::spacecraft::MESSENGER_TOML).unwrap();
-        assert_eq!(known.name("p.wheel[1].speed"), Some(craft.wheels[0].name.as_str()));
+        let spacecraft = Spacecraft::from_toml("", physics::spacecraft::MESSENGER_TOML).unwrap();
+        assert_eq!(known.name("p.wheel[1].speed"), Some(spacecraft.wheels[0].name.as_str()));
         assert_eq!(known.name("p.plate[7].temperature"), Some("lid"));
         assert_eq!(known.name("p.momentum.body[2]"), None);
         assert_eq!(known.bound("p.momentum.body[2]"), Some(("dump.threshold", 4.0)));

@@ -62,7 +62,7 @@ pub struct Outputs {
     exporters: Vec<Box<dyn Exporter>>,
     /// Files that will be written.
     files: Vec<PathBuf>,
-    /// Whether the summary is told beside the files: without one it is printed.
+    /// Whether the summary is printed beside the files: without one it is printed.
     sums_up: bool,
     /// How many of the recording's columns were requested, the first ones; more is for the pictures.
     columns: usize,

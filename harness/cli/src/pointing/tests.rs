@@ -2,11 +2,11 @@
 
 use super::*;
 
-fn said(sets: &[(&str, f64)]) -> (String, Vec<String>) {
-    said_of(sets, None)
+fn sentence(sets: &[(&str, f64)]) -> (String, Vec<String>) {
+    sentence_of(sets, None)
 }
 
-fn said_of(sets: &[(&str, f64)], windows: Option<DownlinkWindows>) -> (String, Vec<String>) {
+fn sentence_of(sets: &[(&str, f64)], windows: Option<DownlinkWindows>) -> (String, Vec<String>) {
     let xml = include_str!("../../../../modelDescription/golden/MomentumPlant.xml");
     let description = model_description::parse(xml.as_bytes()).unwrap().description;
     let sets = sets.iter().map(|(name, value)| {
@@ -24,23 +24,26 @@ const HOUR_S: f64 = 3600.0;
 #[test]
 fn each_rule_and_window_has_its_words() {
     let scaled = "-Y at the Sun, +Z pitched toward nadir by 0.25 of the way, at most 13 deg";
-    assert_eq!(said(&[]), (format!("{scaled}, downlink from 2 h to 10 h after one of 2 periapses"), vec![]));
-    let nadir = [("guided.scienceRule", 2.0), ("guided.downlinkEvery", 0.0)];
-    assert_eq!(said(&nadir).0, "nadir with +Z, the Sun within 13 deg of -Y, no downlinks");
-    let free = [nadir[0], nadir[1], ("keepIn.elevation", core::f64::consts::FRAC_PI_2)];
-    assert_eq!(said(&free).0, "nadir with +Z, rolled so that the Sun is nearest to -Y, no downlinks");
-    assert_eq!(said(&[("orbit.center", 2.0)]).0, "-Y at the Sun, +Z toward the north, no downlinks");
     assert_eq!(
-        said(&[("attitude.source", 4.0)]).0,
+        sentence(&[]),
+        (format!("{scaled}, downlink from 2 h to 10 h after one of 2 periapses"), vec![])
+    );
+    let nadir = [("guided.scienceRule", 2.0), ("guided.downlinkEvery", 0.0)];
+    assert_eq!(sentence(&nadir).0, "nadir with +Z, the Sun within 13 deg of -Y, no downlinks");
+    let free = [nadir[0], nadir[1], ("keepIn.elevation", core::f64::consts::FRAC_PI_2)];
+    assert_eq!(sentence(&free).0, "nadir with +Z, rolled so that the Sun is nearest to -Y, no downlinks");
+    assert_eq!(sentence(&[("orbit.center", 2.0)]).0, "-Y at the Sun, +Z toward the north, no downlinks");
+    assert_eq!(
+        sentence(&[("attitude.source", 4.0)]).0,
         "as its wheels and thrusters turn it (attitude.source free)"
     );
     let once = [("guided.downlinkReference", 2.0), ("guided.downlinkEvery", 0.0)];
-    assert_eq!(said(&once).0, format!("{scaled}, one downlink from 2 h to 10 h after the start"));
+    assert_eq!(sentence(&once).0, format!("{scaled}, one downlink from 2 h to 10 h after the start"));
 }
 
 #[test]
 fn a_window_as_long_as_its_cycle_is_warned_of_where_the_plant_guides_itself() {
-    let warned = |sets: &[(&str, f64)]| said(sets).1;
+    let warned = |sets: &[(&str, f64)]| sentence(sets).1;
     let end = |hours: f64| ("guided.downlinkEnd", hours * HOUR_S);
     assert!(warned(&[end(25.9)]).is_empty());
     let always = warned(&[end(26.1)]);
@@ -60,13 +63,14 @@ fn shares_of_the_period_follow_the_orbit_that_is_set() {
     let share = TimeAfterPeriapsis::PeriodShare;
     let windows = |stop: f64| Some(DownlinkWindows { start: share(0.2), stop: share(stop), every: 1 });
     let low = [("orbit.center", 3.0), ("orbit.semiMajorAxis", 6551.8e3), ("guided.downlinkEvery", 1.0)];
-    let (sentence, warned) = said_of(&low, windows(0.5));
+    let (sentence, warned) = sentence_of(&low, windows(0.5));
     assert!(sentence.ends_with("downlink from 20 % to 50 % after every periapsis"), "{sentence}");
     assert!(warned.is_empty(), "{warned:?}");
-    let (_, warned) = said_of(&low, windows(1.3));
+    let (_, warned) = sentence_of(&low, windows(1.3));
     assert!(warned.len() == 1 && warned[0].contains("always open"), "{warned:?}");
     // Set, a time is that.
-    let (sentence, warned) = said_of(&[&low[..], &[("guided.downlinkEnd", 5400.0)]].concat(), windows(0.5));
+    let (sentence, warned) =
+        sentence_of(&[&low[..], &[("guided.downlinkEnd", 5400.0)]].concat(), windows(0.5));
     assert!(sentence.ends_with("from 20 % to 1.5 h after every periapsis"), "{sentence}");
     assert!(warned.is_empty(), "{warned:?}");
 }

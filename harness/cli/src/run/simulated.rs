@@ -16,7 +16,7 @@ use crate::{
     assembly::{Parts, Source, assemble},
     child::{self, Bounds, Relayed, SMALL, path_option},
     kind,
-    mission::{Craft, Inputs, Mission},
+    mission::{Inputs, Mission, SpacecraftSource},
     outcome::Outcome,
     values::Instant,
 };
@@ -75,7 +75,7 @@ impl Simulated {
     /// Opens what flies; a mission's files are packed into a temporary FMU.
     pub fn open(&self) -> Result<(Subject, Option<Scratch>), Box<dyn Error>> {
         let Some(mission) = &self.mission else { return Ok((Subject::open(&self.run.fmu)?, None)) };
-        if let Craft::Fmu(path) = &mission.craft {
+        if let SpacecraftSource::Fmu(path) = &mission.spacecraft_source {
             if self.run.template.is_some() {
                 return Err(
                     "--template is for a mission with a spacecraft: its FMU has its own library".into()

@@ -8,7 +8,7 @@ use std::{
 use loader::{Options, Recording, Value};
 use nalgebra::Vector3;
 
-use super::craft::{Craft, Failure, vector};
+use super::sized::{Failure, SizedSpacecraft, vector};
 use crate::{interrupt, variables::selected};
 
 /// A component that is never reached.
@@ -20,7 +20,7 @@ const LONGEST_STEP_S: f64 = 600.0;
 const STEP_OF_DUMPS_S: f64 = 21_600.0;
 /// Rows that are kept of a flight at most.
 const ROWS: f64 = 60_000.0;
-/// Thresholds that are flown, as shares of the file's: its own first, then outward.
+/// Thresholds that are simulated, as shares of the file's: its own first, then outward.
 const SCALES: [f64; 9] = [1.0, 2.0, 0.5, 1.41, 0.71, 4.0, 0.35, 2.83, 0.25];
 
 /// Dumps of one flight, scaled to a year.
@@ -35,39 +35,39 @@ pub struct Dumped {
     pub propellant_kg: f64,
 }
 
-/// What was flown, and what the time did not suffice for.
+/// What was simulated, and what the time did not suffice for.
 pub struct Sweep {
     pub dumped: Vec<Dumped>,
     pub left_out: usize,
 }
 
 /// Momentum by source and in the body frame, without dumps.
-pub fn undumped(craft: &Craft, is_quiet: bool) -> Result<Recording, Failure> {
+pub fn undumped(sized: &SizedSpacecraft, is_quiet: bool) -> Result<Recording, Failure> {
     let patterns = ["momentum.*".to_owned()];
-    let record = selected(craft.fmu.description(), &patterns, loader::select_outputs)?;
-    let bar = terminal::progress(craft.span_s as u64, "s without dumps", is_quiet);
-    let recording = fly(craft, (Vector3::repeat(NEVER_N_M_S), "dumpsOnly"), record, &mut |time_s| {
-        bar.set_position((time_s - craft.start_s) as u64);
+    let record = selected(sized.fmu.description(), &patterns, loader::select_outputs)?;
+    let bar = terminal::progress(sized.span_s as u64, "s without dumps", is_quiet);
+    let recording = fly(sized, (Vector3::repeat(NEVER_N_M_S), "dumpsOnly"), record, &mut |time_s| {
+        bar.set_position((time_s - sized.start_s) as u64);
     });
     bar.finish_and_clear();
     recording
 }
 
 /// Dumps by threshold and strategy, as far as the time suffices; those of the file's own threshold in any case.
-pub fn sweep(craft: &Craft, budget_s: f64, is_quiet: bool) -> Result<Sweep, Failure> {
-    let own_n_m_s = vector(&mut craft.started()?, "dump.threshold")?;
+pub fn sweep(sized: &SizedSpacecraft, budget_s: f64, is_quiet: bool) -> Result<Sweep, Failure> {
+    let own_n_m_s = vector(&mut sized.started()?, "dump.threshold")?;
     let until = Instant::now() + Duration::from_secs_f64(budget_s.clamp(0.0, 1e6));
     let cases =
-        SCALES.iter().flat_map(|scale| craft.strategies.iter().map(move |strategy| (*scale, strategy)));
+        SCALES.iter().flat_map(|scale| sized.strategies.iter().map(move |strategy| (*scale, strategy)));
     let cases: Vec<_> = cases.collect();
     let bar = terminal::progress(cases.len() as u64, "flights", is_quiet);
     let mut sweep = Sweep { dumped: Vec::new(), left_out: 0 };
     for (index, (scale, strategy)) in cases.into_iter().enumerate() {
-        if index >= craft.strategies.len() && Instant::now() >= until {
+        if index >= sized.strategies.len() && Instant::now() >= until {
             sweep.left_out += 1;
             continue;
         }
-        sweep.dumped.push(dumped(craft, own_n_m_s * scale, strategy)?);
+        sweep.dumped.push(dumped(sized, own_n_m_s * scale, strategy)?);
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -75,12 +75,12 @@ pub fn sweep(craft: &Craft, budget_s: f64, is_quiet: bool) -> Result<Sweep, Fail
     Ok(sweep)
 }
 
-fn dumped(craft: &Craft, threshold_n_m_s: Vector3<f64>, strategy: &str) -> Result<Dumped, Failure> {
+fn dumped(sized: &SizedSpacecraft, threshold_n_m_s: Vector3<f64>, strategy: &str) -> Result<Dumped, Failure> {
     let patterns = ["dump.count", "dump.impulse", "propellant.used"].map(str::to_owned);
-    let record = selected(craft.fmu.description(), &patterns, loader::select_outputs)?;
-    let flown = fly(craft, (threshold_n_m_s, strategy), record, &mut |_| {})?;
+    let record = selected(sized.fmu.description(), &patterns, loader::select_outputs)?;
+    let simulated = fly(sized, (threshold_n_m_s, strategy), record, &mut |_| {})?;
     let column = |name: &str| -> Result<Vec<f64>, Failure> {
-        Ok(flown.column(name).ok_or_else(|| format!("the FMU has no output {name}"))?.numbers())
+        Ok(simulated.column(name).ok_or_else(|| format!("the FMU has no output {name}"))?.numbers())
     };
     let count = column("dump.count")?;
     let [x, y, z] = [1, 2, 3].map(|axis| column(&format!("dump.impulse[{axis}]")));
@@ -91,21 +91,21 @@ fn dumped(craft: &Craft, threshold_n_m_s: Vector3<f64>, strategy: &str) -> Resul
     Ok(Dumped {
         strategy: strategy.to_owned(),
         threshold_n_m_s,
-        dumps: craft.per_year(last(&count)),
-        impulse_n_m_s: craft.per_year(impulses_n_m_s.sum()),
-        propellant_kg: craft.per_year(last(&column("propellant.used")?)),
+        dumps: sized.per_year(last(&count)),
+        impulse_n_m_s: sized.per_year(impulses_n_m_s.sum()),
+        propellant_kg: sized.per_year(last(&column("propellant.used")?)),
     })
 }
 
 /// One flight; every dump has a row of its own.
 fn fly(
-    craft: &Craft,
+    sized: &SizedSpacecraft,
     (threshold_n_m_s, strategy): (Vector3<f64>, &str),
     record: Vec<usize>,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Recording, Failure> {
-    let description = craft.fmu.description();
-    let mut sets = craft.sets.clone();
+    let description = sized.fmu.description();
+    let mut sets = sized.sets.clone();
     for axis in 0..3 {
         sets.push((format!("dump.threshold[{}]", axis + 1), Value::Real(threshold_n_m_s[axis])));
     }
@@ -115,24 +115,24 @@ fn fly(
     let step_s = if counts_dumps {
         STEP_OF_DUMPS_S
     } else {
-        LONGEST_STEP_S.min(craft.period_s / POINTS_OF_ORBIT).max(craft.span_s / ROWS)
+        LONGEST_STEP_S.min(sized.period_s / POINTS_OF_ORBIT).max(sized.span_s / ROWS)
     };
     let cancel = AtomicBool::new(false);
-    let mut told = |time_s: f64| {
+    let mut reported = |time_s: f64| {
         cancel.store(interrupt::raised(), std::sync::atomic::Ordering::Relaxed);
         progress(time_s);
     };
     let options = Options {
-        start_s: Some(craft.start_s),
-        stop_s: Some(craft.start_s + craft.span_s),
+        start_s: Some(sized.start_s),
+        stop_s: Some(sized.start_s + sized.span_s),
         step_s: Some(step_s),
         sets,
-        inputs: craft.inputs.as_ref(),
+        inputs: sized.inputs.as_ref(),
         record: Some(record),
         apart: position("dump.count").filter(|_| counts_dumps),
-        progress: Some(&mut told),
+        progress: Some(&mut reported),
         cancel: Some(&cancel),
         ..Options::default()
     };
-    Ok(loader::simulate(&craft.fmu, options)?.recording)
+    Ok(loader::simulate(&sized.fmu, options)?.recording)
 }

@@ -1,12 +1,12 @@
 //! `heliotorque size`: momentum, dumps, propellant, wheels, slews and thrusters of a spacecraft or mission, by flights through
 //! its FMU.
 
-mod craft;
 mod flights;
 mod momentum;
 mod needs;
 mod options;
 mod picture;
+mod sized;
 mod table;
 
 use std::{
@@ -17,33 +17,33 @@ use std::{
 use files::Destination;
 
 use crate::{interrupt, outcome::Outcome};
-use craft::{Craft, YEAR_S};
 use needs::{SlewLimits, Wheels};
 pub use options::Size;
+use sized::{SizedSpacecraft, YEAR_S};
 use table::Found;
 
 /// Sizes a spacecraft.
 pub fn run(arguments: &Size) -> Outcome {
     let [picture, table_file] = destinations(arguments)?;
-    let craft = Craft::open(arguments)?;
-    let flown = flights::undumped(&craft, arguments.quiet)?;
-    let slews = SlewLimits::of(&craft)?.slews();
-    let gathered = |span_s: f64| momentum::greatest_range_n_m_s(&flown, span_s);
+    let sized = SizedSpacecraft::open(arguments)?;
+    let simulated = flights::undumped(&sized, arguments.quiet)?;
+    let slews = SlewLimits::of(&sized)?.slews();
+    let gathered = |span_s: f64| momentum::greatest_range_n_m_s(&simulated, span_s);
     let found = Found {
-        sources: momentum::by_source(&flown, craft.period_s, craft.span_s / YEAR_S),
-        wheels: Wheels::needed(&craft, gathered, &slews, arguments.margin)?,
+        sources: momentum::by_source(&simulated, sized.period_s, sized.span_s / YEAR_S),
+        wheels: Wheels::needed(&sized, gathered, &slews, arguments.margin)?,
         slews,
-        allocations: needs::allocations(&craft),
-        sweep: flights::sweep(&craft, arguments.budget, arguments.quiet)?,
+        allocations: needs::allocations(&sized),
+        sweep: flights::sweep(&sized, arguments.budget, arguments.quiet)?,
         margin: arguments.margin,
     };
     if interrupt::raised() {
         return Ok(ExitCode::from(interrupt::INTERRUPTED));
     }
-    let svg = picture::svg(&craft, &found.sweep)?;
-    let csv = table::csv(&craft, &found.sweep);
+    let svg = picture::svg(&sized, &found.sweep)?;
+    let csv = table::csv(&sized, &found.sweep);
     if !arguments.quiet {
-        terminal::print(&table::text(&craft, &found))?;
+        terminal::print(&table::text(&sized, &found))?;
     }
     for ((destination, path), content) in [(picture, svg), (table_file, csv)] {
         destination.fill(|file| file.write_all(content.as_bytes()))?;
@@ -54,7 +54,7 @@ pub fn run(arguments: &Size) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Picture and table, looked at before anything is flown.
+/// Picture and table, looked at before anything is simulated.
 fn destinations(arguments: &Size) -> Result<[(Destination, PathBuf); 2], String> {
     let stem = arguments.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let folder = arguments.output.as_deref().unwrap_or(Path::new(""));

@@ -21,8 +21,9 @@ pub struct SourceRow {
 }
 
 /// What each source gathers; `period_s` is an orbit's, `years` the length of the flight.
-pub fn by_source(flown: &Recording, period_s: f64, years: f64) -> Vec<SourceRow> {
-    let sources = flown.names.iter().filter_map(|name| name.strip_prefix("momentum.")?.strip_suffix("[1]"));
+pub fn by_source(simulated: &Recording, period_s: f64, years: f64) -> Vec<SourceRow> {
+    let sources =
+        simulated.names.iter().filter_map(|name| name.strip_prefix("momentum.")?.strip_suffix("[1]"));
     let rows = sources.map(|source| {
         let mut row = SourceRow {
             source: source.to_owned(),
@@ -32,12 +33,14 @@ pub fn by_source(flown: &Recording, period_s: f64, years: f64) -> Vec<SourceRow>
             cyclic_per_year_n_m_s: [0.0; 3],
         };
         for axis in 0..3 {
-            let Some(column) = flown.column(&format!("momentum.{source}[{}]", axis + 1)) else { continue };
+            let Some(column) = simulated.column(&format!("momentum.{source}[{}]", axis + 1)) else {
+                continue;
+            };
             let values = column.numbers();
-            let span_s = flown.times_s.last().zip(flown.times_s.first()).map_or(0.0, |(a, b)| a - b);
-            let (gathered, swing) = parts(&flown.times_s, &values);
+            let span_s = simulated.times_s.last().zip(simulated.times_s.first()).map_or(0.0, |(a, b)| a - b);
+            let (gathered, swing) = parts(&simulated.times_s, &values);
             row.secular_per_orbit_n_m_s[axis] = gathered * period_s / span_s;
-            row.cyclic_per_orbit_n_m_s[axis] = greatest_of_orbits(&flown.times_s, &values, period_s);
+            row.cyclic_per_orbit_n_m_s[axis] = greatest_of_orbits(&simulated.times_s, &values, period_s);
             row.secular_per_year_n_m_s[axis] = gathered / years;
             row.cyclic_per_year_n_m_s[axis] = swing;
         }
@@ -83,11 +86,11 @@ fn windows(times_s: &[f64], span_s: f64) -> Vec<core::ops::Range<usize>> {
 }
 
 /// The greatest range that a component of the body's momentum has within any time of this length, by axis, in N m s.
-pub fn greatest_range_n_m_s(flown: &Recording, span_s: f64) -> [f64; 3] {
+pub fn greatest_range_n_m_s(simulated: &Recording, span_s: f64) -> [f64; 3] {
     [1, 2, 3].map(|axis| {
         let values =
-            flown.column(&format!("momentum.body[{axis}]")).map(|it| it.numbers()).unwrap_or_default();
-        range_within(&flown.times_s, &values, span_s)
+            simulated.column(&format!("momentum.body[{axis}]")).map(|it| it.numbers()).unwrap_or_default();
+        range_within(&simulated.times_s, &values, span_s)
     })
 }
 
@@ -125,13 +128,13 @@ mod tests {
         let period_s = 100.0;
         let times_s: Vec<f64> = (0..=4000).map(f64::from).collect();
         let line = times_s.iter().map(|t| 0.02 * t + 0.3 * (TAU * t / period_s).sin()).collect();
-        let flown = Recording {
+        let simulated = Recording {
             times_s,
             names: vec!["momentum.solar[1]".to_owned()],
             units: vec![String::new()],
             columns: vec![Column::Real(line)],
         };
-        let row = by_source(&flown, period_s, 0.5).remove(0);
+        let row = by_source(&simulated, period_s, 0.5).remove(0);
         assert_eq!(row.source, "solar");
         assert!((row.secular_per_orbit_n_m_s[0] - 2.0).abs() < 1e-9);
         assert!((row.cyclic_per_orbit_n_m_s[0] - 0.3).abs() < 1e-9);

@@ -7,7 +7,7 @@ use physics::{
     spacecraft::{Spacecraft, Thruster},
 };
 
-use super::craft::{Craft, vector};
+use super::sized::{SizedSpacecraft, vector};
 use crate::variables::item;
 
 const NAMES: [&str; 3] = ["X", "Y", "Z"];
@@ -63,9 +63,9 @@ pub struct SlewLimits {
 }
 
 impl SlewLimits {
-    /// Of a craft at its start.
-    pub fn of(craft: &Craft) -> Result<Self, loader::Error> {
-        let mut started = craft.started()?;
+    /// Of a sized at its start.
+    pub fn of(sized: &SizedSpacecraft) -> Result<Self, loader::Error> {
+        let mut started = sized.started()?;
         let mut inertia_kg_m2 = Matrix3::zeros();
         for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
             let name = format!("spacecraft.inertia[{},{}]", row + 1, column + 1);
@@ -107,20 +107,20 @@ impl Wheels {
     /// By what a flight without dumps gathers: after a dump to the other side of the threshold a component has room for
     /// 1 + dump.reinitFraction thresholds.
     pub fn needed(
-        craft: &Craft,
+        sized: &SizedSpacecraft,
         gathered_n_m_s: impl FnOnce(f64) -> [f64; 3],
         slews: &[Slew; 3],
         margin: f64,
     ) -> Result<Self, loader::Error> {
-        let mut started = craft.started()?;
-        let spacing_s = started.get_real("dump.requiredSpacing")?.max(craft.period_s);
-        let is_opposite = item(craft.fmu.description(), &craft.sets, "dump.reinitTo") == Some("opposite");
+        let mut started = sized.started()?;
+        let spacing_s = started.get_real("dump.requiredSpacing")?.max(sized.period_s);
+        let is_opposite = item(sized.fmu.description(), &sized.sets, "dump.reinitTo") == Some("opposite");
         let room = if is_opposite { 1.0 + started.get_real("dump.reinitFraction")? } else { 1.0 };
         let gathered_n_m_s = gathered_n_m_s(spacing_s);
         let of_axis = |axis: usize| gathered_n_m_s[axis] / room + slews[axis].momentum_n_m_s;
         let needed_n_m_s = (1.0 + margin) * [0, 1, 2].map(of_axis).into_iter().fold(0.0, f64::max);
         let needed_n_m = (1.0 + margin) * slews.iter().map(|slew| slew.torque_n_m).fold(0.0, f64::max);
-        let held = geometries(&craft.spacecraft).into_iter().filter_map(|(name, axes)| {
+        let held = geometries(&sized.spacecraft).into_iter().filter_map(|(name, axes)| {
             // Capacity and torque of each wheel are shared alike.
             let of_one = WheelCapacity::of(&axes, &vec![1.0; axes.len()])?.least_norm_box_n_m_s;
             Some(Geometry { name, capacity_n_m_s: needed_n_m_s / of_one, torque_n_m: needed_n_m / of_one })
@@ -158,13 +158,13 @@ pub fn capacity_n_m_s(spacecraft: &Spacecraft, threshold_n_m_s: f64) -> f64 {
 ///
 /// # Errors
 /// Why there is none.
-pub fn allocations(craft: &Craft) -> Result<Vec<Allocation>, String> {
-    let thrusters = &craft.spacecraft.thrusters;
+pub fn allocations(sized: &SizedSpacecraft) -> Result<Vec<Allocation>, String> {
+    let thrusters = &sized.spacecraft.thrusters;
     if thrusters.is_empty() {
         return Err("The file has no thrusters: dumps take no propellant.".to_owned());
     }
     let center_m =
-        vector(&mut craft.started().map_err(|error| error.to_string())?, "spacecraft.centerOfMass");
+        vector(&mut sized.started().map_err(|error| error.to_string())?, "spacecraft.centerOfMass");
     let center_m = center_m.map_err(|error| error.to_string())?;
     let may_fire = |k: usize| thrusters[k].attitude_control;
     let selection = ThrusterSelection::of_the_finest(thrusters, may_fire, &center_m, Preference::LeastForce)

@@ -11,7 +11,7 @@ use crate::{
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
-Momentum is that of MomentumPlant, flown without dumps for momentum by source, then at several thresholds, by strategy. Secular is
+Momentum is that of MomentumPlant, simulated without dumps for momentum by source, then at several thresholds, by strategy. Secular is
 the slope from end to end, cyclic the greatest distance from that line. Wheels are sized for the momentum of the longest
 dump.requiredSpacing, of a slew about every axis at control.slewRate, and the margin.
 
@@ -32,10 +32,10 @@ pub struct Size {
     #[arg(long, value_name = "SHARE", value_parser = margin, allow_hyphen_values = true, default_value = "0.3")]
     pub margin: f64,
     /// How long each flight is; otherwise a year, with a mission that has inputs, timeline or ephemeris its own time. What is
-    /// told per year is scaled
+    /// reported per year is scaled
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub duration: Option<f64>,
-    /// Time for which further thresholds are flown; those that it does not come to are left out, and it says so
+    /// Time for which further thresholds are simulated; those that it does not come to are left out, and it says so
     #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true, default_value = "45s")]
     pub budget: f64,
     /// The FMU whose library reads the file, as for `pack`; otherwise the installed program's, or dist/MomentumPlant.fmu

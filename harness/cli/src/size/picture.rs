@@ -3,8 +3,8 @@
 use drawing::{Chart, DrawingError, Panel, Series};
 
 use super::{
-    craft::Craft,
     flights::{Dumped, Sweep},
+    sized::SizedSpacecraft,
     table::capacity,
 };
 
@@ -12,11 +12,11 @@ use super::{
 ///
 /// # Errors
 /// Nothing to draw.
-pub fn svg(craft: &Craft, sweep: &Sweep) -> Result<String, DrawingError> {
+pub fn svg(sized: &SizedSpacecraft, sweep: &Sweep) -> Result<String, DrawingError> {
     let of_strategies = |value: fn(&Dumped) -> f64| {
-        let lines = craft.strategies.iter().map(move |strategy| {
+        let lines = sized.strategies.iter().map(move |strategy| {
             let own = sweep.dumped.iter().filter(|it| it.strategy == *strategy);
-            Series::curve(strategy.clone(), own.map(|it| (capacity(craft, it), value(it))).collect())
+            Series::curve(strategy.clone(), own.map(|it| (capacity(sized, it), value(it))).collect())
         });
         lines.collect::<Vec<_>>()
     };
@@ -27,8 +27,8 @@ pub fn svg(craft: &Craft, sweep: &Sweep) -> Result<String, DrawingError> {
         let most = if most > 0.0 { 1.08 * most } else { 1.0 };
         Panel::new(label).with(of_strategies(value)).range(0.0, most)
     };
-    let title = format!("{}: dumps by the wheels' capacity", craft.spacecraft.name);
-    let x_label = if craft.spacecraft.wheels.is_empty() {
+    let title = format!("{}: dumps by the wheels' capacity", sized.spacecraft.name);
+    let x_label = if sized.spacecraft.wheels.is_empty() {
         "dump threshold [N·m·s]"
     } else {
         "capacity of each wheel [N·m·s], least-norm sharing"

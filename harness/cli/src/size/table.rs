@@ -4,10 +4,10 @@ use loader::csv::Real;
 use physics::constants::DAY_S;
 
 use super::{
-    craft::Craft,
     flights::{Dumped, Sweep},
     momentum::SourceRow,
     needs::{Allocation, Slew, Wheels, capacity_n_m_s},
+    sized::SizedSpacecraft,
 };
 
 /// What was found, but for pictures.
@@ -21,18 +21,18 @@ pub struct Found {
 }
 
 /// All of it.
-pub fn text(craft: &Craft, found: &Found) -> String {
+pub fn text(sized: &SizedSpacecraft, found: &Found) -> String {
     let parts = [
-        sources(craft, &found.sources),
-        dumps(craft, &found.sweep),
-        wheels(craft, found),
+        sources(sized, &found.sources),
+        dumps(sized, &found.sweep),
+        wheels(sized, found),
         slews(&found.slews),
         allocations(&found.allocations),
     ];
     parts.join("\n\n")
 }
 
-fn sources(craft: &Craft, rows: &[SourceRow]) -> String {
+fn sources(sized: &SizedSpacecraft, rows: &[SourceRow]) -> String {
     let mut table = terminal::table(&[
         "momentum.* [N.m.s]",
         "secular per orbit: X, Y, Z",
@@ -51,9 +51,9 @@ fn sources(craft: &Craft, rows: &[SourceRow]) -> String {
     }
     format!(
         "{}: momentum without dumps, {} of flight, orbits of {}; body frame, by momentum.convention, momentum.inertial in EME2000\n{table}",
-        craft.spacecraft.name,
-        time(craft.span_s),
-        time(craft.period_s)
+        sized.spacecraft.name,
+        time(sized.span_s),
+        time(sized.period_s)
     )
 }
 
@@ -63,7 +63,7 @@ fn is_nothing(row: &SourceRow) -> bool {
     all.chain(&row.cyclic_per_orbit_n_m_s).all(|part| *part == 0.0)
 }
 
-fn dumps(craft: &Craft, sweep: &Sweep) -> String {
+fn dumps(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
     let mut table = terminal::table(&[
         "strategy",
         "dump.threshold [N.m.s]",
@@ -76,7 +76,7 @@ fn dumps(craft: &Craft, sweep: &Sweep) -> String {
         table.add_row([
             it.strategy.clone(),
             triple(it.threshold_n_m_s.into()),
-            short(capacity(craft, it)),
+            short(capacity(sized, it)),
             short(it.dumps),
             short(it.impulse_n_m_s),
             short(it.propellant_kg),
@@ -92,17 +92,17 @@ fn dumps(craft: &Craft, sweep: &Sweep) -> String {
 }
 
 /// Of each wheel, by the greatest threshold.
-pub fn capacity(craft: &Craft, dumped: &Dumped) -> f64 {
-    capacity_n_m_s(&craft.spacecraft, dumped.threshold_n_m_s.max())
+pub fn capacity(sized: &SizedSpacecraft, dumped: &Dumped) -> f64 {
+    capacity_n_m_s(&sized.spacecraft, dumped.threshold_n_m_s.max())
 }
 
-fn wheels(craft: &Craft, found: &Found) -> String {
+fn wheels(sized: &SizedSpacecraft, found: &Found) -> String {
     let wheels = &found.wheels;
     let mut table = terminal::table(&["wheels", "capacity of each [N.m.s]", "torque of each [N.m]"]);
     for it in &wheels.geometries {
         table.add_row([it.name.clone(), short(it.capacity_n_m_s), short(it.torque_n_m)]);
     }
-    let own = craft.spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s).reduce(f64::min);
+    let own = sized.spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s).reduce(f64::min);
     let own = own.map_or_else(|| "none".to_owned(), |capacity| format!("{} N.m.s each", short(capacity)));
     format!(
         "Wheels for {} N.m.s and {} N.m about every axis at once: {} N.m.s gathered in {} (dump.requiredSpacing, at least an \
@@ -160,14 +160,14 @@ fn allocations(found: &Result<Vec<Allocation>, String>) -> String {
 }
 
 /// Dumps by threshold and strategy, SI, as CSV.
-pub fn csv(craft: &Craft, sweep: &Sweep) -> String {
+pub fn csv(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
     let mut text = String::from(
         "strategy,threshold_x_n_m_s,threshold_y_n_m_s,threshold_z_n_m_s,wheel_capacity_n_m_s,dumps_per_year,\
          impulse_n_m_s_per_year,propellant_kg_per_year\n",
     );
     for it in &sweep.dumped {
         let [x, y, z]: [f64; 3] = it.threshold_n_m_s.into();
-        let numbers = [x, y, z, capacity(craft, it), it.dumps, it.impulse_n_m_s, it.propellant_kg];
+        let numbers = [x, y, z, capacity(sized, it), it.dumps, it.impulse_n_m_s, it.propellant_kg];
         let numbers: Vec<String> = numbers.into_iter().map(|value| Real(value).to_string()).collect();
         text.push_str(&format!("{},{}\n", it.strategy, numbers.join(",")));
     }

@@ -63,19 +63,20 @@ impl Fixed {
         if let Some(carried) = precise.filter(|_| source == EphemerisSource::Chebyshev) {
             ephemeris::check_onboard(carried, body, "start.epoch", epoch_s)?;
         }
-        let (seen, has_table) = (context.setup.body(body), precise.is_some());
+        let (target, has_table) = (context.setup.bodies.body(body), precise.is_some());
         let ellipse = match source {
-            EphemerisSource::Kepler => {
-                Some(ephemeris::kepler(v.ephemeris.ellipse.read(context, values, &seen), epoch_s)?)
-            }
-            EphemerisSource::Vsop87 if body == Body::Custom => Some(ephemeris::custom(&seen, "vsop87")?),
+            EphemerisSource::Kepler => Some(v.ephemeris.ellipse.planet(context, values, &target, epoch_s)?),
+            EphemerisSource::Vsop87 if body == Body::Custom => Some(ephemeris::custom(&target, "vsop87")?),
             EphemerisSource::Chebyshev if body == Body::Custom && !has_table => {
-                Some(ephemeris::custom(&seen, "chebyshev")?)
+                Some(ephemeris::custom(&target, "chebyshev")?)
             }
             _ => None,
         };
-        let bodies =
-            BodiesFromCenter { center: body, ellipse, custom: context.setup.body(Body::Custom).motion };
+        let bodies = BodiesFromCenter {
+            center: body,
+            ellipse,
+            custom: context.setup.bodies.body(Body::Custom).motion,
+        };
         Ok(Self {
             planet,
             source,
@@ -90,8 +91,8 @@ impl Fixed {
 fn target(context: &Plan<'_>, values: &Values) -> (Body, TargetPlanet) {
     let v = &context.variables.planet;
     let body = values.choice(context.variables.target.planet).0;
-    let seen = context.setup.body(body);
-    let own = TargetPlanet { radii_m: seen.radii_m.into(), ..TargetPlanet::of(&seen.data) };
+    let target = context.setup.bodies.body(body);
+    let own = TargetPlanet { radii_m: target.radii_m.into(), ..TargetPlanet::of(&target.data) };
     let given = context.given(
         values,
         &[
@@ -118,7 +119,7 @@ fn target(context: &Plan<'_>, values: &Values) -> (Body, TargetPlanet) {
 pub fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     let (v, ellipse) = (&context.variables.planet, &context.variables.ephemeris.ellipse);
     let (body, planet) = target(context, values);
-    let elements = ellipse.read(context, values, &context.setup.body(body));
+    let elements = ellipse.read(context, values, &context.setup.bodies.body(body));
     ellipse.write(values, &elements);
     values.set_vector(v.radii, planet.radii_m.into());
     values.set_real(v.pole_right_ascension, planet.pole_right_ascension_rad);

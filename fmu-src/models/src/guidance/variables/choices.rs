@@ -1,7 +1,6 @@
 //! Guidance's choices.
 
 use fmi_export::Enumeration;
-use fmi_export::variables::EnumerationType;
 use physics::bodies::Body;
 use physics::enumeration::Enumerated;
 use physics::guidance::constraints::keep_in;
@@ -10,7 +9,7 @@ use physics::guidance::modes::mode;
 use physics::guidance::pointing::antenna::Antenna;
 use physics::guidance::pointing::command;
 
-use crate::common::choices::{KNOWN_BODIES, choices, optional_choices, ranked};
+use crate::common::choices::{KNOWN_BODIES, choices, optional_choices};
 
 optional_choices! {
     /// What is pointed at what (paper 001, Table 5).
@@ -19,6 +18,8 @@ optional_choices! {
     BoresightOption(command::BoresightOption) or "Not given.";
     /// What is aimed at (paper 001, Table 2).
     AimpointOption(command::AimpointOption) or "Not given.";
+    /// A body to aim at, numbered as OrbitCenter's: 5 is kept free for the Moon.
+    AimpointBody(Body) of KNOWN_BODIES or "Not given.";
     /// How the body roll vector is given (paper 001, Table 3).
     BodyRollOption(command::BodyRollOption) or "Not given.";
     /// How the external roll reference is given (paper 001, Table 4).
@@ -29,31 +30,6 @@ optional_choices! {
     ScanFrame(command::ScanFrame) or "No scan.";
     /// Why a mode is in force.
     ModeReason(mode::ModeReason) or "The mode of the start.";
-}
-
-/// A body to aim at, numbered as OrbitCenter's: 5 is kept free for the Moon.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct AimpointBody(pub Option<Body>);
-
-impl Enumeration for AimpointBody {
-    const FIRST: Self = Self(None);
-
-    const TYPE: EnumerationType = EnumerationType {
-        name: "AimpointBody",
-        description: "A body to aim at, numbered as OrbitCenter's: 5 is kept free for the Moon.",
-        items: &ranked::<Body, { KNOWN_BODIES.len() + 1 }>(KNOWN_BODIES, Some("Not given.")),
-    };
-
-    fn from_value(value: i32) -> Option<Self> {
-        match value {
-            0 => Some(Self(None)),
-            _ => Body::from_value(value).map(|body| Self(Some(body))),
-        }
-    }
-
-    fn value(self) -> i32 {
-        self.0.map_or(0, Enumerated::value)
-    }
 }
 
 /// A mode requested.

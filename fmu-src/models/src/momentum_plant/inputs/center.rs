@@ -40,7 +40,7 @@ impl Center {
     /// The centre that `orbit.center` names.
     pub fn read(context: &Plan<'_>, values: &Values) -> Self {
         let (planet, orbit) = (&context.variables.planet, &context.variables.orbit);
-        let body = context.setup.body(values.choice(orbit.center).0);
+        let body = context.setup.bodies.body(values.choice(orbit.center).0);
         let (own, own_surface) = (body.data, body.surface());
         let numbers = [
             planet.gravitational_parameter,

@@ -78,7 +78,7 @@ pub fn read(
         attitude: attitude(context, values, state, &orbit)?,
         orbit,
         motion: motion(variables, values, data, time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s)),
-        ephemeris: ephemeris_source(&context.setup.body(data.body), context, values, state.waiting)?,
+        ephemeris: ephemeris_source(&context.setup.bodies.body(data.body), context, values, state.waiting)?,
         light: variables.solar.read(values),
         shadow: variables.eclipse.read(values, data.radius_m, values.real(variables.sun.radius))?,
         light_and_heat: RadiationSettings {
@@ -194,8 +194,8 @@ fn ephemeris_source(
             }
         }
         EphemerisSource::Kepler => {
-            let ellipse = variables.ephemeris.ellipse.read(context, values, center);
-            plant::EphemerisSource::Kepler(ephemeris::kepler(ellipse, epoch_s)?)
+            let ellipse = &variables.ephemeris.ellipse;
+            plant::EphemerisSource::Kepler(ellipse.planet(context, values, center, epoch_s)?)
         }
         EphemerisSource::Chebyshev => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
             Some(carried) => {

@@ -181,7 +181,7 @@ pub fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure>
 pub fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     let ellipse = &context.variables.ephemeris.ellipse;
     let center = Center::read(context, values);
-    let elements = ellipse.read(context, values, &context.setup.body(center.data.body));
+    let elements = ellipse.read(context, values, &context.setup.bodies.body(center.data.body));
     ellipse.write(values, &elements);
     center.write(context.variables, values);
 }

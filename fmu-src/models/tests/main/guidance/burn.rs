@@ -222,8 +222,8 @@ fn a_burn_is_cut_off_with_a_warning_where_its_command_ends() {
             }
         });
         assert_eq!(last, Some(19), "{end}");
-        let said = named.warnings().iter().filter(|it| it.starts_with("burn: cut off at 20 s")).count();
-        assert_eq!(said, 1, "{end}: {:?}", named.warnings());
+        let warned = named.warnings().iter().filter(|it| it.starts_with("burn: cut off at 20 s")).count();
+        assert_eq!(warned, 1, "{end}: {:?}", named.warnings());
     }
 }
 

@@ -51,7 +51,7 @@ fn planned() -> [Planned; 3] {
 }
 
 /// 100 N along +Z that never turn it, 20 N along +Z, 10 N along +X; couples and wheels for the attitude.
-fn craft() -> String {
+fn spacecraft() -> String {
     let pairs = |set: &str, axis: usize, force_n: f64| {
         [1.0, -1.0].map(|side| {
             let (mut at, mut direction) = ([0.0; 3], [0.0; 3]);
@@ -69,9 +69,10 @@ fn craft() -> String {
 
 #[test]
 fn each_burn_of_a_timeline_adds_its_velocity() {
-    let craft = craft();
-    let plants = NamedModel::<MomentumPlant>::with("own.toml", &craft);
-    let guidances = NamedModel::<Guidance>::with("own.toml", &craft).with_schedule("timeline.toml", TIMELINE);
+    let spacecraft = spacecraft();
+    let plants = NamedModel::<MomentumPlant>::with("own.toml", &spacecraft);
+    let guidances =
+        NamedModel::<Guidance>::with("own.toml", &spacecraft).with_schedule("timeline.toml", TIMELINE);
     let epoch = [("start.epoch", physics::environment::dates::epoch_s(START).unwrap())];
     let places = ["position", "velocity"];
     let before = plants.fly(0.0, &epoch).unwrap();

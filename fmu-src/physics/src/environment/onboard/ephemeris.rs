@@ -83,8 +83,7 @@ impl OnboardEphemeris {
                 check.report(&at.key("center"), center, "sun, which planets move about");
             }
             if body.center == Body::Custom {
-                let allowed =
-                    "a body whose gravity everybody knows: [[body]] places what moves about another";
+                let allowed = "a body of known gravity: [[body]] places what moves about another";
                 check.report(&at.key("center"), "custom", allowed);
             }
             let error = error(&mut check, &at, body.error_m, body.error_m_s);

@@ -240,7 +240,7 @@ impl<'d, 'i> Commands<'d, 'i> {
         }
     }
 
-    /// A body that everybody knows, or the spacecraft's own.
+    /// A known body, or the one that the spacecraft's file describes.
     fn body(&mut self, at: &Place, given: Option<Body>) -> Option<Body> {
         if given == Some(Body::Custom) && self.spacecraft.body.is_none() {
             let known = Body::ALL.map(Enumerated::name).join(", ");

@@ -28,7 +28,7 @@ pub struct Trajectory {
     orbit: Option<DisturbedOrbit>,
     periapses: Periapses,
     /// Where the spacecraft was when the present science or downlink window began, once that time is behind the
-    /// segment at hand: a slew starts from the attitude there.
+    /// current segment: a slew starts from the attitude there.
     window_start: Option<(f64, CartesianState)>,
 }
 

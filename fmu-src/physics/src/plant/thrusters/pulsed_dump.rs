@@ -19,7 +19,7 @@ const NEARER: f64 = 0.7;
 /// How often the end of a dump is corrected: pulses scatter, and the body turns under them.
 const MOST_CORRECTIONS: u8 = 4;
 
-/// A dump by pulses: at hand, or the last one.
+/// The current dump by pulses, or the last one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PulsedDump {
     /// Where the momentum is to go, EME2000, in N m s.

@@ -21,7 +21,7 @@ use super::selected::{Purpose, Selected};
 use super::thruster_load::{ThrusterLoad, ThrusterTotals};
 use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings, ThrustCommand};
 
-/// A delta-v at hand.
+/// The current delta-v.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Burn {
     set: ThrusterSet,
@@ -262,7 +262,7 @@ impl Thrusters {
         self.settings.thrusters.iter().any(|thruster| thruster.set == Some(set))
     }
 
-    /// The set that gives a delta-v at hand.
+    /// The set that gives the current delta-v.
     pub fn burning(&self) -> Option<ThrusterSet> {
         self.burn.map(|burn| burn.set)
     }
@@ -319,7 +319,7 @@ impl Thrusters {
         self.dump.is_some_and(|dump| dump.after.is_none())
     }
 
-    /// Mean torque of the dump's pulses at hand, body frame, in N m.
+    /// Mean torque of the current dump's pulses, body frame, in N m.
     pub fn dump_torque_body_n_m(&self) -> Vector3<f64> {
         self.dump
             .filter(|dump| dump.after.is_none())

@@ -11,7 +11,7 @@ use crate::{
     assembly::{Parts, Source, assemble, model_of},
     instance,
     kind::FileKind,
-    mission::{Craft as Given, Inputs},
+    mission::{Inputs, SpacecraftSource as Given},
     run::{Run, Settings, Simulated, Subject},
     variables::{assigned, item, start},
 };
@@ -19,13 +19,13 @@ use crate::{
 /// Why something could not be done.
 pub type Failure = Box<dyn std::error::Error>;
 
-/// The model that is flown.
+/// The model that is simulated.
 const MODEL: &str = "MomentumPlant";
 /// A year, in s.
 pub const YEAR_S: f64 = 365.25 * DAY_S;
 
 /// A spacecraft ready to fly.
-pub struct Craft {
+pub struct SizedSpacecraft {
     pub fmu: Fmu,
     pub spacecraft: Spacecraft,
     pub sets: Vec<(String, Value)>,
@@ -40,7 +40,7 @@ pub struct Craft {
     _folders: [Option<Scratch>; 2],
 }
 
-impl Craft {
+impl SizedSpacecraft {
     /// Reads the file, packs it and starts it once.
     pub fn open(arguments: &Size) -> Result<Self, Failure> {
         let text = files::read_text(&arguments.file)?;
@@ -64,7 +64,9 @@ impl Craft {
                 let (subject, folder) = simulated.open()?;
                 let settings = Settings::of(&subject, &simulated, None)?;
                 let is_of_its_time = simulated.mission.as_ref().is_some_and(|mission| {
-                    let Given::Files { timeline, ephemeris, .. } = &mission.craft else { return false };
+                    let Given::Files { timeline, ephemeris, .. } = &mission.spacecraft_source else {
+                        return false;
+                    };
                     let has_table = matches!(mission.inputs, Some(Inputs::File(_)));
                     timeline.is_some() || ephemeris.is_some() || has_table || settings.inputs.is_some()
                 });
