@@ -317,8 +317,11 @@ impl GuidedVariables {
         defaults: &WindowDefaults,
         law: Guided,
     ) -> Guided {
-        let given = context.given(values, &[self.downlink_start.into(), self.downlink_end.into()]);
         let [start, end] = defaults.period_shares;
+        if (start, end) == (None, None) {
+            return law;
+        }
+        let given = context.given(values, &[self.downlink_start.into(), self.downlink_end.into()]);
         let period_shares = [
             start.filter(|_| !given.has(self.downlink_start)),
             end.filter(|_| !given.has(self.downlink_end)),

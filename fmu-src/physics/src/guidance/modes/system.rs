@@ -468,12 +468,13 @@ impl GuidanceState {
 
 /// The windows, of which shares of the period follow the orbit that the spacecraft is on.
 fn in_present_orbit(windows: &Schedule, surroundings: &EphemerisAtTime) -> Schedule {
-    match ellipse_of(surroundings) {
-        Some(orbit) if windows.period_shares != [None; 2] => {
-            Schedule { period_s: windows.period_s, ..windows.in_orbit(orbit.period_s()) }
-        }
-        _ => *windows,
+    if windows.period_shares == [None; 2] {
+        return *windows;
     }
+    ellipse_of(surroundings).map_or(*windows, |orbit| Schedule {
+        period_s: windows.period_s,
+        ..windows.in_orbit(orbit.period_s())
+    })
 }
 
 /// A command that goes on after its end: its scans do not.
