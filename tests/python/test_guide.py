@@ -2,9 +2,10 @@
 
 A block `console` holds commands after `$ ` and what they print; a line `...` stands for any lines. The blocks of a page run one
 after the other in one folder that has the tutorial's files. `cargo xtask bless guide` writes anew what they print, but for blocks with
-`...`.
+`...`, and the tables of keys, which follow the schemas.
 """
 
+import json
 import os
 import pathlib
 import re
@@ -28,6 +29,10 @@ VARYING = [
     (r"(\d\.\d{8})\d{4,}", r"\1..."), (r"\bin \d+\.\d+ s\b", "in ... s"),
     (r"\{[0-9a-f-]{36}\}", "{...}"), (r"\b\d+ kB\b", "... kB"),
 ]
+# A table of a file's keys, behind the name of its schema and of what is described.
+KEYS = re.compile(r"(?m)^<!-- keys: (\w+) ?(\w*) -->\n((?:\|.*\n)*)")
+UNIT = re.compile(r", in ((?:kg|k?m[23]?|s|deg|rad|rpm|K|N|Pa|Hz|W|J|sqrt\(kg\))(?:[ /][\w/]+)*?)(?= or |[,;:.]|$)")
+SUFFIXES = {"_m_s": "m/s", "_m": "m", "_s": "s", "_rad": "rad", "_deg": "deg"}
 # What stands in backticks like a variable and is none: keys and calls of other things.
 NO_VARIABLES = re.compile(r"\.(md|rs|py|toml|svg|csv|json|ssp|fmu|ssv|part|html|xml|bsp|spk)$|_|^numpy|^name\.|/")
 
@@ -107,6 +112,70 @@ def test_a_page_prints_what_it_shows(page, installed, dist, tmp_path):
                 shutil.copy2(tmp_path / written, BOOK / "pictures" / shown)
             elif shown in DRAWINGS:
                 assert (tmp_path / written).read_bytes() == (BOOK / "pictures" / shown).read_bytes(), shown
+
+
+def resolved(schema, entry):
+    """What describes a value; `null`, which is a key left out, aside."""
+    for choice in entry.get("anyOf", []):
+        if choice.get("type") != "null":
+            entry = {**choice, **{k: v for k, v in entry.items() if k != "anyOf"}}
+    name = entry.get("$ref", "").rpartition("/")[2]
+    return {**schema["$defs"][name], **entry} if name else entry
+
+
+def type_of(schema, entry):
+    """The type of a value in words."""
+    entry = resolved(schema, entry)
+    if "enum" in entry or "const" in entry or "oneOf" in entry:
+        if any("properties" in resolved(schema, it) for it in entry.get("oneOf", [])):
+            return "table"
+        return "item"
+    types = entry.get("type", "any")
+    kinds = [it for it in ([types] if isinstance(types, str) else types) if it != "null"]
+    if kinds == ["array"]:
+        element = type_of(schema, entry["items"])
+        least, most = entry.get("minItems", 0), entry.get("maxItems")
+        plural = element if " " in element or element == "text" else f"{element}s"
+        if least != most:
+            return f"list of {plural}"
+        return f"{least} x {element}" if " " in element else f"{least} {plural}"
+    return " or ".join({"string": "text", "object": "table", "array": "list"}.get(kind, kind) for kind in kinds)
+
+
+def items(schema, entry):
+    """The items that a value has, as text."""
+    entry = resolved(schema, entry)
+    entry = resolved(schema, entry["items"]) if "items" in entry else entry
+    listed = entry.get("enum") or [it["const"] for it in entry.get("oneOf", []) if "const" in it]
+    return f" One of {', '.join(f'`{item}`' for item in listed)}." if listed else ""
+
+
+def key_table(name, described):
+    """The table of keys by a schema."""
+    schema = json.loads((ROOT / "fmu-src" / "resources" / f"{name}.schema.json").read_text(encoding="utf-8"))
+    table = schema["$defs"][described] if described else schema
+    rows = ["| key | type | unit | default | meaning |", "|---|---|---|---|---|"]
+    for key, entry in sorted(table["properties"].items()):
+        whole = resolved(schema, entry)
+        meaning = " ".join(whole.get("description", "").split())
+        unit = UNIT.search(meaning)
+        unit = unit.group(1) if unit else next((it for end, it in SUFFIXES.items() if key.endswith(end)), "")
+        default = whole.get("default")
+        default = "" if default is None else "`" + re.sub(r"\.0\b", "", json.dumps(default)) + "`"
+        shown = "*" if key in table.get("required", []) else default
+        meaning = (UNIT.sub("", meaning, count=1) + items(schema, entry)).replace("|", "\\|")
+        rows.append(f"| `{key}` | {type_of(schema, entry)} | {unit} | {shown} | {meaning} |")
+    return "\n".join(rows) + "\n"
+
+
+@pytest.mark.parametrize("page", sorted(BOOK.glob("files/*.md")), ids=lambda page: page.name)
+def test_tables_of_keys_follow_the_schemas(page):
+    text = page.read_text(encoding="utf-8")
+    anew = KEYS.sub(lambda found: found.group(0).split("\n")[0] + "\n" + key_table(*found.groups()[:2]), text)
+    if BLESS:
+        page.write_text(anew, encoding="utf-8")
+    else:
+        assert text == anew
 
 
 def test_every_variable_that_the_guide_names_exists(dist):

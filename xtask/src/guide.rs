@@ -6,7 +6,7 @@ use crate::shell::{Outcome, cargo, root, run, target};
 
 /// Builds it into `target/guide`; says where its first page is.
 pub fn build() -> Outcome {
-    run(&mut in_workspace("run --locked --quiet"))
+    run(&mut in_workspace("run --locked"))
 }
 
 /// Checks the form of its builder's code.
