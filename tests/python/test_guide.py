@@ -22,7 +22,7 @@ BLOCK = re.compile(r"(?m)^```console\n(.*?)^```$", re.DOTALL)
 PAGES = sorted(page for page in BOOK.rglob("*.md") if BLOCK.search(page.read_text(encoding="utf-8")))
 BLESS = "HELIOTORQUE_BLESS" in os.environ
 # Pictures that commands of a page write and the guide shows. A drawing is the same everywhere; a simulation's last digits are not.
-PICTURES = {"venus.svg": "venus.svg", "ten-days.svg": "ten-days.svg", "turn/burn.svg": "turn.svg"}
+PICTURES = {"venus.svg": "venus.svg", "ten-days.svg": "ten-days.svg", "year.svg": "year.svg", "turn/burn.svg": "turn.svg"}
 DRAWINGS = ("venus.svg",)
 # What differs from run to run, from build to build, and in the last digits from processor to processor.
 VARYING = [

@@ -115,24 +115,22 @@ fn every_key_of_every_file_is_reported_of() {
     }
 }
 
-/// The drawing of the tree in README and guide names every crate, and the modules of `physics` in their order.
+/// The drawing of the tree names every crate, and the modules of `physics` in their order.
 #[test]
 fn the_tree_is_complete() {
     let library = fs::read_to_string(project().join("fmu-src/physics/src/lib.rs")).unwrap();
     let modules: Vec<&str> =
         library.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')).collect();
     let modules: Vec<&str> = modules.into_iter().filter(|name| *name != "constants").collect();
-    for text in ["README.md", "docs/src/architecture.md"] {
-        let text = fs::read_to_string(project().join(text)).unwrap();
-        let tree = text.split("```").find(|block| block.contains("fmu-src/\n")).unwrap();
-        let drawn = tree.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(drawn.contains(&modules.join(" -> ")), "{}", modules.join(" -> "));
-        for folder in ["fmu-src", "harness"] {
-            let entries = fs::read_dir(project().join(folder)).unwrap().map(Result::unwrap);
-            for entry in entries.filter(|it| it.path().is_dir()) {
-                let name = entry.file_name().into_string().unwrap();
-                assert!(tree.contains(&format!("\n  {name}/")), "{folder}/{name}");
-            }
+    let text = fs::read_to_string(project().join("docs/src/architecture.md")).unwrap();
+    let tree = text.split("```").find(|block| block.contains("fmu-src/\n")).unwrap();
+    let drawn = tree.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(drawn.contains(&modules.join(" -> ")), "{}", modules.join(" -> "));
+    for folder in ["fmu-src", "harness"] {
+        let entries = fs::read_dir(project().join(folder)).unwrap().map(Result::unwrap);
+        for entry in entries.filter(|it| it.path().is_dir()) {
+            let name = entry.file_name().into_string().unwrap();
+            assert!(tree.contains(&format!("\n  {name}/")), "{folder}/{name}");
         }
     }
 }
