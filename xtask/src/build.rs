@@ -54,7 +54,7 @@ pub fn portable() -> Result<Built, String> {
             .args(arguments)
             .env("PATH", &path))
     };
-    zigbuild(&["--profile", "fmu", "-p", "component"])?;
+    zigbuild(&["--profile", "fmu", "-p", "component", "-p", "probe"])?;
     zigbuild(&["--release", "-p", "heliotorque", "--all-features"])?;
     Ok(built_in(&target().join("x86_64-unknown-linux-gnu")))
 }
