@@ -84,7 +84,8 @@ impl GuidanceSetup {
     /// The keep-in zone; without one in the file the half of the sky on the axis's side.
     pub fn keep_in(&self) -> SunKeepIn {
         use core::f64::consts::FRAC_PI_2;
-        let half = SunKeepIn { azimuth_rad: FRAC_PI_2, elevation_rad: FRAC_PI_2 };
+        let half =
+            SunKeepIn { azimuth_rad: FRAC_PI_2, elevation_rad: FRAC_PI_2, distance_m: SunKeepIn::FARTHEST_M };
         self.spacecraft.sun_keep_in.map_or(half, |zone| zone.within(&half))
     }
 

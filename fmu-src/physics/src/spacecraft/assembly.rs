@@ -90,15 +90,21 @@ pub struct SunKeepIn {
     pub azimuth_rad: f64,
     /// Greatest magnitude of the elevation, in rad.
     pub elevation_rad: f64,
+    /// Greatest distance from the Sun at which it counts, in m.
+    pub distance_m: f64,
 }
 
 impl SunKeepIn {
-    /// The smaller of both limits.
+    /// A distance from the Sun that no spacecraft has, in m.
+    pub const FARTHEST_M: f64 = 1e13;
+
+    /// The smaller of all limits.
     #[must_use]
     pub fn within(&self, other: &Self) -> Self {
         Self {
             azimuth_rad: self.azimuth_rad.min(other.azimuth_rad),
             elevation_rad: self.elevation_rad.min(other.elevation_rad),
+            distance_m: self.distance_m.min(other.distance_m),
         }
     }
 }
@@ -206,6 +212,7 @@ impl Spacecraft {
             sun_keep_in: description.sun_keep_in.as_ref().map(|limits| SunKeepIn {
                 azimuth_rad: limits.azimuth_deg.0.to_radians(),
                 elevation_rad: limits.elevation_deg.0.to_radians(),
+                distance_m: limits.distance_m.map_or(SunKeepIn::FARTHEST_M, |distance| distance.0),
             }),
         }
     }

@@ -9,6 +9,7 @@ use physics::guidance::downlink::sun_place;
 use physics::guidance::modes::transitions;
 use physics::guidance::pointing::boresight;
 use physics::guidance::pointing::command;
+use physics::spacecraft::SunKeepIn;
 
 use super::super::setup::GuidanceSetup;
 use super::choices::{AntennaSelect, KeepInMethod};
@@ -30,9 +31,8 @@ pub struct KeepInVariables {
     /// takes -Y to it. Also the boresight of Earth Acquisition.
     #[parameter(unit = "1", start = [0.0, -1.0, 0.0])]
     pub axis: RealVector<3>,
-    /// Greatest distance from the Sun at which the zone counts outside Safe Hold; 0.85 AU is where the sunshade has to face
-    /// the Sun in cruise.
-    #[parameter(tunable, unit = "m", display = "AU", min = 0.0, max = 1e13, start = keep_in::DISTANCE_M)]
+    /// Greatest distance from the Sun at which the zone counts outside Safe Hold.
+    #[parameter(tunable, unit = "m", display = "AU", min = 0.0, max = SunKeepIn::FARTHEST_M, start = setup.keep_in().distance_m)]
     pub distance: Real,
     /// Where a Sun outside is put.
     #[parameter(start = KeepInMethod(keep_in::KeepInMethod::Nearest))]

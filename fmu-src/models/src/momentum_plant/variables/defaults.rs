@@ -17,7 +17,10 @@ pub fn inertia_kg_m2(setup: &PlantSetup) -> [[f64; 3]; 3] {
 
 /// The keep-in zone; without one in the file every direction is allowed.
 pub fn keep_in(setup: &PlantSetup) -> SunKeepIn {
-    let everywhere =
-        SunKeepIn { azimuth_rad: core::f64::consts::PI, elevation_rad: core::f64::consts::FRAC_PI_2 };
+    let everywhere = SunKeepIn {
+        azimuth_rad: core::f64::consts::PI,
+        elevation_rad: core::f64::consts::FRAC_PI_2,
+        distance_m: SunKeepIn::FARTHEST_M,
+    };
     setup.spacecraft.sun_keep_in.unwrap_or(everywhere)
 }

@@ -152,3 +152,27 @@ fn the_link_is_there_in_its_windows() {
         assert!(linked_s > least * wired.plant.time_s, "{planet}: {linked_s} s");
     }
 }
+
+/// The file's zone holds at the Earth too, unless the file says up to where.
+#[test]
+fn a_keep_in_zone_counts_up_to_the_files_distance() {
+    for (distance, counts) in [("", true), (", distance_m = 1.2e11", false)] {
+        let zone = format!("sun_keep_in = {{ azimuth_deg = 10, elevation_deg = 10{distance} }}");
+        let mut guidance =
+            instance("Guidance", "surveyor", &spacecraft("earth", 7000.0, &format!("{zone}\n")));
+        guidance.put_integer("pointing.scenario", NADIR);
+        guidance.put_vector("position", [7e6, 0.0, 0.0]);
+        guidance.put_vector("velocity", [0.0, 7.5e3, 0.0]);
+        guidance.begin(0.0);
+        let mut kept = false;
+        // All around an orbit in the equator nadir itself has the Sun outside of the zone somewhere.
+        for step in 1..=36_u32 {
+            let (sine, cosine) = (f64::from(step) * 10_f64.to_radians()).sin_cos();
+            guidance.put_vector("position", [7e6 * cosine, 7e6 * sine, 0.0]);
+            guidance.put_vector("velocity", [-7.5e3 * sine, 7.5e3 * cosine, 0.0]);
+            guidance.step_to(f64::from(step));
+            kept |= guidance.boolean("constraint.sunKeepIn");
+        }
+        assert_eq!(kept, counts, "{zone}");
+    }
+}

@@ -13,7 +13,6 @@
 use nalgebra::{ComplexField, Matrix3, Vector3};
 
 use crate::attitude::SunAngles;
-use crate::constants::ASTRONOMICAL_UNIT_M;
 use crate::enumeration::enumeration;
 use crate::guidance::geometry::moving::{
     Moving, MovingMatrix, MovingVector, PARALLEL_RAD, direction, fixed, unit, value,
@@ -21,9 +20,6 @@ use crate::guidance::geometry::moving::{
 use crate::guidance::pointing::law::{Pointing, PointingVectors};
 use crate::math;
 use crate::numerics::scalar::{Scalar, sin_cos};
-
-/// Distance from the Sun, in m, inside which the spacecraft has to hide behind its sunshade in cruise: 0.85 AU.
-pub const DISTANCE_M: f64 = 0.85 * ASTRONOMICAL_UNIT_M;
 
 /// A Sun this little outside counts as inside, in rad: laws that put it on the boundary leave it there within rounding.
 pub const BOUNDARY_RAD: f64 = 1e-12;

@@ -365,6 +365,8 @@ struct SunKeepInDescription {
     azimuth_deg: HalfTurn,
     /// Greatest elevation from the XY plane toward -Z, in deg.
     elevation_deg: QuarterTurn,
+    /// Greatest distance from the Sun at which commands of Guidance keep the zone, in m; any unless given.
+    distance_m: Option<Positive>,
 }
 
 /// When an antenna looks at the Earth, counted from periapsis; left out, there are no downlinks. The start values of
