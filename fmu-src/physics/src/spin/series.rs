@@ -2,8 +2,9 @@
 //! segment.
 //!
 //! The equations are those of [`crate::attitude::series`], quadratic in momentum and attitude, with w = J^-1 m + G (e3 x m) of
-//! the damper ([`super::damper`]) and jet damping ([`JetDamping`]) in the torque. A segment is as long as the series converges to rounding, never as long as a communication
-//! step: results do not depend on any step. One method serves the triaxial body, thruster arcs, outside torques and the damper.
+//! the damper ([`super::damper`]) and jet damping ([`JetDamping`]) in the torque. A segment is as long as the series converges
+//! to rounding, never as long as a communication step: results do not depend on any step. One method serves the triaxial body,
+//! thruster arcs, outside torques and the damper.
 
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -204,6 +205,7 @@ impl TaylorSegment {
     /// Fills the coefficients until they converge over `hint_s`, or to the highest order and then sets the length.
     fn expand(&mut self, inertia: &Inertia, torque: &BodyTorque, gain: &[f64], hint_s: f64) {
         let BodyTorque { coefficients_n_m: torque, jet_damping, .. } = torque;
+        let jets_act = *jet_damping != JetDamping::default();
         let inverse = Vector3::from(inertia.principal_kg_m2().map(f64::recip));
         let Self { series, length_s } = self;
         let momentum = series.momentum[0];
@@ -228,8 +230,11 @@ impl TaylorSegment {
             if n == ORDER || (small == 3 && n > least) {
                 break;
             }
-            let jet_n_m = jet_damping.term(&series.rate, n);
-            series.extend(torque.get(n).copied().unwrap_or_default() + jet_n_m);
+            let mut torque_n_m = torque.get(n).copied().unwrap_or_default();
+            if jets_act {
+                torque_n_m += jet_damping.term(&series.rate, n);
+            }
+            series.extend(torque_n_m);
             power *= *length_s;
             small = if size(series, n + 1) * power <= ROUNDING { small + 1 } else { 0 };
         }
