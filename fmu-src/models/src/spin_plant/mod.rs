@@ -24,7 +24,7 @@ use variables::SpinVariables;
 
 impl Model for SpinPlant {
     const NAME: &'static str = "SpinPlant";
-    const STATE_VERSION: u32 = 6;
+    const STATE_VERSION: u32 = 7;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/ace.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/SpinPlant.csv");

@@ -4,8 +4,9 @@ use models::MomentumPlant;
 use nalgebra::Vector3;
 
 use super::named_model::{NamedInstance, NamedModel};
+use super::spacecraft::{SIMPLE, couples, thruster};
 
-const WHEELS: usize = 4;
+pub const WHEELS: usize = 4;
 const INERTIA_KG_M2: f64 = 8e-3;
 
 type Flight<'a> = NamedInstance<'a, MomentumPlant>;
@@ -20,14 +21,14 @@ fn with(more: &[(&str, f64)]) -> Vec<(String, f64)> {
     wheels.chain(thresholds).chain(more.iter().map(|(name, value)| ((*name).to_owned(), *value))).collect()
 }
 
-fn fly<'a>(named: &'a NamedModel<MomentumPlant>, more: &[(&str, f64)]) -> Flight<'a> {
+pub fn fly<'a>(named: &'a NamedModel<MomentumPlant>, more: &[(&str, f64)]) -> Flight<'a> {
     let sets = with(more);
     let sets: Vec<_> = sets.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     named.fly(0.0, &sets).unwrap()
 }
 
 /// h + I a.w of each wheel.
-fn axial(flight: &Flight<'_>) -> [f64; WHEELS] {
+pub fn axial(flight: &Flight<'_>) -> [f64; WHEELS] {
     let rate = flight.vector("attitude.rate");
     core::array::from_fn(|k| {
         let axis: Vector3<f64> = flight.vector(&format!("wheel[{}].axis", k + 1)).normalize();
@@ -35,7 +36,7 @@ fn axial(flight: &Flight<'_>) -> [f64; WHEELS] {
     })
 }
 
-fn torques(flight: &Flight<'_>) -> [f64; WHEELS] {
+pub fn torques(flight: &Flight<'_>) -> [f64; WHEELS] {
     core::array::from_fn(|k| {
         let of = |name: &str| flight.real(&format!("wheel[{}].{name}", k + 1));
         assert!((of("power") - of("torque") * of("speed")).abs() <= 1e-15 * of("power").abs());
@@ -98,6 +99,53 @@ fn controlled_wheels_turn_by_the_torque_that_is_shown() {
         }
     }
     assert!(moved);
+}
+
+/// Thrusters dump in controlled flight and an engine burns in free flight, the tank far off the axis: centre of mass and inertia
+/// change, and the rotors feel the motors alone.
+#[test]
+fn torques_add_up_to_the_momentum_while_propellant_flows() {
+    let wheels: String = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
+        .map(|(x, y)| Vector3::new(x, y, 1.0).normalize())
+        .iter()
+        .map(|axis| format!("[[wheels]]\naxis = {:?}\ncapacity_n_m_s = 50.0\n", axis.as_slice()))
+        .collect();
+    let tank = "position_m = [0.9, -0.7, 0.2]";
+    let engine =
+        thruster([0.0, 0.01, -1.0], [0.0, 0.0, 1.0], 20.0, "set = \"main\"\nattitude_control = false");
+    let text = SIMPLE.replace("position_m = [0.0, 0.0, 0.0]", tank) + &wheels + &engine + &couples("");
+    let named = NamedModel::<MomentumPlant>::with("drained.toml", &text);
+    let controlled: &[_] = &[("attitude.source", 3.0), ("start.q[4]", 1.0), ("wheel[1].startMomentum", 20.0)];
+    let free: &[_] = &[("attitude.source", 4.0), ("start.rate[1]", 0.01), ("start.rate[3]", -0.02)];
+    for (start, step_s, input) in [(controlled, 0.02, "dump.request"), (free, 0.5, "thrust.command")] {
+        let mut flight = fly(&named, start);
+        flight.set("command.q[4]", 1.0);
+        flight.set("thrust.request", 1.0);
+        flight.set(input, 1.0);
+        let (begin, mut impulse) = (axial(&flight), [0.0; WHEELS]);
+        for step in 1..=(20.0_f64 / step_s) as u32 {
+            for k in 0..WHEELS {
+                let command = 0.01 * (0.3 * f64::from(step) + k as f64).sin();
+                flight.set(&format!("wheel[{}].torqueCommand", k + 1), command);
+            }
+            flight.step_to(f64::from(step) * step_s).unwrap();
+            let shown = torques(&flight);
+            (0..WHEELS).for_each(|k| impulse[k] += shown[k] * step_s);
+        }
+        let moved_m = flight.vector("centerOfMass").norm();
+        assert!(moved_m > 1e-6, "{moved_m}");
+        let off = most_off(&begin, &axial(&flight), &impulse);
+        println!("{input}: {off:.1e}, the centre of mass moved by {moved_m:.1e} m");
+        assert!(off < 1e-12, "{off}");
+    }
+}
+
+/// By how much the impulses are off the change of momentum, relative to the greatest change.
+pub fn most_off(begin: &[f64; WHEELS], end: &[f64; WHEELS], impulse: &[f64; WHEELS]) -> f64 {
+    let change: [f64; WHEELS] = core::array::from_fn(|k| end[k] - begin[k]);
+    let most = |values: [f64; WHEELS]| values.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
+    assert!(most(change) > 1e-6, "{change:?}");
+    most(core::array::from_fn(|k| impulse[k] - change[k])) / most(change)
 }
 
 /// A motor that has failed, one that is requested more than it can, one whose rotor is at its capacity and one that does as it

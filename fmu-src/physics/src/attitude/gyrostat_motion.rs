@@ -360,7 +360,7 @@ impl GyrostatMotion {
             let rates = &self.series.rate;
             let mut torque = self.load.torque_body_n_m.get(j).copied().unwrap_or_default();
             if let Some(flow) = &self.load.mass_flow {
-                torque += flow.jet_term(rates, j);
+                torque += flow.jet_damping.term(rates, j);
             }
             for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
                 let wheel = &gyrostat.wheels()[imbalance.wheel];
@@ -456,8 +456,8 @@ impl GyrostatMotion {
     fn loads_after(&self, elapsed_s: f64) -> [Vector3<f64>; 2] {
         let [mut torque, mut acceleration] = self.load.after(elapsed_s);
         if let Some(flow) = &self.load.mass_flow {
-            torque += flow
-                .jet_torque_n_m(elapsed_s, &polynomial(&self.series.rate[..=self.series.order], elapsed_s));
+            let rate = polynomial(&self.series.rate[..=self.series.order], elapsed_s);
+            torque += flow.jet_damping.torque_n_m(elapsed_s, &rate);
         }
         for it in &self.imbalances {
             let [imbalance, force] = it.after(self.series.order, elapsed_s);

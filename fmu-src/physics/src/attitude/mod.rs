@@ -34,7 +34,7 @@ pub use gyrostat_motion::GyrostatMotion;
 pub use imbalance::RotorImbalance;
 pub use inertia::{Inertia, InertiaError};
 pub use internal_motion::{HingedMass, InternalMotion};
-pub use mass_flow::MassFlow;
+pub use mass_flow::{JetDamping, MassFlow};
 pub use oscillator::FlexibleMode;
 pub use quaternion::Quaternion;
 pub use rigid_body::RigidBodyState;

@@ -1,6 +1,6 @@
 //! Integrates torque over time, segment by segment, and lets thrusters dump when a threshold is exceeded.
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::numerics::intervals::next_multiple_s;
@@ -62,6 +62,11 @@ impl MomentumIntegrator {
     /// Angular acceleration of the body at a time inside the current segment, body frame, in rad/s2.
     pub fn acceleration_body_rad_s2(&self, time_s: f64) -> Vector3<f64> {
         self.segment.acceleration_body_rad_s2(time_s)
+    }
+
+    /// Rate in the body frame of what the body and its panels have of momentum at a time inside the current segment, in N m.
+    pub fn own_rate_body_n_m(&self, inertia_body_kg_m2: &Matrix3<f64>, time_s: f64) -> Vector3<f64> {
+        self.segment.own_rate_body_n_m(inertia_body_kg_m2, time_s)
     }
 
     /// Whether [`MomentumIntegrator::advance`] has reached `time_s`, and its totals are known there.

@@ -1,6 +1,6 @@
 //! Momentum segment: an interval on which the rates are smooth, with its totals as a polynomial in time.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::loads::ByEffect;
@@ -19,6 +19,9 @@ use super::totals::{Convention, RATES, Totals, pack};
 const NODES: usize = 8;
 /// No segment is halved below this, in s.
 const SHORTEST_S: f64 = 1e-3;
+/// Largest last Chebyshev term of the momentum of body and panels relative to its largest: only the wheels' torque that is shown
+/// follows from it.
+const OWN_TOLERANCE: f64 = 1e-8;
 /// Terms of a series this much below its largest are rounding; halving the segment does not make them smaller.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
@@ -51,6 +54,8 @@ pub struct MomentumSegment {
     by_source: SourceSegments<{ NODES + 1 }>,
     /// Angular rate, body frame, in rad/s; absent for a segment without length.
     rate_body_rad_s: Option<Segment<3, NODES>>,
+    /// Momentum of the body and its panels, body frame, in N m s; absent where no panel has a mass.
+    own_body_n_m_s: Option<Segment<3, NODES>>,
     /// Components of the momentum, body frame, that come to their dump thresholds at the end.
     at_threshold: [bool; 3],
 }
@@ -67,6 +72,7 @@ impl MomentumSegment {
             by_source_at_start: by_source,
             by_source: ByEffect::default(),
             rate_body_rad_s: None,
+            own_body_n_m_s: None,
             at_threshold: [false; 3],
         }
     }
@@ -76,10 +82,10 @@ impl MomentumSegment {
         self.next_longest_s > 0.0
             && self.totals.as_ref().is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
             && self.by_source.present().all(|(_, it)| it.is_valid() && it.spans(self.start_s, self.end_s))
-            && self
-                .rate_body_rad_s
-                .as_ref()
-                .is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
+            && [&self.rate_body_rad_s, &self.own_body_n_m_s]
+                .into_iter()
+                .flatten()
+                .all(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
     }
 
     /// The same, expecting that the tolerance allows the next segment this length, in s.
@@ -89,7 +95,7 @@ impl MomentumSegment {
 
     /// Builds the segment that begins at `start_s` with `first`, the sample there. It ends at the next multiple of
     /// the grid step or sooner: at `horizon_s`, up to where the flight is prepared, at an event, where the last Chebyshev
-    /// terms of a total would exceed the tolerance, or where momentum exceeds a dump threshold.
+    /// terms of a total or of the momentum of body and panels would exceed the tolerance, or where momentum exceeds a dump threshold.
     ///
     /// `longest_s` is the length that the segment before expects the tolerance to allow: trying more would be work for
     /// nothing.
@@ -108,7 +114,7 @@ impl MomentumSegment {
         let (at_start, by_source_at_start) = at_start;
         let mut interval = AdaptiveInterval::new(start_s, settings.grid_s, longest_s, horizon_s, SHORTEST_S);
         let mut watched = false;
-        let (nodes, samples, totals, next_longest_s) = loop {
+        let (nodes, samples, totals, own_body_n_m_s, next_longest_s) = loop {
             let end_s = interval.end_s();
             let nodes = Segment::<RATES, NODES>::nodes(start_s, end_s);
             let samples = nodes.map(|at_s| flight.sample(at_s));
@@ -131,11 +137,21 @@ impl MomentumSegment {
             });
             let totals: Segment<RATES, { NODES + 1 }> =
                 Segment::<RATES, NODES>::from_samples(start_s, end_s, &rates).integral(at_start.to_vector());
+            let own_body_n_m_s: Option<Segment<3, NODES>> = samples[0].own_body_n_m_s.map(|_| {
+                let own = samples.each_ref().map(|s| s.own_body_n_m_s.unwrap_or_default());
+                Segment::from_samples(start_s, end_s, &own)
+            });
             let terms = totals.coefficients();
-            let unresolved = terms.column(NODES).amax().max(terms.column(NODES - 1).amax());
+            let mut unresolved = terms.column(NODES).amax().max(terms.column(NODES - 1).amax());
             let tolerance = settings.tolerance.max(ROUNDING * terms.amax());
+            if let Some(terms) = own_body_n_m_s.as_ref().map(Segment::coefficients)
+                && terms.amax() > 0.0
+            {
+                let share = terms.columns(NODES - 2, 2).amax() / terms.amax();
+                unresolved = unresolved.max(share / OWN_TOLERANCE * tolerance);
+            }
             if let Some(next_longest_s) = interval.accept(unresolved, tolerance, NODES) {
-                break (nodes, samples, totals, next_longest_s);
+                break (nodes, samples, totals, own_body_n_m_s, next_longest_s);
             }
             flight.spend(Effort::Refinement, start_s)?;
         };
@@ -161,6 +177,7 @@ impl MomentumSegment {
             by_source_at_start,
             by_source,
             rate_body_rad_s: Some(rate_body_rad_s),
+            own_body_n_m_s,
             at_threshold: [false; 3],
         };
         if let Some(excess) = segment.first_excess(flight, settings, &nodes, &samples) {
@@ -203,6 +220,15 @@ impl MomentumSegment {
     /// Angular acceleration at a time inside the segment, body frame, in rad/s2; none where it has no length.
     pub fn acceleration_body_rad_s2(&self, time_s: f64) -> Vector3<f64> {
         self.rate_body_rad_s.as_ref().map_or(Vector3::zeros(), |it| it.value_and_derivative(time_s).1)
+    }
+
+    /// Rate in the body frame of what the body and its panels have of momentum, d/dt (J w + h_p), at a time inside the segment, in
+    /// N m; J w' where no panel has a mass.
+    pub fn own_rate_body_n_m(&self, inertia_body_kg_m2: &Matrix3<f64>, time_s: f64) -> Vector3<f64> {
+        match &self.own_body_n_m_s {
+            Some(own) => own.value_and_derivative(time_s).1,
+            None => inertia_body_kg_m2 * self.acceleration_body_rad_s2(time_s),
+        }
     }
 
     /// Components of the momentum, body frame, that come to their dump thresholds at the end: there thrusters dump.

@@ -1,6 +1,6 @@
 //! Totals of momentum and delta-v: what is integrated over time, and in which convention.
 
-use nalgebra::{Matrix3, Rotation3, SVector, Vector3};
+use nalgebra::{Rotation3, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::MovingFrame;
@@ -57,31 +57,23 @@ impl Totals {
         }
     }
 
-    /// What ideal wheels hold, body frame, in N m s: the system's momentum less what the body's own rotation and panels that turn
-    /// take.
-    pub fn wheels_body_n_m_s(
-        &self,
-        inertia_body_kg_m2: &Matrix3<f64>,
-        panels_body_n_m_s: &Vector3<f64>,
-        frame: &MovingFrame,
-    ) -> Vector3<f64> {
-        let system = self.momentum_body_n_m_s(Convention::Inertial, &frame.inertial_from_body);
-        system - inertia_body_kg_m2 * frame.rate_body_rad_s - panels_body_n_m_s
+    /// What ideal wheels hold, body frame, in N m s: the system's momentum less the body's and its panels' own, J w + h_p.
+    pub fn wheels_body_n_m_s(&self, own_body_n_m_s: &Vector3<f64>, frame: &MovingFrame) -> Vector3<f64> {
+        self.momentum_body_n_m_s(Convention::Inertial, &frame.inertial_from_body) - own_body_n_m_s
     }
 
-    /// Rate of the same under an external torque (body frame, N m) at an angular acceleration (rad/s2), in N m: what wheels that
-    /// follow ideally take up, T - w x h - J w'.
+    /// Rate of the same under an external torque (body frame, N m), in N m: what wheels that follow ideally take up,
+    /// T - w x H - d/dt (J w + h_p).
     pub fn wheels_rate_body_n_m(
         &self,
-        inertia_body_kg_m2: &Matrix3<f64>,
+        own_rate_body_n_m: &Vector3<f64>,
         frame: &MovingFrame,
         torque_body_n_m: &Vector3<f64>,
-        acceleration_body_rad_s2: &Vector3<f64>,
     ) -> Vector3<f64> {
         let system = self.momentum_body_n_m_s(Convention::Inertial, &frame.inertial_from_body);
         let rate_body_rad_s = &frame.rate_body_rad_s;
         Convention::Inertial.momentum_rate_body_n_m(&system, torque_body_n_m, rate_body_rad_s)
-            - inertia_body_kg_m2 * acceleration_body_rad_s2
+            - own_rate_body_n_m
     }
 
     /// System momentum in the body frame by `convention`, in N m s.

@@ -148,7 +148,7 @@ impl Motion {
         if segment.length_s >= SHORTEST_SEGMENT_S {
             return check_clock(self.anchor.time_s, segment.length_s);
         }
-        let torque_n_m = self.torque.at(self.anchor.time_s).amax();
+        let torque_n_m = self.torque.at(self.anchor.time_s, &Vector3::zeros()).amax();
         Err(MotionError::TooSudden { time_s: self.anchor.time_s, torque_n_m })
     }
 

@@ -60,11 +60,11 @@ impl Rates {
         let [i1, i2, i3] = inertia.principal_kg_m2();
         let rate = Vector3::new(h.x / i1, h.y / i2, h.z / i3);
         let gain = motion.damper().gain(&h);
-        let torque_body = motion.torque().at(time_s);
-        let torque = inertia.principal_from_body(&torque_body);
         // See `damper`: the body turns at J^-1 h and a little about the line of nodes.
         let turning_principal = rate + Vector3::new(-h.y, h.x, 0.0) * gain;
         let turning = inertia.body_from_principal(&turning_principal);
+        let torque_body = motion.torque().at(time_s, &turning);
+        let torque = inertia.principal_from_body(&torque_body);
         let h_dot = h.cross(&turning_principal) + torque;
         let rate_dot = Vector3::new(h_dot.x / i1, h_dot.y / i2, h_dot.z / i3);
         let [x, y, z, w] = q.0;

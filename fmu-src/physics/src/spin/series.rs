@@ -2,15 +2,16 @@
 //! segment.
 //!
 //! The equations are those of [`crate::attitude::series`], quadratic in momentum and attitude, with w = J^-1 m + G (e3 x m) of
-//! the damper ([`super::damper`]). A segment is as long as the series converges to rounding, never as long as a communication
-//! step: results do not depend on any step. One method serves the triaxial body, thruster arcs, outside torques and the damper.
+//! the damper ([`super::damper`]) and jet damping ([`JetDamping`]) in the torque. A segment is as long as the series converges
+//! to rounding, never as long as a communication step: results do not depend on any step. One method serves the triaxial body,
+//! thruster arcs, outside torques and the damper.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::damper::Damper;
 use crate::attitude::series::{ROUNDING, RotationSeries, exact_length_s, polynomial, product, through};
-use crate::attitude::{Inertia, Quaternion};
+use crate::attitude::{Inertia, JetDamping, Quaternion};
 use crate::numerics::chebyshev::Segment;
 
 /// Highest order of the series.
@@ -24,13 +25,16 @@ const GAIN_TERMS: usize = 8;
 /// Coefficients of an outside torque over time.
 pub const TORQUE_TERMS: usize = 8;
 
-/// Torque on the body in body components, polynomial in time: T(t) = sum of c[k] (t - origin)^k, in N m.
+/// Torque on the body in body components, polynomial in time, with jet damping: T(t) = sum of c[k] (t - origin)^k - D(t) w, in
+/// N m.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyTorque {
     /// Where the polynomial is anchored, in s.
     pub origin_s: f64,
     /// c[k].
     pub coefficients_n_m: [Vector3<f64>; TORQUE_TERMS],
+    /// D, from the origin on.
+    pub jet_damping: JetDamping,
 }
 
 impl BodyTorque {
@@ -38,7 +42,7 @@ impl BodyTorque {
     pub fn constant(torque_body_n_m: Vector3<f64>) -> Self {
         let mut coefficients_n_m = [Vector3::zeros(); TORQUE_TERMS];
         coefficients_n_m[0] = torque_body_n_m;
-        Self { origin_s: 0.0, coefficients_n_m }
+        Self { origin_s: 0.0, coefficients_n_m, jet_damping: JetDamping::default() }
     }
 
     /// Adds the derivative of an order from 1 along a body axis, at the origin; `None` beyond the orders that are used.
@@ -52,18 +56,27 @@ impl BodyTorque {
     /// Whether it vanishes at all times.
     pub fn is_zero(&self) -> bool {
         self.coefficients_n_m.iter().all(|c| *c == Vector3::zeros())
+            && self.jet_damping == JetDamping::default()
     }
 
-    /// The same torque plus one that is linear in time: `torque_body_n_m[0]` at `since_s` and `torque_body_n_m[1]` more in a
-    /// second.
+    /// The same outside torque plus one that is linear in time: `torque_body_n_m[0]` at `since_s` and `torque_body_n_m[1]` more in
+    /// a second; jet damping likewise.
     #[must_use]
-    pub fn plus_linear(mut self, torque_body_n_m: &[Vector3<f64>; 2], since_s: f64) -> Self {
+    pub fn plus_linear(
+        mut self,
+        torque_body_n_m: &[Vector3<f64>; 2],
+        jet_damping: JetDamping,
+        since_s: f64,
+    ) -> Self {
         let [start, slope] = torque_body_n_m;
-        if !self.varies() && *slope != Vector3::zeros() {
+        let varies = *slope != Vector3::zeros() || jet_damping.terms_kg_m2_s[1] != Matrix3::zeros();
+        if !self.varies() && varies {
             self.origin_s = since_s;
         }
-        self.coefficients_n_m[0] += start + slope * (self.origin_s - since_s);
+        let elapsed_s = self.origin_s - since_s;
+        self.coefficients_n_m[0] += start + slope * elapsed_s;
         self.coefficients_n_m[1] += slope;
+        self.jet_damping = jet_damping.after(elapsed_s);
         self
     }
 
@@ -71,12 +84,20 @@ impl BodyTorque {
     #[must_use]
     pub fn about_principal_axes(mut self, inertia: &Inertia) -> Self {
         self.coefficients_n_m = self.coefficients_n_m.map(|it| inertia.principal_from_body(&it));
+        let columns = |it: &Matrix3<f64>| {
+            Matrix3::from_columns(&[0, 1, 2].map(|k| inertia.principal_from_body(&it.column(k).into())))
+        };
+        // R D R^T of a symmetric matrix.
+        let terms = &mut self.jet_damping.terms_kg_m2_s;
+        *terms = terms.map(|it| columns(&columns(&it).transpose()));
         self
     }
 
-    /// Value at a time, in N m.
-    pub fn at(&self, time_s: f64) -> Vector3<f64> {
-        polynomial(&self.coefficients_n_m, time_s - self.origin_s)
+    /// Value at a time on a body that turns like this (body components, rad/s), in N m.
+    pub fn at(&self, time_s: f64, rate_body_rad_s: &Vector3<f64>) -> Vector3<f64> {
+        let elapsed_s = time_s - self.origin_s;
+        polynomial(&self.coefficients_n_m, elapsed_s)
+            + self.jet_damping.torque_n_m(elapsed_s, rate_body_rad_s)
     }
 
     /// Whether it changes with time.
@@ -84,8 +105,8 @@ impl BodyTorque {
         self.coefficients_n_m[1..].iter().any(|c| *c != Vector3::zeros())
     }
 
-    /// The coefficients about another time.
-    fn shifted(&self, time_s: f64) -> [Vector3<f64>; TORQUE_TERMS] {
+    /// The same with another origin.
+    fn shifted(&self, time_s: f64) -> Self {
         let mut shifted = self.coefficients_n_m;
         if self.varies() {
             let dt_s = time_s - self.origin_s;
@@ -97,7 +118,8 @@ impl BodyTorque {
                 }
             }
         }
-        shifted
+        let jet_damping = self.jet_damping.after(time_s - self.origin_s);
+        Self { origin_s: time_s, coefficients_n_m: shifted, jet_damping }
     }
 }
 
@@ -181,13 +203,9 @@ impl TaylorSegment {
     }
 
     /// Fills the coefficients until they converge over `hint_s`, or to the highest order and then sets the length.
-    fn expand(
-        &mut self,
-        inertia: &Inertia,
-        torque: &[Vector3<f64>; TORQUE_TERMS],
-        gain: &[f64],
-        hint_s: f64,
-    ) {
+    fn expand(&mut self, inertia: &Inertia, torque: &BodyTorque, gain: &[f64], hint_s: f64) {
+        let BodyTorque { coefficients_n_m: torque, jet_damping, .. } = torque;
+        let jets_act = *jet_damping != JetDamping::default();
         let inverse = Vector3::from(inertia.principal_kg_m2().map(f64::recip));
         let Self { series, length_s } = self;
         let momentum = series.momentum[0];
@@ -212,7 +230,11 @@ impl TaylorSegment {
             if n == ORDER || (small == 3 && n > least) {
                 break;
             }
-            series.extend(torque.get(n).copied().unwrap_or_default());
+            let mut torque_n_m = torque.get(n).copied().unwrap_or_default();
+            if jets_act {
+                torque_n_m += jet_damping.term(&series.rate, n);
+            }
+            series.extend(torque_n_m);
             power *= *length_s;
             small = if size(series, n + 1) * power <= ROUNDING { small + 1 } else { 0 };
         }

@@ -3,9 +3,11 @@
 
 use models::MomentumPlant;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use physics::numerics::quadrature::Rule;
 
 use super::super::named_model::{NamedModel, assert_cuts_change_nothing};
-use super::{DARK, FREE, Flight, Start, fly, held_momentum, to_inertial};
+use super::super::wheel_torque::{self, WHEELS, axial, most_off, torques};
+use super::{DARK, FREE, Flight, Start, axes, fly, held_momentum, to_inertial};
 
 const MASS_KG: f64 = 700.0;
 const LOCKED: Start<'_> =
@@ -303,6 +305,76 @@ fn ideal_wheels_hold_what_the_panels_do_not() {
     let whole = formed(&flight, &spacecraft, rates.map(|rate| 7.0 * rate), rates) + held;
     let reported = flight.vector("momentum.inertial");
     assert!((whole - reported).norm() < 1e-12 * reported.norm(), "{whole} {reported}");
+}
+
+/// The wheels' torques over time from `start_s` on by Gauss-Legendre quadrature, beside what it makes of their momenta; how far
+/// it is off, relative to the greatest change.
+fn torques_off(flight: &mut Flight<'_>, start_s: f64, mut step: impl FnMut(&mut Flight<'_>, f64)) -> f64 {
+    const PIECE_S: f64 = 15.0;
+    let rule = Rule::<8>::gauss_legendre();
+    step(flight, start_s);
+    let (begin, mut impulse) = (axial(flight), [0.0; WHEELS]);
+    for piece in 0..4 {
+        let from_s = start_s + f64::from(piece) * PIECE_S;
+        for (at_s, weight_s) in rule.on(from_s, from_s + PIECE_S) {
+            step(flight, at_s);
+            let shown = torques(flight);
+            (0..WHEELS).for_each(|k| impulse[k] += shown[k] * weight_s);
+        }
+        step(flight, from_s + PIECE_S);
+    }
+    most_off(&begin, &axial(flight), &impulse)
+}
+
+#[test]
+fn ideal_wheels_take_up_what_turning_panels_give() {
+    let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
+    // The Sun gives the angles, in science, in a slew and in the downlink.
+    let mut flight = wheel_torque::fly(&named, &[("start.momentum[2]", 2.0), ("guided.slewRate", 2e-3)]);
+    for start_s in [30.0, 900.0, 3000.0, 9000.0] {
+        let off = torques_off(&mut flight, start_s, |flight, at_s| flight.step_to(at_s).unwrap());
+        println!("guided, from {start_s} s: {off:.1e}");
+        assert!(off < 1e-6, "{start_s}: {off}");
+    }
+    // An input does, and its derivative.
+    let commanded = [("attitude.source", 2.0), ("start.momentum[2]", 1.5)];
+    let mut flight = wheel_torque::fly(&named, &[&commanded[..], BY_ANGLE].concat());
+    flight.set("command.q[4]", 1.0);
+    flight.set("command.rate[1]", 2e-3);
+    flight.set("command.rate[3]", -1e-3);
+    let rates = [("panel[1].angle", 0.05), ("panel[2].angle", -0.02)];
+    let off = torques_off(&mut flight, 2.0, |flight, at_s| {
+        let now_s = flight.time_s();
+        rates.iter().for_each(|(name, rate)| flight.set(name, rate * now_s));
+        flight.step_moving(at_s, &rates).unwrap();
+    });
+    println!("commanded: {off:.1e}");
+    assert!(off < 1e-6, "{off}");
+}
+
+#[test]
+fn ideal_wheels_show_the_torque_of_fast_panels_in_a_long_step() {
+    let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
+    let spacecraft = hinged();
+    let commanded: Start<'_> = &[("attitude.source", 2.0), ("start.momentum[2]", 1.5)];
+    let mut flight = fly(&named, &[commanded, DARK, BY_ANGLE]);
+    flight.set("command.q[4]", 1.0);
+    flight.set("command.rate[1]", 2e-3);
+    flight.set("command.rate[3]", -1e-3);
+    let (rates, time_s, difference_s) = ([0.5, -0.3], 40.0, 1e-4);
+    flight.step_moving(time_s, &[("panel[1].angle", rates[0]), ("panel[2].angle", rates[1])]).unwrap();
+    let turning = flight.vector("attitude.rate");
+    let own = |at_s: f64| {
+        let (_, inertia, momenta) = spacecraft.at(rates.map(|rate| rate * at_s));
+        inertia * turning + momenta[0] * rates[0] + momenta[1] * rates[1]
+    };
+    let own_rate = (own(time_s + difference_s) - own(time_s - difference_s)) / (2.0 * difference_s);
+    // No torque from outside, and the body turns evenly.
+    let expected = -turning.cross(&flight.vector("momentum.body")) - own_rate;
+    let shown: Vector3<f64> = axes(&flight).iter().zip(torques(&flight)).map(|(axis, it)| axis * it).sum();
+    let off = (shown - expected).norm() / expected.norm();
+    println!("{off:.1e} of {:.1} N m", expected.norm());
+    assert!(off < 1e-6, "{off} {shown} {expected}");
 }
 
 #[test]

@@ -3,13 +3,13 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::*;
-use crate::attitude::mass_flow::MassFlow;
+use crate::attitude::mass_flow::{JetDamping, MassFlow};
 use crate::math;
 
 fn flowing(inertia_rate: Vector3<f64>, jet_damping: Vector3<f64>) -> BodyLoad {
     let mass_flow = MassFlow {
         inertia_rate_kg_m2_s: Matrix3::from_diagonal(&inertia_rate),
-        jet_damping_kg_m2_s: [Matrix3::from_diagonal(&jet_damping), Matrix3::zeros()],
+        jet_damping: JetDamping { terms_kg_m2_s: [Matrix3::from_diagonal(&jet_damping), Matrix3::zeros()] },
     };
     BodyLoad { mass_flow: Some(mass_flow), ..BodyLoad::none(400.0) }
 }

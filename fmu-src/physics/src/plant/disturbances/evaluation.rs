@@ -79,6 +79,11 @@ impl Evaluation {
         }
     }
 
+    /// Momentum of the body and its panels without the wheels, J w + h_p, body frame, in N m s.
+    pub fn own_body_n_m_s(&self) -> Vector3<f64> {
+        self.mass.inertia_body_kg_m2 * self.instant.frame.rate_body_rad_s + self.panels_body_n_m_s
+    }
+
     /// Force of all effects, EME2000, in N.
     pub fn force_inertial_n(&self) -> Vector3<f64> {
         self.instant.frame.inertial_from_body * self.loads.total().force_body_n
@@ -222,13 +227,16 @@ impl<'a> Plant<'a> {
         mass: &MassProperties,
         time_s: f64,
     ) -> Vector3<f64> {
-        let panels = self.prepared.panels;
-        if panels.iter().all(|panel| panel.mass.is_none()) {
+        if !self.has_panel_mass() {
             return Vector3::zeros();
         }
         let configuration = self.kinematics.configuration;
         let sun = [&instant.sun_body, &instant.sun_rate_body_1_s()];
-        configuration.panel_momentum_body_n_m_s(panels, mass, sun, time_s)
+        configuration.panel_momentum_body_n_m_s(self.prepared.panels, mass, sun, time_s)
+    }
+
+    fn has_panel_mass(&self) -> bool {
+        self.prepared.panels.iter().any(|panel| panel.mass.is_some())
     }
 
     /// The panels with what they belong to.
@@ -357,6 +365,7 @@ impl TorqueModel for Plant<'_> {
         Sample {
             inertial_from_body: evaluation.instant.frame.inertial_from_body,
             rate_body_rad_s: evaluation.instant.frame.rate_body_rad_s,
+            own_body_n_m_s: self.has_panel_mass().then(|| evaluation.own_body_n_m_s()),
             torque_body_n_m: evaluation.loads.total().torque_body_n_m,
             by_source_body_n_m: torques_body_n_m(&evaluation.loads, self.kinematics.configuration.effects),
             acceleration_inertial_m_s2: evaluation.acceleration_inertial_m_s2(evaluation.mass.mass_kg),

@@ -154,10 +154,9 @@ pub(super) fn ideal<'a>(
     time_s: f64,
 ) -> Shown<'a> {
     let (totals, dumps) = (simulated.integrator.totals(time_s), *simulated.integrator.dumps());
-    let acceleration = simulated.integrator.acceleration_body_rad_s2(time_s);
-    let Evaluation { instant, loads, mass, panels_body_n_m_s } = evaluation;
-    let (frame, inertia) = (&instant.frame, &mass.inertia_body_kg_m2);
-    let torque_body_n_m = loads.total().torque_body_n_m;
+    let Evaluation { instant, loads, mass, .. } = evaluation;
+    let frame = &instant.frame;
+    let own_rate_body_n_m = simulated.integrator.own_rate_body_n_m(&mass.inertia_body_kg_m2, time_s);
     Shown {
         time_s,
         totals,
@@ -177,9 +176,13 @@ pub(super) fn ideal<'a>(
         control: ControlReport::default(),
         body: Bodies::Ideal {
             settings,
-            momentum_body_n_m_s: totals.wheels_body_n_m_s(inertia, panels_body_n_m_s, frame),
-            rate_body_n_m: totals.wheels_rate_body_n_m(inertia, frame, &torque_body_n_m, &acceleration),
-            acceleration_body_rad_s2: acceleration,
+            momentum_body_n_m_s: totals.wheels_body_n_m_s(&evaluation.own_body_n_m_s(), frame),
+            rate_body_n_m: totals.wheels_rate_body_n_m(
+                &own_rate_body_n_m,
+                frame,
+                &loads.total().torque_body_n_m,
+            ),
+            acceleration_body_rad_s2: simulated.integrator.acceleration_body_rad_s2(time_s),
         },
     }
 }

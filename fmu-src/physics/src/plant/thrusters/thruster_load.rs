@@ -31,9 +31,7 @@ impl ThrusterLoad {
     /// Adds a thruster's full thrust times a share that is linear in time, its nozzle `arm_m` from the centre of mass.
     pub(crate) fn add(&mut self, thrust: &Thrust, arm_m: &Vector3<f64>, share: [f64; 2]) {
         self.law.add(thrust, share);
-        for (damping, part) in self.mass_flow.jet_damping_kg_m2_s.iter_mut().zip(share) {
-            *damping += steiner(arm_m) * (thrust.flow_kg_s * part);
-        }
+        self.mass_flow.jet_damping.add(thrust.flow_kg_s, &steiner(arm_m), share);
     }
 
     /// Lets the centre of mass move: this flows from tanks so far from it, in kg/s and m, and `nozzles_kg_m_s` is the sum over
@@ -52,7 +50,7 @@ impl ThrusterLoad {
         self.law.torque_body_n_m[1] -= center_rate_m_s.cross(&self.law.force_body_n[0]);
         let product = nozzles_kg_m_s * center_rate_m_s.transpose();
         let toward = Matrix3::from_diagonal_element(2.0 * product.trace()) - product - product.transpose();
-        self.mass_flow.jet_damping_kg_m2_s[1] -= toward;
+        self.mass_flow.jet_damping.terms_kg_m2_s[1] -= toward;
     }
 
     /// Whether a simulation can produce it.
@@ -68,7 +66,7 @@ impl ThrusterLoad {
     /// Torque with jet damping in N m at `time_s`, on a body that turns like this, body frame.
     pub(crate) fn torque_at_n_m(&self, time_s: f64, rate_body_rad_s: &Vector3<f64>) -> Vector3<f64> {
         let elapsed_s = time_s - self.law.since_s;
-        self.law.torque_at_n_m(time_s) + self.mass_flow.jet_torque_n_m(elapsed_s, rate_body_rad_s)
+        self.law.torque_at_n_m(time_s) + self.mass_flow.jet_damping.torque_n_m(elapsed_s, rate_body_rad_s)
     }
 }
 

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::valves::Valves;
-use crate::attitude::Inertia;
+use crate::attitude::{Inertia, JetDamping};
 use crate::enumeration::enumeration;
 use crate::math;
 use crate::numerics::quadrature::Rule;
@@ -37,9 +37,9 @@ enumeration! {
     /// What the inertia follows.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     pub enum MassSource {
-        /// The parameters inertia and productsOfInertia, unchanged by propellant use.
+        /// The parameters inertia and productsOfInertia, unchanged by propellant use; no jet damping.
         1 => Fixed,
-        /// The setup's table over propellant, at the end of each pulse.
+        /// The setup's table over propellant, at the end of each pulse; jet damping while thrusters fire.
         2 => Propellant,
     }
 }
@@ -89,10 +89,17 @@ impl Propulsion {
         self.used_kg >= self.initial_propellant_kg
     }
 
-    /// An outside torque with that of the thrusters.
-    pub(super) fn with_thrusters(&self, applied: &BodyTorque) -> BodyTorque {
+    /// An outside torque with that of the thrusters, and with jet damping where the inertia follows the propellant.
+    pub(super) fn with_thrusters(&self, spinner: &Spinner, applied: &BodyTorque) -> BodyTorque {
         let law = &self.valves.law;
-        if law.is_none() { *applied } else { applied.plus_linear(&law.torque_body_n_m, law.since_s) }
+        if law.is_none() {
+            return *applied;
+        }
+        let jet_damping = match self.mass_source {
+            MassSource::Fixed => JetDamping::default(),
+            MassSource::Propellant => self.valves.jet_damping(spinner),
+        };
+        applied.plus_linear(&law.torque_body_n_m, jet_damping, law.since_s)
     }
 
     /// Accumulates what the thrusters used and did since the last call; whether they did anything.

@@ -292,13 +292,13 @@ impl Plant {
         let turns_valves =
             mask != self.propulsion.valves.open_mask() || self.propulsion.valves.ramp_end_s(spinner) <= now_s;
         let applied = self.commands.torque;
-        if turns_valves || self.propulsion.with_thrusters(&applied) != *self.motion.torque() {
+        if turns_valves || self.propulsion.with_thrusters(spinner, &applied) != *self.motion.torque() {
             self.reach(spinner, now_s, work)?;
             self.accumulate_pulse(spinner, now_s);
             let inertia = self.propulsion.inertia(spinner, &self.motion);
             work.spend_segment(self.motion.damper());
             self.propulsion.valves.open(spinner, mask, now_s);
-            let torque = self.propulsion.with_thrusters(&applied);
+            let torque = self.propulsion.with_thrusters(spinner, &applied);
             let ramp_s = (self.propulsion.valves.ramp_end_s(spinner) - now_s).max(SHORTEST_RAMP_HINT_S);
             self.motion = self.motion.followed_by(now_s, inertia, torque, hint_s.min(1.001 * ramp_s));
             self.motion.check()?;

@@ -3,8 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::commands::Commands;
+use crate::attitude::JetDamping;
 use crate::propulsion::{PulseSchedule, ThrustLaw, Valve, due_s};
-use crate::spacecraft::MOST_THRUSTERS;
+use crate::spacecraft::{MOST_THRUSTERS, Thruster, steiner};
 use crate::spin::{execution::PulseExecution, spinner::Spinner};
 
 /// Valves of all thrusters.
@@ -107,15 +108,29 @@ impl Valves {
     /// What the thrusters exert from `since_s` on with the valves as they are.
     fn law_from(&self, spinner: &Spinner, since_s: f64) -> ThrustLaw {
         let mut law = ThrustLaw::none(since_s);
-        for ((valve, execution), thruster) in self.valves.iter().zip(&self.execution).zip(&spinner.thrusters)
-        {
-            let shares = valve.thrust(&execution.valve, since_s);
-            if shares == [0.0; 2] {
-                continue;
-            }
-            law.add(&thruster.thrust(), shares);
-        }
+        self.firing(spinner, since_s).for_each(|(thruster, share)| law.add(&thruster.thrust(), share));
         law
+    }
+
+    /// Momentum that their flow carries away from a body that turns, from the start of the law on.
+    pub(super) fn jet_damping(&self, spinner: &Spinner) -> JetDamping {
+        let mut jet_damping = JetDamping::default();
+        for (thruster, share) in self.firing(spinner, self.law.since_s) {
+            jet_damping.add(thruster.flow_kg_s, &steiner(&thruster.position_body_m), share);
+        }
+        jet_damping
+    }
+
+    /// Thrusters that thrust from `since_s` on, each with the share of its thrust there and per second.
+    fn firing<'a>(
+        &'a self,
+        spinner: &'a Spinner,
+        since_s: f64,
+    ) -> impl Iterator<Item = (&'a Thruster, [f64; 2])> {
+        let valves = self.valves.iter().zip(&self.execution).zip(&spinner.thrusters);
+        let shares =
+            valves.map(move |((valve, execution), it)| (it, valve.thrust(&execution.valve, since_s)));
+        shares.filter(|(_, share)| *share != [0.0; 2])
     }
 
     /// Whether decoded valves can be some by `latest_s`.
