@@ -67,7 +67,7 @@ scenario = "nadir"
 
 [[command]]
 at = "10 min"
-scenario = "mdis"
+scenario = "gimbal"
 boresight = { angle = "10 deg" }
 aimpoint = { option = "latLon", latitude = "20 deg", longitude = "30 deg", height = "1 km" }
 scan = { frame = "body", rate = ["0.05 deg/s", 0, 0], duration = ["60 s", 0, 0], segments = [3, 0, 0], reverse = [true, false, false] }
@@ -93,7 +93,7 @@ def test_a_timeline_flies_what_inputs_fly(heliotorque, dist, tmp_path):
     plant = opened(dist / "MomentumPlant.fmu", tmp_path / "plant")
     planned = opened(fmu, tmp_path / "planned")
     commanded = opened(dist / "Guidance.fmu", tmp_path / "commanded", **{"pointing.scenario": 3})
-    shown = COMMAND + ["sun.azimuth", "sun.elevation", "mdis.angle"]
+    shown = COMMAND + ["sun.azimuth", "sun.elevation", "gimbal.angle"]
     for second in range(2400):
         place = dict(zip(PLACE, plant.get(*PLACE), strict=True))
         planned.set(**place)

@@ -2,6 +2,8 @@
 
 use fmi_export::{Choice, Failure, Integer, RealVector, Values, Variables};
 use nalgebra::Vector3;
+use physics::enumeration::Enumerated;
+use physics::guidance::pointing::antenna::Antennas;
 use physics::guidance::{NoCycle, Schedule};
 use physics::management::{self, Manager, Strategy, TargetAxes, Targeting, TargetingMethod};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
@@ -57,7 +59,7 @@ impl TargetingVariables {
         values: &Values,
         strategy: Strategy,
         [azimuth_limit_rad, elevation_limit_rad]: [f64; 2],
-        (spacecraft, sunshade): (&'s Spacecraft, SunshadeModel),
+        (spacecraft, sunshade, antennas): (&'s Spacecraft, SunshadeModel, &'s Antennas),
     ) -> Manager<'s> {
         Manager {
             strategy,
@@ -66,6 +68,7 @@ impl TargetingVariables {
                 method: values.choice(self.targeting).0,
                 azimuth_limit_rad,
                 elevation_limit_rad,
+                antennas,
             },
             target_body_n_m_s: self.target_body_n_m_s(values),
             horizon: values.integer(self.horizon).unsigned_abs(),
@@ -83,6 +86,43 @@ pub struct ManagementVariables {
     pub strategy: Choice<MomentumStrategy>,
     #[group(name = "")]
     pub aim: TargetingVariables,
+}
+
+/// What is lacking for a downlink.
+pub const NO_ANTENNA: &str = "the spacecraft has no antenna ([[antennas]])";
+
+/// Refuses downlink windows that no antenna serves.
+///
+/// # Errors
+/// Windows without an antenna.
+pub fn check_windows_have_antenna(schedule: &Schedule, antennas: &Antennas) -> Result<(), Failure> {
+    if !antennas.is_empty() || schedule.check_windows() == Err(NoCycle::Never) {
+        return Ok(());
+    }
+    let found = match (schedule.once, schedule.every) {
+        (true, _) => "guided.downlinkReference: found start, one window, allowed: periapsis".to_owned(),
+        (false, every) => format!("guided.downlinkEvery: found {every}, allowed: 0, no downlink"),
+    };
+    Err(Failure::new(format!("{found}; {NO_ANTENNA}")))
+}
+
+/// Refuses targets by sunlight where no downlink can choose the Sun's place.
+///
+/// # Errors
+/// A strategy without an antenna that is steered.
+pub fn check_strategy_has_antenna(strategy: Strategy, antennas: &Antennas) -> Result<(), Failure> {
+    if strategy == Strategy::DumpsOnly || antennas.has_fan() {
+        return Ok(());
+    }
+    let lack = match antennas.is_empty() {
+        true => "the spacecraft has no antenna",
+        false => "no antenna of the spacecraft is steered in the XY plane",
+    };
+    Err(Failure::new(format!(
+        "momentum.strategy: found {}, allowed: dumpsOnly; targets by sunlight choose the Sun's place in downlinks, and {lack} \
+         ([[antennas]] azimuth_deg)",
+        strategy.name()
+    )))
 }
 
 /// Refuses downlinks that serve no strategy: none comes, or they leave no science between them.

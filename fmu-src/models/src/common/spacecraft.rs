@@ -2,6 +2,8 @@
 
 use fmi_export::{Failure, RealMatrix, SetupError, Values};
 use nalgebra::Matrix3;
+use physics::guidance::downlink::default_downlink::DefaultDownlink;
+use physics::guidance::pointing::antenna::Antennas;
 use physics::momentum::WheelArray;
 use physics::radiation::SolarModel;
 use physics::radiation::disturbance::{DisturbanceModel, Options};
@@ -55,6 +57,23 @@ impl PreparedShapes {
                  shade"
             ))
         })
+    }
+}
+
+/// The antennas of a spacecraft, and what follows from them once for all flights.
+#[derive(Clone, Debug)]
+pub struct PreparedAntennas {
+    /// All of them.
+    pub all: Antennas,
+    /// The default downlink with them.
+    pub default_downlink: DefaultDownlink,
+}
+
+impl PreparedAntennas {
+    /// Of one spacecraft.
+    pub fn of(spacecraft: &Spacecraft) -> Self {
+        let all = Antennas::of(&spacecraft.antennas);
+        Self { default_downlink: DefaultDownlink::of(&all), all }
     }
 }
 

@@ -11,7 +11,7 @@ use physics::environment::kepler_planet::KeplerPlanet;
 use physics::environment::orbit::{self, Elements as KeplerElements};
 use physics::environment::sun::SOLAR_FLUX_W_M2;
 use physics::guidance::constraints::keep_in::KeepIn;
-use physics::guidance::pointing::boresight::MdisRange;
+use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::{self, Guided, Schedule};
 use physics::plant::SunLight;
 use physics::spacecraft::{Spacecraft, TimeAfterPeriapsis};
@@ -161,6 +161,9 @@ impl WorkLimit {
     }
 }
 
+/// What is lacking to turn an instrument.
+pub const NO_GIMBAL: &str = "no instrument of the spacecraft has a gimbal ([[instruments]] gimbal)";
+
 /// Latest begin and end of a downlink, in s.
 const LATEST_WINDOW_S: f64 = 1e9;
 
@@ -205,11 +208,11 @@ pub struct GuidedVariables {
     pub science_rule: Choice<ScienceRule>,
     /// Whether science off-points to unload momentum by sunlight (paper 001, MDIS pointing): the Sun's place in the keep-in zone is
     /// chosen where science begins, or the flight or the scenario in it, for the momentum target of momentum.strategy at its end, and
-    /// held until the next downlink. The body turns about the Sun line until nadir lies in the scan plane YZ of the MDIS camera, which
-    /// is turned back to it; beyond its range (here -50 to 40 deg from +Z, in Guidance mdis.minimum to mdis.maximum) the nearest bound
-    /// comes nearest to nadir. guided.scienceRule does not count then. Without a downlink to come, or a place, the Sun stands on -Y.
+    /// held until the next downlink. The body turns about the Sun line until nadir lies in the plane that the instrument on the
+    /// gimbal sweeps, which is turned back to it; beyond its range (here the file's, in Guidance gimbal.minimum to gimbal.maximum) the
+    /// nearest bound comes nearest to nadir. guided.scienceRule does not count then. Without a downlink to come, or a place, the Sun stands on -Y.
     /// Predictive targets are forecast with it there through coming science; with momentum.convention = inertial science aims at
-    /// momentum.target. Needs a momentum.strategy other than dumpsOnly; every spacecraft counts as having the camera.
+    /// momentum.target. Needs a momentum.strategy other than dumpsOnly, and an instrument with a gimbal.
     #[parameter(start = false)]
     pub science_unload: Boolean,
     /// Sun elevation per (Sun-nadir angle - 90 deg) under the scaled rule; 0.25 is fitted to paper 000's Table 2.
@@ -345,10 +348,10 @@ impl GuidedVariables {
     }
 
     /// The guidance law of an orbit with this periapsis and period, in s, or of one window after the start, all in s past J2000
-    /// TDB. Science pitches, and turns go, within the zone `keep_in`; a camera with the range `camera` keeps nadir where it unloads.
+    /// TDB. Science pitches, and turns go, within the zone `keep_in`; the instrument on the `gimbal` keeps nadir where it unloads.
     ///
     /// # Errors
-    /// A downlink that ends before it begins.
+    /// A downlink that ends before it begins, science that unloads without a gimbal.
     pub fn read(
         &self,
         values: &Values,
@@ -356,7 +359,7 @@ impl GuidedVariables {
         period_s: f64,
         start_epoch_s: f64,
         keep_in: KeepIn,
-        camera: MdisRange,
+        gimbal: Option<Gimbal>,
     ) -> Result<Guided, Failure> {
         let [start_s, end_s] = [self.downlink_start, self.downlink_end].map(|time| values.real(time));
         let once = matches!(values.choice(self.downlink_reference), DownlinkReference::Start);
@@ -378,7 +381,10 @@ impl GuidedVariables {
             },
             science: match values.choice(self.science_rule) {
                 _ if values.boolean(self.science_unload) => {
-                    guidance::ScienceRule::Unloading { sun: SunAngles::default(), camera }
+                    let gimbal = gimbal.ok_or_else(|| {
+                        Failure::new(format!("guided.scienceUnload: found true, allowed: false; {NO_GIMBAL}"))
+                    })?;
+                    guidance::ScienceRule::Unloading { sun: SunAngles::default(), gimbal }
                 }
                 ScienceRule::Nadir => guidance::ScienceRule::Nadir,
                 ScienceRule::FixedToSunLine => guidance::ScienceRule::PlanetOrbit,

@@ -35,7 +35,7 @@ use variables::GuidanceVariables;
 
 impl Model for Guidance {
     const NAME: &'static str = "Guidance";
-    const STATE_VERSION: u32 = 6;
+    const STATE_VERSION: u32 = 7;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &["timeline.toml", EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
@@ -293,6 +293,7 @@ impl State {
             let operational = &mut settings.modes.operational;
             operational.keep_in = entry.keep_in.applied(&settings.keep_in, operational.keep_in.is_some());
         }
+        inputs::check_devices(&command, &settings)?;
         let line = entry.map(|entry| entry.line);
         let names_a_scenario = entry.is_some_and(|entry| entry.command.scenario.is_some());
         let mut entries = TimedEntries {

@@ -39,8 +39,8 @@ pub fn write(context: &Plan<'_>, values: &mut Values, state: &State, burn: &Burn
     values.set_real(v.sun.azimuth, sun.azimuth_rad);
     values.set_real(v.sun.elevation, sun.elevation_rad);
     let status = state.status();
-    values.set_real(v.mdis.angle, status.mdis.angle_rad);
-    values.set_boolean(v.mdis.in_range, status.mdis.in_range);
+    values.set_real(v.gimbal.angle, status.gimbal.angle_rad);
+    values.set_boolean(v.gimbal.in_range, status.gimbal.in_range);
     values.set_choice(v.antenna.select, AntennaSelect(status.antenna));
     values.set_real(v.antenna.azimuth, status.antenna_azimuth_rad);
     values.set_real(v.earth.sun_separation, status.sun_separation_rad);

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use fmi_export::{Context, Model, SetupError};
 use physics::environment::onboard::OnboardEphemeris;
+use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::timeline::Timeline;
 use physics::momentum::WheelArray;
 use physics::plant::ControlDefaults;
@@ -11,7 +12,7 @@ use physics::spacecraft::{HotPoleZone, Spacecraft, SunKeepIn};
 use serde::Serialize;
 
 use crate::common::center::{CenterBodies, CenterBody, target_of};
-use crate::common::spacecraft::{PreparedShapes, dump_threshold_n_m_s};
+use crate::common::spacecraft::{PreparedAntennas, PreparedShapes, dump_threshold_n_m_s};
 use crate::common::variables::WindowDefaults;
 
 /// Guidance.
@@ -34,6 +35,9 @@ pub struct GuidanceSetup {
     /// Start values of the downlink windows.
     #[serde(skip)]
     pub windows: WindowDefaults,
+    /// The antennas, and the default downlink with them.
+    #[serde(skip)]
+    pub antennas: PreparedAntennas,
     /// Prepared for sunlight.
     #[serde(skip)]
     pub shapes: PreparedShapes,
@@ -55,6 +59,7 @@ impl GuidanceSetup {
             target,
             bodies,
             windows: WindowDefaults::of(&spacecraft, &target),
+            antennas: PreparedAntennas::of(&spacecraft),
             shapes: PreparedShapes::of(&spacecraft),
             spacecraft,
             ephemeris: None,
@@ -92,6 +97,17 @@ impl GuidanceSetup {
     /// The hot pole of the file; without one in it no place.
     pub fn hot_pole(&self) -> HotPoleZone {
         self.spacecraft.hot_pole.unwrap_or(HotPoleZone { altitude_m: 0.0, angle_rad: 0.0, cone_rad: 0.0 })
+    }
+
+    /// Least and greatest angle of the gimbal by the file, in rad.
+    pub fn gimbal_range_rad(&self) -> [f64; 2] {
+        Gimbal::of(&self.spacecraft.instruments)
+            .map_or([0.0; 2], |gimbal| [gimbal.minimum_rad, gimbal.maximum_rad])
+    }
+
+    /// Half the width of the first antenna's beam across the XY plane, in rad; 0 without antennas.
+    pub fn beam_rad(&self) -> f64 {
+        self.spacecraft.antennas.first().map_or(0.0, |named| named.antenna.half_across_rad())
     }
 
     /// The greatest number of an instrument.

@@ -14,7 +14,7 @@ use serde::Serialize;
 use super::variables::choices::{AttitudeSource, CommandSource, EphemerisSource, OrbitSource};
 use crate::common::center::{CenterBodies, CenterBody, center_of};
 use crate::common::effects::check_start;
-use crate::common::spacecraft::{PreparedShapes, ReportedFace, reported_faces};
+use crate::common::spacecraft::{PreparedAntennas, PreparedShapes, ReportedFace, reported_faces};
 use crate::common::start_values::{entry_of, fixed_item, item};
 use crate::common::variables::WindowDefaults;
 
@@ -38,6 +38,9 @@ pub struct PlantSetup {
     /// Start values of the downlink windows.
     #[serde(skip)]
     pub windows: WindowDefaults,
+    /// The antennas, and the default downlink with them.
+    #[serde(skip)]
+    pub antennas: PreparedAntennas,
     /// Prepared for sunlight.
     #[serde(skip)]
     shapes: PreparedShapes,
@@ -77,6 +80,7 @@ impl PlantSetup {
             windows: WindowDefaults::of(&spacecraft, &center),
             control: ControlDefaults::of(&spacecraft, wheel_array.as_ref()),
             reported_faces: reported_faces(file, &spacecraft)?,
+            antennas: PreparedAntennas::of(&spacecraft),
             shapes: PreparedShapes::of(&spacecraft),
             wheel_array,
             ephemeris: None,
@@ -99,6 +103,7 @@ impl PlantSetup {
             panels: &self.spacecraft.panels,
             solar: self.shapes.solar(model, &self.spacecraft.name)?,
             orbit_method: &self.orbit_method,
+            default_downlink: &self.antennas.default_downlink,
         })
     }
 

@@ -94,10 +94,10 @@ fn a_window_as_long_as_the_cycle_is_warned_of_whatever_the_strategy() {
     }
 }
 
-/// Greatest elevation of the Sun in deg, and of the planet off +Z; dumps; of ten days of the tutorial's spacecraft.
-fn of_tutorial(sets: &[(&str, f64)]) -> ([f64; 2], f64, Vec<String>) {
+/// Greatest elevation of the Sun in deg, and of the planet off +Z; dumps; of ten days of the tutorial's spacecraft with these lines.
+fn of_tutorial(lines: &str, sets: &[(&str, f64)]) -> ([f64; 2], f64, Vec<String>) {
     let text = include_str!("../../../../docs/src/tutorial/venus.toml");
-    let named = NamedModel::<MomentumPlant>::with("venus.toml", text);
+    let named = NamedModel::<MomentumPlant>::with("venus.toml", &format!("{text}\n{lines}"));
     let mut flight = named.fly(0.0, sets).unwrap();
     let mut greatest_deg = [0.0_f64; 2];
     for step in 1..=1440 {
@@ -113,12 +113,13 @@ fn of_tutorial(sets: &[(&str, f64)]) -> ([f64; 2], f64, Vec<String>) {
 
 #[test]
 fn the_tutorials_orbiter_looks_at_venus_and_in_a_downlink_for_ever_it_would_not() {
-    let ([elevation_deg, off_nadir_deg], dumps, warnings) = of_tutorial(&[]);
+    let ([elevation_deg, off_nadir_deg], dumps, warnings) = of_tutorial("", &[]);
     assert!(elevation_deg > 60.0 && off_nadir_deg < 1e-5, "{elevation_deg} {off_nadir_deg}");
     assert!(dumps == 0.0 && warnings.is_empty(), "{dumps} {warnings:?}");
     let windows =
         [("guided.downlinkStart", 7200.0), ("guided.downlinkEnd", 36_000.0), ("guided.downlinkEvery", 2.0)];
-    let ([elevation_deg, off_nadir_deg], dumps, warnings) = of_tutorial(&windows);
+    let antenna = "[[antennas]]\nname = \"dish\"\nazimuth_deg = [-180, 180]\nbeam_deg = [3, 3]";
+    let ([elevation_deg, off_nadir_deg], dumps, warnings) = of_tutorial(antenna, &windows);
     assert!(elevation_deg < 1e-6 && off_nadir_deg > 60.0, "{elevation_deg} {off_nadir_deg}");
     assert!(
         dumps >= 5.0 && warnings.len() == 1 && warnings[0].contains("always open"),

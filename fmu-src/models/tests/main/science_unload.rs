@@ -222,10 +222,10 @@ fn guidance_turns_the_camera_to_nadir_and_flies_the_plants_attitude() {
         let turn_rad = simulated.angle_to(&commanded);
         assert!(turn_rad < 1e-12, "{turn_rad:e} at {time_s} s");
         assert!(off(sun_place(&plant), place) < 1e-12);
-        let angle_rad = guidance.real("mdis.angle");
+        let angle_rad = guidance.real("gimbal.angle");
         let camera = commanded * Vector3::new(0.0, -angle_rad.sin(), angle_rad.cos());
         let nadir = -plant.vector("position").normalize();
-        if guidance.boolean("mdis.inRange") {
+        if guidance.boolean("gimbal.inRange") {
             kept += 1;
             assert!((camera - nadir).norm() < 1e-12, "{} at {time_s} s", (camera - nadir).norm());
         } else {
@@ -239,7 +239,7 @@ fn guidance_turns_the_camera_to_nadir_and_flies_the_plants_attitude() {
                 assert!((turn * camera).dot(&nadir) < camera.dot(&nadir));
             }
         }
-        assert_eq!(guidance.boolean("target.reachable"), guidance.boolean("mdis.inRange"));
+        assert_eq!(guidance.boolean("target.reachable"), guidance.boolean("gimbal.inRange"));
         plant.step_to(time_s + 120.0).unwrap();
         guidance.step_to(time_s + 120.0).unwrap();
     }

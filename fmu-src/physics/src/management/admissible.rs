@@ -1,18 +1,21 @@
 //! Where the Sun may stand during a downlink: inside the keep-in zone, with the Earth in the plane of the antennas and inside
-//! the quadrant of one of them.
+//! the range of one of them.
 //!
 //! The Earth's azimuth is A - delta or A + delta, cos delta = cos theta / cos E (eq 20), which needs
-//! |E| <= min(theta, 180 deg - theta). An antenna that covers the azimuths m - 45 deg to m + 45 deg allows the azimuths
-//! A of the Sun within 45 deg of m + delta or m - delta. The angle theta changes while a downlink lasts, one way over hours: what
+//! |E| <= min(theta, 180 deg - theta). An antenna that covers the azimuths m - h to m + h allows the azimuths
+//! A of the Sun within h of m + delta or m - delta. The angle theta changes while a downlink lasts, one way over hours: what
 //! holds at its least and at its greatest holds throughout.
 //!
 //! In science that unloads no antenna looks at the Earth: the keep-in zone alone counts.
 
-use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::attitude::SunAngles;
 use crate::guidance::SunPlace;
+use crate::guidance::downlink::sun_place::is_ahead;
+use crate::guidance::pointing::antenna::Antennas;
 use crate::math;
+use crate::spacecraft::{FanAzimuths, MOST_ANTENNAS};
 
 /// Limits of the Sun's place about -Y.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,33 +31,39 @@ pub struct KeepInLimits {
 pub struct Branch {
     /// Whether the Earth's azimuth is A + delta.
     pub earth_ahead: bool,
-    /// Middle of the antenna's quadrant, in rad; `None`: no antenna.
-    middle_rad: Option<f64>,
+    /// The antenna's azimuths; `None`: no antenna.
+    fan: Option<FanAzimuths>,
     /// Least and greatest angle between Sun and Earth while the downlink lasts, in rad.
     separations_rad: [f64; 2],
     limits: KeepInLimits,
 }
 
 impl Branch {
-    /// All four, that of the default attitude (eq 18) first.
-    pub fn all(limits: KeepInLimits, separation_rad: f64) -> [Self; 4] {
-        const SUNSHADE_RAD: f64 = -FRAC_PI_4;
-        const BACK_RAD: f64 = 3.0 * FRAC_PI_4;
+    /// Both sides of the Sun for each fan: that of the default attitude (eq 18) first, then each fan on the side of the Sun where
+    /// its own azimuths are, then on the other.
+    pub fn all(limits: KeepInLimits, antennas: &Antennas, separation_rad: f64) -> Branches {
         let separations_rad = [separation_rad; 2];
-        let branch = |earth_ahead, middle_rad| Self {
-            earth_ahead,
-            middle_rad: Some(middle_rad),
-            separations_rad,
-            limits,
-        };
-        let (behind, ahead) = (branch(false, SUNSHADE_RAD), branch(true, BACK_RAD));
-        let (first, second) = if separation_rad < FRAC_PI_2 { (behind, ahead) } else { (ahead, behind) };
-        [first, second, branch(true, SUNSHADE_RAD), branch(false, BACK_RAD)]
+        let branch = |earth_ahead, fan| Self { earth_ahead, fan: Some(fan), separations_rad, limits };
+        // The azimuth of the Earth is negative behind the Sun and positive ahead.
+        let own_side = |fan: &FanAzimuths| (fan.middle_rad + PI).rem_euclid(TAU) - PI > 0.0;
+        let mut all = Branches { list: [Self::zone(limits); 2 * MOST_ANTENNAS], count: 0 };
+        for (_, fan) in antennas.fans() {
+            all.push(branch(own_side(&fan), fan));
+        }
+        for (_, fan) in antennas.fans() {
+            all.push(branch(!own_side(&fan), fan));
+        }
+        let azimuths_rad = [-separation_rad, separation_rad];
+        let ahead = is_ahead(antennas, azimuths_rad, math::cos(separation_rad));
+        let nearest = antennas.nearest_fan(azimuths_rad[usize::from(ahead)]).antenna;
+        let default = nearest.and_then(|row| antennas.get(row)?.fan());
+        all.put_first(|branch| branch.earth_ahead == ahead && branch.fan == default);
+        all
     }
 
     /// The zone, whatever becomes of the Earth.
     pub fn zone(limits: KeepInLimits) -> Self {
-        Self { earth_ahead: false, middle_rad: None, separations_rad: [FRAC_PI_2; 2], limits }
+        Self { earth_ahead: false, fan: None, separations_rad: [FRAC_PI_2; 2], limits }
     }
 
     /// The same where the angle between Sun and Earth goes from the least to the greatest of these while the downlink lasts.
@@ -65,7 +74,7 @@ impl Branch {
 
     /// Greatest magnitude of the elevation, in rad.
     pub fn elevation_rad(&self) -> f64 {
-        if self.middle_rad.is_none() {
+        if self.fan.is_none() {
             return self.limits.elevation_rad;
         }
         let [least_rad, greatest_rad] = self.separations_rad;
@@ -75,14 +84,14 @@ impl Branch {
     /// Least and greatest azimuth at an elevation; `None` where no azimuth will do.
     pub fn azimuths_rad(&self, elevation_rad: f64) -> Option<[f64; 2]> {
         let most_rad = self.limits.azimuth_rad.min(FRAC_PI_2);
-        let Some(middle_rad) = self.middle_rad else { return Some([-most_rad, most_rad]) };
+        let Some(fan) = self.fan.filter(|fan| fan.half_rad < PI) else { return Some([-most_rad, most_rad]) };
         let middles_rad = self.separations_rad.map(|separation_rad| {
             let cosine = (math::cos(separation_rad) / math::cos(elevation_rad)).clamp(-1.0, 1.0);
             let delta_rad = if self.earth_ahead { math::acos(cosine) } else { -math::acos(cosine) };
-            (middle_rad - delta_rad + PI).rem_euclid(TAU) - PI
+            (fan.middle_rad - delta_rad + PI).rem_euclid(TAU) - PI
         });
-        let low_rad = middles_rad.into_iter().fold(-most_rad, |low_rad, it| low_rad.max(it - FRAC_PI_4));
-        let high_rad = middles_rad.into_iter().fold(most_rad, |high_rad, it| high_rad.min(it + FRAC_PI_4));
+        let low_rad = middles_rad.into_iter().fold(-most_rad, |low_rad, it| low_rad.max(it - fan.half_rad));
+        let high_rad = middles_rad.into_iter().fold(most_rad, |high_rad, it| high_rad.min(it + fan.half_rad));
         // What stands at a bound is inside, whatever rounding says.
         let is_point = high_rad < low_rad && high_rad > low_rad - ROUNDING_RAD;
         if high_rad >= low_rad || is_point { Some([low_rad.min(high_rad), high_rad]) } else { None }
@@ -104,6 +113,45 @@ impl Branch {
         let [low_rad, high_rad] = self.azimuths_rad(elevation_rad)?;
         let azimuth_rad = angles.azimuth_rad.clamp(low_rad, high_rad);
         Some(SunPlace { angles: SunAngles { azimuth_rad, elevation_rad }, earth_ahead: self.earth_ahead })
+    }
+}
+
+/// The branches of all fans.
+pub struct Branches {
+    list: [Branch; 2 * MOST_ANTENNAS],
+    count: usize,
+}
+
+impl Branches {
+    fn push(&mut self, branch: Branch) {
+        if let Some(place) = self.list.get_mut(self.count) {
+            *place = branch;
+            self.count += 1;
+        }
+    }
+
+    /// Moves the first branch of this kind to the front; the others keep their order.
+    fn put_first(&mut self, is_it: impl Fn(&Branch) -> bool) {
+        let found = self.list.iter().take(self.count).position(is_it);
+        if let Some(moved) = found.and_then(|index| self.list.get_mut(..=index)) {
+            moved.rotate_right(1);
+        }
+    }
+
+    /// The same where the angle between Sun and Earth goes from the least to the greatest of these while the downlink lasts.
+    #[must_use]
+    pub fn lasting(self, separations_rad: [f64; 2]) -> Self {
+        Self { list: self.list.map(|branch| branch.lasting(separations_rad)), ..self }
+    }
+
+    /// In their order.
+    pub fn as_slice(&self) -> &[Branch] {
+        self.list.get(..self.count).unwrap_or_default()
+    }
+
+    /// That of the default attitude; `None` without a fan.
+    pub fn first(&self) -> Option<&Branch> {
+        self.as_slice().first()
     }
 }
 

@@ -9,6 +9,7 @@ use super::sampled_forecast::SampledForecast;
 use super::strategy::{Manager, Strategy};
 use super::targeting::{DownlinkState, ScienceAim};
 use crate::attitude::angle_between_rad;
+use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::{
     Activity, ChosenPlace, CoursePoint, Guided, OrbitAhead, ScienceCourse, ScienceRule, WindowStart,
@@ -22,6 +23,8 @@ use crate::plant::{StartMomentum, SunLight, SunlitCraft};
 pub struct SampledManager<'a> {
     /// Strategy and target.
     pub manager: Manager<'a>,
+    /// The default downlink of the spacecraft's antennas.
+    pub default_downlink: &'a DefaultDownlink,
     /// What the light meets.
     pub spacecraft: SunlitCraft<'a>,
     /// Sunlight.
@@ -94,12 +97,12 @@ impl SampledManager<'_> {
 
     /// The science that begins; `None` where a downlink does.
     fn science_course(&self, start: &WindowStart<'_>) -> Option<ScienceCourse> {
-        let ScienceRule::Unloading { camera, .. } = start.law.science else { return None };
+        let ScienceRule::Unloading { gimbal, .. } = start.law.science else { return None };
         if start.activity == Activity::Downlink {
             return None;
         }
         let orbit = OrbitAhead::of(start.surroundings);
-        Some(ScienceCourse::of(camera, start.span_s, |share| {
+        Some(ScienceCourse::of(gimbal, start.span_s, |share| {
             let epoch_s = start.surroundings.epoch_s + start.span_s * share;
             let then = orbit.map_or(*start.surroundings, |orbit| orbit.at(epoch_s));
             let to_sun_m = value(&then.to_sun());
@@ -121,6 +124,7 @@ impl SampledManager<'_> {
         let mut forecast = SampledForecast {
             orbit,
             law: Guided { schedule, ..start.law },
+            default_downlink: self.default_downlink,
             spacecraft: self.spacecraft,
             light: self.light,
             convention: self.convention,

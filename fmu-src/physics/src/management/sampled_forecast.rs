@@ -10,6 +10,7 @@ use core::convert::Infallible;
 use nalgebra::Vector3;
 
 use super::prediction::Forecast;
+use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::geometry::moving::value;
 use crate::guidance::{Activity, Guided, GuidedAttitude, OrbitAhead, lines_of_sight};
 use crate::momentum::{Convention, DumpPolicy, Totals};
@@ -23,6 +24,8 @@ pub struct SampledForecast<'a> {
     pub orbit: OrbitAhead<'a>,
     /// Windows and attitudes, the Sun on -Y in downlink and in science that unloads.
     pub law: Guided,
+    /// The default downlink of the spacecraft's antennas.
+    pub default_downlink: &'a DefaultDownlink,
     /// What the light meets.
     pub spacecraft: SunlitCraft<'a>,
     /// Sunlight.
@@ -43,7 +46,7 @@ pub struct SampledForecast<'a> {
 
 impl SampledForecast<'_> {
     fn attitude(&self, epoch_s: f64) -> GuidedAttitude {
-        self.law.at(epoch_s, |at_s| lines_of_sight(&self.orbit.at(at_s)))
+        self.law.at(epoch_s, self.default_downlink, |at_s| lines_of_sight(&self.orbit.at(at_s)))
     }
 
     /// Adds the torque at a time, for `span_s`.
@@ -53,7 +56,7 @@ impl SampledForecast<'_> {
             true => lines_of_sight(&surroundings),
             false => lines_of_sight(&self.orbit.at(at_s)),
         };
-        let inertial_from_body = self.law.at(epoch_s, lines).frame.inertial_from_body;
+        let inertial_from_body = self.law.at(epoch_s, self.default_downlink, lines).frame.inertial_from_body;
         let to_sun_m = surroundings.to_sun().map(|it| it.re);
         let distance_m = to_sun_m.norm();
         let sun_body = inertial_from_body.inverse() * (to_sun_m / distance_m);

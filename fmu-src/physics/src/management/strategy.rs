@@ -42,7 +42,7 @@ pub struct Manager<'a> {
     /// Strategy.
     pub strategy: Strategy,
     /// Axes, formula, limits.
-    pub targeting: Targeting,
+    pub targeting: Targeting<'a>,
     /// Momentum a reactive downlink aims at, body frame, in N m s.
     pub target_body_n_m_s: Vector3<f64>,
     /// How many cycles ahead predictive targets look, at most [`super::LONGEST_HORIZON`].

@@ -12,10 +12,11 @@
 
 use nalgebra::{Matrix2, Vector2, Vector3};
 
-use super::admissible::{Branch, KeepInLimits};
+use super::admissible::{Branch, Branches, KeepInLimits};
 use super::linear::LinearTorque;
 use crate::attitude::{MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
 use crate::enumeration::enumeration;
+use crate::guidance::pointing::antenna::Antennas;
 use crate::guidance::{LinesOfSight, ScienceCourse, SunPlace, downlink_toward};
 use crate::math;
 use crate::momentum::Convention;
@@ -57,7 +58,7 @@ enumeration! {
 
 /// What targeting may do.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Targeting {
+pub struct Targeting<'a> {
     /// Components with a target.
     pub axes: TargetAxes,
     /// Formula.
@@ -66,6 +67,8 @@ pub struct Targeting {
     pub azimuth_limit_rad: f64,
     /// Of the elevation, in rad.
     pub elevation_limit_rad: f64,
+    /// The antennas, of which one has the Earth in its range.
+    pub antennas: &'a Antennas,
 }
 
 /// What a downlink starts from, or science that unloads, and what its light does.
@@ -117,7 +120,7 @@ const GOLDEN_STEPS: usize = 44;
 /// Intervals looked through for a root.
 const INTERVALS: usize = 16;
 
-impl Targeting {
+impl Targeting<'_> {
     /// The place of the Sun for `target_body_n_m_s` at the downlink's end; `None` where Sun and Earth give no downlink attitude,
     /// or no place is admissible.
     pub fn sun_place(&self, aim: &DownlinkState<'_>, target_body_n_m_s: &Vector3<f64>) -> Option<Targeted> {
@@ -136,8 +139,8 @@ impl Targeting {
             zone = [self.zone()];
             &zone
         } else {
-            sides = self.branches(aim.separation_rad())?.map(|branch| branch.lasting(separations_rad));
-            &sides
+            sides = self.branches(aim.separation_rad())?.lasting(separations_rad);
+            sides.as_slice()
         };
         match self.method {
             TargetingMethod::Exact => self.exact(aim, target_body_n_m_s, branches),
@@ -162,7 +165,8 @@ impl Targeting {
     /// Least and greatest torque of sunlight about X and Z in N m, the other angle at 0, in a downlink that begins and ends with Sun
     /// and Earth this far apart; `None` where one of them has no direction, or the antenna cannot stay with the Earth.
     pub fn torques(&self, aim: &DownlinkState<'_>, [begin_rad, end_rad]: [f64; 2]) -> Option<[[f64; 2]; 2]> {
-        let branch = self.branches(begin_rad)?[0].lasting([begin_rad.min(end_rad), begin_rad.max(end_rad)]);
+        let branches = self.branches(begin_rad)?;
+        let branch = branches.first()?.lasting([begin_rad.min(end_rad), begin_rad.max(end_rad)]);
         Self::torques_on(aim, &branch)
     }
 
@@ -184,16 +188,16 @@ impl Targeting {
     pub fn default_momentum(&self, aim: &DownlinkState<'_>) -> Option<Vector3<f64>> {
         let first = match aim.science {
             Some(_) => self.zone(),
-            None => self.branches(aim.separation_rad())?[0],
+            None => *self.branches(aim.separation_rad())?.first()?,
         };
         let place = first.nearest(SunAngles::default())?;
         Some(aim.momentum_body_n_m_s(&place))
     }
 
-    fn branches(&self, separation_rad: f64) -> Option<[Branch; 4]> {
+    fn branches(&self, separation_rad: f64) -> Option<Branches> {
         // Neither places nor separation is known where one has no direction.
         let has_plane = math::sin(separation_rad) > 1e-9;
-        has_plane.then(|| Branch::all(self.limits(), separation_rad))
+        has_plane.then(|| Branch::all(self.limits(), self.antennas, separation_rad))
     }
 
     fn zone(&self) -> Branch {

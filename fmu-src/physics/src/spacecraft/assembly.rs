@@ -3,11 +3,13 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use super::antennas::NamedAntenna;
 use super::body::CustomBody;
 use super::downlinks::DownlinkWindows;
+use super::file::antennas::antenna;
 use super::file::body::body;
 use super::file::description::Description;
-use super::file::devices::{instrument, sun_sensor, wheel};
+use super::file::devices::{check_gimbals, instrument, sun_sensor, wheel};
 use super::file::mass::{mass, parts_fit};
 use super::file::materials::Materials;
 use super::file::names::{check_names, list};
@@ -61,6 +63,8 @@ pub struct Spacecraft {
     pub sun_sensors: Vec<MountedSunSensor>,
     /// Instruments that are pointed.
     pub instruments: Vec<Instrument>,
+    /// Antennas to the Earth.
+    pub antennas: Vec<NamedAntenna>,
     /// Magnitude of each body component of the momentum at which thrusters dump it, in N m s.
     pub dump_threshold_n_m_s: Option<Vector3<f64>>,
     /// Directions the Sun may have.
@@ -161,6 +165,10 @@ impl Spacecraft {
             list(check, &root.key("flexible_modes"), description.flexible_modes.as_deref(), mode);
         let sloshes = list(check, &root.key("slosh"), description.slosh.as_deref(), slosh);
         swinging_fits(check, &flexible_modes, &sloshes, &mass_properties);
+        let instruments =
+            list(check, &root.key("instruments"), description.instruments.as_deref(), instrument);
+        let has_antenna = description.antennas.is_some() || check.is_stand_in(&root.key("antennas"));
+        check_gimbals(check, &root.key("instruments"), &instruments);
         let start = start_entries(check, description.start.as_ref(), description.fixed.as_ref());
         Self {
             name: description.name.clone(),
@@ -186,12 +194,8 @@ impl Spacecraft {
                 Some(sensors) => list(check, &root.key("sun_sensors"), Some(sensors), sun_sensor),
                 None => MountedSunSensor::six(),
             },
-            instruments: list(
-                check,
-                &root.key("instruments"),
-                description.instruments.as_deref(),
-                instrument,
-            ),
+            instruments,
+            antennas: list(check, &root.key("antennas"), description.antennas.as_deref(), antenna),
             dump_threshold_n_m_s: description
                 .momentum
                 .as_ref()
@@ -206,7 +210,7 @@ impl Spacecraft {
             downlinks: description
                 .downlinks
                 .as_ref()
-                .map(|it| downlinks(check, &root.key("downlinks"), it, &start)),
+                .map(|it| downlinks(check, &root.key("downlinks"), it, &start, has_antenna)),
             hot_pole: description.hot_pole.as_ref().map(hot_pole),
             start,
             sun_keep_in: description.sun_keep_in.as_ref().map(|limits| SunKeepIn {

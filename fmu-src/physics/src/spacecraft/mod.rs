@@ -7,6 +7,7 @@
 //! Body frame, as in paper 000: -Y is the nominal direction to the Sun, Z the axis of the cylindrical shade, X the
 //! axis of the panels; the origin is wherever the file's coordinates start, not the centre of mass.
 
+mod antennas;
 mod assembly;
 mod body;
 mod downlinks;
@@ -31,14 +32,15 @@ mod wheels;
 #[cfg(test)]
 mod tests;
 
-pub use crate::toml::MOST_THRUSTERS;
+pub use crate::toml::{MOST_ANTENNAS, MOST_THRUSTERS};
+pub use antennas::{Antenna, AntennaRange, FanAzimuths, NamedAntenna};
 pub use assembly::{Spacecraft, SunKeepIn};
 pub use body::{BodyMotion, BodyOrbit, CustomBody, InertialFrame};
 pub use downlinks::{DownlinkWindows, TimeAfterPeriapsis};
 #[cfg(feature = "schema")]
 pub use file::schema;
 pub use hot_pole::HotPoleZone;
-pub use instruments::Instrument;
+pub use instruments::{GimbalMount, Instrument};
 pub(crate) use mass::steiner;
 pub use mass::{MassProperties, PanelMass, check_inertia};
 pub use optics::Optics;

@@ -13,6 +13,8 @@ pub const MOST_PROBLEMS: usize = 100;
 
 /// Most thrusters of a spacecraft: a set of them is a bit mask.
 pub const MOST_THRUSTERS: usize = 24;
+/// Most antennas of a spacecraft.
+pub const MOST_ANTENNAS: usize = 6;
 
 /// Most items of a list or names of a table by its key; [`MOST_ITEMS`] of every other.
 pub const LIMITS: &[(&str, usize)] = &[
@@ -26,6 +28,7 @@ pub const LIMITS: &[(&str, usize)] = &[
     ("tanks", 64),
     ("sets", MOST_THRUSTERS),
     ("thrusters", MOST_THRUSTERS),
+    ("antennas", MOST_ANTENNAS),
     ("thruster", MOST_THRUSTERS),
     ("flexible_modes", 64),
     ("slosh", 64),

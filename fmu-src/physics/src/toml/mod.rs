@@ -18,12 +18,12 @@ pub use checker::Checker;
 pub(crate) use checker::rounded;
 pub use document::Document;
 pub use error::{FileError, Problem};
-pub use limits::{LIMITS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUSTERS};
+pub use limits::{LIMITS, MOST_ANTENNAS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUSTERS};
 pub use place::Place;
 pub use ranges::{
     AtLeastOne, BodyRadius, Copies, Corners, Deviation, Distance, Emissivity, FieldOfView, Finite, Fraction,
-    Frequency, GravitationalParameter, HalfTurn, Kelvin, NotNegative, OrbitAxis, Orbits, Positive,
-    QuarterTurn, Rings, SpecificImpulse, SubtendedAngle, TurnEither,
+    Frequency, GravitationalParameter, HalfTurn, HalfTurnEither, Kelvin, NotNegative, OrbitAxis, Orbits,
+    Positive, QuarterTurn, Rings, SpecificImpulse, SubtendedAngle, TurnEither,
 };
 pub use reader::Findings;
 pub use spelling::{hint, nearest};

@@ -103,6 +103,7 @@ ranges! {
     Distance(f64): f64::MIN_POSITIVE, 1e13, "a distance above 0 and at most 1e13 m";
     QuarterTurn(f64): 0.0, 90.0, "an angle from 0 to 90 deg";
     HalfTurn(f64): 0.0, 180.0, "an angle from 0 to 180 deg";
+    HalfTurnEither(f64): -180.0, 180.0, "an angle from -180 to 180 deg";
     FieldOfView(f64): f64::MIN_POSITIVE, 180.0, "an angle above 0 and at most 180 deg";
     SubtendedAngle(f64): f64::MIN_POSITIVE, 360.0, "an angle above 0 and at most 360 deg";
     TurnEither(f64): -360.0, 360.0, "an angle from -360 to 360 deg";

@@ -1,7 +1,14 @@
 //! Spelling: the known word that an unknown one was probably meant to be.
 
-/// The candidate that takes the fewest edits, if it takes few.
+/// Words of earlier versions, with what they are called now.
+const RENAMED: &[(&str, &str)] = &[("mdis", "gimbal")];
+
+/// The candidate that the word is called now, or that takes the fewest edits, if it takes few.
 pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let renamed = RENAMED.iter().find(|(before, _)| *before == word);
+    if let Some(now) = renamed.and_then(|(_, now)| candidates.iter().find(|candidate| *candidate == now)) {
+        return Some(now);
+    }
     candidates
         .iter()
         .map(|candidate| (edits(word, candidate), *candidate))
@@ -50,6 +57,8 @@ mod tests {
         assert_eq!(edits("abc", ""), 3);
         assert_eq!(edits("same", "same"), 0);
         assert_eq!(nearest("arae_m2", &["name", "area_m2", "normal"]), Some("area_m2"));
+        assert_eq!(nearest("mdis", &["nadir", "gimbal"]), Some("gimbal"));
+        assert_eq!(nearest("mdis", &["nadir"]), None);
         assert_eq!(nearest("zzzzzzzz", &["name", "area_m2"]), None);
     }
 }

@@ -11,6 +11,7 @@ use physics::environment::CartesianState;
 use physics::environment::eclipse::{Shadow, ShadowModel};
 use physics::environment::frames::Frame;
 use physics::environment::orbit::{Elements, OrbitMethod, TwoBodyOrbit};
+use physics::guidance::downlink::default_downlink::DefaultDownlink;
 use physics::guidance::{Guided, Schedule, ScienceRule};
 use physics::loads::{Active, Effect, ForceTorque, Switch};
 use physics::momentum::{
@@ -105,6 +106,7 @@ pub(crate) struct Rig {
     spacecraft: Spacecraft,
     solar: SolarModel,
     method: OrbitMethod,
+    default_downlink: DefaultDownlink,
     pub(crate) propagator: PropagatorState,
     world: Option<World>,
 }
@@ -116,6 +118,7 @@ impl Rig {
             solar: SolarModel::new(&spacecraft, None).unwrap(),
             spacecraft,
             method: OrbitMethod::default(),
+            default_downlink: DefaultDownlink::default(),
             propagator: PropagatorState::default(),
             world: None,
         }
@@ -149,6 +152,7 @@ impl Rig {
             panels: &self.spacecraft.panels,
             solar: &self.solar,
             orbit_method: &self.method,
+            default_downlink: &self.default_downlink,
         };
         Plant::new(prepared, self.world.as_mut().unwrap(), &mut self.propagator, load)
     }

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use physics::{
     environment::sun::SOLAR_FLUX_W_M2,
     plausibility::{Figures, ThrusterFigures, TorqueBothWays, warnings},
-    spacecraft::{MountedSunSensor, Spacecraft},
+    spacecraft::{Instrument, MountedSunSensor, NamedAntenna, Spacecraft},
     spin::spinner::Spinner,
 };
 use terminal::short;
@@ -101,7 +101,7 @@ fn torque(figures: &Figures, sunlight: Sunlight) -> String {
     }
 }
 
-/// Wheels, thrusters, tanks, Sun sensors, instruments; none of what the file has none of.
+/// Wheels, thrusters, tanks, Sun sensors, instruments, antennas; none of what the file has none of.
 fn devices(spacecraft: &Spacecraft, figures: &Figures) -> Vec<(&'static str, String)> {
     let mut rows = Vec::new();
     let mut listed = |name, lines: Vec<String>| {
@@ -135,11 +135,27 @@ fn devices(spacecraft: &Spacecraft, figures: &Figures) -> Vec<(&'static str, Str
     } else {
         listed("Sun sensors", sun_sensors.collect());
     }
-    let instruments = spacecraft.instruments.iter();
-    let instruments =
-        instruments.map(|it| format!("{}: looks along {}", it.name, triple(&it.boresight_body)));
-    listed("instruments", instruments.collect());
+    listed("instruments", spacecraft.instruments.iter().map(instrument).collect());
+    listed("antennas", spacecraft.antennas.iter().map(antenna).collect());
     rows
+}
+
+/// Boresight, and how far a gimbal turns it.
+fn instrument(instrument: &Instrument) -> String {
+    let gimbal = instrument.gimbal.as_ref().map_or_else(String::new, |gimbal| {
+        let [from_deg, to_deg] = [gimbal.minimum_rad, gimbal.maximum_rad].map(f64::to_degrees);
+        let axis = triple(&gimbal.axis_body);
+        format!(", turned about {axis} by {} to {} deg", number(from_deg), number(to_deg))
+    });
+    format!("{}: looks along {}{gimbal}", instrument.name, triple(&instrument.boresight_body))
+}
+
+/// Where it can look, and its beam.
+fn antenna(named: &NamedAntenna) -> String {
+    let [across_deg, along_deg] = [named.antenna.across_rad, named.antenna.along_rad].map(f64::to_degrees);
+    let beam =
+        format!("beam of {} deg across that plane, {} along it", number(across_deg), number(along_deg));
+    format!("{}: {}, {beam}", named.name, named.antenna.range)
 }
 
 /// Force, jet, torque and what the plume meets.
@@ -234,6 +250,9 @@ mod tests {
             "  tanks                main: 60 kg at (0, 0, 0) m",
             "(both senses); Y ",
             "uN m by sunlight without shadows, (",
+            "MDIS: looks along (0, 0, 1), turned about (1, 0, 0) by -50 to 40 deg",
+            "  antennas             sunshade: steered in the XY plane from azimuth -90 to 0 deg, beam of 4 deg across that plane, 15 along it",
+            "back: steered in the XY plane from azimuth 90 to 180 deg, ",
         ] {
             assert!(without.contains(part), "{part}: {without}");
         }

@@ -145,6 +145,7 @@ fn contents(text: &str) -> String {
         count("thruster", spacecraft.thrusters.len());
         count("tank", spacecraft.tanks.len());
         count("instrument", spacecraft.instruments.len());
+        count("antenna", spacecraft.antennas.len());
         if let Some(shade) = spacecraft.sunshade {
             count("sunshade plate", shade.plates.len());
             count("sunshade cylinder", usize::from(shade.cylinder.is_some()));
@@ -177,7 +178,7 @@ mod tests {
         let messenger = include_str!("../../../../fmu-src/resources/messenger.toml");
         assert_eq!(
             contents(messenger),
-            "2 panels, 4 wheels, 4 instruments, 8 sunshade plates, 1 sunshade cylinder"
+            "2 panels, 4 wheels, 5 instruments, 2 antennas, 8 sunshade plates, 1 sunshade cylinder"
         );
         let ace = include_str!("../../../../fmu-src/resources/ace.toml");
         assert_eq!(contents(ace), "8 groups, 10 thrusters, 1 star tracker, 1 Sun sensor");

@@ -2,7 +2,7 @@
 
 use drawing::{Finish, Surface, Vector, unit};
 use physics::{
-    spacecraft::{MountedSunSensor, Plate, Spacecraft},
+    spacecraft::{AntennaRange, MountedSunSensor, Plate, Spacecraft},
     spin::spinner::Spinner,
 };
 
@@ -221,7 +221,8 @@ impl Part {
     }
 }
 
-/// Colours of boresights, Sun sensors and wheels.
+/// Colours of antennas, boresights, Sun sensors and wheels.
+const ANTENNA: &str = "#8a4fa3";
 const BORESIGHT: &str = "#0072b2";
 const SUN_SENSOR: &str = "#b35900";
 const WHEEL: &str = "#00795a";
@@ -247,7 +248,7 @@ fn plate_rows(plates: &[Plate]) -> Vec<(String, Vec<usize>)> {
     rows
 }
 
-/// Thrusters, wheels, tanks, instruments and Sun sensors.
+/// Thrusters, wheels, tanks, instruments, antennas and Sun sensors.
 struct Devices {
     parts: Vec<Part>,
     nozzles: Vec<Surface>,
@@ -301,6 +302,27 @@ impl Devices {
             let boresight = instrument.boresight_body;
             devices.arrow(part, leaves(&boresight), boresight, 0.12 * size_m, BORESIGHT);
         }
+        for (index, named) in spacecraft.antennas.iter().enumerate() {
+            let sign = format!("A{}", index + 1);
+            let length_m = 0.12 * size_m;
+            let (middle, ends, what) = match &named.antenna.range {
+                AntennaRange::Axis(axis_body) => (*axis_body, vec![*axis_body], "antenna".to_owned()),
+                AntennaRange::Fan(fan) => {
+                    let ends_rad = fan.bounds_rad();
+                    let [from_deg, to_deg] =
+                        ends_rad.map(|end_rad| terminal::short(end_rad.to_degrees().round()));
+                    let toward = |azimuth_rad: f64| Vector::new(azimuth_rad.sin(), -azimuth_rad.cos(), 0.0);
+                    let what = format!("antenna, azimuth {from_deg} to {to_deg} deg");
+                    (toward(fan.middle_rad), ends_rad.map(toward).to_vec(), what)
+                }
+            };
+            let from_m = leaves(&middle);
+            let arrow = |end: &Vector| Arrow { from_m, to_m: from_m + length_m * end, colour: ANTENNA };
+            devices.arrows.extend(ends.iter().map(arrow));
+            let mut part = Part::new(sign, &called("antenna", &named.name), what);
+            part.beside_m = Some(from_m + 1.25 * length_m * middle);
+            devices.parts.push(part);
+        }
         // Six along the body axes are assumed where the file says nothing.
         let is_given = spacecraft.sun_sensors != MountedSunSensor::six();
         for (index, sensor) in spacecraft.sun_sensors.iter().enumerate().filter(|_| is_given) {
@@ -313,6 +335,10 @@ impl Devices {
             (spacecraft.wheels.is_empty(), "Green arrows are axes of wheels, as they turn right-handed."),
             (spacecraft.tanks.is_empty(), "Circles are tanks."),
             (spacecraft.instruments.is_empty(), "Blue arrows are boresights of instruments."),
+            (
+                spacecraft.antennas.is_empty(),
+                "Purple arrows are where antennas look: fans from the one to the other.",
+            ),
             (!is_given, "Brown arrows are axes of Sun sensors."),
             (spacecraft.thrusters.is_empty(), "Nozzles point where the jet goes."),
         ];
@@ -422,7 +448,10 @@ mod tests {
         assert_eq!(count('T'), spacecraft.thrusters.len());
         assert_eq!(count('W'), spacecraft.wheels.len());
         assert_eq!((count('K'), scene.tanks_m.len()), (spacecraft.tanks.len(), spacecraft.tanks.len()));
-        assert_eq!(scene.arrows.len(), spacecraft.wheels.len() + spacecraft.instruments.len());
+        // A fan shows both of its ends.
+        let antennas = 2 * spacecraft.antennas.len();
+        assert_eq!(scene.arrows.len(), spacecraft.wheels.len() + spacecraft.instruments.len() + antennas);
+        assert_eq!((count('A'), count('I')), (2, 5));
         // A nozzle opens away from the force.
         let row = scene.parts.iter().position(|part| part.name == "LVA").unwrap();
         let deepest = scene.surfaces.iter().filter(|it| it.part == row).flat_map(|it| &it.corners);

@@ -84,9 +84,11 @@ impl SizedSpacecraft {
         let mut started = instance::started(&fmu, "size", start_s, &sets)?;
         let period_s = period_s(item(description, &sets, "orbit.center") == Some("sun"), &mut started)?;
         drop(started);
-        let strategies = strategies(description, &sets, period_s);
+        let spacecraft = spacecraft(&fmu)?;
+        let has_fan = spacecraft.antennas.iter().any(|named| named.antenna.fan().is_some());
+        let strategies = strategies(description, &sets, period_s, has_fan);
         Ok(Self {
-            spacecraft: spacecraft(&fmu)?,
+            spacecraft,
             sets,
             inputs,
             start_s,
@@ -134,14 +136,22 @@ fn period_s(is_about_sun: bool, instance: &mut Instance) -> Result<f64, loader::
     Ok(core::f64::consts::TAU * (instance.get_real("orbit.semiMajorAxis")?.powi(3) / gm_m3_s2).sqrt())
 }
 
-/// Dumps alone, and what sunlight can do where guided flight has downlinks with science between them.
-fn strategies(description: &Description, sets: &[(String, Value)], period_s: f64) -> Vec<String> {
+/// Dumps alone, and what sunlight can do where guided flight has downlinks with science between them, of an antenna that is steered.
+fn strategies(
+    description: &Description,
+    sets: &[(String, Value)],
+    period_s: f64,
+    has_fan: bool,
+) -> Vec<String> {
     let number = |name: &str| start(description, sets, name).map_or(0.0, |value| value.to_f64());
     let window_s = number("guided.downlinkEnd") - number("guided.downlinkStart");
     let has_science = (0.0..number("guided.downlinkEvery") * period_s).contains(&window_s);
     let is_guided = item(description, sets, "attitude.source") == Some("guided");
-    let names: &[&str] =
-        if has_science && is_guided { &["dumpsOnly", "reactive", "predictive"] } else { &["dumpsOnly"] };
+    let names: &[&str] = if has_science && is_guided && has_fan {
+        &["dumpsOnly", "reactive", "predictive"]
+    } else {
+        &["dumpsOnly"]
+    };
     names.iter().map(|name| (*name).to_owned()).collect()
 }
 

@@ -348,7 +348,8 @@ fn a_downlink_for_ever_is_warned_of_by_every_command_and_the_log() {
     let Some(library) = library() else { return };
     let scratch = tempfile::tempdir().unwrap();
     let file = scratch.path().join("busy.toml");
-    let windows = "[downlinks]\nstart = \"20 %\"\nstop = \"130 %\"\nevery = 1\n";
+    let windows = "[downlinks]\nstart = \"20 %\"\nstop = \"130 %\"\nevery = 1\n\
+                   [[antennas]]\nname = \"dish\"\nazimuth_deg = [-180, 180]\nbeam_deg = [3, 3]\n";
     let text = include_str!("../../../../docs/src/tutorial/venus.toml");
     fs::write(&file, format!("{text}\n{windows}")).unwrap();
     let fmu = scratch.path().join("busy.fmu");

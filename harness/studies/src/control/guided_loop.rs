@@ -45,7 +45,7 @@ recorded! {
         /// Whether there is a link with the Earth.
         pub has_link: bool = "guidance.link.available",
         /// The camera's angle.
-        pub mdis_angle_rad: f64 = "guidance.mdis.angle",
+        pub mdis_angle_rad: f64 = "guidance.gimbal.angle",
         /// Whether the keep-in zone holds the attitude.
         pub is_constrained: bool = "guidance.constraint.sunKeepIn",
     }

@@ -57,7 +57,7 @@ impl Case {
             if sample.time_s == 0.0 {
                 settings.extend(set("pointing.scenario", "downlink"));
             } else if sample.time_s == SLEW_S {
-                settings.extend(set("pointing.scenario", "mdis"));
+                settings.extend(set("pointing.scenario", "gimbal"));
                 settings.extend(set("aimpoint.option", "nadir"));
             }
             if sample.time_s >= SLEW_S {

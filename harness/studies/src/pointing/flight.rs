@@ -36,7 +36,7 @@ recorded! {
     struct Commanded {
         q: Attitude = "command.q",
         rate_rad_s: Vector = "command.rate",
-        mdis_angle_rad: f64 = "mdis.angle",
+        mdis_angle_rad: f64 = "gimbal.angle",
         reachable: bool = "target.reachable",
         scan_active: bool = "scan.active",
         keep_in: bool = "constraint.sunKeepIn",

@@ -186,7 +186,7 @@ impl Case {
                     _ => ("planetCentered", "inertialTranslation"),
                 };
                 let settings = [
-                    set("pointing.scenario", "mdis"),
+                    set("pointing.scenario", "gimbal"),
                     set("boresight.angle", degree * self.mdis_deg),
                     set("aimpoint.option", option),
                     set("scan.frame", frame),

@@ -45,7 +45,7 @@ impl Angle {
             if place.time_s == 0.0 {
                 set("pointing.scenario", "downlink")
             } else if place.time_s == SLEW_S {
-                [set("pointing.scenario", "mdis"), set("aimpoint.option", "nadir"), camera()].concat()
+                [set("pointing.scenario", "gimbal"), set("aimpoint.option", "nadir"), camera()].concat()
             } else if place.time_s > SLEW_S && self == Self::Followed {
                 camera()
             } else {

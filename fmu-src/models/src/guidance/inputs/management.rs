@@ -8,6 +8,7 @@ use physics::momentum::{DumpPolicy, Reinitialise};
 use physics::plant::{PanelSetting, Ramp, SunlitCraft};
 use physics::spacecraft::MassProperties;
 
+use crate::common::management::check_strategy_has_antenna;
 use crate::guidance::setup::Plan;
 use crate::guidance::variables::choices::DumpReinitTo;
 
@@ -40,6 +41,7 @@ pub fn manager<'a>(
     let sunshade = values.choice(v.sunshade.shape).0;
     let strategy = values.choice(v.momentum.strategy).0;
     v.guided.check_unload(values, strategy != Strategy::DumpsOnly)?;
+    check_strategy_has_antenna(strategy, &context.setup.antennas.all)?;
     let [start_s, end_s] = [v.guided.downlink_start, v.guided.downlink_end].map(|time| values.real(time));
     if strategy != Strategy::DumpsOnly && start_s >= end_s {
         return Err(Failure::new(format!(
@@ -52,8 +54,9 @@ pub fn manager<'a>(
             values,
             strategy,
             [keep_in.azimuth_rad, keep_in.elevation_rad],
-            (spacecraft, sunshade),
+            (spacecraft, sunshade, &context.setup.antennas.all),
         ),
+        default_downlink: &context.setup.antennas.default_downlink,
         spacecraft: SunlitCraft {
             solar: context.setup.shapes.solar(sunshade, &spacecraft.name)?,
             panels: &spacecraft.panels,

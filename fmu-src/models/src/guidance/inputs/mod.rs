@@ -6,6 +6,7 @@ use fmi_export::{Boolean, Choice, Enumeration, Failure, InputsOverTime, Integer,
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
 use physics::bodies::Body;
+use physics::enumeration::Enumerated;
 use physics::environment::CartesianState;
 use physics::environment::bodies_from_center::BodiesFromCenter;
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
@@ -22,10 +23,10 @@ use physics::guidance::modes::body_positions::BodyPositions;
 use physics::guidance::modes::monitor::Monitor;
 use physics::guidance::modes::system::GuidanceSettings;
 use physics::guidance::modes::transitions::{ModeSettings, Sensed};
-use physics::guidance::pointing::boresight::MdisRange;
+use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::pointing::command::{
-    AimpointCommand, AimpointOption, BodyRollCommand, BoresightCommand, ExternalRollCommand, LimbCommand,
-    PointingCommand, ScanCommand,
+    AimpointCommand, AimpointOption, BodyRollCommand, BoresightCommand, BoresightOption, ExternalRollCommand,
+    LimbCommand, PointingCommand, ScanCommand, Scenario,
 };
 use physics::guidance::pointing::scan::ScanCompatibility;
 use physics::guidance::pointing::scenario::GuidanceHardware;
@@ -36,6 +37,8 @@ use super::setup::Plan;
 use super::variables::choices::{EphemerisSource, ModeRequest};
 use super::variables::commands::AimpointVariables;
 use crate::common::ephemeris;
+use crate::common::management::{NO_ANTENNA, check_windows_have_antenna};
+use crate::common::variables::NO_GIMBAL;
 
 /// What parameters fix for a whole flight.
 #[derive(Clone, Debug)]
@@ -175,11 +178,11 @@ pub fn settings<'a>(
     if axis_body == Vector3::from([0.0; 3]) {
         return Err(Failure::new("keepIn.axis: found (0, 0, 0), allowed: a vector of any length but zero"));
     }
-    if real(v.mdis.minimum) > real(v.mdis.maximum) {
+    if real(v.gimbal.minimum) > real(v.gimbal.maximum) {
         return Err(Failure::new(format!(
-            "mdis.minimum, mdis.maximum: found {:?} and {:?} rad, allowed: a minimum not above the maximum",
-            real(v.mdis.minimum),
-            real(v.mdis.maximum)
+            "gimbal.minimum, gimbal.maximum: found {:?} and {:?} rad, allowed: a minimum not above the maximum",
+            real(v.gimbal.minimum),
+            real(v.gimbal.maximum)
         )));
     }
     let zone = |azimuth, elevation| KeepIn {
@@ -194,11 +197,25 @@ pub fn settings<'a>(
         cone_rad: real(v.hot_pole.cone),
     });
     let keep_in = zone(v.keep_in.azimuth, v.keep_in.elevation);
-    let mdis = MdisRange { minimum_rad: real(v.mdis.minimum), maximum_rad: real(v.mdis.maximum) };
+    let beam = context.given(values, &[v.link.beam.into()]);
+    let gimbal = Gimbal::of(&context.setup.spacecraft.instruments).map(|gimbal| Gimbal {
+        minimum_rad: real(v.gimbal.minimum),
+        maximum_rad: real(v.gimbal.maximum),
+        ..gimbal
+    });
+    if gimbal.is_none() && [v.gimbal.minimum, v.gimbal.maximum].map(real) != [0.0; 2] {
+        return Err(Failure::new(format!(
+            "gimbal.minimum, gimbal.maximum: found {:?} and {:?} rad, allowed: 0 and 0; {NO_GIMBAL}",
+            real(v.gimbal.minimum),
+            real(v.gimbal.maximum)
+        )));
+    }
     Ok(GuidanceSettings {
         hardware: GuidanceHardware {
             instruments: &context.setup.spacecraft.instruments,
-            mdis,
+            gimbal,
+            antennas: &context.setup.antennas.all,
+            default_downlink: &context.setup.antennas.default_downlink,
             subsolar: values.choice(v.subsolar.method).0,
             scans: scans(context, values),
         },
@@ -227,15 +244,58 @@ pub fn settings<'a>(
         },
         keep_in,
         keep_in_distance_m: real(v.keep_in.distance),
-        link: LinkLimits { sun_separation_rad: real(v.link.sun_exclusion), coverage_rad: real(v.link.beam) },
+        link: LinkLimits {
+            sun_separation_rad: real(v.link.sun_exclusion),
+            coverage_rad: beam.has(v.link.beam).then(|| real(v.link.beam)),
+        },
         orbit_phase: v.guided.by_shares(
             context,
             values,
             &context.setup.windows,
-            v.guided.read(values, 0.0, f64::INFINITY, real(v.start.epoch), keep_in, mdis)?,
+            v.guided.read(values, 0.0, f64::INFINITY, real(v.start.epoch), keep_in, gimbal)?,
         ),
         burn: fixed.burn,
     })
+}
+
+/// Refuses what needs a device that the spacecraft has not.
+///
+/// # Errors
+/// A gimbal that no instrument has, a downlink without an antenna.
+pub fn check_devices(command: &PointingCommand, settings: &GuidanceSettings<'_>) -> Result<(), Failure> {
+    let hardware = &settings.hardware;
+    let lacks = |variable: &str, item: &str, allowed: &str, lack: &str| {
+        Err(Failure::new(format!("{variable}: found {item}, allowed: {allowed}; {lack}")))
+    };
+    let Some(scenario) = command.scenario else { return Ok(()) };
+    let option = command.boresight.option.filter(|_| scenario == Scenario::Generic);
+    if hardware.gimbal.is_none() {
+        if matches!(scenario, Scenario::Gimbal | Scenario::DoubleTarget) {
+            return lacks("pointing.scenario", scenario.name(), "a scenario that needs no gimbal", NO_GIMBAL);
+        }
+        if let Some(option @ BoresightOption::Gimbal) = option {
+            return lacks("boresight.option", option.name(), "vector, azEl or phasedArray", NO_GIMBAL);
+        }
+    }
+    let allowed = "a scenario without a downlink";
+    match scenario {
+        Scenario::Downlink if hardware.antennas.is_empty() => {
+            return lacks("pointing.scenario", scenario.name(), allowed, NO_ANTENNA);
+        }
+        Scenario::OrbitPhase => {
+            check_windows_have_antenna(&settings.orbit_phase.schedule, hardware.antennas)?
+        }
+        _ => {}
+    }
+    let option =
+        command.boresight.option.filter(|_| matches!(scenario, Scenario::Generic | Scenario::Downlink));
+    if let Some(option @ BoresightOption::PhasedArray) = option
+        && !hardware.antennas.has_fan()
+    {
+        let lack = "no antenna of the spacecraft is steered in the XY plane ([[antennas]] azimuth_deg)";
+        return lacks("boresight.option", option.name(), "another option, or none in a downlink", lack);
+    }
+    Ok(())
 }
 
 /// Which scans go with which aimpoints.

@@ -1,13 +1,15 @@
 //! Guidance's choices.
 
 use fmi_export::Enumeration;
+use fmi_export::variables::{DeclaredItem, EnumerationType, Item};
 use physics::bodies::Body;
 use physics::enumeration::Enumerated;
 use physics::guidance::constraints::keep_in;
 use physics::guidance::geometry::lighting;
 use physics::guidance::modes::mode;
-use physics::guidance::pointing::antenna::Antenna;
+use physics::guidance::pointing::antenna::AntennaRow;
 use physics::guidance::pointing::command;
+use physics::spacecraft::{NamedAntenna, Spacecraft};
 
 use crate::common::choices::{KNOWN_BODIES, choices, optional_choices};
 
@@ -59,8 +61,41 @@ choices! {
     SubsolarMethod(lighting::SubsolarMethod);
     /// Where a Sun outside the keep-in zone is put.
     KeepInMethod(keep_in::KeepInMethod);
-    /// The antenna in use.
-    AntennaSelect(Antenna);
+}
+
+/// The antenna in use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AntennaSelect(pub Option<AntennaRow>);
+
+/// Its items are none and the spacecraft's antennas.
+impl Enumeration for AntennaSelect {
+    const FIRST: Self = Self(None);
+
+    const TYPE: EnumerationType = EnumerationType {
+        name: "AntennaSelect",
+        description: "The antenna in use.",
+        items: &[Item { name: "none", value: 0, description: "None: no downlink." }],
+    };
+
+    fn from_value(value: i32) -> Option<Self> {
+        Some(Self(u16::try_from(value).ok()?.checked_sub(1).map(AntennaRow)))
+    }
+
+    fn value(self) -> i32 {
+        self.0.map_or(0, |AntennaRow(row)| i32::from(row) + 1)
+    }
+}
+
+impl AntennaSelect {
+    /// The items of the spacecraft's antennas.
+    pub fn antennas(spacecraft: &Spacecraft) -> Vec<DeclaredItem> {
+        let item = |(row, named): (u16, &NamedAntenna)| DeclaredItem {
+            name: named.name.clone(),
+            value: Self(Some(AntennaRow(row))).value(),
+            description: format!("An antenna {}.", named.antenna.range),
+        };
+        (0..).zip(&spacecraft.antennas).map(item).collect()
+    }
 }
 
 /// Origin of the Sun's and the planets' positions.

@@ -37,7 +37,7 @@ pub struct BoresightVariables {
     /// Elevation in the body frame, positive toward -Z.
     #[input(unit = "rad", display = "deg", min = command::DOWN_ANGLE_RAD, max = command::RIGHT_ANGLE_RAD, start = 0.0)]
     pub elevation: Real,
-    /// MDIS angle: from +Z, positive sunward.
+    /// Angle of the gimbal, from the instrument's boresight in the file, right-handed about its axis.
     #[input(unit = "rad", display = "deg", min = command::BACK_TURN_RAD, max = command::FULL_TURN_RAD, start = 0.0)]
     pub angle: Real,
     /// Instrument of a scenario: 0 is +Z, otherwise the row of [[instruments]] in the spacecraft file.

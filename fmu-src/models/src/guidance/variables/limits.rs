@@ -7,7 +7,6 @@ use physics::constants::HALF_TURNS_RAD;
 use physics::guidance::constraints::keep_in;
 use physics::guidance::downlink::sun_place;
 use physics::guidance::modes::transitions;
-use physics::guidance::pointing::boresight;
 use physics::guidance::pointing::command;
 use physics::spacecraft::SunKeepIn;
 
@@ -93,16 +92,17 @@ pub struct MonitorVariables {
     pub margin: Real,
 }
 
-/// The MDIS camera on its scan platform about X.
+/// The gimbal of the instrument that has one by [[instruments]]; without one its numbers mean nothing.
 #[derive(Variables)]
-pub struct MdisVariables {
-    /// Smallest angle from +Z: away from the Sun.
-    #[parameter(unit = "rad", display = "deg", min = command::BACK_HALF_TURN_RAD, max = PI, start = boresight::MDIS_RANGE_RAD[0])]
+#[variables(setup = GuidanceSetup)]
+pub struct GimbalVariables {
+    /// Smallest angle from the instrument's boresight in the file, right-handed about the gimbal's axis.
+    #[parameter(unit = "rad", display = "deg", min = command::BACK_HALF_TURN_RAD, max = PI, start = setup.gimbal_range_rad()[0])]
     pub minimum: Real,
-    /// Greatest angle from +Z: sunward.
-    #[parameter(unit = "rad", display = "deg", min = command::BACK_HALF_TURN_RAD, max = PI, start = boresight::MDIS_RANGE_RAD[1])]
+    /// Greatest angle.
+    #[parameter(unit = "rad", display = "deg", min = command::BACK_HALF_TURN_RAD, max = PI, start = setup.gimbal_range_rad()[1])]
     pub maximum: Real,
-    /// Angle of the camera in the scenarios mdis and doubleTarget, with the boresight option mdis, and in science of the scenario
+    /// Its angle in the scenarios gimbal and doubleTarget, with the boresight option gimbal, and in science of the scenario
     /// orbitPhase with guided.scienceUnload, where it keeps nadir; else 0.
     #[output(discrete, unit = "rad", display = "deg")]
     pub angle: Real,
@@ -111,25 +111,28 @@ pub struct MdisVariables {
     pub in_range: Boolean,
 }
 
-/// The phased-array antennas.
+/// The antennas.
 #[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
 pub struct AntennaVariables {
     /// The antenna in use.
-    #[output]
+    #[output(items = AntennaSelect::antennas(&setup.spacecraft))]
     pub select: Choice<AntennaSelect>,
-    /// Its beam's azimuth in the body frame, from -Y toward +X.
+    /// Its beam's azimuth in the body frame, from -Y toward +X; of a fixed antenna that of its axis.
     #[output(discrete, unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1])]
     pub azimuth: Real,
 }
 
 /// The radio link with the Earth.
 #[derive(Variables)]
+#[variables(setup = GuidanceSetup)]
 pub struct LinkVariables {
     /// The Sun's neighbourhood in the sky, where there is no link (assumed; paper 001 names no angle).
     #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = sun_place::SOLAR_EXCLUSION_RAD)]
     pub sun_exclusion: Real,
-    /// Half width of an antenna's beam across its plane (paper 001: 15 by 4 deg).
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = FRAC_PI_2, start = sun_place::BEAM_HALF_WIDTH_RAD)]
+    /// Half width of every antenna's beam across the XY plane; unless set each has its own by beam_deg of [[antennas]], of which the
+    /// first stands here.
+    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = FRAC_PI_2, start = setup.beam_rad())]
     pub beam: Real,
     /// Whether an antenna covers the Earth, neither behind the planet nor near the Sun.
     #[output]

@@ -21,8 +21,8 @@ use commands::{
 };
 use ephemeris::EphemerisVariables;
 use limits::{
-    AntennaVariables, EarthAcquisitionVariables, HotPoleVariables, KeepInVariables, LinkVariables,
-    MdisVariables, MonitorVariables, SafeHoldVariables, SunSearchVariables,
+    AntennaVariables, EarthAcquisitionVariables, GimbalVariables, HotPoleVariables, KeepInVariables,
+    LinkVariables, MonitorVariables, SafeHoldVariables, SunSearchVariables,
 };
 use momentum::{DumpVariables, MomentumVariables, PanelVariables, SpacecraftVariables, SunshadeVariables};
 use outputs::{CommandVariables, ConstraintVariables, GeometryVariables};
@@ -58,7 +58,7 @@ pub struct GuidanceVariables {
     #[group]
     pub monitor: MonitorVariables,
     #[group]
-    pub mdis: MdisVariables,
+    pub gimbal: GimbalVariables,
     #[group]
     pub antenna: AntennaVariables,
     #[group]

@@ -9,7 +9,7 @@ use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::time;
 use physics::guidance::Guided;
 use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
-use physics::guidance::pointing::boresight::MdisRange;
+use physics::guidance::pointing::boresight::Gimbal;
 use physics::management::Strategy;
 use physics::momentum::{DumpPolicy, Reinitialise, Settings};
 use physics::plant::{self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, Ramp};
@@ -18,7 +18,7 @@ use physics::spacecraft::PanelControl;
 use super::center::Center;
 use crate::common::center::CenterBody;
 use crate::common::ephemeris;
-use crate::common::management::check_windows;
+use crate::common::management::{check_strategy_has_antenna, check_windows, check_windows_have_antenna};
 use crate::common::spacecraft::inertia_body_kg_m2;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::state::PlantState;
@@ -228,8 +228,8 @@ pub fn guidance_law(context: &Plan<'_>, values: &Values, orbit: &TwoBodyOrbit) -
         method: KeepInMethod::Nearest,
     };
     let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
-    let camera = MdisRange::default();
-    let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, camera)?;
+    let gimbal = Gimbal::of(&context.setup.spacecraft.instruments);
+    let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, gimbal)?;
     Ok(variables.guided.by_shares(context, values, &context.setup.windows, law))
 }
 
@@ -242,10 +242,14 @@ fn attitude(
     let variables = context.variables;
     let guided = || {
         let law = guidance_law(context, values, orbit)?;
+        if !state.waiting {
+            check_windows_have_antenna(&law.schedule, &context.setup.antennas.all)?;
+        }
         let management = &variables.momentum.management;
         let (managed, choice) =
             (values.choice(management.strategy).0 != Strategy::DumpsOnly, state.flight.sun_choice());
         variables.guided.check_unload(values, managed)?;
+        check_strategy_has_antenna(values.choice(management.strategy).0, &context.setup.antennas.all)?;
         if managed && !state.waiting {
             check_windows(&law.schedule)?;
         }

@@ -107,7 +107,12 @@ pub fn read<'a>(
         is_reconfigured: configured.is_some(),
         configured,
         applied: state.inputs.applied_load(variables, step.inputs),
-        manager: management.aim.manager(values, strategy, limits_rad, (spacecraft, sunshade)),
+        manager: management.aim.manager(
+            values,
+            strategy,
+            limits_rad,
+            (spacecraft, sunshade, &context.setup.antennas.all),
+        ),
         prepared: context.setup.prepared_spacecraft(sunshade)?,
         work_limit: variables.solver.work.units(values),
     })

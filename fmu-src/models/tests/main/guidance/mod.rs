@@ -1,5 +1,6 @@
 //! Guidance through the functions a master calls.
 
+mod antennas;
 mod burn;
 mod burn_timeline;
 mod controlled;

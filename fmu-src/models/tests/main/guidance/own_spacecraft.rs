@@ -138,7 +138,12 @@ fn nadir_is_kept_for_a_day_without_a_keep_in_zone() {
 
 #[test]
 fn the_link_is_there_in_its_windows() {
-    let windows = "downlinks = { start = \"20 %\", stop = \"70 %\", every = 1 }";
+    let windows = r#"
+downlinks = { start = "20 %", stop = "70 %", every = 1 }
+antennas = [
+    { name = "front", azimuth_deg = [-90, 0], beam_deg = [4, 15] },
+    { name = "back", azimuth_deg = [90, 180], beam_deg = [4, 15] },
+]"#;
     for (planet, axis_km) in [("venus", 6551.8), ("earth", 6878.0), ("mars", 3796.0)] {
         let mut wired = Loop::begin(&spacecraft(planet, axis_km, windows), ORBIT_PHASE);
         let mut linked_s = 0.0;

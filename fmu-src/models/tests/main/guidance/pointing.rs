@@ -121,9 +121,12 @@ fn camera_and_antenna_stop_at_their_bounds() {
     for (asked_rad, found_rad) in [(0.5, 0.5), (1.0, 40_f64.to_radians()), (-2.0, -50_f64.to_radians())] {
         let angle = [("boresight.angle", asked_rad)];
         let flight = named.fly(0.0, &with(&[PLACED, FREE, &camera, &angle])).unwrap();
-        assert!((flight.real("mdis.angle") - found_rad).abs() < 1e-15);
+        assert!((flight.real("gimbal.angle") - found_rad).abs() < 1e-15);
         let inside = asked_rad == found_rad;
-        assert_eq!([flight.boolean("mdis.inRange"), flight.boolean("constraint.clamped")], [inside, !inside]);
+        assert_eq!(
+            [flight.boolean("gimbal.inRange"), flight.boolean("constraint.clamped")],
+            [inside, !inside]
+        );
     }
     let antenna = [("pointing.scenario", 6.0), ("boresight.option", 4.0)];
     for (asked_deg, found_deg, select) in
@@ -165,8 +168,8 @@ fn camera_and_beam_follow_their_targets_where_the_zone_moved_the_attitude() {
         let nadir = toward(&flight, -spacecraft);
         let wanted_deg = (-nadir.y).atan2(nadir.z).to_degrees();
         let in_range = (-50.0..=40.0).contains(&wanted_deg);
-        assert_eq!(flight.boolean("mdis.inRange"), in_range, "{azimuth_deg}: {wanted_deg}");
-        let found_deg = flight.real("mdis.angle").to_degrees();
+        assert_eq!(flight.boolean("gimbal.inRange"), in_range, "{azimuth_deg}: {wanted_deg}");
+        let found_deg = flight.real("gimbal.angle").to_degrees();
         assert!(
             !in_range || (found_deg - wanted_deg).abs() < 1e-10,
             "{azimuth_deg}: {found_deg} {wanted_deg}"

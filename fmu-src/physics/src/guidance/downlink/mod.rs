@@ -1,4 +1,5 @@
 //! Where the Sun stands in a downlink, and the link to the Earth.
 
+pub mod default_downlink;
 pub mod downlink_sun;
 pub mod sun_place;

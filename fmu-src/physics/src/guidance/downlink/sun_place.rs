@@ -1,14 +1,18 @@
-//! Downlink: a phased-array antenna at the Earth, the Sun where the momentum wants it (paper 000, eqs 14 to 22).
+//! Downlink: an antenna at the Earth, the Sun where the momentum wants it (paper 000, eqs 14 to 22).
 //!
-//! The antennas lie in the XY plane; one on the sunshade covers the azimuths -90 to 0 deg, one on the back 90 to 180 deg.
+//! Fans are steered in the XY plane over ranges of azimuth; MESSENGER's -90 to 0 deg and 90 to 180 deg, its quadrants.
 //! With the Sun at azimuth A and elevation E and the Earth in the XY plane, theta from the Sun, the Earth's azimuth is
 //! A + delta or A - delta, cos theta = cos E cos delta, which needs |E| <= min(theta, 180 deg - theta): E is cut there
 //! (the paper names the first bound alone). Of both azimuths:
 //!
-//! - the one inside a quadrant is taken; of two, A - delta for theta below 90 deg and A + delta beyond, which at A = E = 0
+//! - the one inside a range is taken; of two, A - delta for theta below 90 deg and A + delta beyond, which at A = E = 0
 //!   is the default attitude (eq 18);
-//! - where none is inside, the one nearest to a quadrant gives the antenna. The antenna looks along the quadrant's bound,
+//! - where none is inside, the one nearest to a range gives the antenna. The antenna looks along the range's bound,
 //!   and the Sun comes as near to the requested place as the Earth there allows.
+//!
+//! An antenna fixed along an axis looks along it, and the Sun comes as near to its place as that allows, | angle(place, axis) - theta |
+//! off; of several antennas the one is taken that leaves the Sun nearest to its place. Without antennas the attitude is that of fans all
+//! round.
 
 use core::f64::consts::TAU;
 
@@ -19,7 +23,7 @@ use crate::attitude::{SunAngles, angle_between_rad, direction_from_angles};
 use crate::constants::DEG_RAD;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{Moving, MovingVector, PARALLEL_RAD, direction, fixed, unit, value};
-use crate::guidance::pointing::antenna::{AntennaAzimuth, BOUND_RAD};
+use crate::guidance::pointing::antenna::{AntennaAzimuth, AntennaRow, Antennas, BOUND_RAD};
 use crate::guidance::pointing::law::PointingVectors;
 use crate::math;
 use crate::numerics::scalar::Scalar;
@@ -65,7 +69,7 @@ pub struct ChosenPlace {
 pub struct Downlink {
     /// The antenna at the Earth, the Sun toward its place.
     pub vectors: PointingVectors,
-    /// The antenna that looks at the Earth, and where in its quadrant.
+    /// The antenna that looks at the Earth, and where in its range.
     pub antenna: AntennaAzimuth,
     /// Whether elevation or antenna stands at a bound, off what was requested.
     pub clamped: bool,
@@ -88,6 +92,7 @@ pub struct EarthAzimuths {
 pub fn downlink(
     to_sun: &MovingVector,
     to_earth: &MovingVector,
+    antennas: &Antennas,
     request: &DownlinkRequest,
 ) -> Option<Downlink> {
     let solutions = both_solutions(to_sun, to_earth, request.sun_body)?;
@@ -99,11 +104,29 @@ pub fn downlink(
         None => {
             let [minus, plus] = solutions.azimuths;
             let requested = request.earth_ahead.map(|ahead| if ahead { plus } else { minus });
-            (requested.unwrap_or_else(|| solutions.preferred()), solutions.sun_body, solutions.clamped)
+            (
+                requested.unwrap_or_else(|| solutions.preferred(antennas)),
+                solutions.sun_body,
+                solutions.clamped,
+            )
         }
     };
-    let antenna = AntennaAzimuth::of(azimuth.re);
-    let at_bound = antenna.outside_rad > BOUND_RAD;
+    let antenna = antennas.nearest_fan(azimuth.re);
+    if request.antenna_azimuth_rad.is_none() && request.earth_ahead.is_none() {
+        let place_body = direction_from_angles(request.sun_body);
+        let separation_rad = angle_between_rad(&value(to_sun), &value(to_earth));
+        if let Some((row, axis_body)) = nearest_axis(antennas, &antenna, &place_body, separation_rad) {
+            let vectors = PointingVectors {
+                boresight_body: fixed(axis_body),
+                aimpoint: *to_earth,
+                body_roll: fixed(place_body),
+                external_roll: *to_sun,
+            };
+            let antenna = AntennaAzimuth::fixed(row, &axis_body);
+            return Some(Downlink { vectors, antenna, clamped: false });
+        }
+    }
+    let at_bound = antenna.antenna.is_some() && !antenna.is_in_range();
     let boresight_azimuth = if at_bound { Moving::constant(antenna.azimuth_rad) } else { azimuth };
     Some(Downlink {
         vectors: PointingVectors {
@@ -149,35 +172,52 @@ pub fn both_solutions(
 }
 
 impl EarthAzimuths {
-    /// The one inside a quadrant, or nearest to one; where both are inside, that on the default attitude's side.
-    fn preferred(&self) -> Moving {
+    /// The one inside a fan's range, or nearest to one; where both are inside, that on the default attitude's side.
+    fn preferred(&self, antennas: &Antennas) -> Moving {
         let [minus, plus] = self.azimuths;
-        let outside_rad = |azimuth: Moving| {
-            let nearest = AntennaAzimuth::of(azimuth.re);
-            if nearest.is_in_range() { 0.0 } else { nearest.outside_rad }
-        };
-        let (default, other) = if self.cosine > 0.0 { (minus, plus) } else { (plus, minus) };
-        if outside_rad(other) < outside_rad(default) { other } else { default }
+        if is_ahead(antennas, [minus.re, plus.re], self.cosine) { plus } else { minus }
     }
+}
+
+/// Whether of both azimuths of the Earth A + delta is taken, the cosine being that of the angle between Sun and Earth.
+pub(crate) fn is_ahead(antennas: &Antennas, [minus_rad, plus_rad]: [f64; 2], cosine: f64) -> bool {
+    let outside_rad = |azimuth_rad: f64| {
+        let nearest = antennas.nearest_fan(azimuth_rad);
+        if nearest.is_in_range() { 0.0 } else { nearest.outside_rad }
+    };
+    // Of ranges that lie alike about the Sun's line both are as far outside, whatever rounding says.
+    let (minus_rad, plus_rad) = (outside_rad(minus_rad), outside_rad(plus_rad));
+    if cosine > 0.0 { plus_rad < minus_rad - BOUND_RAD } else { plus_rad <= minus_rad + BOUND_RAD }
+}
+
+/// The antenna along an axis that leaves the Sun nearest to its place, if it is nearer than with the fan nearest to the Earth.
+pub(super) fn nearest_axis(
+    antennas: &Antennas,
+    fan: &AntennaAzimuth,
+    place_body: &Vector3<f64>,
+    separation_rad: f64,
+) -> Option<(AntennaRow, Vector3<f64>)> {
+    let off_rad =
+        |earth_body: &Vector3<f64>| (angle_between_rad(place_body, earth_body) - separation_rad).abs();
+    let of_fan_rad = fan.antenna.map_or(f64::INFINITY, |_| off_rad(&fan.direction_body()));
+    let nearest = antennas.axes().fold((of_fan_rad, None), |(least_rad, found), (row, axis_body)| {
+        let off_rad = off_rad(&axis_body);
+        let is_nearer = off_rad < least_rad - BOUND_RAD;
+        if is_nearer { (off_rad, Some((row, axis_body))) } else { (least_rad, found) }
+    });
+    nearest.1
 }
 
 /// Least angle between Sun and Earth for a link, assumed: no paper names it.
 pub const SOLAR_EXCLUSION_RAD: f64 = 3.0 * DEG_RAD;
 
-/// Half the length of an antenna's fan in its plane (paper 001: 15 by 4 deg).
-pub const FAN_HALF_LENGTH_RAD: f64 = 7.5 * DEG_RAD;
-
-/// Half the width of an antenna's fan across its plane (paper 001: 15 by 4 deg).
-pub const BEAM_HALF_WIDTH_RAD: f64 = 2.0 * DEG_RAD;
-
-/// What a link needs; the widths are assumptions where the papers differ.
+/// What a link needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkLimits {
     /// Least angle between Sun and Earth seen from the spacecraft, in rad.
     pub sun_separation_rad: f64,
-    /// How far the antennas' coverage extends above and below the XY plane and past the ends of their quadrants, in rad
-    /// (paper 001: 2 deg, half of a fan of 15 by 4 deg).
-    pub coverage_rad: f64,
+    /// Half the width of every antenna's beam across the XY plane, in rad; `None`: each has its own.
+    pub coverage_rad: Option<f64>,
 }
 
 /// Geometry of the link to the Earth.
@@ -195,21 +235,13 @@ pub struct Link {
 pub fn link(
     surroundings: &EphemerisAtTime,
     earth_body: &Vector3<f64>,
-    beam: Option<&AntennaAzimuth>,
+    (antennas, beam): (&Antennas, Option<&AntennaAzimuth>),
     limits: &LinkLimits,
 ) -> Option<Link> {
     let earth = unit(&surroundings.to_earth())?;
     let sun = unit(&surroundings.to_sun())?;
     let sun_separation_rad = angle_between_rad(&value(&sun), &value(&earth));
-    let SunAngles { azimuth_rad, elevation_rad } = SunAngles::of(earth_body);
-    let coverage_rad = limits.coverage_rad + BOUND_RAD;
-    let is_covered = |beam: &AntennaAzimuth| {
-        let nearest = beam.antenna.nearest(azimuth_rad);
-        elevation_rad.abs() <= coverage_rad
-            && beam.off_rad(azimuth_rad) <= FAN_HALF_LENGTH_RAD
-            && nearest.is_some_and(|nearest| nearest.outside_rad <= coverage_rad)
-    };
-    let covered = beam.is_some_and(is_covered);
+    let covered = beam.is_some_and(|beam| antennas.covers(beam, earth_body, limits.coverage_rad));
     let available =
         covered && sun_separation_rad > limits.sun_separation_rad && !behind_planet(surroundings, &earth);
     Some(Link { sun_separation_rad, covered, available })

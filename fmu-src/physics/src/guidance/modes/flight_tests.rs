@@ -202,12 +202,13 @@ fn random_flights_with_slews_stay_in_the_zone() {
             ..base
         };
         let eigenaxis = Guided { keep_in: None, ..law };
+        let base_hardware = hardware();
         let offset_s = start_s - orbit.surroundings(start_s).epoch_s;
         let lines = |epoch_s: f64| lines_of_sight(&orbit.surroundings(epoch_s + offset_s));
         for edge_s in [begin_s, begin_s + length_s] {
             for step in 0..3_000 {
                 let at_s = edge_s + 0.5 * f64::from(step);
-                let found = law.at(at_s, lines);
+                let found = law.at(at_s, base_hardware.default_downlink, lines);
                 if !found.slewing {
                     break;
                 }
@@ -217,7 +218,8 @@ fn random_flights_with_slews_stay_in_the_zone() {
                     zone.excess_rad(&(attitude.inertial_from_body.inverse() * sun)).unwrap()
                 };
                 worst_rad = worst_rad.max(excess(&found.frame));
-                without_zone_rad = without_zone_rad.max(excess(&eigenaxis.at(at_s, lines).frame));
+                without_zone_rad = without_zone_rad
+                    .max(excess(&eigenaxis.at(at_s, base_hardware.default_downlink, lines).frame));
                 assert!(
                     excess(&found.frame) < 1e-9,
                     "{flight}: {:e} at {at_s} s, {law:?}",

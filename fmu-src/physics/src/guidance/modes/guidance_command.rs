@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::{Attitude, MovingFrame};
 use crate::enumeration::enumeration;
-use crate::guidance::pointing::antenna::Antenna;
+use crate::guidance::pointing::antenna::AntennaRow;
 use crate::guidance::pointing::boresight::DeviceAngle;
 
 enumeration! {
@@ -45,10 +45,10 @@ pub struct GuidanceCommand {
 /// Status of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CommandStatus {
-    /// The camera's angle, and whether it is the one requested.
-    pub mdis: DeviceAngle,
+    /// The gimbal's angle, and whether it is the one requested.
+    pub gimbal: DeviceAngle,
     /// The antenna in use.
-    pub antenna: Antenna,
+    pub antenna: Option<AntennaRow>,
     /// Where it looks, in rad.
     pub antenna_azimuth_rad: f64,
     /// Angle between Sun and Earth, in rad.
@@ -142,8 +142,8 @@ impl GuidanceCommand {
 impl CommandStatus {
     /// Of no attitude.
     pub(super) const NOTHING: Self = Self {
-        mdis: DeviceAngle { angle_rad: 0.0, in_range: true },
-        antenna: Antenna::None,
+        gimbal: DeviceAngle { angle_rad: 0.0, in_range: true },
+        antenna: None,
         antenna_azimuth_rad: 0.0,
         sun_separation_rad: 0.0,
         link_available: false,

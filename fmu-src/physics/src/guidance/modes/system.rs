@@ -25,7 +25,7 @@ use crate::guidance::orbit_phase::guided::Guided;
 use crate::guidance::orbit_phase::orbit_ahead::ellipse_of;
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
 use crate::guidance::orbit_phase::schedule::{Activity, Schedule};
-use crate::guidance::pointing::antenna::{Antenna, AntennaAzimuth, Beam};
+use crate::guidance::pointing::antenna::Beam;
 use crate::guidance::pointing::command::{
     BoresightOption, LimbCommand, PointingCommand, ScanCommand, Scenario,
 };
@@ -43,7 +43,7 @@ pub const SAMPLE_WORK: u32 = 4;
 /// Everything that parameters say.
 #[derive(Clone, Copy, Debug)]
 pub struct GuidanceSettings<'a> {
-    /// Instruments, camera, scans.
+    /// Instruments, gimbal, scans.
     pub hardware: GuidanceHardware<'a>,
     /// Modes and their constraints.
     pub modes: ModeSettings,
@@ -381,17 +381,19 @@ impl GuidanceState {
         self.command = self.command.followed_by(&pointing.frame(), now.time_s);
         let earth_body = value(&pointing.to_body(&now.surroundings.to_earth()));
         let is_moved = sun_keep_in || hot_pole;
+        let antennas = now.settings.hardware.antennas;
         let beam = aimed.antenna.map(|requested| match requested {
-            // The beam follows the Earth where a constraint moved the antenna off it.
-            Beam::AtTheEarth(_) if is_moved => AntennaAzimuth::toward(&earth_body),
+            // A fan's beam follows the Earth where a constraint moved the antenna off it.
+            Beam::AtTheEarth(beam) if is_moved => antennas.following(beam, &earth_body),
             Beam::AtTheEarth(azimuth) | Beam::Commanded(azimuth) => azimuth,
         });
-        let link = link(now.surroundings, &earth_body, beam.as_ref(), &now.settings.link);
-        let mdis =
-            aimed.camera(&pointing, &now.settings.hardware.mdis).unwrap_or(CommandStatus::NOTHING.mdis);
+        let link = link(now.surroundings, &earth_body, (antennas, beam.as_ref()), &now.settings.link);
+        let gimbal = aimed
+            .gimbal_angle(&pointing, now.settings.hardware.gimbal.as_ref())
+            .unwrap_or(CommandStatus::NOTHING.gimbal);
         self.status = CommandStatus {
-            mdis,
-            antenna: beam.map_or(Antenna::None, |beam| beam.antenna),
+            gimbal,
+            antenna: beam.and_then(|beam| beam.antenna),
             antenna_azimuth_rad: beam.map_or(0.0, |beam| beam.azimuth_rad),
             sun_separation_rad: link.map_or(0.0, |link| link.sun_separation_rad),
             link_available: link.is_some_and(|link| link.available),
@@ -404,7 +406,7 @@ impl GuidanceState {
             sun_keep_in,
             hot_pole,
             hot_pole_reached,
-            clamped: !hot_pole_reached || aimed.clamped || !mdis.in_range,
+            clamped: !hot_pole_reached || aimed.clamped || !gimbal.in_range,
         };
     }
 
@@ -424,7 +426,7 @@ impl GuidanceState {
         if command.scenario == Some(Scenario::OrbitPhase) {
             let science = self.downlink_sun.in_science().filter(|_| self.modes.mode == Mode::Operational);
             let law = now.settings.orbit_phase.with_sun_places(self.sun_place(), science);
-            return Some(self.orbit_phase(&law, now.surroundings));
+            return Some(self.orbit_phase(&law, now.surroundings, &now.settings.hardware));
         }
         let progress = PointingProgress {
             scan: self.scan.map(|(_, since_s)| ScanTime {
@@ -439,15 +441,20 @@ impl GuidanceState {
     }
 
     /// The orbit phase's attitude as vectors: +Z at where it looks, -Y rolled to where it is.
-    fn orbit_phase(&mut self, law: &Guided, surroundings: &EphemerisAtTime) -> Aimed {
-        let attitude = self.periapses.attitude(law, surroundings);
+    fn orbit_phase(
+        &mut self,
+        law: &Guided,
+        surroundings: &EphemerisAtTime,
+        hardware: &GuidanceHardware<'_>,
+    ) -> Aimed {
+        let attitude = self.periapses.attitude(law, hardware.default_downlink, surroundings);
         let pointing = Pointing::of(&attitude.frame);
         let is_downlink = attitude.window.activity == Activity::Downlink && !attitude.slewing;
         let keeps_nadir = attitude.window.activity == Activity::Science && law.science.unloads();
         let earth_body = || value(&pointing.to_body(&surroundings.to_earth()));
         Aimed {
             second: keeps_nadir.then(|| surroundings.to_planet()),
-            antenna: is_downlink.then(|| Beam::AtTheEarth(AntennaAzimuth::toward(&earth_body()))),
+            antenna: is_downlink.then(|| Beam::AtTheEarth(hardware.antennas.toward(&earth_body()))),
             reachable: !attitude.slewing && attitude.margins.iter().all(|margin| *margin >= 0.0),
             ..Aimed::at(pointing.vectors())
         }

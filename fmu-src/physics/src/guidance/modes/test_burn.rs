@@ -20,7 +20,7 @@ use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::test_orbit::{about_mercury, guided};
 use crate::guidance::orbit_phase::attitudes::ScienceRule;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
-use crate::guidance::pointing::scenario::GuidanceHardware;
+use crate::guidance::pointing::scenario_tests::no_instruments;
 use crate::numerics::noise::{Channel, normal_vector};
 
 /// Control samples a second.
@@ -101,7 +101,7 @@ pub fn settings(delta_v_m_s: Vector3<f64>) -> BurnSettings {
 pub fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static> {
     let keep_in = nearest_zone(0.3, 0.3);
     GuidanceSettings {
-        hardware: GuidanceHardware::default(),
+        hardware: no_instruments(),
         modes: ModeSettings {
             operational: Constraints::default(),
             safe_hold: Constraints::default(),
@@ -115,7 +115,7 @@ pub fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static> {
         },
         keep_in,
         keep_in_distance_m: 1e13,
-        link: LinkLimits { sun_separation_rad: 0.05, coverage_rad: 0.05 },
+        link: LinkLimits { sun_separation_rad: 0.05, coverage_rad: Some(0.05) },
         orbit_phase: guided(ScienceRule::Nadir, f64::INFINITY, [0.0, 0.0], 0),
         burn,
     }

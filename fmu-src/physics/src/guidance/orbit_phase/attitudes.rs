@@ -5,9 +5,10 @@ use nalgebra::{ComplexField, Vector3};
 
 use crate::attitude::{MovingFrame, MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
 use crate::environment::CartesianState;
+use crate::guidance::downlink::default_downlink::{DefaultDownlink, EarthBoresight};
 use crate::guidance::downlink::sun_place::{SunPlace, both_solutions};
 use crate::guidance::geometry::moving::{Moving, direction, fixed, moving};
-use crate::guidance::pointing::boresight::{MdisRange, mdis_direction};
+use crate::guidance::pointing::boresight::Gimbal;
 use crate::guidance::pointing::law::PointingVectors;
 use crate::math;
 use crate::numerics::scalar::Scalar;
@@ -42,8 +43,8 @@ pub enum ScienceRule {
     Unloading {
         /// Where the Sun stands in the body frame during the present science, and during the slew out of it.
         sun: SunAngles,
-        /// Range of the camera that keeps nadir.
-        camera: MdisRange,
+        /// The camera's gimbal that keeps nadir.
+        gimbal: Gimbal,
     },
 }
 
@@ -57,7 +58,7 @@ impl ScienceRule {
     #[must_use]
     pub fn with_sun(self, sun: SunAngles) -> Self {
         match self {
-            Self::Unloading { camera, .. } => Self::Unloading { sun, camera },
+            Self::Unloading { gimbal, .. } => Self::Unloading { sun, gimbal },
             Self::Scaled { .. } | Self::Nadir | Self::PlanetOrbit => self,
         }
     }
@@ -83,7 +84,7 @@ pub fn science(lines: &LinesOfSight, rule: ScienceRule, elevation_limit_rad: f64
         ScienceRule::Scaled { gain } => gain,
         ScienceRule::Nadir => 1.0,
         ScienceRule::PlanetOrbit => return planet_orbit(lines),
-        ScienceRule::Unloading { sun, camera } => return unloading(lines, sun, &camera),
+        ScienceRule::Unloading { sun, gimbal } => return unloading(lines, sun, &gimbal),
     };
     let Some((side, angle_rad, angle_rate_rad_s)) =
         lines.planet.as_ref().and_then(|planet| lines.sun.perpendicular_part(planet))
@@ -104,20 +105,23 @@ pub fn science(lines: &LinesOfSight, rule: ScienceRule, elevation_limit_rad: f64
     AttitudeCommand { frame: base.pitched(-elevation_rad, -rate_rad_s), margins }
 }
 
-/// Science attitude of paper 001's off-pointing: the Sun at `sun`, turned about the Sun line until nadir lies in the scan plane YZ
-/// of the camera, on the side of +Z; where the camera's range does not reach it, until its nearest bound comes nearest to nadir.
+/// Science attitude of paper 001's off-pointing: the Sun at `sun`, turned about the Sun line until nadir lies in the plane that the
+/// camera's gimbal sweeps, on the side of its boresight; where the gimbal's range does not reach it, until its nearest bound comes
+/// nearest to nadir.
 ///
-/// With the Sun's direction s in the body, rho = hypot(s_y, s_z) and beta = atan2(-s_z, -s_y), the camera at the angle phi is off
-/// the Sun by theta, cos theta = rho sin(phi - beta): theta between Sun and nadir gives phi.
-pub fn unloading(lines: &LinesOfSight, sun: SunAngles, camera: &MdisRange) -> AttitudeCommand {
+/// With the components z and q of the Sun's direction along the boresights at 0 and +90 deg, rho = hypot(q, z) and
+/// beta = atan2(-z, q), the camera at the angle phi is off the Sun by theta, cos theta = rho sin(phi - beta): theta between Sun and
+/// nadir gives phi.
+pub fn unloading(lines: &LinesOfSight, sun: SunAngles, gimbal: &Gimbal) -> AttitudeCommand {
     let Some(planet) = &lines.planet else { return sun_pointing(lines) };
     let [to_sun, to_planet] = [&lines.sun, planet].map(|to| moving(to.direction, to.rate_1_s));
     let sun_body = direction_from_angles(sun);
-    let (rho, beta_rad) = (math::hypot(sun_body.y, sun_body.z), math::atan2(-sun_body.z, -sun_body.y));
+    let (zero, quarter) = (sun_body.dot(&gimbal.zero_body), sun_body.dot(&gimbal.quarter_body));
+    let (rho, beta_rad) = (math::hypot(quarter, zero), math::atan2(-zero, quarter));
     let cosine = to_sun.dot(&to_planet);
-    let quarter = core::f64::consts::FRAC_PI_2;
+    let right = core::f64::consts::FRAC_PI_2;
     let [least_rad, greatest_rad] =
-        [camera.minimum_rad, camera.maximum_rad].map(|it| (it - beta_rad).clamp(-quarter, quarter));
+        [gimbal.minimum_rad, gimbal.maximum_rad].map(|it| (it - beta_rad).clamp(-right, right));
     let margins = [rho * math::sin(greatest_rad) - cosine.re, cosine.re - rho * math::sin(least_rad)];
     let off_beta = if margins[0] <= 0.0 {
         Moving::constant(greatest_rad)
@@ -129,7 +133,7 @@ pub fn unloading(lines: &LinesOfSight, sun: SunAngles, camera: &MdisRange) -> At
     let vectors = PointingVectors {
         boresight_body: fixed(sun_body),
         aimpoint: to_sun,
-        body_roll: mdis_direction(off_beta + beta_rad),
+        body_roll: gimbal.moving_boresight(off_beta + beta_rad),
         external_roll: to_planet,
     };
     vectors
@@ -148,22 +152,32 @@ fn planet_orbit(lines: &LinesOfSight) -> AttitudeCommand {
     frame.map_or_else(|| sun_pointing(lines), |frame| AttitudeCommand { frame, margins: NO_MARGINS })
 }
 
-/// Default downlink attitude (eq 18): -Y toward the Sun, the Earth in the -X,-Y quadrant of the XY plane while it
-/// is less than 90 deg from the Sun, in the +X,+Y quadrant otherwise.
-pub fn downlink(lines: &LinesOfSight) -> AttitudeCommand {
+/// Default downlink attitude (eq 18): -Y toward the Sun, the Earth where `law` has it; MESSENGER's in the -X,-Y quadrant of the XY
+/// plane while it is less than 90 deg from the Sun, in the +X,+Y quadrant otherwise.
+pub fn downlink(lines: &LinesOfSight, law: &DefaultDownlink) -> AttitudeCommand {
     let cosine = lines.sun.direction.dot(&lines.earth.direction);
     let (sun, earth) = (&lines.sun, &lines.earth);
-    let (from, to) = if cosine > 0.0 { (earth, sun) } else { (sun, earth) };
+    let margins = [law.margin(cosine), f64::INFINITY];
+    let (from, to) = match law.boresight(cosine) {
+        EarthBoresight::Behind => (earth, sun),
+        EarthBoresight::Ahead => (sun, earth),
+        EarthBoresight::Fixed(boresight_body) => {
+            let [external_roll, aimpoint] = [sun, earth].map(|to| moving(to.direction, to.rate_1_s));
+            let (boresight_body, body_roll) = (fixed(boresight_body), fixed(-Vector3::y()));
+            let vectors = PointingVectors { boresight_body, aimpoint, body_roll, external_roll };
+            return vectors.pointing().map_or_else(
+                || sun_pointing(lines),
+                |pointing| AttitudeCommand { frame: pointing.frame(), margins },
+            );
+        }
+    };
     let normal = from.direction.cross(&to.direction);
     let normal_rate = from.rate_1_s.cross(&to.direction) + from.direction.cross(&to.rate_1_s);
     if normal.norm() < 1e-9 {
         return sun_pointing(lines);
     }
     match MovingUnit::of(normal, normal_rate) {
-        Some(z) => AttitudeCommand {
-            frame: MovingFrame::from_yz(&opposite(sun), &z),
-            margins: [cosine, f64::INFINITY],
-        },
+        Some(z) => AttitudeCommand { frame: MovingFrame::from_yz(&opposite(sun), &z), margins },
         None => sun_pointing(lines),
     }
 }

@@ -6,6 +6,7 @@ use super::attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink, dow
 use super::schedule::{Activity, Schedule, Window};
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::constraints::slew::{Slew, SlewStart};
+use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::downlink::sun_place::SunPlace;
 
 /// The guidance law of the orbital phase.
@@ -50,9 +51,15 @@ impl Guided {
         Self { sun_place, science: self.science.with_sun(science.unwrap_or_default()), ..self }
     }
 
-    /// Attitude at `time_s` (time scale of the schedule). `lines_at` gives the lines of sight at any time.
-    pub fn at(&self, time_s: f64, lines_at: impl FnMut(f64) -> LinesOfSight) -> GuidedAttitude {
-        self.within(self.schedule.window(time_s), time_s, lines_at)
+    /// Attitude at `time_s` (time scale of the schedule) with the antennas of this default downlink. `lines_at` gives the lines of
+    /// sight at any time.
+    pub fn at(
+        &self,
+        time_s: f64,
+        default_downlink: &DefaultDownlink,
+        lines_at: impl FnMut(f64) -> LinesOfSight,
+    ) -> GuidedAttitude {
+        self.within(self.schedule.window(time_s), time_s, default_downlink, lines_at)
     }
 
     /// The same in a window found by other means than the schedule's own counting.
@@ -60,10 +67,12 @@ impl Guided {
         &self,
         window: Window,
         time_s: f64,
+        default_downlink: &DefaultDownlink,
         mut lines_at: impl FnMut(f64) -> LinesOfSight,
     ) -> GuidedAttitude {
         let lines = lines_at(time_s);
-        let target = self.command(window.activity, &lines);
+        let command = |activity, lines: &LinesOfSight| self.command(activity, lines, default_downlink);
+        let target = command(window.activity, &lines);
         let held = GuidedAttitude {
             frame: target.frame,
             window,
@@ -83,13 +92,13 @@ impl Guided {
             Activity::Downlink => Activity::Science,
         };
         let lines_then = lines_at(window.since_s);
-        let from = self.command(before, &lines_then).frame;
-        let to = self.command(window.activity, &lines_then).frame;
+        let from = command(before, &lines_then).frame;
+        let to = command(window.activity, &lines_then).frame;
         let start = SlewStart {
             from: &from,
             to: &to,
             to_sun: lines_then.sun.direction,
-            sun_drift_rad_s: self.sun_drift_rad_s(window.activity, &lines_then),
+            sun_drift_rad_s: self.sun_drift_rad_s(window.activity, &lines_then, default_downlink),
         };
         let slew = Slew::between(&start, self.keep_in.as_ref(), self.slew_rate_rad_s);
         let duration_s = slew.length_rad() / self.slew_rate_rad_s;
@@ -113,8 +122,16 @@ impl Guided {
 
     /// Bound of the rate at which the Sun moves in the body frame during a turn to an attitude, in rad/s: twice what the lines
     /// of sight allow where the turn begins.
-    fn sun_drift_rad_s(&self, activity: Activity, lines: &LinesOfSight) -> f64 {
+    fn sun_drift_rad_s(
+        &self,
+        activity: Activity,
+        lines: &LinesOfSight,
+        default_downlink: &DefaultDownlink,
+    ) -> f64 {
         let gain = match (activity, self.science) {
+            (Activity::Downlink, _) if self.sun_place.is_none() && default_downlink.moves_the_sun() => {
+                return 2.0 * (lines.earth.rate_1_s.norm() + lines.sun.rate_1_s.norm());
+            }
             (Activity::Downlink, _) | (Activity::Science, ScienceRule::Unloading { .. }) => return 0.0,
             (Activity::Science, ScienceRule::Scaled { gain }) => gain.abs(),
             (Activity::Science, ScienceRule::Nadir | ScienceRule::PlanetOrbit) => 1.0,
@@ -123,12 +140,17 @@ impl Guided {
         2.0 * gain * (planet_rad_s + lines.sun.rate_1_s.norm())
     }
 
-    fn command(&self, activity: Activity, lines: &LinesOfSight) -> AttitudeCommand {
+    fn command(
+        &self,
+        activity: Activity,
+        lines: &LinesOfSight,
+        default_downlink: &DefaultDownlink,
+    ) -> AttitudeCommand {
         match activity {
             Activity::Science => science(lines, self.science, self.elevation_limit_rad),
             Activity::Downlink => match &self.sun_place {
                 Some(place) => downlink_toward(lines, place),
-                None => downlink(lines),
+                None => downlink(lines, default_downlink),
             },
         }
     }

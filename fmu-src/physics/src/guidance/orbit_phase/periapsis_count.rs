@@ -6,6 +6,7 @@ use super::guided::{Guided, GuidedAttitude};
 use super::orbit_ahead::{ellipse_of, lines_of_sight};
 use super::schedule::Schedule;
 use crate::environment::orbit::TwoBodyOrbit;
+use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 
 /// The periapsis from which downlinks are counted; that of the orbit on which counting began.
@@ -18,10 +19,15 @@ impl PeriapsisCount {
     /// The attitude of the orbit phase. Periapsis and period of `law` are replaced by those of the orbit that position and
     /// velocity give; between disturbed orbits the count goes on. Where a slew begins the spacecraft stood on that orbit, and
     /// Sun and Earth moved evenly since.
-    pub fn attitude(&mut self, law: &Guided, surroundings: &EphemerisAtTime) -> GuidedAttitude {
+    pub fn attitude(
+        &mut self,
+        law: &Guided,
+        default_downlink: &DefaultDownlink,
+        surroundings: &EphemerisAtTime,
+    ) -> GuidedAttitude {
         let (orbit, schedule) = self.counted(&law.schedule, surroundings);
         let (epoch_s, now) = (surroundings.epoch_s, lines_of_sight(surroundings));
-        Guided { schedule, ..*law }.at(epoch_s, |at_s| match orbit {
+        Guided { schedule, ..*law }.at(epoch_s, default_downlink, |at_s| match orbit {
             Some(orbit) if at_s != epoch_s => {
                 lines_of_sight(&surroundings.moved_to(at_s, &orbit.state_at(at_s)))
             }

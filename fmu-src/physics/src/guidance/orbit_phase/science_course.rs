@@ -9,7 +9,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::attitudes::{LinesOfSight, unloading};
 use crate::attitude::{MovingUnit, SunAngles};
-use crate::guidance::pointing::boresight::MdisRange;
+use crate::guidance::pointing::boresight::Gimbal;
 use crate::numerics::quadrature::GAUSS_3;
 
 /// Intervals.
@@ -31,7 +31,7 @@ pub struct CoursePoint {
 /// Science ahead.
 #[derive(Clone, Copy, Debug)]
 pub struct ScienceCourse {
-    camera: MdisRange,
+    gimbal: Gimbal,
     nodes: [(CoursePoint, f64); NODES],
     begin: CoursePoint,
     end: CoursePoint,
@@ -39,7 +39,7 @@ pub struct ScienceCourse {
 
 impl ScienceCourse {
     /// Science of `span_s` by points at shares of it from 0 to 1.
-    pub fn of(camera: MdisRange, span_s: f64, mut at: impl FnMut(f64) -> CoursePoint) -> Self {
+    pub fn of(gimbal: Gimbal, span_s: f64, mut at: impl FnMut(f64) -> CoursePoint) -> Self {
         let begin = at(0.0);
         let interval = 1.0 / INTERVALS as f64;
         let mut nodes = [(CoursePoint::default(), 0.0); NODES];
@@ -50,7 +50,7 @@ impl ScienceCourse {
                 if begin.pressure_pa > 0.0 { point.pressure_pa / begin.pressure_pa } else { 1.0 };
             *node = (point, weight * interval * span_s * brightness);
         }
-        Self { camera, nodes, begin, end: at(1.0) }
+        Self { gimbal, nodes, begin, end: at(1.0) }
     }
 
     /// How long sunlight as at the begin takes to do what it does in all of it, in s.
@@ -93,6 +93,6 @@ impl ScienceCourse {
             earth: to_sun,
             sun_from_planet: None,
         };
-        unloading(&lines, sun, &self.camera).frame.inertial_from_body
+        unloading(&lines, sun, &self.gimbal).frame.inertial_from_body
     }
 }

@@ -1,36 +1,33 @@
-//! The phased-array antennas: one on the sunshade for azimuths of -90 to 0 deg, one on the back for 90 to 180 deg.
+//! Antennas as guidance steers them: fans in the XY plane by azimuth, others fixed along an axis.
 
-use core::f64::consts::{FRAC_PI_4, PI, TAU};
+use core::f64::consts::{PI, TAU};
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::attitude::SunAngles;
-use crate::enumeration::enumeration;
+use crate::attitude::{SunAngles, angle_between_rad, direction_from_angles};
+use crate::math;
+use crate::spacecraft::{Antenna, AntennaRange, FanAzimuths, NamedAntenna};
 
-/// An azimuth this little outside a quadrant counts as inside, in rad.
+/// An azimuth this little outside a range counts as inside, in rad.
 pub const BOUND_RAD: f64 = 1e-12;
 
-enumeration! {
-    /// A phased-array antenna.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-    pub enum Antenna {
-        /// None: no downlink.
-        #[default]
-        0 => None,
-        /// Beside the sunshade, azimuth -90 to 0 deg.
-        1 => Sunshade,
-        /// At the back, azimuth 90 to 180 deg.
-        2 => Back,
-    }
+/// The antennas of a spacecraft.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Antennas {
+    list: Vec<Antenna>,
 }
 
-/// Where an antenna looks in the XY plane.
+/// An antenna by its row in the file, from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AntennaRow(pub u16);
+
+/// Where an antenna looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AntennaAzimuth {
-    /// The antenna.
-    pub antenna: Antenna,
-    /// Azimuth in its quadrant, in rad.
+    /// The antenna; `None`: there is none.
+    pub antenna: Option<AntennaRow>,
+    /// Azimuth in its range, or of its axis, in rad.
     pub azimuth_rad: f64,
     /// How far off the azimuth that was requested lies, in rad.
     pub outside_rad: f64,
@@ -45,42 +42,137 @@ pub enum Beam {
     Commanded(AntennaAzimuth),
 }
 
-impl Antenna {
-    /// Both antennas.
-    pub const ALL: [Self; 2] = [Self::Sunshade, Self::Back];
-
-    /// Middle of the quadrant; `None` for no antenna.
-    fn middle_rad(self) -> Option<f64> {
-        match self {
-            Self::None => None,
-            Self::Sunshade => Some(-FRAC_PI_4),
-            Self::Back => Some(3.0 * FRAC_PI_4),
-        }
+impl Antennas {
+    /// Those of a spacecraft.
+    pub fn of(antennas: &[NamedAntenna]) -> Self {
+        Self { list: antennas.iter().map(|named| named.antenna).collect() }
     }
 
-    /// The azimuth of its quadrant nearest to `azimuth_rad`; `None` for no antenna.
-    pub fn nearest(self, azimuth_rad: f64) -> Option<AntennaAzimuth> {
-        let middle_rad = self.middle_rad()?;
-        let off_rad = (azimuth_rad - middle_rad + PI).rem_euclid(TAU) - PI;
-        Some(AntennaAzimuth {
-            antenna: self,
-            azimuth_rad: middle_rad + off_rad.clamp(-FRAC_PI_4, FRAC_PI_4),
-            outside_rad: (off_rad.abs() - FRAC_PI_4).max(0.0),
-        })
+    fn rows(&self) -> impl Iterator<Item = (AntennaRow, &Antenna)> {
+        (0..).map(AntennaRow).zip(&self.list)
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// Fans that are steered in the XY plane.
+    pub fn fans(&self) -> impl Iterator<Item = (AntennaRow, FanAzimuths)> {
+        self.rows().filter_map(|(row, antenna)| Some((row, antenna.fan()?)))
+    }
+
+    /// Antennas fixed along an axis.
+    pub fn axes(&self) -> impl Iterator<Item = (AntennaRow, Vector3<f64>)> {
+        self.rows().filter_map(|(row, antenna)| Some((row, antenna.axis_body()?)))
+    }
+
+    /// Whether one is steered in the XY plane.
+    pub fn has_fan(&self) -> bool {
+        self.fans().next().is_some()
+    }
+
+    /// That of a row.
+    pub fn get(&self, AntennaRow(row): AntennaRow) -> Option<&Antenna> {
+        self.list.get(usize::from(row))
+    }
+
+    /// Of the fan nearest to an azimuth; midway between two bounds, and of two with one bound, that of the first.
+    pub fn nearest_fan(&self, azimuth_rad: f64) -> AntennaAzimuth {
+        let none = AntennaAzimuth { antenna: None, azimuth_rad, outside_rad: f64::INFINITY };
+        let nearer = |best: AntennaAzimuth, next: AntennaAzimuth| {
+            if next.outside_rad < best.outside_rad - BOUND_RAD { next } else { best }
+        };
+        self.fans().map(|(row, fan)| fan_at(row, &fan, azimuth_rad)).fold(none, nearer)
+    }
+
+    /// Of the antenna nearest to a body-frame direction: a fan, unless one along an axis is nearer.
+    pub fn toward(&self, direction_body: &Vector3<f64>) -> AntennaAzimuth {
+        let fan = self.nearest_fan(SunAngles::of(direction_body).azimuth_rad);
+        let off_rad = match fan.antenna {
+            Some(_) => angle_between_rad(&fan.direction_body(), direction_body),
+            None => f64::INFINITY,
+        };
+        let nearer = |best: (f64, AntennaAzimuth), (row, axis_body): (AntennaRow, Vector3<f64>)| {
+            let off_rad = angle_between_rad(&axis_body, direction_body);
+            if off_rad < best.0 - BOUND_RAD {
+                (off_rad, AntennaAzimuth::fixed(row, &axis_body))
+            } else {
+                best
+            }
+        };
+        self.axes().fold((off_rad, fan), nearer).1
+    }
+
+    /// Where the beam looks after a constraint moved it off the Earth: a fan follows it.
+    pub fn following(&self, beam: AntennaAzimuth, earth_body: &Vector3<f64>) -> AntennaAzimuth {
+        let is_fixed = beam.antenna.is_some_and(|row| self.axes().any(|(other, _)| other == row));
+        if is_fixed { beam } else { self.nearest_fan(SunAngles::of(earth_body).azimuth_rad) }
+    }
+
+    /// Whether a beam covers a body-frame direction, `across_rad` being half its width across the XY plane where that is given. A
+    /// fan reaches half that width past its ends.
+    pub fn covers(
+        &self,
+        beam: &AntennaAzimuth,
+        direction_body: &Vector3<f64>,
+        across_rad: Option<f64>,
+    ) -> bool {
+        let Some((row, antenna)) = beam.antenna.and_then(|row| Some((row, self.get(row)?))) else {
+            return false;
+        };
+        let across_rad = across_rad.unwrap_or(antenna.half_across_rad());
+        let along_rad = 0.5 * antenna.along_rad;
+        match antenna.range {
+            AntennaRange::Fan(fan) => {
+                let SunAngles { azimuth_rad, elevation_rad } = SunAngles::of(direction_body);
+                let reach_rad = across_rad + BOUND_RAD;
+                elevation_rad.abs() <= reach_rad
+                    && beam.off_rad(azimuth_rad) <= along_rad
+                    && fan_at(row, &fan, azimuth_rad).outside_rad <= reach_rad
+            }
+            AntennaRange::Axis(axis_body) => {
+                // An ellipse about the axis: along is the direction across the axis that lies in the XY plane.
+                let along = Vector3::z().cross(&axis_body).try_normalize(1e-9).unwrap_or(Vector3::x());
+                let across = axis_body.cross(&along);
+                let off_rad = angle_between_rad(&axis_body, direction_body);
+                let (x, y) = (direction_body.dot(&along), direction_body.dot(&across));
+                let length = math::hypot(x, y);
+                if length == 0.0 {
+                    return off_rad < 1.0;
+                }
+                let shares = [off_rad * x / (length * along_rad), off_rad * y / (length * across_rad)];
+                math::hypot(shares[0], shares[1]) <= 1.0 + BOUND_RAD
+            }
+        }
     }
 }
 
+/// The azimuth of a fan's range nearest to `azimuth_rad`.
+fn fan_at(row: AntennaRow, fan: &FanAzimuths, azimuth_rad: f64) -> AntennaAzimuth {
+    let off_rad = (azimuth_rad - fan.middle_rad + PI).rem_euclid(TAU) - PI;
+    let nearest_rad = fan.middle_rad + off_rad.clamp(-fan.half_rad, fan.half_rad);
+    AntennaAzimuth {
+        antenna: Some(row),
+        azimuth_rad: if nearest_rad.abs() > PI { wrapped_rad(nearest_rad) } else { nearest_rad },
+        outside_rad: (off_rad.abs() - fan.half_rad).max(0.0),
+    }
+}
+
+/// The angle in -pi..pi.
+fn wrapped_rad(angle_rad: f64) -> f64 {
+    (angle_rad + PI).rem_euclid(TAU) - PI
+}
+
 impl AntennaAzimuth {
-    /// Of the antenna nearest to an azimuth; midway between two bounds that of the sunshade.
-    pub fn of(azimuth_rad: f64) -> Self {
-        let none = Self { antenna: Antenna::None, azimuth_rad, outside_rad: f64::INFINITY };
-        let nearer = |best: Self, next: Self| if next.outside_rad < best.outside_rad { next } else { best };
-        Antenna::ALL.into_iter().filter_map(|antenna| antenna.nearest(azimuth_rad)).fold(none, nearer)
+    /// Of an antenna along an axis.
+    pub fn fixed(row: AntennaRow, axis_body: &Vector3<f64>) -> Self {
+        Self { antenna: Some(row), azimuth_rad: SunAngles::of(axis_body).azimuth_rad, outside_rad: 0.0 }
     }
 
-    /// Of the antenna nearest to a body-frame direction.
-    pub fn toward(direction_body: &Vector3<f64>) -> Self {
-        Self::of(SunAngles::of(direction_body).azimuth_rad)
+    /// Where that azimuth is in the XY plane, body frame.
+    pub fn direction_body(&self) -> Vector3<f64> {
+        direction_from_angles(SunAngles { azimuth_rad: self.azimuth_rad, elevation_rad: 0.0 })
     }
 
     /// How far a body-frame azimuth is from it, in rad.
@@ -93,3 +185,6 @@ impl AntennaAzimuth {
         self.outside_rad <= BOUND_RAD
     }
 }
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -1,14 +1,13 @@
-//! The boresight options of paper 001's Table 1: vectors, the MDIS camera, the phased-array antennas.
+//! The boresight options of paper 001's Table 1: vectors, the instrument on the gimbal, the phased-array antennas.
 
 use core::f64::consts::{PI, TAU};
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::antenna::AntennaAzimuth;
+use super::antenna::{AntennaAzimuth, Antennas};
 use super::command::{BoresightCommand, BoresightOption};
 use crate::attitude::{SunAngles, direction_from_angles};
-use crate::constants::DEG_RAD;
 use crate::guidance::geometry::moving::{Moving, MovingVector, fixed};
 use crate::math;
 use crate::numerics::scalar::sin_cos;
@@ -22,23 +21,17 @@ pub fn instrument_boresight(instruments: &[Instrument], number: u32) -> Option<V
     }
 }
 
-/// Range of the camera: 50 deg away from the Sun, 40 deg toward it (paper 001, Figure 2).
-pub const MDIS_RANGE_RAD: [f64; 2] = [-50.0 * DEG_RAD, 40.0 * DEG_RAD];
-
-/// Range of the MDIS camera's angle: from +Z in the Y-Z plane, positive sunward, toward -Y.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct MdisRange {
+/// The gimbal of the instrument that has one: its angle turns the boresight about an axis across it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gimbal {
+    /// Boresight at angle 0, unit vector, body frame.
+    pub zero_body: Vector3<f64>,
+    /// Boresight at +90 deg: axis x boresight, unit vector, body frame.
+    pub quarter_body: Vector3<f64>,
     /// Least angle, in rad.
     pub minimum_rad: f64,
     /// Largest angle, in rad.
     pub maximum_rad: f64,
-}
-
-impl Default for MdisRange {
-    fn default() -> Self {
-        let [minimum_rad, maximum_rad] = MDIS_RANGE_RAD;
-        Self { minimum_rad, maximum_rad }
-    }
 }
 
 /// A device's angle after its range.
@@ -50,7 +43,20 @@ pub struct DeviceAngle {
     pub in_range: bool,
 }
 
-impl MdisRange {
+impl Gimbal {
+    /// Of the instrument that has one; `None` without.
+    pub fn of(instruments: &[Instrument]) -> Option<Self> {
+        instruments.iter().find_map(|instrument| {
+            let mount = instrument.gimbal?;
+            Some(Self {
+                zero_body: instrument.boresight_body,
+                quarter_body: mount.axis_body.cross(&instrument.boresight_body),
+                minimum_rad: mount.minimum_rad,
+                maximum_rad: mount.maximum_rad,
+            })
+        })
+    }
+
     /// The angle nearest to `angle_rad` around the circle.
     pub fn nearest(&self, angle_rad: f64) -> DeviceAngle {
         let angle_rad = wrapped_rad(angle_rad);
@@ -62,22 +68,23 @@ impl MdisRange {
         DeviceAngle { angle_rad: if lower { self.minimum_rad } else { self.maximum_rad }, in_range: false }
     }
 
-    /// The angle that brings the camera nearest to a body-frame direction of any length.
+    /// The angle that brings the boresight nearest to a body-frame direction of any length.
     pub fn toward(&self, direction_body: &Vector3<f64>) -> DeviceAngle {
-        self.nearest(math::atan2(-direction_body.y, direction_body.z))
+        let (sine, cosine) = (direction_body.dot(&self.quarter_body), direction_body.dot(&self.zero_body));
+        self.nearest(math::atan2(sine, cosine))
     }
-}
 
-/// Body-frame boresight of the MDIS camera.
-pub fn mdis_boresight(angle_rad: f64) -> Vector3<f64> {
-    let (sine, cosine) = math::sin_cos(angle_rad);
-    Vector3::new(0.0, -sine, cosine)
-}
+    /// Body-frame boresight at an angle.
+    pub fn boresight(&self, angle_rad: f64) -> Vector3<f64> {
+        let (sine, cosine) = math::sin_cos(angle_rad);
+        self.zero_body * cosine + self.quarter_body * sine
+    }
 
-/// The same of an angle that moves.
-pub fn mdis_direction(angle: Moving) -> MovingVector {
-    let (sine, cosine) = sin_cos(angle);
-    MovingVector::new(Moving::from_re(0.0), -sine, cosine)
+    /// The same at an angle that moves.
+    pub fn moving_boresight(&self, angle: Moving) -> MovingVector {
+        let (sine, cosine) = sin_cos(angle);
+        fixed(self.zero_body) * cosine + fixed(self.quarter_body) * sine
+    }
 }
 
 /// The angle in -pi..pi.
@@ -90,8 +97,8 @@ fn wrapped_rad(angle_rad: f64) -> f64 {
 pub struct Boresight {
     /// Body frame, of any length.
     pub body: MovingVector,
-    /// The camera's angle, where it is the boresight.
-    pub mdis: Option<DeviceAngle>,
+    /// The gimbal's angle, where it turns the boresight.
+    pub gimbal: Option<DeviceAngle>,
     /// The antenna's azimuth, where it is the boresight.
     pub antenna: Option<AntennaAzimuth>,
 }
@@ -99,33 +106,36 @@ pub struct Boresight {
 impl Boresight {
     /// A boresight without a device.
     pub fn of(body: Vector3<f64>) -> Self {
-        Self { body: fixed(body), mdis: None, antenna: None }
+        Self { body: fixed(body), gimbal: None, antenna: None }
     }
 
-    /// The MDIS camera at the angle nearest to `angle_rad`.
-    pub fn mdis(angle_rad: f64, range: &MdisRange) -> Self {
-        let angle = range.nearest(angle_rad);
-        Self { mdis: Some(angle), ..Self::of(mdis_boresight(angle.angle_rad)) }
+    /// The instrument on the gimbal at the angle nearest to `angle_rad`.
+    pub fn gimbal(angle_rad: f64, gimbal: &Gimbal) -> Self {
+        let angle = gimbal.nearest(angle_rad);
+        Self { gimbal: Some(angle), ..Self::of(gimbal.boresight(angle.angle_rad)) }
     }
 
-    /// The phased-array antenna at the azimuth nearest to `azimuth_rad`.
-    pub fn antenna(azimuth_rad: f64) -> Self {
-        let antenna = AntennaAzimuth::of(azimuth_rad);
-        let angles = SunAngles { azimuth_rad: antenna.azimuth_rad, elevation_rad: 0.0 };
-        Self { antenna: Some(antenna), ..Self::of(direction_from_angles(angles)) }
+    /// The fan at the azimuth nearest to `azimuth_rad`; `None` without a fan.
+    pub fn antenna(azimuth_rad: f64, antennas: &Antennas) -> Option<Self> {
+        let antenna = antennas.nearest_fan(azimuth_rad);
+        antenna.antenna.map(|_| Self { antenna: Some(antenna), ..Self::of(antenna.direction_body()) })
     }
 }
 
-/// The commanded boresight; `None` where none is commanded.
-pub fn boresight(command: &BoresightCommand, mdis: &MdisRange) -> Option<Boresight> {
+/// The commanded boresight; `None` where none is commanded, or one of a device that there is not.
+pub fn boresight(
+    command: &BoresightCommand,
+    gimbal: Option<&Gimbal>,
+    antennas: &Antennas,
+) -> Option<Boresight> {
     Some(match command.option? {
         BoresightOption::Vector => Boresight::of(command.vector),
         BoresightOption::AzimuthElevation => Boresight::of(direction_from_angles(SunAngles {
             azimuth_rad: command.azimuth_rad,
             elevation_rad: command.elevation_rad,
         })),
-        BoresightOption::Mdis => Boresight::mdis(command.angle_rad, mdis),
-        BoresightOption::PhasedArray => Boresight::antenna(command.azimuth_rad),
+        BoresightOption::Gimbal => Boresight::gimbal(command.angle_rad, gimbal?),
+        BoresightOption::PhasedArray => Boresight::antenna(command.azimuth_rad, antennas)?,
     })
 }
 

@@ -33,11 +33,11 @@ enumeration! {
         2 => PlusZ,
         /// An instrument at the planet's centre.
         3 => Nadir,
-        /// The MDIS camera at boresight.angle at the aimpoint.
-        4 => Mdis,
-        /// An instrument at the aimpoint, the MDIS camera as near as it can be to the second one.
+        /// The instrument on the gimbal at boresight.angle at the aimpoint.
+        4 => Gimbal,
+        /// An instrument at the aimpoint, the one on the gimbal as near as it can be to the second one.
         5 => DoubleTarget,
-        /// A phased-array antenna at the Earth.
+        /// An antenna at the Earth.
         6 => Downlink,
         /// An instrument at the limb on the terminator, the point nearer to the downtrack direction.
         7 => LimbTerminator,
@@ -61,9 +61,9 @@ enumeration! {
         /// By boresight.azimuth and boresight.elevation.
         #[serde(rename = "azEl")]
         2 => AzimuthElevation,
-        /// The MDIS camera at boresight.angle.
-        3 => Mdis,
-        /// A phased-array antenna at boresight.azimuth.
+        /// The instrument on the gimbal at boresight.angle.
+        3 => Gimbal,
+        /// An antenna that is steered in the XY plane, at boresight.azimuth.
         4 => PhasedArray,
     }
 }
@@ -209,7 +209,7 @@ commands! {
         pub azimuth_rad: f64,
         /// Elevation.
         pub elevation_rad: f64,
-        /// MDIS angle.
+        /// Angle of the gimbal.
         pub angle_rad: f64,
         /// Instrument of a scenario: 0 is +Z, then the rows of the instrument table from 1.
         pub instrument: u32,
@@ -309,7 +309,7 @@ pub struct PointingCommand {
     pub boresight: BoresightCommand,
     /// Aimpoint.
     pub aimpoint: AimpointCommand,
-    /// The MDIS camera's aimpoint in [`Scenario::DoubleTarget`].
+    /// Aimpoint of the instrument on the gimbal in [`Scenario::DoubleTarget`].
     pub second_aimpoint: AimpointCommand,
     /// Body roll vector.
     pub body_roll: BodyRollCommand,

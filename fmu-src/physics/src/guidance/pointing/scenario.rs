@@ -5,14 +5,15 @@
 use nalgebra::Vector3;
 
 use super::aimpoint::{Aim, AimKind, aimpoint};
-use super::antenna::Beam;
-use super::boresight::{Boresight, DeviceAngle, MdisRange, boresight, instrument_boresight};
+use super::antenna::{Antennas, Beam};
+use super::boresight::{Boresight, DeviceAngle, Gimbal, boresight, instrument_boresight};
 use super::command::{BoresightOption, LimbCommand, PointingCommand, Scenario};
 use super::law::{Pointing, PointingVectors};
 use super::roll::{body_roll, external_roll};
 use super::scan::{ScanCompatibility, ScanTime, scanned};
 use crate::attitude::SunAngles;
 use crate::guidance::burn::delta_v::BurnAim;
+use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::downlink::sun_place::{DownlinkRequest, SunPlace, downlink};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::SubsolarMethod;
@@ -21,12 +22,16 @@ use crate::guidance::geometry::moving::{MovingVector, fixed, value};
 use crate::spacecraft::Instrument;
 
 /// What the spacecraft has, and how the options are read.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GuidanceHardware<'a> {
-    /// Fixed instruments.
+    /// Instruments by their rows.
     pub instruments: &'a [Instrument],
-    /// Range of the camera.
-    pub mdis: MdisRange,
+    /// The gimbal of the instrument that has one.
+    pub gimbal: Option<Gimbal>,
+    /// Antennas to the Earth.
+    pub antennas: &'a Antennas,
+    /// The default downlink with them.
+    pub default_downlink: &'a DefaultDownlink,
     /// What the subsolar point is.
     pub subsolar: SubsolarMethod,
     /// Which scans go with which aims.
@@ -51,9 +56,9 @@ pub struct PointingProgress {
 pub struct Aimed {
     /// For the attitude law.
     pub vectors: PointingVectors,
-    /// The camera's angle, where the command sets it; out of range it is the nearest bound.
-    pub mdis: Option<DeviceAngle>,
-    /// From the spacecraft to what the camera follows beside the boresight, EME2000.
+    /// The gimbal's angle, where the command sets it; out of range it is the nearest bound.
+    pub gimbal: Option<DeviceAngle>,
+    /// From the spacecraft to what the gimbal follows beside the boresight, EME2000.
     pub second: Option<MovingVector>,
     /// The antenna's azimuth, where the command sets it; out of range it is the nearest bound.
     pub antenna: Option<Beam>,
@@ -87,7 +92,7 @@ pub fn aim(
     let r = Reading { command, hardware, surroundings, progress };
     let aimed = match command.scenario? {
         Scenario::Generic => {
-            let boresight = boresight(&command.boresight, &hardware.mdis)?;
+            let boresight = boresight(&command.boresight, hardware.gimbal.as_ref(), hardware.antennas)?;
             let mut aimed = r.sunward(boresight, r.aimpoint()?);
             aimed.vectors.body_roll = body_roll(&command.body_roll);
             aimed.vectors.external_roll = external_roll(&command.external_roll, surroundings);
@@ -98,8 +103,9 @@ pub fn aim(
             let nadir = Aim::new(surroundings.to_planet(), AimKind::PlanetPoint)?;
             r.sunward(r.instrument()?, nadir)
         }
-        Scenario::Mdis => {
-            r.sunward(Boresight::mdis(command.boresight.angle_rad, &hardware.mdis), r.aimpoint()?)
+        Scenario::Gimbal => {
+            let boresight = Boresight::gimbal(command.boresight.angle_rad, hardware.gimbal.as_ref()?);
+            r.sunward(boresight, r.aimpoint()?)
         }
         Scenario::DoubleTarget => {
             let second = aimpoint(&command.second_aimpoint, surroundings, hardware.subsolar);
@@ -126,7 +132,7 @@ impl Aimed {
     pub fn at(vectors: PointingVectors) -> Self {
         Self {
             vectors,
-            mdis: None,
+            gimbal: None,
             second: None,
             antenna: None,
             reachable: true,
@@ -135,10 +141,11 @@ impl Aimed {
         }
     }
 
-    /// The camera's angle in the attitude that is commanded in the end.
-    pub fn camera(&self, pointing: &Pointing, range: &MdisRange) -> Option<DeviceAngle> {
-        let followed = self.second.map(|second| range.toward(&value(&pointing.to_body(&second))));
-        followed.or(self.mdis)
+    /// The gimbal's angle in the attitude that is commanded in the end.
+    pub fn gimbal_angle(&self, pointing: &Pointing, gimbal: Option<&Gimbal>) -> Option<DeviceAngle> {
+        let second = self.second.zip(gimbal);
+        let followed = second.map(|(second, gimbal)| gimbal.toward(&value(&pointing.to_body(&second))));
+        followed.or(self.gimbal)
     }
 }
 
@@ -178,17 +185,17 @@ impl Reading<'_> {
                 scan.map_or(boresight.body, |scan| scan.boresight_body),
                 scan.map_or(aim.toward, |scan| scan.toward),
             ),
-            mdis: boresight.mdis,
+            gimbal: boresight.gimbal,
             second: None,
             antenna: boresight.antenna.map(Beam::Commanded),
             reachable: aim.reachable,
-            clamped: boresight.mdis.is_some_and(|camera| !camera.in_range)
+            clamped: boresight.gimbal.is_some_and(|angle| !angle.in_range)
                 || boresight.antenna.is_some_and(|antenna| !antenna.is_in_range()),
             scan_active: scan.is_some(),
         }
     }
 
-    /// A phased-array antenna at the Earth: at the commanded azimuth where the boresight is an antenna, otherwise where it puts
+    /// An antenna at the Earth: a fan at the commanded azimuth where the boresight is one, otherwise where it puts
     /// the Sun in its place. No scan moves it.
     fn antenna_at_the_earth(&self) -> Option<Aimed> {
         let boresight = &self.command.boresight;
@@ -199,7 +206,12 @@ impl Reading<'_> {
             sun_body: place.map_or(SunAngles::default(), |place| place.angles),
             earth_ahead: place.map(|place| place.earth_ahead),
         };
-        let found = downlink(&self.surroundings.to_sun(), &self.surroundings.to_earth(), &request)?;
+        let found = downlink(
+            &self.surroundings.to_sun(),
+            &self.surroundings.to_earth(),
+            self.hardware.antennas,
+            &request,
+        )?;
         Some(Aimed {
             antenna: Some(Beam::AtTheEarth(found.antenna)),
             clamped: found.clamped,

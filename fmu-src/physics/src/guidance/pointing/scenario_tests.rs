@@ -2,21 +2,24 @@
 //! boresight is on the aimpoint.
 
 use core::f64::consts::PI;
-use std::sync::OnceLock;
+use std::sync::{LazyLock, OnceLock};
 
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
 use super::aimpoint::aim_kind;
-use super::antenna::Beam;
-use super::boresight::mdis_boresight;
+use super::antenna::tests::quadrants;
+use super::antenna::{Antennas, Beam};
+use super::boresight::Gimbal;
 use super::command::*;
-use super::scan::ScanTime;
+use super::scan::{ScanCompatibility, ScanTime};
 use super::scenario::{Aimed, GuidanceHardware, PointingProgress, aim};
 use crate::attitude::angle_between_rad;
 use crate::bodies::Body;
 use crate::enumeration::Enumerated;
+use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
+use crate::guidance::geometry::lighting::SubsolarMethod;
 use crate::guidance::geometry::moving::{fixed, value};
 use crate::guidance::geometry::test_orbit::{TestOrbit, rate_error};
 use crate::spacecraft::Instrument;
@@ -34,7 +37,7 @@ pub(crate) const SCENARIOS: [Scenario; 8] = [
     Scenario::Generic,
     Scenario::PlusZ,
     Scenario::Nadir,
-    Scenario::Mdis,
+    Scenario::Gimbal,
     Scenario::DoubleTarget,
     Scenario::Downlink,
     Scenario::LimbTerminator,
@@ -49,9 +52,34 @@ pub(crate) fn hardware() -> GuidanceHardware<'static> {
     static TILTED: OnceLock<[Instrument; 1]> = OnceLock::new();
     let instruments = TILTED.get_or_init(|| {
         let boresight_body = Vector3::new(0.03, -0.02, 1.0).normalize();
-        [Instrument { name: "tilted".into(), boresight_body }]
+        [Instrument { name: "tilted".into(), boresight_body, gimbal: None }]
     });
-    GuidanceHardware { instruments, ..GuidanceHardware::default() }
+    GuidanceHardware { instruments, gimbal: Some(camera()), ..no_instruments() }
+}
+
+/// MESSENGER's antennas, and no instrument.
+pub(crate) fn no_instruments() -> GuidanceHardware<'static> {
+    static ANTENNAS: LazyLock<(Antennas, DefaultDownlink)> =
+        LazyLock::new(|| (quadrants(), DefaultDownlink::of(&quadrants())));
+    let (antennas, default_downlink) = &*ANTENNAS;
+    GuidanceHardware {
+        instruments: &[],
+        gimbal: None,
+        antennas,
+        default_downlink,
+        subsolar: SubsolarMethod::default(),
+        scans: ScanCompatibility::default(),
+    }
+}
+
+/// MESSENGER's camera.
+pub(crate) fn camera() -> Gimbal {
+    Gimbal {
+        zero_body: Vector3::z(),
+        quarter_body: -Vector3::y(),
+        minimum_rad: -50.0 * PI / 180.0,
+        maximum_rad: 40.0 * PI / 180.0,
+    }
 }
 
 pub(crate) fn aimpoint(option: AimpointOption) -> AimpointCommand {
@@ -261,7 +289,7 @@ fn scenarios_set_the_vectors_of_table_5() {
         assert_eq!(aimed.vectors.external_roll, s.to_sun());
         let boresight = value(&aimed.vectors.boresight_body);
         match scenario {
-            Scenario::Mdis => assert_eq!(boresight, mdis_boresight(0.4)),
+            Scenario::Gimbal => assert_eq!(boresight, camera().boresight(0.4)),
             Scenario::Downlink => {
                 assert_relative_eq!(boresight, Vector3::new((-0.7_f64).sin(), -(0.7_f64.cos()), 0.0));
             }
@@ -321,20 +349,21 @@ fn the_camera_comes_nearest_to_the_second_aimpoint() {
         let s = orbit.surroundings(f64::from(step) * 900.0);
         let aimed = aim(&command, &hardware(), &s, &PointingProgress::default()).unwrap();
         let pointing = aimed.vectors.pointing().unwrap();
-        let camera = aimed.camera(&pointing, &hardware().mdis).unwrap();
-        in_range += u32::from(camera.in_range);
+        let angle = aimed.gimbal_angle(&pointing, hardware().gimbal.as_ref()).unwrap();
+        in_range += u32::from(angle.in_range);
         let to_inertial = pointing.frame().inertial_from_body;
         let mut only_second = PointingCommand { aimpoint: command.second_aimpoint, ..command };
         only_second.scenario = Some(Scenario::PlusZ);
         let second = aim(&only_second, &hardware(), &s, &PointingProgress::default()).unwrap();
         let second = value(&second.vectors.aimpoint);
-        let off_rad = |angle_rad: f64| angle_between_rad(&(to_inertial * mdis_boresight(angle_rad)), &second);
-        let range = hardware().mdis;
+        let off_rad =
+            |angle_rad: f64| angle_between_rad(&(to_inertial * camera().boresight(angle_rad)), &second);
+        let range = camera();
         let best = (0..=2000)
             .map(|k| range.minimum_rad + (range.maximum_rad - range.minimum_rad) * f64::from(k) / 2000.0)
             .map(off_rad)
             .fold(f64::INFINITY, f64::min);
-        assert!(off_rad(camera.angle_rad) <= best + 1e-12, "{option:?}");
+        assert!(off_rad(angle.angle_rad) <= best + 1e-12, "{option:?}");
     }
     assert!(in_range > 5 && in_range < 45, "{in_range}");
 }
@@ -342,10 +371,10 @@ fn the_camera_comes_nearest_to_the_second_aimpoint() {
 #[test]
 fn devices_stop_at_their_range_and_say_so() {
     let still = PointingProgress::default();
-    let mut camera = command(Scenario::Mdis);
+    let mut camera = command(Scenario::Gimbal);
     camera.boresight.angle_rad = 1.2;
     let (_, aimed) = at(&camera, 3000.0, &still);
-    let angle = aimed.unwrap().mdis.unwrap();
+    let angle = aimed.unwrap().gimbal.unwrap();
     assert!(!angle.in_range && (angle.angle_rad - 40.0 * PI / 180.0).abs() < 1e-15);
     let mut antenna = command(Scenario::Generic);
     antenna.boresight.option = Some(BoresightOption::PhasedArray);
@@ -353,7 +382,7 @@ fn devices_stop_at_their_range_and_say_so() {
     let aimed = at(&antenna, 3000.0, &still).1.unwrap();
     let Some(Beam::Commanded(antenna)) = aimed.antenna else { panic!("{:?}", aimed.antenna) };
     assert_eq!(antenna.azimuth_rad, 0.0);
-    assert!(!antenna.is_in_range() && aimed.mdis.is_none());
+    assert!(!antenna.is_in_range() && aimed.gimbal.is_none());
 }
 
 #[test]

@@ -69,6 +69,13 @@ impl<'d, 'i> Commands<'d, 'i> {
             self.check.report(&scenario_place, named("the scenario", scenario), allowed);
         }
         self.scenario = named("the scenario", scenario);
+        if matches!(scenario, Scenario::Gimbal | Scenario::DoubleTarget) {
+            self.needs_gimbal(&scenario_place, named("the scenario", scenario));
+        }
+        if scenario == Scenario::Downlink && self.spacecraft.antennas.is_empty() {
+            let allowed = "a scenario without a downlink: the spacecraft has no antenna ([[antennas]])";
+            self.check.report(&scenario_place, named("the scenario", scenario), allowed);
+        }
         let read = tables(scenario);
         self.judge_scenario(at, TABLES, read);
         let mut command = PointingCommand { scenario: Some(scenario), ..PointingCommand::default() };
@@ -156,21 +163,30 @@ impl<'d, 'i> Commands<'d, 'i> {
         let place = at.key("option");
         match (scenario, given.option.filter(|_| !self.check.is_stand_in(&place))) {
             (Scenario::Generic, Some(option)) => {
+                if option == BoresightOption::Gimbal {
+                    self.needs_gimbal(&place, named("the option", option));
+                }
+                if option == BoresightOption::PhasedArray {
+                    self.needs_fan(&place, named("the option", option));
+                }
                 let read = Keys { optional: &["option"], ..boresight_keys(option) };
                 self.judge_option(at, BORESIGHT, read, option);
             }
             (Scenario::Generic, None) => self.judge_scenario(at, &["option"], keys(&["option"], &[])),
             // That the scenario's own boresight is the boresight may be written.
-            (Scenario::Mdis, None | Some(BoresightOption::Mdis)) => {
+            (Scenario::Gimbal, None | Some(BoresightOption::Gimbal)) => {
                 self.judge_scenario(at, BORESIGHT, keys(&["angle"], &["option"]));
             }
             (Scenario::Downlink, None | Some(BoresightOption::PhasedArray)) => {
                 let is_given = ["option", "azimuth"].iter().any(|key| self.check.is_written(&at.key(key)));
                 let read = if is_given { keys(&["option", "azimuth"], &[]) } else { NOTHING };
+                if is_given && !self.spacecraft.antennas.is_empty() {
+                    self.needs_fan(&place, named("the option", BoresightOption::PhasedArray));
+                }
                 self.judge_scenario(at, BORESIGHT, read);
             }
-            (Scenario::Mdis, Some(option)) => {
-                self.check.report(&place, named("the option", option), "mdis, this scenario's boresight");
+            (Scenario::Gimbal, Some(option)) => {
+                self.check.report(&place, named("the option", option), "gimbal, this scenario's boresight");
             }
             (Scenario::Downlink, Some(option)) => {
                 let allowed = "phasedArray, this scenario's boresight, or no boresight";
@@ -186,6 +202,24 @@ impl<'d, 'i> Commands<'d, 'i> {
             elevation_rad: self.or_zero(&at.key("elevation"), &given.elevation, &LATITUDE),
             angle_rad: self.or_zero(&at.key("angle"), &given.angle, &TURN),
             instrument: instrument.map_or(0, |name| self.instrument(&at.key("instrument"), name)),
+        }
+    }
+
+    /// Reports what points the instrument on the gimbal where none has one.
+    fn needs_gimbal(&mut self, at: &Place, found: String) {
+        if !self.spacecraft.instruments.iter().any(|instrument| instrument.gimbal.is_some()) {
+            let allowed =
+                "what needs no gimbal: no instrument of the spacecraft has one ([[instruments]] gimbal)";
+            self.check.report(at, found, allowed);
+        }
+    }
+
+    /// Reports what points an antenna that is steered where none is.
+    fn needs_fan(&mut self, at: &Place, found: String) {
+        if !self.spacecraft.antennas.iter().any(|named| named.antenna.fan().is_some()) {
+            let allowed = "another option, or none in a downlink: no antenna of the spacecraft is steered in the XY plane \
+                           ([[antennas]] azimuth_deg)";
+            self.check.report(at, found, allowed);
         }
     }
 

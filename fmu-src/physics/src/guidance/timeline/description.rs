@@ -34,7 +34,7 @@ pub(super) struct CommandDescription {
     pub scenario: Option<Scenario>,
     pub boresight: Option<BoresightDescription>,
     pub aimpoint: Option<AimpointDescription>,
-    /// The MDIS camera's aimpoint in the scenario doubleTarget.
+    /// Aimpoint of the instrument on the gimbal in the scenario doubleTarget.
     pub second_aimpoint: Option<AimpointDescription>,
     pub body_roll: Option<BodyRollDescription>,
     pub external_roll: Option<ExternalRollDescription>,
@@ -58,7 +58,7 @@ pub(super) struct BoresightDescription {
     pub azimuth: Option<Quantity>,
     /// Elevation in the body frame, positive toward -Z.
     pub elevation: Option<Quantity>,
-    /// MDIS angle: from +Z, positive sunward.
+    /// Angle of the gimbal, from the instrument's boresight in the file, right-handed about its axis.
     pub angle: Option<Quantity>,
     /// Instrument of a scenario: its name in the spacecraft file, or its row there from 1; 0 is +Z.
     pub instrument: Option<Quantity>,

@@ -42,7 +42,7 @@ pub(super) fn tables(scenario: Scenario) -> Keys {
         Scenario::Generic => keys(&["boresight", "aimpoint", "bodyRoll", "externalRoll"], &["scan"]),
         Scenario::PlusZ => keys(&["aimpoint"], &["boresight", "scan"]),
         Scenario::Nadir => keys(&[], &["boresight", "aimpoint", "scan"]),
-        Scenario::Mdis => keys(&["boresight", "aimpoint"], &["scan"]),
+        Scenario::Gimbal => keys(&["boresight", "aimpoint"], &["scan"]),
         Scenario::DoubleTarget => keys(&["aimpoint", "secondAimpoint"], &["boresight", "scan"]),
         Scenario::Downlink => keys(&[], &["boresight", "aimpoint"]),
         Scenario::LimbTerminator => keys(&[], &["boresight", "limb", "scan"]),
@@ -74,7 +74,7 @@ pub(super) fn boresight_keys(option: BoresightOption) -> Keys {
     match option {
         BoresightOption::Vector => VECTOR,
         BoresightOption::AzimuthElevation => AZIMUTH_ELEVATION,
-        BoresightOption::Mdis => keys(&["angle"], &[]),
+        BoresightOption::Gimbal => keys(&["angle"], &[]),
         BoresightOption::PhasedArray => keys(&["azimuth"], &[]),
     }
 }

@@ -83,7 +83,7 @@ fn aim_kind(scenario: Scenario, aimpoint: Option<AimpointOption>) -> Option<AimK
     match scenario {
         Scenario::Nadir | Scenario::LimbTerminator | Scenario::LimbGeneric => Some(AimKind::PlanetPoint),
         Scenario::Downlink | Scenario::Burn | Scenario::OrbitPhase => None,
-        Scenario::Generic | Scenario::PlusZ | Scenario::Mdis | Scenario::DoubleTarget => {
+        Scenario::Generic | Scenario::PlusZ | Scenario::Gimbal | Scenario::DoubleTarget => {
             aimpoint.map(aimpoint::aim_kind)
         }
     }

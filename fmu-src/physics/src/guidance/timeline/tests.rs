@@ -12,17 +12,18 @@ use crate::enumeration::Enumerated;
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::modes::mode::Mode;
 use crate::guidance::pointing::command::*;
-use crate::spacecraft::{Instrument, MESSENGER_TOML, Spacecraft};
+use crate::spacecraft::{Antenna, AntennaRange, Instrument, MESSENGER_TOML, NamedAntenna, Spacecraft};
 
 const MESSENGER_FULL: &str = include_str!("../../../../resources/messenger-full.toml");
 const EXAMPLE: &str = include_str!("../../../../resources/examples/timeline.toml");
 
 fn spacecraft() -> Spacecraft {
-    let named = |name: &str| Instrument { name: name.to_owned(), boresight_body: Vector3::z() };
+    let named = |name: &str| Instrument { name: name.to_owned(), boresight_body: Vector3::z(), gimbal: None };
     let rock = "[body]\nname = \"Rock\"\ngravitational_parameter_m3_s2 = 7e4\nradii_m = [5e3, 5e3, 5e3]";
     let text = format!("{MESSENGER_FULL}\n{rock}");
     let messenger = Spacecraft::from_toml("messenger-full.toml", &text).unwrap();
-    Spacecraft { instruments: vec![named("MASCS"), named("MLA")], ..messenger }
+    let camera = messenger.instruments.last().unwrap().clone();
+    Spacecraft { instruments: vec![named("MASCS"), named("MLA"), camera], ..messenger }
 }
 
 fn read(text: &str) -> Timeline {
@@ -44,8 +45,8 @@ fn the_example_is_a_day_at_mercury() {
     assert_eq!(first.at_s, start_s);
     assert!((last.until_s.unwrap() - first.at_s - 86_400.0).abs() < 1e-3);
     let scenarios: Vec<_> = timeline.entries().iter().filter_map(|entry| entry.command.scenario).collect();
-    use Scenario::{Downlink, Generic, LimbTerminator, Mdis, Nadir, PlusZ};
-    assert_eq!(scenarios, [Nadir, LimbTerminator, Mdis, Generic, Downlink, PlusZ, Nadir]);
+    use Scenario::{Downlink, Generic, Gimbal, LimbTerminator, Nadir, PlusZ};
+    assert_eq!(scenarios, [Nadir, LimbTerminator, Gimbal, Generic, Downlink, PlusZ, Nadir]);
     // Between the mosaic's end and the star nothing is commanded.
     let at = |hours: f64| timeline.entry_at(0.0, start_s + hours * 3600.0);
     assert_eq!(at(4.3).and_then(|entry| entry.command.scan.frame), Some(ScanFrame::Body));
@@ -69,8 +70,8 @@ fn every_key_of_a_generic_command_is_read() {
         ),
         ("option = \"azEl\", azimuth = \"-90 deg\", elevation = 0.25", turned),
         (
-            "option = \"mdis\", angle = \"40 deg\"",
-            BoresightCommand { angle_rad: up_rad, ..of(BoresightOption::Mdis) },
+            "option = \"gimbal\", angle = \"40 deg\"",
+            BoresightCommand { angle_rad: up_rad, ..of(BoresightOption::Gimbal) },
         ),
         (
             "option = \"phasedArray\", azimuth = \"135 deg\"",
@@ -181,8 +182,8 @@ fn every_scenario_takes_what_it_reads() {
         ("plusZ\"\naimpoint = { option = \"earth\" }\nboresight = { instrument = 2 }", Scenario::PlusZ),
         ("nadir\"\naimpoint = { option = \"nadir\" }", Scenario::Nadir),
         (
-            "mdis\"\nboresight = { option = \"mdis\", angle = 0 }\naimpoint = { option = \"nadir\" }",
-            Scenario::Mdis,
+            "gimbal\"\nboresight = { option = \"gimbal\", angle = 0 }\naimpoint = { option = \"nadir\" }",
+            Scenario::Gimbal,
         ),
         ("downlink\"", Scenario::Downlink),
         ("downlink\"\nboresight = { option = \"phasedArray\", azimuth = -1 }", Scenario::Downlink),
@@ -236,6 +237,49 @@ fn every_scan_is_read() {
         let found = command(&format!("scenario = \"nadir\"\nscan = {{ frame = {text}, {rest} }}"));
         assert_eq!(found.command.scan, expected, "{text}");
     }
+}
+
+#[test]
+fn what_needs_a_device_is_refused_where_there_is_none() {
+    let fixed = NamedAntenna {
+        name: "dish".to_owned(),
+        antenna: Antenna { range: AntennaRange::Axis(Vector3::z()), across_rad: 0.05, along_rad: 0.05 },
+    };
+    let bare = Spacecraft { instruments: Vec::new(), antennas: Vec::new(), ..spacecraft() };
+    let dish = Spacecraft { antennas: vec![fixed], ..bare.clone() };
+    let refusal = |spacecraft: &Spacecraft, text: &str| {
+        let text = format!("[[command]]\nat = 0\n{text}");
+        Timeline::from_toml("t.toml", &text, spacecraft).err().map(|error| error.to_string())
+    };
+    let earth = "aimpoint = { option = \"earth\" }";
+    let generic = |boresight: &str| {
+        let roll =
+            "bodyRoll = { option = \"vector\", vector = [0, -1, 0] }\nexternalRoll = { option = \"sun\" }";
+        format!("scenario = \"generic\"\nboresight = {{ {boresight} }}\n{earth}\n{roll}")
+    };
+    for (text, found, lack) in [
+        ("scenario = \"downlink\"".to_owned(), "the scenario downlink", "[[antennas]]"),
+        (
+            format!("scenario = \"gimbal\"\nboresight = {{ angle = 0 }}\n{earth}"),
+            "the scenario gimbal",
+            "gimbal",
+        ),
+        (
+            format!("scenario = \"doubleTarget\"\n{earth}\nsecondAimpoint = {{ option = \"nadir\" }}"),
+            "the scenario doubleTarget",
+            "[[instruments]] gimbal",
+        ),
+        (generic("option = \"gimbal\", angle = 0"), "the option gimbal", "[[instruments]] gimbal"),
+        (generic("option = \"phasedArray\", azimuth = 0"), "the option phasedArray", "azimuth_deg"),
+    ] {
+        let error = refusal(&bare, &text).unwrap();
+        assert!(error.contains(found) && error.contains(lack), "{text}: {error}");
+        assert_eq!(refusal(&spacecraft(), &text), None, "{text}");
+    }
+    // An antenna that is fixed looks at the Earth but not along an azimuth.
+    assert_eq!(refusal(&dish, "scenario = \"downlink\""), None);
+    let azimuth = "scenario = \"downlink\"\nboresight = { option = \"phasedArray\", azimuth = 0 }";
+    assert!(refusal(&dish, azimuth).unwrap().contains("azimuth_deg"));
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! Where the Earth stands, by the downlink law itself.
 use super::*;
 use crate::attitude::MovingUnit;
+use crate::guidance::pointing::antenna::tests::quadrants;
 use crate::guidance::{LinesOfSight, downlink_toward};
+use core::f64::consts::FRAC_PI_4;
 use nalgebra::Vector3;
 
 const LIMITS: KeepInLimits = KeepInLimits { azimuth_rad: 0.26, elevation_rad: 0.23 };
@@ -22,7 +24,7 @@ fn admissible_places_have_the_earth_in_a_quadrant_and_others_have_not() {
     for i in 1..180 {
         let separation_rad = f64::from(i).to_radians();
         let lines = lines(separation_rad);
-        for branch in Branch::all(LIMITS, separation_rad) {
+        for branch in Branch::all(LIMITS, &quadrants(), separation_rad).as_slice() {
             for j in -26..=26 {
                 for k in [-0.22_f64, -0.1, 0.0, 0.07, 0.2] {
                     let angles = SunAngles { azimuth_rad: 0.01 * f64::from(j), elevation_rad: k };
@@ -34,7 +36,7 @@ fn admissible_places_have_the_earth_in_a_quadrant_and_others_have_not() {
                     let frame = downlink_toward(&lines, &place).frame;
                     let earth = frame.inertial_from_body.inverse() * lines.earth.direction;
                     let azimuth_rad = SunAngles::of(&earth).azimuth_rad;
-                    let off_rad = (azimuth_rad - branch.middle_rad.unwrap() + PI).rem_euclid(TAU) - PI;
+                    let off_rad = (azimuth_rad - branch.fan.unwrap().middle_rad + PI).rem_euclid(TAU) - PI;
                     if (off_rad.abs() - FRAC_PI_4).abs() < 1e-9 {
                         continue;
                     }
@@ -56,7 +58,7 @@ fn while_a_downlink_lasts_the_earth_stays_in_the_quadrant() {
         let end_rad = start_rad + 1.1_f64.to_radians();
         let through = (0..=10).map(|k| start_rad + (end_rad - start_rad) * f64::from(k) / 10.0);
         let places: Vec<_> = through.map(|it| (it, lines(it))).collect();
-        for branch in Branch::all(LIMITS, start_rad) {
+        for branch in Branch::all(LIMITS, &quadrants(), start_rad).as_slice() {
             let lasting = branch.lasting([start_rad, end_rad]);
             for j in -26..=26 {
                 for k in [-0.22_f64, 0.0, 0.11] {
@@ -69,7 +71,8 @@ fn while_a_downlink_lasts_the_earth_stays_in_the_quadrant() {
                         let frame = downlink_toward(lines, &place).frame;
                         let earth = frame.inertial_from_body.inverse() * lines.earth.direction;
                         let azimuth_rad = SunAngles::of(&earth).azimuth_rad;
-                        let off_rad = (azimuth_rad - branch.middle_rad.unwrap() + PI).rem_euclid(TAU) - PI;
+                        let off_rad =
+                            (azimuth_rad - branch.fan.unwrap().middle_rad + PI).rem_euclid(TAU) - PI;
                         off_rad.abs() - FRAC_PI_4
                     });
                     let greatest_rad = off_rad.fold(f64::NEG_INFINITY, f64::max);
@@ -90,7 +93,10 @@ fn while_a_downlink_lasts_the_earth_stays_in_the_quadrant() {
 #[test]
 fn the_first_branch_is_the_default_attitude() {
     for degrees in [1.0_f64, 30.0, 89.0, 91.0, 150.0, 179.0] {
-        let place = Branch::all(LIMITS, degrees.to_radians())[0].place(SunAngles::default());
+        let place = Branch::all(LIMITS, &quadrants(), degrees.to_radians())
+            .first()
+            .unwrap()
+            .place(SunAngles::default());
         assert_eq!(place.map(|it| it.earth_ahead), Some(degrees > 90.0), "{degrees}");
     }
 }

@@ -98,6 +98,7 @@ fn target_x(separations_rad: [f64; 4], horizon: u32) -> f64 {
             method: TargetingMethod::Exact,
             azimuth_limit_rad: 0.2,
             elevation_limit_rad: 0.2,
+            antennas: &crate::guidance::pointing::antenna::tests::quadrants(),
         },
         target_body_n_m_s: Vector3::zeros(),
         horizon,

@@ -1,20 +1,28 @@
 //! The equation at the place found, a search over all places where the target is out of reach, and the linear formula's error.
 
+use std::sync::LazyLock;
+
 use approx::assert_relative_eq;
 use nalgebra::Rotation3;
 
 use super::*;
+use crate::guidance::pointing::antenna::tests::quadrants;
 use crate::radiation::{Beam, SolarModel, TorquePolynomial};
 use crate::spacecraft::{MESSENGER_TOML, Spacecraft};
 
 const PRESSURE_PA: f64 = 5.0145e-5;
 const SPAN_S: f64 = 28_800.0;
-const TARGETING: Targeting = Targeting {
-    axes: TargetAxes::Xz,
-    method: TargetingMethod::Exact,
-    azimuth_limit_rad: 15.0 * crate::constants::DEG_RAD,
-    elevation_limit_rad: 13.0 * crate::constants::DEG_RAD,
-};
+
+fn targeting() -> Targeting<'static> {
+    static QUADRANTS: LazyLock<Antennas> = LazyLock::new(quadrants);
+    Targeting {
+        axes: TargetAxes::Xz,
+        method: TargetingMethod::Exact,
+        azimuth_limit_rad: 15.0 * crate::constants::DEG_RAD,
+        elevation_limit_rad: 13.0 * crate::constants::DEG_RAD,
+        antennas: &QUADRANTS,
+    }
+}
 
 struct Craft {
     spacecraft: Spacecraft,
@@ -96,7 +104,7 @@ fn an_attainable_target_is_hit_to_rounding() {
                 science: None,
             };
             for (axes, count) in [(TargetAxes::X, 0), (TargetAxes::Z, 1), (TargetAxes::Xz, 2)] {
-                let targeting = Targeting { axes, ..TARGETING };
+                let targeting = Targeting { axes, ..targeting() };
                 let target = Vector3::new(-0.05, 7.0, 0.1);
                 let Some(Targeted { place, clamped }) = targeting.sun_place(&aim, &target) else {
                     panic!("{degrees} {momentum:?}")
@@ -149,15 +157,15 @@ fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
         for target in
             [Vector3::new(5.0, 0.0, 3.0), Vector3::new(-4.0, 0.0, 0.1), Vector3::new(0.0, 0.0, -6.0)]
         {
-            let found = TARGETING.sun_place(&aim, &target).unwrap();
+            let found = targeting().sun_place(&aim, &target).unwrap();
             clamped += i32::from(found.clamped);
             let best = aim.left(&found.place, &target).xz().norm();
-            for branch in TARGETING.branches(aim.separation_rad()).unwrap() {
+            for branch in targeting().branches(aim.separation_rad()).unwrap().as_slice() {
                 for i in -40..=40 {
                     for j in -40..=40 {
                         let angles = SunAngles {
-                            azimuth_rad: TARGETING.azimuth_limit_rad * f64::from(i) / 40.0,
-                            elevation_rad: TARGETING.elevation_limit_rad * f64::from(j) / 40.0,
+                            azimuth_rad: targeting().azimuth_limit_rad * f64::from(i) / 40.0,
+                            elevation_rad: targeting().elevation_limit_rad * f64::from(j) / 40.0,
                         };
                         let Some(place) = branch.place(angles) else { continue };
                         let other = aim.left(&place, &target).xz().norm();
@@ -191,7 +199,7 @@ fn the_linear_formula_falls_short_by_a_few_per_cent() {
         science: None,
     };
     let by =
-        |method, target: &Vector3<f64>| Targeting { method, ..TARGETING }.sun_place(&aim, target).unwrap();
+        |method, target: &Vector3<f64>| Targeting { method, ..targeting() }.sun_place(&aim, target).unwrap();
     let mut worst = 0.0_f64;
     for share in [-0.9, -0.4, 0.3, 0.9] {
         let target = Vector3::new(0.6 * share, 0.0, -0.3 * share);
@@ -218,6 +226,6 @@ fn without_a_plane_of_sun_and_earth_there_is_no_place() {
             linear: None,
             science: None,
         };
-        assert_eq!(TARGETING.sun_place(&aim, &Vector3::zeros()), None);
+        assert_eq!(targeting().sun_place(&aim, &Vector3::zeros()), None);
     }
 }

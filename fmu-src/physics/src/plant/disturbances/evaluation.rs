@@ -11,6 +11,7 @@ use crate::attitude::MovingFrame;
 use crate::constants::RADIUS_SUN_M;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
+use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::loads::{Effect, ForceTorque, Loads};
 use crate::momentum::{Effort, EventValues, Sample, TorqueModel, torques_body_n_m};
 use crate::numerics::chebyshev::Segment;
@@ -144,6 +145,8 @@ pub struct PreparedSpacecraft<'a> {
     pub solar: &'a SolarModel,
     /// How its orbit is integrated, if it is.
     pub orbit_method: &'a OrbitMethod,
+    /// The default downlink of its antennas.
+    pub default_downlink: &'a DefaultDownlink,
 }
 
 impl PreparedSpacecraft<'_> {
@@ -188,8 +191,14 @@ impl<'a> Plant<'a> {
     ) -> Self {
         let World { configuration, mass_at_zero, ephemeris, laws, light, work } = world;
         let PropagatorState { trajectory, light: segment, sun_choice } = propagator;
-        let kinematics =
-            Kinematics { configuration, trajectory, ephemeris, work, mass_at_zero: *mass_at_zero };
+        let kinematics = Kinematics {
+            configuration,
+            trajectory,
+            ephemeris,
+            default_downlink: prepared.default_downlink,
+            work,
+            mass_at_zero: *mass_at_zero,
+        };
         Self {
             prepared,
             kinematics,

@@ -80,14 +80,14 @@ impl ConfiguredFlight<'_> {
         };
         let Some(guided) = self.plant().kinematics.guided_attitude(time_s) else { return Ok(()) };
         let downlink = guided.window.activity == Activity::Downlink;
-        let camera = match law.science {
-            ScienceRule::Unloading { camera, .. } if !downlink => Some(camera),
+        let gimbal = match law.science {
+            ScienceRule::Unloading { gimbal, .. } if !downlink => Some(gimbal),
             _ => None,
         };
-        let has_place = downlink || camera.is_some();
+        let has_place = downlink || gimbal.is_some();
         let choice = &mut self.propagator.sun_choice;
         let is_anew = has_place && choice.in_force == downlink && choice.chosen_s == Some(time_s);
-        if !(choice.is_due(downlink) || is_anew || (first && camera.is_some())) {
+        if !(choice.is_due(downlink) || is_anew || (first && gimbal.is_some())) {
             return Ok(());
         }
         choice.in_force = downlink;
@@ -106,7 +106,7 @@ impl ConfiguredFlight<'_> {
             let instant = plant.instant(time_s);
             let pressure_pa = plant.kinematics.configuration.light.pressure_pa(instant.sun_distance_m);
             let separations_rad = plant.kinematics.separations_rad(time_s, until_s);
-            let science = camera.map(|camera| plant.kinematics.science_course(camera, time_s, until_s));
+            let science = gimbal.map(|gimbal| plant.kinematics.science_course(gimbal, time_s, until_s));
             if science.is_some() {
                 let evaluations = self.world.ephemeris.evaluations();
                 self.world.work.spend(Cost::Search, SCIENCE_UNITS, evaluations, time_s)?;

@@ -7,7 +7,8 @@
 use crate::attitude::{MovingFrame, angle_between_rad};
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::TwoBodyOrbit;
-use crate::guidance::pointing::boresight::MdisRange;
+use crate::guidance::downlink::default_downlink::DefaultDownlink;
+use crate::guidance::pointing::boresight::Gimbal;
 use crate::guidance::{Activity, CoursePoint, Guided, GuidedAttitude, ScienceCourse};
 use crate::momentum::{EventValues, after_event_s};
 use crate::numerics::chebyshev::Segment;
@@ -45,6 +46,8 @@ pub(crate) struct Kinematics<'a> {
     pub configuration: &'a Configuration,
     pub trajectory: &'a mut Trajectory,
     pub ephemeris: &'a mut Ephemeris,
+    /// The default downlink of the spacecraft's antennas.
+    pub default_downlink: &'a DefaultDownlink,
     /// What the step has cost so far.
     pub work: &'a mut Work,
     /// With every panel at angle 0, of what is left of the propellant.
@@ -152,11 +155,11 @@ impl Kinematics<'_> {
     /// What the orbit phase's own guidance commands at `time_s`.
     fn guided(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
-        let trajectory = &*self.trajectory;
+        let (trajectory, default_downlink) = (&*self.trajectory, self.default_downlink);
         let epoch_s = time_s + configuration.epoch_minus_time_s;
         let window =
             trajectory.window(configuration, time_s).unwrap_or_else(|| guided.schedule.window(epoch_s));
-        guided.within(window, epoch_s, |at_epoch_s| {
+        guided.within(window, epoch_s, default_downlink, |at_epoch_s| {
             if at_epoch_s == epoch_s {
                 return geometry.lines_of_sight();
             }
@@ -189,10 +192,10 @@ impl Kinematics<'_> {
     }
 
     /// Sun and planet from one time to a later one, likewise.
-    pub fn science_course(&mut self, camera: MdisRange, from_s: f64, to_s: f64) -> ScienceCourse {
+    pub fn science_course(&mut self, gimbal: Gimbal, from_s: f64, to_s: f64) -> ScienceCourse {
         let light = self.configuration.light;
         let mut ahead = self.geometry_ahead(from_s);
-        ScienceCourse::of(camera, to_s - from_s, |share| {
+        ScienceCourse::of(gimbal, to_s - from_s, |share| {
             let geometry = ahead(from_s + (to_s - from_s) * share);
             let to_sun_m = geometry.to_sun.position_m;
             CoursePoint {

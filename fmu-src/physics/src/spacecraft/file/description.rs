@@ -17,9 +17,9 @@ use crate::spacecraft::surface::SunshadeModel;
 use crate::spacecraft::tank::HYDRAZINE_KG_M3;
 use crate::spacecraft::thermal::EMISSIVITY_REFERENCE_TEMPERATURE_K;
 use crate::toml::{
-    BodyRadius, Emissivity, Finite, Fraction, GravitationalParameter, HalfTurn, Kelvin, NonEmpty,
-    NotNegative, OrbitAxis, Orbits, Positive, QuarterTurn, SpecificImpulse, SubtendedAngle, TurnEither,
-    tables,
+    BodyRadius, Emissivity, FieldOfView, Finite, Fraction, GravitationalParameter, HalfTurn, HalfTurnEither,
+    Kelvin, NonEmpty, NotNegative, OrbitAxis, Orbits, Positive, QuarterTurn, SpecificImpulse, SubtendedAngle,
+    TurnEither, tables,
 };
 
 tables! {
@@ -63,8 +63,11 @@ struct Description {
     slosh: Option<NonEmpty<SloshDescription>>,
     /// Sun sensors; left out, six along the body axes.
     sun_sensors: Option<Vec<SunSensorDescription>>,
-    /// Instruments fixed in the body frame, which Guidance points by their number from 1.
+    /// Instruments, which Guidance points by their number from 1.
     instruments: Option<NonEmpty<InstrumentDescription>>,
+    /// Antennas to the Earth, the items of `antenna.select` from 1; without any there are no downlinks.
+    #[cfg_attr(feature = "schema", schemars(length(max = crate::toml::MOST_ANTENNAS)))]
+    antennas: Option<NonEmpty<AntennaDescription>>,
     momentum: Option<MomentumDescription>,
     sun_keep_in: Option<SunKeepInDescription>,
     downlinks: Option<DownlinksDescription>,
@@ -349,8 +352,31 @@ struct SunSensorDescription {
 struct InstrumentDescription {
     /// Name for messages and the manual.
     name: String,
-    /// Unit vector of its boresight, body frame.
+    /// Unit vector of its boresight, body frame; on a gimbal at angle 0.
     boresight: [f64; 3],
+    gimbal: Option<GimbalDescription>,
+}
+
+/// A gimbal that turns an instrument about one axis: at most one instrument has one.
+struct GimbalDescription {
+    /// Unit vector of its axis, body frame, perpendicular to the boresight; angles count right-handed about it.
+    axis: [f64; 3],
+    /// Least angle, in deg.
+    minimum_deg: HalfTurnEither,
+    /// Greatest angle, in deg.
+    maximum_deg: HalfTurnEither,
+}
+
+/// An antenna: a fan steered in the XY plane (`azimuth_deg`) or fixed along an axis (`axis`).
+struct AntennaDescription {
+    /// Its item of `antenna.select`: letters and digits, the first a letter.
+    name: String,
+    /// From and to which azimuth a fan is steered, in deg, from -Y toward +X: up to 180 deg apart, or 360.
+    azimuth_deg: Option<[TurnEither; 2]>,
+    /// Unit vector along which a fixed antenna looks, body frame: it is turned to the Earth, -Y as near to the Sun as that allows.
+    axis: Option<[f64; 3]>,
+    /// Full widths of the beam, in deg: across the XY plane and along it (of an axis along Z along X).
+    beam_deg: [FieldOfView; 2],
 }
 
 /// Limits of the stored momentum; left out, they are what the wheels guarantee on all body axes at once.

@@ -2,9 +2,9 @@
 
 use nalgebra::Vector3;
 
-use super::description::{InstrumentDescription, SunSensorDescription, WheelDescription};
+use super::description::{GimbalDescription, InstrumentDescription, SunSensorDescription, WheelDescription};
 use super::names::Named;
-use crate::spacecraft::instruments::Instrument;
+use crate::spacecraft::instruments::{GimbalMount, Instrument};
 use crate::spacecraft::sun_sensors::MountedSunSensor;
 use crate::spacecraft::wheels::{SPEED_AT_CAPACITY_RAD_S, TIME_TO_CAPACITY_S, Wheel};
 use crate::toml::{Checker, Place};
@@ -58,8 +58,37 @@ pub(crate) fn instrument(
     _: usize,
     description: &InstrumentDescription,
 ) -> Instrument {
-    Instrument {
-        name: description.name.clone(),
-        boresight_body: check.unit_vector(&at.key("boresight"), description.boresight),
+    let boresight_body = check.unit_vector(&at.key("boresight"), description.boresight);
+    let given = description.gimbal.as_ref();
+    let gimbal = given.map(|given| gimbal(check, &at.key("gimbal"), given, &boresight_body));
+    Instrument { name: description.name.clone(), boresight_body, gimbal }
+}
+
+fn gimbal(
+    check: &mut Checker<'_>,
+    at: &Place,
+    description: &GimbalDescription,
+    boresight_body: &Vector3<f64>,
+) -> GimbalMount {
+    let [minimum_deg, maximum_deg] = [description.minimum_deg.0, description.maximum_deg.0];
+    if minimum_deg > maximum_deg {
+        let allowed = format!("an angle from `minimum_deg`, {minimum_deg} deg, to 180 deg");
+        check.report(&at.key("maximum_deg"), maximum_deg, allowed);
+    }
+    GimbalMount {
+        axis_body: check.perpendicular(&at.key("axis"), description.axis, boresight_body, "boresight"),
+        minimum_rad: minimum_deg.to_radians(),
+        maximum_rad: maximum_deg.to_radians(),
+    }
+}
+
+/// At most one instrument has a gimbal.
+pub(crate) fn check_gimbals(check: &mut Checker<'_>, at: &Place, instruments: &[Instrument]) {
+    let mut with_gimbal =
+        instruments.iter().enumerate().filter(|(_, instrument)| instrument.gimbal.is_some());
+    let Some((_, first)) = with_gimbal.next() else { return };
+    for (index, _) in with_gimbal {
+        let found = format!("a gimbal beside that of `{}`", first.name);
+        check.report(&at.item(index).key("gimbal"), found, "one instrument with a gimbal");
     }
 }

@@ -1,5 +1,6 @@
 //! The spacecraft's file: its shape as people write it, and one function for each part that checks and turns it into data.
 
+pub(super) mod antennas;
 pub(super) mod body;
 pub(super) mod description;
 pub(super) mod devices;

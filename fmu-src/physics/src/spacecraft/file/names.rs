@@ -3,8 +3,8 @@
 use super::describe_shapes::{BoxDescription, DiscDescription, DishDescription, FacetedCylinderDescription};
 use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
 use super::description::{
-    Description, InstrumentDescription, PanelDescription, PlateDescription, SunSensorDescription,
-    TankDescription, ThrusterDescription, WheelDescription,
+    AntennaDescription, Description, InstrumentDescription, PanelDescription, PlateDescription,
+    SunSensorDescription, TankDescription, ThrusterDescription, WheelDescription,
 };
 use crate::toml::{Checker, Place};
 use std::collections::BTreeMap;
@@ -50,12 +50,21 @@ named! {
     SloshDescription: "slosh",
 }
 
-impl Named for InstrumentDescription {
-    const KIND: &'static str = "instrument";
+macro_rules! always_named {
+    ($($part:ty: $kind:literal),* $(,)?) => {
+        $(impl Named for $part {
+            const KIND: &'static str = $kind;
 
-    fn name(&self) -> Option<&str> {
-        Some(&self.name)
-    }
+            fn name(&self) -> Option<&str> {
+                Some(&self.name)
+            }
+        })*
+    };
+}
+
+always_named! {
+    InstrumentDescription: "instrument",
+    AntennaDescription: "antenna",
 }
 
 /// A list that may be left out but not be empty.
@@ -93,7 +102,7 @@ pub(crate) fn check_names(check: &mut Checker<'_>, description: &Description) {
     });
     let plates = names_of!(description: plates, boxes, cylinders, discs, dishes);
     let others = names_of!(
-        description: panels, wheels, sun_sensors, instruments, tanks, thrusters, flexible_modes, slosh
+        description: panels, wheels, sun_sensors, instruments, antennas, tanks, thrusters, flexible_modes, slosh
     );
     let kinds = [plates.into_iter().chain([of_shade]).flatten().collect()].into_iter().chain(others);
     for kind in kinds {
@@ -112,5 +121,80 @@ fn check_kind(check: &mut Checker<'_>, names: &[Name]) {
             let found = format!("`{name}`{unnamed}, the name of {other} too");
             check.report(&at.key("name"), found, "a name of its own");
         }
+    }
+}
+
+/// Words that no enumeration of Modelica may have as an item (Modelica 3.6, 2.3.3).
+const MODELICA_KEYWORDS: &[&str] = &[
+    "algorithm",
+    "and",
+    "annotation",
+    "block",
+    "break",
+    "class",
+    "connect",
+    "connector",
+    "constant",
+    "constrainedby",
+    "der",
+    "discrete",
+    "each",
+    "else",
+    "elseif",
+    "elsewhen",
+    "encapsulated",
+    "end",
+    "enumeration",
+    "equation",
+    "expandable",
+    "extends",
+    "external",
+    "false",
+    "final",
+    "flow",
+    "for",
+    "function",
+    "if",
+    "import",
+    "impure",
+    "in",
+    "initial",
+    "inner",
+    "input",
+    "loop",
+    "model",
+    "not",
+    "operator",
+    "or",
+    "outer",
+    "output",
+    "package",
+    "parameter",
+    "partial",
+    "protected",
+    "public",
+    "pure",
+    "record",
+    "redeclare",
+    "replaceable",
+    "return",
+    "stream",
+    "then",
+    "true",
+    "type",
+    "when",
+    "while",
+    "within",
+];
+
+/// What a name may be.
+const ALLOWED: &str = "letters and digits, the first a letter; not `none` and no keyword of Modelica";
+
+/// Refuses a name that no item of an enumeration can have.
+pub(crate) fn check_item_name(check: &mut Checker<'_>, at: &Place, name: &str) {
+    let begins = name.starts_with(|first: char| first.is_ascii_alphabetic());
+    let is_word = begins && name.chars().all(|letter| letter.is_ascii_alphanumeric());
+    if !is_word || name == "none" || MODELICA_KEYWORDS.contains(&name) {
+        check.report(at, format_args!("{name:?}"), ALLOWED);
     }
 }

@@ -12,6 +12,7 @@ pub(crate) fn downlinks(
     at: &Place,
     description: &DownlinksDescription,
     start: &[StartEntry],
+    has_antenna: bool,
 ) -> DownlinkWindows {
     let mut time = |key: &str, written: &WrittenTime| {
         written.read().unwrap_or_else(|| {
@@ -32,7 +33,12 @@ pub(crate) fn downlinks(
         let allowed = format!("one of both: [downlinks], or {} in [start]", entry.name);
         check.report(at, format!("[downlinks] beside {}", entry.key), allowed);
     }
-    DownlinkWindows { start: begin, stop: end, every: description.every() }
+    let every = description.every();
+    if every > 0 && !has_antenna && !check.has_reported(&at.key("every")) {
+        let allowed = "0, no downlink, where the spacecraft has no antenna ([[antennas]])";
+        check.report(&at.key("every"), every, allowed);
+    }
+    DownlinkWindows { start: begin, stop: end, every }
 }
 
 pub(crate) fn hot_pole(description: &HotPoleDescription) -> HotPoleZone {

@@ -88,7 +88,17 @@ fn of_spacecraft(spacecraft: &Spacecraft) -> String {
     let instruments = spacecraft.instruments.iter().enumerate().map(|(k, instrument)| {
         row(&instrument.name, &[vector(&instrument.boresight_body), (k + 1).to_string()])
     });
-    text + &part("Instruments", &["Name", "Boresight", "Number"], instruments.collect())
+    text += &part("Instruments", &["Name", "Boresight", "Number"], instruments.collect());
+    let antennas = spacecraft.antennas.iter().enumerate().map(|(k, named)| {
+        let beam_rad = [named.antenna.across_rad, named.antenna.along_rad];
+        let [across_deg, along_deg] = beam_rad.map(|width_rad| number(width_rad.to_degrees()));
+        row(
+            &named.name,
+            &[named.antenna.range.to_string(), format!("{across_deg} x {along_deg}"), (k + 1).to_string()],
+        )
+    });
+    let header = ["Name", "Looks", "Beam across and along XY [deg]", "Number"];
+    text + &part("Antennas", &header, antennas.collect())
 }
 
 fn sunshade(shade: &Sunshade, plates: Vec<String>, surface: &[&str]) -> String {

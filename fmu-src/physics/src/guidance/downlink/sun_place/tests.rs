@@ -8,16 +8,16 @@ use crate::bodies::Body;
 use crate::guidance::geometry::moving::moving;
 use crate::guidance::geometry::test_geometry::{Motion, Random, difference_rad_s};
 use crate::guidance::geometry::test_orbit::about_mercury;
-use crate::guidance::pointing::antenna::Antenna;
+use crate::guidance::pointing::antenna::tests::{BACK, SUNSHADE, antennas, fixed_along, quadrants};
 
 /// Azimuth in -90..0 or 90..180 deg, typed anew, -180 counting as 180.
-fn in_quadrant(antenna: Antenna, azimuth_rad: f64) -> bool {
+fn in_quadrant(antenna: Option<AntennaRow>, azimuth_rad: f64) -> bool {
     let sine = azimuth_rad.sin();
     let cosine = azimuth_rad.cos();
     match antenna {
-        Antenna::Sunshade => sine <= 1e-12 && cosine >= -1e-12,
-        Antenna::Back => sine >= -1e-12 && cosine <= 1e-12,
-        Antenna::None => false,
+        SUNSHADE => sine <= 1e-12 && cosine >= -1e-12,
+        BACK => sine >= -1e-12 && cosine <= 1e-12,
+        _ => false,
     }
 }
 
@@ -42,7 +42,7 @@ fn sun_at_its_angles_and_earth_in_the_plane() {
         let mut limit_rad = |most_rad: f64| random.within(-most_rad, most_rad);
         let sun_body = SunAngles { azimuth_rad: limit_rad(0.4), elevation_rad: limit_rad(0.4) };
         let request = DownlinkRequest { sun_body, ..DownlinkRequest::default() };
-        let found = downlink(&to_sun, &to_earth, &request).unwrap();
+        let found = downlink(&to_sun, &to_earth, &quadrants(), &request).unwrap();
         let pointing = found.vectors.pointing().unwrap();
         let body = |v: &MovingVector| value(&pointing.to_body(&unit(v).unwrap()));
         let (sun, earth) = (body(&to_sun), body(&to_earth));
@@ -62,14 +62,14 @@ fn sun_at_its_angles_and_earth_in_the_plane() {
             assert!((off_rad - least_rad).abs() < 1e-12, "{off_rad} {least_rad}");
             let delta_rad = (theta_rad.cos() / cut_rad.cos()).clamp(-1.0, 1.0).acos();
             for azimuth_rad in [sun_body.azimuth_rad - delta_rad, sun_body.azimuth_rad + delta_rad] {
-                assert!(!Antenna::ALL.into_iter().any(|antenna| {
+                assert!(![SUNSHADE, BACK].into_iter().any(|antenna| {
                     in_quadrant(antenna, azimuth_rad) && (2.0 * azimuth_rad).sin().abs() > 1e-7
                 }));
             }
             seen[3] += 1;
         } else {
             sun_worst_rad = sun_worst_rad.max(off_rad);
-            seen[if found.clamped { 2 } else { usize::from(found.antenna.antenna == Antenna::Back) }] += 1;
+            seen[if found.clamped { 2 } else { usize::from(found.antenna.antenna == BACK) }] += 1;
         }
     }
     assert!(sun_worst_rad < 1e-12 && earth_worst_rad < 1e-12, "{sun_worst_rad:e} {earth_worst_rad:e}");
@@ -81,10 +81,10 @@ fn the_default_puts_the_sun_on_minus_y_and_the_earth_by_its_distance() {
     let mut random = Random(22);
     for _ in 0..10_000 {
         let [to_sun, to_earth] = random_lines(&mut random);
-        let found = downlink(&to_sun, &to_earth, &DownlinkRequest::default()).unwrap();
+        let found = downlink(&to_sun, &to_earth, &quadrants(), &DownlinkRequest::default()).unwrap();
         let theta_rad = angle_between_rad(&value(&to_sun), &value(&to_earth));
         let (antenna, azimuth_rad) =
-            if theta_rad < FRAC_PI_2 { (Antenna::Sunshade, -theta_rad) } else { (Antenna::Back, theta_rad) };
+            if theta_rad < FRAC_PI_2 { (SUNSHADE, -theta_rad) } else { (BACK, theta_rad) };
         assert_eq!(found.antenna.antenna, antenna);
         assert!((found.antenna.azimuth_rad - azimuth_rad).abs() < 1e-12 && !found.clamped);
         let sun = value(&found.vectors.pointing().unwrap().to_body(&unit(&to_sun).unwrap()));
@@ -96,23 +96,23 @@ fn the_default_puts_the_sun_on_minus_y_and_the_earth_by_its_distance() {
 #[test]
 fn one_two_or_no_azimuth_lies_in_a_quadrant() {
     for (sun_deg, theta_deg, expected_deg, antenna, clamped) in [
-        (0.0, 30.0, -30.0, Antenna::Sunshade, false),
-        (0.0, 150.0, 150.0, Antenna::Back, false),
-        (10.0, 5.0, 0.0, Antenna::Sunshade, true),
-        (10.0, 85.0, -75.0, Antenna::Sunshade, false),
-        (10.0, 95.0, 105.0, Antenna::Back, false),
-        (-10.0, 5.0, -15.0, Antenna::Sunshade, false),
-        (-10.0, 85.0, -90.0, Antenna::Sunshade, true),
-        (-10.0, 95.0, 90.0, Antenna::Back, true),
-        (-10.0, 175.0, 165.0, Antenna::Back, false),
-        (10.0, 178.0, 180.0, Antenna::Back, true),
-        (10.0, 165.0, 175.0, Antenna::Back, false),
+        (0.0, 30.0, -30.0, SUNSHADE, false),
+        (0.0, 150.0, 150.0, BACK, false),
+        (10.0, 5.0, 0.0, SUNSHADE, true),
+        (10.0, 85.0, -75.0, SUNSHADE, false),
+        (10.0, 95.0, 105.0, BACK, false),
+        (-10.0, 5.0, -15.0, SUNSHADE, false),
+        (-10.0, 85.0, -90.0, SUNSHADE, true),
+        (-10.0, 95.0, 90.0, BACK, true),
+        (-10.0, 175.0, 165.0, BACK, false),
+        (10.0, 178.0, 180.0, BACK, true),
+        (10.0, 165.0, 175.0, BACK, false),
     ] {
         let theta_rad = f64::to_radians(theta_deg);
         let earth = fixed(Vector3::new(theta_rad.cos(), theta_rad.sin(), 0.0));
         let sun_body = SunAngles { azimuth_rad: f64::to_radians(sun_deg), elevation_rad: 0.0 };
         let request = DownlinkRequest { sun_body, ..DownlinkRequest::default() };
-        let found = downlink(&fixed(Vector3::x()), &earth, &request).unwrap();
+        let found = downlink(&fixed(Vector3::x()), &earth, &quadrants(), &request).unwrap();
         let off_deg = found.antenna.azimuth_rad.to_degrees() - expected_deg;
         assert!(off_deg.abs() < 1e-10, "{sun_deg} {theta_deg}: {found:?}");
         assert_eq!((found.antenna.antenna, found.clamped), (antenna, clamped), "{sun_deg} {theta_deg}");
@@ -127,15 +127,15 @@ fn a_requested_azimuth_looks_at_the_earth_or_its_nearest_bound_does() {
         let azimuth_rad = random.within(-PI, PI);
         let request =
             DownlinkRequest { antenna_azimuth_rad: Some(azimuth_rad), ..DownlinkRequest::default() };
-        let found = downlink(&to_sun, &to_earth, &request).unwrap();
+        let found = downlink(&to_sun, &to_earth, &quadrants(), &request).unwrap();
         let degrees = azimuth_rad.to_degrees();
         let (antenna, expected_deg) = match degrees {
-            d if (-90.0..=0.0).contains(&d) => (Antenna::Sunshade, d),
-            d if d >= 90.0 => (Antenna::Back, d),
-            d if d < -135.0 => (Antenna::Back, 180.0),
-            d if d < -90.0 => (Antenna::Sunshade, -90.0),
-            d if d <= 45.0 => (Antenna::Sunshade, 0.0),
-            _ => (Antenna::Back, 90.0),
+            d if (-90.0..=0.0).contains(&d) => (SUNSHADE, d),
+            d if d >= 90.0 => (BACK, d),
+            d if d < -135.0 => (BACK, 180.0),
+            d if d < -90.0 => (SUNSHADE, -90.0),
+            d if d <= 45.0 => (SUNSHADE, 0.0),
+            _ => (BACK, 90.0),
         };
         assert_eq!(
             (found.antenna.antenna, found.clamped),
@@ -163,7 +163,7 @@ fn the_rate_is_the_difference_of_the_attitude() {
         let request = DownlinkRequest { sun_body, ..DownlinkRequest::default() };
         let at = |time_s: f64| {
             let [to_sun, to_earth] = motions.map(|motion| motion.at(time_s));
-            let found = downlink(&to_sun, &to_earth, &request)?;
+            let found = downlink(&to_sun, &to_earth, &quadrants(), &request)?;
             Some((found.vectors.pointing()?, found.antenna.antenna, found.clamped))
         };
         let (pointing, antenna, clamped) = at(0.0).unwrap();
@@ -185,44 +185,45 @@ fn in_line_the_attitude_is_finite_and_nothing_without_direction() {
         for elevation_rad in [0.0, 0.2, -0.2] {
             let sun_body = SunAngles { azimuth_rad: 0.1, elevation_rad };
             let request = DownlinkRequest { sun_body, ..DownlinkRequest::default() };
-            let found = downlink(&sun, &earth, &request).unwrap();
+            let found = downlink(&sun, &earth, &quadrants(), &request).unwrap();
             let pointing = found.vectors.pointing().unwrap();
             assert!(pointing.degenerate && pointing.frame().rate_body_rad_s.iter().all(|x| x.is_finite()));
         }
     }
-    assert!(downlink(&MovingVector::zeros(), &sun, &DownlinkRequest::default()).is_none());
-    assert!(downlink(&sun, &MovingVector::zeros(), &DownlinkRequest::default()).is_none());
+    assert!(downlink(&MovingVector::zeros(), &sun, &quadrants(), &DownlinkRequest::default()).is_none());
+    assert!(downlink(&sun, &MovingVector::zeros(), &quadrants(), &DownlinkRequest::default()).is_none());
 }
 
 #[test]
 fn the_link_needs_antenna_distance_from_the_sun_and_a_free_line() {
     let degrees = f64::to_radians;
-    let limits = LinkLimits { sun_separation_rad: degrees(3.0), coverage_rad: degrees(2.0) };
+    let limits = LinkLimits { sun_separation_rad: degrees(3.0), coverage_rad: None };
     let around = |position: Vector3<f64>, theta_deg: f64| {
         let position = position * Body::Mercury.data().radius_m;
         let sun = Vector3::new(degrees(theta_deg).cos(), degrees(theta_deg).sin(), 0.0) * 5e10;
         about_mercury(position, position + sun, position + Vector3::x() * 1e11)
     };
-    let free = Vector3::new(2.0, 0.0, 0.0);
+    let (free, all) = (Vector3::new(2.0, 0.0, 0.0), quadrants());
     for (position, theta_deg, off_deg, antenna, expected) in [
-        (free, 40.0, 0.0, Antenna::Sunshade, true),
-        (free, 40.0, 0.0, Antenna::Back, false),
-        (free, 40.0, 0.0, Antenna::None, false),
-        (free, 140.0, 0.0, Antenna::Back, true),
-        (free, 2.9, 0.0, Antenna::Sunshade, false),
-        (free, 3.1, 0.0, Antenna::Sunshade, true),
-        (free, 40.0, 1.9, Antenna::Sunshade, true),
-        (free, 40.0, 2.1, Antenna::Sunshade, false),
-        (-free, 40.0, 0.0, Antenna::Sunshade, false),
-        (Vector3::new(-2.0, 0.99, 0.0), 40.0, 0.0, Antenna::Sunshade, false),
-        (Vector3::new(-2.0, 1.01, 0.0), 40.0, 0.0, Antenna::Sunshade, true),
+        (free, 40.0, 0.0, SUNSHADE, true),
+        (free, 40.0, 0.0, BACK, false),
+        (free, 40.0, 0.0, None, false),
+        (free, 140.0, 0.0, BACK, true),
+        (free, 2.9, 0.0, SUNSHADE, false),
+        (free, 3.1, 0.0, SUNSHADE, true),
+        (free, 40.0, 1.9, SUNSHADE, true),
+        (free, 40.0, 2.1, SUNSHADE, false),
+        (-free, 40.0, 0.0, SUNSHADE, false),
+        (Vector3::new(-2.0, 0.99, 0.0), 40.0, 0.0, SUNSHADE, false),
+        (Vector3::new(-2.0, 1.01, 0.0), 40.0, 0.0, SUNSHADE, true),
     ] {
         let around = around(position, theta_deg);
-        let pointing = downlink(&around.to_sun(), &around.to_earth(), &DownlinkRequest::default())
-            .unwrap()
-            .vectors
-            .pointing()
-            .unwrap();
+        let pointing =
+            downlink(&around.to_sun(), &around.to_earth(), &quadrants(), &DownlinkRequest::default())
+                .unwrap()
+                .vectors
+                .pointing()
+                .unwrap();
         // Off by a turn about -Y and by one about X together: about the Sun's and the Earth's normal's middle.
         let earth = value(&pointing.to_body(&unit(&around.to_earth()).unwrap()));
         let axis = fixed(earth.cross(&Vector3::z()).normalize());
@@ -234,15 +235,59 @@ fn the_link_needs_antenna_distance_from_the_sun_and_a_free_line() {
             azimuth_rad: azimuth_rad + degrees(off_deg),
             outside_rad: 0.0,
         };
-        let found = link(&around, &earth, Some(&beam(0.0)), &limits).unwrap();
+        let found = link(&around, &earth, (&all, Some(&beam(0.0))), &limits).unwrap();
         // A fan of 15 deg, and none at all.
         for (beam_off_deg, reaches) in [(7.4, true), (-7.4, true), (7.6, false), (-7.6, false), (360.0, true)]
         {
-            let off = link(&around, &earth, Some(&beam(beam_off_deg)), &limits).unwrap();
+            let off = link(&around, &earth, (&all, Some(&beam(beam_off_deg))), &limits).unwrap();
             assert_eq!(off.available, expected && reaches, "{beam_off_deg}");
         }
-        assert!(!link(&around, &earth, None, &limits).unwrap().available);
+        assert!(!link(&around, &earth, (&all, None), &limits).unwrap().available);
         assert_eq!(found.available, expected, "{position} {theta_deg} {off_deg} {antenna:?}");
         assert!((found.sun_separation_rad - degrees(theta_deg)).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_fixed_antenna_looks_at_the_earth_with_the_sun_as_near_to_its_place_as_a_turn_about_it_brings_it() {
+    let mut random = Random(25);
+    let (mut earth_worst, mut sun_worst_rad) = (0.0_f64, 0.0_f64);
+    for _ in 0..1_000 {
+        let [to_sun, to_earth] = random_lines(&mut random);
+        let axis_body = random.direction();
+        let mut limit_rad = |most_rad: f64| random.within(-most_rad, most_rad);
+        let sun_body = SunAngles { azimuth_rad: limit_rad(0.4), elevation_rad: limit_rad(0.4) };
+        let request = DownlinkRequest { sun_body, ..DownlinkRequest::default() };
+        let found = downlink(&to_sun, &to_earth, &antennas(&[fixed_along(axis_body)]), &request).unwrap();
+        let pointing = found.vectors.pointing().unwrap();
+        let body = |v: &MovingVector| value(&pointing.to_body(&unit(v).unwrap()));
+        let (sun, earth) = (body(&to_sun), body(&to_earth));
+        assert_eq!(found.antenna.antenna, Some(AntennaRow(0)));
+        earth_worst = earth_worst.max((earth - axis_body).norm());
+        let place = direction_from_angles(sun_body);
+        let off_rad = angle_between_rad(&sun, &place);
+        let theta_rad = angle_between_rad(&value(&to_sun), &value(&to_earth));
+        let bound_rad = (angle_between_rad(&axis_body, &place) - theta_rad).abs();
+        sun_worst_rad = sun_worst_rad.max((off_rad - bound_rad).abs());
+        // No turn about the antenna's axis brings the Sun nearer.
+        let axis = nalgebra::Unit::new_normalize(axis_body);
+        for turn in 0..720 {
+            let turned = nalgebra::Rotation3::from_axis_angle(&axis, f64::from(turn) * PI / 360.0) * sun;
+            assert!(angle_between_rad(&turned, &place) > off_rad - 1e-9, "{turn}: {found:?}");
+        }
+    }
+    assert!(earth_worst < 1e-12 && sun_worst_rad < 1e-9, "{earth_worst:e} {sun_worst_rad:e}");
+}
+
+#[test]
+fn without_antennas_safe_attitudes_have_the_earth_in_the_plane_and_no_antenna() {
+    let mut random = Random(26);
+    for _ in 0..1_000 {
+        let [to_sun, to_earth] = random_lines(&mut random);
+        let request = DownlinkRequest::default();
+        let found = downlink(&to_sun, &to_earth, &Antennas::default(), &request).unwrap();
+        let of_messenger = downlink(&to_sun, &to_earth, &quadrants(), &request).unwrap();
+        assert_eq!((found.vectors, found.clamped), (of_messenger.vectors, false));
+        assert_eq!(found.antenna.antenna, None);
     }
 }

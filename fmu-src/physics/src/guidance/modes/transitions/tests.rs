@@ -13,6 +13,7 @@ use crate::guidance::downlink::sun_place::{DownlinkRequest, downlink};
 use crate::guidance::geometry::moving::unit;
 use crate::guidance::geometry::test_geometry::{Random, cube_directions, nearest_zone};
 use crate::guidance::geometry::test_orbit::about_mercury;
+use crate::guidance::pointing::antenna::tests::quadrants;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use Mode::{EarthAcquisition, Operational, SafeHold};
 
@@ -178,7 +179,8 @@ fn a_demoted_mode_commands_a_safe_attitude_at_once() {
     assert_eq!(state.mode, SafeHold);
     for azimuth_rad in [None, Some(-1.5), Some(2.0)] {
         let request = DownlinkRequest { antenna_azimuth_rad: azimuth_rad, ..DownlinkRequest::default() };
-        let found = downlink(&surroundings.to_sun(), &surroundings.to_earth(), &request).unwrap();
+        let found =
+            downlink(&surroundings.to_sun(), &surroundings.to_earth(), &quadrants(), &request).unwrap();
         let kept = constraints.applied(&found.vectors, &surroundings, None).unwrap();
         let body = |v| value(&kept.pointing.to_body(&unit(&v).unwrap()));
         let excess_rad = constraints
@@ -191,7 +193,7 @@ fn a_demoted_mode_commands_a_safe_attitude_at_once() {
 
 #[test]
 fn safe_hold_takes_downlink_without_scan_and_nothing_else() {
-    let mut requested = PointingCommand { scenario: Some(Scenario::Mdis), ..PointingCommand::default() };
+    let mut requested = PointingCommand { scenario: Some(Scenario::Gimbal), ..PointingCommand::default() };
     requested.boresight.azimuth_rad = -0.5;
     requested.scan.rate_rad_s = [1e-3, 0.0, 0.0];
     assert_eq!(Operational.allowed(&requested), requested);

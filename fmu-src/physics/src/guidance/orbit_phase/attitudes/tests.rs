@@ -1,6 +1,6 @@
 //! What the paper demands of each attitude: where the Sun, the planet and the Earth stand in the body frame.
 use super::*;
-use crate::guidance::pointing::boresight::mdis_boresight;
+use crate::guidance::pointing::scenario_tests::camera;
 use approx::assert_relative_eq;
 
 const LIMIT_RAD: f64 = 13.0 * std::f64::consts::PI / 180.0;
@@ -87,18 +87,18 @@ fn scaled_rule_shows_the_sun_at_a_quarter_of_the_angle() {
 
 #[test]
 fn unloading_has_the_sun_in_its_place_and_the_camera_as_near_to_nadir_as_it_comes() {
-    let camera = MdisRange::default();
+    let gimbal = camera();
     let (mut kept, mut at_bound) = (0, 0);
     for (i, lines) in many().enumerate() {
         let k = i as f64;
         let sun = SunAngles { azimuth_rad: 0.26 * (0.7 * k).sin(), elevation_rad: 0.22 * (1.3 * k).cos() };
-        let requested = science(&lines, ScienceRule::Unloading { sun, camera }, 0.0);
+        let requested = science(&lines, ScienceRule::Unloading { sun, gimbal }, 0.0);
         let found = SunAngles::of(&in_body(&requested, &lines.sun));
         assert_relative_eq!(found.azimuth_rad, sun.azimuth_rad, epsilon = 1e-12);
         assert_relative_eq!(found.elevation_rad, sun.elevation_rad, epsilon = 1e-12);
         let planet = in_body(&requested, lines.planet.as_ref().unwrap());
-        let angle = camera.toward(&planet);
-        let off_rad = angle_between_rad(&mdis_boresight(angle.angle_rad), &planet);
+        let angle = gimbal.toward(&planet);
+        let off_rad = angle_between_rad(&gimbal.boresight(angle.angle_rad), &planet);
         assert_eq!(angle.in_range, requested.margins.iter().all(|margin| *margin > 0.0));
         if angle.in_range {
             kept += 1;
@@ -112,7 +112,7 @@ fn unloading_has_the_sun_in_its_place_and_the_camera_as_near_to_nadir_as_it_come
         for turn in -90..90 {
             let turned = nalgebra::Rotation3::from_axis_angle(&axis, 0.035 * f64::from(turn)) * planet;
             for degree in -50..=40 {
-                let look = mdis_boresight(f64::from(degree).to_radians());
+                let look = gimbal.boresight(f64::from(degree).to_radians());
                 assert!(angle_between_rad(&look, &turned) > off_rad - 1e-9, "{i}: {off_rad}");
             }
         }
@@ -135,7 +135,7 @@ fn paper_004_shows_the_sun_on_minus_y_and_north_on_minus_z() {
 #[test]
 fn downlink_puts_the_earth_in_an_antenna_quadrant() {
     for lines in many() {
-        let requested = downlink(&lines);
+        let requested = downlink(&lines, &DefaultDownlink::default());
         assert_relative_eq!(in_body(&requested, &lines.sun), -Vector3::y(), epsilon = 1e-12);
         let earth = in_body(&requested, &lines.earth);
         assert_relative_eq!(earth.z, 0.0, epsilon = 1e-12);
@@ -153,7 +153,7 @@ fn every_law_gives_a_proper_rotation_even_when_degenerate() {
     let mut all: Vec<AttitudeCommand> = Vec::new();
     for lines in many() {
         all.push(science(&lines, ScienceRule::Nadir, LIMIT_RAD));
-        all.push(downlink(&lines));
+        all.push(downlink(&lines, &DefaultDownlink::default()));
         let blind = LinesOfSight {
             planet: Some(lines.sun),
             earth: lines.sun,
@@ -163,10 +163,10 @@ fn every_law_gives_a_proper_rotation_even_when_degenerate() {
         all.push(science(&blind, ScienceRule::Nadir, LIMIT_RAD));
         all.push(science(&blind, ScienceRule::PlanetOrbit, LIMIT_RAD));
         let sun = SunAngles { azimuth_rad: 0.2, elevation_rad: -0.1 };
-        let unloading = ScienceRule::Unloading { sun, camera: MdisRange::default() };
+        let unloading = ScienceRule::Unloading { sun, gimbal: camera() };
         all.push(science(&blind, unloading, LIMIT_RAD));
         all.push(science(&LinesOfSight { planet: None, ..lines }, unloading, LIMIT_RAD));
-        all.push(downlink(&blind));
+        all.push(downlink(&blind, &DefaultDownlink::default()));
     }
     let pole = MovingUnit { direction: Vector3::z(), rate_1_s: Vector3::zeros() };
     all.push(sun_pointing(&LinesOfSight { sun: pole, planet: None, earth: pole, sun_from_planet: None }));
@@ -174,5 +174,37 @@ fn every_law_gives_a_proper_rotation_even_when_degenerate() {
         let matrix = requested.frame.inertial_from_body.matrix();
         assert_relative_eq!(matrix.determinant(), 1.0, epsilon = 1e-12);
         assert_relative_eq!(matrix * matrix.transpose(), nalgebra::Matrix3::identity(), epsilon = 1e-12);
+    }
+}
+
+#[test]
+fn the_default_downlink_is_that_of_the_scenario_with_any_antennas() {
+    use crate::guidance::downlink::sun_place::{DownlinkRequest, downlink as by_scenario};
+    use crate::guidance::geometry::test_geometry::Random;
+    use crate::guidance::pointing::antenna::tests::{antennas, fan, fixed_along, quadrants};
+    let mut random = Random(27);
+    for _ in 0..200 {
+        let axis = fixed_along(random.direction());
+        let from_deg = random.within(-180.0, 180.0);
+        for all in [
+            quadrants(),
+            antennas(&[axis]),
+            antennas(&[fan(from_deg, from_deg + 60.0)]),
+            antennas(&[fan(from_deg, from_deg + 30.0), axis]),
+        ] {
+            let law = DefaultDownlink::of(&all);
+            for lines in many().take(20) {
+                let found = downlink(&lines, &law);
+                let [to_sun, to_earth] =
+                    [&lines.sun, &lines.earth].map(|to| moving(to.direction, to.rate_1_s));
+                let expected = by_scenario(&to_sun, &to_earth, &all, &DownlinkRequest::default()).unwrap();
+                let expected = expected.vectors.pointing().unwrap().frame();
+                let (found, expected_axes) = (found.frame, expected.inertial_from_body);
+                let off = (found.inertial_from_body.matrix() - expected_axes.matrix()).amax();
+                assert!(off < 1e-12, "{off:e} {all:?}");
+                let rate_off = (found.rate_body_rad_s - expected.rate_body_rad_s).amax();
+                assert!(rate_off < 1e-9 * (1.0 + expected.rate_body_rad_s.amax()), "{rate_off:e} {all:?}");
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! A slew begins where the old attitude was, ends at the new one, and its rate is the derivative of its axes.
 use super::*;
 use crate::attitude::{MovingUnit, rotation_vector};
-use crate::guidance::pointing::boresight::MdisRange;
+use crate::guidance::pointing::scenario_tests::camera;
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
 
@@ -24,19 +24,23 @@ fn guided(slew_rate_rad_s: f64) -> Guided {
     Guided { slew_rate_rad_s, ..law(ScienceRule::Nadir, 43_200.0, [7200.0, 36_000.0], 2) }
 }
 
+/// With MESSENGER's antennas.
+fn at(law: &Guided, time_s: f64) -> GuidedAttitude {
+    law.at(time_s, &DefaultDownlink::default(), lines)
+}
+
 #[test]
 fn a_slew_is_continuous_and_arrives() {
     let law = guided(3e-3);
-    let just_before = guided(0.0).at(7200.0 - 1e-6, lines).frame.inertial_from_body;
-    let at_edge = law.at(7200.0, lines);
+    let just_before = at(&guided(0.0), 7200.0 - 1e-6).frame.inertial_from_body;
+    let at_edge = at(&law, 7200.0);
     assert!(at_edge.slewing);
     assert_relative_eq!(just_before.matrix(), at_edge.frame.inertial_from_body.matrix(), epsilon = 1e-8);
-    let angle_rad =
-        rotation_vector(&just_before, &guided(0.0).at(7200.0, lines).frame.inertial_from_body).norm();
+    let angle_rad = rotation_vector(&just_before, &at(&guided(0.0), 7200.0).frame.inertial_from_body).norm();
     let end_s = 7200.0 + angle_rad / 3e-3;
-    assert!(law.at(end_s - 0.1, lines).slewing);
-    assert!(!law.at(end_s + 0.1, lines).slewing);
-    assert_eq!(law.at(end_s + 0.1, lines).frame, guided(0.0).at(end_s + 0.1, lines).frame);
+    assert!(at(&law, end_s - 0.1).slewing);
+    assert!(!at(&law, end_s + 0.1).slewing);
+    assert_eq!(at(&law, end_s + 0.1).frame, at(&guided(0.0), end_s + 0.1).frame);
 }
 
 #[test]
@@ -45,7 +49,7 @@ fn rate_is_the_derivative_of_the_axes_everywhere() {
     let off_sun = SunPlace { angles, earth_ahead: false };
     for sun_place in [None, Some(off_sun)] {
         rate_is_the_derivative(&Guided { sun_place, ..guided(2e-3) });
-        let science = ScienceRule::Unloading { sun: angles, camera: MdisRange::default() };
+        let science = ScienceRule::Unloading { sun: angles, gimbal: camera() };
         rate_is_the_derivative(&Guided { sun_place, science, ..guided(2e-3) });
     }
 }
@@ -53,8 +57,8 @@ fn rate_is_the_derivative_of_the_axes_everywhere() {
 fn rate_is_the_derivative(law: &Guided) {
     for t in [100.0, 7300.0, 7500.0, 20_000.0, 36_100.0, 50_000.0] {
         let dt = 0.01;
-        let at = |t| law.at(t, lines).frame.inertial_from_body;
-        let turned = rotation_vector(&at(t - dt), &at(t + dt)) / (2.0 * dt);
-        assert_relative_eq!(turned, law.at(t, lines).frame.rate_body_rad_s, epsilon = 1e-8);
+        let axes_at = |t| at(law, t).frame.inertial_from_body;
+        let turned = rotation_vector(&axes_at(t - dt), &axes_at(t + dt)) / (2.0 * dt);
+        assert_relative_eq!(turned, at(law, t).frame.rate_body_rad_s, epsilon = 1e-8);
     }
 }

@@ -1,6 +1,10 @@
 //! What the paper's figures 1 to 3 say in words.
 use super::*;
+use crate::constants::DEG_RAD;
 use crate::guidance::geometry::moving::value;
+use crate::guidance::pointing::antenna::tests::quadrants;
+use crate::guidance::pointing::scenario_tests::camera;
+use crate::spacecraft::GimbalMount;
 use approx::assert_relative_eq;
 
 fn with(option: BoresightOption, degrees: f64) -> Boresight {
@@ -11,17 +15,19 @@ fn with(option: BoresightOption, degrees: f64) -> Boresight {
         angle_rad: degrees * DEG_RAD,
         ..BoresightCommand::default()
     };
-    boresight(&command, &MdisRange::default()).unwrap()
+    boresight(&command, Some(&camera()), &quadrants()).unwrap()
 }
 
 #[test]
 fn without_an_option_there_is_no_boresight() {
-    assert!(boresight(&BoresightCommand::default(), &MdisRange::default()).is_none());
+    assert!(boresight(&BoresightCommand::default(), Some(&camera()), &quadrants()).is_none());
+    let on_gimbal = BoresightCommand { option: Some(BoresightOption::Gimbal), ..BoresightCommand::default() };
+    assert!(boresight(&on_gimbal, None, &quadrants()).is_none());
 }
 
 #[test]
 fn the_camera_looks_sunward_at_positive_angles_and_stops_at_its_range() {
-    let camera = |degrees| with(BoresightOption::Mdis, degrees);
+    let camera = |degrees| with(BoresightOption::Gimbal, degrees);
     assert_eq!(value(&camera(0.0).body), Vector3::z());
     let half = 0.5_f64.sqrt();
     assert_relative_eq!(value(&camera(-45.0).body), Vector3::new(0.0, half, half), epsilon = 1e-15);
@@ -33,7 +39,7 @@ fn the_camera_looks_sunward_at_positive_angles_and_stops_at_its_range() {
         (-50.0, -50.0, true),
         (180.0, -50.0, false),
     ] {
-        let angle = camera(requested).mdis.unwrap();
+        let angle = camera(requested).gimbal.unwrap();
         assert_eq!(angle.in_range, in_range, "{requested}");
         assert_relative_eq!(angle.angle_rad, taken * DEG_RAD, epsilon = 1e-15);
     }
@@ -41,13 +47,13 @@ fn the_camera_looks_sunward_at_positive_angles_and_stops_at_its_range() {
 
 #[test]
 fn the_camera_turns_nearest_to_a_direction() {
-    let range = MdisRange::default();
+    let camera = camera();
     for i in 0..500 {
         let t = f64::from(i) * 0.7;
         let direction = Vector3::new(0.5 * t.sin(), (1.3 * t).cos(), (0.4 * t).sin());
-        let found = mdis_boresight(range.toward(&direction).angle_rad).dot(&direction);
+        let found = camera.boresight(camera.toward(&direction).angle_rad).dot(&direction);
         let best = (0..=9000)
-            .map(|k| mdis_boresight((f64::from(k) * 0.01 - 50.0) * DEG_RAD).dot(&direction))
+            .map(|k| camera.boresight((f64::from(k) * 0.01 - 50.0) * DEG_RAD).dot(&direction))
             .fold(f64::NEG_INFINITY, f64::max);
         assert!(found >= best - 1e-15, "{direction}");
     }
@@ -82,8 +88,32 @@ fn the_antennas_cover_two_quadrants_and_stop_at_the_nearest_bound() {
 #[test]
 fn instrument_0_is_plus_z_and_the_rows_follow() {
     let tilted = Vector3::new(0.0, 0.6, 0.8);
-    let table = [Instrument { name: "tilted".into(), boresight_body: tilted }];
+    let table = [Instrument { name: "tilted".into(), boresight_body: tilted, gimbal: None }];
     assert_eq!(instrument_boresight(&table, 0), Some(Vector3::z()));
     assert_eq!(instrument_boresight(&table, 1), Some(tilted));
     assert_eq!(instrument_boresight(&table, 2), None);
+}
+
+#[test]
+fn a_gimbal_turns_right_handed_about_its_axis() {
+    let axis = Vector3::new(0.6, 0.8, 0.0);
+    let boresight_body = Vector3::new(-0.8, 0.6, 0.0);
+    let mount = GimbalMount { axis_body: axis, minimum_rad: -1.0, maximum_rad: 0.3 };
+    let fixed = Instrument { name: "fixed".into(), boresight_body: Vector3::z(), gimbal: None };
+    let turned = Instrument { name: "turned".into(), boresight_body, gimbal: Some(mount) };
+    assert_eq!(Gimbal::of(core::slice::from_ref(&fixed)), None);
+    let gimbal = Gimbal::of(&[fixed, turned]).unwrap();
+    for k in -20..=20 {
+        let angle_rad = 0.1 * f64::from(k);
+        let expected = nalgebra::Rotation3::new(axis * angle_rad) * boresight_body;
+        assert_relative_eq!(gimbal.boresight(angle_rad), expected, epsilon = 1e-15);
+        let moving = gimbal.moving_boresight(Moving::from_re(angle_rad));
+        assert_relative_eq!(value(&moving), expected, epsilon = 1e-15);
+        // What lies off the plane that it sweeps does not count.
+        let found = gimbal.toward(&(expected + axis * 0.7));
+        assert_eq!(found.in_range, (-10..=3).contains(&k));
+        if found.in_range {
+            assert_relative_eq!(found.angle_rad, angle_rad, epsilon = 1e-15);
+        }
+    }
 }
