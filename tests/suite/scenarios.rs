@@ -7,7 +7,7 @@ use crate::support::{RandomNumbers, names, ok, silent};
 
 /// How a model is simulated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Scenario {
+pub(crate) enum Scenario {
     /// MomentumPlant by its own guidance; nothing is set during the simulation.
     Guided,
     /// MomentumPlant by commanded attitudes and rates, external torques with slopes, dump requests, shifting mass.
@@ -29,7 +29,7 @@ pub enum Scenario {
 }
 
 impl Scenario {
-    pub const ALL: [Self; 9] = [
+    pub(crate) const ALL: [Self; 9] = [
         Self::Guided,
         Self::Commanded,
         Self::Lit,
@@ -42,7 +42,7 @@ impl Scenario {
     ];
 
     /// The model that runs so.
-    pub fn model(self) -> &'static str {
+    pub(crate) fn model(self) -> &'static str {
         match self {
             Self::Guided | Self::Commanded | Self::Lit => "MomentumPlant",
             Self::Burning | Self::Fired => "SpinPlant",
@@ -63,7 +63,7 @@ impl Scenario {
     }
 
     /// Sets what is set before initialization.
-    pub fn prepare(self, instance: &mut InProcess, names: &Names) {
+    pub(crate) fn prepare(self, instance: &mut InProcess, names: &Names) {
         match self {
             Self::Guided | Self::Commanded => {
                 ok(instance.set_real(&names.vector::<3>("dump.threshold"), &[1.0; 3]));
@@ -259,7 +259,7 @@ fn behind_or_aside(random: &mut RandomNumbers) -> [f64; 3] {
 }
 
 /// An instance in simulation with the input sequence of its scenario, which depends on the step number alone.
-pub struct Simulation {
+pub(crate) struct Simulation {
     pub instance: InProcess,
     pub names: Names,
     pub scenario: Scenario,
@@ -269,7 +269,7 @@ pub struct Simulation {
 
 impl Simulation {
     /// At the start.
-    pub fn new(scenario: Scenario) -> Self {
+    pub(crate) fn new(scenario: Scenario) -> Self {
         let (names, mut instance) = (names(scenario.model()), silent(scenario.model()));
         scenario.prepare(&mut instance, &names);
         ok(instance.start(0.0, None));
@@ -277,7 +277,7 @@ impl Simulation {
     }
 
     /// Sets what the scenario sets before this step, then makes it.
-    pub fn step(&mut self) {
+    pub(crate) fn step(&mut self) {
         let mut random = RandomNumbers(self.step_number);
         let steps_s = self.scenario.steps_s();
         let step_s = steps_s[random.below(steps_s.len())];
@@ -288,7 +288,7 @@ impl Simulation {
     }
 
     /// The state's bytes.
-    pub fn bytes(&mut self) -> Vec<u8> {
+    pub(crate) fn bytes(&mut self) -> Vec<u8> {
         let (status, bytes) = self.instance.state_bytes();
         ok(status);
         bytes

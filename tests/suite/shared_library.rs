@@ -11,7 +11,7 @@ use probe::panicking::Fault;
 use crate::support::{LIBRARY, built, description};
 
 /// An unpacked FMU of a probe model around the library.
-pub fn folder(base: &Path, model: &str, library: &Path) -> Fmu {
+pub(crate) fn folder(base: &Path, model: &str, library: &Path) -> Fmu {
     let folder = base.join(model);
     let binaries = folder.join("binaries").join(platform_folders()[0]);
     fs::create_dir_all(&binaries).unwrap();

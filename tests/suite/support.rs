@@ -13,7 +13,7 @@ use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 use probe::{AllTypes, Empty, Panicking, RigidBody};
 
 /// Every model here.
-pub static LIBRARY: Library = Library {
+pub(crate) static LIBRARY: Library = Library {
     entries: &[
         Entry::of::<Empty>(),
         Entry::of::<AllTypes>(),
@@ -28,7 +28,7 @@ pub static LIBRARY: Library = Library {
 
 /// Libraries of few models each, so that instantiating one does not describe all others: those that take a spacecraft's file
 /// stand together, for its `[start]` may have names of each.
-pub fn library(model: &str) -> &'static Library {
+pub(crate) fn library(model: &str) -> &'static Library {
     static EMPTY: Library = Library { entries: &[Entry::of::<Empty>()] };
     static ALL_TYPES: Library = Library { entries: &[Entry::of::<AllTypes>()] };
     static PANICKING: Library = Library { entries: &[Entry::of::<Panicking>()] };
@@ -47,32 +47,32 @@ pub fn library(model: &str) -> &'static Library {
 }
 
 /// The models that are packed into `dist/`.
-pub const SHIPPED: &[&str] = &["MomentumPlant", "SpinPlant", "DisturbanceTorque", "Guidance"];
+pub(crate) const SHIPPED: &[&str] = &["MomentumPlant", "SpinPlant", "DisturbanceTorque", "Guidance"];
 
 /// The description of a model with its compiled-in setup.
-pub fn description(model: &str) -> Description {
+pub(crate) fn description(model: &str) -> Description {
     LIBRARY.describe(LIBRARY.find(model).unwrap(), None, None).unwrap()
 }
 
 /// The references of a model.
-pub fn names(model: &str) -> Names {
+pub(crate) fn names(model: &str) -> Names {
     Names::new(&description(model))
 }
 
 /// A fresh instance of a model with its compiled-in setup.
-pub fn fresh(model: &str) -> InProcess {
+pub(crate) fn fresh(model: &str) -> InProcess {
     InProcess::instantiate(library(model), guid(model), None).unwrap()
 }
 
 /// The GUID of a model with its compiled-in setup.
-pub fn guid(model: &str) -> &'static str {
+pub(crate) fn guid(model: &str) -> &'static str {
     static GUIDS: OnceLock<BTreeMap<&str, String>> = OnceLock::new();
     let all = || LIBRARY.entries.iter().map(|entry| (entry.name, description(entry.name).guid)).collect();
     &GUIDS.get_or_init(all)[model]
 }
 
 /// A fresh instance without log but for errors.
-pub fn silent(model: &str) -> InProcess {
+pub(crate) fn silent(model: &str) -> InProcess {
     let mut instance = fresh(model);
     ok(instance.set_debug_logging(false, &[]));
     instance
@@ -80,19 +80,22 @@ pub fn silent(model: &str) -> InProcess {
 
 /// Fails unless the call went well.
 #[track_caller]
-pub fn ok(status: Status) {
+pub(crate) fn ok(status: Status) {
     assert_eq!(status, Status::Ok);
 }
 
 /// Every Real's bits.
-pub fn real_bits(instance: &mut InProcess, references: &[u32]) -> Vec<u64> {
+pub(crate) fn real_bits(instance: &mut InProcess, references: &[u32]) -> Vec<u64> {
     let mut values = vec![0.0; references.len()];
     ok(instance.get_real(references, &mut values));
     values.into_iter().map(f64::to_bits).collect()
 }
 
 /// All that a master can see: Reals by their bits, Integers, Booleans and Strings.
-pub fn everything(instance: &mut InProcess, names: &Names) -> (Vec<u64>, Vec<i32>, Vec<i32>, Vec<String>) {
+pub(crate) fn everything(
+    instance: &mut InProcess,
+    names: &Names,
+) -> (Vec<u64>, Vec<i32>, Vec<i32>, Vec<String>) {
     let (integers, booleans) = (names.all(BaseType::Integer), names.all(BaseType::Boolean));
     let (mut integer_values, mut boolean_values) = (vec![0; integers.len()], vec![0; booleans.len()]);
     ok(instance.get_integer(&integers, &mut integer_values));
@@ -103,11 +106,11 @@ pub fn everything(instance: &mut InProcess, names: &Names) -> (Vec<u64>, Vec<i32
 }
 
 /// Pseudo-random numbers, the same in every run: a Weyl sequence through an avalanche (splitmix64).
-pub struct RandomNumbers(pub u64);
+pub(crate) struct RandomNumbers(pub u64);
 
 impl RandomNumbers {
     /// Any 64 bits.
-    pub fn bits(&mut self) -> u64 {
+    pub(crate) fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
@@ -115,12 +118,12 @@ impl RandomNumbers {
     }
 
     /// Below `limit`.
-    pub fn below(&mut self, limit: usize) -> usize {
+    pub(crate) fn below(&mut self, limit: usize) -> usize {
         (self.bits() % limit as u64) as usize
     }
 
     /// From 0 to 1.
-    pub fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
@@ -128,7 +131,7 @@ impl RandomNumbers {
 /// Runs one test of this program again, in a process of its own with an environment variable set, and gives what it
 /// printed. Fails unless that test was there, ran and passed.
 #[track_caller]
-pub fn in_a_process_of_its_own(test: &str, variable: &str, value: &OsStr) -> String {
+pub(crate) fn in_a_process_of_its_own(test: &str, variable: &str, value: &OsStr) -> String {
     let output = Command::new(std::env::current_exe().unwrap())
         .args(["--exact", test, "--nocapture"])
         .env(variable, value)
@@ -144,7 +147,7 @@ pub fn in_a_process_of_its_own(test: &str, variable: &str, value: &OsStr) -> Str
 /// The path in an environment variable that `cargo xtask test` sets; without it the test prints that and ends, and fails in
 /// CI.
 #[track_caller]
-pub fn built(variable: &str) -> Option<PathBuf> {
+pub(crate) fn built(variable: &str) -> Option<PathBuf> {
     let path = std::env::var_os(variable).map(PathBuf::from);
     if path.is_none() {
         assert!(std::env::var_os("CI").is_none(), "{variable} is not set");

@@ -15,7 +15,7 @@ const EXAMPLES: &[&str] = &["bench_solar", "bench_radiation"];
 const RUNS: usize = 3;
 
 /// Kernels (Rust examples of `physics`), the C interface, a system, a whole study.
-pub fn all() -> Outcome {
+pub(crate) fn all() -> Outcome {
     let built = dist::dist()?;
     for example in EXAMPLES {
         run(cargo("run --locked --quiet --release -p physics --example").arg(example))?;

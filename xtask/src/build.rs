@@ -7,7 +7,7 @@ use crate::python;
 use crate::shell::{self, cargo, command, root, run, target};
 
 /// What a build leaves.
-pub struct Built {
+pub(crate) struct Built {
     /// The command line.
     pub heliotorque: PathBuf,
     /// The shared library of every shipped FMU.
@@ -17,10 +17,10 @@ pub struct Built {
 }
 
 /// Programs and tests have the same features, so that hardly a crate is compiled twice.
-pub const TESTS: &str = "--locked --release --workspace --all-features";
+pub(crate) const TESTS: &str = "--locked --release --workspace --all-features";
 
 /// Builds the shared libraries and the command line.
-pub fn build() -> Result<Built, String> {
+pub(crate) fn build() -> Result<Built, String> {
     run(&mut libraries())?;
     run(&mut cargo("build --locked --release -p heliotorque --all-features"))?;
     Ok(built())
@@ -30,7 +30,7 @@ pub fn build() -> Result<Built, String> {
 const SHIPPED_FOR: &str = "x86_64-unknown-linux-gnu.2.17";
 
 /// Builds library and program for glibc 2.17 with the pinned linker; where that cannot be had, for this machine, and says so.
-pub fn portable() -> Result<Built, String> {
+pub(crate) fn portable() -> Result<Built, String> {
     if !cfg!(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu")) {
         eprintln!("note: built for this machine; libraries for {SHIPPED_FOR} are made on x86-64 Linux only");
         return build();
@@ -60,7 +60,7 @@ pub fn portable() -> Result<Built, String> {
 }
 
 /// Where a build leaves what it made.
-pub fn built() -> Built {
+pub(crate) fn built() -> Built {
     built_in(&target())
 }
 
@@ -77,12 +77,12 @@ fn built_in(target: &Path) -> Built {
 }
 
 /// Builds the shared library and the probe's, whole-program optimised.
-pub fn libraries() -> Command {
+pub(crate) fn libraries() -> Command {
     cargo("build --locked --profile fmu -p component -p probe")
 }
 
 /// The environment in which tests find what was built.
-pub fn test_environment(built: &Built) -> [(&'static str, PathBuf); 4] {
+pub(crate) fn test_environment(built: &Built) -> [(&'static str, PathBuf); 4] {
     [
         ("HELIOTORQUE_LIBRARY", built.library.clone()),
         ("HELIOTORQUE_PROBE_LIBRARY", built.probe.clone()),
@@ -92,7 +92,7 @@ pub fn test_environment(built: &Built) -> [(&'static str, PathBuf); 4] {
 }
 
 /// Where the tests may leave files.
-pub fn scratch(name: &str) -> Result<PathBuf, String> {
+pub(crate) fn scratch(name: &str) -> Result<PathBuf, String> {
     let folder = shell::target().join("scratch").join(name);
     std::fs::create_dir_all(&folder)
         .map_err(|error| format!("cannot create {}: {error}", folder.display()))?;

@@ -28,14 +28,14 @@ const SHIPPED: &[Shipped] = &[
 ];
 
 /// Builds, then packs everything that is shipped.
-pub fn dist() -> Result<Built, String> {
+pub(crate) fn dist() -> Result<Built, String> {
     let built = build()?;
     pack_all(&built)?;
     Ok(built)
 }
 
 /// Packs what was built.
-pub fn pack_all(built: &Built) -> Outcome {
+pub(crate) fn pack_all(built: &Built) -> Outcome {
     pack(built)?;
     systems::pack(built, &scratch("systems")?)?;
     // Only here is everything packed, and `current` looks at it.
@@ -44,14 +44,14 @@ pub fn pack_all(built: &Built) -> Outcome {
 }
 
 /// Builds what is shipped, for old systems where that is possible, and packs it.
-pub fn shipped() -> Result<Built, String> {
+pub(crate) fn shipped() -> Result<Built, String> {
     let built = portable()?;
     pack_all(&built)?;
     Ok(built)
 }
 
 /// Packs what was built, where program or library are newer than what is packed.
-pub fn pack_stale(built: &Built) -> Outcome {
+pub(crate) fn pack_stale(built: &Built) -> Outcome {
     let changed = |path: &Path| fs::metadata(path).and_then(|file| file.modified()).ok();
     let packed = changed(&stamp());
     let is_current =

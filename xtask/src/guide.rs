@@ -5,22 +5,22 @@ use std::ffi::OsString;
 use crate::shell::{Outcome, cargo, root, run, target};
 
 /// Builds it into `target/guide`; says where its first page is.
-pub fn build() -> Outcome {
+pub(crate) fn build() -> Outcome {
     run(&mut in_workspace("run --locked"))
 }
 
 /// Checks the form of its builder's code.
-pub fn check_format() -> Outcome {
+pub(crate) fn check_format() -> Outcome {
     run(&mut in_workspace("fmt --check"))
 }
 
 /// Lints its builder's code.
-pub fn lint() -> Outcome {
+pub(crate) fn lint() -> Outcome {
     run(&mut in_workspace("clippy --locked --all-targets --quiet -- -D warnings"))
 }
 
 /// Builds it and checks its links, commands and completeness.
-pub fn test(environment: impl IntoIterator<Item = (&'static str, impl Into<OsString>)>) -> Outcome {
+pub(crate) fn test(environment: impl IntoIterator<Item = (&'static str, impl Into<OsString>)>) -> Outcome {
     let environment = environment.into_iter().map(|(name, value)| (name, value.into()));
     run(in_workspace("test --locked").envs(environment))
 }

@@ -17,7 +17,7 @@ const LIBRARY_FOLDER: [&str; 2] = ["lib", "heliotorque"];
 const MANUAL_FOLDER: [&str; 3] = ["share", "man", "man1"];
 
 /// Builds and packs everything, then copies it below the prefix that `options` name, otherwise `~/.local`.
-pub fn install(options: &[String]) -> Outcome {
+pub(crate) fn install(options: &[String]) -> Outcome {
     let prefix = prefix(options)?;
     let built = dist::dist()?;
     let binaries = prefix.join("bin");

@@ -12,7 +12,7 @@ const VARIABLE: &str = "LOCPATH";
 const SOURCE: &str = "/usr/share/i18n/locales/de_DE";
 
 /// What the tests' environment needs for it: nothing where it is there already, or cannot be built.
-pub fn environment() -> Result<Option<(&'static str, PathBuf)>, String> {
+pub(crate) fn environment() -> Result<Option<(&'static str, PathBuf)>, String> {
     let given = std::env::var_os(VARIABLE).is_some_and(|folder| is_in(Path::new(&folder)));
     if given || !cfg!(target_os = "linux") {
         return Ok(None);

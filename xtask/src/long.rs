@@ -40,7 +40,7 @@ const PARTS: &[Part] = &[
 ];
 
 /// Everything `cargo xtask test` runs, then the longer searches for faults; stops at the first that fails.
-pub fn all() -> Outcome {
+pub(crate) fn all() -> Outcome {
     let Some(chosen) = std::env::var_os(PARTS_VARIABLE) else {
         test::all()?;
         return PARTS.iter().try_for_each(|(_, part)| part());

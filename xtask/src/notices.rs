@@ -51,7 +51,7 @@ fn path() -> PathBuf {
 }
 
 /// Writes the notices anew.
-pub fn write() -> Outcome {
+pub(crate) fn write() -> Outcome {
     let path = path();
     fs::write(&path, text()?).map_err(|error| format!("cannot write {}: {error}", path.display()))
 }

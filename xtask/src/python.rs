@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use crate::shell::{self, command, output, root, run};
 
 /// Python interpreter of the tests' environment, set up on first use and again when the pins change.
-pub fn interpreter() -> Result<PathBuf, String> {
+pub(crate) fn interpreter() -> Result<PathBuf, String> {
     environment("python", &root().join("tests/python/requirements.txt"))
 }
 
 /// Folder with the programs `cargo-zigbuild` and `python -m ziglang`, which link for an older glibc.
-pub fn zig_programs() -> Result<PathBuf, String> {
+pub(crate) fn zig_programs() -> Result<PathBuf, String> {
     let python = environment("zig", &root().join("xtask/zig-requirements.txt"))?;
     python.parent().map(Path::to_path_buf).ok_or_else(|| format!("{} stands in no folder", python.display()))
 }
@@ -34,7 +34,7 @@ fn environment(name: &str, requirements: &Path) -> Result<PathBuf, String> {
 }
 
 /// Folder with the FMI headers, from the FMPy wheel.
-pub fn fmi_headers() -> Result<PathBuf, String> {
+pub(crate) fn fmi_headers() -> Result<PathBuf, String> {
     let code = "import fmpy, pathlib; print(pathlib.Path(fmpy.__file__).parent / 'c-code')";
     Ok(PathBuf::from(output(command(interpreter()?).args(["-c", code]))?.trim()))
 }

@@ -29,7 +29,7 @@ struct TestProgram {
 }
 
 /// Runs the tests in Rust and in Python whose name contains `name`, after building what they need.
-pub fn named(name: &str) -> Outcome {
+pub(crate) fn named(name: &str) -> Outcome {
     let programs = with_tests(name)?;
     let in_python = collects(name)?;
     if programs.is_empty() && !in_python {
@@ -39,7 +39,7 @@ pub fn named(name: &str) -> Outcome {
 }
 
 /// Writes anew what the tests of that name compare with.
-pub fn bless(name: &str) -> Outcome {
+pub(crate) fn bless(name: &str) -> Outcome {
     let known = || RECORDED.iter().map(|(name, ..)| *name).collect::<Vec<_>>().join(", ");
     let (_, rust, python) = RECORDED
         .iter()

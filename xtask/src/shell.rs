@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
 
 /// What a task ends with; the text says what went wrong.
-pub type Outcome = Result<(), String>;
+pub(crate) type Outcome = Result<(), String>;
 
 /// The folder of the workspace that the task was started in, also after the checkout was copied or moved: nothing of where
 /// it was compiled is kept.
-pub fn root() -> PathBuf {
+pub(crate) fn root() -> PathBuf {
     // Set by `cargo xtask`.
     let manifest = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     let of_manifest = manifest.as_deref().and_then(workspace_above);
@@ -25,26 +25,26 @@ fn workspace_above(folder: &Path) -> Option<PathBuf> {
 }
 
 /// The folder cargo builds into.
-pub fn target() -> PathBuf {
+pub(crate) fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
 }
 
 /// A command that runs in the workspace folder.
-pub fn command(program: impl AsRef<OsStr>) -> Command {
+pub(crate) fn command(program: impl AsRef<OsStr>) -> Command {
     let mut command = Command::new(program);
     command.current_dir(root());
     command
 }
 
 /// `cargo` with the words of a text as arguments.
-pub fn cargo(arguments: &str) -> Command {
+pub(crate) fn cargo(arguments: &str) -> Command {
     let mut command = command(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments.split_whitespace());
     command
 }
 
 /// Runs to the end and expects success.
-pub fn run(command: &mut Command) -> Outcome {
+pub(crate) fn run(command: &mut Command) -> Outcome {
     let shown = show(command);
     eprintln!("+ {shown}");
     let status = command.status().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
@@ -56,14 +56,14 @@ fn ended(shown: &str, status: ExitStatus) -> Outcome {
 }
 
 /// A program that runs beside this one; it ends with it.
-pub struct Beside {
+pub(crate) struct Beside {
     child: Child,
     shown: String,
 }
 
 impl Beside {
     /// Starts it.
-    pub fn start(command: &mut Command) -> Result<Self, String> {
+    pub(crate) fn start(command: &mut Command) -> Result<Self, String> {
         let shown = show(command);
         eprintln!("+ {shown} &");
         let child = command.spawn().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
@@ -71,7 +71,7 @@ impl Beside {
     }
 
     /// Waits for its end and expects success.
-    pub fn finish(mut self) -> Outcome {
+    pub(crate) fn finish(mut self) -> Outcome {
         let status = self.child.wait().map_err(|error| format!("`{}`: {error}", self.shown))?;
         ended(&self.shown, status)
     }
@@ -86,7 +86,7 @@ impl Drop for Beside {
 }
 
 /// Runs to the end, expects success, gives what it printed.
-pub fn output(command: &mut Command) -> Result<String, String> {
+pub(crate) fn output(command: &mut Command) -> Result<String, String> {
     let shown = show(command);
     let output = command.output().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
     if !output.status.success() {
@@ -97,12 +97,12 @@ pub fn output(command: &mut Command) -> Result<String, String> {
 }
 
 /// Whether a program answers to `--version`.
-pub fn available(program: &str) -> bool {
+pub(crate) fn available(program: &str) -> bool {
     Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
 }
 
 /// In CI everything must be there; elsewhere a missing tool is named and its tests are left out.
-pub fn need(program: &str, what_for: &str) -> Result<bool, String> {
+pub(crate) fn need(program: &str, what_for: &str) -> Result<bool, String> {
     if available(program) {
         return Ok(true);
     }

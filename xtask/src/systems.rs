@@ -14,7 +14,7 @@ const GUIDED_AT_START: &str = "\
     --set start.q[4]=0.07681231250728458";
 
 /// Options of `pack` in a text, with the attitude that guidance commands at the start by the name of its constant.
-pub fn options(text: &str) -> Vec<String> {
+pub(crate) fn options(text: &str) -> Vec<String> {
     let text = text.replace("GUIDED_AT_START", GUIDED_AT_START);
     text.split_whitespace().map(str::to_owned).collect()
 }
@@ -83,7 +83,7 @@ const SYSTEMS: &[System] = &[
 ];
 
 /// Packs every shipped system into `dist/`.
-pub fn pack(built: &Built, scratch: &Path) -> Outcome {
+pub(crate) fn pack(built: &Built, scratch: &Path) -> Outcome {
     for system in SYSTEMS {
         let mut fmus = Vec::new();
         for component in system.components {

@@ -10,7 +10,7 @@ use crate::{dist, guide, locale, python, shell};
 const DRAWS: &str = "PROPTEST_RNG_SEED";
 
 /// Runs everything; stops at the first that fails.
-pub fn all() -> Outcome {
+pub(crate) fn all() -> Outcome {
     if need("rustfmt", "the format check")? {
         run(&mut cargo("fmt --all --check"))?;
         guide::check_format()?;
@@ -43,7 +43,7 @@ pub fn all() -> Outcome {
 }
 
 /// Where the tests find what was built, and the seed of their draws.
-pub fn environment(built: &Built) -> Result<Vec<(&'static str, PathBuf)>, String> {
+pub(crate) fn environment(built: &Built) -> Result<Vec<(&'static str, PathBuf)>, String> {
     let mut environment = build::test_environment(built).to_vec();
     environment.push(("HELIOTORQUE_FOREIGN_FMU", foreign_fmu()?));
     if std::env::var_os(DRAWS).is_none() {
@@ -53,7 +53,7 @@ pub fn environment(built: &Built) -> Result<Vec<(&'static str, PathBuf)>, String
 }
 
 /// The same, after building and packing what is stale.
-pub fn current_environment() -> Result<Vec<(&'static str, PathBuf)>, String> {
+pub(crate) fn current_environment() -> Result<Vec<(&'static str, PathBuf)>, String> {
     run(&mut build::libraries())?;
     run(&mut cargo(&format!("test --no-run --quiet {TESTS}")))?;
     let built = build::built();
@@ -62,7 +62,7 @@ pub fn current_environment() -> Result<Vec<(&'static str, PathBuf)>, String> {
 }
 
 /// Prints the environment of the tests as a shell takes it, with everything built.
-pub fn print_environment() -> Outcome {
+pub(crate) fn print_environment() -> Outcome {
     for (name, value) in current_environment()? {
         println!("export {name}='{}'", value.display());
     }
@@ -81,7 +81,7 @@ fn pytest(environment: Vec<(&'static str, PathBuf)>, arguments: &[&str]) -> Outc
 }
 
 /// Runs the tests in Python of a mark on up to four processes.
-pub fn python(environment: Vec<(&'static str, PathBuf)>, mark: &str) -> Outcome {
+pub(crate) fn python(environment: Vec<(&'static str, PathBuf)>, mark: &str) -> Outcome {
     let several = ["--numprocesses=auto", "--maxprocesses=4", "--dist=loadgroup"];
     pytest(environment, &[&several[..], &["-m", mark, "--ignore", INSTALLATION, "tests/python"]].concat())
 }
@@ -124,12 +124,17 @@ fn c_client(built: &Built) -> Outcome {
 }
 
 /// Compiles `tests/c/<name>.c` into the scratch folder.
-pub fn compile_c(scratch: &Path, name: &str) -> Result<PathBuf, String> {
+pub(crate) fn compile_c(scratch: &Path, name: &str) -> Result<PathBuf, String> {
     compile_c_with(scratch, name, name, &[])
 }
 
 /// The same with more flags, under a name of its own.
-pub fn compile_c_with(scratch: &Path, name: &str, called: &str, flags: &[&str]) -> Result<PathBuf, String> {
+pub(crate) fn compile_c_with(
+    scratch: &Path,
+    name: &str,
+    called: &str,
+    flags: &[&str],
+) -> Result<PathBuf, String> {
     let program = scratch.join(called);
     run(command("gcc")
         .args(["-std=c11", "-O2", "-g", "-Wall", "-Wextra", "-Werror"])

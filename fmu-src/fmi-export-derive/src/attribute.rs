@@ -7,7 +7,7 @@ use syn::{
 };
 
 /// `#[parameter(...)]`, `#[input(...)]` and so on.
-pub struct Declaration {
+pub(crate) struct Declaration {
     pub span: Span,
     pub causality: Causality,
     pub variability: Option<Variability>,
@@ -24,14 +24,14 @@ pub struct Declaration {
 }
 
 /// `#[group(...)]`.
-pub struct Group {
+pub(crate) struct Group {
     pub name: Option<LitStr>,
     pub count: Option<Expr>,
     pub setup: Option<Expr>,
 }
 
 /// What a field's attribute says.
-pub enum FieldAttribute {
+pub(crate) enum FieldAttribute {
     Declaration(Box<Declaration>),
     Group(Box<Group>),
 }
@@ -40,7 +40,7 @@ const DECLARATION_ITEMS: &str = "constant, fixed, tunable, discrete, continuous,
     initial = exact|approx|calculated, start, unit, display, min, max, nominal, name, items";
 
 /// The one declaring attribute of a field; others (`doc`, `cfg`, ...) are none of our business.
-pub fn of_field(name: &Ident, attributes: &[Attribute]) -> syn::Result<FieldAttribute> {
+pub(crate) fn of_field(name: &Ident, attributes: &[Attribute]) -> syn::Result<FieldAttribute> {
     let mut found = None;
     for attribute in attributes {
         let Some(word) = attribute.path().get_ident() else { continue };
@@ -116,7 +116,7 @@ fn group(attribute: &Attribute) -> syn::Result<Group> {
 }
 
 /// The setup type of `#[variables(setup = Type)]`.
-pub fn of_struct(attributes: &[Attribute]) -> syn::Result<(Option<Type>, Option<Expr>)> {
+pub(crate) fn of_struct(attributes: &[Attribute]) -> syn::Result<(Option<Type>, Option<Expr>)> {
     let (mut setup, mut label) = (None, None);
     for attribute in attributes.iter().filter(|attribute| attribute.path().is_ident("variables")) {
         each_item(attribute, |item, word| match word {
@@ -129,7 +129,7 @@ pub fn of_struct(attributes: &[Attribute]) -> syn::Result<(Option<Type>, Option<
 }
 
 /// The name of `#[enumeration(name = "...")]`.
-pub fn enumeration_name(attributes: &[Attribute]) -> syn::Result<Option<LitStr>> {
+pub(crate) fn enumeration_name(attributes: &[Attribute]) -> syn::Result<Option<LitStr>> {
     let mut name = None;
     for attribute in attributes.iter().filter(|attribute| attribute.path().is_ident("enumeration")) {
         each_item(attribute, |item, word| match word {

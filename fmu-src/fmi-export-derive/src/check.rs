@@ -12,7 +12,7 @@ use crate::field::Kind;
 use crate::source::{Errors, literal_numbers};
 
 /// Checks one declaration; `field` is where an error without a place of its own points to.
-pub fn declaration(declared: &Declaration, kind: Kind, field: &Ident, errors: &mut Errors) {
+pub(crate) fn declaration(declared: &Declaration, kind: Kind, field: &Ident, errors: &mut Errors) {
     errors.take(role(declared, kind, field));
     errors.take(unit(declared, kind, field));
     errors.take(limits(declared, kind));
@@ -22,7 +22,7 @@ pub fn declaration(declared: &Declaration, kind: Kind, field: &Ident, errors: &m
 }
 
 /// The variability given, or the causality's usual one.
-pub fn variability(declared: &Declaration, kind: Kind) -> Variability {
+pub(crate) fn variability(declared: &Declaration, kind: Kind) -> Variability {
     declared.variability.unwrap_or(match declared.causality {
         Causality::Parameter | Causality::CalculatedParameter => Variability::Fixed,
         _ if kind.is_real() => Variability::Continuous,
@@ -106,7 +106,12 @@ fn limits(declared: &Declaration, kind: Kind) -> syn::Result<()> {
 }
 
 /// Checks a structured name (FMI 2.0.5, 2.2.9) and that it is new among `known`.
-pub fn name(given: &str, suffix: &str, place: &impl Spanned, known: &mut Vec<String>) -> syn::Result<()> {
+pub(crate) fn name(
+    given: &str,
+    suffix: &str,
+    place: &impl Spanned,
+    known: &mut Vec<String>,
+) -> syn::Result<()> {
     let full = format!("{given}{suffix}");
     structured(&full, &full, place)?;
     if known.iter().any(|other| other == given) {
@@ -117,7 +122,7 @@ pub fn name(given: &str, suffix: &str, place: &impl Spanned, known: &mut Vec<Str
 }
 
 /// Checks the name of a group, which may be empty (no prefix) unless it is counted.
-pub fn group_name(given: &str, counted: bool, place: &impl Spanned) -> syn::Result<()> {
+pub(crate) fn group_name(given: &str, counted: bool, place: &impl Spanned) -> syn::Result<()> {
     if given.is_empty() && !counted {
         return Ok(());
     }
@@ -131,6 +136,6 @@ fn structured(shown: &str, full: &str, place: &impl Spanned) -> syn::Result<()> 
 }
 
 /// The text of a name attribute, or else the default.
-pub fn name_or(given: Option<&LitStr>, default: impl FnOnce() -> String) -> String {
+pub(crate) fn name_or(given: Option<&LitStr>, default: impl FnOnce() -> String) -> String {
     given.map_or_else(default, LitStr::value)
 }

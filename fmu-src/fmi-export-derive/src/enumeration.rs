@@ -9,7 +9,7 @@ use crate::check;
 use crate::source::{Errors, camel_from_pascal, description};
 
 /// Expands the derive.
-pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
+pub(crate) fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     let Data::Enum(data) = &input.data else {
         return Err(syn::Error::new(input.ident.span(), "Enumeration can be derived for an enum only"));
     };

@@ -4,7 +4,7 @@ use syn::{GenericArgument, PathArguments, Type};
 
 /// What a field's type says.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     Real,
     RealVector,
     RealMatrix,
@@ -16,7 +16,7 @@ pub enum Kind {
 
 impl Kind {
     /// The kind of a type, by the last segment of its path.
-    pub fn of(ty: &Type) -> syn::Result<Self> {
+    pub(crate) fn of(ty: &Type) -> syn::Result<Self> {
         let name = match ty {
             Type::Path(path) => path.path.segments.last().map(|segment| segment.ident.to_string()),
             _ => None,
@@ -38,12 +38,12 @@ impl Kind {
     }
 
     /// Whether the base type is Real.
-    pub fn is_real(self) -> bool {
+    pub(crate) fn is_real(self) -> bool {
         matches!(self, Self::Real | Self::RealVector | Self::RealMatrix)
     }
 
     /// What is appended to the first element's name.
-    pub fn first_element(self) -> &'static str {
+    pub(crate) fn first_element(self) -> &'static str {
         match self {
             Self::RealVector => "[1]",
             Self::RealMatrix => "[1,1]",
@@ -53,7 +53,7 @@ impl Kind {
 }
 
 /// `T` of `Vec<T>`.
-pub fn element_of_vec(ty: &Type) -> Option<&Type> {
+pub(crate) fn element_of_vec(ty: &Type) -> Option<&Type> {
     let Type::Path(path) = ty else { return None };
     let last = path.path.segments.last().filter(|segment| segment.ident == "Vec")?;
     let PathArguments::AngleBracketed(arguments) = &last.arguments else { return None };

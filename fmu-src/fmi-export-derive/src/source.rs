@@ -4,11 +4,11 @@ use syn::{Attribute, Expr, ExprLit, ExprUnary, Lit, Meta, UnOp};
 
 /// Errors of a whole item, so that one compilation shows them all.
 #[derive(Default)]
-pub struct Errors(Option<syn::Error>);
+pub(crate) struct Errors(Option<syn::Error>);
 
 impl Errors {
     /// Adds an error.
-    pub fn push(&mut self, error: syn::Error) {
+    pub(crate) fn push(&mut self, error: syn::Error) {
         match &mut self.0 {
             Some(first) => first.combine(error),
             none => *none = Some(error),
@@ -16,18 +16,18 @@ impl Errors {
     }
 
     /// Keeps a value or the error instead of it.
-    pub fn take<T>(&mut self, result: syn::Result<T>) -> Option<T> {
+    pub(crate) fn take<T>(&mut self, result: syn::Result<T>) -> Option<T> {
         result.map_err(|error| self.push(error)).ok()
     }
 
     /// The errors, if there were any.
-    pub fn finish(self) -> syn::Result<()> {
+    pub(crate) fn finish(self) -> syn::Result<()> {
         self.0.map_or(Ok(()), Err)
     }
 }
 
 /// The doc comment as one line; `None` if there is none or it is blank.
-pub fn description(attributes: &[Attribute]) -> Option<String> {
+pub(crate) fn description(attributes: &[Attribute]) -> Option<String> {
     let mut words = Vec::new();
     for attribute in attributes {
         if let Meta::NameValue(pair) = &attribute.meta
@@ -41,7 +41,7 @@ pub fn description(attributes: &[Attribute]) -> Option<String> {
 }
 
 /// `center_of_mass` as `centerOfMass`.
-pub fn camel_from_snake(identifier: &str) -> String {
+pub(crate) fn camel_from_snake(identifier: &str) -> String {
     let mut name = String::new();
     for segment in identifier.trim_start_matches("r#").split('_').filter(|segment| !segment.is_empty()) {
         let mut letters = segment.chars();
@@ -56,7 +56,7 @@ pub fn camel_from_snake(identifier: &str) -> String {
 }
 
 /// `SunOffset` as `sunOffset`, `EME2000` as `eme2000`, `XMLFile` as `xmlFile`.
-pub fn camel_from_pascal(identifier: &str) -> String {
+pub(crate) fn camel_from_pascal(identifier: &str) -> String {
     let letters: Vec<char> = identifier.trim_start_matches("r#").chars().collect();
     let capitals = letters.iter().take_while(|letter| letter.is_uppercase()).count();
     let starts_a_word = letters.get(capitals).is_some_and(|next| next.is_lowercase());
@@ -66,7 +66,7 @@ pub fn camel_from_pascal(identifier: &str) -> String {
 }
 
 /// The numbers of a literal, or of an array of literals; `None` where only the running program knows.
-pub fn literal_numbers(expression: &Expr) -> Option<Vec<f64>> {
+pub(crate) fn literal_numbers(expression: &Expr) -> Option<Vec<f64>> {
     match expression {
         Expr::Lit(ExprLit { lit: Lit::Float(value), .. }) => Some(vec![value.base10_parse().ok()?]),
         Expr::Lit(ExprLit { lit: Lit::Int(value), .. }) => Some(vec![value.base10_parse().ok()?]),

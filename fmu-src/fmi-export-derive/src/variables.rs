@@ -11,7 +11,7 @@ use crate::field::{Kind, element_of_vec};
 use crate::source::{Errors, camel_from_snake, description};
 
 /// Expands the derive.
-pub fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
+pub(crate) fn expand(input: &DeriveInput) -> syn::Result<TokenStream> {
     let fields = named_fields(input)?;
     let mut errors = Errors::default();
     let (setup, label) = errors.take(attribute::of_struct(&input.attrs)).unwrap_or_default();

@@ -16,13 +16,13 @@ macro_rules! manual {
 }
 
 /// Of MomentumPlant.
-pub const MOMENTUM_PLANT: Manual = manual!("MomentumPlant", "body_frame");
+pub(crate) const MOMENTUM_PLANT: Manual = manual!("MomentumPlant", "body_frame");
 /// Of DisturbanceTorque.
-pub const DISTURBANCE_TORQUE: Manual = manual!("DisturbanceTorque", "body_frame");
+pub(crate) const DISTURBANCE_TORQUE: Manual = manual!("DisturbanceTorque", "body_frame");
 /// Of SpinPlant.
-pub const SPIN_PLANT: Manual = manual!("SpinPlant", "spin_frame");
+pub(crate) const SPIN_PLANT: Manual = manual!("SpinPlant", "spin_frame");
 /// Of Guidance.
-pub const GUIDANCE: Manual = manual!("Guidance", "body_frame");
+pub(crate) const GUIDANCE: Manual = manual!("Guidance", "body_frame");
 
 #[cfg(test)]
 mod tests {

@@ -89,7 +89,7 @@ struct InChild {
 }
 
 /// Parses the arguments and runs the command.
-pub fn run() -> Outcome {
+pub(crate) fn run() -> Outcome {
     let command = Arguments::parse().command;
     match &command {
         // A child is ended by its parent.

@@ -6,10 +6,10 @@ use std::borrow::Cow;
 use loader::Error;
 use model_description::{Description, ScalarVariable, VariableKind, value};
 use physics::environment::dates;
-pub use planner::ephemeris::utc_date as date;
+pub(crate) use planner::ephemeris::utc_date as date;
 
 /// The variable that says which epoch the start is.
-pub const START: &str = "start.epoch";
+pub(crate) const START: &str = "start.epoch";
 /// What the description of an epoch says.
 const SAYS_EPOCH: &str = "past J2000 TDB";
 
@@ -32,7 +32,7 @@ const TIMES: [(&str, Since); 3] = [
 const REFERENCE: (&str, &str) = ("guided.downlinkReference", "start");
 
 /// What dates are counted by: the values that hold together, and the time of the start.
-pub struct Dates<'a> {
+pub(crate) struct Dates<'a> {
     description: &'a Description,
     /// As for `--set`; the last one of a name counts.
     settings: Vec<&'a str>,
@@ -41,7 +41,7 @@ pub struct Dates<'a> {
 
 impl<'a> Dates<'a> {
     /// In an FMU or a system with these settings, which begins at this time, otherwise at its own default.
-    pub fn new(
+    pub(crate) fn new(
         description: &'a Description,
         settings: impl IntoIterator<Item = &'a str>,
         start_s: Option<f64>,
@@ -56,7 +56,7 @@ impl<'a> Dates<'a> {
     /// # Errors
     ///
     /// What is neither a number with a unit nor a date, and a date that nothing is there to count by.
-    pub fn in_seconds<'s>(&self, setting: &'s str) -> Result<Cow<'s, str>, Error> {
+    pub(crate) fn in_seconds<'s>(&self, setting: &'s str) -> Result<Cow<'s, str>, Error> {
         let Some((name, written)) = setting.split_once('=') else { return Ok(setting.into()) };
         let (name, written) = (name.trim(), written.trim());
         let Some(variable) = self.variable(name) else { return Ok(setting.into()) };
@@ -86,7 +86,7 @@ impl<'a> Dates<'a> {
     /// # Errors
     ///
     /// No `start.epoch`, or components of a system that start at different ones.
-    pub fn simulation_s(&self, epoch_s: f64) -> Result<f64, String> {
+    pub(crate) fn simulation_s(&self, epoch_s: f64) -> Result<f64, String> {
         let starts = self.description.variables.iter().filter(|it| component(&it.name, START).is_some());
         let epochs = starts.map(|it| self.epoch_s(&it.name).map(|epoch_s| (it.name.as_str(), epoch_s)));
         let epochs: Vec<(&str, f64)> = epochs.collect::<Result<_, String>>()?;
@@ -165,18 +165,18 @@ fn component<'a>(variable: &'a str, name: &str) -> Option<&'a str> {
 }
 
 /// Whether a variable is an epoch: a Real in s past J2000 TDB.
-pub fn is_epoch(description: &Description, variable: &ScalarVariable) -> bool {
+pub(crate) fn is_epoch(description: &Description, variable: &ScalarVariable) -> bool {
     matches!(variable.kind, VariableKind::Real { .. })
         && value::unit(description, variable) == Some("s")
         && variable.description.as_deref().is_some_and(|text| text.contains(SAYS_EPOCH))
 }
 
 /// Whether a variable is the epoch of the start, its own or a component's.
-pub fn is_start(name: &str) -> bool {
+pub(crate) fn is_start(name: &str) -> bool {
     component(name, START).is_some()
 }
 
 /// Whether a parameter of this name is a time that takes a date.
-pub fn is_time(name: &str) -> bool {
+pub(crate) fn is_time(name: &str) -> bool {
     TIMES.iter().any(|(time, _)| *time == name)
 }

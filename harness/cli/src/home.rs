@@ -10,19 +10,19 @@ const FROM_PROGRAM: &str = "../lib/heliotorque";
 const DIST: &str = "dist";
 
 /// The model that is packed and read for unless another is named.
-pub const DEFAULT_MODEL: &str = "MomentumPlant";
+pub(crate) const DEFAULT_MODEL: &str = "MomentumPlant";
 
 /// What this project's exporter writes as `generationTool`: its own name where a model names no tool.
 const TOOLS: [&str; 2] = [env!("CARGO_PKG_NAME"), "fmi-export"];
 
 /// Whether this project's exporter made the FMU with this description.
-pub fn is_ours(description: &Description) -> bool {
+pub(crate) fn is_ours(description: &Description) -> bool {
     let tool = description.generation_tool.as_deref().and_then(|tool| tool.split(' ').next());
     tool.is_some_and(|tool| TOOLS.contains(&tool))
 }
 
 /// The folder beside the program, if the program is installed.
-pub fn installed() -> Option<PathBuf> {
+pub(crate) fn installed() -> Option<PathBuf> {
     // Behind links: a link to the program in another folder leads to its own.
     let program = std::env::current_exe().and_then(std::fs::canonicalize).ok()?;
     let folder = program.parent()?.join(FROM_PROGRAM);
@@ -30,22 +30,22 @@ pub fn installed() -> Option<PathBuf> {
 }
 
 /// The shared library of all models, if the program is installed.
-pub fn library() -> Option<PathBuf> {
+pub(crate) fn library() -> Option<PathBuf> {
     installed().map(|folder| library_in(&folder))
 }
 
 /// The folder with the shipped FMUs: the installed program's, otherwise `dist`.
-pub fn dist() -> PathBuf {
+pub(crate) fn dist() -> PathBuf {
     installed().unwrap_or_else(|| PathBuf::from(DIST))
 }
 
 /// A shipped FMU.
-pub fn fmu(model: &str) -> PathBuf {
+pub(crate) fn fmu(model: &str) -> PathBuf {
     dist().join(format!("{model}.fmu"))
 }
 
 /// The file itself; a shipped FMU or system in place of one that is not there, named alone or in `dist`.
-pub fn found(file: PathBuf) -> PathBuf {
+pub(crate) fn found(file: PathBuf) -> PathBuf {
     let is_shipped = file.parent().is_some_and(|folder| folder == Path::new("") || folder == Path::new(DIST));
     let shipped = file.file_name().filter(|_| is_shipped && !file.exists()).map(|name| dist().join(name));
     match shipped.filter(|shipped| shipped.is_file()) {

@@ -3,7 +3,12 @@
 use loader::{Error, Fmu, Instance, InstanceOptions, Value};
 
 /// An instance just initialised with these values: from then on parameters can be read too.
-pub fn started(fmu: &Fmu, name: &str, start_s: f64, sets: &[(String, Value)]) -> Result<Instance, Error> {
+pub(crate) fn started(
+    fmu: &Fmu,
+    name: &str,
+    start_s: f64,
+    sets: &[(String, Value)],
+) -> Result<Instance, Error> {
     let mut instance = Instance::new(fmu, name, &InstanceOptions::default())?;
     instance.setup_experiment(None, start_s, None)?;
     let mut inputs = Vec::new();

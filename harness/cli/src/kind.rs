@@ -9,7 +9,7 @@ use crate::carried::ephemeris;
 
 /// A kind of file that people write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FileKind {
+pub(crate) enum FileKind {
     /// A spacecraft or a spinner.
     Spacecraft,
     /// A mission.
@@ -59,7 +59,7 @@ const OF_MISSION: [&str; 14] = [
 
 impl FileKind {
     /// By the keys of the text; `None` where no key tells.
-    pub fn of(text: &str) -> Option<Self> {
+    pub(crate) fn of(text: &str) -> Option<Self> {
         let (root, _) = DeTable::parse_recoverable(text);
         let root = root.get_ref();
         let has = |key: &str| root.contains_key(key);
@@ -81,7 +81,7 @@ impl FileKind {
     ///
     /// # Errors
     /// What was found, and what is done with that.
-    pub fn check(self, file: &str, text: &str) -> Result<(), String> {
+    pub(crate) fn check(self, file: &str, text: &str) -> Result<(), String> {
         if is_blank(text) {
             let new = if self == Self::Ephemeris { "" } else { "new " };
             return Err(format!(
@@ -101,7 +101,7 @@ impl FileKind {
     ///
     /// # Errors
     /// A file that cannot be read, is empty, or is of another kind.
-    pub fn read(self, path: &Path) -> Result<String, String> {
+    pub(crate) fn read(self, path: &Path) -> Result<String, String> {
         let text = files::read_text(path)?;
         self.check(&path.display().to_string(), &text)?;
         Ok(text)
@@ -118,7 +118,7 @@ impl FileKind {
     }
 
     /// What is done with a file of this kind.
-    pub fn remedy(self, file: &str) -> String {
+    pub(crate) fn remedy(self, file: &str) -> String {
         match self {
             Self::Spacecraft => format!(
                 "`heliotorque pack --spacecraft {file}` makes an FMU of it, a mission (`heliotorque new mission`) simulates it"
@@ -140,7 +140,7 @@ impl fmt::Display for FileKind {
 }
 
 /// Whether a text has nothing but comments.
-pub fn is_blank(text: &str) -> bool {
+pub(crate) fn is_blank(text: &str) -> bool {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     text.lines().all(|line| line.trim().is_empty() || line.trim_start().starts_with('#'))
 }
@@ -149,7 +149,7 @@ pub fn is_blank(text: &str) -> bool {
 ///
 /// # Errors
 /// The file's kind, and what is done with that.
-pub fn check_archive(path: &Path) -> Result<(), String> {
+pub(crate) fn check_archive(path: &Path) -> Result<(), String> {
     if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) || !path.is_file() {
         return Ok(());
     }

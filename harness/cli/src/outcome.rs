@@ -5,16 +5,16 @@ use std::process::ExitCode;
 use files::Destination;
 
 /// The exit status, or why the command failed.
-pub type Outcome = Result<ExitCode, Box<dyn std::error::Error>>;
+pub(crate) type Outcome = Result<ExitCode, Box<dyn std::error::Error>>;
 
 /// Prints what a command came to.
-pub fn printed(text: &str) -> Outcome {
+pub(crate) fn printed(text: &str) -> Outcome {
     terminal::print(text)?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// Writes a file and tells of it: on the standard output, unless that takes the file.
-pub fn written(destination: Destination, content: &[u8], report: &str) -> Outcome {
+pub(crate) fn written(destination: Destination, content: &[u8], report: &str) -> Outcome {
     let is_stdout = destination.is_stdout();
     destination.fill(|file| file.write_all(content))?;
     if !is_stdout {
@@ -25,7 +25,7 @@ pub fn written(destination: Destination, content: &[u8], report: &str) -> Outcom
 }
 
 /// Prints the problems of a file and counts them; `judged` says as what.
-pub fn refused(file: &str, problems: &str, judged: &str) -> Outcome {
+pub(crate) fn refused(file: &str, problems: &str, judged: &str) -> Outcome {
     terminal::print(problems)?;
     terminal::note(&format!("{file}: {}, judged as {judged}", problem_count(problems, file)));
     Ok(ExitCode::FAILURE)

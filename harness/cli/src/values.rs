@@ -3,7 +3,7 @@
 use physics::environment::dates;
 
 /// Seconds, or a number with a unit of time.
-pub fn duration(text: &str) -> Result<f64, String> {
+pub(crate) fn duration(text: &str) -> Result<f64, String> {
     const UNITS: [(&str, f64); 6] =
         [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0), ("d", 86_400.0), ("", 1.0)];
     let text = text.trim();
@@ -18,7 +18,7 @@ pub fn duration(text: &str) -> Result<f64, String> {
 
 /// A time of the simulation, or a date.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Instant {
+pub(crate) enum Instant {
     /// In s.
     Time(f64),
     /// In s past J2000 TDB.
@@ -26,7 +26,7 @@ pub enum Instant {
 }
 
 /// A time or a date.
-pub fn instant(text: &str) -> Result<Instant, String> {
+pub(crate) fn instant(text: &str) -> Result<Instant, String> {
     let ends = ["UTC", "TDB"].iter().any(|scale| text.trim_end().ends_with(scale));
     if !ends && !dates::looks_like_date(text) {
         return Ok(Instant::Time(duration(text)?));
@@ -37,7 +37,7 @@ pub fn instant(text: &str) -> Result<Instant, String> {
 }
 
 /// A time that passes, so more than 0 s.
-pub fn span(text: &str) -> Result<f64, String> {
+pub(crate) fn span(text: &str) -> Result<f64, String> {
     match duration(text)? {
         span_s if span_s > 0.0 => Ok(span_s),
         _ => Err("allowed is more than 0 s".to_owned()),
@@ -45,7 +45,7 @@ pub fn span(text: &str) -> Result<f64, String> {
 }
 
 /// An angle with its unit, in rad.
-pub fn angle(text: &str) -> Result<f64, String> {
+pub(crate) fn angle(text: &str) -> Result<f64, String> {
     let number = |unit: &str| text.trim().strip_suffix(unit)?.trim_end().parse::<f64>().ok();
     let angle_rad = number("deg").map(f64::to_radians).or_else(|| number("rad"));
     angle_rad

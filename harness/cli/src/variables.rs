@@ -6,7 +6,7 @@ use model_description::{Description, ScalarVariable, VariableKind, value};
 use crate::epoch::Dates;
 
 /// The value of a variable at the start, the last one that was set or the description's.
-pub fn start(description: &Description, sets: &[(String, Value)], name: &str) -> Option<Value> {
+pub(crate) fn start(description: &Description, sets: &[(String, Value)], name: &str) -> Option<Value> {
     if let Some((_, value)) = sets.iter().rev().find(|(set, _)| set == name) {
         return Some(value.clone());
     }
@@ -15,7 +15,7 @@ pub fn start(description: &Description, sets: &[(String, Value)], name: &str) ->
 }
 
 /// The value of a Real.
-pub fn real(description: &Description, sets: &[(String, Value)], name: &str) -> Option<f64> {
+pub(crate) fn real(description: &Description, sets: &[(String, Value)], name: &str) -> Option<f64> {
     match start(description, sets, name)? {
         Value::Real(value) => Some(value),
         _ => None,
@@ -23,7 +23,11 @@ pub fn real(description: &Description, sets: &[(String, Value)], name: &str) -> 
 }
 
 /// The name of an option's item.
-pub fn item<'a>(description: &'a Description, sets: &[(String, Value)], name: &str) -> Option<&'a str> {
+pub(crate) fn item<'a>(
+    description: &'a Description,
+    sets: &[(String, Value)],
+    name: &str,
+) -> Option<&'a str> {
     let variable = description.variables.iter().find(|it| it.name == name)?;
     let Value::Integer(number) = start(description, sets, name)? else { return None };
     value::items(description, variable).iter().find(|it| it.value == number).map(|it| it.name.as_str())
@@ -33,7 +37,10 @@ pub fn item<'a>(description: &'a Description, sets: &[(String, Value)], name: &s
 ///
 /// # Errors
 /// What is no variable, and what it does not take.
-pub fn assigned(description: &Description, settings: &[String]) -> Result<Vec<(String, Value)>, Error> {
+pub(crate) fn assigned(
+    description: &Description,
+    settings: &[String],
+) -> Result<Vec<(String, Value)>, Error> {
     assigned_by(&Dates::new(description, settings.iter().map(String::as_str), None), description, settings)
 }
 
@@ -41,7 +48,7 @@ pub fn assigned(description: &Description, settings: &[String]) -> Result<Vec<(S
 ///
 /// # Errors
 /// What is no variable, and what it does not take.
-pub fn assigned_by(
+pub(crate) fn assigned_by(
     dates: &Dates<'_>,
     description: &Description,
     settings: &[String],
@@ -54,7 +61,7 @@ pub fn assigned_by(
 }
 
 /// A warning for each name that is set more than once; `option` is where.
-pub fn repeated(option: &str, settings: &[String]) -> Vec<String> {
+pub(crate) fn repeated(option: &str, settings: &[String]) -> Vec<String> {
     let name = |setting: &String| setting.split_once('=').map(|(name, _)| name.trim().to_lowercase());
     let later = |at: usize| settings[at + 1..].iter().rev().find(|other| name(other) == name(&settings[at]));
     let is_first = |at: usize| settings[..at].iter().all(|other| name(other) != name(&settings[at]));
@@ -66,7 +73,7 @@ pub fn repeated(option: &str, settings: &[String]) -> Vec<String> {
 }
 
 /// Says so on the terminal.
-pub fn warn_of_repeated(option: &str, settings: &[String]) {
+pub(crate) fn warn_of_repeated(option: &str, settings: &[String]) {
     repeated(option, settings).iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));
 }
 
@@ -74,7 +81,7 @@ pub fn warn_of_repeated(option: &str, settings: &[String]) {
 ///
 /// # Errors
 /// A pattern that means nothing.
-pub fn selected(
+pub(crate) fn selected(
     description: &Description,
     patterns: &[String],
     select: fn(&Description, &str) -> Result<Vec<usize>, Error>,
@@ -89,10 +96,10 @@ pub fn selected(
 }
 
 /// Elements of one vector or matrix, which differ in their start values alone; or one variable.
-pub struct Row<'d>(&'d [&'d ScalarVariable]);
+pub(crate) struct Row<'d>(&'d [&'d ScalarVariable]);
 
 /// Variables in rows.
-pub fn rows<'d>(variables: &'d [&'d ScalarVariable]) -> impl Iterator<Item = Row<'d>> {
+pub(crate) fn rows<'d>(variables: &'d [&'d ScalarVariable]) -> impl Iterator<Item = Row<'d>> {
     let without_start = |kind: &VariableKind| {
         let mut kind = kind.clone();
         match &mut kind {
@@ -115,12 +122,12 @@ pub fn rows<'d>(variables: &'d [&'d ScalarVariable]) -> impl Iterator<Item = Row
 
 impl<'d> Row<'d> {
     /// The first of them.
-    pub fn first(&self) -> &'d ScalarVariable {
+    pub(crate) fn first(&self) -> &'d ScalarVariable {
         self.0[0]
     }
 
     /// Its name: `momentum.body[1..3]`, `spacecraft.inertia[1..3,1..3]`.
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         let [first, .., last] = self.0 else { return self.first().name.clone() };
         let Some(vector) = vector(&first.name) else { return first.name.clone() };
         let indices = |name: &'d str| name[vector.len() + 1..].trim_end_matches(']').split(',');
@@ -131,7 +138,7 @@ impl<'d> Row<'d> {
     }
 
     /// What `text` says of each, once where that is the same of all.
-    pub fn joined(&self, text: impl Fn(&ScalarVariable) -> String) -> String {
+    pub(crate) fn joined(&self, text: impl Fn(&ScalarVariable) -> String) -> String {
         let mut texts: Vec<String> = self.0.iter().map(|variable| text(variable)).collect();
         if texts.iter().all(|text| *text == texts[0]) {
             texts.truncate(1);
@@ -141,7 +148,7 @@ impl<'d> Row<'d> {
 }
 
 /// The vector that an element is of.
-pub fn vector(name: &str) -> Option<&str> {
+pub(crate) fn vector(name: &str) -> Option<&str> {
     name.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map(|(vector, _)| vector)
 }
 

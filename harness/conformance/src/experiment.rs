@@ -5,25 +5,25 @@ use model_description::Causality;
 use model_description::call_table::State;
 
 /// Steps of a short simulation.
-pub const STEPS: u64 = 12;
+pub(crate) const STEPS: u64 = 12;
 
 /// Options of a probe that stays within the standard.
-pub fn strict() -> InstanceOptions {
+pub(crate) fn strict() -> InstanceOptions {
     InstanceOptions { logging: true, ..InstanceOptions::default() }
 }
 
 /// Options of a probe that breaks the rules on purpose.
-pub fn unchecked() -> InstanceOptions {
+pub(crate) fn unchecked() -> InstanceOptions {
     InstanceOptions { logging: true, checking: Checking::Off, ..InstanceOptions::default() }
 }
 
 /// The FMU's own times.
-pub fn times(fmu: &Fmu) -> Result<Times, Error> {
+pub(crate) fn times(fmu: &Fmu) -> Result<Times, Error> {
     Times::of(fmu, None, None, None)
 }
 
 /// The value references of all variables of a causality: Reals, Integers and Enumerations, Booleans, Strings.
-pub fn references(fmu: &Fmu, causality: Causality) -> [Vec<u32>; 4] {
+pub(crate) fn references(fmu: &Fmu, causality: Causality) -> [Vec<u32>; 4] {
     let mut references: [Vec<u32>; 4] = Default::default();
     for variable in fmu.description().variables.iter().filter(|it| it.causality == causality) {
         references[variable.kind.base_type() as usize].push(variable.value_reference);
@@ -33,10 +33,10 @@ pub fn references(fmu: &Fmu, causality: Causality) -> [Vec<u32>; 4] {
 
 /// Every output as bits, so that equal means equal to the bit.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
-pub struct Bits(Vec<u64>, Vec<i32>, Vec<String>);
+pub(crate) struct Bits(Vec<u64>, Vec<i32>, Vec<String>);
 
 /// Reads every output.
-pub fn outputs(instance: &mut Instance) -> Result<Bits, Error> {
+pub(crate) fn outputs(instance: &mut Instance) -> Result<Bits, Error> {
     let [reals, integers, booleans, strings] = references(instance.fmu(), Causality::Output);
     let mut bits = Bits::default();
     let mut values = vec![0.0; reals.len()];
@@ -55,13 +55,13 @@ pub fn outputs(instance: &mut Instance) -> Result<Bits, Error> {
 }
 
 /// Brings a fresh instance to `state`; `None` where the FMU cannot be brought there.
-pub fn at(fmu: &Fmu, options: &InstanceOptions, state: State) -> Result<Option<Instance>, Error> {
+pub(crate) fn at(fmu: &Fmu, options: &InstanceOptions, state: State) -> Result<Option<Instance>, Error> {
     let mut instance = Instance::new(fmu, "probe", options)?;
     Ok(advance(&mut instance, state)?.then_some(instance))
 }
 
 /// Brings a freshly instantiated or reset instance to `state`; false where the FMU cannot be brought there.
-pub fn advance(instance: &mut Instance, state: State) -> Result<bool, Error> {
+pub(crate) fn advance(instance: &mut Instance, state: State) -> Result<bool, Error> {
     let times = times(instance.fmu())?;
     let tolerance = instance.fmu().description().default_experiment.and_then(|it| it.tolerance);
     if state == State::Instantiated {
@@ -83,14 +83,14 @@ pub fn advance(instance: &mut Instance, state: State) -> Result<bool, Error> {
 }
 
 /// A ready instance between steps.
-pub fn ready(fmu: &Fmu, options: &InstanceOptions) -> Result<Instance, Error> {
+pub(crate) fn ready(fmu: &Fmu, options: &InstanceOptions) -> Result<Instance, Error> {
     let mut instance = Instance::new(fmu, "probe", options)?;
     advance(&mut instance, State::StepComplete)?;
     Ok(instance)
 }
 
 /// Runs steps `from..to` of the default experiment.
-pub fn simulate(instance: &mut Instance, from: u64, to: u64) -> Result<(), Error> {
+pub(crate) fn simulate(instance: &mut Instance, from: u64, to: u64) -> Result<(), Error> {
     let times = times(instance.fmu())?;
     for k in from..to.min(times.steps()) {
         let time_s = times.point_s(k);
@@ -102,7 +102,7 @@ pub fn simulate(instance: &mut Instance, from: u64, to: u64) -> Result<(), Error
 }
 
 /// All values at the end of a short simulation.
-pub fn short_simulation(fmu: &Fmu, options: &InstanceOptions) -> Result<Bits, Error> {
+pub(crate) fn short_simulation(fmu: &Fmu, options: &InstanceOptions) -> Result<Bits, Error> {
     let mut instance = ready(fmu, options)?;
     simulate(&mut instance, 0, STEPS)?;
     outputs(&mut instance)

@@ -5,7 +5,7 @@ use loader::{Status, Value};
 use crate::Finding;
 
 /// Good if it was done.
-pub fn verdict(what: &str, outcome: Result<(), loader::Error>) -> Finding {
+pub(crate) fn verdict(what: &str, outcome: Result<(), loader::Error>) -> Finding {
     match outcome {
         Ok(()) => Finding::good(what),
         Err(error) => Finding::bad(format!("not so: {what}\n{error}")),
@@ -13,7 +13,7 @@ pub fn verdict(what: &str, outcome: Result<(), loader::Error>) -> Finding {
 }
 
 /// Good if it was refused with a status; a note if it was let through.
-pub fn refused(what: &str, outcome: Result<(), loader::Error>) -> Finding {
+pub(crate) fn refused(what: &str, outcome: Result<(), loader::Error>) -> Finding {
     match outcome {
         Err(error) if matches!(error.status(), Some(Status::Error | Status::Discard)) => {
             Finding::good(format!("refuses {what}"))
@@ -27,7 +27,7 @@ pub fn refused(what: &str, outcome: Result<(), loader::Error>) -> Finding {
 }
 
 /// A value as bits, for comparing.
-pub fn same(a: &Value, b: &Value) -> bool {
+pub(crate) fn same(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Real(a), Value::Real(b)) => a.to_bits() == b.to_bits() || a == b,
         (a, b) => a == b,

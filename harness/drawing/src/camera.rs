@@ -8,7 +8,7 @@ const EYE_DISTANCE: f64 = 2.2;
 const ON_PLANE: f64 = 1e-6;
 
 /// A point of the picture plane: to the right and up, in m at the target's depth.
-pub type Flat = (f64, f64);
+pub(crate) type Flat = (f64, f64);
 
 /// Where one looks from.
 pub struct Camera {

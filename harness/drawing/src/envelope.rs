@@ -20,7 +20,7 @@ pub(super) struct Envelope {
 
 impl Envelope {
     /// Around the band.
-    pub fn outline(&self) -> Vec<(f64, f64)> {
+    pub(crate) fn outline(&self) -> Vec<(f64, f64)> {
         self.greatest.iter().chain(self.lowest.iter().rev()).copied().collect()
     }
 }

@@ -38,7 +38,7 @@ pub(super) struct Legend<'a> {
 
 impl<'a> Legend<'a> {
     /// Of a panel's lines, marks and shades, and of its bands where they are to be named.
-    pub fn of(panel: &'a Panel, names_bands: bool) -> Self {
+    pub(crate) fn of(panel: &'a Panel, names_bands: bool) -> Self {
         let marks = (Swatch::Marks, panel.mark_label.as_str());
         let shades = (Swatch::Shades, panel.shade_label.as_str());
         let band = names_bands.then_some((Swatch::Band, BAND));
@@ -46,12 +46,12 @@ impl<'a> Legend<'a> {
     }
 
     /// Of lines alone.
-    pub fn of_series(all: &'a [Series]) -> Self {
+    pub(crate) fn of_series(all: &'a [Series]) -> Self {
         Self::rows("", series(all))
     }
 
     /// Of lines of these names in the order of colours.
-    pub fn of_names(names: &'a [String]) -> Self {
+    pub(crate) fn of_names(names: &'a [String]) -> Self {
         let lines = names.iter().enumerate();
         Self::rows("", lines.map(|(k, name)| (Swatch::Series(k, Mark::Line), name.as_str())))
     }
@@ -76,11 +76,11 @@ impl<'a> Legend<'a> {
         Self { title, rows }
     }
 
-    pub fn height(&self) -> f64 {
+    pub(crate) fn height(&self) -> f64 {
         ROW_HEIGHT * self.rows.len() as f64
     }
 
-    pub fn draw(&self, pen: &mut Pen, top: f64) {
+    pub(crate) fn draw(&self, pen: &mut Pen, top: f64) {
         if !self.title.is_empty() {
             let at = (PLOT_LEFT, top + 0.5 * ROW_HEIGHT + 4.0);
             pen.text(at, TITLE_SIZE, "start", TEXT, self.title);

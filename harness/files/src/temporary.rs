@@ -47,7 +47,7 @@ pub(crate) struct Registered(PathBuf);
 
 impl Registered {
     /// With what `make` makes there; no end of the program falls between the two.
-    pub fn with<T>(
+    pub(crate) fn with<T>(
         make: impl FnOnce() -> io::Result<T>,
         path: impl FnOnce(&T) -> &Path,
     ) -> io::Result<(T, Self)> {

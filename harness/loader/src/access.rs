@@ -57,7 +57,7 @@ impl Table {
 }
 
 impl AccessTable {
-    pub fn of(description: &Description) -> Self {
+    pub(crate) fn of(description: &Description) -> Self {
         let mut initial_unknown = vec![false; description.variables.len() + 1];
         for unknown in &description.structure.initial_unknowns {
             if let Some(flag) = initial_unknown.get_mut(unknown.index as usize) {
@@ -87,7 +87,7 @@ impl AccessTable {
         Self(tables.map(Table::new))
     }
 
-    pub fn met(&self, base: BaseType, reference: u32) -> Option<Conditions> {
+    pub(crate) fn met(&self, base: BaseType, reference: u32) -> Option<Conditions> {
         self.0[base as usize].met(reference)
     }
 }

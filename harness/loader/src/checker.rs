@@ -28,7 +28,7 @@ pub(crate) struct Checker {
 }
 
 impl Checker {
-    pub fn new(fmu: Fmu, checking: Checking) -> Self {
+    pub(crate) fn new(fmu: Fmu, checking: Checking) -> Self {
         Self {
             fmu,
             checking,
@@ -39,12 +39,12 @@ impl Checker {
     }
 
     /// Whether `function` may be called now; otherwise why not.
-    pub fn allow(&self, function: Function) -> Result<(), String> {
+    pub(crate) fn allow(&self, function: Function) -> Result<(), String> {
         self.access(function).map(|_| ())
     }
 
     /// As [`Checker::allow`], and every variable meets the condition of the state.
-    pub fn allow_variables(
+    pub(crate) fn allow_variables(
         &self,
         function: Function,
         references: &[u32],
@@ -86,7 +86,7 @@ impl Checker {
     }
 
     /// Follows the answer of a call that was made.
-    pub fn answered(&self, function: Function, status: Status) {
+    pub(crate) fn answered(&self, function: Function, status: Status) {
         if matches!(status, Status::Ok | Status::Warning) {
             match function {
                 Function::SetupExperiment => self.experiment_set_up.set(true),
@@ -105,18 +105,18 @@ impl Checker {
     }
 
     /// Remembers in which state a state was saved.
-    pub fn saved(&mut self, key: StateKey) {
+    pub(crate) fn saved(&mut self, key: StateKey) {
         self.forget(key);
         self.saved.push((key, self.state.get()));
     }
 
     /// Forgets a freed state.
-    pub fn forget(&mut self, key: StateKey) {
+    pub(crate) fn forget(&mut self, key: StateKey) {
         self.saved.retain(|(saved, _)| *saved != key);
     }
 
     /// Goes to where a state was saved.
-    pub fn restored(&self, key: StateKey) {
+    pub(crate) fn restored(&self, key: StateKey) {
         let state = self.saved.iter().find(|(saved, _)| *saved == key).and_then(|(_, state)| *state);
         self.state.set(state);
         // Beyond instantiation the experiment was set up; before, setting it up again is the safe side.

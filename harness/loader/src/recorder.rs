@@ -151,14 +151,19 @@ pub(crate) struct Reader {
 }
 
 impl Reader {
-    pub fn new(fmu: &Fmu, positions: &[usize]) -> Self {
+    pub(crate) fn new(fmu: &Fmu, positions: &[usize]) -> Self {
         let groups = groups(fmu.description(), positions);
         let [reals, integers, booleans, _] = groups.each_ref().map(|group| group.columns.len());
         Self { groups, reals: vec![0.0; reals], integers: vec![0; integers], booleans: vec![0; booleans] }
     }
 
     /// Hands one row on; an error hands on none. A Real that is NaN is one.
-    pub fn read(&mut self, instance: &mut Instance, time_s: f64, rows: &mut dyn Rows) -> Result<(), Error> {
+    pub(crate) fn read(
+        &mut self,
+        instance: &mut Instance,
+        time_s: f64,
+        rows: &mut dyn Rows,
+    ) -> Result<(), Error> {
         let [reals, integers, booleans, strings] = &self.groups;
         if !reals.columns.is_empty() {
             instance.get_reals(&reals.references, &mut self.reals)?;

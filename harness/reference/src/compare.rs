@@ -18,7 +18,7 @@ pub struct Deviation {
 }
 
 /// The largest deviation of every column that is not the same, by name; `rows` of the table belong to `lines` of the recording.
-pub fn deviations(
+pub(crate) fn deviations(
     header: &[String],
     rows: &[Vec<String>],
     recording: &Recording,

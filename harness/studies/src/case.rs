@@ -65,33 +65,33 @@ pub(crate) struct Recorded {
 
 impl Recorded {
     /// Last value of a column.
-    pub fn last(&self, column: usize) -> f64 {
+    pub(crate) fn last(&self, column: usize) -> f64 {
         self.columns[column].last().copied().unwrap_or(f64::NAN)
     }
 
     /// Greatest value of a column.
-    pub fn most(&self, column: usize) -> f64 {
+    pub(crate) fn most(&self, column: usize) -> f64 {
         self.columns[column].iter().copied().fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The values of one point from a column on.
-    pub fn row(&self, row: usize, column: usize) -> Row<'_> {
+    pub(crate) fn row(&self, row: usize, column: usize) -> Row<'_> {
         let time_s = self.times_s.get(row).copied().unwrap_or(f64::NAN);
         Row { time_s, row, columns: self.columns[column..].iter() }
     }
 
     /// The values of the first point.
-    pub fn first<T: Recordable>(&self) -> T {
+    pub(crate) fn first<T: Recordable>(&self) -> T {
         self.row(0, 0).read()
     }
 
     /// Those of the last point.
-    pub fn last_row(&self) -> Row<'_> {
+    pub(crate) fn last_row(&self) -> Row<'_> {
         self.row(self.times_s.len().saturating_sub(1), 0)
     }
 
     /// What stands in the columns from one on.
-    pub fn all<T: Recordable>(&self, column: usize) -> Vec<T> {
+    pub(crate) fn all<T: Recordable>(&self, column: usize) -> Vec<T> {
         (0..self.times_s.len()).map(|row| self.row(row, column).read()).collect()
     }
 }
@@ -106,7 +106,7 @@ pub(crate) struct Row<'a> {
 
 impl Row<'_> {
     /// The next.
-    pub fn read<T: Recordable>(&mut self) -> T {
+    pub(crate) fn read<T: Recordable>(&mut self) -> T {
         T::read(self)
     }
 }
@@ -186,7 +186,7 @@ macro_rules! recorded {
 
         impl $name {
             /// What is recorded, in the order of the fields.
-            pub const NAMES: &[&str] = &[$($($variable),+),+];
+            pub(crate) const NAMES: &[&str] = &[$($($variable),+),+];
         }
 
         impl $crate::case::Recordable for $name {
@@ -229,30 +229,30 @@ impl Rows for Steered<'_> {
 
 impl Case {
     /// The model as it is packed, for `stop_s` in steps of `step_s`.
-    pub fn new(label: impl Into<String>, stop_s: f64, step_s: f64) -> Self {
+    pub(crate) fn new(label: impl Into<String>, stop_s: f64, step_s: f64) -> Self {
         Self { label: label.into(), sets: Vec::new(), stop_s, step_s, every_s: None, apart: None }
     }
 
     /// For `stop_s` in steps of `step_s` instead.
-    pub fn grid(mut self, stop_s: f64, step_s: f64) -> Self {
+    pub(crate) fn grid(mut self, stop_s: f64, step_s: f64) -> Self {
         (self.stop_s, self.step_s) = (stop_s, step_s);
         self
     }
 
     /// Recorded every `every_s`, a whole number of steps.
-    pub fn every(mut self, every_s: f64) -> Self {
+    pub(crate) fn every(mut self, every_s: f64) -> Self {
         self.every_s = Some(every_s);
         self
     }
 
     /// With more points between those of the grid, so that the Integer `counter` rises by one from point to point.
-    pub fn apart(mut self, counter: &str) -> Self {
+    pub(crate) fn apart(mut self, counter: &str) -> Self {
         self.apart = Some(counter.to_owned());
         self
     }
 
     /// Sets what is listed.
-    pub fn with(mut self, settings: impl IntoIterator<Item = (String, Value)>) -> Self {
+    pub(crate) fn with(mut self, settings: impl IntoIterator<Item = (String, Value)>) -> Self {
         for (name, value) in settings {
             self.sets.retain(|(known, _)| *known != name);
             self.sets.push((name, value));
@@ -261,17 +261,21 @@ impl Case {
     }
 
     /// Sets a variable, by its item's name an Enumeration, a vector or a quaternion.
-    pub fn set(self, name: &str, value: impl Setting) -> Self {
+    pub(crate) fn set(self, name: &str, value: impl Setting) -> Self {
         self.with(value.of(name))
     }
 
     /// Simulates it and returns the columns of `names`, of variables and vectors.
-    pub fn simulate<S: AsRef<str>>(&self, model: &dyn Model, names: &[S]) -> Result<Recorded, StudyError> {
+    pub(crate) fn simulate<S: AsRef<str>>(
+        &self,
+        model: &dyn Model,
+        names: &[S],
+    ) -> Result<Recorded, StudyError> {
         self.steer(model, names, &mut |_| Settings::new())
     }
 
     /// As [`Self::simulate`]; what `steer` answers to a recorded point is set there.
-    pub fn steer<S: AsRef<str>>(
+    pub(crate) fn steer<S: AsRef<str>>(
         &self,
         model: &dyn Model,
         names: &[S],

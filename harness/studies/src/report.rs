@@ -37,7 +37,7 @@ pub(crate) struct Run<'a> {
 
 impl Run<'_> {
     /// Those of `cases` whose label the options name; an error if none.
-    pub fn chosen<T>(
+    pub(crate) fn chosen<T>(
         &self,
         cases: impl IntoIterator<Item = T>,
         label: impl Fn(&T) -> String,
@@ -58,7 +58,7 @@ impl Run<'_> {
     }
 
     /// Runs every case on all cores behind a progress bar; the order of results is that of the cases.
-    pub fn all<T: Sync, R: Send>(
+    pub(crate) fn all<T: Sync, R: Send>(
         &self,
         cases: &[T],
         run: impl Fn(&T) -> Result<R, StudyError> + Sync + Send,
@@ -70,26 +70,31 @@ impl Run<'_> {
     }
 
     /// Adds a paragraph.
-    pub fn line(&mut self, text: &str) {
+    pub(crate) fn line(&mut self, text: &str) {
         self.report.text.push_str(text);
         self.report.text.push('\n');
     }
 
     /// Adds a table; `header` names its columns, with bars between them.
-    pub fn table(&mut self, header: &str, rows: &[Vec<String>]) {
+    pub(crate) fn table(&mut self, header: &str, rows: &[Vec<String>]) {
         let mut table = terminal::table(&columns(header));
         rows.iter().for_each(|row| table.add_row(row));
         self.line(&table.to_string());
     }
 
     /// Adds a table, and writes it as CSV below the output folder.
-    pub fn table_and_csv(&mut self, file: &str, header: &str, rows: Vec<Vec<String>>) -> Outcome {
+    pub(crate) fn table_and_csv(&mut self, file: &str, header: &str, rows: Vec<Vec<String>>) -> Outcome {
         self.table(header, &rows);
         self.csv(file, header, rows)
     }
 
     /// Writes rows as CSV below the output folder, with a header as that of a table.
-    pub fn csv(&mut self, file: &str, header: &str, rows: impl IntoIterator<Item = Vec<String>>) -> Outcome {
+    pub(crate) fn csv(
+        &mut self,
+        file: &str,
+        header: &str,
+        rows: impl IntoIterator<Item = Vec<String>>,
+    ) -> Outcome {
         let table = || -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync>> {
             let mut writer = csv::Writer::from_writer(Vec::new());
             writer.write_record(columns(header))?;
@@ -103,7 +108,7 @@ impl Run<'_> {
     }
 
     /// Writes a picture below the output folder.
-    pub fn picture(&mut self, file: &str, chart: &dyn Picture) -> Outcome {
+    pub(crate) fn picture(&mut self, file: &str, chart: &dyn Picture) -> Outcome {
         let svg = drawing::svg(&[chart]);
         let svg = svg.map_err(|error| StudyError::Write(format!("{file}: {error}")))?;
         self.write(file, svg.as_bytes())

@@ -1,32 +1,32 @@
 //! Verdicts of comparisons with the paper.
 
 /// The comparison holds.
-pub const AGREES: &str = "agrees";
+pub(crate) const AGREES: &str = "agrees";
 /// It does not.
-pub const OFF: &str = "off";
+pub(crate) const OFF: &str = "off";
 
 /// `AGREES` or `OFF`.
-pub fn verdict(holds: bool) -> &'static str {
+pub(crate) fn verdict(holds: bool) -> &'static str {
     verdict_text(holds, AGREES)
 }
 
 /// `text`, which stands for a comparison that holds, or `OFF`.
-pub fn verdict_text(holds: bool, text: &str) -> &str {
+pub(crate) fn verdict_text(holds: bool, text: &str) -> &str {
     if holds { text } else { OFF }
 }
 
 /// `AGREES`, or that it differs from what a paper says in words.
-pub fn agrees(holds: bool) -> &'static str {
+pub(crate) fn agrees(holds: bool) -> &'static str {
     if holds { AGREES } else { "differs" }
 }
 
 /// A row of a comparison: `what` is the quantity and the paper's value with a bar between them.
-pub fn compared(what: &str, ours: String, verdict: &str) -> Vec<String> {
+pub(crate) fn compared(what: &str, ours: String, verdict: &str) -> Vec<String> {
     what.split('|').map(|text| text.trim().to_owned()).chain([ours, verdict.to_owned()]).collect()
 }
 
 /// Whether `ours` is `paper` to half a unit of its last digit.
-pub fn rounds(ours: f64, paper: f64, digit: f64) -> bool {
+pub(crate) fn rounds(ours: f64, paper: f64, digit: f64) -> bool {
     (ours - paper).abs() <= 0.5 * digit * (1.0 + 1e-9)
 }
 

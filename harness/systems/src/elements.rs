@@ -5,27 +5,27 @@ use model_description::{BaseUnit, Code, EnumerationItem, ReadError, Start, Unit,
 use crate::structure::Enumeration;
 
 /// The name without its prefix.
-pub fn local(start: &Start) -> &str {
+pub(crate) fn local(start: &Start) -> &str {
     start.name.rsplit_once(':').map_or(start.name.as_str(), |(_, name)| name)
 }
 
 /// A refusal at an element.
-pub fn refuse(start: &Start, message: String) -> ReadError {
+pub(crate) fn refuse(start: &Start, message: String) -> ReadError {
     ReadError::new(Code::Malformed, start.line, &start.name, message)
 }
 
 /// A refusal of an element that does not belong where it stands.
-pub fn unknown(child: &Start, parent: &Start, allowed: &str) -> ReadError {
+pub(crate) fn unknown(child: &Start, parent: &Start, allowed: &str) -> ReadError {
     refuse(child, format!("found in <{}>, allowed there: {allowed}", parent.name))
 }
 
 /// An attribute.
-pub fn attribute<'a>(start: &'a Start, name: &str) -> Option<&'a str> {
+pub(crate) fn attribute<'a>(start: &'a Start, name: &str) -> Option<&'a str> {
     start.attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
 }
 
 /// An attribute that has to be there and not empty.
-pub fn required(start: &Start, name: &str) -> Result<String, ReadError> {
+pub(crate) fn required(start: &Start, name: &str) -> Result<String, ReadError> {
     match attribute(start, name) {
         Some(value) if !value.is_empty() => Ok(value.to_owned()),
         Some(_) => Err(refuse(start, format!("attribute `{name}` is empty"))),
@@ -34,7 +34,7 @@ pub fn required(start: &Start, name: &str) -> Result<String, ReadError> {
 }
 
 /// An attribute as a value of a type.
-pub fn parsed<T: std::str::FromStr>(
+pub(crate) fn parsed<T: std::str::FromStr>(
     start: &Start,
     name: &str,
     allowed: &str,
@@ -49,7 +49,7 @@ pub fn parsed<T: std::str::FromStr>(
 }
 
 /// A finite number.
-pub fn number(start: &Start, name: &str) -> Result<Option<f64>, ReadError> {
+pub(crate) fn number(start: &Start, name: &str) -> Result<Option<f64>, ReadError> {
     const ALLOWED: &str = "a finite number";
     match parsed::<f64>(start, name, ALLOWED)? {
         Some(number) if !number.is_finite() => {
@@ -60,12 +60,12 @@ pub fn number(start: &Start, name: &str) -> Result<Option<f64>, ReadError> {
 }
 
 /// A whole number.
-pub fn integer(start: &Start, name: &str) -> Result<Option<i32>, ReadError> {
+pub(crate) fn integer(start: &Start, name: &str) -> Result<Option<i32>, ReadError> {
     parsed(start, name, "a whole number of 32 bits")
 }
 
 /// `true`, `false`, `1` or `0`.
-pub fn boolean(start: &Start, name: &str) -> Result<Option<bool>, ReadError> {
+pub(crate) fn boolean(start: &Start, name: &str) -> Result<Option<bool>, ReadError> {
     match attribute(start, name).map(str::trim) {
         None => Ok(None),
         Some("true" | "1") => Ok(Some(true)),
@@ -77,7 +77,7 @@ pub fn boolean(start: &Start, name: &str) -> Result<Option<bool>, ReadError> {
 }
 
 /// Reads every child of `parent`, each of which has to be an element `name`.
-pub fn list<T>(
+pub(crate) fn list<T>(
     xml: &mut Xml<'_>,
     parent: &Start,
     name: &str,
@@ -94,7 +94,7 @@ pub fn list<T>(
 }
 
 /// Reads the children of this name, which hold nothing themselves; others are left alone.
-pub fn leaves<T>(
+pub(crate) fn leaves<T>(
     xml: &mut Xml<'_>,
     parent: &Start,
     name: &str,
@@ -111,7 +111,7 @@ pub fn leaves<T>(
 }
 
 /// Reads `Units`.
-pub fn units(xml: &mut Xml<'_>, parent: &Start) -> Result<Vec<Unit>, ReadError> {
+pub(crate) fn units(xml: &mut Xml<'_>, parent: &Start) -> Result<Vec<Unit>, ReadError> {
     list(xml, parent, "Unit", |xml, element| {
         let name = required(element, "name")?;
         let base = leaves(xml, element, "BaseUnit", base_unit)?.pop();
@@ -132,7 +132,7 @@ fn base_unit(start: &Start) -> Result<BaseUnit, ReadError> {
 }
 
 /// Reads `Enumerations`.
-pub fn enumerations(xml: &mut Xml<'_>, parent: &Start) -> Result<Vec<Enumeration>, ReadError> {
+pub(crate) fn enumerations(xml: &mut Xml<'_>, parent: &Start) -> Result<Vec<Enumeration>, ReadError> {
     list(xml, parent, "Enumeration", |xml, element| {
         let name = required(element, "name")?;
         let items = leaves(xml, element, "Item", |item| {

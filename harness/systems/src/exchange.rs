@@ -11,7 +11,7 @@ use crate::{joint::Joint, structure::Linear, system::System};
 
 /// The connected outputs of all components.
 #[derive(Debug, Default)]
-pub struct Signals {
+pub(crate) struct Signals {
     reals: Vec<f64>,
     integers: Vec<i32>,
     booleans: Vec<i32>,
@@ -67,7 +67,7 @@ struct Outputs {
 
 /// The connected variables of one component.
 #[derive(Debug, Default)]
-pub struct Ports {
+pub(crate) struct Ports {
     reals: Inputs<f64>,
     integers: Inputs<i32>,
     booleans: Inputs<i32>,
@@ -75,7 +75,7 @@ pub struct Ports {
 }
 
 /// The ports of every component, and the signals between them, all zero.
-pub fn ports(system: &System) -> (Vec<Ports>, Signals) {
+pub(crate) fn ports(system: &System) -> (Vec<Ports>, Signals) {
     let variable =
         |(number, position): (usize, usize)| &system.parts()[number].fmu.description().variables[position];
     let mut ports: Vec<Ports> = system.parts().iter().map(|_| Ports::default()).collect();
@@ -114,7 +114,7 @@ pub fn ports(system: &System) -> (Vec<Ports>, Signals) {
 
 impl Ports {
     /// Sets the connected inputs from the signals, each base type only where a value changed.
-    pub fn set(&mut self, instance: &mut Instance, signals: &Signals) -> Result<(), Error> {
+    pub(crate) fn set(&mut self, instance: &mut Instance, signals: &Signals) -> Result<(), Error> {
         let Self { reals, integers, booleans, .. } = self;
         let real = |link: &Link| {
             let value = signals.reals[link.signal];
@@ -133,7 +133,7 @@ impl Ports {
     }
 
     /// Reads the connected outputs into the signals.
-    pub fn get(&self, instance: &mut Instance, signals: &mut Signals) -> Result<(), Error> {
+    pub(crate) fn get(&self, instance: &mut Instance, signals: &mut Signals) -> Result<(), Error> {
         let [reals, integers, booleans] = &self.outputs;
         if !reals.references.is_empty() {
             instance.get_reals(&reals.references, &mut signals.reals[reals.range.clone()])?;
@@ -154,7 +154,7 @@ impl Ports {
 
 impl Signals {
     /// A copy of all values, to see whether they change.
-    pub fn bits(&self) -> Vec<u64> {
+    pub(crate) fn bits(&self) -> Vec<u64> {
         let whole = self.integers.iter().chain(&self.booleans).map(|value| *value as u32 as u64);
         self.reals.iter().map(|value| value.to_bits()).chain(whole).collect()
     }

@@ -6,7 +6,7 @@ use model_description::DefaultExperiment;
 use crate::structure::Experiment;
 
 /// What is left out is the earliest start and stop and the smallest step of the FMUs.
-pub fn complete<'a>(given: Experiment, fmus: impl Iterator<Item = &'a Fmu> + Clone) -> Experiment {
+pub(crate) fn complete<'a>(given: Experiment, fmus: impl Iterator<Item = &'a Fmu> + Clone) -> Experiment {
     let smallest = |of: fn(&DefaultExperiment) -> Option<f64>| {
         let all = fmus.clone().filter_map(|fmu| of(fmu.description().default_experiment.as_ref()?));
         all.min_by(f64::total_cmp)

@@ -21,7 +21,7 @@ pub struct Joint {
 
 /// What a connection is.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Link {
+pub(crate) enum Link {
     /// From variable to variable.
     Joint(Joint),
     /// Between one of the system's own connectors, by its name, and a variable.
@@ -38,14 +38,14 @@ pub struct Place {
 }
 
 /// A list of near names for a refusal.
-pub fn near<'a>(name: &str, all: impl Iterator<Item = &'a str> + Clone) -> String {
+pub(crate) fn near<'a>(name: &str, all: impl Iterator<Item = &'a str> + Clone) -> String {
     let found = similar(name, all.clone());
     let shown: Vec<&str> = if found.is_empty() { all.take(12).collect() } else { found };
     if shown.is_empty() { "none".to_owned() } else { shown.join(", ") }
 }
 
 /// Holds a component's connectors against its FMU.
-pub fn check_connector(structure: &Structure, fmu: &Fmu, connector: &Connector) -> Result<(), String> {
+pub(crate) fn check_connector(structure: &Structure, fmu: &Fmu, connector: &Connector) -> Result<(), String> {
     let name = &connector.name;
     let description = fmu.description();
     let Some(variable) = fmu.find(name) else {
@@ -146,7 +146,7 @@ fn find<'a>(structure: &'a Structure, fmus: &'a [Fmu], end: &End, kind: Kind) ->
 }
 
 /// Holds a connection against the FMUs.
-pub fn link(structure: &Structure, fmus: &[Fmu], connection: &Connection) -> Result<Link, String> {
+pub(crate) fn link(structure: &Structure, fmus: &[Fmu], connection: &Connection) -> Result<Link, String> {
     let Connection { start, end, .. } = connection;
     match (&start.component, &end.component) {
         (Some(_), Some(_)) => joint(structure, fmus, connection).map(Link::Joint),
@@ -220,12 +220,12 @@ fn joint(structure: &Structure, fmus: &[Fmu], connection: &Connection) -> Result
 }
 
 /// Whether both items have one number and one name.
-pub fn is_same_item(one: &EnumerationItem, other: &EnumerationItem) -> bool {
+pub(crate) fn is_same_item(one: &EnumerationItem, other: &EnumerationItem) -> bool {
     one.value == other.value && one.name == other.name
 }
 
 /// An item of the output's Enumeration that the input's does not have.
-pub fn foreign_item<'a>(
+pub(crate) fn foreign_item<'a>(
     given: &'a [EnumerationItem],
     taken: &[EnumerationItem],
 ) -> Option<&'a EnumerationItem> {

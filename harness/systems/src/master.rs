@@ -34,7 +34,7 @@ const MOST_SWEEPS: usize = 20;
 
 /// How a step ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stepped {
+pub(crate) enum Stepped {
     /// At its end.
     Whole,
     /// A component ended by itself at this time, in s.
@@ -42,7 +42,7 @@ pub enum Stepped {
 }
 
 /// The instances of a system's components and the values between them.
-pub struct Running {
+pub(crate) struct Running {
     instances: Vec<Instance>,
     ports: Vec<Ports>,
     signals: Signals,
@@ -51,7 +51,7 @@ pub struct Running {
 
 impl Running {
     /// Instantiates and initializes all components.
-    pub fn start(
+    pub(crate) fn start(
         system: &System,
         (master, first): (Master, FirstExchange),
         times: &Times,
@@ -109,12 +109,12 @@ impl Running {
     }
 
     /// The instances, in the system's order.
-    pub fn instances(&mut self) -> &mut [Instance] {
+    pub(crate) fn instances(&mut self) -> &mut [Instance] {
         &mut self.instances
     }
 
     /// One communication step of all components.
-    pub fn step(&mut self, time_s: f64, step_s: f64) -> Result<Stepped, Error> {
+    pub(crate) fn step(&mut self, time_s: f64, step_s: f64) -> Result<Stepped, Error> {
         let Self { instances, ports, signals, .. } = self;
         match self.master {
             Master::Jacobi => {
@@ -145,7 +145,7 @@ impl Running {
     }
 
     /// Terminates all components.
-    pub fn terminate(&mut self) -> Result<(), Error> {
+    pub(crate) fn terminate(&mut self) -> Result<(), Error> {
         self.instances.iter_mut().enumerate().try_for_each(|(number, instance)| {
             record_instance(number);
             instance.terminate()
@@ -153,7 +153,7 @@ impl Running {
     }
 
     /// What the instances logged, one component after another, each message with its component's name.
-    pub fn messages(&self) -> Vec<LogMessage> {
+    pub(crate) fn messages(&self) -> Vec<LogMessage> {
         let named = |instance: &Instance| {
             let name = instance.name().to_owned();
             instance.messages().into_iter().map(move |mut message| {

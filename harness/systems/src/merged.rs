@@ -8,7 +8,7 @@ use model_description::{
 use crate::structure::Experiment;
 
 /// The variables of all components, and of each its component and position there.
-pub struct Merged {
+pub(crate) struct Merged {
     /// The description; value references are those of the FMUs and therefore not unique.
     pub description: Description,
     /// Component and position in its `ModelVariables` of every variable.
@@ -16,7 +16,7 @@ pub struct Merged {
 }
 
 /// Merges the descriptions of named components.
-pub fn merge<'a>(
+pub(crate) fn merge<'a>(
     name: &str,
     experiment: Experiment,
     components: impl Iterator<Item = (&'a str, &'a Fmu)>,
@@ -63,7 +63,7 @@ pub fn merge<'a>(
 }
 
 /// Adds a unit. One that means something else in two FMUs loses its definition: its numbers are shown as they are.
-pub fn add_unit(units: &mut Vec<Unit>, unit: &Unit) {
+pub(crate) fn add_unit(units: &mut Vec<Unit>, unit: &Unit) {
     let Some(known) = units.iter_mut().find(|known| known.name == unit.name) else {
         units.push(unit.clone());
         return;

@@ -57,7 +57,12 @@ impl Place {
 }
 
 /// Adds a connector to the description: the variable it is connected to first, in the connector's unit.
-pub fn describe(merged: &mut Merged, structure: &Structure, fmus: &[Fmu], own: &Own) -> Result<(), String> {
+pub(crate) fn describe(
+    merged: &mut Merged,
+    structure: &Structure,
+    fmus: &[Fmu],
+    own: &Own,
+) -> Result<(), String> {
     let Connector { name, signal, .. } = &own.connector;
     let Some((number, position)) = own.places.first().map(|place| place.at) else { return Ok(()) };
     if merged.description.variables.iter().any(|it| it.name == *name) {

@@ -21,7 +21,7 @@ pub fn is_system(path: &Path) -> bool {
 
 /// An unpacked SSP.
 #[derive(Debug)]
-pub struct Package {
+pub(crate) struct Package {
     /// What it was opened from.
     pub source: PathBuf,
     /// Where it is unpacked.
@@ -32,7 +32,7 @@ pub struct Package {
 
 impl Package {
     /// Unpacks an `.ssp` file, or takes the folder that one was unpacked into.
-    pub fn open(path: &Path) -> Result<Self, Error> {
+    pub(crate) fn open(path: &Path) -> Result<Self, Error> {
         let at_path = |source| Error::File { path: path.to_owned(), source };
         if std::fs::metadata(path).map_err(at_path)?.is_dir() {
             let folder = std::path::absolute(path).map_err(at_path)?;
@@ -50,7 +50,7 @@ impl Package {
     }
 
     /// A file of the SSP.
-    pub fn read(&self, relative: &str) -> Result<Vec<u8>, Error> {
+    pub(crate) fn read(&self, relative: &str) -> Result<Vec<u8>, Error> {
         let refuse = |what: String| self.structure(relative, what);
         let path = self.path(relative).map_err(refuse)?;
         files::read_at_most(&path, MOST_BYTES).map_err(|error| match error.kind() {
@@ -64,7 +64,7 @@ impl Package {
     }
 
     /// Where a file of the SSP is; `source` is a relative URI.
-    pub fn path(&self, source: &str) -> Result<PathBuf, String> {
+    pub(crate) fn path(&self, source: &str) -> Result<PathBuf, String> {
         let decoded = percent_decode_str(source).decode_utf8_lossy();
         let inside = loader::path_inside(&decoded).ok_or_else(|| {
             format!("found {source:?}, allowed: a path in the SSP such as resources/plant.fmu")
@@ -73,7 +73,7 @@ impl Package {
     }
 
     /// The folder that an FMU of the SSP is unpacked into: where its file was.
-    pub fn fmu_folder(&self, source: &str) -> Result<PathBuf, Error> {
+    pub(crate) fn fmu_folder(&self, source: &str) -> Result<PathBuf, Error> {
         let refuse = |what: String| self.structure(SSD_FILE, what);
         let path = self.path(source).map_err(refuse)?;
         if path.is_dir() {
@@ -96,7 +96,7 @@ impl Package {
     }
 
     /// A refusal of what stands in a file of the SSP.
-    pub fn structure(&self, file: &str, what: String) -> Error {
+    pub(crate) fn structure(&self, file: &str, what: String) -> Error {
         Error::Structure { path: self.source.clone(), file: file.to_owned(), what }
     }
 

@@ -8,7 +8,7 @@ use crate::{
 };
 
 /// Reads a file.
-pub fn read(bytes: &[u8]) -> Result<ParameterSet, ReadError> {
+pub(crate) fn read(bytes: &[u8]) -> Result<ParameterSet, ReadError> {
     let mut xml = Xml::new(bytes)?;
     let root = xml.root()?;
     if local(&root) != "ParameterSet" {
@@ -20,7 +20,7 @@ pub fn read(bytes: &[u8]) -> Result<ParameterSet, ReadError> {
 }
 
 /// Reads a `ParameterSet` after its start tag.
-pub fn element(xml: &mut Xml<'_>, start: &Start) -> Result<ParameterSet, ReadError> {
+pub(crate) fn element(xml: &mut Xml<'_>, start: &Start) -> Result<ParameterSet, ReadError> {
     let mut set =
         ParameterSet { name: attribute(start, "name").unwrap_or_default().to_owned(), ..Default::default() };
     while let Some(child) = xml.child(start)? {

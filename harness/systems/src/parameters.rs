@@ -11,10 +11,10 @@ use crate::{
 };
 
 /// A value of a component's variable, by the component's number.
-pub type Assigned = (usize, String, Value);
+pub(crate) type Assigned = (usize, String, Value);
 
 /// The values of a parameter set. `component` is where the binding stands; a system's parameters name theirs.
-pub fn values(
+pub(crate) fn values(
     structure: &Structure,
     (fmus, own): (&[Fmu], &[Own]),
     component: Option<usize>,

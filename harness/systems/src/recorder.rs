@@ -14,7 +14,7 @@ struct Group {
 }
 
 /// Reads the recorded variables of all components.
-pub struct Recorder {
+pub(crate) struct Recorder {
     /// By component, then by base type: Reals, Integers, Booleans, Strings.
     groups: Vec<[Group; 4]>,
     reals: Vec<f64>,
@@ -27,7 +27,7 @@ pub struct Recorder {
 
 impl Recorder {
     /// Of variables of the system's description, by their positions.
-    pub fn new(system: &System, positions: &[usize]) -> Self {
+    pub(crate) fn new(system: &System, positions: &[usize]) -> Self {
         let mut groups: Vec<[Group; 4]> = system.parts().iter().map(|_| Default::default()).collect();
         let mut sizes = [0; 4];
         for &position in positions {
@@ -55,7 +55,7 @@ impl Recorder {
     }
 
     /// Hands one row on; a Real that is NaN is an error.
-    pub fn record(
+    pub(crate) fn record(
         &mut self,
         instances: &mut [Instance],
         time_s: f64,

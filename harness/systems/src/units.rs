@@ -5,17 +5,17 @@ use model_description::{BaseUnit, Unit};
 use crate::structure::Linear;
 
 /// The base units of a unit by its name, from the first list that has it.
-pub fn base(name: &str, lists: &[&[Unit]]) -> Option<BaseUnit> {
+pub(crate) fn base(name: &str, lists: &[&[Unit]]) -> Option<BaseUnit> {
     lists.iter().flat_map(|list| list.iter()).find(|unit| unit.name == name).and_then(|unit| unit.base)
 }
 
 /// Whether both are of one dimension.
-pub fn is_same_dimension(one: &BaseUnit, other: &BaseUnit) -> bool {
+pub(crate) fn is_same_dimension(one: &BaseUnit, other: &BaseUnit) -> bool {
     one.exponents() == other.exponents()
 }
 
 /// From a number in one unit to the number in another of the same dimension: both are `factor x + offset` in base units.
-pub fn conversion(from: &BaseUnit, to: &BaseUnit) -> Linear {
+pub(crate) fn conversion(from: &BaseUnit, to: &BaseUnit) -> Linear {
     Linear { factor: from.factor / to.factor, offset: (from.offset - to.offset) / to.factor }
 }
 
@@ -40,7 +40,7 @@ impl Linear {
 }
 
 /// A unit for people: nothing is `no unit`.
-pub fn shown(unit: Option<&str>) -> String {
+pub(crate) fn shown(unit: Option<&str>) -> String {
     unit.map_or_else(|| "no unit".to_owned(), |unit| format!("unit {unit:?}"))
 }
 

@@ -85,7 +85,7 @@ impl std::fmt::Display for Unread {
 
 /// What is connected in vain to a component of this description, by its options' numbers; those that a component does not have it
 /// does not read by.
-pub fn unread(
+pub(crate) fn unread(
     component: &str,
     description: &Description,
     connected: &[&str],

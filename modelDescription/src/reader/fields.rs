@@ -14,20 +14,20 @@ pub(crate) struct Fields {
 
 impl Fields {
     /// Takes the attributes of `start`.
-    pub fn of(start: &mut Start) -> Self {
+    pub(crate) fn of(start: &mut Start) -> Self {
         let left = core::mem::take(&mut start.attributes);
         Self { element: start.name.clone(), line: start.line, left }
     }
 
     /// A value that may be missing.
-    pub fn optional<T: Lexical>(&mut self, name: &str) -> Result<Option<T>, ReadError> {
+    pub(crate) fn optional<T: Lexical>(&mut self, name: &str) -> Result<Option<T>, ReadError> {
         let Some(at) = self.left.iter().position(|(key, _)| key == name) else { return Ok(None) };
         let (_, text) = self.left.swap_remove(at);
         T::parse(&text).map(Some).ok_or_else(|| self.bad(name, &text, &T::allowed()))
     }
 
     /// A value that must be there.
-    pub fn required<T: Lexical>(&mut self, name: &str) -> Result<T, ReadError> {
+    pub(crate) fn required<T: Lexical>(&mut self, name: &str) -> Result<T, ReadError> {
         self.optional(name)?.ok_or_else(|| {
             let message = format!("attribute `{name}` is missing; it is required");
             ReadError::new(Code::MissingAttribute, self.line, &self.element, message)
@@ -35,7 +35,7 @@ impl Fields {
     }
 
     /// Warns of every attribute that nobody took; those of XML itself and of the schema instance are fine.
-    pub fn finish(self, xml: &mut Xml<'_>) {
+    pub(crate) fn finish(self, xml: &mut Xml<'_>) {
         for (name, _) in self.left {
             let prefix = name.split(':').next().unwrap_or_default();
             if !matches!(prefix, "xmlns" | "xsi" | "xml") {

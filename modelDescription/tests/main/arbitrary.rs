@@ -6,7 +6,7 @@ use proptest::option;
 use proptest::prelude::*;
 
 /// A valid description; what it leaves out of FMI is only what the standard forbids.
-pub fn description() -> impl Strategy<Value = Description> {
+pub(crate) fn description() -> impl Strategy<Value = Description> {
     (
         vec(option::of(text()), 7),
         interfaces(),

@@ -1,13 +1,13 @@
 //! The faults of the corpus, as `faults.txt` lists them.
 
 /// A fault: a file name without extension, and what is replaced by what.
-pub struct Fault {
+pub(crate) struct Fault {
     pub name: &'static str,
     pub edits: Vec<(String, String)>,
 }
 
 /// Every fault, in the order of the codes.
-pub fn faults() -> Vec<Fault> {
+pub(crate) fn faults() -> Vec<Fault> {
     let text = |line: &str| line.replace("\\n", "\n");
     let fault = |block: &'static str| {
         let (name, edits) = block.split_once('\n').unwrap();

@@ -2,7 +2,7 @@
 
 use model_description::*;
 
-pub fn variable(
+pub(crate) fn variable(
     name: &str,
     value_reference: u32,
     causality: Causality,
@@ -19,7 +19,7 @@ pub fn variable(
     }
 }
 
-pub fn real(start: Option<f64>, unit: Option<&str>) -> VariableKind {
+pub(crate) fn real(start: Option<f64>, unit: Option<&str>) -> VariableKind {
     VariableKind::Real {
         start,
         declared_type: None,
@@ -29,7 +29,7 @@ pub fn real(start: Option<f64>, unit: Option<&str>) -> VariableKind {
     }
 }
 
-pub fn rich() -> Description {
+pub(crate) fn rich() -> Description {
     let mut angle =
         variable("angle", 0, Causality::Input, Variability::Continuous, real(Some(0.25), Some("rad")));
     angle.description = Some("Angle of the <panel> & its \"mirror\"\n\tin the body frame".to_owned());

@@ -6,7 +6,7 @@ use model_description::BaseType;
 
 /// One call of a master; any may come at any time.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Call {
+pub(super) enum Call {
     SetDebugLogging(bool),
     SetupExperiment {
         start_s: f64,
@@ -56,14 +56,14 @@ pub enum Call {
 
 /// A row of the variables, or a reference that no variable has.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Picked {
+pub(super) enum Picked {
     Row(usize),
     Unknown(u32),
 }
 
 /// What an answer must be.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Answer {
+pub(super) enum Answer {
     Ok,
     Discard,
     Error,
@@ -75,7 +75,7 @@ pub enum Answer {
 
 /// All that `fmi2SetFMUstate` brings back.
 #[derive(Clone)]
-pub struct InstanceState {
+pub(super) struct InstanceState {
     pub state: char,
     experiment: Option<(f64, Option<f64>)>,
     time_s: f64,
@@ -95,7 +95,7 @@ struct Computed {
 
 /// The reference instance with the states its master keeps.
 #[derive(Clone)]
-pub struct Master {
+pub(super) struct Master {
     pub now: InstanceState,
     slots: [Option<Box<InstanceState>>; 2],
     bytes: Option<Box<InstanceState>>,
@@ -106,7 +106,7 @@ pub struct Master {
 
 /// A cell of the reference table that is not the standard's.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Misprint {
+pub(super) struct Misprint {
     pub function: &'static str,
     pub state: char,
     pub cell: char,
@@ -161,7 +161,7 @@ impl std::fmt::Debug for Master {
 }
 
 impl Master {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self {
             now: InstanceState::fresh(),
             slots: [None, None],
@@ -173,7 +173,7 @@ impl Master {
     }
 
     /// One that goes by a table with a cell broken.
-    pub fn misled(misprint: Misprint) -> Self {
+    pub(super) fn misled(misprint: Misprint) -> Self {
         Self { misprint: Some(misprint), ..Self::new() }
     }
 
@@ -186,12 +186,12 @@ impl Master {
     }
 
     /// Time of the last communication point.
-    pub fn time_s(&self) -> f64 {
+    pub(super) fn time_s(&self) -> f64 {
         self.now.time_s
     }
 
     /// Makes the call; the answer is kept in `answer`.
-    pub fn call(&mut self, call: &Call) {
+    pub(super) fn call(&mut self, call: &Call) {
         let cell = self.cell(call);
         self.answer = if cell == '.' { Answer::Error } else { self.allowed(call, cell) };
         if self.answer == Answer::Error {
@@ -340,7 +340,7 @@ impl Master {
 }
 
 /// The table's name of a call.
-pub fn function(call: &Call) -> &'static str {
+pub(super) fn function(call: &Call) -> &'static str {
     match call {
         Call::SetDebugLogging(_) => "SetDebugLogging",
         Call::SetupExperiment { .. } => "SetupExperiment",

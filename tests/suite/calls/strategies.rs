@@ -189,7 +189,7 @@ fn useful(state: char) -> BoxedStrategy<Call> {
 }
 
 /// The next call from a state.
-pub fn next(state: char) -> BoxedStrategy<Call> {
+pub(super) fn next(state: char) -> BoxedStrategy<Call> {
     thread_local! {
         static BY_STATE: Vec<BoxedStrategy<Call>> = STATES
             .chars()

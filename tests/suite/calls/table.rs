@@ -1,7 +1,7 @@
 //! Table 1.1 of the rules typed a second time, as the text writes it: one letter a state, one row a function.
 
 /// instantiated, InitializationMode, stepComplete, stepInProgress, stepFailed, stepCanceled, terminated, error.
-pub const STATES: &str = "IMCPFXTE";
+pub(super) const STATES: &str = "IMCPFXTE";
 
 /// `x` allowed, `.` forbidden, a digit: allowed under that note.
 const ROWS: &[(&str, &[&str])] = &[
@@ -24,14 +24,14 @@ const ROWS: &[(&str, &[&str])] = &[
 ];
 
 /// The cell of a function (without `fmi2`) and a state letter; `.` for the state that allows nothing, fatal.
-pub fn cell(function: &str, state: char) -> char {
+pub(super) fn cell(function: &str, state: char) -> char {
     let row = ROWS.iter().find(|(_, functions)| functions.contains(&function));
     let (row, _) = row.unwrap_or_else(|| panic!("no row for {function}"));
     STATES.find(state).map_or('.', |column| char::from(row.as_bytes()[column]))
 }
 
 /// Every function of the table.
-pub fn functions() -> impl Iterator<Item = &'static str> {
+pub(super) fn functions() -> impl Iterator<Item = &'static str> {
     ROWS.iter().flat_map(|(_, functions)| functions.iter().copied())
 }
 

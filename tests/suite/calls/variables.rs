@@ -7,7 +7,7 @@ use crate::support;
 
 /// What a read gives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Content {
+pub(super) enum Content {
     /// What was set, or the start value.
     AsSet,
     /// The input or tunable parameter of this name, as the last computation saw it.
@@ -18,7 +18,7 @@ pub enum Content {
 
 /// One value of any base type.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Value {
+pub(super) enum Value {
     Real(f64),
     Integer(i32),
     Boolean(i32),
@@ -29,7 +29,7 @@ pub enum Value {
 
 /// One variable.
 #[derive(Clone, Copy, Debug)]
-pub struct Variable {
+pub(super) struct Variable {
     pub name: &'static str,
     pub base: BaseType,
     /// causality, variability, initial
@@ -62,7 +62,7 @@ const fn row(
 }
 
 /// By base type; the order within is free.
-pub const VARIABLES: &[Variable] = &[
+pub(super) const VARIABLES: &[Variable] = &[
     row("parameter.real", Real, PARAMETER, Value::Real(1.5), AsSet, bounded),
     row("tunable.real", Real, TUNABLE, Value::Real(2.5), AsSet, |v| real(v, 0.0, 10.0)),
     row("input.real", Real, INPUT, Value::Real(0.0), AsSet, |v| real(v, -1e6, 1e6)),
@@ -143,12 +143,12 @@ fn any(value: Value) -> bool {
 }
 
 /// Position of a name in [`VARIABLES`].
-pub fn position(name: &str) -> usize {
+pub(super) fn position(name: &str) -> usize {
     VARIABLES.iter().position(|variable| variable.name == name).unwrap()
 }
 
 /// The value reference of every row.
-pub fn references() -> &'static [u32] {
+pub(super) fn references() -> &'static [u32] {
     static REFERENCES: OnceLock<Vec<u32>> = OnceLock::new();
     REFERENCES.get_or_init(|| {
         let names = support::names("AllTypes");
@@ -157,7 +157,7 @@ pub fn references() -> &'static [u32] {
 }
 
 /// What each echo echoes, by row.
-pub fn echoes() -> &'static [Option<usize>] {
+pub(super) fn echoes() -> &'static [Option<usize>] {
     static ECHOES: OnceLock<Vec<Option<usize>>> = OnceLock::new();
     ECHOES.get_or_init(|| {
         let source = |variable: &Variable| match variable.content {
@@ -170,7 +170,7 @@ pub fn echoes() -> &'static [Option<usize>] {
 
 impl Variable {
     /// Whether the note of a table's cell for `fmi2SetXXX` admits the variable (1.1, notes 1, 3 and 6).
-    pub fn settable(&self, note: char) -> bool {
+    pub(super) fn settable(&self, note: char) -> bool {
         let (causality, variability, initial) = self.role;
         let constant = variability == "constant";
         match note {
@@ -182,7 +182,7 @@ impl Variable {
     }
 
     /// Whether it is an input, which our FMUs accept before Initialization Mode too.
-    pub fn is_input(&self) -> bool {
+    pub(super) fn is_input(&self) -> bool {
         self.role.0 == "input"
     }
 }

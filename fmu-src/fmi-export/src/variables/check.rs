@@ -10,10 +10,10 @@ use model_description::{
 use super::variable::{DeclaredItem, Item, Role};
 
 /// Result of a check: the problem in words.
-pub type Checked = Result<(), String>;
+pub(super) type Checked = Result<(), String>;
 
 /// Checks causality, variability, initial and the presence of a start value (FMI 2.0.5, 2.2.7).
-pub fn role(role: Role, is_real: bool, has_start: bool) -> Checked {
+pub(super) fn role(role: Role, is_real: bool, has_start: bool) -> Checked {
     let Role { causality, variability, initial } = role;
     rules::check_role(causality, variability, initial, is_real, has_start).map_err(|fault| match fault {
         RoleFault::Role(problem) => problem,
@@ -22,12 +22,12 @@ pub fn role(role: Role, is_real: bool, has_start: bool) -> Checked {
 }
 
 /// Checks a structured name.
-pub fn name(full: &str) -> Checked {
+pub(super) fn name(full: &str) -> Checked {
     names::check_structured(full).map_err(|problem| format!("the name {problem}"))
 }
 
 /// Checks that a Real attribute is a number the XML can carry.
-pub fn finite(what: &str, value: Option<f64>) -> Checked {
+pub(super) fn finite(what: &str, value: Option<f64>) -> Checked {
     match value {
         Some(value) if !value.is_finite() => Err(format!("{what} is {value}; it must be finite")),
         _ => Ok(()),
@@ -35,7 +35,7 @@ pub fn finite(what: &str, value: Option<f64>) -> Checked {
 }
 
 /// Checks min <= start <= max.
-pub fn range<T: PartialOrd + Display>(start: Option<T>, min: Option<T>, max: Option<T>) -> Checked {
+pub(super) fn range<T: PartialOrd + Display>(start: Option<T>, min: Option<T>, max: Option<T>) -> Checked {
     if let (Some(min), Some(max)) = (&min, &max)
         && min > max
     {
@@ -49,7 +49,7 @@ pub fn range<T: PartialOrd + Display>(start: Option<T>, min: Option<T>, max: Opt
 }
 
 /// Checks that XML 1.0 and C strings can carry a text.
-pub fn text(what: &str, text: &str) -> Checked {
+pub(super) fn text(what: &str, text: &str) -> Checked {
     let bad = |letter: &char| {
         matches!(letter, '\u{FFFE}' | '\u{FFFF}' | '\0'..='\u{1F}') && !matches!(letter, '\t' | '\n' | '\r')
     };
@@ -60,7 +60,7 @@ pub fn text(what: &str, text: &str) -> Checked {
 }
 
 /// Checks the items of an enumeration type: some, with distinct names and values.
-pub fn items(items: &[DeclaredItem]) -> Checked {
+pub(super) fn items(items: &[DeclaredItem]) -> Checked {
     if items.is_empty() {
         return Err("its enumeration has no items".to_owned());
     }
@@ -77,7 +77,7 @@ pub fn items(items: &[DeclaredItem]) -> Checked {
 }
 
 /// Checks that an enumeration can be an input: masters send 0 before the first exchange.
-pub fn has_none(items: &[Item]) -> Checked {
+pub(super) fn has_none(items: &[Item]) -> Checked {
     match items.iter().any(|item| item.value == 0 && item.name == "none") {
         true => Ok(()),
         false => {

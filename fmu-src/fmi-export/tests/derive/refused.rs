@@ -95,7 +95,7 @@ fn names_are_unique_across_groups() {
 mod one {
     /// A choice.
     #[derive(Clone, Copy, fmi_export::Enumeration)]
-    pub enum Mode {
+    pub(super) enum Mode {
         /// An item.
         On,
     }
@@ -104,7 +104,7 @@ mod one {
 mod other {
     /// Another choice of the same name.
     #[derive(Clone, Copy, fmi_export::Enumeration)]
-    pub enum Mode {
+    pub(super) enum Mode {
         /// Other item.
         Off,
     }
@@ -152,7 +152,7 @@ struct Chosen<E: Enumeration> {
 mod with_none {
     /// A mode.
     #[derive(Clone, Copy, fmi_export::Enumeration)]
-    pub enum Mode {
+    pub(super) enum Mode {
         /// Not chosen yet.
         None = 0,
         /// On.

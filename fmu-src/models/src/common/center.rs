@@ -30,13 +30,13 @@ pub struct CenterBody {
 }
 
 /// The centre by the start value of `orbit.center` in the spacecraft's file; without one the file's own body, or Mercury.
-pub fn center_of(spacecraft: &Spacecraft) -> Body {
+pub(crate) fn center_of(spacecraft: &Spacecraft) -> Body {
     let own = if spacecraft.body.is_some() { Body::Custom } else { Body::Mercury };
     of_entry(entry_of(&spacecraft.start, PLANT, "orbit.center")).unwrap_or(own)
 }
 
 /// The planet that is observed: that of `target.planet` in the file, else the centre.
-pub fn target_of(spacecraft: &Spacecraft, model: &str) -> Body {
+pub(crate) fn target_of(spacecraft: &Spacecraft, model: &str) -> Body {
     let target = of_entry(entry_of(&spacecraft.start, model, "target.planet"));
     target.unwrap_or_else(|| center_of(spacecraft))
 }

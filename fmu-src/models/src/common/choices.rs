@@ -173,7 +173,7 @@ choices! {
 }
 
 /// The item of the body that a spacecraft's file describes.
-pub fn custom_body(spacecraft: &Spacecraft) -> Vec<DeclaredItem> {
+pub(crate) fn custom_body(spacecraft: &Spacecraft) -> Vec<DeclaredItem> {
     let item = |body: &CustomBody| DeclaredItem {
         name: Body::Custom.name().to_owned(),
         value: Enumerated::value(Body::Custom),

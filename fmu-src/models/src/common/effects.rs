@@ -104,7 +104,7 @@ impl ShadowingVariables {
 }
 
 /// Refuses a file whose `[start]` asks for shadows where no surface has an outline.
-pub fn check_start(file: &str, spacecraft: &Spacecraft, model: &str) -> Result<(), SetupError> {
+pub(crate) fn check_start(file: &str, spacecraft: &Spacecraft, model: &str) -> Result<(), SetupError> {
     let entry = entry_of(&spacecraft.start, model, "shadowing.enabled");
     let Some(entry) = entry.filter(|entry| entry.value == StartValue::Boolean(true)) else { return Ok(()) };
     let shape = spacecraft.sunshade.as_ref().map_or(SunshadeModel::Plates, |shade| shade.model);
@@ -117,7 +117,7 @@ pub fn check_start(file: &str, spacecraft: &Spacecraft, model: &str) -> Result<(
 }
 
 /// What to warn of where a file's `[planet_map]` is without effect.
-pub fn unused_map(spacecraft: &Spacecraft) -> Option<String> {
+pub(crate) fn unused_map(spacecraft: &Spacecraft) -> Option<String> {
     spacecraft.planet_map.as_ref().map(|_| {
         format!(
             "[planet_map] in the spacecraft.toml of {} is without effect: DisturbanceTorque alone takes it, with \

@@ -5,16 +5,16 @@ use physics::environment::orbit::Elements as KeplerElements;
 
 /// Semi-major axis, eccentricity, inclination, ascending node, argument of periapsis, true anomaly.
 #[derive(Clone, Copy, Debug)]
-pub struct ElementHandles(pub [Real; 6]);
+pub(crate) struct ElementHandles(pub [Real; 6]);
 
 impl ElementHandles {
     /// They follow the body together.
-    pub fn group(&self) -> [Elements; 6] {
+    pub(crate) fn group(&self) -> [Elements; 6] {
         self.0.map(Elements::from)
     }
 
     /// Those that are given, else `own`.
-    pub fn read_or(&self, given: Given<'_>, own: &KeplerElements) -> KeplerElements {
+    pub(crate) fn read_or(&self, given: Given<'_>, own: &KeplerElements) -> KeplerElements {
         let [semi_major_axis, eccentricity, inclination, node, periapsis_argument, true_anomaly] = self.0;
         KeplerElements {
             semi_major_axis_m: given.real_or(semi_major_axis, own.semi_major_axis_m),
@@ -27,7 +27,7 @@ impl ElementHandles {
     }
 
     /// Writes these elements.
-    pub fn write(&self, values: &mut Values, elements: &KeplerElements) {
+    pub(crate) fn write(&self, values: &mut Values, elements: &KeplerElements) {
         let numbers = [
             elements.semi_major_axis_m,
             elements.eccentricity,

@@ -12,20 +12,20 @@ use physics::environment::orbit::Elements;
 use super::center::CenterBody;
 
 /// The file of onboard ephemerides in the resources.
-pub const EPHEMERIS_FILE: &str = "ephemeris.toml";
+pub(crate) const EPHEMERIS_FILE: &str = "ephemeris.toml";
 
 /// Reads onboard ephemerides; `file` names the text in errors.
-pub fn read(file: &str, text: &str) -> Result<Arc<OnboardEphemeris>, SetupError> {
+pub(crate) fn read(file: &str, text: &str) -> Result<Arc<OnboardEphemeris>, SetupError> {
     OnboardEphemeris::from_toml(file, text).map(Arc::new).map_err(|error| SetupError(error.to_string()))
 }
 
 /// The file's ephemerides if it has precise models.
-pub fn precise(carried: Option<&Arc<OnboardEphemeris>>) -> Option<&Arc<OnboardEphemeris>> {
+pub(crate) fn precise(carried: Option<&Arc<OnboardEphemeris>>) -> Option<&Arc<OnboardEphemeris>> {
     carried.filter(|carried| !carried.precise.is_empty())
 }
 
 /// Refuses a start that VSOP87 is not made for.
-pub fn check_start(epoch_s: f64) -> Result<(), Failure> {
+pub(crate) fn check_start(epoch_s: f64) -> Result<(), Failure> {
     if epoch_s.abs() <= VALID_EPOCH_S {
         return Ok(());
     }
@@ -36,12 +36,12 @@ pub fn check_start(epoch_s: f64) -> Result<(), Failure> {
 }
 
 /// The planet on the ellipse of `ephemeris.source` kepler.
-pub fn kepler(ellipse: Elements, epoch_s: f64) -> Result<KeplerPlanet, Failure> {
+pub(crate) fn kepler(ellipse: Elements, epoch_s: f64) -> Result<KeplerPlanet, Failure> {
     KeplerPlanet::new(ellipse, epoch_s).map_err(|error| Failure::new(format!("ephemeris elements: {error}")))
 }
 
 /// Where the body of the spacecraft's file is about the Sun where nothing else says it: by that file.
-pub fn custom(body: &CenterBody, source: &str) -> Result<KeplerPlanet, Failure> {
+pub(crate) fn custom(body: &CenterBody, source: &str) -> Result<KeplerPlanet, Failure> {
     body.motion.ok_or_else(|| {
         Failure::new(format!(
             "ephemeris.source: found {source} with a `[body]` that has neither `elements` nor `position_m`, allowed: one of them in \
@@ -51,7 +51,7 @@ pub fn custom(body: &CenterBody, source: &str) -> Result<KeplerPlanet, Failure> 
 }
 
 /// Refuses onboard ephemerides that do not place Sun and Earth from a centre, or not at `epoch_s`, which `what` gives.
-pub fn check_onboard(
+pub(crate) fn check_onboard(
     carried: &OnboardEphemeris,
     center: Body,
     what: &str,

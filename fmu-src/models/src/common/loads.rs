@@ -20,7 +20,7 @@ pub struct Quantity {
 }
 
 /// Torque about the centre of mass.
-pub const TORQUE: Quantity = Quantity {
+pub(crate) const TORQUE: Quantity = Quantity {
     unit: "N.m",
     display_unit: Some("uN.m"),
     has: Effect::is_disturbance,
@@ -28,7 +28,7 @@ pub const TORQUE: Quantity = Quantity {
 };
 
 /// Force.
-pub const FORCE: Quantity = Quantity {
+pub(crate) const FORCE: Quantity = Quantity {
     unit: "N",
     display_unit: Some("uN"),
     has: |effect| effect.is_disturbance() && effect.row().exerts_force,
@@ -37,7 +37,7 @@ pub const FORCE: Quantity = Quantity {
 
 /// What an effect did to the momentum since the last dump, by momentum.convention. All of them add up to what the momentum
 /// changed by, but for thrusters in use and rotors out of balance.
-pub const MOMENTUM: Quantity = Quantity {
+pub(crate) const MOMENTUM: Quantity = Quantity {
     unit: "N.m.s",
     display_unit: None,
     has: |effect| effect.row().momentum_apart,
@@ -88,7 +88,7 @@ impl BySource {
 }
 
 /// The outputs of torque and force by source, with what `loads` gives for them.
-pub fn vectors<'v, T: Scalar>(
+pub(crate) fn vectors<'v, T: Scalar>(
     torque: &'v BySource,
     force: &'v BySource,
     loads: &'v Loads<T>,

@@ -89,13 +89,13 @@ pub struct ManagementVariables {
 }
 
 /// What is lacking for a downlink.
-pub const NO_ANTENNA: &str = "the spacecraft has no antenna ([[antennas]])";
+pub(crate) const NO_ANTENNA: &str = "the spacecraft has no antenna ([[antennas]])";
 
 /// Refuses downlink windows that no antenna serves.
 ///
 /// # Errors
 /// Windows without an antenna.
-pub fn check_windows_have_antenna(schedule: &Schedule, antennas: &Antennas) -> Result<(), Failure> {
+pub(crate) fn check_windows_have_antenna(schedule: &Schedule, antennas: &Antennas) -> Result<(), Failure> {
     if !antennas.is_empty() || schedule.check_windows() == Err(NoCycle::Never) {
         return Ok(());
     }
@@ -110,7 +110,7 @@ pub fn check_windows_have_antenna(schedule: &Schedule, antennas: &Antennas) -> R
 ///
 /// # Errors
 /// A strategy without an antenna that is steered.
-pub fn check_strategy_has_antenna(strategy: Strategy, antennas: &Antennas) -> Result<(), Failure> {
+pub(crate) fn check_strategy_has_antenna(strategy: Strategy, antennas: &Antennas) -> Result<(), Failure> {
     if strategy == Strategy::DumpsOnly || antennas.has_fan() {
         return Ok(());
     }
@@ -129,7 +129,7 @@ pub fn check_strategy_has_antenna(strategy: Strategy, antennas: &Antennas) -> Re
 ///
 /// # Errors
 /// Windows that never come or overlap.
-pub fn check_windows(schedule: &Schedule) -> Result<(), Failure> {
+pub(crate) fn check_windows(schedule: &Schedule) -> Result<(), Failure> {
     let Schedule { downlink_start_s, downlink_end_s, .. } = *schedule;
     let found = match schedule.check_windows() {
         Ok(()) => return Ok(()),
@@ -142,7 +142,7 @@ pub fn check_windows(schedule: &Schedule) -> Result<(), Failure> {
 }
 
 /// What is wrong with windows that are requested, whatever the strategy; `None` where nothing is.
-pub fn window_warning(schedule: &Schedule) -> Option<String> {
+pub(crate) fn window_warning(schedule: &Schedule) -> Option<String> {
     let Schedule { downlink_start_s, downlink_end_s, every, .. } = *schedule;
     let names = "guided.downlinkStart, guided.downlinkEnd, guided.downlinkEvery";
     match schedule.check_windows().err()? {

@@ -1,20 +1,20 @@
 //! What several models have in common: choices, groups of variables, what they read from a spacecraft.
 
-pub mod center;
-pub mod choices;
-pub mod effects;
-pub mod elements;
-pub mod ephemeris;
-pub mod loads;
-pub mod management;
-pub mod spacecraft;
-pub mod start_values;
-pub mod variables;
+pub(crate) mod center;
+pub(crate) mod choices;
+pub(crate) mod effects;
+pub(crate) mod elements;
+pub(crate) mod ephemeris;
+pub(crate) mod loads;
+pub(crate) mod management;
+pub(crate) mod spacecraft;
+pub(crate) mod start_values;
+pub(crate) mod variables;
 
 use fmi_export::About;
 
 /// What every model says of itself alike.
-pub fn about() -> About {
+pub(crate) fn about() -> About {
     About {
         author: "the heliotorque authors".to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),

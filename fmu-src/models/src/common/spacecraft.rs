@@ -14,7 +14,7 @@ use serde::Serialize;
 ///
 /// # Errors
 /// What was found and what is allowed, of a matrix no body has.
-pub fn inertia_body_kg_m2(values: &Values, handle: RealMatrix<3, 3>) -> Result<Matrix3<f64>, Failure> {
+pub(crate) fn inertia_body_kg_m2(values: &Values, handle: RealMatrix<3, 3>) -> Result<Matrix3<f64>, Failure> {
     let rows = values.matrix(handle);
     let inertia = Matrix3::from(rows).transpose();
     spacecraft::check_inertia(&inertia)
@@ -79,7 +79,7 @@ impl PreparedAntennas {
 
 /// The dump threshold; without one in the file what its wheels guarantee, and without wheels in all directions paper
 /// 000's for small wheels.
-pub fn dump_threshold_n_m_s(spacecraft: &Spacecraft, wheel_array: Option<&WheelArray>) -> [f64; 3] {
+pub(crate) fn dump_threshold_n_m_s(spacecraft: &Spacecraft, wheel_array: Option<&WheelArray>) -> [f64; 3] {
     let smallest_n_m_s = spacecraft::PAPER_DUMP_THRESHOLDS_N_M_S[0].1;
     let capacities_n_m_s = spacecraft.wheels.iter().map(|wheel| wheel.capacity_n_m_s);
     let guaranteed_n_m_s = wheel_array.map(|it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
@@ -96,7 +96,7 @@ pub struct ReportedFace {
 }
 
 /// The faces reported one by one, none unless the file asks for that.
-pub fn reported_faces(file: &str, spacecraft: &Spacecraft) -> Result<Vec<ReportedFace>, SetupError> {
+pub(crate) fn reported_faces(file: &str, spacecraft: &Spacecraft) -> Result<Vec<ReportedFace>, SetupError> {
     if !spacecraft.per_plate_outputs {
         return Ok(Vec::new());
     }

@@ -28,7 +28,7 @@ const REFERENCE: &str = "guided.downlinkReference";
 /// `default_epoch_s` unless the file says another epoch; `None`: the model has none.
 ///
 /// A spacecraft's file may describe a body of its own (`has_body`).
-pub fn start_values(
+pub(crate) fn start_values(
     entries: &[StartEntry],
     model: &str,
     default_epoch_s: Option<f64>,
@@ -125,7 +125,7 @@ fn given(value: &FileValue) -> SetupValue {
 
 /// The entry that counts for a variable of `model`: a constant goes before a start value, one for this model alone before one
 /// for all.
-pub fn entry_of<'a>(entries: &'a [StartEntry], model: &str, name: &str) -> Option<&'a StartEntry> {
+pub(crate) fn entry_of<'a>(entries: &'a [StartEntry], model: &str, name: &str) -> Option<&'a StartEntry> {
     let counts = |entry: &&StartEntry| {
         entry.name == name && entry.model.as_deref().is_none_or(|requested| requested == model)
     };
@@ -133,12 +133,12 @@ pub fn entry_of<'a>(entries: &'a [StartEntry], model: &str, name: &str) -> Optio
 }
 
 /// The item at which a choice of `model` is fixed; `None` where it is open.
-pub fn fixed_item<E: Enumeration>(entries: &[StartEntry], model: &str, name: &str) -> Option<E> {
+pub(crate) fn fixed_item<E: Enumeration>(entries: &[StartEntry], model: &str, name: &str) -> Option<E> {
     entry_of(entries, model, name).filter(|entry| entry.is_fixed).and_then(|entry| item(&entry.value))
 }
 
 /// The item that a start value names or numbers.
-pub fn item<E: Enumeration>(value: &FileValue) -> Option<E> {
+pub(crate) fn item<E: Enumeration>(value: &FileValue) -> Option<E> {
     let number = match value {
         FileValue::Integer(number) => i32::try_from(*number).ok()?,
         FileValue::Text(name) => E::TYPE.items.iter().find(|item| item.name == name.as_str())?.value,

@@ -162,7 +162,7 @@ impl WorkLimit {
 }
 
 /// What is lacking to turn an instrument.
-pub const NO_GIMBAL: &str = "no instrument of the spacecraft has a gimbal ([[instruments]] gimbal)";
+pub(crate) const NO_GIMBAL: &str = "no instrument of the spacecraft has a gimbal ([[instruments]] gimbal)";
 
 /// Latest begin and end of a downlink, in s.
 const LATEST_WINDOW_S: f64 = 1e9;

@@ -6,7 +6,7 @@ use super::setup::DisturbanceSetup;
 use super::variables::DisturbanceVariables;
 
 /// Rows by groups of outputs.
-pub fn table(_setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies {
+pub(super) fn table(_setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Dependencies {
     let (torque, force) = (&v.torque, &v.force);
     let places = &knowns![v.sun.position_body, v.planet.position_body];
     let lit = &knowns![places, v.planet.pole, &v.panel];

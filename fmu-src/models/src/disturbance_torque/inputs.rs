@@ -17,7 +17,7 @@ use crate::common::spacecraft::inertia_body_kg_m2;
 
 /// What parameters and spacecraft amount to.
 #[derive(Clone, Debug)]
-pub struct Prepared {
+pub(super) struct Prepared {
     model: DisturbanceModel,
     /// Absent without a planet.
     shadow: Option<Shadow>,
@@ -28,7 +28,7 @@ pub struct Prepared {
 }
 
 /// Whether a Real is one of the inputs or parameters that derivatives are known by.
-pub fn is_known(variables: &DisturbanceVariables, values: &Values, real: Real) -> bool {
+pub(super) fn is_known(variables: &DisturbanceVariables, values: &Values, real: Real) -> bool {
     let is_read = Cell::new(variables.positions().iter().any(|input| *input == real));
     variables.parameters(values, |parameter| {
         is_read.set(is_read.get() || parameter == real);
@@ -58,7 +58,7 @@ fn method(
 ///
 /// # Errors
 /// A setting that cannot have any.
-pub fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
+pub(super) fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
     let (variables, spacecraft) = (context.variables, &context.setup.spacecraft);
     let shape = values.choice(variables.sunshade.shape).0;
     let shadows = variables.shadowing.check(values, spacecraft, shape)?;
@@ -76,7 +76,7 @@ impl Prepared {
     ///
     /// # Errors
     /// Names the parameter that cannot be.
-    pub fn new(context: &Plan<'_>, values: &Values) -> Result<Self, Failure> {
+    pub(super) fn new(context: &Plan<'_>, values: &Values) -> Result<Self, Failure> {
         let variables = context.variables;
         let spacecraft = &context.setup.spacecraft;
         let (planet, light) = (&variables.planet, &variables.planet_light);
@@ -110,7 +110,7 @@ impl Prepared {
     }
 
     /// The inputs that are all zero, as before a master's first exchange.
-    pub fn unset(&self, positions: &Positions<f64>) -> Vec<&'static str> {
+    pub(super) fn unset(&self, positions: &Positions<f64>) -> Vec<&'static str> {
         let places = [
             (true, positions.sun_m, "sun.positionBody"),
             (self.shadow.is_some(), positions.planet_m, "planet.positionBody"),
@@ -123,7 +123,7 @@ impl Prepared {
     ///
     /// # Errors
     /// Names the inputs of a geometry without meaning.
-    pub fn evaluate<T: Scalar>(
+    pub(super) fn evaluate<T: Scalar>(
         &self,
         parameters: &Parameters<T>,
         positions: &Positions<T>,

@@ -10,7 +10,7 @@ use super::variables::DisturbanceVariables;
 use crate::common::loads;
 
 /// Writes every output.
-pub fn write(
+pub(super) fn write(
     variables: &DisturbanceVariables,
     values: &mut Values,
     found: &BySource<f64>,
@@ -27,7 +27,7 @@ pub fn write(
 }
 
 /// The value of an output.
-pub fn value<T: Scalar>(
+pub(super) fn value<T: Scalar>(
     variables: &DisturbanceVariables,
     found: &BySource<T>,
     workspace: &Workspace<T>,

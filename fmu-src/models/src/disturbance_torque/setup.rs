@@ -11,7 +11,7 @@ use crate::common::effects::check_start;
 pub struct DisturbanceTorque;
 
 /// What every call of the model is given.
-pub type Plan<'a> = Context<'a, DisturbanceTorque>;
+pub(super) type Plan<'a> = Context<'a, DisturbanceTorque>;
 
 /// The spacecraft of an instance.
 #[derive(Clone, Debug, Serialize)]

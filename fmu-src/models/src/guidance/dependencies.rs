@@ -7,7 +7,7 @@ use super::setup::GuidanceSetup;
 use super::variables::GuidanceVariables;
 
 /// Rows by groups of outputs.
-pub fn table(_setup: &GuidanceSetup, v: &GuidanceVariables) -> Dependencies {
+pub(super) fn table(_setup: &GuidanceSetup, v: &GuidanceVariables) -> Dependencies {
     let mut table = Dependencies::new();
     table.output(v.epoch, knowns![], v.start.epoch);
     table.output(&v.panel, knowns![], &v.panel);

@@ -14,7 +14,13 @@ use crate::common::choices::{CommandKind, ThrustRequest};
 const NO_STOP_S: f64 = -1.0;
 
 /// Writes every output at the communication point reached, the epoch there being `epoch_s`.
-pub fn write(context: &Plan<'_>, values: &mut Values, state: &State, burn: &BurnSettings, epoch_s: f64) {
+pub(super) fn write(
+    context: &Plan<'_>,
+    values: &mut Values,
+    state: &State,
+    burn: &BurnSettings,
+    epoch_s: f64,
+) {
     let v = context.variables;
     let (State { system: state, dumps, .. }, time_s) = (state, state.time_s);
     let command = state.command();
@@ -75,7 +81,12 @@ fn burn(context: &Plan<'_>, values: &mut Values, state: &BurnState, settings: &B
 }
 
 /// Time derivative of an output at the last communication point.
-pub fn derivative(context: &Plan<'_>, state: &GuidanceState, time_s: f64, output: Real) -> Option<f64> {
+pub(super) fn derivative(
+    context: &Plan<'_>,
+    state: &GuidanceState,
+    time_s: f64,
+    output: Real,
+) -> Option<f64> {
     let v = context.variables;
     if output == v.epoch {
         return Some(1.0);

@@ -19,7 +19,7 @@ use crate::common::variables::WindowDefaults;
 pub struct Guidance;
 
 /// What every call of the model is given.
-pub type Plan<'a> = Context<'a, Guidance>;
+pub(super) type Plan<'a> = Context<'a, Guidance>;
 
 /// The spacecraft of an instance.
 #[derive(Clone, Debug, Serialize)]

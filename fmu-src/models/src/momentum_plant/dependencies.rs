@@ -6,7 +6,7 @@ use super::setup::{OpenChoices, PlantSetup};
 use super::variables::PlantVariables;
 
 /// Rows by groups of outputs.
-pub fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
+pub(super) fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
     let choice = setup.open_choices();
     let (inputs, parameters) = (&Inputs::of(setup, choice, v), &Parameters::of(choice, v));
     let mut table = Dependencies::new();

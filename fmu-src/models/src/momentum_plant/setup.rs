@@ -22,7 +22,7 @@ use crate::common::variables::WindowDefaults;
 pub struct MomentumPlant;
 
 /// What every call of the model is given.
-pub type Plan<'a> = Context<'a, MomentumPlant>;
+pub(super) type Plan<'a> = Context<'a, MomentumPlant>;
 
 /// The spacecraft of an instance.
 #[derive(Clone, Debug, Serialize)]

@@ -10,7 +10,7 @@ use super::state::PlantState;
 use crate::common::management::window_warning;
 
 /// The flight begins at `time_s`, or waits.
-pub fn start(
+pub(super) fn start(
     context: &Plan<'_>,
     values: &mut Values,
     state: &mut PlantState,
@@ -29,7 +29,7 @@ pub fn start(
 }
 
 /// One step: what is set, the flight on to the step's end, outputs.
-pub fn step(
+pub(super) fn step(
     context: &Plan<'_>,
     values: &mut Values,
     state: &mut PlantState,

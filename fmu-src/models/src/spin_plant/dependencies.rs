@@ -6,7 +6,7 @@ use physics::spin::spinner::Spinner;
 use super::variables::SpinVariables;
 
 /// Rows by groups of outputs.
-pub fn table(_setup: &Spinner, v: &SpinVariables) -> Dependencies {
+pub(super) fn table(_setup: &Spinner, v: &SpinVariables) -> Dependencies {
     let mut table = Dependencies::new();
     let nothing = &knowns![];
     // Where thrusters or the outside torque change, a pulse that is on ends and its propellant is taken: inertia and rate follow,

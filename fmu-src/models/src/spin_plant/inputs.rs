@@ -18,7 +18,7 @@ use super::{
 };
 
 /// How the flight starts.
-pub fn start(context: &Plan<'_>, values: &Values) -> Start {
+pub(super) fn start(context: &Plan<'_>, values: &Values) -> Start {
     let v = context.variables;
     Start {
         inertia_kg_m2: values.vector(v.inertia),
@@ -101,7 +101,7 @@ fn burn(context: &Plan<'_>, values: &Values) -> Option<BurnRequest> {
 }
 
 /// What the master commands from now on.
-pub fn commands(context: &Plan<'_>, values: &Values) -> Commands {
+pub(super) fn commands(context: &Plan<'_>, values: &Values) -> Commands {
     let v = context.variables;
     let resolution_s = values.real(v.pulse.resolution);
     let mut commands =
@@ -118,7 +118,7 @@ pub fn commands(context: &Plan<'_>, values: &Values) -> Commands {
 }
 
 /// The outside torque of a step whose input derivatives make it a polynomial in time.
-pub fn torque(context: &Plan<'_>, values: &Values, step: &Step<'_>) -> Result<BodyTorque, Failure> {
+pub(super) fn torque(context: &Plan<'_>, values: &Values, step: &Step<'_>) -> Result<BodyTorque, Failure> {
     let handle = context.variables.torque.applied;
     let mut torque = BodyTorque::constant(values.vector(handle).into());
     for axis in 0..3 {
@@ -137,7 +137,7 @@ pub fn torque(context: &Plan<'_>, values: &Values, step: &Step<'_>) -> Result<Bo
 }
 
 /// Whether Sun and Earth come from the inputs.
-pub fn takes_directions(context: &Plan<'_>, values: &Values) -> bool {
+pub(super) fn takes_directions(context: &Plan<'_>, values: &Values) -> bool {
     values.choice(context.variables.geometry.source) != GeometrySource::L1Orbit
 }
 
@@ -145,7 +145,7 @@ pub fn takes_directions(context: &Plan<'_>, values: &Values) -> bool {
 ///
 /// # Errors
 /// A vector that is used, and so short or long that rounding takes its direction.
-pub fn directions(
+pub(super) fn directions(
     context: &Plan<'_>,
     values: &Values,
     read: impl Fn(RealVector<3>) -> [f64; 3],

@@ -12,7 +12,7 @@ use physics::spin::{
 use super::setup::Plan;
 
 /// Writes what holds for the whole flight.
-pub fn write_calculated(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
+pub(super) fn write_calculated(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     let v = context.variables;
     let seen = Predictions::of(plant);
     values.set_integer(v.burn.planned_count, count(seen.count));
@@ -27,7 +27,7 @@ pub fn write_calculated(context: &Plan<'_>, values: &mut Values, plant: &Plant) 
 }
 
 /// Writes what changes from step to step.
-pub fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
+pub(super) fn write(context: &Plan<'_>, values: &mut Values, plant: &Plant) {
     let v = context.variables;
     let spinner = context.setup;
     let seen = Outputs::of(plant, spinner);
@@ -96,7 +96,7 @@ fn count(number: impl TryInto<i32>) -> i32 {
 }
 
 /// First time derivative of an output that is continuous in time.
-pub fn derivative(context: &Plan<'_>, plant: &Plant, output: Real) -> Option<f64> {
+pub(super) fn derivative(context: &Plan<'_>, plant: &Plant, output: Real) -> Option<f64> {
     let v = context.variables;
     let rates = Rates::of(plant, context.setup);
     let of = |handle: Real, value: f64| (handle == output).then_some(value);

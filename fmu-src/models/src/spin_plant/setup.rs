@@ -6,4 +6,4 @@ use fmi_export::Context;
 pub struct SpinPlant;
 
 /// What every call of the model is given.
-pub type Plan<'a> = Context<'a, SpinPlant>;
+pub(super) type Plan<'a> = Context<'a, SpinPlant>;

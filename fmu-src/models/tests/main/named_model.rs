@@ -15,7 +15,7 @@ use nalgebra::{Quaternion, UnitQuaternion};
 use physics::numerics::intervals::next_multiple_s;
 
 /// Every model: a file may give start values to another than the one that is described.
-pub static LIBRARY: Library = Library {
+pub(crate) static LIBRARY: Library = Library {
     entries: &[
         Entry::of::<MomentumPlant>(),
         Entry::of::<SpinPlant>(),
@@ -25,7 +25,7 @@ pub static LIBRARY: Library = Library {
 };
 
 /// The description of a model with this setup.
-pub fn described<M: Model>(file: &str, text: &str) -> Result<Description, String> {
+pub(crate) fn described<M: Model>(file: &str, text: &str) -> Result<Description, String> {
     let entry = LIBRARY.find(M::NAME).unwrap();
     LIBRARY.describe(entry, Some(file), Some(text)).map_err(|error| error.to_string())
 }
@@ -45,7 +45,7 @@ impl Log for Warnings {
 }
 
 /// A model with everything that does not change in flight.
-pub struct NamedModel<M: Model> {
+pub(crate) struct NamedModel<M: Model> {
     setup: M::Setup,
     handles: M::Variables,
     names: Vec<Named>,
@@ -74,12 +74,12 @@ enum Kind {
 
 impl<M: Model> NamedModel<M> {
     /// With the compiled-in setup.
-    pub fn shipped() -> Self {
+    pub(crate) fn shipped() -> Self {
         Self::with("default", M::DEFAULT_SETUP)
     }
 
     /// With a setup text.
-    pub fn with(file: &str, text: &str) -> Self {
+    pub(crate) fn with(file: &str, text: &str) -> Self {
         let setup = M::parse_setup(file, text).unwrap();
         let mut scope = Declare::new();
         let handles = M::Variables::declare(&mut scope, &setup, 0).unwrap();
@@ -132,18 +132,18 @@ impl<M: Model> NamedModel<M> {
     }
 
     /// The same with a file beside the setup.
-    pub fn with_schedule(mut self, schedule: &str, text: &str) -> Self {
+    pub(crate) fn with_schedule(mut self, schedule: &str, text: &str) -> Self {
         M::parse_schedule(&mut self.setup, schedule, schedule, text).unwrap();
         self
     }
 
     /// What refuses to fly with these start values says.
-    pub fn refusal(&self, sets: &[(&str, f64)]) -> String {
+    pub(crate) fn refusal(&self, sets: &[(&str, f64)]) -> String {
         self.fly(0.0, sets).err().unwrap_or_else(|| panic!("it flies with {sets:?}")).to_string()
     }
 
     /// What a master may set, with its limits and whether it is a whole number.
-    pub fn given(&self) -> Vec<(&str, (f64, f64), bool)> {
+    pub(crate) fn given(&self) -> Vec<(&str, (f64, f64), bool)> {
         let given = |it: &Named| it.given.is_some();
         let shown = |it: &'_ Named| (it.given.unwrap_or_default(), it.kind != Kind::Real);
         self.names
@@ -154,12 +154,12 @@ impl<M: Model> NamedModel<M> {
     }
 
     /// All inputs.
-    pub fn inputs(&self) -> Vec<&str> {
+    pub(crate) fn inputs(&self) -> Vec<&str> {
         self.names.iter().filter(|it| it.input && it.kind != Kind::Text).map(|it| it.name.as_str()).collect()
     }
 
     /// The warnings of all flights so far.
-    pub fn warnings(&self) -> Vec<String> {
+    pub(crate) fn warnings(&self) -> Vec<String> {
         self.warnings.0.borrow().clone()
     }
 
@@ -179,7 +179,7 @@ impl<M: Model> NamedModel<M> {
     }
 
     /// A flight from `start_s` with these start values.
-    pub fn fly(&self, start_s: f64, sets: &[(&str, f64)]) -> Result<NamedInstance<'_, M>, Failure> {
+    pub(crate) fn fly(&self, start_s: f64, sets: &[(&str, f64)]) -> Result<NamedInstance<'_, M>, Failure> {
         let mut tables = Tables::of(&self.start);
         tables.set.iter_mut().flatten().for_each(|word| *word = 0);
         sets.iter().for_each(|(name, value)| self.set(&mut tables, name, *value));
@@ -216,7 +216,7 @@ fn marked<M: Model>(start: &Values, setup: &M::Setup, names: &[Named]) -> Values
 }
 
 /// Start values with those of the setup's file.
-pub fn with_file_starts(start: &Values, description: &Description) -> Values {
+pub(crate) fn with_file_starts(start: &Values, description: &Description) -> Values {
     let mut tables = Tables::of(start);
     for variable in &description.variables {
         let slot = |base| (variable.value_reference - references::first(base)) as usize;
@@ -237,7 +237,7 @@ pub fn with_file_starts(start: &Values, description: &Description) -> Values {
 
 /// The value tables, reached through their serialised form: no author of a model can write them by reference.
 #[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Tables {
+pub(crate) struct Tables {
     pub reals: Vec<f64>,
     pub integers: Vec<i32>,
     pub booleans: Vec<bool>,
@@ -247,12 +247,12 @@ pub struct Tables {
 }
 
 impl Tables {
-    pub fn of(values: &Values) -> Self {
+    pub(crate) fn of(values: &Values) -> Self {
         postcard::from_bytes(&postcard::to_stdvec(values).unwrap()).unwrap()
     }
 
     /// The same, set by an importer that sets what is other than the start values.
-    pub fn marked_where_other_than(&self, start: &Values) -> Self {
+    pub(crate) fn marked_where_other_than(&self, start: &Values) -> Self {
         fn mark<T: PartialEq>(bits: &mut [u64], values: &[T], start: &[T]) {
             bits.fill(0);
             for (at, _) in values.iter().zip(start).enumerate().filter(|(_, (value, start))| value != start) {
@@ -272,13 +272,13 @@ impl Tables {
         self.set[variable.kind as usize][variable.reference / 64] |= 1 << (variable.reference % 64);
     }
 
-    pub fn back(&self) -> Values {
+    pub(crate) fn back(&self) -> Values {
         postcard::from_bytes(&postcard::to_stdvec(self).unwrap()).unwrap()
     }
 }
 
 /// One flight.
-pub struct NamedInstance<'a, M: Model> {
+pub(crate) struct NamedInstance<'a, M: Model> {
     named: &'a NamedModel<M>,
     values: Values,
     /// The same, once somebody asked.
@@ -293,17 +293,17 @@ pub struct NamedInstance<'a, M: Model> {
 
 impl<M: Model> NamedInstance<'_, M> {
     /// Now, in s.
-    pub fn time_s(&self) -> f64 {
+    pub(crate) fn time_s(&self) -> f64 {
         self.time_s
     }
 
     /// One step.
-    pub fn step_to(&mut self, end_s: f64) -> Result<(), Failure> {
+    pub(crate) fn step_to(&mut self, end_s: f64) -> Result<(), Failure> {
         self.step_moving(end_s, &[])
     }
 
     /// One step in which these inputs move, per second.
-    pub fn step_moving(&mut self, end_s: f64, rates: &[(&str, f64)]) -> Result<(), Failure> {
+    pub(crate) fn step_moving(&mut self, end_s: f64, rates: &[(&str, f64)]) -> Result<(), Failure> {
         let moved = std::mem::replace(&mut self.moved, !rates.is_empty());
         // Who set a value is no matter.
         let unmarked = |values: &Values| Tables { set: Default::default(), ..Tables::of(values) };
@@ -327,7 +327,7 @@ impl<M: Model> NamedInstance<'_, M> {
     }
 
     /// Steps of equal length.
-    pub fn fly_to(&mut self, end_s: f64, step_s: f64) -> Result<(), Failure> {
+    pub(crate) fn fly_to(&mut self, end_s: f64, step_s: f64) -> Result<(), Failure> {
         while self.time_s < end_s {
             self.step_to(next_multiple_s(self.time_s, step_s).min(end_s))?;
         }
@@ -335,7 +335,7 @@ impl<M: Model> NamedInstance<'_, M> {
     }
 
     /// Sets an input or tunable.
-    pub fn set(&mut self, name: &str, value: f64) {
+    pub(crate) fn set(&mut self, name: &str, value: f64) {
         self.before.get_or_insert_with(|| self.values.clone());
         let mut tables = self.tables.take().unwrap_or_else(|| Tables::of(&self.values));
         self.named.set(&mut tables, name, value);
@@ -344,7 +344,7 @@ impl<M: Model> NamedInstance<'_, M> {
     }
 
     /// Sets the elements of an array.
-    pub fn set_elements<'v>(&mut self, name: &str, values: impl IntoIterator<Item = &'v f64>) {
+    pub(crate) fn set_elements<'v>(&mut self, name: &str, values: impl IntoIterator<Item = &'v f64>) {
         for (i, value) in (1..).zip(values) {
             self.set(&format!("{name}[{i}]"), *value);
         }
@@ -355,37 +355,37 @@ impl<M: Model> NamedInstance<'_, M> {
     }
 
     /// A Real.
-    pub fn real(&self, name: &str) -> f64 {
+    pub(crate) fn real(&self, name: &str) -> f64 {
         self.tables().reals[self.named.find(name, Kind::Real)]
     }
 
     /// An Integer.
-    pub fn integer(&self, name: &str) -> i32 {
+    pub(crate) fn integer(&self, name: &str) -> i32 {
         self.tables().integers[self.named.find(name, Kind::Integer)]
     }
 
     /// A Boolean.
-    pub fn boolean(&self, name: &str) -> bool {
+    pub(crate) fn boolean(&self, name: &str) -> bool {
         self.tables().booleans[self.named.find(name, Kind::Boolean)]
     }
 
     /// `name[1]`..`name[3]`.
-    pub fn vector(&self, name: &str) -> nalgebra::Vector3<f64> {
+    pub(crate) fn vector(&self, name: &str) -> nalgebra::Vector3<f64> {
         nalgebra::Vector3::from_fn(|i, _| self.real(&format!("{name}[{}]", i + 1)))
     }
 
     /// `name[1]`..`name[4]`.
-    pub fn quaternion(&self, name: &str) -> [f64; 4] {
+    pub(crate) fn quaternion(&self, name: &str) -> [f64; 4] {
         [1, 2, 3, 4].map(|i| self.real(&format!("{name}[{i}]")))
     }
 
     /// From body to inertial components, by a quaternion.
-    pub fn to_inertial(&self, name: &str) -> UnitQuaternion<f64> {
+    pub(crate) fn to_inertial(&self, name: &str) -> UnitQuaternion<f64> {
         UnitQuaternion::from_quaternion(Quaternion::from(self.quaternion(name)))
     }
 
     /// The bits of every output but texts.
-    pub fn output_bits(&self) -> Vec<(&str, u64)> {
+    pub(crate) fn output_bits(&self) -> Vec<(&str, u64)> {
         let tables = self.tables();
         let bits = |it: &Named| match it.kind {
             Kind::Real => Some(tables.reals[it.reference].to_bits()),
@@ -398,7 +398,7 @@ impl<M: Model> NamedInstance<'_, M> {
     }
 
     /// The first output that is no finite number.
-    pub fn not_finite(&self) -> Option<String> {
+    pub(crate) fn not_finite(&self) -> Option<String> {
         let tables = self.tables();
         let outputs = self.named.names.iter().filter(|it| it.kind == Kind::Real && it.output);
         let bad = outputs.into_iter().find(|it| !tables.reals[it.reference].is_finite());
@@ -406,7 +406,7 @@ impl<M: Model> NamedInstance<'_, M> {
     }
 
     /// Another flight that knows nothing but what is serialised.
-    pub fn restored(&self) -> Self {
+    pub(crate) fn restored(&self) -> Self {
         let bytes = postcard::to_stdvec(&(&self.values, &self.state)).unwrap();
         let (values, state) = postcard::from_bytes(&bytes).unwrap();
         Self {
@@ -421,12 +421,12 @@ impl<M: Model> NamedInstance<'_, M> {
     }
 
     /// The state's bytes.
-    pub fn state_bytes(&self) -> Vec<u8> {
+    pub(crate) fn state_bytes(&self) -> Vec<u8> {
         postcard::to_stdvec(&self.state).unwrap()
     }
 
     /// Another flight with the state of these bytes; `None` where they are refused.
-    pub fn with_state(&self, bytes: &[u8]) -> Option<Self> {
+    pub(crate) fn with_state(&self, bytes: &[u8]) -> Option<Self> {
         let state = postcard::from_bytes(bytes).ok()?;
         fmi_export::check_finite(&state).ok()?;
         M::check_state(&self.named.setup, &state).ok()?;
@@ -444,7 +444,7 @@ impl<M: Model> NamedInstance<'_, M> {
 }
 
 /// Two flights have every output alike, to the bit.
-pub fn assert_same<M: Model>(a: &NamedInstance<'_, M>, b: &NamedInstance<'_, M>) {
+pub(crate) fn assert_same<M: Model>(a: &NamedInstance<'_, M>, b: &NamedInstance<'_, M>) {
     for ((name, x), (_, y)) in a.output_bits().into_iter().zip(b.output_bits()) {
         assert_eq!(x, y, "{name} at {} s: {} {}", a.time_s(), f64::from_bits(x), f64::from_bits(y));
     }
@@ -452,7 +452,7 @@ pub fn assert_same<M: Model>(a: &NamedInstance<'_, M>, b: &NamedInstance<'_, M>)
 
 /// How a master cuts a flight changes no bit of any output: in one step to each of `ends_s`, or in steps of each of `steps_s`,
 /// saved and restored before each of the first. `each` sees all of them there, and may set what it sets in all alike.
-pub fn assert_cuts_change_nothing<'a, M: Model>(
+pub(crate) fn assert_cuts_change_nothing<'a, M: Model>(
     fly: impl Fn() -> NamedInstance<'a, M>,
     ends_s: impl IntoIterator<Item = f64>,
     steps_s: &[f64],

@@ -8,13 +8,13 @@ use physics::environment::onboard::{FitPlan, FittedBody, OnboardEphemeris, Onboa
 use physics::environment::time::MOMENTUM_STUDY_START_S;
 
 /// The file's name in the resources.
-pub const FILE: &str = "ephemeris.toml";
+pub(crate) const FILE: &str = "ephemeris.toml";
 
 /// Epoch at which flights start.
-pub const START_S: f64 = MOMENTUM_STUDY_START_S;
+pub(crate) const START_S: f64 = MOMENTUM_STUDY_START_S;
 
 /// A body from Mercury by VSOP87.
-pub fn from_mercury(body: Body, epoch_s: f64) -> CartesianState {
+pub(crate) fn from_mercury(body: Body, epoch_s: f64) -> CartesianState {
     let mut ephemeris = Ephemeris::default();
     let [body, mercury] = [body, Body::Mercury].map(|body| ephemeris.state(body, epoch_s));
     CartesianState {
@@ -24,7 +24,7 @@ pub fn from_mercury(body: Body, epoch_s: f64) -> CartesianState {
 }
 
 /// A file over a span after [`START_S`], with the Sun turned about the north of EME2000, and its stated error in m.
-pub fn file(span_s: f64, turned_rad: f64) -> (String, f64) {
+pub(crate) fn file(span_s: f64, turned_rad: f64) -> (String, f64) {
     let plan = FitPlan::new([START_S, START_S + span_s], 2.0 * 86_400.0);
     let mut ephemeris = Ephemeris::default();
     let mut precise = Vec::new();

@@ -13,15 +13,15 @@ const DAY_S: f64 = 86_400.0;
 const FACES: usize = 7;
 const RADIATOR: usize = 3;
 
-pub const EFFECTS: &[(&str, f64)] =
+pub(crate) const EFFECTS: &[(&str, f64)] =
     &[("planetLight.enabled", 1.0), ("thermal.enabled", 1.0), ("shadowing.enabled", 1.0)];
 
 /// Orbits that pass through the planet's shadow.
-pub const SHADOWED: &[(&str, f64)] =
+pub(crate) const SHADOWED: &[(&str, f64)] =
     &[("ephemeris.source", 2.0), ("ephemeris.trueAnomaly", 1.7), ("orbit.frame", 1.0)];
 
 /// Everything else that divides a flight into pieces.
-pub const BUSY: &[(&str, f64)] = &[
+pub(crate) const BUSY: &[(&str, f64)] = &[
     ("orbit.dynamics", 2.0),
     ("guided.slewRate", 3e-3),
     ("guided.downlinkEvery", 1.0),
@@ -30,7 +30,7 @@ pub const BUSY: &[(&str, f64)] = &[
     ("dump.threshold[3]", 0.02),
 ];
 
-pub fn radiating<M: fmi_export::Model>() -> NamedModel<M> {
+pub(crate) fn radiating<M: fmi_export::Model>() -> NamedModel<M> {
     NamedModel::with("radiating.toml", RADIATING)
 }
 
@@ -53,7 +53,7 @@ fn neither_cuts_nor_saving_change_a_bit() {
 }
 
 /// The memoryless model at the plant's own Sun, planet and panels.
-pub fn memoryless<'a>(
+pub(crate) fn memoryless<'a>(
     named: &'a NamedModel<DisturbanceTorque>,
     plant: &NamedInstance<'_, MomentumPlant>,
     sets: &[(&str, f64)],

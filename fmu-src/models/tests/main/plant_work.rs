@@ -8,7 +8,7 @@ use super::named_model::NamedModel;
 use super::random::RandomNumbers;
 
 /// Time this thread spent computing, so that a busy machine does not count; where that is not known, all time.
-pub fn busy(since: Instant) -> Duration {
+pub(crate) fn busy(since: Instant) -> Duration {
     let reported = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let spent_ns = reported.and_then(|text| text.split(' ').next().and_then(|word| word.parse().ok()));
     spent_ns.map_or(since.elapsed(), Duration::from_nanos)

@@ -1,7 +1,7 @@
 //! Spacecraft files that several tests fly: everything acts on everything, or hardly anything does.
 
 /// Surfaces that shadow one another, with heat stored and not, each face reported; two wheels only.
-pub const RADIATING: &str = r#"
+pub(crate) const RADIATING: &str = r#"
 name = "Warm"
 per_plate_outputs = true
 [mass_properties]
@@ -59,7 +59,7 @@ capacity_n_m_s = 4.0
 "#;
 
 /// A turned shade in both shapes, a map of the planet, three wheels along skew axes; no surface stores heat.
-pub const ALL: &str = r#"
+pub(crate) const ALL: &str = r#"
 name = "All"
 [mass_properties]
 mass_kg = 200
@@ -126,7 +126,7 @@ axis = [0.6, 0.0, 0.8]
 "#;
 
 /// A body of simple numbers with a tank in its middle.
-pub const SIMPLE: &str = r#"
+pub(crate) const SIMPLE: &str = r#"
 name = "simple"
 [mass_properties]
 mass_kg = 500.0
@@ -146,9 +146,9 @@ propellant_kg = 50.0
 "#;
 
 /// Of the thrusters here, with 220 s.
-pub const EXHAUST_M_S: f64 = 220.0 * 9.80665;
+pub(crate) const EXHAUST_M_S: f64 = 220.0 * 9.80665;
 
-pub fn thruster(position: [f64; 3], direction: [f64; 3], force_n: f64, more: &str) -> String {
+pub(crate) fn thruster(position: [f64; 3], direction: [f64; 3], force_n: f64, more: &str) -> String {
     format!(
         "[[thrusters]]\nposition_m = {position:?}\ndirection = {direction:?}\nforce_n = {force_n:?}\n\
          specific_impulse_s = 220.0\n{more}\n"
@@ -156,7 +156,7 @@ pub fn thruster(position: [f64; 3], direction: [f64; 3], force_n: f64, more: &st
 }
 
 /// Couples each way about all axes: twelve thrusters of 5 N, arms of 1 m.
-pub fn couples(more: &str) -> String {
+pub(crate) fn couples(more: &str) -> String {
     let mut text = String::new();
     for axis in 0..3 {
         for sense in [1.0, -1.0] {

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use super::named_model::{NamedInstance, NamedModel};
 use super::spacecraft::{SIMPLE, couples, thruster};
 
-pub const WHEELS: usize = 4;
+pub(crate) const WHEELS: usize = 4;
 const INERTIA_KG_M2: f64 = 8e-3;
 
 type Flight<'a> = NamedInstance<'a, MomentumPlant>;
@@ -21,14 +21,14 @@ fn with(more: &[(&str, f64)]) -> Vec<(String, f64)> {
     wheels.chain(thresholds).chain(more.iter().map(|(name, value)| ((*name).to_owned(), *value))).collect()
 }
 
-pub fn fly<'a>(named: &'a NamedModel<MomentumPlant>, more: &[(&str, f64)]) -> Flight<'a> {
+pub(crate) fn fly<'a>(named: &'a NamedModel<MomentumPlant>, more: &[(&str, f64)]) -> Flight<'a> {
     let sets = with(more);
     let sets: Vec<_> = sets.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     named.fly(0.0, &sets).unwrap()
 }
 
 /// h + I a.w of each wheel.
-pub fn axial(flight: &Flight<'_>) -> [f64; WHEELS] {
+pub(crate) fn axial(flight: &Flight<'_>) -> [f64; WHEELS] {
     let rate = flight.vector("attitude.rate");
     core::array::from_fn(|k| {
         let axis: Vector3<f64> = flight.vector(&format!("wheel[{}].axis", k + 1)).normalize();
@@ -36,7 +36,7 @@ pub fn axial(flight: &Flight<'_>) -> [f64; WHEELS] {
     })
 }
 
-pub fn torques(flight: &Flight<'_>) -> [f64; WHEELS] {
+pub(crate) fn torques(flight: &Flight<'_>) -> [f64; WHEELS] {
     core::array::from_fn(|k| {
         let of = |name: &str| flight.real(&format!("wheel[{}].{name}", k + 1));
         assert!((of("power") - of("torque") * of("speed")).abs() <= 1e-15 * of("power").abs());
@@ -141,7 +141,7 @@ fn torques_add_up_to_the_momentum_while_propellant_flows() {
 }
 
 /// By how much the impulses are off the change of momentum, relative to the greatest change.
-pub fn most_off(begin: &[f64; WHEELS], end: &[f64; WHEELS], impulse: &[f64; WHEELS]) -> f64 {
+pub(crate) fn most_off(begin: &[f64; WHEELS], end: &[f64; WHEELS], impulse: &[f64; WHEELS]) -> f64 {
     let change: [f64; WHEELS] = core::array::from_fn(|k| end[k] - begin[k]);
     let most = |values: [f64; WHEELS]| values.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
     assert!(most(change) > 1e-6, "{change:?}");

@@ -22,7 +22,7 @@ pub(super) struct RotorMotion {
 
 impl RotorMotion {
     /// h + I a.w by the terms up to `order`, `elapsed_s` after the start, in N m s.
-    pub fn axial_after(&self, order: usize, elapsed_s: f64) -> f64 {
+    pub(super) fn axial_after(&self, order: usize, elapsed_s: f64) -> f64 {
         match self.known {
             Some((known_s, axial)) if known_s == elapsed_s => axial,
             _ => polynomial(&self.axial[..=order], elapsed_s),
@@ -30,13 +30,13 @@ impl RotorMotion {
     }
 
     /// Whether a simulation can produce it.
-    pub fn is_valid(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         self.rotor.is_valid() && self.next.is_none_or(|next| next.is_valid())
     }
 
     /// By how much in N m a rotor that is held is driven off its speed at the start, or one that turns through its rest or beyond
     /// its capacity, and how it then moves; `rate` is the series of the body's.
-    pub fn change_at_start(
+    pub(super) fn change_at_start(
         &self,
         wheel: &ReactionWheel,
         motor: &Motor,
@@ -56,7 +56,7 @@ impl RotorMotion {
     }
 
     /// When it changes how it moves within `longest_s`, and to what.
-    pub fn event(
+    pub(super) fn event(
         &self,
         wheel: &ReactionWheel,
         motor: &Motor,

@@ -91,7 +91,7 @@ pub(crate) struct RotationSeries<const N: usize> {
 
 impl<const N: usize> RotationSeries<N> {
     /// The state at the start alone.
-    pub fn new(attitude: Quaternion, rate: Vector3<f64>, momentum: Vector3<f64>) -> Self {
+    pub(crate) fn new(attitude: Quaternion, rate: Vector3<f64>, momentum: Vector3<f64>) -> Self {
         let mut series = Self {
             order: 0,
             attitude: [Vector4::zeros(); N],
@@ -105,7 +105,7 @@ impl<const N: usize> RotationSeries<N> {
 
     /// The next terms of attitude and momentum, from the torque's present one and the rate's up to that.
     #[inline]
-    pub fn extend(&mut self, torque: Vector3<f64>) {
+    pub(crate) fn extend(&mut self, torque: Vector3<f64>) {
         let j = self.order;
         let (mut momentum_rate, mut attitude_rate) = (torque, Vector4::zeros());
         for i in 0..=j {
@@ -127,12 +127,12 @@ impl<const N: usize> RotationSeries<N> {
 
     /// EME2000 to body, `elapsed_s` after the start.
     #[inline]
-    pub fn attitude_after(&self, elapsed_s: f64) -> Quaternion {
+    pub(crate) fn attitude_after(&self, elapsed_s: f64) -> Quaternion {
         Quaternion(polynomial(&self.attitude[..=self.order], elapsed_s).into()).normalized()
     }
 
     /// Whether its numbers can come from a simulation.
-    pub fn is_valid(&self) -> bool {
+    pub(crate) fn is_valid(&self) -> bool {
         self.order < N && (self.attitude[0].norm_squared() - 1.0).abs() < 1e-9
     }
 }

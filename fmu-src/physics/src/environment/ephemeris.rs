@@ -69,7 +69,7 @@ pub(super) fn theory(body: Body) -> Option<&'static Theory> {
 
 impl Theory {
     /// In rad/s.
-    pub fn mean_motion_rad_s(&self) -> f64 {
+    pub(super) fn mean_motion_rad_s(&self) -> f64 {
         self.mean_motion / (365_250.0 * DAY_S)
     }
 }

@@ -19,7 +19,7 @@ use crate::spacecraft::{FanAzimuths, MOST_ANTENNAS};
 
 /// Limits of the Sun's place about -Y.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct KeepInLimits {
+pub(super) struct KeepInLimits {
     /// Greatest magnitude of the azimuth, 0 to pi/2.
     pub azimuth_rad: f64,
     /// Greatest magnitude of the elevation, 0 to pi/2.
@@ -28,7 +28,7 @@ pub struct KeepInLimits {
 
 /// One side of the Sun for the Earth, and one antenna; or anywhere in the zone.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Branch {
+pub(super) struct Branch {
     /// Whether the Earth's azimuth is A + delta.
     pub earth_ahead: bool,
     /// The antenna's azimuths; `None`: no antenna.
@@ -41,7 +41,7 @@ pub struct Branch {
 impl Branch {
     /// Both sides of the Sun for each fan: that of the default attitude (eq 18) first, then each fan on the side of the Sun where
     /// its own azimuths are, then on the other.
-    pub fn all(limits: KeepInLimits, antennas: &Antennas, separation_rad: f64) -> Branches {
+    pub(super) fn all(limits: KeepInLimits, antennas: &Antennas, separation_rad: f64) -> Branches {
         let separations_rad = [separation_rad; 2];
         let branch = |earth_ahead, fan| Self { earth_ahead, fan: Some(fan), separations_rad, limits };
         // The azimuth of the Earth is negative behind the Sun and positive ahead.
@@ -62,18 +62,18 @@ impl Branch {
     }
 
     /// The zone, whatever becomes of the Earth.
-    pub fn zone(limits: KeepInLimits) -> Self {
+    pub(super) fn zone(limits: KeepInLimits) -> Self {
         Self { earth_ahead: false, fan: None, separations_rad: [FRAC_PI_2; 2], limits }
     }
 
     /// The same where the angle between Sun and Earth goes from the least to the greatest of these while the downlink lasts.
     #[must_use]
-    pub fn lasting(self, separations_rad: [f64; 2]) -> Self {
+    pub(super) fn lasting(self, separations_rad: [f64; 2]) -> Self {
         Self { separations_rad, ..self }
     }
 
     /// Greatest magnitude of the elevation, in rad.
-    pub fn elevation_rad(&self) -> f64 {
+    pub(super) fn elevation_rad(&self) -> f64 {
         if self.fan.is_none() {
             return self.limits.elevation_rad;
         }
@@ -82,7 +82,7 @@ impl Branch {
     }
 
     /// Least and greatest azimuth at an elevation; `None` where no azimuth will do.
-    pub fn azimuths_rad(&self, elevation_rad: f64) -> Option<[f64; 2]> {
+    pub(super) fn azimuths_rad(&self, elevation_rad: f64) -> Option<[f64; 2]> {
         let most_rad = self.limits.azimuth_rad.min(FRAC_PI_2);
         let Some(fan) = self.fan.filter(|fan| fan.half_rad < PI) else { return Some([-most_rad, most_rad]) };
         let middles_rad = self.separations_rad.map(|separation_rad| {
@@ -98,7 +98,7 @@ impl Branch {
     }
 
     /// The place with these angles if it is admissible.
-    pub fn place(&self, angles: SunAngles) -> Option<SunPlace> {
+    pub(super) fn place(&self, angles: SunAngles) -> Option<SunPlace> {
         let nearest = self.nearest(angles)?;
         let off_rad = (nearest.angles.azimuth_rad - angles.azimuth_rad)
             .abs()
@@ -107,7 +107,7 @@ impl Branch {
     }
 
     /// The admissible place nearest to these angles, elevation first.
-    pub fn nearest(&self, angles: SunAngles) -> Option<SunPlace> {
+    pub(super) fn nearest(&self, angles: SunAngles) -> Option<SunPlace> {
         let most_rad = self.elevation_rad();
         let elevation_rad = angles.elevation_rad.clamp(-most_rad, most_rad);
         let [low_rad, high_rad] = self.azimuths_rad(elevation_rad)?;
@@ -117,7 +117,7 @@ impl Branch {
 }
 
 /// The branches of all fans.
-pub struct Branches {
+pub(super) struct Branches {
     list: [Branch; 2 * MOST_ANTENNAS],
     count: usize,
 }
@@ -140,17 +140,17 @@ impl Branches {
 
     /// The same where the angle between Sun and Earth goes from the least to the greatest of these while the downlink lasts.
     #[must_use]
-    pub fn lasting(self, separations_rad: [f64; 2]) -> Self {
+    pub(super) fn lasting(self, separations_rad: [f64; 2]) -> Self {
         Self { list: self.list.map(|branch| branch.lasting(separations_rad)), ..self }
     }
 
     /// In their order.
-    pub fn as_slice(&self) -> &[Branch] {
+    pub(super) fn as_slice(&self) -> &[Branch] {
         self.list.get(..self.count).unwrap_or_default()
     }
 
     /// That of the default attitude; `None` without a fan.
-    pub fn first(&self) -> Option<&Branch> {
+    pub(super) fn first(&self) -> Option<&Branch> {
         self.as_slice().first()
     }
 }

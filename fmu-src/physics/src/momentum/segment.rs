@@ -40,7 +40,7 @@ pub struct Settings {
 
 /// One interval without events.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct MomentumSegment {
+pub(super) struct MomentumSegment {
     start_s: f64,
     end_s: f64,
     at_start: Totals,
@@ -62,7 +62,7 @@ pub struct MomentumSegment {
 
 impl MomentumSegment {
     /// A segment without length at `time_s`.
-    pub fn point(time_s: f64, totals: Totals, by_source: SourceMomenta) -> Self {
+    pub(super) fn point(time_s: f64, totals: Totals, by_source: SourceMomenta) -> Self {
         Self {
             start_s: time_s,
             end_s: time_s,
@@ -78,7 +78,7 @@ impl MomentumSegment {
     }
 
     /// Rejects decoded states that no simulation can produce.
-    pub fn is_valid(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         self.next_longest_s > 0.0
             && self.totals.as_ref().is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
             && self.by_source.present().all(|(_, it)| it.is_valid() && it.spans(self.start_s, self.end_s))
@@ -89,7 +89,7 @@ impl MomentumSegment {
     }
 
     /// The same, expecting that the tolerance allows the next segment this length, in s.
-    pub fn expecting(self, next_longest_s: f64) -> Self {
+    pub(super) fn expecting(self, next_longest_s: f64) -> Self {
         Self { next_longest_s, ..self }
     }
 
@@ -102,7 +102,7 @@ impl MomentumSegment {
     ///
     /// # Errors
     /// More work than the flight may take.
-    pub fn build<F: TorqueModel>(
+    pub(super) fn build<F: TorqueModel>(
         flight: &mut F,
         settings: &Settings,
         start_s: f64,
@@ -187,22 +187,22 @@ impl MomentumSegment {
     }
 
     /// Start, in s.
-    pub fn start_s(&self) -> f64 {
+    pub(super) fn start_s(&self) -> f64 {
         self.start_s
     }
 
     /// End, in s.
-    pub fn end_s(&self) -> f64 {
+    pub(super) fn end_s(&self) -> f64 {
         self.end_s
     }
 
     /// Length the tolerance will probably allow the next segment, in s.
-    pub fn next_longest_s(&self) -> f64 {
+    pub(super) fn next_longest_s(&self) -> f64 {
         self.next_longest_s
     }
 
     /// Totals at a time inside the segment.
-    pub fn totals(&self, time_s: f64) -> Totals {
+    pub(super) fn totals(&self, time_s: f64) -> Totals {
         match &self.totals {
             Some(totals) if time_s > self.start_s => Totals::from_vector(&totals.value(time_s)),
             _ => self.at_start,
@@ -210,7 +210,7 @@ impl MomentumSegment {
     }
 
     /// What each effect did since the last dump, at a time inside the segment.
-    pub fn by_source(&self, time_s: f64) -> SourceMomenta {
+    pub(super) fn by_source(&self, time_s: f64) -> SourceMomenta {
         SourceMomenta(ByEffect::of(|effect| match &self.by_source[effect] {
             Some(momentum) if time_s > self.start_s => momentum.value(time_s),
             _ => self.by_source_at_start.0[effect],
@@ -218,13 +218,13 @@ impl MomentumSegment {
     }
 
     /// Angular acceleration at a time inside the segment, body frame, in rad/s2; none where it has no length.
-    pub fn acceleration_body_rad_s2(&self, time_s: f64) -> Vector3<f64> {
+    pub(super) fn acceleration_body_rad_s2(&self, time_s: f64) -> Vector3<f64> {
         self.rate_body_rad_s.as_ref().map_or(Vector3::zeros(), |it| it.value_and_derivative(time_s).1)
     }
 
     /// Rate in the body frame of what the body and its panels have of momentum, d/dt (J w + h_p), at a time inside the segment, in
     /// N m; J w' where no panel has a mass.
-    pub fn own_rate_body_n_m(&self, inertia_body_kg_m2: &Matrix3<f64>, time_s: f64) -> Vector3<f64> {
+    pub(super) fn own_rate_body_n_m(&self, inertia_body_kg_m2: &Matrix3<f64>, time_s: f64) -> Vector3<f64> {
         match &self.own_body_n_m_s {
             Some(own) => own.value_and_derivative(time_s).1,
             None => inertia_body_kg_m2 * self.acceleration_body_rad_s2(time_s),
@@ -232,7 +232,7 @@ impl MomentumSegment {
     }
 
     /// Components of the momentum, body frame, that come to their dump thresholds at the end: there thrusters dump.
-    pub fn at_threshold(&self) -> &[bool; 3] {
+    pub(super) fn at_threshold(&self) -> &[bool; 3] {
         &self.at_threshold
     }
 

@@ -17,12 +17,12 @@ pub(crate) struct MassState {
 
 impl MassState {
     /// At the start of a flight.
-    pub fn new(mass: MassProperties) -> Self {
+    pub(super) fn new(mass: MassProperties) -> Self {
         Self { known: mass, now: mass, left: None }
     }
 
     /// Whether a simulation can produce it.
-    pub fn is_valid(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         [Some(self.known), Some(self.now), self.left].iter().flatten().all(|mass| mass.mass_kg > 0.0)
     }
 }

@@ -1,12 +1,12 @@
 //! Flow of propellant that is linear in time: q(t) = flow + slope t.
 
 /// What flows out in `elapsed_s`, in kg, at a flow in kg/s with its slope in kg/s2.
-pub fn flowed_kg([flow, slope]: [f64; 2], elapsed_s: f64) -> f64 {
+pub(super) fn flowed_kg([flow, slope]: [f64; 2], elapsed_s: f64) -> f64 {
     (flow + 0.5 * slope * elapsed_s) * elapsed_s
 }
 
 /// In how many seconds `left_kg` flow out; infinite where they never do.
-pub fn lasts_s([flow, slope]: [f64; 2], left_kg: f64) -> f64 {
+pub(super) fn lasts_s([flow, slope]: [f64; 2], left_kg: f64) -> f64 {
     let left_kg = left_kg.max(0.0);
     // Of flow t + slope t^2 / 2 = left, in the form without cancellation.
     let root = flow * flow + 2.0 * slope * left_kg;

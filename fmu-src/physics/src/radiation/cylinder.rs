@@ -23,7 +23,7 @@ pub(super) struct CylinderFace {
 
 impl CylinderFace {
     /// Force, and torque about the body frame's origin.
-    pub fn force_torque_about_origin<T: Scalar>(&self, beam: &Beam<T>) -> ForceTorque<T> {
+    pub(super) fn force_torque_about_origin<T: Scalar>(&self, beam: &Beam<T>) -> ForceTorque<T> {
         let rotation = self.dcm_body_from_shade.map(T::constant);
         let beam_shade = Beam { source_body: rotation.transpose() * beam.source_body, ..*beam };
         let shade = cylinder_force_torque(&self.cylinder, &beam_shade);

@@ -50,7 +50,7 @@ pub(super) struct Surface {
 
 impl Surface {
     /// What front and rear give off heat to; a face there is not gives off none.
-    pub fn surroundings(&self) -> [FaceEnvironment; 2] {
+    pub(super) fn surroundings(&self) -> [FaceEnvironment; 2] {
         let Thermal { front, rear, bus, .. } = &self.thermal;
         let rear = rear.map_or(Emission::constant(0.0), |rear| rear.emission);
         let face = |emission, bus| FaceEnvironment { emission, background_k: self.background_k, bus };
@@ -60,7 +60,12 @@ impl Surface {
 
     /// Temperatures of its faces `duration_s` later, in place, for the heat of every face at the start and at the end; left
     /// as they are where it stores no heat.
-    pub fn advance_temperatures(&self, temperatures_k: &mut [f64], heat_w: [&[f64]; 2], duration_s: f64) {
+    pub(super) fn advance_temperatures(
+        &self,
+        temperatures_k: &mut [f64],
+        heat_w: [&[f64]; 2],
+        duration_s: f64,
+    ) {
         if self.thermal.heat_capacity_j_m2_k <= 0.0 {
             return;
         }
@@ -120,7 +125,7 @@ impl Faces {
     ///
     /// # Errors
     /// The file has a sunshade but not in this form.
-    pub fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, Refusal> {
+    pub(super) fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, Refusal> {
         let mut faces = Self { background_k: spacecraft.background_k, ..Self::default() };
         for plate in &spacecraft.plates {
             faces.add_plate(plate);

@@ -51,7 +51,7 @@ impl PanelMass {
 }
 
 /// Inertia of a unit mass at `place` about the origin, in m2.
-pub fn steiner(place: &Vector3<f64>) -> Matrix3<f64> {
+pub(crate) fn steiner(place: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::from_diagonal_element(place.norm_squared()) - place * place.transpose()
 }
 

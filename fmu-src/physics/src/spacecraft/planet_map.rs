@@ -8,7 +8,7 @@ use crate::numerics::scalar::Scalar;
 use crate::refusal::Refusal;
 
 /// Most belts a map may have.
-pub const MOST_BELTS: usize = 180;
+pub(super) const MOST_BELTS: usize = 180;
 
 /// Hottest a cell may be, in K.
 pub(super) const HOTTEST_K: f64 = 1e4;

@@ -16,7 +16,7 @@ pub struct MountedSunSensor {
 
 /// Half the field of view unless the file gives one: six along the body axes then see everywhere (a cube's corner is 54.7 deg
 /// from its faces). Assumed: paper 001 says how many there are and no more.
-pub const HALF_FIELD_OF_VIEW_DEG: f64 = 60.0;
+pub(super) const HALF_FIELD_OF_VIEW_DEG: f64 = 60.0;
 
 impl MountedSunSensor {
     /// Six along the body axes.

@@ -24,4 +24,4 @@ pub struct NamedSlosh {
 
 /// Frequency of propellant without acceleration where the file gives none, in Hz: surface tension or a membrane holds it.
 /// Assumed.
-pub const COAST_FREQUENCY_HZ: f64 = 0.005;
+pub(super) const COAST_FREQUENCY_HZ: f64 = 0.005;

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 /// Density of hydrazine at 20 degrees Celsius, in kg/m3.
-pub const HYDRAZINE_KG_M3: f64 = 1_008.0;
+pub(super) const HYDRAZINE_KG_M3: f64 = 1_008.0;
 
 /// Gas that drives the propellant out without being renewed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

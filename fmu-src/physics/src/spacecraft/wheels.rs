@@ -27,9 +27,9 @@ pub struct Wheel {
 }
 
 /// Speed at the capacity, from which a rotor's inertia follows where the file gives none: 6000 rpm, assumed.
-pub const SPEED_AT_CAPACITY_RAD_S: f64 = 6000.0 * core::f64::consts::TAU / 60.0;
+pub(super) const SPEED_AT_CAPACITY_RAD_S: f64 = 6000.0 * core::f64::consts::TAU / 60.0;
 /// How long a motor takes from rest to the capacity where the file gives no torque: 100 s, assumed.
-pub const TIME_TO_CAPACITY_S: f64 = 100.0;
+pub(super) const TIME_TO_CAPACITY_S: f64 = 100.0;
 
 /// Dump thresholds paper 000 states beside the capacity of each of four wheels, both in N m s; it does not publish
 /// the wheels' axes.

@@ -17,7 +17,7 @@ pub(super) struct Range {
 
 impl Range {
     /// That of the type of this name, if it has one.
-    pub fn of(name: &str) -> Option<&'static Self> {
+    pub(super) fn of(name: &str) -> Option<&'static Self> {
         RANGES.iter().find(|range| range.name == name)
     }
 }

@@ -40,7 +40,7 @@ pub(super) struct Reader<'r> {
 
 impl<'r> Reader<'r> {
     /// Of a whole file.
-    pub fn new(root: &'r DeValue<'r>, findings: &'r RefCell<Findings>) -> Self {
+    pub(super) fn new(root: &'r DeValue<'r>, findings: &'r RefCell<Findings>) -> Self {
         Self { value: Some(root), is_expected: true, range: None, place: Place::root(), findings }
     }
 

@@ -22,7 +22,7 @@ macro_rules! tables {
 
         impl $table {$($(
             #[doc = concat!("`", stringify!($key), "`, or its default.")]
-            pub fn $key(&self) -> <$type as $crate::toml::tables::Written>::Value {
+            pub(crate) fn $key(&self) -> <$type as $crate::toml::tables::Written>::Value {
                 self.$key.map_or($default, $crate::toml::tables::Written::value)
             }
         )?)+}

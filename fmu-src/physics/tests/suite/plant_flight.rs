@@ -231,7 +231,7 @@ fn gravity_gradient_has_its_textbook_value() {
 }
 
 /// A body that stands still, from the orbit's centre, in m.
-pub fn still(position_m: Vector3<f64>) -> CartesianState {
+pub(crate) fn still(position_m: Vector3<f64>) -> CartesianState {
     CartesianState { position_m, ..CartesianState::default() }
 }
 

@@ -10,7 +10,7 @@ use physics::radiation::disturbance::{DisturbanceModel, Geometry, Options, Recoi
 use physics::radiation::{Beam, SolarModel};
 use physics::spacecraft::{Plate, Spacecraft};
 
-pub const HEAD: &str = include_str!("shapes.toml");
+pub(crate) const HEAD: &str = include_str!("shapes.toml");
 
 fn spacecraft(surfaces: &str) -> Spacecraft {
     Spacecraft::from_toml("shapes.toml", &format!("{HEAD}{surfaces}")).unwrap()

@@ -19,7 +19,7 @@ use crate::{
 
 /// What an FMU is made of.
 #[derive(Clone, Copy, Default)]
-pub struct Parts<'a> {
+pub(crate) struct Parts<'a> {
     /// The spacecraft; otherwise the model's own.
     pub spacecraft: Option<&'a Path>,
     /// The model; otherwise the one that takes the spacecraft.
@@ -44,7 +44,7 @@ pub struct Parts<'a> {
 
 impl<'a> Parts<'a> {
     /// What a mission names, where nothing else is given; its values are left out.
-    pub fn with_files_of(self, mission: &'a Mission) -> Result<Self, String> {
+    pub(crate) fn with_files_of(self, mission: &'a Mission) -> Result<Self, String> {
         let SpacecraftSource::Files { spacecraft, model, timeline, ephemeris } = &mission.spacecraft_source
         else {
             let file = mission.file.display();
@@ -84,7 +84,7 @@ impl<'a> Parts<'a> {
 }
 
 /// An FMU but for its documents.
-pub struct Assembled {
+pub(crate) struct Assembled {
     /// Description, libraries and resources.
     pub entries: Entries,
     /// Its name.
@@ -101,7 +101,7 @@ pub struct Assembled {
 ///
 /// # Errors
 /// Whatever the library refuses, and names and values that the model does not take.
-pub fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn std::error::Error>> {
+pub(crate) fn assemble(source: &Source, parts: &Parts<'_>) -> Result<Assembled, Box<dyn std::error::Error>> {
     parts.check_model(source)?;
     let spacecraft = parts.spacecraft.map(|path| FileKind::Spacecraft.read(path)).transpose()?;
     let file = parts.spacecraft.map(|path| path.display().to_string());

@@ -12,16 +12,16 @@ use std::error::Error;
 use files::{Entries, Scratch};
 use loader::Fmu;
 
-pub use assemble::{Assembled, Parts, assemble};
-pub use source::{Source, common_keys, description, model_of, open_template};
-pub use start::{START, with_values};
-pub use without_effect::{can_read_map, unused_map};
+pub(crate) use assemble::{Assembled, Parts, assemble};
+pub(crate) use source::{Source, common_keys, description, model_of, open_template};
+pub(crate) use start::{START, with_values};
+pub(crate) use without_effect::{can_read_map, unused_map};
 
 /// Paths within an archive with what stands there.
 type Contents = Vec<(String, Vec<u8>)>;
 
 /// The files of the reference flight of the FMU that these files make; an error where it cannot fly it.
-pub fn reference_flight(entries: &Entries, inputs: &str) -> Result<Contents, Box<dyn Error>> {
+pub(crate) fn reference_flight(entries: &Entries, inputs: &str) -> Result<Contents, Box<dyn Error>> {
     let folder = Scratch::new()?;
     entries.write_below(folder.path())?;
     let fmu = Fmu::open(folder.path())?;

@@ -10,7 +10,7 @@ use super::source::description;
 const KEY: &str = "per_plate_outputs";
 
 /// The text with the key set to true; whatever else stands in it stays, comments too.
-pub fn asking(text: &str) -> Result<String, String> {
+pub(super) fn asking(text: &str) -> Result<String, String> {
     let table = DeTable::parse(text).map_err(|error| error.to_string())?;
     let found = table.get_ref().iter().find(|(key, _)| key.get_ref() == KEY);
     Ok(match found {
@@ -30,7 +30,7 @@ pub fn asking(text: &str) -> Result<String, String> {
 ///
 /// # Errors
 /// A model that has none, with the models that do.
-pub fn describe(
+pub(super) fn describe(
     binary: &Binary,
     model: &str,
     file: Option<&str>,

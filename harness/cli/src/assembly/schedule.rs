@@ -5,7 +5,7 @@ use loader::{Binary, Described};
 use crate::carried::ephemeris::FILE;
 
 /// A file that `pack` takes beside the spacecraft.
-pub struct Kind {
+pub(super) struct Kind {
     /// The option that names it.
     pub option: &'static str,
     /// Its name in an FMU's resources; `None`: whatever the model takes first.
@@ -13,10 +13,10 @@ pub struct Kind {
 }
 
 /// Commands over time; models of other libraries may call theirs otherwise.
-pub const TIMELINE: Kind = Kind { option: "--timeline", resource: None };
+pub(super) const TIMELINE: Kind = Kind { option: "--timeline", resource: None };
 
 /// Positions over time.
-pub const EPHEMERIS: Kind = Kind { option: "--ephemeris", resource: Some(FILE) };
+pub(super) const EPHEMERIS: Kind = Kind { option: "--ephemeris", resource: Some(FILE) };
 
 impl Kind {
     /// Its name in the resources of a model that takes it.
@@ -29,7 +29,7 @@ impl Kind {
     }
 
     /// The file's name in the resources, if the model takes this text with this setup; `file` names it in errors.
-    pub fn checked(
+    pub(super) fn checked(
         &self,
         binary: &Binary,
         described: &Described,

@@ -20,7 +20,7 @@ const LICENSES: [(&str, &[u8]); 4] = [
 const FOLDER: &str = "documentation/licenses";
 
 /// A shared library, or an FMU that has one for each of its platforms.
-pub struct Source {
+pub(crate) struct Source {
     binary: Arc<Binary>,
     from: From,
 }
@@ -34,7 +34,10 @@ enum From {
 impl Source {
     /// Opens what `--template` or `--library` names, otherwise the installed program's own library, otherwise a shipped FMU in
     /// `dist`.
-    pub fn open(template: Option<&Path>, library: Option<&Path>) -> Result<Self, Box<dyn std::error::Error>> {
+    pub(crate) fn open(
+        template: Option<&Path>,
+        library: Option<&Path>,
+    ) -> Result<Self, Box<dyn std::error::Error>> {
         let own = || home::library().map(|path| (path, Some(home::DEFAULT_MODEL)));
         let library = match (template, library) {
             (None, None) => own(),
@@ -54,12 +57,12 @@ impl Source {
     }
 
     /// The library of an FMU.
-    pub fn of_template(fmu: Fmu) -> Result<Self, loader::Error> {
+    pub(crate) fn of_template(fmu: Fmu) -> Result<Self, loader::Error> {
         Ok(Self { binary: fmu.binary()?, from: From::Template(fmu) })
     }
 
     /// The library or template.
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         match &self.from {
             From::Library(path, _) => path,
             From::Template(fmu) => fmu.source(),
@@ -67,18 +70,18 @@ impl Source {
     }
 
     /// Whether this file is the template.
-    pub fn is_at(&self, path: &Path) -> bool {
+    pub(crate) fn is_at(&self, path: &Path) -> bool {
         let From::Template(fmu) = &self.from else { return false };
         fs::canonicalize(path).is_ok_and(|path| fs::canonicalize(fmu.source()).is_ok_and(|own| own == path))
     }
 
     /// The library, for describing.
-    pub fn binary(&self) -> &Binary {
+    pub(crate) fn binary(&self) -> &Binary {
         &self.binary
     }
 
     /// The model that is meant unless another is named: the one that the template holds.
-    pub fn own_model(&self) -> Result<String, String> {
+    pub(crate) fn own_model(&self) -> Result<String, String> {
         match &self.from {
             From::Template(fmu) => model_of(fmu, &self.binary),
             From::Library(_, Some(model)) => Ok((*model).to_owned()),
@@ -87,7 +90,7 @@ impl Source {
     }
 
     /// The model for a file: the one that is meant, or the first that takes another kind of file and this one.
-    pub fn model_for(&self, file: Option<&str>, text: Option<&str>) -> Result<String, String> {
+    pub(crate) fn model_for(&self, file: Option<&str>, text: Option<&str>) -> Result<String, String> {
         let own = self.own_model()?;
         let Some(text) = text.filter(|text| self.binary.describe(&own, file, Some(text)).is_err()) else {
             return Ok(own);
@@ -105,7 +108,7 @@ impl Source {
     }
 
     /// Adds the libraries under the FMU's own identifier.
-    pub fn add_libraries(
+    pub(crate) fn add_libraries(
         &self,
         entries: &mut Entries,
         identifier: &str,
@@ -134,7 +137,7 @@ impl Source {
     }
 
     /// Adds the licences.
-    pub fn add_licenses(&self, entries: &mut Entries) -> Result<(), Box<dyn std::error::Error>> {
+    pub(crate) fn add_licenses(&self, entries: &mut Entries) -> Result<(), Box<dyn std::error::Error>> {
         match &self.from {
             From::Library(..) => {
                 for (name, bytes) in LICENSES {
@@ -157,7 +160,7 @@ fn is_other_kind(binary: &Binary, model: &Described, than: &Described) -> bool {
 }
 
 /// The first model that takes a file, and another kind of file than one that does not.
-pub fn taker<'m>(
+pub(super) fn taker<'m>(
     binary: &Binary,
     models: &'m [Described],
     refusing: &Described,
@@ -171,7 +174,7 @@ pub fn taker<'m>(
 }
 
 /// Opens the FMU that libraries come from.
-pub fn open_template(path: &Path) -> Result<Fmu, String> {
+pub(crate) fn open_template(path: &Path) -> Result<Fmu, String> {
     Fmu::open(path).map_err(|error| {
         let reason = loader::Error::chain(&error);
         format!(
@@ -182,12 +185,12 @@ pub fn open_template(path: &Path) -> Result<Fmu, String> {
 }
 
 /// The description that a library gave.
-pub fn description(described: &Described) -> Result<Description, ReadError> {
+pub(crate) fn description(described: &Described) -> Result<Description, ReadError> {
     Ok(model_description::parse(described.xml.as_bytes())?.description)
 }
 
 /// The model that a heliotorque FMU holds.
-pub fn model_of(fmu: &Fmu, binary: &Binary) -> Result<String, String> {
+pub(crate) fn model_of(fmu: &Fmu, binary: &Binary) -> Result<String, String> {
     let models = binary.models()?;
     // An FMU with its own name is recognised by the GUID.
     let holds = |model: &Described| {
@@ -207,7 +210,7 @@ pub fn model_of(fmu: &Fmu, binary: &Binary) -> Result<String, String> {
 }
 
 /// How many keys two files have in common, tables inside of tables left out.
-pub fn common_keys(one: &str, other: &str) -> usize {
+pub(crate) fn common_keys(one: &str, other: &str) -> usize {
     // What can be read of a damaged file shows its kind too.
     let (one, other) = (DeTable::parse_recoverable(one).0, DeTable::parse_recoverable(other).0);
     one.get_ref().keys().filter(|key| other.get_ref().contains_key(*key)).count()

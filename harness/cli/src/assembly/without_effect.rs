@@ -10,12 +10,12 @@ const METHOD: (&str, i32) = ("planetLight.method", 3);
 const SWITCH: &str = "planetLight.enabled";
 
 /// Whether a model can take the map of a file.
-pub fn can_read_map(description: &Description) -> bool {
+pub(crate) fn can_read_map(description: &Description) -> bool {
     description.variables.iter().any(|it| it.name == METHOD.0)
 }
 
 /// A warning where the file has a map of the planet that the FMU, as described, does not use.
-pub fn unused_map(setup: &str, model: &str, description: &Description) -> Option<String> {
+pub(crate) fn unused_map(setup: &str, model: &str, description: &Description) -> Option<String> {
     Spacecraft::from_toml("", setup).ok()?.planet_map?;
     let start = |name: &str| description.variables.iter().find(|it| it.name == name).map(|it| &it.kind);
     match (start(METHOD.0), start(SWITCH)) {

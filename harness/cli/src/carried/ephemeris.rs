@@ -12,17 +12,17 @@ use physics::{
 use toml::de::DeTable;
 
 /// Its name in the resources.
-pub const FILE: &str = "ephemeris.toml";
+pub(crate) const FILE: &str = "ephemeris.toml";
 
 /// Which positions an FMU's resources hold, or what is wrong with them.
-pub fn read(resources: &Path) -> Result<String, String> {
+pub(crate) fn read(resources: &Path) -> Result<String, String> {
     let read = OnboardEphemeris::from_toml(FILE, &files::read_text(&resources.join(FILE))?);
     read.map(|ephemeris| summary(&ephemeris)).map_err(|error| error.to_string())
 }
 
 /// Whether a text is meant as an ephemeris: one whose tables have its names. What can be read of a damaged file shows its kind
 /// too.
-pub fn is_meant(text: &str) -> bool {
+pub(crate) fn is_meant(text: &str) -> bool {
     let (root, _) = DeTable::parse_recoverable(text);
     ["frame", "body", "coarse"].into_iter().any(|key| root.get_ref().contains_key(key))
 }
@@ -47,7 +47,7 @@ fn summary(ephemeris: &OnboardEphemeris) -> String {
 }
 
 /// Bodies, spans and errors as a table.
-pub fn table(ephemeris: &OnboardEphemeris, bytes: usize) -> String {
+pub(crate) fn table(ephemeris: &OnboardEphemeris, bytes: usize) -> String {
     let mut table =
         terminal::table(&["model", "body", "from", "begin", "end", "segments", "degree", "error", ""]);
     for body in &ephemeris.precise {

@@ -1,7 +1,7 @@
 //! What FMUs of this project carry beside the spacecraft: commands and positions over time.
 
-pub mod ephemeris;
-pub mod timeline;
+pub(crate) mod ephemeris;
+pub(crate) mod timeline;
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::home;
 type Read = fn(&Path) -> Result<String, String>;
 
 /// What an FMU carries, by the names of the files.
-pub fn of(fmu: &Fmu) -> Vec<(&'static str, Result<String, String>)> {
+pub(crate) fn of(fmu: &Fmu) -> Vec<(&'static str, Result<String, String>)> {
     let resources = fmu.folder().join("resources");
     let all: [(&str, Read); 2] = [(timeline::FILE, timeline::read), (ephemeris::FILE, ephemeris::read)];
     // Other exporters' files of these names mean something else.

@@ -9,10 +9,10 @@ use physics::{
 };
 
 /// Its name in the resources.
-pub const FILE: &str = "timeline.toml";
+pub(crate) const FILE: &str = "timeline.toml";
 
 /// Which commands an FMU's resources hold, or what is wrong with them.
-pub fn read(resources: &Path) -> Result<String, String> {
+pub(crate) fn read(resources: &Path) -> Result<String, String> {
     let text = |file: &str| files::read_text(&resources.join(file));
     let spacecraft = Spacecraft::from_toml("spacecraft.toml", &text("spacecraft.toml")?)
         .map_err(|error| error.to_string())?;
@@ -21,7 +21,7 @@ pub fn read(resources: &Path) -> Result<String, String> {
 }
 
 /// How many commands from when to when.
-pub fn summary(timeline: &Timeline) -> String {
+pub(crate) fn summary(timeline: &Timeline) -> String {
     let entries = timeline.entries();
     let shown = |time_s: f64| match timeline.clock() {
         TimelineClock::Epoch => dates::utc(time_s),

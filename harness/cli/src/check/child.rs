@@ -14,7 +14,7 @@ use crate::{
 
 /// `heliotorque probe-in-child`.
 #[derive(Debug, Args)]
-pub struct Probe {
+pub(crate) struct Probe {
     /// The FMU
     pub fmu: PathBuf,
     /// The probe
@@ -32,7 +32,7 @@ const LENGTH: usize = 1 << 14;
 const PRINTED: u64 = 16 << 20;
 
 /// Runs the probe until the deadline, with the whole time until then in s; a crash, a hang or an early end is a finding.
-pub fn run(fmu: &Fmu, probe: &str, deadline: (Instant, f64)) -> Vec<Finding> {
+pub(super) fn run(fmu: &Fmu, probe: &str, deadline: (Instant, f64)) -> Vec<Finding> {
     let started = || {
         // What a probe leaves when it is ended goes with this folder.
         let scratch = Scratch::new()?;
@@ -46,7 +46,7 @@ pub fn run(fmu: &Fmu, probe: &str, deadline: (Instant, f64)) -> Vec<Finding> {
 }
 
 /// Runs one probe or trial in this process and sends its findings to the parent.
-pub fn run_probe(arguments: &Probe) -> Outcome {
+pub(crate) fn run_probe(arguments: &Probe) -> Outcome {
     let mut link = Link::attach("heliotorque check")?;
     let fmu = Fmu::open(&arguments.fmu)?;
     let findings = conformance::run(&fmu, &arguments.name)

@@ -13,7 +13,7 @@ const AXES: [&str; 3] = ["X", "Y", "Z"];
 
 /// How a packed FMU takes sunlight.
 #[derive(Clone, Copy)]
-pub struct Sunlight {
+pub(super) struct Sunlight {
     /// At 1 AU.
     pub flux_w_m2: f64,
     /// Whether surfaces shadow one another.
@@ -21,7 +21,7 @@ pub struct Sunlight {
 }
 
 /// Lines of figures and warnings of a file that is good.
-pub fn report(spacecraft: &Spacecraft, sunlight: Sunlight) -> String {
+pub(super) fn report(spacecraft: &Spacecraft, sunlight: Sunlight) -> String {
     let figures = Figures::of(spacecraft);
     let rows = body(&figures, sunlight).into_iter().chain(devices(spacecraft, &figures));
     let mut text: String = rows.map(|(name, value)| row(name, &value)).collect();
@@ -32,12 +32,12 @@ pub fn report(spacecraft: &Spacecraft, sunlight: Sunlight) -> String {
 }
 
 /// A line of the report.
-pub fn row(name: &str, value: &str) -> String {
+pub(super) fn row(name: &str, value: &str) -> String {
     format!("\n  {name:<21}{value}")
 }
 
 /// Lines of what a spinner carries.
-pub fn of_spinner(spinner: &Spinner) -> String {
+pub(super) fn of_spinner(spinner: &Spinner) -> String {
     let thrusters = spinner.thrusters.iter().map(|it| ThrusterFigures {
         name: it.name.clone(),
         force_body_n: it.force_body_n,

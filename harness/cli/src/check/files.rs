@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Judges the file.
-pub fn run(arguments: &Check) -> Outcome {
+pub(super) fn run(arguments: &Check) -> Outcome {
     let (file, text) = (arguments.subject.display().to_string(), files::read_text(&arguments.subject)?);
     if is_blank(&text) {
         let allowed = "a spacecraft, a spinner, a mission, a timeline or an ephemeris: see `heliotorque new`";

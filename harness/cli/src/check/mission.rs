@@ -14,7 +14,7 @@ use crate::{
 
 /// Reads the file, packs what it names, finds every name and value in it and opens what it writes, as `run` does; then flies the
 /// first step in this process.
-pub fn run(arguments: &Check, file: &str) -> Outcome {
+pub(super) fn run(arguments: &Check, file: &str) -> Outcome {
     match summary(arguments) {
         Ok(summary) => outcome::printed(&format!("{file}: ok: {summary}")),
         Err(error) => outcome::refused(file, &loader::Error::chain(error.as_ref()), "a mission"),

@@ -20,8 +20,8 @@ use conformance::{Finding, PROBES, Probe as Probed, Trial, Verdict};
 use loader::Fmu;
 
 use crate::{carried, low_orbit, outcome::Outcome, pointing};
-pub use child::{Probe, run_probe};
-pub use options::Check;
+pub(crate) use child::{Probe, run_probe};
+pub(crate) use options::Check;
 
 /// A group of findings under one heading.
 struct Section {
@@ -43,7 +43,7 @@ impl Section {
 }
 
 /// Checks an FMU, a system or a spacecraft and prints the report.
-pub fn run(arguments: &Check) -> Outcome {
+pub(crate) fn run(arguments: &Check) -> Outcome {
     if arguments.is_file() {
         return match (arguments.is_static, &arguments.only) {
             (false, None) => files::run(arguments),

@@ -11,7 +11,7 @@ use crate::values::span;
 
 /// `heliotorque check`.
 #[derive(Debug, Args)]
-pub struct Check {
+pub(crate) struct Check {
     /// The FMU, an .fmu file or the folder it was unpacked into; a system, an .ssp file; a spacecraft, a mission, a timeline or
     /// an ephemeris, a .toml file
     pub subject: PathBuf,
@@ -38,12 +38,12 @@ const LONGEST_S: f64 = 1e9;
 
 impl Check {
     /// Whether it is about a file that a library reads, which this process then loads.
-    pub fn is_file(&self) -> bool {
+    pub(crate) fn is_file(&self) -> bool {
         self.subject.extension().is_some_and(|extension| extension == "toml")
     }
 
     /// When all of it has to be over, and the time until then in s.
-    pub fn deadline(&self) -> (Instant, f64) {
+    pub(crate) fn deadline(&self) -> (Instant, f64) {
         (Instant::now() + Duration::from_secs_f64(self.timeout.min(LONGEST_S)), self.timeout)
     }
 }

@@ -6,7 +6,7 @@ use conformance::Finding;
 use systems::System;
 
 /// What is found of a system; its FMUs are checked one by one by themselves.
-pub fn findings(path: &Path) -> Vec<Finding> {
+pub(super) fn findings(path: &Path) -> Vec<Finding> {
     let system = match System::open(path) {
         Ok(system) => system,
         Err(error) => return vec![Finding::bad(loader::Error::chain(&error))],

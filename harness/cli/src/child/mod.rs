@@ -12,14 +12,14 @@ mod system;
 
 use std::{ffi::OsString, path::Path};
 
-pub use channel::{Link, NOT_REQUESTED, Payload, push_text};
-pub use printed::Shown;
-pub use relayed::{Relayed, is_child, serve};
-pub use supervisor::{Bounds, ChildProcess, EndReason, LARGE, SMALL};
-pub use system::end_all;
+pub(crate) use channel::{Link, NOT_REQUESTED, Payload, push_text};
+pub(crate) use printed::Shown;
+pub(crate) use relayed::{Relayed, is_child, serve};
+pub(crate) use supervisor::{Bounds, ChildProcess, EndReason, LARGE, SMALL};
+pub(crate) use system::end_all;
 
 /// An option with a path, which may hold any bytes.
-pub fn path_option(name: &str, path: &Path) -> OsString {
+pub(crate) fn path_option(name: &str, path: &Path) -> OsString {
     let mut option = OsString::from(name);
     option.push(path);
     option

@@ -17,19 +17,19 @@ const LINES_KEPT: usize = 3;
 const AT_ONCE: usize = 1 << 20;
 
 /// Shows what an FMU prints, up to a bound.
-pub struct Shown<'a> {
+pub(crate) struct Shown<'a> {
     name: &'a str,
     bytes: u64,
 }
 
 impl<'a> Shown<'a> {
     /// Nothing yet; what is left out is said of `name`.
-    pub fn new(name: &'a str) -> Self {
+    pub(crate) fn new(name: &'a str) -> Self {
         Self { name, bytes: 0 }
     }
 
     /// Shows one more line on stderr.
-    pub fn line(&mut self, line: &str) {
+    pub(crate) fn line(&mut self, line: &str) {
         let before = self.bytes;
         self.bytes += line.len() as u64 + 1;
         if self.bytes <= BYTES_SHOWN {
@@ -41,7 +41,7 @@ impl<'a> Shown<'a> {
 }
 
 /// Both streams of a child.
-pub struct Printed {
+pub(super) struct Printed {
     streams: Vec<Stream>,
     last: VecDeque<String>,
     bytes: u64,
@@ -54,13 +54,13 @@ struct Stream {
 
 impl Printed {
     /// How a stream has to be set up before the child is started.
-    pub fn stdio() -> Stdio {
+    pub(super) fn stdio() -> Stdio {
         // Elsewhere pipes cannot be read without waiting.
         if cfg!(unix) { Stdio::piped() } else { Stdio::null() }
     }
 
     /// Takes the streams of a child.
-    pub fn of(child: &mut Child) -> io::Result<Self> {
+    pub(super) fn of(child: &mut Child) -> io::Result<Self> {
         let mut streams = Vec::new();
         #[cfg(unix)]
         {
@@ -78,7 +78,7 @@ impl Printed {
     }
 
     /// Reads what is there and hands each line on; gives whether there was anything.
-    pub fn read(&mut self, line: &mut dyn FnMut(&str)) -> bool {
+    pub(super) fn read(&mut self, line: &mut dyn FnMut(&str)) -> bool {
         let mut buffer = [0; 1 << 14];
         let mut some = false;
         let Self { streams, last, bytes } = self;
@@ -110,7 +110,7 @@ impl Printed {
     }
 
     /// Hands the last lines on, which nothing ended.
-    pub fn finish(&mut self, line: &mut dyn FnMut(&str)) {
+    pub(super) fn finish(&mut self, line: &mut dyn FnMut(&str)) {
         self.read(line);
         for stream in &mut self.streams {
             if !stream.line.is_empty() {
@@ -120,12 +120,12 @@ impl Printed {
     }
 
     /// Bytes printed so far.
-    pub fn bytes(&self) -> u64 {
+    pub(super) fn bytes(&self) -> u64 {
         self.bytes
     }
 
     /// The last lines, marked as what they are.
-    pub fn last(&self) -> String {
+    pub(super) fn last(&self) -> String {
         self.last.iter().map(|line| format!("\n| {line}")).collect()
     }
 }

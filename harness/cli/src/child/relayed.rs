@@ -36,12 +36,12 @@ const STATUSES: [u8; 3] = [0, 1, INTERRUPTED];
 static IS_CHILD: AtomicBool = AtomicBool::new(false);
 
 /// Whether this process was started to load libraries.
-pub fn is_child() -> bool {
+pub(crate) fn is_child() -> bool {
     IS_CHILD.load(Ordering::Relaxed)
 }
 
 /// A command and what its process may take.
-pub struct Relayed {
+pub(crate) struct Relayed {
     /// What loads the library, as the user named it.
     pub name: String,
     /// What it is ended for.
@@ -53,7 +53,7 @@ pub struct Relayed {
 impl Relayed {
     /// Runs this program with these arguments in a child and gives its exit status or the error it failed with; a child that
     /// ends otherwise is an error with the call it was in.
-    pub fn run(&self, arguments: impl IntoIterator<Item = OsString>) -> Outcome {
+    pub(crate) fn run(&self, arguments: impl IntoIterator<Item = OsString>) -> Outcome {
         // What the child leaves when it is ended goes with this folder.
         let scratch = Scratch::new()?;
         let Screen { output_columns, note_columns } = terminal::screen();
@@ -117,7 +117,7 @@ fn take(kind: u8, mut payload: Payload<'_>) -> Result<Option<Result<u8, String>>
 }
 
 /// Carries out a command in this process for the parent that started it, which shows everything on its screen.
-pub fn serve(screen: Screen, command: impl FnOnce() -> Outcome) -> Outcome {
+pub(crate) fn serve(screen: Screen, command: impl FnOnce() -> Outcome) -> Outcome {
     let link = Arc::new(Mutex::new(Link::attach("heliotorque")?));
     IS_CHILD.store(true, Ordering::Relaxed);
     terminal::relay_to(Box::new(ToParent(Arc::clone(&link))), screen);

@@ -28,7 +28,7 @@ const CANCEL_GRACE: Duration = Duration::from_millis(500);
 
 /// What the child's process may take of the computer.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Limits {
+pub(crate) struct Limits {
     /// Bytes that it may allocate.
     pub memory: Option<u64>,
     /// Files that it may keep open.
@@ -36,13 +36,13 @@ pub struct Limits {
 }
 
 /// Enough for every FMU that is looked at and not simulated long: memory in bytes, open files.
-pub const SMALL: Limits = Limits { memory: Some(4 << 30), files: Some(1024) };
+pub(crate) const SMALL: Limits = Limits { memory: Some(4 << 30), files: Some(1024) };
 /// For flights of any length, of systems too: what allocates without end ends before the computer does.
-pub const LARGE: Limits = Limits { memory: Some(16 << 30), files: None };
+pub(crate) const LARGE: Limits = Limits { memory: Some(16 << 30), files: None };
 
 /// What the parent ends the child for.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Bounds {
+pub(crate) struct Bounds {
     /// When the child has to have ended, and the whole time until then, in s.
     pub deadline: Option<(Instant, f64)>,
     /// Time that one FMI call may take, in s.
@@ -53,14 +53,14 @@ pub struct Bounds {
 
 impl Bounds {
     /// Of FMI calls alone: the longest time that one may take, in s.
-    pub fn of_calls(call_s: f64) -> Self {
+    pub(crate) fn of_calls(call_s: f64) -> Self {
         Self { call_s: Some(call_s), ..Self::default() }
     }
 }
 
 /// How a child came to its end.
 #[derive(Debug)]
-pub enum EndReason {
+pub(crate) enum EndReason {
     /// By itself.
     Ended(ExitStatus),
     /// It ran when the whole time was over, in s.
@@ -79,7 +79,7 @@ pub enum EndReason {
 
 /// A child that was supervised to its end.
 #[derive(Debug)]
-pub struct Supervised {
+pub(crate) struct Supervised {
     /// How it ended.
     pub how: EndReason,
     /// The call it was in.
@@ -95,7 +95,7 @@ const NAMED: usize = 5;
 
 impl Supervised {
     /// Why it is no good end, with the call it came in; `None` for a good one.
-    pub fn fault(&self) -> Option<String> {
+    pub(crate) fn fault(&self) -> Option<String> {
         let what = match &self.how {
             EndReason::Ended(status) if status.success() => return None,
             how => describe(how),
@@ -104,12 +104,12 @@ impl Supervised {
     }
 
     /// That it ended without a result.
-    pub fn without_result(&self) -> String {
+    pub(crate) fn without_result(&self) -> String {
         self.placed(&describe(&self.how))
     }
 
     /// What it left behind, if anything.
-    pub fn left_behind(&self) -> Option<String> {
+    pub(crate) fn left_behind(&self) -> Option<String> {
         let named = self.left.iter().take(NAMED).map(String::as_str).collect::<Vec<_>>().join(", ");
         let more = self.left.len().checked_sub(NAMED).filter(|more| *more > 0);
         let more = more.map_or_else(String::new, |more| format!(" and {more} more"));
@@ -141,7 +141,7 @@ fn describe(how: &EndReason) -> String {
 }
 
 /// A child that runs.
-pub struct ChildProcess {
+pub(crate) struct ChildProcess {
     child: Child,
     inbox: Inbox,
     printed: Printed,
@@ -149,7 +149,7 @@ pub struct ChildProcess {
 
 impl ChildProcess {
     /// Starts this program with these arguments, its temporary files in a folder of their own if one is given.
-    pub fn new(
+    pub(crate) fn new(
         arguments: impl IntoIterator<Item = OsString>,
         limits: Limits,
         temporary: Option<&Path>,
@@ -171,7 +171,7 @@ impl ChildProcess {
 
     /// Supervises it to its end. `take` gets every frame and returns whether it was the last one, `line` every line that
     /// is printed; `tick` is called between.
-    pub fn supervise(
+    pub(crate) fn supervise(
         mut self,
         bounds: Bounds,
         take: &mut dyn FnMut(u8, Payload<'_>) -> Result<bool, String>,

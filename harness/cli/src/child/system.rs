@@ -22,7 +22,7 @@ fn groups() -> MutexGuard<'static, Vec<u32>> {
 }
 
 /// Starts a child as the first of a process group of its own.
-pub fn spawn(command: &mut Command) -> io::Result<Child> {
+pub(super) fn spawn(command: &mut Command) -> io::Result<Child> {
     #[cfg(unix)]
     {
         use std::os::unix::process::CommandExt;
@@ -37,7 +37,7 @@ pub fn spawn(command: &mut Command) -> io::Result<Child> {
 }
 
 /// Ends a child with all that it started and takes its exit status; also gives the processes that it left behind.
-pub fn end(child: &mut Child) -> io::Result<(ExitStatus, Vec<String>)> {
+pub(super) fn end(child: &mut Child) -> io::Result<(ExitStatus, Vec<String>)> {
     let mut groups = groups();
     // It may have ended by itself. While it is not waited for, its number is nobody else's.
     let _ = child.kill();
@@ -49,7 +49,7 @@ pub fn end(child: &mut Child) -> io::Result<(ExitStatus, Vec<String>)> {
 }
 
 /// Ends every child with all that it started; the program ends next, and whoever starts another one waits for that end.
-pub fn end_all() {
+pub(crate) fn end_all() {
     let mut groups = groups();
     let leaders = mem::take(&mut *groups);
     leaders.iter().for_each(|leader| end_group(*leader));
@@ -92,14 +92,14 @@ mod orphans {
     static FOREIGN: OnceLock<Vec<u32>> = OnceLock::new();
 
     /// From now on orphans become children of this process.
-    pub fn adopt() {
+    pub(super) fn adopt() {
         FOREIGN.get_or_init(|| children().into_keys().collect());
         // Without it they end with their group.
         let _ = set_child_subreaper(Some(getpid()));
     }
 
     /// Ends orphans until there are none and gives them; children that `is_own` tells are left alone.
-    pub fn end(patience: Duration, is_own: impl Fn(u32) -> bool) -> Vec<String> {
+    pub(super) fn end(patience: Duration, is_own: impl Fn(u32) -> bool) -> Vec<String> {
         let began = Instant::now();
         let mut found = BTreeMap::new();
         let foreign = FOREIGN.get().map_or(&[][..], Vec::as_slice);
@@ -167,7 +167,7 @@ fn end_group(_leader: u32) {}
 
 /// Whether a child has ended; its number stays its own until [`end`].
 #[cfg(unix)]
-pub fn has_ended(child: &mut Child) -> io::Result<bool> {
+pub(super) fn has_ended(child: &mut Child) -> io::Result<bool> {
     use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
     let Some(pid) = i32::try_from(child.id()).ok().and_then(Pid::from_raw) else { return Ok(true) };
     let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
@@ -181,7 +181,7 @@ pub fn has_ended(child: &mut Child) -> io::Result<bool> {
 }
 
 /// Takes the file that is the standard input; there is nothing to read then.
-pub fn take_stdin() -> io::Result<File> {
+pub(super) fn take_stdin() -> io::Result<File> {
     #[cfg(unix)]
     {
         use std::os::fd::AsFd;
@@ -197,7 +197,7 @@ pub fn take_stdin() -> io::Result<File> {
 }
 
 /// Ends this process when its parent ends, however that happens.
-pub fn end_with_parent(parent: u64) -> io::Result<()> {
+pub(super) fn end_with_parent(parent: u64) -> io::Result<()> {
     #[cfg(target_os = "linux")]
     {
         use rustix::process::{Signal, getppid, set_parent_process_death_signal};
@@ -212,7 +212,7 @@ pub fn end_with_parent(parent: u64) -> io::Result<()> {
 }
 
 /// Limits what this process may allocate, in bytes, and how many files it may keep open; 0 is no limit.
-pub fn restrict(memory: u64, files: u64) -> io::Result<()> {
+pub(super) fn restrict(memory: u64, files: u64) -> io::Result<()> {
     #[cfg(unix)]
     {
         use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
@@ -234,12 +234,12 @@ pub fn restrict(memory: u64, files: u64) -> io::Result<()> {
 
 /// Makes reading from a child's pipe return at once when there is nothing.
 #[cfg(unix)]
-pub fn never_wait(pipe: &impl std::os::fd::AsFd) -> io::Result<()> {
+pub(super) fn never_wait(pipe: &impl std::os::fd::AsFd) -> io::Result<()> {
     Ok(rustix::io::ioctl_fionbio(pipe, true)?)
 }
 
 /// How a process ended, for people.
-pub fn how(status: ExitStatus) -> String {
+pub(super) fn how(status: ExitStatus) -> String {
     #[cfg(unix)]
     {
         use std::os::unix::process::ExitStatusExt;

@@ -18,14 +18,14 @@ Example:
 /// `heliotorque completions`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
-pub struct Completions {
+pub(crate) struct Completions {
     /// The shell
     #[arg(value_enum)]
     pub shell: Shell,
 }
 
 /// Prints the shell's script for a program.
-pub fn run(arguments: &Completions, program: &Command) -> Outcome {
+pub(crate) fn run(arguments: &Completions, program: &Command) -> Outcome {
     // Hidden commands would be completed too.
     let shown = program.get_subcommands().filter(|command| !command.is_hide_set()).cloned();
     let mut command = Command::new(NAME).version(env!("CARGO_PKG_VERSION")).subcommands(shown);

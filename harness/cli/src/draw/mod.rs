@@ -2,7 +2,7 @@
 
 mod options;
 mod pane;
-pub mod scene;
+pub(crate) mod scene;
 mod sheet;
 mod surface;
 
@@ -21,7 +21,7 @@ use crate::{
     outcome::{self, Outcome},
     output::check_svg_path,
 };
-pub use options::Draw;
+pub(crate) use options::Draw;
 use options::{PanelAngle, ViewKind};
 use scene::Scene;
 use sheet::View;
@@ -34,7 +34,7 @@ const PICTURE: (f64, f64) = (480.0, 320.0);
 const SPINNER_KEYS: [&str; 3] = ["thruster", "damper", "star_tracker"];
 
 /// Draws the file, or the shipped spacecraft.
-pub fn run(arguments: &Draw) -> Outcome {
+pub(crate) fn run(arguments: &Draw) -> Outcome {
     let named = arguments.spacecraft.as_deref();
     let stem = named.and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
     let stem = stem.unwrap_or_else(|| DEFAULT_NAME.to_owned());
@@ -54,12 +54,12 @@ pub fn run(arguments: &Draw) -> Outcome {
 }
 
 /// All views of a file; `None` where no reader takes it, as the library that packs it reports.
-pub fn svg(text: &str) -> Option<String> {
+pub(crate) fn svg(text: &str) -> Option<String> {
     sheet::svg(&read("", text, &[]).ok()?, &View::ALL)
 }
 
 /// The perspective as PNG; `None` as above.
-pub fn png(text: &str) -> Option<Vec<u8>> {
+pub(crate) fn png(text: &str) -> Option<Vec<u8>> {
     drawing::png(&sheet::picture(&read("", text, &[]).ok()?, PICTURE)?)
 }
 

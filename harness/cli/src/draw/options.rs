@@ -15,7 +15,7 @@ Example:
 /// `heliotorque draw`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
-pub struct Draw {
+pub(crate) struct Draw {
     /// The spacecraft, a TOML file as for `pack`; otherwise the shipped MESSENGER. A surface with `polygon_m` is drawn as that
     /// outline, any other as a square of its area about its centre
     pub spacecraft: Option<PathBuf>,
@@ -40,7 +40,7 @@ pub struct Draw {
 
 /// `--view` of `draw`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ViewKind {
+pub(crate) enum ViewKind {
     /// From -Y, where the Sun is
     Front,
     /// From +X
@@ -55,7 +55,7 @@ pub enum ViewKind {
 
 /// An angle of one panel, or of all.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PanelAngle {
+pub(crate) struct PanelAngle {
     /// The panel's name.
     pub panel: Option<String>,
     /// Right-handed about its axis, in rad.

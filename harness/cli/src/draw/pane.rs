@@ -20,7 +20,7 @@ const TANK_RADIUS_PX: f64 = 5.0;
 const MOST_NAMES: usize = 200;
 
 /// How a scene stands in a rectangle.
-pub struct Pane<'a> {
+pub(super) struct Pane<'a> {
     pub scene: &'a Scene,
     pub camera: &'a Camera,
     /// Pixel of the target.
@@ -31,7 +31,7 @@ pub struct Pane<'a> {
 }
 
 /// The box around all that is drawn, body frame.
-pub struct Extent {
+pub(super) struct Extent {
     pub low_m: Vector,
     pub high_m: Vector,
     /// How far arrows stand out of it.
@@ -40,7 +40,7 @@ pub struct Extent {
 
 impl Extent {
     /// Of a scene with its axes of rotation, origin and centre of mass.
-    pub fn of(scene: &Scene) -> Option<Self> {
+    pub(super) fn of(scene: &Scene) -> Option<Self> {
         let [mut low_m, mut high_m] = scene.bounds_m()?;
         let ends = scene.axes.iter().flat_map(Axis::ends_m);
         let tips = scene.arrows.iter().map(|arrow| arrow.to_m);
@@ -52,19 +52,19 @@ impl Extent {
     }
 
     /// Middle of the box with its arrows.
-    pub fn middle_m(&self) -> Vector {
+    pub(super) fn middle_m(&self) -> Vector {
         let [low, high] = self.ends_m();
         low.lerp(&high, 0.5)
     }
 
     /// The box with its arrows.
-    pub fn ends_m(&self) -> [Vector; 2] {
+    pub(super) fn ends_m(&self) -> [Vector; 2] {
         let arrow = self.arrow_m;
         [self.low_m - 1.4 * arrow * Vector::y(), self.high_m.add_scalar(arrow)]
     }
 
     /// Corners of the box with its arrows.
-    pub fn corners_m(&self) -> [Vector; 8] {
+    pub(super) fn corners_m(&self) -> [Vector; 8] {
         let ends = self.ends_m();
         std::array::from_fn(|k| Vector::from_fn(|i, _| ends[k >> i & 1][i]))
     }
@@ -77,7 +77,7 @@ impl Pane<'_> {
     }
 
     /// Draws everything.
-    pub fn draw(&self, pen: &mut Pen) {
+    pub(super) fn draw(&self, pen: &mut Pen) {
         let surfaces = &self.scene.surfaces;
         let order = self.camera.painting_order(surfaces);
         let outlines: Vec<Vec<Pixel>> = surfaces.iter().map(|surface| self.outline(surface)).collect();
@@ -341,7 +341,7 @@ fn grid(corners: &[Pixel]) -> Vec<Pixel> {
 }
 
 /// A bar of a round length, at most so wide, from a pixel to the right.
-pub fn scale_bar(pen: &mut Pen, at: Pixel, pixels_per_m: f64, most_px: f64) {
+pub(super) fn scale_bar(pen: &mut Pen, at: Pixel, pixels_per_m: f64, most_px: f64) {
     let most_m = most_px / pixels_per_m;
     let decade = 10f64.powf(most_m.log10().floor());
     let length_m =

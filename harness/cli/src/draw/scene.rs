@@ -9,7 +9,7 @@ use physics::{
 use super::surface::{angle_of_file_rad, surfaces};
 
 /// A line about which something turns, right-handed.
-pub struct Axis {
+pub(crate) struct Axis {
     pub center_m: Vector,
     pub direction: Vector,
     /// How far the line goes to either side.
@@ -18,20 +18,20 @@ pub struct Axis {
 
 impl Axis {
     /// The ends of the line.
-    pub fn ends_m(&self) -> [Vector; 2] {
+    pub(crate) fn ends_m(&self) -> [Vector; 2] {
         [-1.0, 1.0].map(|end| self.center_m + end * self.half_length_m * self.direction)
     }
 }
 
 /// A direction that something on the body has: a wheel's axis, a boresight.
-pub struct Arrow {
+pub(crate) struct Arrow {
     pub from_m: Vector,
     pub to_m: Vector,
     pub colour: &'static str,
 }
 
 /// An entry of the legend.
-pub struct Part {
+pub(crate) struct Part {
     /// The short sign in the picture: `3`, `P1`, `T10`.
     pub sign: String,
     pub name: String,
@@ -44,7 +44,7 @@ pub struct Part {
 }
 
 /// Everything that is drawn.
-pub struct Scene {
+pub(crate) struct Scene {
     pub name: String,
     pub surfaces: Vec<Surface>,
     pub axes: Vec<Axis>,
@@ -60,7 +60,7 @@ pub struct Scene {
 }
 
 /// A panel as texts name it: `panel +X`, whether or not its own name says that it is one.
-pub fn panel_called(name: &str) -> String {
+pub(crate) fn panel_called(name: &str) -> String {
     called("panel", name)
 }
 
@@ -72,7 +72,7 @@ fn called(kind: &str, name: &str) -> String {
 
 impl Scene {
     /// A spacecraft with its panels at these angles (by index, in rad), which default to what its file says.
-    pub fn of_spacecraft(spacecraft: &Spacecraft, angles_rad: &[Option<f64>]) -> Self {
+    pub(crate) fn of_spacecraft(spacecraft: &Spacecraft, angles_rad: &[Option<f64>]) -> Self {
         let panels = &spacecraft.panels;
         let angle_rad = |index: usize| {
             let given = angles_rad.get(index).copied().flatten();
@@ -150,7 +150,7 @@ impl Scene {
     }
 
     /// A spinner: its thrusters, on a cylinder through the outermost of them.
-    pub fn of_spinner(spinner: &Spinner) -> Self {
+    pub(crate) fn of_spinner(spinner: &Spinner) -> Self {
         let thrusters = &spinner.thrusters;
         let places: Vec<Vector> = thrusters.iter().map(|thruster| thruster.position_body_m).collect();
         let radius_m = places.iter().map(|place| place.xy().norm()).fold(0.0, f64::max);
@@ -209,7 +209,7 @@ impl Scene {
     }
 
     /// Corners of the box around all surfaces, body frame.
-    pub fn bounds_m(&self) -> Option<[Vector; 2]> {
+    pub(crate) fn bounds_m(&self) -> Option<[Vector; 2]> {
         let bounds = box_of(self.surfaces.iter())?;
         bounds.iter().flatten().all(|x| x.is_finite()).then_some(bounds)
     }
@@ -228,7 +228,7 @@ const SUN_SENSOR: &str = "#b35900";
 const WHEEL: &str = "#00795a";
 
 /// The dish that a plate is a facet of, by the names that the file's reader gives facets.
-pub fn dish_of(plate: &str) -> Option<&str> {
+pub(crate) fn dish_of(plate: &str) -> Option<&str> {
     let (dish, facet) = plate.rsplit_once(".ring[")?;
     let indices = facet.strip_suffix(']')?.split_once("][")?;
     let is_number = |text: &str| text.parse::<u32>().is_ok();

@@ -9,7 +9,7 @@ use super::{
 
 /// A way to look at the spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum View {
+pub(super) enum View {
     /// From above, +Z.
     Top,
     /// From a corner.
@@ -22,7 +22,7 @@ pub enum View {
 
 impl View {
     /// In the order of the sheet: the top above the front, the side to its right (third-angle projection).
-    pub const ALL: [Self; 4] = [Self::Top, Self::Perspective, Self::Front, Self::Side];
+    pub(super) const ALL: [Self; 4] = [Self::Top, Self::Perspective, Self::Front, Self::Side];
 
     fn viewer(self, scene: &Scene) -> Vector {
         match self {
@@ -78,7 +78,7 @@ const LEGEND_SIZE: f64 = 12.5;
 const MOST_ENTRIES: usize = 60;
 
 /// The sheet with these views; `None` where nothing has an extent.
-pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
+pub(super) fn svg(scene: &Scene, views: &[View]) -> Option<String> {
     let reach = Extent::of(scene)?;
     let columns = if views.len() == 1 { 1 } else { 2 };
     let grow = if views.len() == 1 { ALONE } else { 1.0 };
@@ -136,7 +136,7 @@ pub fn svg(scene: &Scene, views: &[View]) -> Option<String> {
 }
 
 /// The perspective alone, of this size and without any text.
-pub fn picture(scene: &Scene, (width, height): (f64, f64)) -> Option<String> {
+pub(super) fn picture(scene: &Scene, (width, height): (f64, f64)) -> Option<String> {
     let reach = Extent::of(scene)?;
     let camera = View::Perspective.camera(scene, &reach)?;
     let frame = Frame::of(&camera, &drawn_m(scene, &reach));

@@ -8,7 +8,7 @@ use nalgebra::{Rotation3, Unit};
 use physics::spacecraft::{Panel, Polygon, Spacecraft, SunshadeModel};
 
 /// The direction to the Sun that the shipped files and Guidance take.
-pub const TO_SUN: Vector = Vector::new(0.0, -1.0, 0.0);
+pub(super) const TO_SUN: Vector = Vector::new(0.0, -1.0, 0.0);
 /// Facets of a whole cylinder.
 const FACETS: f64 = 72.0;
 
@@ -30,12 +30,12 @@ fn turned(surface: Surface, panel: &Panel, angle_rad: f64) -> Surface {
 }
 
 /// The sunshade that the file says is used.
-pub fn shade_model(spacecraft: &Spacecraft) -> SunshadeModel {
+pub(super) fn shade_model(spacecraft: &Spacecraft) -> SunshadeModel {
     spacecraft.sunshade.as_ref().map_or(SunshadeModel::Plates, |shade| shade.model)
 }
 
 /// Plates, then a cylindrical shade if it is used, then panels at these angles (by index, in rad); `part` counts these.
-pub fn surfaces(spacecraft: &Spacecraft, angle_rad: impl Fn(usize) -> f64) -> Vec<Surface> {
+pub(super) fn surfaces(spacecraft: &Spacecraft, angle_rad: impl Fn(usize) -> f64) -> Vec<Surface> {
     let outline = |polygon: &Option<Polygon>| Some(polygon.as_ref()?.vertices_m().to_vec());
     let plates = spacecraft.plates_body(shade_model(spacecraft));
     let mut parts: Vec<Vec<Surface>> = plates
@@ -59,7 +59,7 @@ pub fn surfaces(spacecraft: &Spacecraft, angle_rad: impl Fn(usize) -> f64) -> Ve
 }
 
 /// The angle at which a panel stands with the Sun along -Y, as its file says.
-pub fn angle_of_file_rad(panel: &Panel) -> f64 {
+pub(super) fn angle_of_file_rad(panel: &Panel) -> f64 {
     match panel.control {
         physics::spacecraft::PanelControl::Angle => panel.angle_rad,
         physics::spacecraft::PanelControl::SunOffset | physics::spacecraft::PanelControl::Command => {

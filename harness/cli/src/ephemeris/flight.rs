@@ -19,7 +19,7 @@ const START_EPOCH: &str = "start.epoch";
 const CENTER: &str = "orbit.center";
 
 /// A flight that can be repeated.
-pub struct Flight {
+pub(super) struct Flight {
     fmu: Fmu,
     shown: String,
     sets: Vec<(String, Value)>,
@@ -32,7 +32,7 @@ type Outputs = [u32; 6];
 
 impl Flight {
     /// An FMU with these settings, its flight starting at an epoch.
-    pub fn open(path: &Path, settings: &[String], start_s: f64) -> Result<Self, Failure> {
+    pub(super) fn open(path: &Path, settings: &[String], start_s: f64) -> Result<Self, Failure> {
         let fmu = Fmu::open(path)?;
         let shown = path.display().to_string();
         let description = fmu.description();

@@ -7,7 +7,7 @@ use planner::ephemeris::spk::{self, Center};
 
 /// What kernels take the place of a flight.
 #[derive(Debug, Args)]
-pub struct KernelOptions {
+pub(crate) struct KernelOptions {
     /// Fit what this SPK kernel of SPICE places, instead of a flight: planets (de440s.bsp) or a spacecraft; repeatable, where
     /// two place a body the later one counts
     #[arg(long, value_name = "BSP", conflicts_with_all = ["source", "set"])]
@@ -23,7 +23,7 @@ pub struct KernelOptions {
 
 impl KernelOptions {
     /// Whether there are kernels.
-    pub fn is_given(&self) -> bool {
+    pub(crate) fn is_given(&self) -> bool {
         !self.kernel.is_empty()
     }
 }

@@ -26,11 +26,11 @@ use crate::{
     outcome::{self, Outcome},
 };
 use flight::Flight;
-pub use options::Ephemeris;
+pub(crate) use options::Ephemeris;
 use shown::Shown;
 
 /// Makes the file.
-pub fn run(arguments: &Ephemeris) -> Outcome {
+pub(crate) fn run(arguments: &Ephemeris) -> Outcome {
     let [start_s, stop_s] = arguments.span_s()?;
     let output = arguments.output.clone().unwrap_or_else(|| PathBuf::from(FILE));
     let inputs = arguments.inputs();

@@ -22,7 +22,7 @@ Example:
 /// `heliotorque ephemeris`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
-pub struct Ephemeris {
+pub(crate) struct Ephemeris {
     /// The FMU whose flight is fitted: a MomentumPlant, whose outputs place Sun, Earth and
     /// spacecraft about orbit.center; otherwise the installed program's, or dist/MomentumPlant.fmu
     #[arg(value_name = "FMU")]
@@ -78,7 +78,7 @@ pub struct Ephemeris {
 
 /// `--bodies`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum BodyKind {
+pub(crate) enum BodyKind {
     /// The Sun
     #[cfg_attr(feature = "spk", value(alias = "10"))]
     Sun,
@@ -91,12 +91,12 @@ pub enum BodyKind {
 
 impl Ephemeris {
     /// The FMU that is simulated.
-    pub fn simulated(&self) -> PathBuf {
+    pub(crate) fn simulated(&self) -> PathBuf {
         self.source.clone().unwrap_or_else(|| home::fmu(home::DEFAULT_MODEL))
     }
 
     /// The files it reads.
-    pub fn inputs(&self) -> Vec<PathBuf> {
+    pub(crate) fn inputs(&self) -> Vec<PathBuf> {
         #[cfg(feature = "spk")]
         if self.kernels.is_given() {
             return self.kernels.kernel.clone();
@@ -105,7 +105,7 @@ impl Ephemeris {
     }
 
     /// First and last epoch, in s past J2000 TDB.
-    pub fn span_s(&self) -> Result<[f64; 2], String> {
+    pub(crate) fn span_s(&self) -> Result<[f64; 2], String> {
         let start_s = epoch_s("--start", &self.start)?;
         let stop_s = epoch_s("--stop", &self.stop)?;
         if stop_s <= start_s {
@@ -118,7 +118,7 @@ impl Ephemeris {
     }
 
     /// Last epoch of the coarse models.
-    pub fn coarse_until_s(&self, stop_s: f64) -> Result<f64, String> {
+    pub(crate) fn coarse_until_s(&self, stop_s: f64) -> Result<f64, String> {
         let Some(written) = &self.coarse_until else { return Ok(stop_s) };
         let until_s = epoch_s("--coarse-until", written)?;
         if until_s < stop_s {
@@ -131,7 +131,7 @@ impl Ephemeris {
     }
 
     /// What is fitted, each once.
-    pub fn targets(&self) -> Vec<OnboardTarget> {
+    pub(crate) fn targets(&self) -> Vec<OnboardTarget> {
         let mut targets = Vec::new();
         for kind in &self.bodies {
             let target = match kind {

@@ -9,7 +9,7 @@ use planner::ephemeris::{Failure, Source};
 use crate::interrupt;
 
 /// A source with its bar, unless that is hidden.
-pub struct Shown {
+pub(super) struct Shown {
     pub source: Box<dyn Source>,
     pub is_quiet: bool,
 }

@@ -23,7 +23,7 @@ use experiment::times;
 
 /// `heliotorque info`.
 #[derive(Debug, Args)]
-pub struct Info {
+pub(crate) struct Info {
     /// The FMU, an .fmu file or the folder it was unpacked into; or a system, an .ssp file
     pub fmu: PathBuf,
     /// List the variables too
@@ -46,7 +46,7 @@ pub struct Info {
 }
 
 /// Prints the tables.
-pub fn run(arguments: &Info) -> Outcome {
+pub(crate) fn run(arguments: &Info) -> Outcome {
     kind::check_archive(&arguments.fmu)?;
     let text = if systems::is_system(&arguments.fmu) {
         if arguments.coefficients {
@@ -170,7 +170,7 @@ fn capabilities(fmu: &Fmu) -> String {
 }
 
 /// The capabilities by the standard's names.
-pub fn capability_rows(flags: &CoSimulation) -> impl Iterator<Item = (&'static str, String)> {
+pub(crate) fn capability_rows(flags: &CoSimulation) -> impl Iterator<Item = (&'static str, String)> {
     let switches = [
         ("canHandleVariableCommunicationStepSize", flags.can_handle_variable_communication_step_size),
         ("canInterpolateInputs", flags.can_interpolate_inputs),
@@ -276,7 +276,7 @@ fn causality(variable: &ScalarVariable) -> String {
 }
 
 /// The start value, in the variable's unit, with the display unit or date behind it and the item's name.
-pub fn start(description: &Description, variable: &ScalarVariable) -> String {
+pub(crate) fn start(description: &Description, variable: &ScalarVariable) -> String {
     match value::start(variable) {
         Some(Value::Real(start)) => {
             let date = epoch::is_epoch(description, variable).then(|| epoch::date(start)).flatten();

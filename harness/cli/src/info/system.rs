@@ -6,7 +6,7 @@ use super::experiment::times;
 use crate::wire::{grouped, vector, wrapped};
 
 /// The tables.
-pub fn text(system: &System) -> String {
+pub(super) fn text(system: &System) -> String {
     let structure = system.structure();
     let mut components =
         terminal::table(&[structure.name.as_str(), "FMU", "model", "parameters", "open inputs"]);

@@ -18,7 +18,7 @@ const CENTER: &str = "orbit.center";
 const EFFECTS: [(&str, &str); 2] = [("air", "aerodynamics.enabled"), ("magnetism", "magnetics.enabled")];
 
 /// A warning for each plant that begins low above the Earth and lacks effects that count there.
-pub fn warnings(description: &Description, sets: &[(String, Value)]) -> Vec<String> {
+pub(crate) fn warnings(description: &Description, sets: &[(String, Value)]) -> Vec<String> {
     let plants = description.variables.iter().filter_map(|variable| variable.name.strip_suffix(CENTER));
     plants.filter_map(|prefix| warning(description, sets, prefix)).collect()
 }

@@ -9,7 +9,7 @@ use crate::outcome::{self, Outcome};
 
 /// `heliotorque man`.
 #[derive(Debug, Args)]
-pub struct Manual {
+pub(crate) struct Manual {
     /// The command whose page it is, plan-spin for one below another; otherwise the program's
     pub command: Option<String>,
     /// Write every page into this folder instead: heliotorque.1, heliotorque-run.1, ...
@@ -21,7 +21,7 @@ pub struct Manual {
 const VERSION: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
 
 /// Prints a page, or writes all of them.
-pub fn run(arguments: &Manual, program: Command) -> Outcome {
+pub(crate) fn run(arguments: &Manual, program: Command) -> Outcome {
     let name = program.get_name().to_owned();
     let mut pages = Vec::new();
     add(&mut pages, program, &name, &name)?;

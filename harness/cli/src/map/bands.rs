@@ -6,7 +6,7 @@ use planner::torque_map::{self, Edge};
 use super::colours::Bands;
 
 /// Bands of values at nodes from corner to corner, the lowest below all others.
-pub fn draw(
+pub(super) fn draw(
     frame: &Frame,
     pen: &mut Pen,
     steps: [usize; 2],
@@ -27,7 +27,7 @@ pub fn draw(
 }
 
 /// The nodes of which something holds.
-pub fn area(
+pub(super) fn area(
     frame: &Frame,
     pen: &mut Pen,
     steps: [usize; 2],
@@ -64,7 +64,7 @@ fn enclosing(frame: &Frame, steps: [usize; 2], value: &impl Fn(usize, usize) -> 
 }
 
 /// The bands' colours with their edges, to the right.
-pub fn scale(frame: &Frame, pen: &mut Pen, bands: Bands, unit: &str) {
+pub(super) fn scale(frame: &Frame, pen: &mut Pen, bands: Bands, unit: &str) {
     let (left, width) = (frame.left + frame.width + 10.0, 12.0);
     let count = f64::from(2 * bands.count);
     let y = |number: i32| frame.top + frame.height * (f64::from(bands.count - number) / count);

@@ -19,7 +19,7 @@ const SCALE: [[f64; 3]; 9] = [
 
 /// Bands for values up to a greatest size.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bands {
+pub(super) struct Bands {
     pub step: f64,
     /// On each side of zero.
     pub count: i32,
@@ -27,7 +27,7 @@ pub struct Bands {
 
 impl Bands {
     /// For values within plus and minus `greatest`; one band on each side where it is 0.
-    pub fn new(greatest: f64) -> Self {
+    pub(super) fn new(greatest: f64) -> Self {
         if greatest <= 0.0 || !greatest.is_finite() {
             return Self { step: 1.0, count: 1 };
         }
@@ -36,12 +36,12 @@ impl Bands {
     }
 
     /// Numbers of the bands, upward; a band begins at its number of steps.
-    pub fn numbers(&self) -> std::ops::Range<i32> {
+    pub(super) fn numbers(&self) -> std::ops::Range<i32> {
         -self.count..self.count
     }
 
     /// The colour of a band.
-    pub fn colour(&self, number: i32) -> String {
+    pub(super) fn colour(&self, number: i32) -> String {
         let place = (f64::from(number) + 0.5) / f64::from(self.count);
         mixed(&SCALE, 0.5 * (place + 1.0))
     }

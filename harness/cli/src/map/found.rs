@@ -18,7 +18,7 @@ const ZONE_STEPS: [usize; 2] = [60, 60];
 const TARGETED: [usize; 2] = [0, 2];
 
 /// What downlinks can do.
-pub struct Attainable {
+pub(super) struct Attainable {
     /// What they can add to the mean torque about X and Z, in N m: 0 is the Sun on -Y.
     pub added_n_m: Region,
     /// The same at the mission's mean light.
@@ -27,7 +27,7 @@ pub struct Attainable {
 }
 
 /// Everything found.
-pub struct Found {
+pub(super) struct Found {
     pub sphere: Mapped,
     /// The keep-in zone, if there is one.
     pub zone: Option<Mapped>,
@@ -41,7 +41,11 @@ pub struct Found {
 
 impl Found {
     /// Asks the FMU for all of it.
-    pub fn new(spacecraft: &MappedSpacecraft, steps: Steps, mission: Option<Mission>) -> Result<Self, Error> {
+    pub(super) fn new(
+        spacecraft: &MappedSpacecraft,
+        steps: Steps,
+        mission: Option<Mission>,
+    ) -> Result<Self, Error> {
         let quarter = steps.0 as usize;
         let sphere = Mapped::new(&spacecraft.lit, SPHERE_DEG, [4 * quarter, 2 * quarter])?;
         let of_zone =

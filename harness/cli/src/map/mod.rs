@@ -16,12 +16,12 @@ use planner::momentum::Mission;
 
 use crate::{outcome::Outcome, variables};
 use found::Found;
-pub use options::Map;
+pub(crate) use options::Map;
 use outputs::Outputs;
 use spacecraft::MappedSpacecraft;
 
 /// Maps a spacecraft.
-pub fn run(arguments: &Map) -> Outcome {
+pub(crate) fn run(arguments: &Map) -> Outcome {
     variables::warn_of_repeated("--set", &arguments.set);
     let outputs = Outputs::open(arguments)?;
     let mission = arguments.mission.as_deref().map(Mission::read).transpose()?;

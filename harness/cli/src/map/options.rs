@@ -25,7 +25,7 @@ Example:
 /// `heliotorque map`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
-pub struct Map {
+pub(crate) struct Map {
     /// The spacecraft, a TOML file as for `pack`, or an FMU that was packed with one
     pub spacecraft: PathBuf,
     /// For a TOML file only: the FMU whose library reads it, as for `pack`; otherwise the installed program's, or
@@ -80,14 +80,14 @@ pub struct Map {
 
 impl Map {
     /// The FMU whose library reads a TOML file.
-    pub fn template(&self) -> PathBuf {
+    pub(crate) fn template(&self) -> PathBuf {
         self.template.clone().unwrap_or_else(|| home::fmu(home::DEFAULT_MODEL))
     }
 }
 
 /// `--source`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum SourceKind {
+pub(crate) enum SourceKind {
     /// Sunlight
     Solar,
     /// Sunlight and recoil
@@ -96,7 +96,7 @@ pub enum SourceKind {
 
 impl SourceKind {
     /// The last part of the variables' names.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Solar => "solar",
             Self::Total => "total",
@@ -106,7 +106,7 @@ impl SourceKind {
 
 /// How many steps make 90 deg.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Steps(pub u32);
+pub(crate) struct Steps(pub u32);
 
 fn distance(text: &str) -> Result<f64, String> {
     let number = text.trim();

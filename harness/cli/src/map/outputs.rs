@@ -14,17 +14,17 @@ const OPTIONS: [&str; 3] = ["--output", "--csv", "--lines"];
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Where everything goes: picture, torque, lines.
-pub struct Outputs([Option<(Destination, PathBuf)>; 3]);
+pub(super) struct Outputs([Option<(Destination, PathBuf)>; 3]);
 
 /// What was written.
-pub struct Written {
+pub(super) struct Written {
     pub takes_stdout: bool,
     pub files: Vec<String>,
 }
 
 impl Outputs {
     /// Looks at every file before anything is computed.
-    pub fn open(arguments: &Map) -> Result<Self, String> {
+    pub(super) fn open(arguments: &Map) -> Result<Self, String> {
         let inputs: Vec<&Path> =
             [arguments.spacecraft.as_path()].into_iter().chain(arguments.mission.as_deref()).collect();
         let picture = (!arguments.no_picture).then(|| picture_path(arguments));
@@ -48,7 +48,7 @@ impl Outputs {
     }
 
     /// Writes all of them.
-    pub fn write(self, spacecraft: &MappedSpacecraft, found: &Found) -> Result<Written, String> {
+    pub(super) fn write(self, spacecraft: &MappedSpacecraft, found: &Found) -> Result<Written, String> {
         let mut written = Written { takes_stdout: false, files: Vec::new() };
         let contents: [&dyn Fn() -> String; 3] =
             [&|| picture::svg(spacecraft, found), &|| torque(spacecraft, found), &|| lines(found)];

@@ -31,7 +31,7 @@ const MIDDLE: &str = "stroke=\"#5c6570\" stroke-width=\"0.8\" stroke-dasharray=\
 const LABEL: f64 = 46.0;
 
 /// The sheet.
-pub fn svg(spacecraft: &MappedSpacecraft, found: &Found) -> String {
+pub(super) fn svg(spacecraft: &MappedSpacecraft, found: &Found) -> String {
     let title = format!(
         "{}: torque of sunlight at {} AU",
         spacecraft.name,

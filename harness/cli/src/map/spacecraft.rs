@@ -29,7 +29,7 @@ const FLOWN: &str = "MomentumPlant";
 
 /// How downlinks share the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Downlink {
+pub(super) struct Downlink {
     /// Hours of a downlink.
     pub length_h: f64,
     /// Hours from one downlink to the next.
@@ -38,13 +38,13 @@ pub struct Downlink {
 
 impl Downlink {
     /// Its part of the time.
-    pub fn share(&self) -> f64 {
+    pub(super) fn share(&self) -> f64 {
         if self.every_h > 0.0 { (self.length_h / self.every_h).clamp(0.0, 1.0) } else { 0.0 }
     }
 }
 
 /// A spacecraft ready to be mapped.
-pub struct MappedSpacecraft {
+pub(super) struct MappedSpacecraft {
     pub name: String,
     pub lit: LitSpacecraft,
     /// Greatest azimuth and elevation of the Sun keep-in zone; `None` without one.
@@ -78,7 +78,7 @@ fn given(arguments: &Map) -> Result<(String, String, Source), Failure> {
 
 impl MappedSpacecraft {
     /// Reads the file and makes an FMU of it in a temporary folder.
-    pub fn open(arguments: &Map) -> Result<Self, Failure> {
+    pub(super) fn open(arguments: &Map) -> Result<Self, Failure> {
         let (file, mut text, source) = given(arguments)?;
         let describe = |model: &str, text: Option<&str>| -> Result<Description, Failure> {
             let file = text.map(|_| file.as_str());

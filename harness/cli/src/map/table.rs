@@ -11,7 +11,7 @@ const MOST_ROWS: usize = 12;
 const NAMES: [&str; 3] = ["X", "Y", "Z"];
 
 /// All of it.
-pub fn text(spacecraft: &MappedSpacecraft, found: &Found, source: SourceKind) -> String {
+pub(super) fn text(spacecraft: &MappedSpacecraft, found: &Found, source: SourceKind) -> String {
     let mut parts = vec![head(spacecraft, found, source)];
     let zone = found.zone.iter().map(|zone| (zone, "the keep-in zone"));
     for (mapped, where_) in core::iter::once((&found.sphere, "all directions")).chain(zone) {

@@ -3,7 +3,7 @@
 use super::{found::Attainable, spacecraft::MappedSpacecraft};
 
 /// How a share of the time is reported.
-pub fn share(spacecraft: &MappedSpacecraft) -> String {
+pub(super) fn share(spacecraft: &MappedSpacecraft) -> String {
     let downlink = &spacecraft.downlink;
     if downlink.share() == 0.0 {
         return "no downlinks (guided.*)".to_owned();
@@ -18,7 +18,7 @@ pub fn share(spacecraft: &MappedSpacecraft) -> String {
 }
 
 /// Whether downlinks can undo the mission's mean disturbance.
-pub fn in_the_mean(attainable: &Attainable) -> &'static str {
+pub(super) fn in_the_mean(attainable: &Attainable) -> &'static str {
     let Some((mission, _)) = &attainable.mission else { return "" };
     let undone = mission.mean_torque_n_m().map(|part| -part);
     if attainable.mean_added_n_m.holds(undone) {
@@ -29,7 +29,7 @@ pub fn in_the_mean(attainable: &Attainable) -> &'static str {
 }
 
 /// Sentences on a mission; none without one.
-pub fn on_mission(spacecraft: &MappedSpacecraft, attainable: &Attainable) -> Vec<String> {
+pub(super) fn on_mission(spacecraft: &MappedSpacecraft, attainable: &Attainable) -> Vec<String> {
     let Some((mission, held)) = &attainable.mission else { return Vec::new() };
     let length = format!("{:.1}", mission.length_d());
     let until = |day: Option<f64>| match day {

@@ -18,7 +18,7 @@ const ALLOWED_TIME: &str = "a number of s or one with a unit: 600, \"10 min\", \
 
 /// Something with the key and line that it stands in.
 #[derive(Clone, Debug, PartialEq)]
-pub struct At<T> {
+pub(crate) struct At<T> {
     /// What it is.
     pub it: T,
     /// The key with its tables.
@@ -29,7 +29,7 @@ pub struct At<T> {
 
 /// What flies.
 #[derive(Clone, Debug, PartialEq)]
-pub enum SpacecraftSource {
+pub(crate) enum SpacecraftSource {
     /// An FMU or system that is packed already.
     Fmu(PathBuf),
     /// Files that are packed for the run.
@@ -46,11 +46,11 @@ pub enum SpacecraftSource {
 }
 
 /// An input over time: times in s, and values as `--set` takes them.
-pub type InputRows = Vec<(f64, String)>;
+pub(super) type InputRows = Vec<(f64, String)>;
 
 /// Inputs over time.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Inputs {
+pub(crate) enum Inputs {
     /// A CSV file.
     File(PathBuf),
     /// By name.
@@ -59,7 +59,7 @@ pub enum Inputs {
 
 /// A picture.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plot {
+pub(crate) struct Plot {
     /// The SVG file.
     pub file: PathBuf,
     /// What it shows; `None`: everything recorded.
@@ -68,7 +68,7 @@ pub struct Plot {
 
 /// Bounds of a variable, as they are written.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Bounds {
+pub(crate) struct Bounds {
     /// The variable or vector.
     pub name: String,
     /// The smallest value that is kept.
@@ -79,7 +79,7 @@ pub struct Bounds {
 
 /// A mission.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mission {
+pub(crate) struct Mission {
     /// The file as the caller named it.
     pub file: PathBuf,
     /// What flies.
@@ -113,7 +113,7 @@ impl Mission {
     ///
     /// # Errors
     /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
-    pub fn read(file: &Path) -> Result<Self, String> {
+    pub(crate) fn read(file: &Path) -> Result<Self, String> {
         let text = FileKind::Mission.read(file)?;
         if FileKind::of(&text).is_none() {
             return Err(format!(
@@ -136,7 +136,7 @@ impl Mission {
     }
 
     /// The files that it names and reads.
-    pub fn reads(&self) -> Vec<&Path> {
+    pub(crate) fn reads(&self) -> Vec<&Path> {
         let spacecraft_source = match &self.spacecraft_source {
             SpacecraftSource::Fmu(path) => [Some(path), None, None],
             SpacecraftSource::Files { spacecraft, timeline, ephemeris, .. } => {
@@ -154,12 +154,12 @@ impl Mission {
     }
 
     /// A problem at a place of the file.
-    pub fn problem<T>(&self, at: &At<T>, what: &str) -> String {
+    pub(crate) fn problem<T>(&self, at: &At<T>, what: &str) -> String {
         format!("{}: {what}", self.place(at))
     }
 
     /// A place of the file.
-    pub fn place<T>(&self, at: &At<T>) -> String {
+    pub(crate) fn place<T>(&self, at: &At<T>) -> String {
         format!("{}:{}: {}", self.file.display(), at.line, at.key)
     }
 }

@@ -7,5 +7,5 @@ mod resolved;
 mod schema;
 mod written;
 
-pub use file::{Inputs, Mission, Plot, SpacecraftSource};
-pub use resolved::Resolved;
+pub(crate) use file::{Inputs, Mission, Plot, SpacecraftSource};
+pub(crate) use resolved::Resolved;

@@ -14,7 +14,7 @@ use crate::{
 
 /// What a mission means in an FMU.
 #[derive(Debug, Default)]
-pub struct Resolved {
+pub(crate) struct Resolved {
     /// Values set before the run.
     pub sets: Vec<(String, Value)>,
     /// Inputs over time, if the file has them itself.
@@ -32,7 +32,7 @@ impl Mission {
     ///
     /// # Errors
     /// Everything that the FMU does not have or take, a line for each problem.
-    pub fn resolve(
+    pub(crate) fn resolve(
         &self,
         described: &Description,
         later: &[String],
@@ -55,7 +55,7 @@ impl Mission {
     }
 
     /// Its values as `--set` would take them, the date of its start among them, each with the place that it stands in.
-    pub fn settings(&self, described: &Description) -> Vec<(String, String)> {
+    pub(crate) fn settings(&self, described: &Description) -> Vec<(String, String)> {
         let epochs = self.epoch_s.iter().flat_map(|at| {
             let names = described.variables.iter().map(|it| &it.name).filter(|name| epoch::is_start(name));
             names.map(move |name| (self.place(at), format!("{name}={}", at.it)))

@@ -12,7 +12,7 @@ use crate::outcome::Outcome;
 
 /// `heliotorque new`.
 #[derive(Debug, Args)]
-pub struct New {
+pub(crate) struct New {
     /// Of which kind
     #[arg(value_enum)]
     pub kind: NewKind,
@@ -25,7 +25,7 @@ pub struct New {
 
 /// A kind of file that people write.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum NewKind {
+pub(crate) enum NewKind {
     /// A spacecraft, for `check`, `draw`, `pack`
     Spacecraft,
     /// A spin-stabilised spacecraft, for `check`, `pack`, `plan spin`
@@ -59,7 +59,7 @@ fn with_commands_of(text: &str, name: &str, own: &str) -> String {
 }
 
 /// Writes the file.
-pub fn run(arguments: &New) -> Outcome {
+pub(crate) fn run(arguments: &New) -> Outcome {
     let (name, text) = arguments.kind.content();
     let path = arguments.file.as_deref().unwrap_or(Path::new(name));
     let is_there = path != Path::new("-") && std::fs::symlink_metadata(path).is_ok();

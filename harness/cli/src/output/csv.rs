@@ -16,7 +16,7 @@ use super::exporter::Exporter;
 const ROWS_AT_ONCE: usize = 64;
 
 /// A table that grows.
-pub struct Csv {
+pub(super) struct Csv {
     file: Growing,
     /// How many of the recording's columns it has, the first ones.
     columns: usize,
@@ -29,7 +29,7 @@ pub struct Csv {
 
 impl Csv {
     /// Writes the first `columns` into an empty file; what stands `beside` it follows.
-    pub fn new(file: Growing, columns: usize, beside: Option<(Destination, String)>) -> Self {
+    pub(super) fn new(file: Growing, columns: usize, beside: Option<(Destination, String)>) -> Self {
         Self { file, columns, rows: None, bytes: Vec::new(), beside }
     }
 }

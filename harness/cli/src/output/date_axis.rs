@@ -16,7 +16,7 @@ const STEPS_D: [u32; 4] = [1, 2, 5, 10];
 const STEPS_MONTHS: [u32; 9] = [1, 2, 3, 6, 12, 24, 60, 120, 240];
 
 /// The ticks of an axis, and its label.
-pub struct DateAxis {
+pub(super) struct DateAxis {
     /// Epochs in s past J2000 TDB, with their texts.
     pub ticks: Vec<(f64, String)>,
     /// What the axis is.
@@ -25,7 +25,7 @@ pub struct DateAxis {
 
 impl DateAxis {
     /// From one epoch to another, in s past J2000 TDB; `None` before UTC, and where hardly a round time lies within.
-    pub fn over(first_s: f64, last_s: f64) -> Option<Self> {
+    pub(super) fn over(first_s: f64, last_s: f64) -> Option<Self> {
         let wanted_s = (last_s - first_s) / MOST;
         let day = day_of(first_s)?;
         let step = |steps: &[u32], unit_s: f64| {

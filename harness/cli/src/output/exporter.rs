@@ -9,7 +9,7 @@ use loader::Recording;
 use model_description::Description;
 
 /// An output of a run in one format.
-pub trait Exporter {
+pub(super) trait Exporter {
     /// Takes the recording so far, of which only rows are added between two calls.
     fn update(&mut self, _recording: &Recording) -> Result<(), String> {
         Ok(())

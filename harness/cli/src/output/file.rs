@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 /// A file that a run writes.
 #[derive(Clone, Debug)]
-pub struct OutputFile {
+pub(crate) struct OutputFile {
     /// Where it is.
     pub path: PathBuf,
     /// What gave it.
@@ -15,7 +15,7 @@ pub struct OutputFile {
 
 impl OutputFile {
     /// Given on the command line.
-    pub fn of_option(path: &Path, option: &'static str) -> Self {
+    pub(crate) fn of_option(path: &Path, option: &'static str) -> Self {
         Self { path: path.to_owned(), option, home: None }
     }
 }

@@ -27,7 +27,7 @@ const BOUNDS: [(&str, &str, &str); 4] = [
 
 /// What is known.
 #[derive(Clone, Debug, Default)]
-pub struct Known {
+pub(crate) struct Known {
     names: BTreeMap<String, String>,
     bounds: BTreeMap<String, (&'static str, f64)>,
     limits: BTreeMap<String, Vec<f64>>,
@@ -37,7 +37,7 @@ pub struct Known {
 impl Known {
     /// Of an FMU or a system: each part by what its variables begin with and the folder it is unpacked in, the values set before
     /// the run, and what the run is judged by.
-    pub fn of(
+    pub(crate) fn of(
         parts: &[(String, PathBuf)],
         described: &Description,
         sets: &[(String, Value)],
@@ -70,28 +70,28 @@ impl Known {
 
     /// With the epoch of time 0 in s past J2000 TDB, where the flight has dates.
     #[must_use]
-    pub fn dated(self, zero_epoch_s: Option<f64>) -> Self {
+    pub(crate) fn dated(self, zero_epoch_s: Option<f64>) -> Self {
         Self { zero_epoch_s, ..self }
     }
 
     /// That epoch.
-    pub fn zero_epoch_s(&self) -> Option<f64> {
+    pub(crate) fn zero_epoch_s(&self) -> Option<f64> {
         self.zero_epoch_s
     }
 
     /// The name in the file of what a variable belongs to, such as that of `wheel[2]` for `wheel[2].speed`.
-    pub fn name(&self, variable: &str) -> Option<&str> {
+    pub(crate) fn name(&self, variable: &str) -> Option<&str> {
         let end = variable.rfind("].")? + 1;
         self.names.get(&variable[..end]).map(String::as_str)
     }
 
     /// What a variable is held against either way: what it is, and its value in the variable's unit.
-    pub fn bound(&self, variable: &str) -> Option<(&'static str, f64)> {
+    pub(crate) fn bound(&self, variable: &str) -> Option<(&'static str, f64)> {
         self.bounds.get(variable).copied()
     }
 
     /// The limits that the mission sets it, in its unit.
-    pub fn limits(&self, variable: &str) -> &[f64] {
+    pub(crate) fn limits(&self, variable: &str) -> &[f64] {
         self.limits.get(variable).map_or(&[], Vec::as_slice)
     }
 }

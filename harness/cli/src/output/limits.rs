@@ -8,7 +8,7 @@ use crate::epoch;
 
 /// Bounds of one variable.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Limit {
+pub(crate) struct Limit {
     /// The variable.
     pub name: String,
     /// The smallest value that is kept, in the variable's unit.
@@ -29,14 +29,14 @@ struct Judged {
 }
 
 /// The limits of a run.
-pub struct Judge {
+pub(crate) struct Judge {
     judged: Vec<Judged>,
     rows: usize,
 }
 
 impl Judge {
     /// Before the first row.
-    pub fn new(limits: Vec<Limit>) -> Self {
+    pub(crate) fn new(limits: Vec<Limit>) -> Self {
         let judged = limits.into_iter().map(|limit| Judged {
             limit,
             broken: None,
@@ -47,7 +47,7 @@ impl Judge {
     }
 
     /// Judges the rows that were added.
-    pub fn update(&mut self, recording: &Recording) {
+    pub(crate) fn update(&mut self, recording: &Recording) {
         let rows = recording.times_s.len();
         for judged in &mut self.judged {
             let Some(column) = recording.column(&judged.limit.name) else { continue };
@@ -66,12 +66,12 @@ impl Judge {
     }
 
     /// Whether all were kept.
-    pub fn is_kept(&self) -> bool {
+    pub(crate) fn is_kept(&self) -> bool {
         self.judged.iter().all(|judged| judged.broken.is_none())
     }
 
     /// A line for each limit; `epoch_minus_time_s` gives dates.
-    pub fn report(&self, described: &Description, epoch_minus_time_s: Option<f64>) -> Vec<String> {
+    pub(crate) fn report(&self, described: &Description, epoch_minus_time_s: Option<f64>) -> Vec<String> {
         self.judged.iter().map(|judged| judged.line(described, epoch_minus_time_s)).collect()
     }
 }

@@ -28,16 +28,16 @@ use standing::Kind;
 use summary::Summary;
 use svg::Svg;
 
-pub use file::OutputFile;
-pub use known::Known;
-pub use limits::{Judge, Limit};
-pub use origin::Origin;
-pub use svg::is_lit_fraction;
-pub use svg_path::{check_path as check_svg_path, is_svg_path};
+pub(crate) use file::OutputFile;
+pub(crate) use known::Known;
+pub(crate) use limits::{Judge, Limit};
+pub(crate) use origin::Origin;
+pub(crate) use svg::is_lit_fraction;
+pub(crate) use svg_path::{check_path as check_svg_path, is_svg_path};
 
 /// A picture of a run.
 #[derive(Clone, Debug)]
-pub struct Plot {
+pub(crate) struct Plot {
     /// The SVG file.
     pub file: OutputFile,
     /// The variables that it shows; `None`: everything recorded.
@@ -46,7 +46,7 @@ pub struct Plot {
 
 /// What a run shall write.
 #[derive(Clone, Debug)]
-pub struct Requested {
+pub(crate) struct Requested {
     /// The CSV file.
     pub table: Option<OutputFile>,
     /// Pictures.
@@ -58,7 +58,7 @@ pub struct Requested {
 }
 
 /// Every output of a run.
-pub struct Outputs {
+pub(crate) struct Outputs {
     exporters: Vec<Box<dyn Exporter>>,
     /// Files that will be written.
     files: Vec<PathBuf>,
@@ -71,7 +71,7 @@ pub struct Outputs {
 impl Outputs {
     /// Everything requested, its files opened; without any, a summary on the terminal. `empty` is the recording before its first row,
     /// `origin` what stands beside a table; `inputs` are not written over.
-    pub fn open(
+    pub(crate) fn open(
         requested: &Requested,
         empty: &Recording,
         known: &Known,
@@ -126,17 +126,17 @@ impl Outputs {
     }
 
     /// Shows every output the recording so far.
-    pub fn update(&mut self, recording: &Recording) -> Result<(), String> {
+    pub(crate) fn update(&mut self, recording: &Recording) -> Result<(), String> {
         self.exporters.iter_mut().try_for_each(|output| output.update(recording))
     }
 
     /// Whether the reader of the standard output went away.
-    pub fn has_lost_reader(&self) -> bool {
+    pub(crate) fn has_lost_reader(&self) -> bool {
         self.exporters.iter().any(|output| output.has_lost_reader())
     }
 
     /// Completes every output, sums up and says what was written.
-    pub fn finish(self, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
+    pub(crate) fn finish(self, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
         self.exporters.into_iter().try_for_each(|output| output.finish(described, recording))?;
         if self.sums_up {
             terminal::note(&summary::beside_files(described, &recording.leading(self.columns)));
@@ -149,7 +149,7 @@ impl Outputs {
 
     /// After a run that ended before its stop: what would replace a file is kept beside it instead, whose names are given, the
     /// rest completed.
-    pub fn stop(
+    pub(crate) fn stop(
         self,
         described: &Description,
         recording: &Recording,
@@ -164,7 +164,7 @@ impl Outputs {
     }
 
     /// Keeps what there is after a simulation that failed; the names of the files in progress.
-    pub fn leave(self, described: &Description, recording: &Recording) -> Vec<PathBuf> {
+    pub(crate) fn leave(self, described: &Description, recording: &Recording) -> Vec<PathBuf> {
         self.exporters.into_iter().filter_map(|output| output.leave(described, recording)).collect()
     }
 }

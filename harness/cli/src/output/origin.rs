@@ -9,14 +9,14 @@ use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table};
 use crate::{epoch, variables};
 
 /// The first line.
-pub const HEAD: &str =
+pub(super) const HEAD: &str =
     "# The table beside this file, as `heliotorque run` wrote it: values and columns in SI.\n";
 
 /// The epoch of the start.
 const EPOCH: &str = "start.epoch";
 
 /// What a table comes from.
-pub struct Origin<'a> {
+pub(crate) struct Origin<'a> {
     /// The FMU, system or mission, as it was named.
     pub file: PathBuf,
     /// Its FMUs: what their variables begin with, and their descriptions.
@@ -33,7 +33,7 @@ pub struct Origin<'a> {
 
 impl Origin<'_> {
     /// The file of a table with these columns.
-    pub fn to_toml(&self, columns: &[String]) -> String {
+    pub(crate) fn to_toml(&self, columns: &[String]) -> String {
         let mut document = DocumentMut::new();
         let mut set = |key: &str, item: Item| drop(document.insert(key, item));
         let program = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));

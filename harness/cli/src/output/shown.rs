@@ -10,18 +10,18 @@ const NONE: &str = "; -1 ";
 const NONE_S: f64 = -1.0;
 
 /// What is less than this part of a quantity's scale is the rounding of its calculation.
-pub const ROUNDING: f64 = 1e-12;
+pub(super) const ROUNDING: f64 = 1e-12;
 /// The unit of angles, whose scale is 1 of it.
-pub const ANGLE_UNIT: &str = "rad";
+pub(super) const ANGLE_UNIT: &str = "rad";
 
 /// The variable of this name.
-pub fn find<'a>(description: &'a Description, name: &str) -> Option<&'a ScalarVariable> {
+pub(super) fn find<'a>(description: &'a Description, name: &str) -> Option<&'a ScalarVariable> {
     description.variables.iter().find(|variable| variable.name == name)
 }
 
 /// A recorded number's unit and form.
 #[derive(Default)]
-pub struct Shown<'a> {
+pub(super) struct Shown<'a> {
     /// The unit it is shown in.
     pub unit: &'a str,
     factor: f64,
@@ -35,7 +35,7 @@ pub struct Shown<'a> {
 
 impl<'a> Shown<'a> {
     /// Of the variable of this name.
-    pub fn of(description: &'a Description, name: &str) -> Self {
+    pub(super) fn of(description: &'a Description, name: &str) -> Self {
         let Some(variable) = find(description, name) else {
             return Self { unit: "", factor: 1.0, ..Self::default() };
         };
@@ -52,13 +52,13 @@ impl<'a> Shown<'a> {
     }
 
     /// A value in the shown unit, an angle of nothing but rounding as 0; `None` for a time that is none.
-    pub fn value(&self, value: f64) -> Option<f64> {
+    pub(super) fn value(&self, value: f64) -> Option<f64> {
         let value = if self.is_angle && value.abs() < ROUNDING { 0.0 } else { value };
         (!self.may_be_none || value != NONE_S).then_some(self.factor * value + self.offset)
     }
 
     /// The text of a shown value.
-    pub fn text(&self, shown: Option<f64>) -> String {
+    pub(super) fn text(&self, shown: Option<f64>) -> String {
         let Some(shown) = shown else { return "none".to_owned() };
         if let Some(item) = self.items.iter().find(|item| f64::from(item.value) == shown) {
             return item.name.clone();

@@ -11,7 +11,7 @@ const HEAD: u64 = 1 << 16;
 
 /// A kind of output.
 #[derive(Clone, Copy, Debug)]
-pub enum Kind<'a> {
+pub(super) enum Kind<'a> {
     /// A table that begins with this line.
     Table(&'a [u8]),
     /// A picture.
@@ -25,7 +25,7 @@ pub enum Kind<'a> {
 ///
 /// # Errors
 /// What was found, and what is allowed.
-pub fn check(file: &OutputFile, destination: &Destination, kind: Kind<'_>) -> Result<(), String> {
+pub(super) fn check(file: &OutputFile, destination: &Destination, kind: Kind<'_>) -> Result<(), String> {
     let OutputFile { path, option, home } = file;
     let Some(home) = home else { return Ok(()) };
     let (path, instead) = (path.display(), kind.option());

@@ -15,7 +15,7 @@ use crate::variables::vector;
 const ROWS_BESIDE_FILES: usize = 24;
 
 /// The summary, printed at the end where no file is named.
-pub struct Summary;
+pub(super) struct Summary;
 
 impl Exporter for Summary {
     fn finish(self: Box<Self>, described: &Description, recording: &Recording) -> Result<(), Box<dyn Error>> {
@@ -24,7 +24,7 @@ impl Exporter for Summary {
 }
 
 /// The first rows of the same, for a run that writes files.
-pub fn beside_files(described: &Description, recording: &Recording) -> String {
+pub(super) fn beside_files(described: &Description, recording: &Recording) -> String {
     table(described, recording, ROWS_BESIDE_FILES)
 }
 

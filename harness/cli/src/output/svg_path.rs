@@ -3,12 +3,12 @@
 use std::path::Path;
 
 /// Whether a path promises this kind of picture, or is the standard output.
-pub fn is_svg_path(path: &Path) -> bool {
+pub(crate) fn is_svg_path(path: &Path) -> bool {
     path == Path::new("-") || path.extension().is_some_and(|it| it.eq_ignore_ascii_case("svg"))
 }
 
 /// Refuses a path that promises another kind of picture.
-pub fn check_path(path: &Path, option: &str) -> Result<(), String> {
+pub(crate) fn check_path(path: &Path, option: &str) -> Result<(), String> {
     if is_svg_path(path) {
         return Ok(());
     }

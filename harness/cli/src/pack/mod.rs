@@ -28,7 +28,7 @@ Example:
 /// `heliotorque pack`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
-pub struct Pack {
+pub(crate) struct Pack {
     /// The spacecraft, a TOML file (see `heliotorque schema` and `heliotorque check`); otherwise the one compiled into
     /// the library
     #[arg(long, value_name = "TOML")]
@@ -77,7 +77,7 @@ pub struct Pack {
 }
 
 /// Packs the FMU.
-pub fn run(arguments: &Pack) -> Outcome {
+pub(crate) fn run(arguments: &Pack) -> Outcome {
     variables::warn_of_repeated("--set", &arguments.set);
     variables::warn_of_repeated("--fix", &arguments.fix);
     let mission = arguments.mission.as_deref().map(Mission::read).transpose()?;

@@ -18,7 +18,7 @@ const OPTION: &str = "--output";
 ///
 /// # Errors
 /// A file that cannot be written, or that is the spacecraft's.
-pub fn write(
+pub(super) fn write(
     folder: &Path,
     spacecraft: Option<&Path>,
     burn: &PlannedBurn,

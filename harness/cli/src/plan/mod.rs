@@ -12,7 +12,7 @@ use crate::{home, kind::FileKind, outcome::Outcome, patience::Patience};
 
 /// `heliotorque plan`.
 #[derive(Debug, Subcommand)]
-pub enum Plan {
+pub(crate) enum Plan {
     /// The train of thruster pulses that turns a spinner with the least nutation
     #[command(mut_args = |argument| if argument.is_positional() { argument } else { argument.allow_hyphen_values(true) })]
     Spin(SpinPlan),
@@ -20,7 +20,7 @@ pub enum Plan {
 
 /// `heliotorque plan spin`.
 #[derive(Clone, Debug, Args)]
-pub struct SpinPlan {
+pub(crate) struct SpinPlan {
     /// What is planned
     #[command(flatten)]
     pub options: planner::spin::Options,
@@ -39,7 +39,7 @@ fn check_spinner(path: &Path) -> Result<(), String> {
 }
 
 /// Prints the plan, and writes its files where a folder is given; a plan that breaks a limit ends with status 1.
-pub fn run(arguments: &Plan) -> Outcome {
+pub(crate) fn run(arguments: &Plan) -> Outcome {
     let Plan::Spin(arguments) = arguments;
     let mut options = arguments.options.clone();
     if let Some(path) = &options.spacecraft {

@@ -22,7 +22,7 @@ const LEAST_CLOSE_DEG: f64 = 0.05;
 ///
 /// # Errors
 /// Nothing to draw.
-pub fn svg(burn: &PlannedBurn) -> Result<String, DrawingError> {
+pub(super) fn svg(burn: &PlannedBurn) -> Result<String, DrawingError> {
     drawing::svg(&[&sphere(burn), &nutation(burn)])
 }
 

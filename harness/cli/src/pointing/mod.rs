@@ -29,15 +29,15 @@ struct Plant<'a> {
 }
 
 /// What a plant's variables begin with, and the windows of its spacecraft's file.
-pub type Windows = (String, DownlinkWindows);
+pub(crate) type Windows = (String, DownlinkWindows);
 
 /// The windows of a spacecraft's file, if it has any.
-pub fn windows_of(text: &str) -> Option<Windows> {
+pub(crate) fn windows_of(text: &str) -> Option<Windows> {
     Some((String::new(), Spacecraft::from_toml("", text).ok()?.downlinks?))
 }
 
 /// The windows of the files in FMUs that are unpacked in these folders, each after what its variables begin with.
-pub fn windows_in(parts: &[(String, PathBuf)]) -> Vec<Windows> {
+pub(crate) fn windows_in(parts: &[(String, PathBuf)]) -> Vec<Windows> {
     let windows = parts.iter().filter_map(|(prefix, folder)| {
         let text = files::read_text(&folder.join("resources").join("spacecraft.toml")).ok()?;
         Some((prefix.clone(), windows_of(&text)?.1))
@@ -46,12 +46,16 @@ pub fn windows_in(parts: &[(String, PathBuf)]) -> Vec<Windows> {
 }
 
 /// A warning for each plant whose downlinks are always or never open.
-pub fn warnings(description: &Description, sets: &[(String, Value)], windows: &[Windows]) -> Vec<String> {
+pub(crate) fn warnings(
+    description: &Description,
+    sets: &[(String, Value)],
+    windows: &[Windows],
+) -> Vec<String> {
     plants(description, sets, windows).filter_map(|plant| plant.window_warning()).collect()
 }
 
 /// How the plant points; `None` of what is no plant.
-pub fn sentence(description: &Description, windows: &[Windows]) -> Option<String> {
+pub(crate) fn sentence(description: &Description, windows: &[Windows]) -> Option<String> {
     plants(description, &[], windows).next()?.sentence()
 }
 

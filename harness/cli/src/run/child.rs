@@ -22,7 +22,7 @@ use crate::{
 
 /// `heliotorque run-in-child`.
 #[derive(Debug, Args)]
-pub struct RunInChild {
+pub(crate) struct RunInChild {
     /// The folder that the FMU was unpacked into
     #[arg(long)]
     pub unpacked_in: PathBuf,
@@ -45,7 +45,7 @@ const ENDS: [Ended; 3] = [Ended::AtStop, Ended::Cancelled, Ended::ByItself];
 const MESSAGES: usize = 1000;
 
 /// What came of a simulation.
-pub struct SimulationResult {
+pub(super) struct SimulationResult {
     /// Why it ended.
     pub outcome: Result<Ended, String>,
     /// What the instance logged.
@@ -55,7 +55,7 @@ pub struct SimulationResult {
 }
 
 /// Starts the child process of a run; `input_copy` is what the parent read from the standard input.
-pub fn start(subject: &Subject, input_copy: Option<&Path>) -> io::Result<ChildProcess> {
+pub(super) fn start(subject: &Subject, input_copy: Option<&Path>) -> io::Result<ChildProcess> {
     let own = [OsString::from("run-in-child"), path_option("--unpacked-in=", &subject.folder())];
     let own = own.into_iter().chain(input_copy.map(|path| path_option("--input-copy=", path)));
     // After the program and `run`: the child reads the same arguments.
@@ -64,7 +64,7 @@ pub fn start(subject: &Subject, input_copy: Option<&Path>) -> io::Result<ChildPr
 
 /// Takes what the child process sends, each FMI call within its bounds. `tick` is shown the recording so far and the beginning of
 /// the step in progress.
-pub fn simulate(
+pub(super) fn simulate(
     child: ChildProcess,
     subject: &Subject,
     bounds: Bounds,
@@ -190,7 +190,7 @@ impl Rows for RowSender<'_> {
 }
 
 /// Runs in this process and sends the parent what comes of it.
-pub fn run(arguments: &RunInChild) -> Outcome {
+pub(crate) fn run(arguments: &RunInChild) -> Outcome {
     let mut link = Link::attach("heliotorque run")?;
     match simulation(arguments, &mut link) {
         Ok((ended, messages)) => {

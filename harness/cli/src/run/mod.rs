@@ -26,17 +26,17 @@ use crate::{
     output::{self, Judge, Known, Origin, Outputs},
     pointing, variables,
 };
-pub use child::{RunInChild, run as run_in_child};
-pub use options::Run;
-pub use settings::Settings;
-pub use simulated::{Assemble, Simulated, assemble_into};
-pub use subject::Subject;
+pub(crate) use child::{RunInChild, run as run_in_child};
+pub(crate) use options::Run;
+pub(crate) use settings::Settings;
+pub(crate) use simulated::{Assemble, Simulated, assemble_into};
+pub(crate) use subject::Subject;
 
 /// Why a run ends before its stop.
 const LOST_READER: &str = "nobody reads the standard output any more";
 
 /// A run of which everything was accepted that can be refused without the FMU's library.
-pub struct Prepared {
+pub(crate) struct Prepared {
     /// The arguments and the mission.
     pub simulated: Simulated,
     /// What is run.
@@ -57,7 +57,7 @@ impl Prepared {
     ///
     /// # Errors
     /// Whatever is refused, by the flag or the mission's line.
-    pub fn of(arguments: &Run) -> Result<Self, Box<dyn Error>> {
+    pub(crate) fn of(arguments: &Run) -> Result<Self, Box<dyn Error>> {
         if let Some(path) = &arguments.plot {
             output::check_svg_path(path, "--plot")?;
         }
@@ -101,7 +101,7 @@ fn copied_input(arguments: &Run) -> io::Result<Option<(Scratch, PathBuf)>> {
 }
 
 /// A warning where the step is longer than the run.
-pub fn long_step(times: &Times) -> Option<String> {
+pub(crate) fn long_step(times: &Times) -> Option<String> {
     let Times { start_s, stop_s, step_s } = *times;
     let [run, step] = [stop_s - start_s, step_s].map(terminal::short);
     (step_s > stop_s - start_s).then(|| {
@@ -112,7 +112,7 @@ pub fn long_step(times: &Times) -> Option<String> {
 }
 
 /// Runs in a child process.
-pub fn run(arguments: &Run) -> Outcome {
+pub(crate) fn run(arguments: &Run) -> Outcome {
     let prepared = Prepared::of(arguments)?;
     let Prepared { simulated, subject, settings, points, mut outputs, input_copy, _scratch } = prepared;
     let arguments = &simulated.run;

@@ -16,7 +16,7 @@ Example:
 /// `heliotorque run`.
 #[derive(Clone, Debug, Default, Args)]
 #[command(after_help = EXAMPLE)]
-pub struct Run {
+pub(crate) struct Run {
     /// The FMU, an .fmu file or the folder it was unpacked into; a system, an .ssp file, whose variables are named
     /// component.variable; or a mission, a .toml file (see `heliotorque new mission`), whose values the options replace
     pub fmu: PathBuf,
@@ -81,7 +81,7 @@ pub struct Run {
 
 /// `--master`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum MasterKind {
+pub(crate) enum MasterKind {
     /// All components take the values of the step's beginning
     #[value(name = "jacobi")]
     Jacobi,
@@ -92,7 +92,7 @@ pub enum MasterKind {
 
 /// `--first-exchange`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum FirstExchangeKind {
+pub(crate) enum FirstExchangeKind {
     /// The outputs at the start
     Initial,
     /// Zero, as for FMPy

@@ -20,7 +20,7 @@ use crate::{
 };
 
 /// What the arguments mean for an FMU or a system.
-pub struct Settings {
+pub(crate) struct Settings {
     /// Start, stop and step.
     pub times: Times,
     /// Values set before the run.
@@ -37,7 +37,7 @@ pub struct Settings {
 
 impl Settings {
     /// Of the arguments and the mission; the error names the flag or the line. What `--input` names may stand in a copy.
-    pub fn of(
+    pub(crate) fn of(
         subject: &Subject,
         simulated: &Simulated,
         input_copy: Option<&Path>,
@@ -116,7 +116,7 @@ impl Settings {
     }
 
     /// Runs it in this process, telling the time in s after every step, until a word says that it shall end.
-    pub fn simulate_into(
+    pub(crate) fn simulate_into(
         &self,
         subject: &Subject,
         arguments: &Run,

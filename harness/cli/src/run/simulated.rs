@@ -23,7 +23,7 @@ use crate::{
 
 /// `heliotorque assemble`.
 #[derive(Debug, Args)]
-pub struct Assemble {
+pub(crate) struct Assemble {
     /// The mission
     pub mission: PathBuf,
     /// The FMU whose library reads its files
@@ -38,7 +38,7 @@ pub struct Assemble {
 const PACKING_S: f64 = 60.0;
 
 /// A run as it is meant.
-pub struct Simulated {
+pub(crate) struct Simulated {
     /// The arguments, a mission's where none are given.
     pub run: Run,
     /// The mission, if the arguments name one.
@@ -47,7 +47,7 @@ pub struct Simulated {
 
 impl Simulated {
     /// Reads the mission if the arguments name one.
-    pub fn of(arguments: &Run) -> Result<Self, String> {
+    pub(crate) fn of(arguments: &Run) -> Result<Self, String> {
         let is_toml = |path: &Path| path.extension().is_some_and(|extension| extension == "toml");
         if !is_toml(&arguments.fmu) {
             if arguments.template.is_some() {
@@ -68,12 +68,12 @@ impl Simulated {
     }
 
     /// The epoch of time 0 in s past J2000 TDB, where the mission begins at a date.
-    pub fn zero_epoch_s(&self, start_s: f64) -> Option<f64> {
+    pub(crate) fn zero_epoch_s(&self, start_s: f64) -> Option<f64> {
         Some(self.mission.as_ref()?.epoch_s.as_ref()?.it - start_s)
     }
 
     /// Opens what flies; a mission's files are packed into a temporary FMU.
-    pub fn open(&self) -> Result<(Subject, Option<Scratch>), Box<dyn Error>> {
+    pub(crate) fn open(&self) -> Result<(Subject, Option<Scratch>), Box<dyn Error>> {
         let Some(mission) = &self.mission else { return Ok((Subject::open(&self.run.fmu)?, None)) };
         if let SpacecraftSource::Fmu(path) = &mission.spacecraft_source {
             if self.run.template.is_some() {
@@ -107,14 +107,14 @@ impl Simulated {
     }
 
     /// The files that are read, so not written over.
-    pub fn reads(&self) -> Vec<&Path> {
+    pub(crate) fn reads(&self) -> Vec<&Path> {
         let of_mission = self.mission.iter().flat_map(Mission::reads);
         of_mission.chain([self.run.fmu.as_path()]).chain(self.run.input.as_deref()).collect()
     }
 }
 
 /// Puts the FMU of a mission's files together in a folder.
-pub fn assemble_into(arguments: &Assemble) -> Outcome {
+pub(crate) fn assemble_into(arguments: &Assemble) -> Outcome {
     assemble_files(&Mission::read(&arguments.mission)?, arguments.template.as_deref(), &arguments.into)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -13,7 +13,7 @@ use super::options::Run;
 use crate::{epoch::Dates, values::Instant};
 
 /// What is run.
-pub enum Subject {
+pub(crate) enum Subject {
     /// An FMU.
     Fmu(Fmu),
     /// A system.
@@ -22,7 +22,7 @@ pub enum Subject {
 
 impl Subject {
     /// Opens an FMU or a system.
-    pub fn open(path: &Path) -> Result<Self, Box<dyn Error>> {
+    pub(crate) fn open(path: &Path) -> Result<Self, Box<dyn Error>> {
         Ok(if systems::is_system(path) {
             Self::System(Box::new(System::open(path)?))
         } else {
@@ -31,7 +31,7 @@ impl Subject {
     }
 
     /// Refuses options that only the other kind takes.
-    pub fn check_options(&self, arguments: &Run) -> Result<(), String> {
+    pub(crate) fn check_options(&self, arguments: &Run) -> Result<(), String> {
         let option = match self {
             Self::Fmu(_) if arguments.master.is_some() => "--master",
             Self::Fmu(_) if arguments.first_exchange.is_some() => "--first-exchange",
@@ -44,7 +44,7 @@ impl Subject {
     }
 
     /// Refuses what this computer has no library for.
-    pub fn check_libraries(&self) -> Result<(), Box<dyn Error>> {
+    pub(crate) fn check_libraries(&self) -> Result<(), Box<dyn Error>> {
         match self {
             Self::Fmu(fmu) => drop(fmu.binary_path()?),
             Self::System(system) => {
@@ -57,7 +57,7 @@ impl Subject {
     }
 
     /// What the variables of each FMU begin with, and the folder it is unpacked in.
-    pub fn parts(&self) -> Vec<(String, PathBuf)> {
+    pub(crate) fn parts(&self) -> Vec<(String, PathBuf)> {
         match self {
             Self::Fmu(fmu) => vec![(String::new(), fmu.folder().to_owned())],
             Self::System(system) => {
@@ -68,7 +68,7 @@ impl Subject {
     }
 
     /// What the variables of each FMU begin with, and its description.
-    pub fn fmus(&self) -> Vec<(String, &Description)> {
+    pub(crate) fn fmus(&self) -> Vec<(String, &Description)> {
         match self {
             Self::Fmu(fmu) => vec![(String::new(), fmu.description())],
             Self::System(system) => {
@@ -79,7 +79,7 @@ impl Subject {
     }
 
     /// Its variables.
-    pub fn description(&self) -> &Description {
+    pub(crate) fn description(&self) -> &Description {
         match self {
             Self::Fmu(fmu) => fmu.description(),
             Self::System(system) => system.description(),
@@ -87,7 +87,7 @@ impl Subject {
     }
 
     /// What is connected and not read, a line for each option.
-    pub fn unread(&self, sets: &[(String, Value)]) -> Vec<String> {
+    pub(crate) fn unread(&self, sets: &[(String, Value)]) -> Vec<String> {
         match self {
             Self::Fmu(_) => Vec::new(),
             Self::System(system) => system.unread(sets).iter().map(ToString::to_string).collect(),
@@ -95,12 +95,12 @@ impl Subject {
     }
 
     /// Its name.
-    pub fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         &self.description().model_name
     }
 
     /// Its name, with the component's of this number.
-    pub fn named(&self, number: usize) -> String {
+    pub(crate) fn named(&self, number: usize) -> String {
         let name = self.name();
         match self {
             // What the child writes is not trusted.
@@ -112,7 +112,7 @@ impl Subject {
     }
 
     /// The folder that it is unpacked in.
-    pub fn folder(&self) -> PathBuf {
+    pub(crate) fn folder(&self) -> PathBuf {
         match self {
             Self::Fmu(fmu) => fmu.folder().to_owned(),
             Self::System(system) => system.folder().to_owned(),
@@ -120,7 +120,7 @@ impl Subject {
     }
 
     /// The times of a run.
-    pub fn times(&self, arguments: &Run, dates: &Dates<'_>) -> Result<Times, Box<dyn Error>> {
+    pub(crate) fn times(&self, arguments: &Run, dates: &Dates<'_>) -> Result<Times, Box<dyn Error>> {
         let Run { start, stop, step, .. } = *arguments;
         let stop_s = match stop {
             Some(Instant::Epoch(epoch_s)) => {

@@ -6,7 +6,7 @@ use crate::outcome::{self, Outcome};
 
 /// `heliotorque schema`.
 #[derive(Debug, Args)]
-pub struct Schema {
+pub(crate) struct Schema {
     /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; mission, which `run` flies; timeline, which `pack --timeline` takes; or ephemeris, which `pack --ephemeris` takes
     #[arg(value_enum, default_value_t, hide_possible_values = true)]
     pub kind: SchemaKind,
@@ -14,7 +14,7 @@ pub struct Schema {
 
 /// A kind of file that has a schema.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
-pub enum SchemaKind {
+pub(crate) enum SchemaKind {
     /// A spacecraft.
     #[default]
     Spacecraft,
@@ -29,7 +29,7 @@ pub enum SchemaKind {
 }
 
 /// Prints the schema.
-pub fn run(arguments: &Schema) -> Outcome {
+pub(crate) fn run(arguments: &Schema) -> Outcome {
     let schema = match arguments.kind {
         SchemaKind::Spacecraft => include_str!("../../../../fmu-src/resources/spacecraft.schema.json"),
         SchemaKind::Spinner => include_str!("../../../../fmu-src/resources/spinner.schema.json"),

@@ -25,7 +25,7 @@ const SCALES: [f64; 9] = [1.0, 2.0, 0.5, 1.41, 0.71, 4.0, 0.35, 2.83, 0.25];
 
 /// Dumps of one flight, scaled to a year.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Dumped {
+pub(super) struct Dumped {
     pub strategy: String,
     /// By body axis.
     pub threshold_n_m_s: Vector3<f64>,
@@ -36,13 +36,13 @@ pub struct Dumped {
 }
 
 /// What was simulated, and what the time did not suffice for.
-pub struct Sweep {
+pub(super) struct Sweep {
     pub dumped: Vec<Dumped>,
     pub left_out: usize,
 }
 
 /// Momentum by source and in the body frame, without dumps.
-pub fn undumped(sized: &SizedSpacecraft, is_quiet: bool) -> Result<Recording, Failure> {
+pub(super) fn undumped(sized: &SizedSpacecraft, is_quiet: bool) -> Result<Recording, Failure> {
     let patterns = ["momentum.*".to_owned()];
     let record = selected(sized.fmu.description(), &patterns, loader::select_outputs)?;
     let bar = terminal::progress(sized.span_s as u64, "s without dumps", is_quiet);
@@ -54,7 +54,7 @@ pub fn undumped(sized: &SizedSpacecraft, is_quiet: bool) -> Result<Recording, Fa
 }
 
 /// Dumps by threshold and strategy, as far as the time suffices; those of the file's own threshold in any case.
-pub fn sweep(sized: &SizedSpacecraft, budget_s: f64, is_quiet: bool) -> Result<Sweep, Failure> {
+pub(super) fn sweep(sized: &SizedSpacecraft, budget_s: f64, is_quiet: bool) -> Result<Sweep, Failure> {
     let own_n_m_s = vector(&mut sized.started()?, "dump.threshold")?;
     let until = Instant::now() + Duration::from_secs_f64(budget_s.clamp(0.0, 1e6));
     let cases =

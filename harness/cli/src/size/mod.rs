@@ -18,12 +18,12 @@ use files::Destination;
 
 use crate::{interrupt, outcome::Outcome};
 use needs::{SlewLimits, Wheels};
-pub use options::Size;
+pub(crate) use options::Size;
 use sized::{SizedSpacecraft, YEAR_S};
 use table::Found;
 
 /// Sizes a spacecraft.
-pub fn run(arguments: &Size) -> Outcome {
+pub(crate) fn run(arguments: &Size) -> Outcome {
     let [picture, table_file] = destinations(arguments)?;
     let sized = SizedSpacecraft::open(arguments)?;
     let simulated = flights::undumped(&sized, arguments.quiet)?;

@@ -7,7 +7,7 @@ use loader::Recording;
 
 /// Momentum by source and axis, in N m s.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SourceRow {
+pub(super) struct SourceRow {
     /// Of `momentum.*`.
     pub source: String,
     /// Gathered in an orbit in the mean, by axis.
@@ -21,7 +21,7 @@ pub struct SourceRow {
 }
 
 /// What each source gathers; `period_s` is an orbit's, `years` the length of the flight.
-pub fn by_source(simulated: &Recording, period_s: f64, years: f64) -> Vec<SourceRow> {
+pub(super) fn by_source(simulated: &Recording, period_s: f64, years: f64) -> Vec<SourceRow> {
     let sources =
         simulated.names.iter().filter_map(|name| name.strip_prefix("momentum.")?.strip_suffix("[1]"));
     let rows = sources.map(|source| {
@@ -86,7 +86,7 @@ fn windows(times_s: &[f64], span_s: f64) -> Vec<core::ops::Range<usize>> {
 }
 
 /// The greatest range that a component of the body's momentum has within any time of this length, by axis, in N m s.
-pub fn greatest_range_n_m_s(simulated: &Recording, span_s: f64) -> [f64; 3] {
+pub(super) fn greatest_range_n_m_s(simulated: &Recording, span_s: f64) -> [f64; 3] {
     [1, 2, 3].map(|axis| {
         let values =
             simulated.column(&format!("momentum.body[{axis}]")).map(|it| it.numbers()).unwrap_or_default();

@@ -14,7 +14,7 @@ const NAMES: [&str; 3] = ["X", "Y", "Z"];
 
 /// A turn about a body axis from rest to rest, by `control.slewRate` and `control.slewAcceleration`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Slew {
+pub(super) struct Slew {
     pub axis: &'static str,
     pub torque_n_m: f64,
     pub momentum_n_m_s: f64,
@@ -24,7 +24,7 @@ pub struct Slew {
 
 /// Wheels of one geometry that take what the mission needs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Geometry {
+pub(super) struct Geometry {
     pub name: String,
     /// Of each wheel, in N m s and N m.
     pub capacity_n_m_s: f64,
@@ -32,7 +32,7 @@ pub struct Geometry {
 }
 
 /// What wheels have to take about each body axis, and which wheels do.
-pub struct Wheels {
+pub(super) struct Wheels {
     /// Gathered within the longest time between dumps.
     pub gathered_n_m_s: [f64; 3],
     pub spacing_s: f64,
@@ -44,7 +44,7 @@ pub struct Wheels {
 
 /// How thrusters turn the spacecraft one way about an axis.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Allocation {
+pub(super) struct Allocation {
     pub sense: String,
     /// Names with seconds of full thrust for 1 N m s.
     pub shares: Vec<(String, f64)>,
@@ -56,7 +56,7 @@ pub struct Allocation {
 }
 
 /// What the FMU lets slews do.
-pub struct SlewLimits {
+pub(super) struct SlewLimits {
     pub rate_rad_s: f64,
     pub acceleration_rad_s2: f64,
     pub inertia_kg_m2: Matrix3<f64>,
@@ -64,7 +64,7 @@ pub struct SlewLimits {
 
 impl SlewLimits {
     /// Of a sized at its start.
-    pub fn of(sized: &SizedSpacecraft) -> Result<Self, loader::Error> {
+    pub(super) fn of(sized: &SizedSpacecraft) -> Result<Self, loader::Error> {
         let mut started = sized.started()?;
         let mut inertia_kg_m2 = Matrix3::zeros();
         for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
@@ -79,7 +79,7 @@ impl SlewLimits {
     }
 
     /// About each body axis.
-    pub fn slews(&self) -> [Slew; 3] {
+    pub(super) fn slews(&self) -> [Slew; 3] {
         let inertia_kg_m2 = self.inertia_kg_m2.diagonal();
         [0, 1, 2].map(|axis| Slew {
             axis: NAMES[axis],
@@ -106,7 +106,7 @@ impl SlewLimits {
 impl Wheels {
     /// By what a flight without dumps gathers: after a dump to the other side of the threshold a component has room for
     /// 1 + dump.reinitFraction thresholds.
-    pub fn needed(
+    pub(super) fn needed(
         sized: &SizedSpacecraft,
         gathered_n_m_s: impl FnOnce(f64) -> [f64; 3],
         slews: &[Slew; 3],
@@ -147,7 +147,7 @@ fn geometries(spacecraft: &Spacecraft) -> Vec<(String, Vec<Vector3<f64>>)> {
 
 /// Capacity of each of the file's wheels whose least-norm box is this threshold, in N m s; the threshold itself without
 /// wheels in all directions.
-pub fn capacity_n_m_s(spacecraft: &Spacecraft, threshold_n_m_s: f64) -> f64 {
+pub(super) fn capacity_n_m_s(spacecraft: &Spacecraft, threshold_n_m_s: f64) -> f64 {
     let axes: Vec<_> = spacecraft.wheels.iter().map(|wheel| wheel.axis_body).collect();
     let of_one =
         WheelCapacity::of(&axes, &vec![1.0; axes.len()]).map_or(1.0, |held| held.least_norm_box_n_m_s);
@@ -158,7 +158,7 @@ pub fn capacity_n_m_s(spacecraft: &Spacecraft, threshold_n_m_s: f64) -> f64 {
 ///
 /// # Errors
 /// Why there is none.
-pub fn allocations(sized: &SizedSpacecraft) -> Result<Vec<Allocation>, String> {
+pub(super) fn allocations(sized: &SizedSpacecraft) -> Result<Vec<Allocation>, String> {
     let thrusters = &sized.spacecraft.thrusters;
     if thrusters.is_empty() {
         return Err("The file has no thrusters: dumps take no propellant.".to_owned());

@@ -22,7 +22,7 @@ Example:
 /// `heliotorque size`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
-pub struct Size {
+pub(crate) struct Size {
     /// A spacecraft, as for `pack`, or a mission, as for `run`, whose start, values and inputs count
     pub file: PathBuf,
     /// The folder for picture and table, in which it makes NAME-size.svg and NAME-size.csv; otherwise this one

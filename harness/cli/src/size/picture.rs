@@ -12,7 +12,7 @@ use super::{
 ///
 /// # Errors
 /// Nothing to draw.
-pub fn svg(sized: &SizedSpacecraft, sweep: &Sweep) -> Result<String, DrawingError> {
+pub(super) fn svg(sized: &SizedSpacecraft, sweep: &Sweep) -> Result<String, DrawingError> {
     let of_strategies = |value: fn(&Dumped) -> f64| {
         let lines = sized.strategies.iter().map(move |strategy| {
             let own = sweep.dumped.iter().filter(|it| it.strategy == *strategy);

@@ -17,15 +17,15 @@ use crate::{
 };
 
 /// Why something could not be done.
-pub type Failure = Box<dyn std::error::Error>;
+pub(super) type Failure = Box<dyn std::error::Error>;
 
 /// The model that is simulated.
 const MODEL: &str = "MomentumPlant";
 /// A year, in s.
-pub const YEAR_S: f64 = 365.25 * DAY_S;
+pub(super) const YEAR_S: f64 = 365.25 * DAY_S;
 
 /// A spacecraft ready to fly.
-pub struct SizedSpacecraft {
+pub(super) struct SizedSpacecraft {
     pub fmu: Fmu,
     pub spacecraft: Spacecraft,
     pub sets: Vec<(String, Value)>,
@@ -42,7 +42,7 @@ pub struct SizedSpacecraft {
 
 impl SizedSpacecraft {
     /// Reads the file, packs it and starts it once.
-    pub fn open(arguments: &Size) -> Result<Self, Failure> {
+    pub(super) fn open(arguments: &Size) -> Result<Self, Failure> {
         let text = files::read_text(&arguments.file)?;
         let file = arguments.file.display().to_string();
         let is_mission = FileKind::of(&text) == Some(FileKind::Mission);
@@ -101,12 +101,12 @@ impl SizedSpacecraft {
     }
 
     /// An instance that has just been initialised.
-    pub fn started(&self) -> Result<Instance, loader::Error> {
+    pub(super) fn started(&self) -> Result<Instance, loader::Error> {
         instance::started(&self.fmu, "size", self.start_s, &self.sets)
     }
 
     /// What a flight comes to, scaled to a year.
-    pub fn per_year(&self, of_flight: f64) -> f64 {
+    pub(super) fn per_year(&self, of_flight: f64) -> f64 {
         of_flight * YEAR_S / self.span_s
     }
 }
@@ -166,7 +166,7 @@ fn spacecraft(fmu: &Fmu) -> Result<Spacecraft, Failure> {
 }
 
 /// Three parameters or outputs of an instance.
-pub fn vector(instance: &mut Instance, name: &str) -> Result<Vector3<f64>, loader::Error> {
+pub(super) fn vector(instance: &mut Instance, name: &str) -> Result<Vector3<f64>, loader::Error> {
     let [x, y, z] = [1, 2, 3].map(|axis| instance.get_real(&format!("{name}[{axis}]")));
     Ok(Vector3::new(x?, y?, z?))
 }

@@ -11,7 +11,7 @@ use super::{
 };
 
 /// What was found, but for pictures.
-pub struct Found {
+pub(super) struct Found {
     pub sources: Vec<SourceRow>,
     pub sweep: Sweep,
     pub slews: [Slew; 3],
@@ -21,7 +21,7 @@ pub struct Found {
 }
 
 /// All of it.
-pub fn text(sized: &SizedSpacecraft, found: &Found) -> String {
+pub(super) fn text(sized: &SizedSpacecraft, found: &Found) -> String {
     let parts = [
         sources(sized, &found.sources),
         dumps(sized, &found.sweep),
@@ -92,7 +92,7 @@ fn dumps(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
 }
 
 /// Of each wheel, by the greatest threshold.
-pub fn capacity(sized: &SizedSpacecraft, dumped: &Dumped) -> f64 {
+pub(super) fn capacity(sized: &SizedSpacecraft, dumped: &Dumped) -> f64 {
     capacity_n_m_s(&sized.spacecraft, dumped.threshold_n_m_s.max())
 }
 
@@ -160,7 +160,7 @@ fn allocations(found: &Result<Vec<Allocation>, String>) -> String {
 }
 
 /// Dumps by threshold and strategy, SI, as CSV.
-pub fn csv(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
+pub(super) fn csv(sized: &SizedSpacecraft, sweep: &Sweep) -> String {
     let mut text = String::from(
         "strategy,threshold_x_n_m_s,threshold_y_n_m_s,threshold_z_n_m_s,wheel_capacity_n_m_s,dumps_per_year,\
          impulse_n_m_s_per_year,propellant_kg_per_year\n",

@@ -14,7 +14,7 @@ use crate::{
 
 /// `heliotorque study`.
 #[derive(Debug, Args)]
-pub struct Study {
+pub(crate) struct Study {
     /// The study, or `list`
     pub name: String,
     /// Folder with the FMUs; otherwise the installed program's, or dist
@@ -42,7 +42,7 @@ pub struct Study {
 }
 
 /// Runs a study, or lists them.
-pub fn run(arguments: &Study) -> Outcome {
+pub(crate) fn run(arguments: &Study) -> Outcome {
     if arguments.name == "list" {
         let mut table = terminal::table(&["study", "paper", "what it shows"]);
         for study in STUDIES {

@@ -28,7 +28,7 @@ Example:
 /// `heliotorque wire`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
-pub struct Wire {
+pub(crate) struct Wire {
     /// The FMUs, in the order in which they step: A.fmu is component a, or name=A.fmu
     #[arg(required = true, num_args = 1.., value_name = "FMU")]
     pub fmus: Vec<String>,
@@ -67,7 +67,7 @@ pub struct Wire {
 const DEFAULT_NAME: &str = "System";
 
 /// Writes the SSP.
-pub fn run(arguments: &Wire) -> Outcome {
+pub(crate) fn run(arguments: &Wire) -> Outcome {
     let path = arguments.output.clone().unwrap_or_else(|| PathBuf::from("-"));
     if path == Path::new("-") && std::io::stdout().is_terminal() {
         return Err("an SSP is a ZIP archive, which is not written to a terminal: see --output".into());
@@ -157,7 +157,7 @@ fn report(wired: &Wired) -> String {
 }
 
 /// Names in lines that a terminal shows whole.
-pub fn wrapped(names: &[String]) -> String {
+pub(crate) fn wrapped(names: &[String]) -> String {
     const WIDTH: usize = 110;
     let mut lines = vec![String::new()];
     for (number, name) in names.iter().enumerate() {
@@ -174,7 +174,7 @@ pub fn wrapped(names: &[String]) -> String {
 }
 
 /// Names by what they have in common, each once, in their order.
-pub fn grouped<K: Ord>(all: impl Iterator<Item = (K, String)>) -> BTreeMap<K, Vec<String>> {
+pub(crate) fn grouped<K: Ord>(all: impl Iterator<Item = (K, String)>) -> BTreeMap<K, Vec<String>> {
     let mut groups: BTreeMap<K, Vec<String>> = BTreeMap::new();
     for (key, name) in all {
         let names = groups.entry(key).or_default();
@@ -186,6 +186,6 @@ pub fn grouped<K: Ord>(all: impl Iterator<Item = (K, String)>) -> BTreeMap<K, Ve
 }
 
 /// The vector that an element is of; of any other variable its name.
-pub fn vector(name: &str) -> String {
+pub(crate) fn vector(name: &str) -> String {
     variables::vector(name).unwrap_or(name).to_owned()
 }

@@ -11,7 +11,7 @@ const STATES: [State; 5] =
     [State::Instantiated, State::InitializationMode, State::StepComplete, State::Terminated, State::Error];
 
 /// Calls each function in each state, every time in a fresh instance.
-pub fn probe(fmu: &Fmu) -> Findings {
+pub(crate) fn probe(fmu: &Fmu) -> Findings {
     let mut findings = Vec::new();
     let (mut as_reported, mut left_out) = (0, 0);
     for state in STATES {

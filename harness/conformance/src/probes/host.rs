@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// The callbacks' struct ends with `fmi2Instantiate` (2.0.5); memory functions may be NULL if the FMU declares it.
-pub fn callbacks(fmu: &Fmu) -> Findings {
+pub(crate) fn callbacks(fmu: &Fmu) -> Findings {
     let expected = experiment::short_simulation(fmu, &experiment::strict())?;
     let may_be_null = fmu.co_simulation()?.can_not_use_memory_management_functions;
     let mut findings = Vec::new();
@@ -45,7 +45,7 @@ fn runs_alike(fmu: &Fmu, options: &InstanceOptions, expected: &Bits, what: &str)
 }
 
 /// NULL where nothing is to be read or written.
-pub fn nulls(fmu: &Fmu) -> Findings {
+pub(crate) fn nulls(fmu: &Fmu) -> Findings {
     let mut instance = experiment::ready(fmu, &experiment::unchecked())?;
     let state_calls = fmu.co_simulation()?.can_get_and_set_fmu_state;
     let findings = instance
@@ -58,7 +58,7 @@ pub fn nulls(fmu: &Fmu) -> Findings {
 }
 
 /// "If a null pointer is provided, the call is ignored" (2.1.8): the pointer to the state, or the state itself.
-pub const TRIALS: &[Trial] = &[Trial {
+pub(crate) const TRIALS: &[Trial] = &[Trial {
     probe: "nulls",
     call: "fmi2FreeFMUstate(instance, NULL)",
     what: "the pointer to the state is NULL",
@@ -90,7 +90,7 @@ const STRANGE: [&str; 6] =
     ["with space", "50% off", "a+b", "{braces} #1", "Überraum λ 火星", "dots..and~tilde"];
 
 /// Moves the FMU to strange places and runs it there.
-pub fn paths(fmu: &Fmu) -> Findings {
+pub(crate) fn paths(fmu: &Fmu) -> Findings {
     let expected = experiment::short_simulation(fmu, &experiment::strict())?;
     let mut findings = Vec::new();
     let scratch = tempfile::tempdir().map_err(|source| Error::File { path: std::env::temp_dir(), source })?;
@@ -145,7 +145,7 @@ fn copy(from: &Path, to: &Path) -> Result<(), Error> {
 }
 
 /// GUIDs and names.
-pub fn identity(fmu: &Fmu) -> Findings {
+pub(crate) fn identity(fmu: &Fmu) -> Findings {
     let mut findings = Vec::new();
     for guid in ["", "{00000000-0000-0000-0000-000000000000}", "100 %s %n #r1#"] {
         let options = InstanceOptions { guid: Some(guid.to_owned()), ..experiment::unchecked() };
@@ -191,7 +191,7 @@ const COMMA_LOCALES: [&str; 6] =
     ["de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "nl_NL.UTF-8", "ru_RU.UTF-8", "German_Germany.1252"];
 
 /// Simulation tools set the locale of the whole process; a number in XML or TOML keeps its point.
-pub fn locale(fmu: &Fmu) -> Findings {
+pub(crate) fn locale(fmu: &Fmu) -> Findings {
     let expected = experiment::short_simulation(fmu, &experiment::strict())?;
     let Some(name) = COMMA_LOCALES.into_iter().find(|name| loader::set_locale(name)) else {
         let names = COMMA_LOCALES.join(", ");
@@ -204,7 +204,7 @@ pub fn locale(fmu: &Fmu) -> Findings {
 }
 
 /// Simulations on threads at the same time.
-pub fn threads(fmu: &Fmu) -> Findings {
+pub(crate) fn threads(fmu: &Fmu) -> Findings {
     if fmu.co_simulation()?.can_be_instantiated_only_once_per_process {
         return Ok(vec![Finding::skipped("it allows one instance a process only")]);
     }
@@ -243,7 +243,7 @@ pub fn threads(fmu: &Fmu) -> Findings {
 }
 
 /// Instances beside and after one another.
-pub fn instances(fmu: &Fmu) -> Findings {
+pub(crate) fn instances(fmu: &Fmu) -> Findings {
     let expected = experiment::short_simulation(fmu, &experiment::strict())?;
     let mut findings = Vec::new();
     if fmu.co_simulation()?.can_be_instantiated_only_once_per_process {

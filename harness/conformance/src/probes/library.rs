@@ -6,7 +6,7 @@ use model_description::call_table::Function;
 use crate::{Finding, probe::Findings};
 
 /// Loads the library in this process.
-pub fn probe(fmu: &Fmu) -> Findings {
+pub(crate) fn probe(fmu: &Fmu) -> Findings {
     let binary = fmu.binary()?;
     let mut findings = vec![Finding::good("loads")];
     let missing = binary.missing();

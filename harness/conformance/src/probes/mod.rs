@@ -1,10 +1,10 @@
 //! The probes by subject.
 
-pub mod calls;
-pub mod host;
-pub mod library;
-pub mod reference;
-pub mod state;
-pub mod stepping;
-pub mod times;
-pub mod values;
+pub(crate) mod calls;
+pub(crate) mod host;
+pub(crate) mod library;
+pub(crate) mod reference;
+pub(crate) mod state;
+pub(crate) mod stepping;
+pub(crate) mod times;
+pub(crate) mod values;

@@ -8,7 +8,7 @@ use crate::{Finding, probe::Findings};
 const SHOWN: usize = 5;
 
 /// Flies every reference flight.
-pub fn flights(fmu: &Fmu) -> Findings {
+pub(crate) fn flights(fmu: &Fmu) -> Findings {
     let replays = match reference::replays(fmu) {
         Ok(Some(replays)) if !replays.is_empty() => replays,
         Ok(_) => return Ok(vec![Finding::new(crate::Verdict::Skipped, "carries no reference flight")]),

@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Saves between two steps and compares what follows.
-pub fn probe(fmu: &Fmu) -> Findings {
+pub(crate) fn probe(fmu: &Fmu) -> Findings {
     let flags = fmu.co_simulation()?;
     let half = STEPS / 2;
     let mut findings = Vec::new();

@@ -6,7 +6,7 @@ use model_description::{ScalarVariable, VariableKind, value::items};
 use crate::{Finding, experiment, probe::Findings};
 
 /// Runs the default experiment, or a hundredth of it if it is long, under the strict call checker.
-pub fn simulation(fmu: &Fmu) -> Findings {
+pub(crate) fn simulation(fmu: &Fmu) -> Findings {
     /// Steps enough to see a model at work, few enough to wait for.
     const LONGEST: u64 = 2000;
     let times = experiment::times(fmu)?;

@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Wrong times: an FMU whose solver goes on until it has passed the end of a step may never come back.
-pub const TRIALS: &[Trial] = &[
+pub(crate) const TRIALS: &[Trial] = &[
     wrong("a step from a time that is not its own", false, |fmu, it| {
         step(fmu, it, |times| (times.start_s + 0.5 * times.step_s, times.step_s))
     }),
@@ -60,7 +60,7 @@ fn start_at_nan(fmu: &Fmu, trial: &Trial) -> Findings {
 }
 
 /// Times as masters really give them, and times that are wrong.
-pub fn probe(fmu: &Fmu) -> Findings {
+pub(crate) fn probe(fmu: &Fmu) -> Findings {
     let times = experiment::times(fmu)?;
     let mut findings = Vec::new();
     let variable_steps = fmu.co_simulation()?.can_handle_variable_communication_step_size;

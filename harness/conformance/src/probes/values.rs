@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Start values read back, limits are kept, unknown references refused.
-pub fn probe(fmu: &Fmu) -> Findings {
+pub(crate) fn probe(fmu: &Fmu) -> Findings {
     let mut findings = Vec::new();
     start_values(fmu, &mut findings)?;
     limits(fmu, &mut findings)?;
@@ -130,7 +130,7 @@ fn references(fmu: &Fmu, findings: &mut Vec<Finding>) -> Result<(), loader::Erro
 }
 
 /// Derivatives of inputs and outputs, and directional ones.
-pub fn derivatives(fmu: &Fmu) -> Findings {
+pub(crate) fn derivatives(fmu: &Fmu) -> Findings {
     let flags = fmu.co_simulation()?;
     let inputs = continuous(fmu, Causality::Input);
     let outputs = continuous(fmu, Causality::Output);

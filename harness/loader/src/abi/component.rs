@@ -94,15 +94,15 @@ macro_rules! call {
 macro_rules! plain {
     (calls { $($name:ident $symbol:ident;)* } access { $($get:ident $get_symbol:ident $set:ident $set_symbol:ident: $type:ty;)* }) => {
         impl Component {
-            $(pub fn $name(&mut self) -> Answer {
+            $(pub(crate) fn $name(&mut self) -> Answer {
                 call!(self.$symbol())
             })*
-            $(pub fn $get(&mut self, references: &[u32], values: &mut [$type]) -> Answer {
+            $(pub(crate) fn $get(&mut self, references: &[u32], values: &mut [$type]) -> Answer {
                 same_length(references.len(), values.len())?;
                 call!(self.$get_symbol(references.as_ptr(), references.len(), values.as_mut_ptr()))
             }
 
-            pub fn $set(&mut self, references: &[u32], values: &[$type]) -> Answer {
+            pub(crate) fn $set(&mut self, references: &[u32], values: &[$type]) -> Answer {
                 same_length(references.len(), values.len())?;
                 call!(self.$set_symbol(references.as_ptr(), references.len(), values.as_ptr()))
             })*
@@ -127,7 +127,10 @@ plain! {
 
 impl Component {
     /// `fmi2Instantiate`; a failure comes with what was logged.
-    pub fn instantiate(binary: Arc<Binary>, start: &Start<'_>) -> Result<Self, (Outcome, Vec<LogMessage>)> {
+    pub(crate) fn instantiate(
+        binary: Arc<Binary>,
+        start: &Start<'_>,
+    ) -> Result<Self, (Outcome, Vec<LogMessage>)> {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let c_text = |what: &str, value: &str| {
             CString::new(value)
@@ -184,29 +187,34 @@ impl Component {
     }
 
     /// The messages so far, oldest first.
-    pub fn messages(&self) -> Vec<LogMessage> {
+    pub(crate) fn messages(&self) -> Vec<LogMessage> {
         self.buffer.messages().iter().cloned().collect()
     }
 
     /// Takes the messages out.
-    pub fn take_messages(&self) -> Vec<LogMessage> {
+    pub(crate) fn take_messages(&self) -> Vec<LogMessage> {
         self.buffer.messages().drain(..).collect()
     }
 
-    pub fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Answer {
+    pub(crate) fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Answer {
         let texts = c_texts(categories.iter().copied())?;
         let pointers: Vec<_> = texts.iter().map(|text| text.as_ptr()).collect();
         let list = if pointers.is_empty() { ptr::null() } else { pointers.as_ptr() };
         call!(self.fmi2SetDebugLogging(c_int::from(on), pointers.len(), list))
     }
 
-    pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Answer {
+    pub(crate) fn setup_experiment(
+        &mut self,
+        tolerance: Option<f64>,
+        start: f64,
+        stop: Option<f64>,
+    ) -> Answer {
         let (has_tolerance, tolerance) = (c_int::from(tolerance.is_some()), tolerance.unwrap_or(0.0));
         let (has_stop, stop) = (c_int::from(stop.is_some()), stop.unwrap_or(0.0));
         call!(self.fmi2SetupExperiment(has_tolerance, tolerance, start, has_stop, stop))
     }
 
-    pub fn do_step(&mut self, time: f64, step: f64, no_set_state_prior: bool) -> Answer {
+    pub(crate) fn do_step(&mut self, time: f64, step: f64, no_set_state_prior: bool) -> Answer {
         let Some(function) = self.binary.functions.fmi2DoStep else { return Err(Outcome::Missing) };
         let _under_way = call_record::enter_with(const { call_record::number("fmi2DoStep") }, [time, step]);
         // SAFETY: the handle is alive until drop.
@@ -214,7 +222,7 @@ impl Component {
     }
 
     /// The texts are copied at once: the FMU may reuse its memory at the next call.
-    pub fn get_string(&mut self, references: &[u32], values: &mut Vec<String>) -> Answer {
+    pub(crate) fn get_string(&mut self, references: &[u32], values: &mut Vec<String>) -> Answer {
         let mut pointers = vec![ptr::null(); references.len()];
         let answer = call!(self.fmi2GetString(references.as_ptr(), references.len(), pointers.as_mut_ptr()))?;
         if matches!(answer, Status::Ok | Status::Warning) {
@@ -224,14 +232,14 @@ impl Component {
         Ok(answer)
     }
 
-    pub fn set_string(&mut self, references: &[u32], values: &[&str]) -> Answer {
+    pub(crate) fn set_string(&mut self, references: &[u32], values: &[&str]) -> Answer {
         same_length(references.len(), values.len())?;
         let texts = c_texts(values.iter().copied())?;
         let pointers: Vec<_> = texts.iter().map(|text| text.as_ptr()).collect();
         call!(self.fmi2SetString(references.as_ptr(), references.len(), pointers.as_ptr()))
     }
 
-    pub fn set_real_input_derivatives(
+    pub(crate) fn set_real_input_derivatives(
         &mut self,
         references: &[u32],
         orders: &[i32],
@@ -247,7 +255,7 @@ impl Component {
         ))
     }
 
-    pub fn get_real_output_derivatives(
+    pub(crate) fn get_real_output_derivatives(
         &mut self,
         references: &[u32],
         orders: &[i32],
@@ -263,7 +271,7 @@ impl Component {
         ))
     }
 
-    pub fn get_directional_derivative(
+    pub(crate) fn get_directional_derivative(
         &mut self,
         unknowns: &[u32],
         knowns: &[u32],
@@ -283,21 +291,21 @@ impl Component {
     }
 
     /// `fmi2GetRealStatus` of `fmi2LastSuccessfulTime`.
-    pub fn last_successful_time(&mut self) -> Result<(Status, f64), Outcome> {
+    pub(crate) fn last_successful_time(&mut self) -> Result<(Status, f64), Outcome> {
         let mut value = f64::NAN;
         let status = call!(self.fmi2GetRealStatus(LAST_SUCCESSFUL_TIME, &raw mut value))?;
         Ok((status, value))
     }
 
     /// `fmi2GetBooleanStatus` of `fmi2Terminated`.
-    pub fn terminated(&mut self) -> Result<(Status, bool), Outcome> {
+    pub(crate) fn terminated(&mut self) -> Result<(Status, bool), Outcome> {
         let mut value = 0;
         let status = call!(self.fmi2GetBooleanStatus(TERMINATED, &raw mut value))?;
         Ok((status, value != 0))
     }
 
     /// The remaining status functions, for probing.
-    pub fn get_other_status(&mut self, function: Function, kind: i32) -> Answer {
+    pub(crate) fn get_other_status(&mut self, function: Function, kind: i32) -> Answer {
         let mut number = 0;
         let mut pointer = ptr::null();
         match function {
@@ -308,25 +316,25 @@ impl Component {
     }
 
     /// `fmi2GetFMUstate` into a new state.
-    pub fn get_state(&mut self) -> Result<(Status, Option<StateKey>), Outcome> {
+    pub(crate) fn get_state(&mut self) -> Result<(Status, Option<StateKey>), Outcome> {
         let mut state = ptr::null_mut();
         let status = call!(self.fmi2GetFMUstate(&raw mut state))?;
         Ok((status, self.keep(state)))
     }
 
-    pub fn set_state(&mut self, key: StateKey) -> Answer {
+    pub(crate) fn set_state(&mut self, key: StateKey) -> Answer {
         let state = self.state(key)?;
         call!(self.fmi2SetFMUstate(state))
     }
 
-    pub fn free_state(&mut self, key: StateKey) -> Answer {
+    pub(crate) fn free_state(&mut self, key: StateKey) -> Answer {
         let mut state = self.state(key)?;
         self.states[key.slot].state = ptr::null_mut();
         self.states[key.slot].generation += 1;
         call!(self.fmi2FreeFMUstate(&raw mut state))
     }
 
-    pub fn serialize_state(&mut self, key: StateKey, bytes: &mut Vec<u8>) -> Answer {
+    pub(crate) fn serialize_state(&mut self, key: StateKey, bytes: &mut Vec<u8>) -> Answer {
         let state = self.state(key)?;
         let mut size = 0;
         let status = call!(self.fmi2SerializedFMUstateSize(state, &raw mut size))?;
@@ -338,7 +346,7 @@ impl Component {
         call!(self.fmi2SerializeFMUstate(state, bytes.as_mut_ptr().cast(), size))
     }
 
-    pub fn deserialize_state(&mut self, bytes: &[u8]) -> Result<(Status, Option<StateKey>), Outcome> {
+    pub(crate) fn deserialize_state(&mut self, bytes: &[u8]) -> Result<(Status, Option<StateKey>), Outcome> {
         let mut state = ptr::null_mut();
         let status = call!(self.fmi2DeSerializeFMUstate(bytes.as_ptr().cast(), bytes.len(), &raw mut state))?;
         Ok((status, self.keep(state)))
@@ -346,7 +354,7 @@ impl Component {
 
     /// Zero-length vectors as NULL, NULL states to free, a NULL list of categories: all legal, all tempting to
     /// get wrong. Gives the name and answer of each call.
-    pub fn probe_nulls(&mut self) -> Vec<(&'static str, Answer)> {
+    pub(crate) fn probe_nulls(&mut self) -> Vec<(&'static str, Answer)> {
         let (references, none) = (ptr::null::<u32>(), ptr::null_mut());
         let mut no_state: *mut c_void = none;
         vec![
@@ -364,12 +372,12 @@ impl Component {
     }
 
     /// `fmi2FreeFMUstate` without a place for the state, which many FMUs do not survive.
-    pub fn free_no_state(&mut self) -> Answer {
+    pub(crate) fn free_no_state(&mut self) -> Answer {
         call!(self.fmi2FreeFMUstate(ptr::null_mut()))
     }
 
     /// `fmi2FreeInstance(NULL)`, a no-op by the standard.
-    pub fn free_nothing(&self) {
+    pub(crate) fn free_nothing(&self) {
         if let Some(function) = self.binary.functions.fmi2FreeInstance {
             let _under_way = call_record::enter(const { call_record::number("fmi2FreeInstance") });
             // SAFETY: NULL is allowed.

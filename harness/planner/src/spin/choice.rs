@@ -12,7 +12,11 @@ use super::{
 ///
 /// # Errors
 /// A train that cannot be simulated.
-pub fn broken_limits(spinner: &Spinner, task: &Task, row: &Row) -> Result<Vec<&'static str>, PlanError> {
+pub(super) fn broken_limits(
+    spinner: &Spinner,
+    task: &Task,
+    row: &Row,
+) -> Result<Vec<&'static str>, PlanError> {
     let flight = fly(spinner, task, row)?;
     Ok(broken(&judge(spinner, task, row, &flight)))
 }
@@ -22,7 +26,7 @@ pub fn broken_limits(spinner: &Spinner, task: &Task, row: &Row) -> Result<Vec<&'
 ///
 /// # Errors
 /// None that can be simulated.
-pub fn by_all_limits<'a>(
+pub(super) fn by_all_limits<'a>(
     spinner: &Spinner,
     task: &Task,
     rows: &'a [Row],

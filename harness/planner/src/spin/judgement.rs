@@ -41,7 +41,7 @@ impl Judged {
 
 /// The limits that the spacecraft's file and the flags give, each judged on the flight, and on the worst of the range where
 /// the plan knows it.
-pub fn judge(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) -> Vec<Judged> {
+pub(super) fn judge(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) -> Vec<Judged> {
     let (limits, sun) = (&spinner.limits, task.aim.sun_inertial);
     let mut judged = vec![
         over_time(
@@ -103,7 +103,7 @@ pub fn judge(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) -> Vec<
 }
 
 /// Names of the limits that are broken.
-pub fn broken(judged: &[Judged]) -> Vec<&'static str> {
+pub(super) fn broken(judged: &[Judged]) -> Vec<&'static str> {
     judged.iter().filter(|judged| judged.kept == Some(false)).map(|judged| judged.limit).collect()
 }
 

@@ -11,7 +11,7 @@ const DAY_S: f64 = 86_400.0;
 const MOST_DAYS: f64 = 3653.0;
 
 /// How often to turn over `days`, and what it costs.
-pub fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanError> {
+pub(super) fn months(spinner: &Spinner, task: &Task, days: f64) -> Result<String, PlanError> {
     if !(days > 0.0 && days <= MOST_DAYS) {
         let allowed = format!("above 0 to {MOST_DAYS} days");
         return Err(PlanError::Flag { flag: "--campaign", found: days, allowed });

@@ -21,7 +21,7 @@ pub enum Setting {
 }
 
 /// Everything that the flight depends on and that the spacecraft's file does not say by itself.
-pub fn start_values(task: &Task, row: &Row) -> Vec<(&'static str, Setting)> {
+pub(super) fn start_values(task: &Task, row: &Row) -> Vec<(&'static str, Setting)> {
     let train = &row.train;
     let (plan, order) = match train.shape() {
         Shape::Uniform => ("uniform", None),
@@ -83,7 +83,7 @@ pub fn toml(values: &[(&'static str, Setting)]) -> String {
 }
 
 /// The same as options, quoted for a shell.
-pub fn options(values: &[(&'static str, Setting)]) -> String {
+pub(super) fn options(values: &[(&'static str, Setting)]) -> String {
     // The shortest form that is read back as the same number.
     let short = |number: &f64| {
         let written = format!("{number:?}");

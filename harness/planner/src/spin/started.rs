@@ -21,7 +21,7 @@ fn entry<'a>(spinner: &'a Spinner, name: &str) -> Option<&'a StartEntry> {
 }
 
 /// Where `start.q` of the spacecraft's file has the spin axis.
-pub fn axis_inertial(spinner: &Spinner) -> Option<Vector3<f64>> {
+pub(super) fn axis_inertial(spinner: &Spinner) -> Option<Vector3<f64>> {
     let number = |value: &StartValue| match value {
         StartValue::Real(number) => Some(*number),
         StartValue::Integer(number) => Some(*number as f64),
@@ -36,7 +36,7 @@ pub fn axis_inertial(spinner: &Spinner) -> Option<Vector3<f64>> {
 }
 
 /// The spin rate that the file's start values have: a number in rad/s, or with its unit.
-pub fn rate_rad_s(spinner: &Spinner) -> Result<Option<f64>, PlanError> {
+pub(super) fn rate_rad_s(spinner: &Spinner) -> Result<Option<f64>, PlanError> {
     let Some(entry) = entry(spinner, "spin.initialRate") else {
         return Ok(None);
     };

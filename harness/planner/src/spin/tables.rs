@@ -5,13 +5,13 @@ use terminal::Table;
 use super::{Row, judgement::Judged};
 
 /// A table whose columns stand one space apart.
-pub fn narrow(header: &[&str]) -> Table {
+pub(super) fn narrow(header: &[&str]) -> Table {
     terminal::table(header).narrow()
 }
 
 /// `count` rows of a trade: the best trains, and the uniform plan as the last; `None` for no rows. `keeps` says which keep the
 /// limits of the flags and those of the file that are `judged`.
-pub fn trade(
+pub(super) fn trade(
     rows: &[&Row],
     uniform: &Row,
     count: usize,
@@ -68,7 +68,7 @@ fn cells(row: &Row, keeps: bool, mark: &str) -> Vec<String> {
 }
 
 /// What each limit comes to.
-pub fn limits(judged: &[Judged]) -> String {
+pub(super) fn limits(judged: &[Judged]) -> String {
     let mut table = narrow(&["limit", "found", "allowed", "verdict"]);
     for one in judged {
         let (least, most) = one.allowed;

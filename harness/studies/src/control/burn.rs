@@ -57,7 +57,7 @@ fn rms(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// The burn of Figures 10 and 11.
-pub fn burn(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn burn(run: &mut Run<'_>) -> Outcome {
     let kinds = run.chosen(KINDS, |kind| kind.label.to_owned())?;
     let both = Loop::open(run.options)?;
     let cases: Vec<(Kind, i32)> =

@@ -7,9 +7,9 @@ use crate::case::{Case, recorded};
 use crate::settings::Settings;
 
 /// Velocity to add, in m/s.
-pub const DELTA_V_M_S: f64 = 10.0;
+pub(super) const DELTA_V_M_S: f64 = 10.0;
 /// When thrust begins, in s: the estimate has settled.
-pub const START_S: f64 = 20.0;
+pub(super) const START_S: f64 = 20.0;
 /// Length of a flight, in s: the burn takes 114 s.
 const STOP_S: f64 = 160.0;
 /// Mass at which four thrusters of 22 N give 0.088 m/s2, in kg.
@@ -28,7 +28,7 @@ const SAMPLE_S: f64 = 1.0;
 
 /// Burns with the same corrections and accelerometers.
 #[derive(Clone, Copy, Debug)]
-pub struct Kind {
+pub(super) struct Kind {
     /// For messages and tables.
     pub label: &'static str,
     /// Whether theta is corrected.
@@ -41,7 +41,7 @@ pub struct Kind {
 
 recorded! {
     /// What is kept of a second.
-    pub struct Sample {
+    pub(super) struct Sample {
         @time_s,
         /// True velocity added, EME2000, in m/s.
         pub delta_v_m_s: Vector = "plant.deltaV",
@@ -67,7 +67,7 @@ recorded! {
 
 /// A burn's samples.
 #[derive(Clone, Debug)]
-pub struct Simulated {
+pub(super) struct Simulated {
     /// One a second.
     pub samples: Vec<Sample>,
     /// Velocity to add, EME2000, in m/s.
@@ -76,7 +76,7 @@ pub struct Simulated {
 
 impl Kind {
     /// Flies one from the attitude that is commanded first, in steps of `step_s`, otherwise of a second.
-    pub fn fly(&self, both: &Loop, seed: i32, step_s: Option<f64>) -> Result<Simulated, StudyError> {
+    pub(super) fn fly(&self, both: &Loop, seed: i32, step_s: Option<f64>) -> Result<Simulated, StudyError> {
         let step_s = whole_part_of_a_second(step_s)?;
         let label = format!("{}, seed {seed}", self.label);
         let samples = |case: Case, wanted_m_s: &Vector| -> Result<Vec<Sample>, StudyError> {

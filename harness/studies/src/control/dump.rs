@@ -125,7 +125,7 @@ Attitude: greatest error while the wheels take up the pulses. In the dark, the w
 assumed; the thrusters' layout is assumed too (messenger-full.toml).";
 
 /// Dumps by pulses beside dumps at once.
-pub fn dump(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn dump(run: &mut Run<'_>) -> Outcome {
     let cases = run.chosen(dumps(), |dump| dump.label.to_owned())?;
     let fmu = run.options.fmu("MessengerFull.fmu")?;
     let simulated = run.all(&cases, |dump| fly(&fmu, dump))?;

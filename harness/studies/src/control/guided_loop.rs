@@ -12,7 +12,7 @@ const SAMPLE_S: f64 = 1.0;
 
 recorded! {
     /// Where the plant is and what it does, and what is commanded, at one second; directions and attitudes from EME2000.
-    pub struct Sample {
+    pub(super) struct Sample {
         @time_s,
         /// From the planet's centre, in m.
         position_m: Vector = "plant.position",
@@ -53,28 +53,28 @@ recorded! {
 
 impl Sample {
     /// From the spacecraft to the planet's centre, EME2000, in m.
-    pub fn to_planet_m(self) -> Vector {
+    pub(super) fn to_planet_m(self) -> Vector {
         -self.position_m
     }
 
     /// To the Sun.
-    pub fn to_sun_m(self) -> Vector {
+    pub(super) fn to_sun_m(self) -> Vector {
         self.sun_m - self.position_m
     }
 
     /// To the Earth.
-    pub fn to_earth_m(self) -> Vector {
+    pub(super) fn to_earth_m(self) -> Vector {
         self.earth_m - self.position_m
     }
 
     /// The Sun in the true body frame, in m.
-    pub fn sun_body_m(&self) -> Vector {
+    pub(super) fn sun_body_m(&self) -> Vector {
         self.q.inverse_transform_vector(&self.to_sun_m())
     }
 }
 
 /// What is simulated in the loop.
-pub struct Flight<'a> {
+pub(super) struct Flight<'a> {
     /// For messages and tables.
     pub label: &'a str,
     /// Past J2000 TDB, in s.
@@ -90,21 +90,21 @@ pub struct Flight<'a> {
 }
 
 /// The system.
-pub struct Loop(System);
+pub(super) struct Loop(System);
 
 impl Loop {
     /// Opens it in the folder `options` names.
-    pub fn open(options: &Options) -> Result<Self, StudyError> {
+    pub(super) fn open(options: &Options) -> Result<Self, StudyError> {
         options.system("MessengerLoop.ssp").map(Self)
     }
 
     /// Parameters that nobody sets.
-    pub fn parameters<T: Recordable>(&self, names: &[impl AsRef<str>]) -> Result<T, StudyError> {
+    pub(super) fn parameters<T: Recordable>(&self, names: &[impl AsRef<str>]) -> Result<T, StudyError> {
         Ok(at_start(&self.0, names)?.first())
     }
 
     /// The number of an item of an Enumeration.
-    pub fn number(&self, name: &str, item: &str) -> Result<i32, StudyError> {
+    pub(super) fn number(&self, name: &str, item: &str) -> Result<i32, StudyError> {
         let description = self.0.description();
         let value = loader::select(description, name)
             .and_then(|at| loader::parse_value(description, &description.variables[at[0]], item));
@@ -113,7 +113,7 @@ impl Loop {
     }
 
     /// Simulates from what Guidance alone starts with; recorded once a second.
-    pub fn simulate(
+    pub(super) fn simulate(
         &self,
         case: Case,
         names: &[&str],
@@ -125,7 +125,7 @@ impl Loop {
 
     /// Flies it in steps of `step_s`, otherwise of a second; a sample a second. It begins in the attitude and at the rate
     /// that is commanded first.
-    pub fn fly(&self, flight: &Flight<'_>, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
+    pub(super) fn fly(&self, flight: &Flight<'_>, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
         let step_s = whole_part_of_a_second(step_s)?;
         let samples = |case: Case| -> Result<Vec<Sample>, StudyError> {
             let case = case
@@ -145,13 +145,13 @@ impl Loop {
 }
 
 /// The plant's attitude and rate at the start from the command that stands `time_s` later.
-pub fn start_settings(q: &Attitude, rate_rad_s: &Vector, time_s: f64) -> Settings {
+pub(super) fn start_settings(q: &Attitude, rate_rad_s: &Vector, time_s: f64) -> Settings {
     let start_q = q * Attitude::from_scaled_axis(rate_rad_s * -time_s);
     [set("plant.start.q", start_q), set("plant.start.rate", *rate_rad_s)].concat()
 }
 
 /// The step that is requested, otherwise a second.
-pub fn whole_part_of_a_second(step_s: Option<f64>) -> Result<f64, StudyError> {
+pub(super) fn whole_part_of_a_second(step_s: Option<f64>) -> Result<f64, StudyError> {
     let step_s = step_s.unwrap_or(SAMPLE_S);
     if ((SAMPLE_S / step_s).round() * step_s - SAMPLE_S).abs() > 1e-9 {
         return Err(StudyError::Step { found_s: step_s, allowed: "a second or a whole part of it" });

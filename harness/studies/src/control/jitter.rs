@@ -64,7 +64,7 @@ fn shown(shaken: &Shaken, structure: &Structure) -> Vec<String> {
 }
 
 /// Spectra at constant speeds, and a run-up through the modes.
-pub fn jitter(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn jitter(run: &mut Run<'_>) -> Outcome {
     let fmu = run.options.fmu("FlexibleCraft.fmu")?;
     let structure = Structure::read(&fmu)?;
     let cases = run.chosen(flights(&structure), |flight| flight.label.clone())?;

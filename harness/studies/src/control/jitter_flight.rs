@@ -8,15 +8,15 @@ use crate::StudyError;
 use crate::case::Case;
 
 /// Samples a second.
-pub const RATE_HZ: f64 = 100.0;
+pub(super) const RATE_HZ: f64 = 100.0;
 /// Samples of a spectrum.
-pub const COUNT: usize = 1 << 14;
+pub(super) const COUNT: usize = 1 << 14;
 /// What rings at first has died away then, in s.
 const SETTLED_S: f64 = 240.0;
 /// Below it the attitude moves as a whole, in Hz.
-pub const LOWEST_HZ: f64 = 0.2;
+pub(super) const LOWEST_HZ: f64 = 0.2;
 /// The wheel is run up to this, in Hz.
-pub const FASTEST_HZ: f64 = 9.0;
+pub(super) const FASTEST_HZ: f64 = 9.0;
 /// Duration of the run-up, in s.
 const RUN_UP_S: f64 = 600.0;
 /// Noise of star tracker (rad) and gyros (rad after a second) under control, assumed.
@@ -24,7 +24,7 @@ const NOISE: [f64; 2] = [2e-5, 1e-6];
 
 /// What is simulated.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Flight {
+pub(super) struct Flight {
     /// For tables and pictures.
     pub label: String,
     /// Speed of the first wheel, in Hz; the others stand.
@@ -34,7 +34,7 @@ pub struct Flight {
 }
 
 /// The attitude's spectrum, in rad.
-pub struct Shaken {
+pub(super) struct Shaken {
     /// What was simulated.
     pub flight: Flight,
     /// All axes together.
@@ -48,7 +48,7 @@ fn dark(label: &str, stop_s: f64) -> Case {
 
 impl Flight {
     /// Flies it.
-    pub fn fly(&self, fmu: &Fmu, structure: &Structure) -> Result<Shaken, StudyError> {
+    pub(super) fn fly(&self, fmu: &Fmu, structure: &Structure) -> Result<Shaken, StudyError> {
         let stop_s = SETTLED_S + COUNT as f64 / RATE_HZ;
         let held_n_m_s = structure.rotor_kg_m2 * std::f64::consts::TAU * self.wheel_hz;
         let mut case = dark(&self.label, stop_s).set("wheel[1].startMomentum", held_n_m_s);
@@ -81,7 +81,7 @@ fn at_rest(case: Case) -> Case {
 }
 
 /// Jitter while the wheel is run up: its speed in Hz, and the amplitude over windows of some seconds in rad.
-pub fn run_up(fmu: &Fmu, structure: &Structure) -> Result<Vec<(f64, f64)>, StudyError> {
+pub(super) fn run_up(fmu: &Fmu, structure: &Structure) -> Result<Vec<(f64, f64)>, StudyError> {
     const WINDOW: usize = 400;
     let torque_n_m = structure.rotor_kg_m2 * std::f64::consts::TAU * FASTEST_HZ / RUN_UP_S;
     let case = at_rest(dark("run-up", RUN_UP_S)).set("wheel[1].torqueCommand", torque_n_m);

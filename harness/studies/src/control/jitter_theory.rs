@@ -12,7 +12,7 @@ use crate::case::{at_start, recorded};
 
 recorded! {
     /// One flexible mode.
-    pub struct Mode {
+    pub(super) struct Mode {
         /// With the body held, in Hz.
         pub frequency_hz: f64 = "frequency",
         damping: f64 = "damping",
@@ -40,7 +40,7 @@ recorded! {
 
 /// Body, modes and wheels, from the parameters of an FMU.
 #[derive(Clone, Debug)]
-pub struct Structure {
+pub(super) struct Structure {
     carrier: Matrix3<f64>,
     /// In the order of the FMU.
     pub modes: Vec<Mode>,
@@ -53,7 +53,7 @@ pub struct Structure {
 
 impl Structure {
     /// Reads it; the first wheel is the one that shakes.
-    pub fn read(fmu: &Fmu) -> Result<Self, StudyError> {
+    pub(super) fn read(fmu: &Fmu) -> Result<Self, StudyError> {
         let body: Body = at_start(fmu, Body::NAMES)?.first();
         let modes = at_start(fmu, &numbered(fmu, "flexibleMode", Mode::NAMES))?.first();
         let mut rotors: Vec<Rotor> = at_start(fmu, &numbered(fmu, "wheel", Rotor::NAMES))?.first();
@@ -69,7 +69,7 @@ impl Structure {
     }
 
     /// Amplitude of the body's angle, all axes together, where the rotor turns so often a second, in rad.
-    pub fn jitter_rad(&self, frequency_hz: f64) -> f64 {
+    pub(super) fn jitter_rad(&self, frequency_hz: f64) -> f64 {
         let turning = std::f64::consts::TAU * frequency_hz;
         let complex = |v: &Vector3<f64>| v.map(Complex::from);
         let mut inertia = self.carrier.map(Complex::from);
@@ -89,7 +89,7 @@ impl Structure {
     }
 
     /// The frequency near that of a mode at which the body shakes most, in Hz: the mode's with the body free.
-    pub fn resonance_hz(&self, mode: &Mode) -> f64 {
+    pub(super) fn resonance_hz(&self, mode: &Mode) -> f64 {
         let free =
             self.carrier.try_inverse().map_or(0.0, |inverse| mode.coupling.dot(&(inverse * mode.coupling)));
         mode.frequency_hz / (1.0 - free).sqrt()

@@ -20,9 +20,9 @@ mod slew_limits;
 mod spectrum;
 mod transition;
 
-pub use burn::burn;
-pub use dump::dump;
-pub use jitter::jitter;
-pub use safe_mode::safe_mode;
-pub use slew::slew;
-pub use transition::transition;
+pub(crate) use burn::burn;
+pub(crate) use dump::dump;
+pub(crate) use jitter::jitter;
+pub(crate) use safe_mode::safe_mode;
+pub(crate) use slew::slew;
+pub(crate) use transition::transition;

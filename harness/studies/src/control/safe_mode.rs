@@ -8,7 +8,7 @@ use crate::report::{Outcome, Run};
 use drawing::{Chart, Mark, Panel, Series};
 
 /// Both chains of modes.
-pub fn safe_mode(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn safe_mode(run: &mut Run<'_>) -> Outcome {
     let chains = [Chain::AttitudeLost, Chain::ZoneViolated];
     let cases = run.chosen(chains, |chain| chain.label().to_owned())?;
     let both = Loop::open(run.options)?;

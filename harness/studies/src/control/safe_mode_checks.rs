@@ -23,7 +23,7 @@ const ANGLE_DEG: f64 = 0.1;
 const RATE: f64 = 0.01;
 
 /// A statement of the paper and whether it holds.
-pub struct Check {
+pub(super) struct Check {
     /// The paper's, in short.
     pub statement: &'static str,
     /// What the flight shows.
@@ -34,14 +34,14 @@ pub struct Check {
 
 impl Check {
     /// Cells of the table.
-    pub fn row(self, case: &str) -> Vec<String> {
+    pub(super) fn row(self, case: &str) -> Vec<String> {
         compared(&format!("{case} | {}", self.statement), self.found, agrees(self.holds))
     }
 }
 
 recorded! {
     /// Limits and rates of Guidance, as the FMU has them.
-    pub struct Limits {
+    pub(super) struct Limits {
         earth_acquisition_rad_s: f64 = "guidance.earthAcquisition.rate",
         search_rad_s: f64 = "guidance.sunSearch.rate",
         search_s: f64 = "guidance.sunSearch.duration",
@@ -54,7 +54,7 @@ recorded! {
 }
 
 /// Parameters of Guidance that the checks compare with.
-pub struct Parameters {
+pub(super) struct Parameters {
     operational: i32,
     safe_hold: i32,
     earth_acquisition: i32,
@@ -68,7 +68,7 @@ pub struct Parameters {
 
 impl Parameters {
     /// As the FMU has them.
-    pub fn read(both: &Loop) -> Result<Self, StudyError> {
+    pub(super) fn read(both: &Loop) -> Result<Self, StudyError> {
         let limits: Limits = both.parameters(Limits::NAMES)?;
         let mode = |item: &str| both.number("guidance.mode.active", item);
         let kind = |item: &str| both.number("guidance.command.kind", item);
@@ -87,7 +87,7 @@ impl Parameters {
 
     /// What is commanded about Y while the Sun is on -Y, and about each axis in turn while it is searched for: lines over
     /// time, in deg/s.
-    pub fn commanded_rates(&self) -> [Series; 2] {
+    pub(super) fn commanded_rates(&self) -> [Series; 2] {
         let line = |label: &str, rate_rad_s: f64, from_s: f64, to_s: f64| {
             let rate_deg_s = rate_rad_s.to_degrees();
             Series::dashed(label, vec![(from_s, rate_deg_s), (to_s, rate_deg_s)])
@@ -169,7 +169,7 @@ fn acquired(samples: &[Sample], from_s: f64, to_s: f64) -> (bool, String) {
 }
 
 /// Inertial reference, then the Sun, are lost and found.
-pub fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> {
+pub(super) fn attitude_lost(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> {
     let limits = &parameters.limits;
     let mut checks = Vec::new();
     let mut check =
@@ -255,7 +255,7 @@ fn plus_z_from_sun_deg(sample: &Sample) -> f64 {
 }
 
 /// The keep-in zone is put in force while the Sun is outside.
-pub fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> {
+pub(super) fn zone_violated(parameters: &Parameters, samples: &[Sample]) -> Vec<Check> {
     let Parameters { limits, zone_deg, safe_hold_deg, .. } = parameters;
     let mut checks = Vec::new();
     let mut check =

@@ -13,38 +13,38 @@ const TRUE_ANOMALY_DEG: f64 = 160.0;
 const SUN_SENSORS: usize = 6;
 
 /// The gyros keep the estimate valid for so long without the star tracker, in s: assumed, short.
-pub const OUTAGE_S: f64 = 60.0;
+pub(super) const OUTAGE_S: f64 = 60.0;
 /// The star tracker fails, in s.
-pub const TRACKER_FAILS_S: f64 = 300.0;
+pub(super) const TRACKER_FAILS_S: f64 = 300.0;
 /// Every Sun sensor fails, in s.
-pub const SUN_LOST_S: f64 = 2000.0;
+pub(super) const SUN_LOST_S: f64 = 2000.0;
 /// They work again, in s: a third of a turn into the search's second round.
-pub const SUN_BACK_S: f64 = 4400.0;
+pub(super) const SUN_BACK_S: f64 = 4400.0;
 /// The star tracker works again, in s.
-pub const TRACKER_BACK_S: f64 = 6000.0;
+pub(super) const TRACKER_BACK_S: f64 = 6000.0;
 /// Safe Hold is requested, in s.
-pub const SAFE_HOLD_S: f64 = 6300.0;
+pub(super) const SAFE_HOLD_S: f64 = 6300.0;
 /// Operational is requested, in s.
-pub const OPERATIONAL_S: f64 = 7800.0;
+pub(super) const OPERATIONAL_S: f64 = 7800.0;
 const LOST_END_S: f64 = 9300.0;
 
 /// The keep-in zone is put in force, in s.
-pub const ZONE_ON_S: f64 = 300.0;
+pub(super) const ZONE_ON_S: f64 = 300.0;
 /// Operational is requested after that, in s.
-pub const PARDONED_S: f64 = 2400.0;
+pub(super) const PARDONED_S: f64 = 2400.0;
 const VIOLATED_END_S: f64 = 4000.0;
 
 /// The boresight of Earth Acquisition and centre of the keep-in zone by default, body frame.
-pub const BORESIGHT: Vector = Vector::new(0.0, -1.0, 0.0);
+pub(super) const BORESIGHT: Vector = Vector::new(0.0, -1.0, 0.0);
 
 /// Angle between the boresight and the Sun, in deg.
-pub fn sun_angle_deg(sample: &Sample) -> f64 {
+pub(super) fn sun_angle_deg(sample: &Sample) -> f64 {
     angle_rad(&BORESIGHT, &sample.sun_body_m()).to_degrees()
 }
 
 /// A chain of modes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Chain {
+pub(super) enum Chain {
     /// The star tracker fails, then the Sun sensors.
     AttitudeLost,
     /// The keep-in zone is put in force while the Sun is outside.
@@ -53,7 +53,7 @@ pub enum Chain {
 
 impl Chain {
     /// For messages and tables.
-    pub fn label(self) -> &'static str {
+    pub(super) fn label(self) -> &'static str {
         match self {
             Self::AttitudeLost => "attitude lost",
             Self::ZoneViolated => "zone violated",
@@ -88,7 +88,7 @@ impl Chain {
     }
 
     /// Flies it.
-    pub fn fly(self, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
+    pub(super) fn fly(self, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
         let events = self.events();
         let inputs = |sample: &Sample| {
             let due = events.iter().filter(|(at_s, _)| (at_s - sample.time_s).abs() < 0.25);

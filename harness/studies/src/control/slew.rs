@@ -145,7 +145,7 @@ const HEADER: &str = "\
     rate [deg/s] | torque | momentum | a wheel full [s] | verdict";
 
 /// Slews about each axis, with full wheels and with a wheel that fails.
-pub fn slew(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn slew(run: &mut Run<'_>) -> Outcome {
     let slews = slews(run.options.angle_rad.unwrap_or(ANGLE_DEG.to_radians()));
     let cases = run.chosen(slews, |slew| slew.label.to_owned())?;
     let plant = Plant::open(run.options)?;

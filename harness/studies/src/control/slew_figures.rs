@@ -4,7 +4,7 @@ use super::slew_flight::{Event, SLEW_S, Sample, Simulated};
 use drawing::{Chart, Panel, Series};
 
 /// A slew over time.
-pub fn figure(simulated: &Simulated) -> Chart {
+pub(super) fn figure(simulated: &Simulated) -> Chart {
     let Simulated { slew, limits, samples } = simulated;
     let line = |label: &str, value: &dyn Fn(&Sample) -> f64| {
         Series::line(label, samples.iter().map(|sample| (sample.body.time_s, value(sample))).collect())

@@ -9,15 +9,15 @@ use crate::settings::{Settings, set};
 use crate::{Options, StudyError};
 
 /// The command jumps then, in s.
-pub const SLEW_S: f64 = 10.0;
+pub(super) const SLEW_S: f64 = 10.0;
 /// Between two samples, in s.
-pub const SAMPLE_S: f64 = 0.5;
+pub(super) const SAMPLE_S: f64 = 0.5;
 /// A component of momentum that is never reached: no dumps by themselves.
 const NEVER_N_M_S: f64 = 1e6;
 
 /// What happens besides the slew.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Event {
+pub(super) enum Event {
     /// Nothing.
     None,
     /// Every wheel starts at this share of its capacity, in the sense that the slew adds to; a dump to zero is requested
@@ -31,7 +31,7 @@ pub enum Event {
 
 /// One slew.
 #[derive(Clone, Debug)]
-pub struct Slew {
+pub(super) struct Slew {
     /// For messages and tables.
     pub label: &'static str,
     /// Body axis of the slew: a unit vector.
@@ -46,7 +46,7 @@ pub struct Slew {
 
 /// Limits of slew and wheels, as the FMU has them.
 #[derive(Clone, Debug)]
-pub struct Limits {
+pub(super) struct Limits {
     /// `control.slewRate` and `control.slewAcceleration`.
     pub slew: SlewLimits,
     /// `control.bandwidth`, in rad/s.
@@ -79,7 +79,7 @@ impl Limits {
 
 recorded! {
     /// One wheel at one time.
-    pub struct WheelSample {
+    pub(super) struct WheelSample {
         /// Of the motor, in N m.
         pub torque_n_m: f64 = "torque",
         /// Relative to the body, in N m s.
@@ -91,7 +91,7 @@ recorded! {
 
 recorded! {
     /// The body at one time.
-    pub struct BodySample {
+    pub(super) struct BodySample {
         @time_s,
         /// True attitude: EME2000 to body, scalar last.
         pub q: Attitude = "attitude.q",
@@ -110,7 +110,7 @@ recorded! {
 
 /// Everything at one time.
 #[derive(Clone, Debug)]
-pub struct Sample {
+pub(super) struct Sample {
     /// The body.
     pub body: BodySample,
     /// Rotation from the attitude to the one after the slew, body frame, in rad.
@@ -121,13 +121,13 @@ pub struct Sample {
 
 impl Sample {
     /// How far the body still is from the commanded attitude along the slew's axis, in rad; negative beyond it.
-    pub fn ahead_rad(&self, slew: &Slew) -> f64 {
+    pub(super) fn ahead_rad(&self, slew: &Slew) -> f64 {
         self.left_rad.dot(&slew.axis)
     }
 }
 
 /// A slew and its samples.
-pub struct Simulated {
+pub(super) struct Simulated {
     /// What was simulated.
     pub slew: Slew,
     /// By the FMU's parameters.
@@ -137,7 +137,7 @@ pub struct Simulated {
 }
 
 /// The plant and what of it every slew needs.
-pub struct Plant {
+pub(super) struct Plant {
     fmu: Fmu,
     limits: Limits,
     /// Attitude that the plant's own guidance has at the start.
@@ -148,14 +148,14 @@ pub struct Plant {
 
 impl Plant {
     /// Of the folder that `options` names.
-    pub fn open(options: &Options) -> Result<Self, StudyError> {
+    pub(super) fn open(options: &Options) -> Result<Self, StudyError> {
         let fmu = options.fmu("MessengerFull.fmu")?;
         let (q, threshold_n_m_s) = at_start(&fmu, &["attitude.q", "dump.threshold"])?.first();
         Ok(Self { limits: Limits::read(&fmu)?, q, threshold_n_m_s, fmu })
     }
 
     /// Flies it.
-    pub fn fly(&self, slew: &Slew, step_s: Option<f64>) -> Result<Simulated, StudyError> {
+    pub(super) fn fly(&self, slew: &Slew, step_s: Option<f64>) -> Result<Simulated, StudyError> {
         let target = self.q * Attitude::from_scaled_axis(slew.axis * slew.angle_rad);
         let mut outputs: Vec<String> = BodySample::NAMES.iter().map(|name| (*name).to_owned()).collect();
         for k in 1..=self.limits.axes.len() {

@@ -4,7 +4,7 @@ use crate::case::recorded;
 
 recorded! {
     /// Limits, both above 0.
-    pub struct SlewLimits {
+    pub(super) struct SlewLimits {
         /// In rad/s.
         pub rate_rad_s: f64 = "control.slewRate",
         /// In rad/s2.
@@ -14,7 +14,7 @@ recorded! {
 
 impl SlewLimits {
     /// The least time of a slew by an angle, in s.
-    pub fn least_s(&self, angle_rad: f64) -> f64 {
+    pub(super) fn least_s(&self, angle_rad: f64) -> f64 {
         let (rate, acceleration) = (self.rate_rad_s, self.acceleration_rad_s2);
         if angle_rad < rate * rate / acceleration {
             2.0 * (angle_rad / acceleration).sqrt()
@@ -24,7 +24,7 @@ impl SlewLimits {
     }
 
     /// The angle of a slew that takes `time_s` at least, in rad.
-    pub fn angle_rad(&self, time_s: f64) -> f64 {
+    pub(super) fn angle_rad(&self, time_s: f64) -> f64 {
         let (rate, acceleration) = (self.rate_rad_s, self.acceleration_rad_s2);
         let ramp_s = rate / acceleration;
         if time_s < 2.0 * ramp_s { acceleration * time_s * time_s / 4.0 } else { rate * (time_s - ramp_s) }

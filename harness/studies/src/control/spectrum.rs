@@ -10,14 +10,14 @@ use nalgebra::Complex;
 const NOISE_BINS: f64 = 1.5;
 
 /// Amplitudes by frequency.
-pub struct Spectrum {
+pub(super) struct Spectrum {
     bin_hz: f64,
     amplitudes: Vec<f64>,
 }
 
 impl Spectrum {
     /// Of a power of two of samples, so many a second; their mean is taken off.
-    pub fn of(samples: &[f64], rate_hz: f64) -> Self {
+    pub(super) fn of(samples: &[f64], rate_hz: f64) -> Self {
         let count = samples.len();
         let mean = samples.iter().sum::<f64>() / count as f64;
         let windowed = samples.iter().enumerate().map(|(k, x)| {
@@ -31,25 +31,25 @@ impl Spectrum {
     }
 
     /// The frequency of a bin that is nearest to one, in Hz.
-    pub fn nearest_hz(count: usize, rate_hz: f64, frequency_hz: f64) -> f64 {
+    pub(super) fn nearest_hz(count: usize, rate_hz: f64, frequency_hz: f64) -> f64 {
         let bin_hz = rate_hz / count as f64;
         (frequency_hz / bin_hz).round() * bin_hz
     }
 
     /// Frequencies in Hz and amplitudes between two frequencies.
-    pub fn between(&self, from_hz: f64, to_hz: f64) -> impl Iterator<Item = (f64, f64)> {
+    pub(super) fn between(&self, from_hz: f64, to_hz: f64) -> impl Iterator<Item = (f64, f64)> {
         let points =
             self.amplitudes.iter().enumerate().map(|(k, amplitude)| (k as f64 * self.bin_hz, *amplitude));
         points.filter(move |(frequency_hz, _)| (from_hz..=to_hz).contains(frequency_hz))
     }
 
     /// The greatest of them, with its frequency in Hz.
-    pub fn greatest(&self, from_hz: f64, to_hz: f64) -> (f64, f64) {
+    pub(super) fn greatest(&self, from_hz: f64, to_hz: f64) -> (f64, f64) {
         self.between(from_hz, to_hz).fold((0.0, 0.0), |most, it| if it.1 > most.1 { it } else { most })
     }
 
     /// The root of the sum of squares of several, bin by bin, each amplitude taken by `of` its frequency in Hz.
-    pub fn combined(spectra: &[Self], of: impl Fn(f64, f64) -> f64) -> Self {
+    pub(super) fn combined(spectra: &[Self], of: impl Fn(f64, f64) -> f64) -> Self {
         let bin_hz = spectra.first().map_or(0.0, |it| it.bin_hz);
         let count = spectra.iter().map(|it| it.amplitudes.len()).min().unwrap_or(0);
         let amplitude = |k: usize| {
@@ -60,7 +60,7 @@ impl Spectrum {
     }
 
     /// Root of the mean square of what lies between two frequencies.
-    pub fn rms(&self, from_hz: f64, to_hz: f64) -> f64 {
+    pub(super) fn rms(&self, from_hz: f64, to_hz: f64) -> f64 {
         let squares: f64 = self.between(from_hz, to_hz).map(|(_, amplitude)| amplitude * amplitude).sum();
         (0.5 * squares / NOISE_BINS).sqrt()
     }

@@ -119,7 +119,7 @@ impl Limits {
 }
 
 /// The estimated curves of Figures 7 and 8.
-pub fn transition(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn transition(run: &mut Run<'_>) -> Outcome {
     let cases = run.chosen([Case::Noise, Case::NoNoise], |case| case.label().to_owned())?;
     let both = Loop::open(run.options)?;
     let limits = Limits::read(&both)?;

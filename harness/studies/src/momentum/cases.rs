@@ -14,13 +14,13 @@ const STEP_S: f64 = 600.0;
 const START_S: f64 = 292_248_000.0;
 
 /// How long the paper simulates.
-pub const SPAN_D: f64 = 90.0;
+pub(super) const SPAN_D: f64 = 90.0;
 /// The paper's offsets, an inch apart.
-pub const INCH_M: f64 = 0.0254;
+pub(super) const INCH_M: f64 = 0.0254;
 
 /// What the Sun pushes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shade {
+pub(super) enum Shade {
     /// The section of a cylinder that Tables 2 and 3 were computed with.
     Cylinder,
     /// The eight plates of the later design.
@@ -31,7 +31,7 @@ pub enum Shade {
 
 impl Shade {
     /// For tables.
-    pub fn label(self) -> &'static str {
+    pub(super) fn label(self) -> &'static str {
         match self {
             Self::Cylinder => "cylinder",
             Self::Plates => "plates",
@@ -42,7 +42,7 @@ impl Shade {
 
 /// Meaning of momentum in the body frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Convention {
+pub(super) enum Convention {
     /// The paper's.
     BodyIntegral,
     /// The physical one.
@@ -51,7 +51,7 @@ pub enum Convention {
 
 impl Convention {
     /// For tables.
-    pub fn label(self) -> &'static str {
+    pub(super) fn label(self) -> &'static str {
         match self {
             Self::BodyIntegral => "paper's",
             Self::Inertial => "inertial",
@@ -61,7 +61,7 @@ impl Convention {
 
 /// What sunlight is used for during downlinks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Strategy {
+pub(super) enum Strategy {
     /// Nothing.
     DumpsOnly,
     /// To bring the momentum to zero.
@@ -72,10 +72,10 @@ pub enum Strategy {
 
 impl Strategy {
     /// From the one that saves no dump to the one that saves most.
-    pub const ALL: [Self; 3] = [Self::DumpsOnly, Self::Reactive, Self::Predictive];
+    pub(super) const ALL: [Self; 3] = [Self::DumpsOnly, Self::Reactive, Self::Predictive];
 
     /// For tables.
-    pub fn label(self) -> &'static str {
+    pub(super) fn label(self) -> &'static str {
         match self {
             Self::DumpsOnly => "dumps only",
             Self::Reactive => "reactive",
@@ -91,7 +91,7 @@ impl Strategy {
 
 /// Where a thruster dump leaves a component.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum DumpsTo {
+pub(super) enum DumpsTo {
     /// At this share of the threshold with the opposite sign: 1 is the paper's, 0.9 the FMU's default, 0 is zero.
     Opposite(f64),
     /// At this share of the threshold along +X, whichever side it was on; the other components at zero.
@@ -100,14 +100,14 @@ pub enum DumpsTo {
 
 impl DumpsTo {
     /// The paper's.
-    pub const PAPER: Self = Self::Opposite(1.0);
+    pub(super) const PAPER: Self = Self::Opposite(1.0);
     /// The FMU's default.
-    pub const OWN: Self = Self::Opposite(0.9);
+    pub(super) const OWN: Self = Self::Opposite(0.9);
     /// All momentum taken out.
-    pub const ZERO: Self = Self::Opposite(0.0);
+    pub(super) const ZERO: Self = Self::Opposite(0.0);
 
     /// For tables.
-    pub fn label(self) -> String {
+    pub(super) fn label(self) -> String {
         match self {
             Self::Opposite(fraction) => format!("{fraction:.1}"),
             Self::AlongX(fraction) => format!("X {fraction:+.1}"),
@@ -126,7 +126,7 @@ impl DumpsTo {
 
 /// What a simulation chooses otherwise than the study does, where the paper prints nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Choice {
+pub(super) enum Choice {
     /// Nothing: the FMU's own start date, orbit frame and panel tilts.
     Study,
     /// Start 40 days later.
@@ -141,7 +141,7 @@ pub enum Choice {
 
 impl Choice {
     /// For tables.
-    pub fn label(self) -> &'static str {
+    pub(super) fn label(self) -> &'static str {
         match self {
             Self::Study => "study's own",
             Self::Later => "start 40 days later",
@@ -170,7 +170,7 @@ impl Choice {
 
 /// One simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Case {
+pub(super) struct Case {
     /// What sunlight is used for.
     pub strategy: Strategy,
     /// Dump threshold of all axes, in N m s.
@@ -189,7 +189,7 @@ pub struct Case {
 
 impl Case {
     /// What it is called in files and filters.
-    pub fn label(&self) -> String {
+    pub(super) fn label(&self) -> String {
         format!(
             "{}, {} N.m.s, to {}, {}, {} momentum{}, {}{}",
             self.strategy.label(),
@@ -204,12 +204,12 @@ impl Case {
     }
 
     /// Whether only Z is offset.
-    pub fn is_along_z(&self) -> bool {
+    pub(super) fn is_along_z(&self) -> bool {
         matches!(self.offset_in, [0, 0, _])
     }
 
     /// The offset as the paper writes it: of Z alone, or of all axes.
-    pub fn offset_label(&self) -> String {
+    pub(super) fn offset_label(&self) -> String {
         let cm = |inches: i8| 100.0 * INCH_M * f64::from(inches);
         match self.offset_in {
             [0, 0, 0] => "0 cm".to_owned(),
@@ -220,7 +220,7 @@ impl Case {
     }
 
     /// The case with all that it sets.
-    pub fn settings(&self) -> case::Case {
+    pub(super) fn settings(&self) -> case::Case {
         let has_panels = self.shade == Shade::PlatesAndPanels;
         let is_papers = self.convention == Convention::BodyIntegral;
         let case = case::Case::new(self.label(), SPAN_D * DAY_S, STEP_S)
@@ -263,7 +263,7 @@ fn dumps(recorded: &case::Recorded) -> Vec<Dump> {
 
 /// A thruster dump.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dump {
+pub(super) struct Dump {
     /// When, in days.
     pub time_d: f64,
     /// What it changed the momentum by, in the body frame, in N m s.
@@ -272,7 +272,7 @@ pub struct Dump {
 
 /// A finished simulation.
 #[derive(Clone, Debug)]
-pub struct Simulated {
+pub(super) struct Simulated {
     /// What was simulated.
     pub case: Case,
     /// Communication points, in days.
@@ -287,13 +287,13 @@ pub struct Simulated {
 
 impl Simulated {
     /// Statistics of the time between its dumps.
-    pub fn spacing(&self) -> Spacing {
+    pub(super) fn spacing(&self) -> Spacing {
         Spacing::of(&self.dumps.iter().map(|dump| dump.time_d).collect::<Vec<f64>>())
     }
 }
 
 /// Simulates those of `cases` that the options leave.
-pub fn simulate_all(run: &Run<'_>, cases: Vec<Case>) -> Result<Vec<Simulated>, StudyError> {
+pub(super) fn simulate_all(run: &Run<'_>, cases: Vec<Case>) -> Result<Vec<Simulated>, StudyError> {
     let cases = run.chosen(cases, Case::label)?;
     let fmu = run.options.fmu("MomentumPlant.fmu")?;
     run.all(&cases, |case| case.simulate(&fmu))

@@ -6,31 +6,31 @@ use crate::report::{Outcome, Run};
 use drawing::{Chart, Panel, Series};
 
 /// A figure: one panel an offset, one line a strategy.
-pub struct Figure {
+pub(super) struct Figure {
     name: &'static str,
     title: &'static str,
     strategies: &'static [Strategy],
 }
 
 /// Thruster dumps alone.
-pub const FIGURE_4: Figure =
+pub(super) const FIGURE_4: Figure =
     Figure { name: "figure4", title: "thruster dumps only", strategies: &[Strategy::DumpsOnly] };
 /// Dumps and targets.
-pub const FIGURE_5: Figure = Figure {
+pub(super) const FIGURE_5: Figure = Figure {
     name: "figure5",
     title: "targets by sunlight",
     strategies: &[Strategy::Reactive, Strategy::Predictive],
 };
 
 /// Figure 4.
-pub fn figure4(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn figure4(run: &mut Run<'_>) -> Outcome {
     figure(run, &FIGURE_4)?;
     run.line("X momentum over 90 days (paper 000, Figure 4)");
     Ok(())
 }
 
 /// Figure 5.
-pub fn figure5(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn figure5(run: &mut Run<'_>) -> Outcome {
     figure(run, &FIGURE_5)?;
     run.line("X momentum over 90 days (paper 000, Figure 5)");
     Ok(())
@@ -43,7 +43,7 @@ fn figure(run: &mut Run<'_>, figure: &Figure) -> Outcome {
 
 /// The figure's strategies, one panel an offset as in the paper: the cylinder with the paper's dumps at the lowest threshold
 /// simulated.
-pub fn draw(run: &mut Run<'_>, simulated: &[Simulated], figure: &Figure) -> Outcome {
+pub(super) fn draw(run: &mut Run<'_>, simulated: &[Simulated], figure: &Figure) -> Outcome {
     let in_figure = |case: &Case| {
         case.convention == Convention::BodyIntegral && figure.strategies.contains(&case.strategy)
     };

@@ -3,9 +3,9 @@
 use super::cases::{Case, Choice, Convention, DumpsTo, Shade, Strategy};
 
 /// Tables 2 and 3: nothing, one and two inches along -Z.
-pub const ALONG_Z: [[i8; 3]; 3] = [[0, 0, 0], [0, 0, -1], [0, 0, -2]];
+pub(super) const ALONG_Z: [[i8; 3]; 3] = [[0, 0, 0], [0, 0, -1], [0, 0, -2]];
 /// Tables 4 and 5: those, both along +Z, and an inch along all axes.
-pub const ALL_OFFSETS: [[i8; 3]; 7] =
+pub(super) const ALL_OFFSETS: [[i8; 3]; 7] =
     [[0, 0, 0], [0, 0, -1], [0, 0, -2], [0, 0, 1], [0, 0, 2], [1, 1, 1], [-1, -1, -1]];
 
 const RULES: [(DumpsTo, Convention); 3] = [
@@ -15,25 +15,25 @@ const RULES: [(DumpsTo, Convention); 3] = [
 ];
 
 /// Table 2: the paper's own dumps first, then the FMU's default ones, then these under the physical momentum.
-pub fn cylinder() -> Vec<Case> {
+pub(super) fn cylinder() -> Vec<Case> {
     let groups = RULES.map(|(dumps_to, convention)| (dumps_to, Shade::Cylinder, convention));
     with_every_strategy(&groups, &[4.0, 7.0], &ALONG_Z)
 }
 
 /// Table 4, in the same order.
-pub fn panels() -> Vec<Case> {
+pub(super) fn panels() -> Vec<Case> {
     let groups = RULES.map(|(dumps_to, convention)| (dumps_to, Shade::PlatesAndPanels, convention));
     with_every_strategy(&groups, &[5.5], &ALL_OFFSETS)
 }
 
 /// Tables 3 and 5: what the paper's momentum gives of Tables 2 and 4.
-pub fn in_papers_convention(mut cases: Vec<Case>) -> Vec<Case> {
+pub(super) fn in_papers_convention(mut cases: Vec<Case>) -> Vec<Case> {
     cases.retain(|case| case.convention == Convention::BodyIntegral);
     cases
 }
 
 /// Dumps that the paper's tables do not have: the plates alone, dumps to zero, and for small wheels dumps to one side of X.
-pub fn other_dumps() -> Vec<Case> {
+pub(super) fn other_dumps() -> Vec<Case> {
     let (cylinder, plates) = (Shade::Cylinder, Shade::Plates);
     let both = [(DumpsTo::OWN, plates), (DumpsTo::ZERO, cylinder)];
     let small = [(DumpsTo::AlongX(0.9), cylinder), (DumpsTo::AlongX(-0.9), cylinder)];
@@ -44,7 +44,7 @@ pub fn other_dumps() -> Vec<Case> {
 }
 
 /// Figures 4 and 5: small wheels.
-pub fn figure(strategies: &[Strategy]) -> Vec<Case> {
+pub(super) fn figure(strategies: &[Strategy]) -> Vec<Case> {
     let mut cases =
         with_every_strategy(&[(DumpsTo::PAPER, Shade::Cylinder, Convention::BodyIntegral)], &[4.0], &ALONG_Z);
     cases.retain(|case| strategies.contains(&case.strategy));
@@ -52,7 +52,7 @@ pub fn figure(strategies: &[Strategy]) -> Vec<Case> {
 }
 
 /// Simulations over what the paper leaves open: start date and orbit frame, and the senses of the panels' tilts.
-pub fn open() -> Vec<Case> {
+pub(super) fn open() -> Vec<Case> {
     let mut cases = Vec::new();
     for dumps_to in [DumpsTo::PAPER, DumpsTo::OWN] {
         let mut extend = |threshold_n_m_s, shade, choice| {
@@ -80,7 +80,7 @@ pub fn open() -> Vec<Case> {
 }
 
 /// Every group with every threshold, strategy and offset, in this order.
-pub fn with_every_strategy(
+pub(super) fn with_every_strategy(
     groups: &[(DumpsTo, Shade, Convention)],
     thresholds_n_m_s: &[f64],
     offsets_in: &[[i8; 3]],

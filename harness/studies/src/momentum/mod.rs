@@ -13,8 +13,8 @@ mod trends;
 mod variant;
 mod wheels;
 
-pub use figures::{figure4, figure5};
-pub use off_sun::off_sun;
-pub use sensitivity::sensitivity;
-pub use tables::{assumptions, dump_targets, table2, table3, table4, table5, tables};
-pub use wheels::wheels;
+pub(crate) use figures::{figure4, figure5};
+pub(crate) use off_sun::off_sun;
+pub(crate) use sensitivity::sensitivity;
+pub(crate) use tables::{assumptions, dump_targets, table2, table3, table4, table5, tables};
+pub(crate) use wheels::wheels;

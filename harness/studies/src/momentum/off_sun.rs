@@ -63,7 +63,7 @@ impl Simulated {
 }
 
 /// Study `momentum/off-sun`.
-pub fn off_sun(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn off_sun(run: &mut Run<'_>) -> Outcome {
     let sphere = sphere::map(&run.options.fmu("MessengerLight.fmu")?)?;
     let few = fly(&run.options.fmu("MomentumPlant.fmu")?, "shade and panels")?;
     let whole = fly(&run.options.fmu("MessengerFull.fmu")?, "whole")?;

@@ -7,7 +7,7 @@ use super::spacing::Spacing;
 const COUNT_TOLERANCE: i64 = 2;
 
 /// One cell of Tables 2 and 3, or of 4 and 5.
-pub struct PaperRow {
+pub(super) struct PaperRow {
     shade: Shade,
     strategy: Strategy,
     threshold_n_m_s: f64,
@@ -79,7 +79,7 @@ const fn panels(
 }
 
 /// What the paper prints of a case.
-pub enum Published {
+pub(super) enum Published {
     /// A cell of its tables.
     Row(&'static PaperRow),
     /// "Comparable to the cases using the cylindrical shade": as many dumps as those with a higher and a lower threshold.
@@ -94,7 +94,7 @@ pub enum Published {
 impl Published {
     /// Of a case; the paper prints nothing for plates alone, for the physical momentum, nor for dumps to anything but what its
     /// text says. Dumps to 0.9 of the threshold are compared all the same, as the nearest that is well conditioned.
-    pub fn of(case: &Case) -> Option<Self> {
+    pub(super) fn of(case: &Case) -> Option<Self> {
         let is_papers = matches!(case.dumps_to, DumpsTo::PAPER | DumpsTo::OWN);
         if case.convention != Convention::BodyIntegral || !is_papers {
             return None;
@@ -114,7 +114,7 @@ impl Published {
     }
 
     /// For tables.
-    pub fn dumps(&self) -> String {
+    pub(super) fn dumps(&self) -> String {
         match self {
             Self::Row(row) => row.dumps.to_string(),
             Self::Comparable { fewest, most } => format!("{fewest} to {most}"),
@@ -122,7 +122,7 @@ impl Published {
     }
 
     /// How a number of dumps compares.
-    pub fn against(&self, dumps: i64) -> &'static str {
+    pub(super) fn against(&self, dumps: i64) -> &'static str {
         match self {
             Self::Row(row) if (dumps - row.dumps).abs() <= COUNT_TOLERANCE => "within 2",
             Self::Comparable { fewest, most } if (*fewest..=*most).contains(&dumps) => "comparable",
@@ -131,7 +131,7 @@ impl Published {
     }
 
     /// The gaps between dumps, where the paper prints them.
-    pub fn spacing(&self) -> Option<&'static Spacing> {
+    pub(super) fn spacing(&self) -> Option<&'static Spacing> {
         match self {
             Self::Row(row) => Some(&row.spacing),
             Self::Comparable { .. } => None,

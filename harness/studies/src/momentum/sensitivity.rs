@@ -88,7 +88,7 @@ struct Found {
 }
 
 /// Study `momentum/sensitivity`.
-pub fn sensitivity(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn sensitivity(run: &mut Run<'_>) -> Outcome {
     let changes = run.chosen(CHANGES, |change| change.what.to_owned())?;
     let template = run.options.fmu("MomentumPlant.fmu")?;
     let found = run.all(&changes, |change| fly(change, &template))?;

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Gaps between consecutive dumps, in days.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spacing {
+pub(super) struct Spacing {
     /// Shortest gap.
     pub closest_d: Option<f64>,
     /// Longest gap.
@@ -18,7 +18,11 @@ pub struct Spacing {
 
 impl Spacing {
     /// As somebody states it: the closest and the farthest, unless there is no gap, and what is typical where it is stated.
-    pub const fn stated(dumps: usize, extremes_d: Option<(f64, f64)>, typical_d: Option<(f64, f64)>) -> Self {
+    pub(super) const fn stated(
+        dumps: usize,
+        extremes_d: Option<(f64, f64)>,
+        typical_d: Option<(f64, f64)>,
+    ) -> Self {
         let (closest_d, farthest_d, closer_than_five_days) = match extremes_d {
             Some((closest_d, farthest_d)) => (Some(closest_d), Some(farthest_d), closest_d < 5.0),
             None => (None, None, false),
@@ -27,12 +31,12 @@ impl Spacing {
     }
 
     /// Whether the mission's five days are kept, for tables.
-    pub fn five_days(&self) -> &'static str {
+    pub(super) fn five_days(&self) -> &'static str {
         if self.closer_than_five_days { "broken" } else { "kept" }
     }
 
     /// How this compares with what a paper states, whose "typical" is not defined.
-    pub fn against(&self, stated: &Self) -> &'static str {
+    pub(super) fn against(&self, stated: &Self) -> &'static str {
         if self.closest_d.is_none() && stated.closest_d.is_none() {
             return "no gap, as in the paper";
         }
@@ -63,7 +67,7 @@ impl Spacing {
     }
 
     /// Of rising dump times, in days.
-    pub fn of(dumps_d: &[f64]) -> Self {
+    pub(super) fn of(dumps_d: &[f64]) -> Self {
         let mut gaps_d: Vec<f64> = dumps_d.windows(2).map(|pair| pair[1] - pair[0]).collect();
         gaps_d.sort_by(f64::total_cmp);
         let quantile = |fraction: f64| {

@@ -20,7 +20,7 @@ const STEP_S: f64 = 1.0;
 
 /// What sunlight does from one direction.
 #[derive(Clone, Copy, Debug)]
-pub struct Lit {
+pub(super) struct Lit {
     /// Of the Sun, in deg.
     pub azimuth_deg: f64,
     /// Of the Sun, in deg.
@@ -32,7 +32,7 @@ pub struct Lit {
 }
 
 /// All directions, row by row of elevation.
-pub fn map(fmu: &Fmu) -> Result<Vec<Lit>, StudyError> {
+pub(super) fn map(fmu: &Fmu) -> Result<Vec<Lit>, StudyError> {
     let azimuths = || (-180..180).step_by(SPACING_DEG as usize).map(f64::from);
     let elevations = (-90..=90).step_by(SPACING_DEG as usize).map(f64::from);
     let at: Vec<[f64; 2]> = elevations.flat_map(|e| azimuths().map(move |a| [a, e])).collect();
@@ -62,7 +62,7 @@ fn direction(at_deg: [f64; 2]) -> Vector {
 
 /// The sphere as two discs, from -Y and from +Y, a degree of which is everywhere as long toward their middle; around each direction
 /// a cell is shaded by `size`, whose unit is `unit`.
-pub fn picture(title: &str, unit: &str, found: &[Lit], size: impl Fn(&Lit) -> Vector) -> PlaneChart {
+pub(super) fn picture(title: &str, unit: &str, found: &[Lit], size: impl Fn(&Lit) -> Vector) -> PlaneChart {
     let panel = |title: &str, side: f64| PlanePanel {
         title: title.to_owned(),
         cells: found.iter().filter_map(|lit| Some((cell(lit, side)?, size(lit).norm()))).collect(),

@@ -9,7 +9,7 @@ use super::trends::trends;
 use crate::report::{Outcome, Run};
 
 /// Tables 2 to 5 from one set of simulations.
-pub fn tables(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn tables(run: &mut Run<'_>) -> Outcome {
     let cases = [lists::cylinder(), lists::panels()].concat();
     let simulated = simulate_all(run, cases)?;
     let of = |shade: Shade, papers: bool| -> Vec<Simulated> {
@@ -27,7 +27,7 @@ pub fn tables(run: &mut Run<'_>) -> Outcome {
 }
 
 /// Table 2: number of dumps, cylinder.
-pub fn table2(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn table2(run: &mut Run<'_>) -> Outcome {
     let simulated = simulate_all(run, lists::cylinder())?;
     counts(run, "table2.csv", &simulated, TABLE_2)?;
     draw(run, &simulated, &FIGURE_4)?;
@@ -35,28 +35,28 @@ pub fn table2(run: &mut Run<'_>) -> Outcome {
 }
 
 /// Table 3: time between dumps, cylinder.
-pub fn table3(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn table3(run: &mut Run<'_>) -> Outcome {
     let simulated = simulate_all(run, lists::in_papers_convention(lists::cylinder()))?;
     gaps(run, "table3.csv", &simulated, "Table 3")?;
     finish(run, &simulated)
 }
 
 /// Table 4: number of dumps, plates and panels.
-pub fn table4(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn table4(run: &mut Run<'_>) -> Outcome {
     let simulated = simulate_all(run, lists::panels())?;
     counts(run, "table4.csv", &simulated, TABLE_4)?;
     finish(run, &simulated)
 }
 
 /// Table 5: time between dumps, plates and panels.
-pub fn table5(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn table5(run: &mut Run<'_>) -> Outcome {
     let simulated = simulate_all(run, lists::in_papers_convention(lists::panels()))?;
     gaps(run, "table5.csv", &simulated, "Table 5")?;
     finish(run, &simulated)
 }
 
 /// What other targets of thruster dumps do.
-pub fn dump_targets(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn dump_targets(run: &mut Run<'_>) -> Outcome {
     let simulated = simulate_all(run, lists::other_dumps())?;
     let what = "plates alone, and dumps that paper 000's tables do not have";
     counts(run, "dump-targets.csv", &simulated, what)?;
@@ -64,7 +64,7 @@ pub fn dump_targets(run: &mut Run<'_>) -> Outcome {
 }
 
 /// How the counts of Table 2 move with what the paper leaves open.
-pub fn assumptions(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn assumptions(run: &mut Run<'_>) -> Outcome {
     let simulated = simulate_all(run, lists::open())?;
     run.line(
         "Thruster dumps in 90 days over what paper 000 leaves open: start date, orbit frame, panel tilts\n",

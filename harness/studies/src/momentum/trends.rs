@@ -4,7 +4,7 @@ use super::cases::{Case, Simulated, Strategy};
 
 /// Comparisons of two simulations that differ in one thing.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Trends {
+pub(super) struct Trends {
     /// How many there are.
     pub compared: usize,
     /// Those that go the wrong way.
@@ -36,7 +36,7 @@ fn is_an_inch_closer(more: &Case, fewer: &Case) -> bool {
 }
 
 /// The trends among `simulated`.
-pub fn trends(simulated: &[Simulated]) -> Trends {
+pub(super) fn trends(simulated: &[Simulated]) -> Trends {
     let mut found = Trends::default();
     for (kind, is_ordered) in KINDS {
         for more in simulated {
@@ -59,7 +59,7 @@ pub fn trends(simulated: &[Simulated]) -> Trends {
 
 impl Trends {
     /// For a report.
-    pub fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         let mut text = format!(
             "Trends (dumps only >= reactive >= predictive, fewer with the threshold, more with the offset along Z): {} of {} comparisons hold.",
             self.compared - self.exceptions.len(),

@@ -8,7 +8,7 @@ use loader::Fmu;
 
 /// A change of the file's text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Edit {
+pub(super) struct Edit {
     /// Text after which the change stands; empty for the beginning.
     pub after: &'static str,
     /// What stands there.
@@ -21,7 +21,7 @@ pub struct Edit {
 ///
 /// # Errors
 /// An edit that fits nowhere.
-pub fn edited(text: &str, edits: &[Edit]) -> Result<String, String> {
+pub(super) fn edited(text: &str, edits: &[Edit]) -> Result<String, String> {
     edits.iter().try_fold(text.to_owned(), |text, edit| {
         let place = text.find(edit.after).and_then(|at| {
             let from = at + edit.after.len();
@@ -35,7 +35,7 @@ pub fn edited(text: &str, edits: &[Edit]) -> Result<String, String> {
 }
 
 /// An FMU unpacked into a temporary folder.
-pub struct Variant {
+pub(super) struct Variant {
     /// The FMU.
     pub fmu: Fmu,
     _folder: Scratch,
@@ -46,7 +46,10 @@ impl Variant {
     ///
     /// # Errors
     /// An edit that fits nowhere, a file that the model refuses, a folder that cannot be written.
-    pub fn of(template: &Fmu, edits: &[Edit]) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+    pub(super) fn of(
+        template: &Fmu,
+        edits: &[Edit],
+    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         let model = template.co_simulation()?.model_identifier.clone();
         let file = Path::new("resources").join("spacecraft.toml");
         let text = edited(&files::read_text(&template.folder().join(&file))?, edits)?;

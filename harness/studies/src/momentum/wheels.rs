@@ -27,7 +27,7 @@ fn between_printed(capacity_n_m_s: f64) -> [f64; 2] {
 }
 
 /// Study `momentum/wheels`.
-pub fn wheels(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn wheels(run: &mut Run<'_>) -> Outcome {
     let wheels = CAPACITIES_N_M_S.map(|capacity_n_m_s| {
         let [mass_kg, threshold_n_m_s] = between_printed(capacity_n_m_s);
         (capacity_n_m_s, mass_kg, threshold_n_m_s)

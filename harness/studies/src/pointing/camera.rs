@@ -6,7 +6,7 @@ use crate::attitude::Vector;
 
 /// Half the field and where it looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Camera {
+pub(super) struct Camera {
     /// Its name.
     pub name: &'static str,
     /// Side of the square field, in deg.
@@ -16,7 +16,7 @@ pub struct Camera {
 }
 
 /// One frame: the field at one sample.
-pub struct Frame<'a> {
+pub(super) struct Frame<'a> {
     /// When and from where.
     pub sample: &'a Sample,
     half_tangent: f64,
@@ -32,7 +32,7 @@ const LATTICE: u32 = 60;
 
 impl Camera {
     /// Its frame at a sample.
-    pub fn frame<'a>(&self, sample: &'a Sample, planet: &'a Planet) -> Frame<'a> {
+    pub(super) fn frame<'a>(&self, sample: &'a Sample, planet: &'a Planet) -> Frame<'a> {
         let angle = if self.on_platform { sample.mdis_angle_rad } else { 0.0 };
         let (sine, cosine) = angle.sin_cos();
         Frame {
@@ -57,7 +57,7 @@ impl Frame<'_> {
     }
 
     /// Of the boresight, EME2000.
-    pub fn boresight(&self) -> Vector {
+    pub(super) fn boresight(&self) -> Vector {
         self.direction(0.0, 0.0)
     }
 
@@ -68,12 +68,12 @@ impl Frame<'_> {
     }
 
     /// The middle along the planet's axes, in m.
-    pub fn middle_m(&self) -> Vector {
+    pub(super) fn middle_m(&self) -> Vector {
         self.on_planet(&self.boresight())
     }
 
     /// The outline once round along the planet's axes, in m; beside the planet the points nearest to it.
-    pub fn outline_m(&self) -> Vec<Vector> {
+    pub(super) fn outline_m(&self) -> Vec<Vector> {
         let step = |k: u32| 2.0 * f64::from(k) / f64::from(SIDE) - 1.0;
         let side = |corner: fn(f64) -> (f64, f64)| (0..SIDE).map(move |k| corner(step(k)));
         let around = side(|t| (t, -1.0))
@@ -85,7 +85,7 @@ impl Frame<'_> {
     }
 
     /// Whether the frame shows the surface point given along the planet's axes.
-    pub fn shows(&self, surface_m: &Vector) -> bool {
+    pub(super) fn shows(&self, surface_m: &Vector) -> bool {
         let ellipsoid = self.ellipsoid();
         let point = ellipsoid.inertial(surface_m);
         let from = &self.sample.place.position_m;
@@ -96,7 +96,7 @@ impl Frame<'_> {
     }
 
     /// Points of the surface in the field, along the planet's axes, evenly over it; and the share of the field they fill.
-    pub fn surface_m(&self) -> (Vec<Vector>, f64) {
+    pub(super) fn surface_m(&self) -> (Vec<Vector>, f64) {
         let ellipsoid = self.ellipsoid();
         let at = |k: u32| (2.0 * f64::from(k) + 1.0) / f64::from(LATTICE) - 1.0;
         let hits: Vec<Vector> = (0..LATTICE * LATTICE)

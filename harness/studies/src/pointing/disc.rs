@@ -7,7 +7,7 @@ use drawing::{PlaneChart, PlanePanel, Series};
 
 /// A view toward nadir: downtrack to the right, the orbit's left up.
 #[derive(Clone, Copy, Debug)]
-pub struct View {
+pub(super) struct View {
     from_m: Vector,
     right: Vector,
     up: Vector,
@@ -15,7 +15,7 @@ pub struct View {
 }
 
 /// A chart of discs.
-pub fn disc_chart(title: &str, panels: Vec<PlanePanel>) -> PlaneChart {
+pub(super) fn disc_chart(title: &str, panels: Vec<PlanePanel>) -> PlaneChart {
     let [x_label, y_label] = ["downtrack of nadir [deg]", "left of the track [deg]"].map(str::to_owned);
     PlaneChart { title: title.to_owned(), x_label, y_label, panels, ..PlaneChart::default() }
 }
@@ -24,7 +24,7 @@ const POINTS: u32 = 720;
 
 impl View {
     /// From where the spacecraft is.
-    pub fn at(place: &Place) -> Self {
+    pub(super) fn at(place: &Place) -> Self {
         let nadir = place.nadir_m().normalize();
         let right = across(&place.velocity_m_s, &nadir).normalize();
         // Seen along nadir: right, up and the direction to the viewer are right-handed.
@@ -32,12 +32,12 @@ impl View {
     }
 
     /// The direction with these tangents to the right and up.
-    pub fn ray(&self, x: f64, y: f64) -> Vector {
+    pub(super) fn ray(&self, x: f64, y: f64) -> Vector {
         self.nadir + self.right * x + self.up * y
     }
 
     /// A direction: the angle from nadir in deg, laid off at its position angle.
-    pub fn direction(&self, direction: &Vector) -> (f64, f64) {
+    pub(super) fn direction(&self, direction: &Vector) -> (f64, f64) {
         let [x, y] = [&self.right, &self.up].map(|axis| axis.dot(direction));
         let side = x.hypot(y);
         let angle_deg = side.atan2(direction.dot(&self.nadir)).to_degrees();
@@ -45,24 +45,24 @@ impl View {
     }
 
     /// A point by its vector from the planet's centre.
-    pub fn point(&self, point_m: &Vector) -> (f64, f64) {
+    pub(super) fn point(&self, point_m: &Vector) -> (f64, f64) {
         self.direction(&(point_m - self.from_m))
     }
 
     /// Azimuth of a direction about the local vertical, right-handed about up from downtrack, in deg.
-    pub fn azimuth_deg(&self, direction: &Vector) -> f64 {
+    pub(super) fn azimuth_deg(&self, direction: &Vector) -> f64 {
         // Right-handed about up, as seen from above: counterclockwise.
         self.up.dot(direction).atan2(self.right.dot(direction)).to_degrees()
     }
 
     /// Angular radius of the disc, in deg.
-    pub fn radius_deg(&self, ellipsoid: &Ellipsoid) -> f64 {
+    pub(super) fn radius_deg(&self, ellipsoid: &Ellipsoid) -> f64 {
         let limb = ellipsoid.limb(&self.from_m, POINTS);
         limb.iter().map(|x| self.point(x)).map(|(x, y)| x.hypot(y)).fold(0.0, f64::max)
     }
 
     /// Limb, terminator and night side.
-    pub fn disc(&self, title: &str, ellipsoid: &Ellipsoid, sun: &Vector) -> PlanePanel {
+    pub(super) fn disc(&self, title: &str, ellipsoid: &Ellipsoid, sun: &Vector) -> PlanePanel {
         let limb = ellipsoid.limb(&self.from_m, POINTS);
         let terminator = ellipsoid.great_ellipse(sun, POINTS);
         let seen = run(&terminator, |x| ellipsoid.beyond_limb(x, &self.from_m) > 0.0);

@@ -10,10 +10,10 @@ use crate::settings::{Settings, set};
 use crate::{Options, StudyError};
 
 /// 2009-04-06 00:00 TDB in seconds past J2000, the start of the default flight.
-pub const DEFAULT_EPOCH_S: f64 = 292_248_000.0;
+pub(super) const DEFAULT_EPOCH_S: f64 = 292_248_000.0;
 
 /// Both FMUs.
-pub struct Fmus {
+pub(super) struct Fmus {
     plant: Fmu,
     guidance: Fmu,
 }
@@ -47,7 +47,7 @@ recorded! {
 
 /// Where everything is at one second, in EME2000.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub(super) struct Place {
     /// Time from the start, in s.
     pub time_s: f64,
     /// Past J2000 TDB, in s.
@@ -64,7 +64,7 @@ pub struct Place {
 
 /// What was commanded at that second.
 #[derive(Clone, Copy, Debug)]
-pub struct Sample {
+pub(super) struct Sample {
     /// Where everything was.
     pub place: Place,
     /// Commanded attitude: EME2000 to body, scalar last.
@@ -82,31 +82,31 @@ pub struct Sample {
 }
 
 /// Columns of a sample's geometry in CSV files: EME2000, positions from the planet's centre.
-pub const GEOMETRY: &str = "\
+pub(super) const GEOMETRY: &str = "\
     time_s | epoch_s | q1 | q2 | q3 | q4 | x_m | y_m | z_m | vx_m_s | vy_m_s | vz_m_s | sun_x_m | sun_y_m | \
     sun_z_m";
 
 impl Sample {
     /// The cells of [`GEOMETRY`].
-    pub fn geometry(&self) -> Vec<String> {
+    pub(super) fn geometry(&self) -> Vec<String> {
         let Place { time_s, epoch_s, position_m, velocity_m_s, .. } = &self.place;
         let sun_m = self.place.sun_m();
         row![*time_s, *epoch_s, self.q, *position_m, *velocity_m_s, sun_m]
     }
 
     /// EME2000 direction of a body direction.
-    pub fn inertial(&self, body: &Vector) -> Vector {
+    pub(super) fn inertial(&self, body: &Vector) -> Vector {
         self.q.transform_vector(body)
     }
 
     /// Azimuth and elevation of a direction in the body frame, in deg.
-    pub fn body_angles_deg(&self, inertial: &Vector) -> [f64; 2] {
+    pub(super) fn body_angles_deg(&self, inertial: &Vector) -> [f64; 2] {
         body_angles_deg(&self.q.inverse_transform_vector(inertial))
     }
 }
 
 /// What is simulated.
-pub struct Flight<'a> {
+pub(super) struct Flight<'a> {
     /// For messages and tables.
     pub label: &'a str,
     /// Past J2000 TDB, in s.
@@ -122,7 +122,7 @@ pub struct Flight<'a> {
 }
 
 /// The samples of a flight, one a second, and the planet it is over.
-pub struct Simulated {
+pub(super) struct Simulated {
     /// One a second from 0 on.
     pub samples: Vec<Sample>,
     /// By the parameters of `Guidance`.
@@ -131,12 +131,12 @@ pub struct Simulated {
 
 impl Fmus {
     /// Opens both in the folder `options` names.
-    pub fn open(options: &Options) -> Result<Self, StudyError> {
+    pub(super) fn open(options: &Options) -> Result<Self, StudyError> {
         Ok(Self { plant: options.fmu("MomentumPlant.fmu")?, guidance: options.fmu("Guidance.fmu")? })
     }
 
     /// Flies it. Where the plant is does not hang on what is commanded: it goes first.
-    pub fn fly(&self, flight: &Flight<'_>) -> Result<Simulated, StudyError> {
+    pub(super) fn fly(&self, flight: &Flight<'_>) -> Result<Simulated, StudyError> {
         let case = Case::new(flight.label, f64::from(flight.seconds + 1), 1.0);
         let case = case.set("start.epoch", flight.epoch_s);
         let anomaly_rad = flight.true_anomaly_deg.to_radians();
@@ -184,12 +184,12 @@ impl Place {
     }
 
     /// From the spacecraft to the planet's centre, in m.
-    pub fn nadir_m(&self) -> Vector {
+    pub(super) fn nadir_m(&self) -> Vector {
         -self.position_m
     }
 
     /// From the planet's centre to the Sun, in m.
-    pub fn sun_m(&self) -> Vector {
+    pub(super) fn sun_m(&self) -> Vector {
         self.to_sun_m - self.nadir_m()
     }
 }

@@ -63,7 +63,7 @@ impl Case {
 }
 
 /// Limb points at azimuths, on the terminator over an orbit, and a scan of the limb's height.
-pub fn limb(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn limb(run: &mut Run<'_>) -> Outcome {
     let all = AZIMUTHS_DEG.map(Case::Azimuth).into_iter().chain([Case::Scan, Case::Terminator]);
     let cases = run.chosen(all, Case::label)?;
     let fmus = Fmus::open(run.options)?;

@@ -13,8 +13,8 @@ mod planet;
 mod scans;
 mod transition;
 
-pub use limb::limb;
-pub use mosaic::mosaic;
-pub use transition::{
+pub(crate) use limb::limb;
+pub(crate) use mosaic::mosaic;
+pub(crate) use transition::{
     EPOCH_S as TRANSITION_EPOCH_S, SLEW_S, TRUE_ANOMALY_DEG as TRANSITION_TRUE_ANOMALY_DEG, transition,
 };

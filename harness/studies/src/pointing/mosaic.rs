@@ -76,7 +76,7 @@ fn disc_lattice(simulated: &Simulated) -> Vec<Vector> {
 }
 
 /// Footprints of three scans.
-pub fn mosaic(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn mosaic(run: &mut Run<'_>) -> Outcome {
     let cases = run.chosen(CASES, |case| case.label.to_owned())?;
     let fmus = Fmus::open(run.options)?;
     let mosaics = run.all(&cases, |case| {

@@ -9,7 +9,7 @@ use crate::case::recorded;
 
 recorded! {
     /// Radii, pole and rotation, from the parameters of Guidance.
-    pub struct Planet {
+    pub(super) struct Planet {
         /// Along its own axes, in m.
         pub radii_m: Vector = "planet.radii",
         pole_right_ascension_rad: f64 = "planet.poleRightAscension",
@@ -21,14 +21,14 @@ recorded! {
 
 /// The planet at one moment, by vectors in EME2000 from its centre.
 #[derive(Clone, Copy, Debug)]
-pub struct Ellipsoid {
+pub(super) struct Ellipsoid {
     axes: Matrix3<f64>,
     radii_m: Vector,
 }
 
 impl Planet {
     /// At an epoch in s past J2000 TDB.
-    pub fn at(&self, epoch_s: f64) -> Ellipsoid {
+    pub(super) fn at(&self, epoch_s: f64) -> Ellipsoid {
         let (sin_a, cos_a) = self.pole_right_ascension_rad.sin_cos();
         let (sin_d, cos_d) = self.pole_declination_rad.sin_cos();
         let pole = Vector::new(cos_d * cos_a, cos_d * sin_a, sin_d);
@@ -43,7 +43,7 @@ impl Planet {
 
 impl Ellipsoid {
     /// Its x, y and z axis: columns.
-    pub fn axes(&self) -> &Matrix3<f64> {
+    pub(super) fn axes(&self) -> &Matrix3<f64> {
         &self.axes
     }
 
@@ -58,27 +58,27 @@ impl Ellipsoid {
     }
 
     /// EME2000 components of components along its axes.
-    pub fn inertial(&self, v: &Vector) -> Vector {
+    pub(super) fn inertial(&self, v: &Vector) -> Vector {
         self.axes * v
     }
 
     /// Components along its axes.
-    pub fn along_axes(&self, v: &Vector) -> Vector {
+    pub(super) fn along_axes(&self, v: &Vector) -> Vector {
         self.axes.tr_mul(v)
     }
 
     /// The surface point in this direction from the centre.
-    pub fn surface(&self, direction: &Vector) -> Vector {
+    pub(super) fn surface(&self, direction: &Vector) -> Vector {
         direction * (1.0 / self.in_radii(direction).norm())
     }
 
     /// x . r in units of the radii, less 1: 0 at limb points, positive where the surface is seen (paper 001, eq 21).
-    pub fn beyond_limb(&self, surface: &Vector, from: &Vector) -> f64 {
+    pub(super) fn beyond_limb(&self, surface: &Vector, from: &Vector) -> f64 {
         self.in_radii(surface).dot(&self.in_radii(from)) - 1.0
     }
 
     /// Where a line first meets the surface.
-    pub fn hit(&self, from: &Vector, direction: &Vector) -> Option<Vector> {
+    pub(super) fn hit(&self, from: &Vector, direction: &Vector) -> Option<Vector> {
         let (origin, ray) = (self.in_radii(from), self.in_radii(direction));
         let (along, square) = (-origin.dot(&ray), ray.norm_squared());
         let inside = along * along - square * (origin.norm_squared() - 1.0);
@@ -87,7 +87,7 @@ impl Ellipsoid {
     }
 
     /// Where a line meets the surface, or comes nearest to it in units of the radii.
-    pub fn hit_or_nearest(&self, from: &Vector, direction: &Vector) -> Vector {
+    pub(super) fn hit_or_nearest(&self, from: &Vector, direction: &Vector) -> Vector {
         self.hit(from, direction).unwrap_or_else(|| {
             let (origin, ray) = (self.in_radii(from), self.in_radii(direction));
             from + direction * (-origin.dot(&ray) / ray.norm_squared())
@@ -98,7 +98,7 @@ impl Ellipsoid {
     ///
     /// Of the line's points the one whose radius meets the surface at the limb (eq 21), by bisection: from the spacecraft on
     /// the radius turns toward the line's direction, and its end goes from the visible side over the limb.
-    pub fn height_over_limb_m(&self, from: &Vector, direction: &Vector) -> Option<(Vector, f64)> {
+    pub(super) fn height_over_limb_m(&self, from: &Vector, direction: &Vector) -> Option<(Vector, f64)> {
         let at = |distance: f64| from + direction * distance;
         let beyond = |distance: f64| self.beyond_limb(&self.surface(&at(distance)), from);
         let (mut near, mut far) = (0.0, 2.0 * from.norm());
@@ -115,12 +115,12 @@ impl Ellipsoid {
     }
 
     /// The points of the surface in the plane through the centre normal to `normal`, once round.
-    pub fn great_ellipse(&self, normal: &Vector, count: u32) -> Vec<Vector> {
+    pub(super) fn great_ellipse(&self, normal: &Vector, count: u32) -> Vec<Vector> {
         circle(normal, count).map(|direction| self.surface(&direction)).collect()
     }
 
     /// The limb points on the terminator, the plane normal to the Sun's direction: changes of sign of eq 21 along it.
-    pub fn terminator_limb_points(&self, from: &Vector, sun: &Vector) -> Vec<Vector> {
+    pub(super) fn terminator_limb_points(&self, from: &Vector, sun: &Vector) -> Vec<Vector> {
         const POINTS: u32 = 720;
         let ellipse = self.great_ellipse(sun, POINTS);
         let sides = ellipse.iter().zip(ellipse.iter().cycle().skip(1));
@@ -139,12 +139,12 @@ impl Ellipsoid {
     }
 
     /// Whether the Sun is above the terminator's plane there.
-    pub fn is_day(surface: &Vector, sun: &Vector) -> bool {
+    pub(super) fn is_day(surface: &Vector, sun: &Vector) -> bool {
         surface.dot(sun) > 0.0
     }
 
     /// The limb, once round: the circle on the unit sphere whose tangents meet at the spacecraft.
-    pub fn limb(&self, from: &Vector, count: u32) -> Vec<Vector> {
+    pub(super) fn limb(&self, from: &Vector, count: u32) -> Vec<Vector> {
         let rho = self.in_radii(from);
         let square = rho.norm_squared();
         let middle = rho * (1.0 / square);

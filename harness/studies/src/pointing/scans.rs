@@ -39,7 +39,7 @@ enum Kind {
 
 /// One scan.
 #[derive(Clone, Copy, Debug)]
-pub struct Case {
+pub(super) struct Case {
     /// Its name.
     pub label: &'static str,
     /// Of its picture.
@@ -61,7 +61,7 @@ pub struct Case {
 }
 
 /// The scans of the study.
-pub const CASES: [Case; 3] = [
+pub(super) const CASES: [Case; 3] = [
     Case {
         label: "inertial",
         title: "MDIS wide-angle, inertial scan",
@@ -200,7 +200,7 @@ impl Case {
     }
 
     /// Flies it.
-    pub fn fly(&self, fmus: &Fmus) -> Result<Simulated, StudyError> {
+    pub(super) fn fly(&self, fmus: &Fmus) -> Result<Simulated, StudyError> {
         // A flight of one second shows where the planet's axes are.
         let flight = Flight {
             label: self.label,
@@ -222,7 +222,7 @@ impl Case {
     }
 
     /// Its frames; none while the axis from row to row moves.
-    pub fn frames<'a>(&self, simulated: &'a Simulated) -> Vec<Frame<'a>> {
+    pub(super) fn frames<'a>(&self, simulated: &'a Simulated) -> Vec<Frame<'a>> {
         let cycle_s = self.fast.cycle_s();
         let times_s = (0..self.fast.segments).flat_map(|motion| {
             let begin_s = f64::from(motion) * cycle_s + self.first_s;

@@ -11,11 +11,11 @@ use drawing::{Chart, Mark, Panel, Series};
 
 /// Sun and Earth are 33 deg apart as seen from the spacecraft, as the paper's antenna azimuth of -33 deg asks for with the
 /// Sun at azimuth and elevation 0. The paper prints no epoch.
-pub const EPOCH_S: f64 = DEFAULT_EPOCH_S + 3.15 * 86_400.0;
+pub(crate) const EPOCH_S: f64 = DEFAULT_EPOCH_S + 3.15 * 86_400.0;
 /// Assumed: ten hours past periapsis, the end of the paper's eight hours of downlink about apoapsis.
-pub const TRUE_ANOMALY_DEG: f64 = 215.0;
+pub(crate) const TRUE_ANOMALY_DEG: f64 = 215.0;
 /// "The commanded slew begins at 500 seconds".
-pub const SLEW_S: f64 = 500.0;
+pub(crate) const SLEW_S: f64 = 500.0;
 const END_S: u32 = 1000;
 
 /// How the camera's angle is commanded after the slew.
@@ -87,7 +87,7 @@ fn slew_deg(from: &Sample, to: &Sample) -> f64 {
 }
 
 /// The commanded curves of Figures 7 and 8.
-pub fn transition(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn transition(run: &mut Run<'_>) -> Outcome {
     let angles = [Angle::Followed, Angle::Held];
     let cases = run.chosen(angles, |angle| angle.label().to_owned())?;
     let fmus = Fmus::open(run.options)?;

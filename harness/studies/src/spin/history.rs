@@ -55,7 +55,7 @@ impl NutationRange {
 }
 
 /// Figure 4.
-pub fn figure4(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn figure4(run: &mut Run<'_>) -> Outcome {
     let cases = run.chosen(cases(), |case| case.label.clone())?;
     let fmu = run.options.fmu("SpinPlant.fmu")?;
     run.line("Nutation during a 2 deg manoeuvre of 114 pulses of 32 ms, once a turn (paper 002, Figure 4)");

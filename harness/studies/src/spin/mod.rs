@@ -6,7 +6,7 @@ mod spinner;
 mod tracker;
 mod trains;
 
-pub use history::figure4;
-pub use numbers::numbers;
-pub use tracker::{figure6, figure7};
-pub use trains::{figure2, figure3};
+pub(crate) use history::figure4;
+pub(crate) use numbers::numbers;
+pub(crate) use tracker::{figure6, figure7};
+pub(crate) use trains::{figure2, figure3};

@@ -28,7 +28,7 @@ const ARITHMETIC: &str = "agrees (arithmetic, not simulated)";
 type Row = Vec<String>;
 
 /// Every number.
-pub fn numbers(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn numbers(run: &mut Run<'_>) -> Outcome {
     let fmu = run.options.fmu("SpinPlant.fmu")?;
     let mut rows = pulses(&fmu)?;
     rows.extend(envelopes(&fmu)?);

@@ -18,7 +18,7 @@ const TALLEST_MIN: f64 = 60.0;
 const SAMPLINGS: [(&str, &str); 2] = [("clock, every 96 s", "clock"), ("every 8 spins", "spins")];
 
 /// Figure 6.
-pub fn figure6(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn figure6(run: &mut Run<'_>) -> Outcome {
     let samplings = run.chosen(SAMPLINGS, |(label, _)| (*label).to_owned())?;
     let fmu = run.options.fmu("SpinPlant.fmu")?;
     run.line("Declination of a star in the tracker of a nutating spinner (paper 002, Figure 6)");
@@ -112,7 +112,7 @@ struct Point {
 }
 
 /// Figure 7.
-pub fn figure7(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn figure7(run: &mut Run<'_>) -> Outcome {
     let ratios = (0..24).map(|i| 1.4715 + 0.001 * f64::from(i) * 22.5 / 23.0);
     let label = |ratio: &f64| format!("ratio {ratio:.4}");
     let ratios = run.chosen(ratios, label)?;

@@ -24,12 +24,12 @@ struct Row {
 }
 
 /// Figure 2: one pulse per half revolution.
-pub fn figure2(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn figure2(run: &mut Run<'_>) -> Outcome {
     figure(run, "figure2", 0.5, 0.0237)
 }
 
 /// Figure 3: one pulse per revolution.
-pub fn figure3(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn figure3(run: &mut Run<'_>) -> Outcome {
     figure(run, "figure3", 1.0, 0.0177)
 }
 

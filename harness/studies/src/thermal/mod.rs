@@ -15,7 +15,7 @@ use drawing::{Chart, Panel, Series};
 use orbit::{Case, EFFECTS, Fmus, Planet, Sample};
 use paper::{Row, TABLE_7, TABLE_8};
 use table::Simulated;
-pub use year::figure13;
+pub(crate) use year::figure13;
 
 /// "One revolution of the orbiter (i.e. 12 hours)", from periapsis, in s.
 const DURATION_S: f64 = 43_200.0;
@@ -27,7 +27,7 @@ const BELTS: i32 = 45;
 const STEP_S: f64 = 15.0;
 
 /// Table 7: one orbit with the planet standing still.
-pub fn table7(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn table7(run: &mut Run<'_>) -> Outcome {
     let simulated = simulate_rows(run, &TABLE_7, Planet::Still, Some(BELTS))?;
     run.line("One orbit, planet standing still, cylindrical shadow (paper 004, Table 7, \"analytical\")\n");
     table::print(run, "table7", &simulated, &[0.0015, 0.02, 0.05, 0.03])?;
@@ -40,7 +40,7 @@ pub fn table7(run: &mut Run<'_>) -> Outcome {
 }
 
 /// Table 8: one orbit with the planet moving.
-pub fn table8(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn table8(run: &mut Run<'_>) -> Outcome {
     let simulated = simulate_rows(run, &TABLE_8, Planet::Moving, Some(BELTS))?;
     run.line("One orbit, planet moving, no light in the penumbra (paper 004, Table 8, \"numerical\")\n");
     table::print(run, "table8", &simulated, &[0.0015, 0.02, 0.08, 0.03])?;
@@ -54,7 +54,7 @@ pub fn table8(run: &mut Run<'_>) -> Outcome {
 }
 
 /// Figure 12: the accelerations around one orbit.
-pub fn figure12(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn figure12(run: &mut Run<'_>) -> Outcome {
     let simulated = simulate_rows(run, &TABLE_8, Planet::Moving, None)?;
     let chart = Chart::new("Accelerations around one orbit", "time [h]").with(simulated.iter().map(
         |Simulated { row, samples, .. }| {

@@ -8,14 +8,14 @@ use crate::settings::{Settings, set};
 use crate::{Options, StudyError};
 
 /// Mercury's sidereal revolution by the paper's semi-major axis, in s.
-pub const MERCURY_YEAR_S: f64 = 7_600_714.0;
+pub(super) const MERCURY_YEAR_S: f64 = 7_600_714.0;
 
 /// Revolution of the spacecraft by Table 3, in s.
-pub const ORBIT_S: f64 = 43_446.6;
+pub(super) const ORBIT_S: f64 = 43_446.6;
 
 /// How the planet moves during a simulation, and how its shadow falls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Planet {
+pub(super) enum Planet {
     /// It stands still and casts a cylindrical shadow: the paper's analytical model.
     Still,
     /// It goes round the Sun, and no light comes as soon as the discs touch: the paper's numerical model.
@@ -24,7 +24,7 @@ pub enum Planet {
 
 /// What is simulated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Case {
+pub(super) struct Case {
     /// Mercury's true anomaly at the start, in deg.
     pub true_anomaly_deg: f64,
     /// The planet.
@@ -64,7 +64,7 @@ impl Case {
 
 /// Accelerations at one time, in m/s2.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub(super) struct Sample {
     /// Time from the start, in s.
     pub time_s: f64,
     /// Mercury's true anomaly, in deg, counted on beyond 360.
@@ -80,17 +80,17 @@ pub struct Sample {
 }
 
 /// Names of the effects in [`Sample::effects`].
-pub const EFFECTS: [&str; 4] = ["solar", "albedo", "infrared", "thermal"];
+pub(super) const EFFECTS: [&str; 4] = ["solar", "albedo", "infrared", "thermal"];
 
 /// Both FMUs.
-pub struct Fmus {
+pub(super) struct Fmus {
     plant: Fmu,
     disturbance: Fmu,
 }
 
 impl Fmus {
     /// Opens both in the folder `options` names.
-    pub fn open(options: &Options) -> Result<Self, StudyError> {
+    pub(super) fn open(options: &Options) -> Result<Self, StudyError> {
         Ok(Self {
             plant: options.fmu("MomentumPlant.fmu")?,
             disturbance: options.fmu("DisturbanceTorque.fmu")?,
@@ -98,7 +98,7 @@ impl Fmus {
     }
 
     /// Runs one case.
-    pub fn simulate(&self, case: &Case) -> Result<Vec<Sample>, StudyError> {
+    pub(super) fn simulate(&self, case: &Case) -> Result<Vec<Sample>, StudyError> {
         let trajectory = self.trajectory(case)?;
         let mut ahead = trajectory.iter();
         let mut inputs = |_: Row<'_>| ahead.next().map_or(Settings::new(), TrajectoryPoint::inputs);

@@ -2,7 +2,7 @@
 
 /// One row: solar acceleration in 1e-7 m/s2, the rest in % of it; (greatest, least).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub(super) struct Row {
     /// Case number.
     pub case: u32,
     /// Mercury's true anomaly at the start, in deg.
@@ -19,7 +19,7 @@ pub struct Row {
 
 impl Row {
     /// By effect, in the order of the table; of solar it prints the greatest only.
-    pub fn extremes(&self) -> [(f64, Option<f64>); 4] {
+    pub(super) fn extremes(&self) -> [(f64, Option<f64>); 4] {
         let both = |(greatest, least)| (greatest, Some(least));
         [(self.solar, None), both(self.albedo), both(self.infrared), both(self.thermal)]
     }
@@ -37,7 +37,7 @@ const fn row(
 }
 
 /// Table 7, the analytical model.
-pub const TABLE_7: [Row; 4] = [
+pub(super) const TABLE_7: [Row; 4] = [
     row(1, 10.0, 8.45, (0.32, 0.02), (6.68, 0.18), (25.60, 23.44)),
     row(2, 98.0, 5.51, (2.37, 0.00), (14.10, 0.01), (23.24, 18.80)),
     row(3, 189.0, 3.71, (0.95, 0.01), (19.24, 0.14), (19.99, 18.81)),
@@ -45,7 +45,7 @@ pub const TABLE_7: [Row; 4] = [
 ];
 
 /// Table 8, the numerical model; the solar column's maximum.
-pub const TABLE_8: [Row; 4] = [
+pub(super) const TABLE_8: [Row; 4] = [
     row(1, 10.0, 8.45, (0.20, 0.00), (3.66, 0.17), (23.78, 23.31)),
     row(2, 98.0, 5.51, (4.40, 0.00), (25.22, 0.02), (20.43, 18.46)),
     row(3, 189.0, 3.72, (0.77, 0.01), (17.56, 0.08), (18.97, 16.89)),

@@ -55,7 +55,7 @@ fn row(what: &str, ours: String, holds: bool) -> Vec<String> {
 }
 
 /// Figure 13: accelerations over a Mercury year; least, mean and greatest of every orbit.
-pub fn figure13(run: &mut Run<'_>) -> Outcome {
+pub(crate) fn figure13(run: &mut Run<'_>) -> Outcome {
     let fmus = Fmus::open(run.options)?;
     let case = Case {
         true_anomaly_deg: 0.0,

@@ -12,7 +12,7 @@ const UNITS: &str = r#"<UnitDefinitions>
 </UnitDefinitions>"#;
 
 /// A description of variables, each `causality name type attributes`.
-pub fn description(model: &str, items: &str, variables: &[&str]) -> String {
+pub(crate) fn description(model: &str, items: &str, variables: &[&str]) -> String {
     let mut text = format!(
         "<fmiModelDescription fmiVersion=\"2.0\" modelName=\"{model}\" guid=\"{{{model}}}\">\
          <CoSimulation modelIdentifier=\"{model}\" canHandleVariableCommunicationStepSize=\"true\"/>{UNITS}\
@@ -37,10 +37,10 @@ pub fn description(model: &str, items: &str, variables: &[&str]) -> String {
     text
 }
 
-pub const ITEMS: &str = r#"<Item name="none" value="0"/><Item name="red" value="1"/>"#;
+pub(crate) const ITEMS: &str = r#"<Item name="none" value="0"/><Item name="red" value="1"/>"#;
 
 /// Gives positions, an angle and options.
-pub fn giver() -> String {
+pub(crate) fn giver() -> String {
     description(
         "Giver",
         ITEMS,
@@ -61,7 +61,7 @@ pub fn giver() -> String {
 }
 
 /// Takes them.
-pub fn taker() -> String {
+pub(crate) fn taker() -> String {
     description(
         "Taker",
         ITEMS,
@@ -80,14 +80,14 @@ pub fn taker() -> String {
 }
 
 /// An FMU's archive.
-pub fn fmu(description: &str) -> Vec<u8> {
+pub(crate) fn fmu(description: &str) -> Vec<u8> {
     let mut entries = Entries::default();
     entries.add("modelDescription.xml", description.as_bytes().to_vec()).unwrap();
     entries.to_zip().unwrap()
 }
 
 /// The SSD around connectors, connections, further elements.
-pub struct Ssd {
+pub(crate) struct Ssd {
     pub giver: &'static str,
     pub taker: &'static str,
     pub connections: &'static str,
@@ -122,7 +122,7 @@ impl Default for Ssd {
 }
 
 impl Ssd {
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         format!(
             r#"<?xml version="1.0" encoding="UTF-8"?>
 <ssd:SystemStructureDescription xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon"
@@ -141,7 +141,7 @@ impl Ssd {
 }
 
 /// Writes an SSP with both FMUs and further files.
-pub fn ssp(folder: &Path, ssd: &str, files: &[(&str, &str)]) -> PathBuf {
+pub(crate) fn ssp(folder: &Path, ssd: &str, files: &[(&str, &str)]) -> PathBuf {
     let mut entries = Entries::default();
     entries.add("SystemStructure.ssd", ssd.as_bytes().to_vec()).unwrap();
     entries.add("resources/giver.fmu", fmu(&giver())).unwrap();
@@ -155,7 +155,7 @@ pub fn ssp(folder: &Path, ssd: &str, files: &[(&str, &str)]) -> PathBuf {
 }
 
 /// Writes an SSP of these components.
-pub fn write(folder: &Path, ssd: &str, components: &[(String, loader::Fmu)]) -> PathBuf {
+pub(crate) fn write(folder: &Path, ssd: &str, components: &[(String, loader::Fmu)]) -> PathBuf {
     let mut entries = Entries::default();
     entries.add("SystemStructure.ssd", ssd.as_bytes().to_vec()).unwrap();
     for (name, fmu) in components {

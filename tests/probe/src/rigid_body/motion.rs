@@ -95,7 +95,7 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 /// A vector in body axes: A(q) = (s2 - v.v) 1 + 2 v vT - 2 s [v x].
-pub fn to_body(q: [f64; 4], vector: [f64; 3]) -> [f64; 3] {
+pub(super) fn to_body(q: [f64; 4], vector: [f64; 3]) -> [f64; 3] {
     let [x, y, z, s] = q;
     let v = [x, y, z];
     let along = 2.0 * (0..3).map(|i| v[i] * vector[i]).sum::<f64>();

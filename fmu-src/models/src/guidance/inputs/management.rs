@@ -13,7 +13,7 @@ use crate::guidance::setup::Plan;
 use crate::guidance::variables::choices::DumpReinitTo;
 
 /// Sets the panels as they are commanded; `panels` is memory to use again.
-pub fn set_panels(context: &Plan<'_>, values: &Values, panels: &mut Vec<PanelSetting>) {
+pub(crate) fn set_panels(context: &Plan<'_>, values: &Values, panels: &mut Vec<PanelSetting>) {
     panels.clear();
     panels.extend(context.variables.panel.iter().map(|panel| {
         if !values.boolean(panel.enabled) {
@@ -30,7 +30,7 @@ pub fn set_panels(context: &Plan<'_>, values: &Values, panels: &mut Vec<PanelSet
 ///
 /// # Errors
 /// A shade that the file does not describe, a strategy without a downlink.
-pub fn manager<'a>(
+pub(crate) fn manager<'a>(
     context: &'a Plan<'_>,
     values: &Values,
     panels: &'a [PanelSetting],
@@ -76,7 +76,7 @@ pub fn manager<'a>(
 }
 
 /// When a dump is requested, and to which momentum.
-pub fn policy(context: &Plan<'_>, values: &Values) -> DumpPolicy {
+pub(crate) fn policy(context: &Plan<'_>, values: &Values) -> DumpPolicy {
     let v = context.variables;
     DumpPolicy {
         threshold_body_n_m_s: Vector3::from(values.vector(v.dump.threshold)),

@@ -1,6 +1,6 @@
 //! From parameters, inputs and the timeline to what a sample reads.
 
-pub mod management;
+pub(super) mod management;
 
 use fmi_export::{Boolean, Choice, Enumeration, Failure, InputsOverTime, Integer, Real, RealVector, Values};
 use nalgebra::Vector3;
@@ -119,7 +119,7 @@ fn target(context: &Plan<'_>, values: &Values) -> (Body, TargetPlanet) {
 }
 
 /// Writes the parameters that follow `target.planet` as they act.
-pub fn resolve_start(context: &Plan<'_>, values: &mut Values) {
+pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     let (v, ellipse) = (&context.variables.planet, &context.variables.ephemeris.ellipse);
     let (body, planet) = target(context, values);
     let elements = ellipse.read(context, values, &context.setup.bodies.body(body));
@@ -166,7 +166,7 @@ fn burn(context: &Plan<'_>, values: &Values) -> Result<BurnSettings, Failure> {
 const NOT_CONNECTED: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
 /// Parameters, as a sample uses them. The timeline may override the keep-in zone.
-pub fn settings<'a>(
+pub(super) fn settings<'a>(
     context: &'a Plan<'_>,
     values: &Values,
     fixed: &Fixed,
@@ -262,7 +262,10 @@ pub fn settings<'a>(
 ///
 /// # Errors
 /// A gimbal that no instrument has, a downlink without an antenna.
-pub fn check_devices(command: &PointingCommand, settings: &GuidanceSettings<'_>) -> Result<(), Failure> {
+pub(super) fn check_devices(
+    command: &PointingCommand,
+    settings: &GuidanceSettings<'_>,
+) -> Result<(), Failure> {
     let hardware = &settings.hardware;
     let lacks = |variable: &str, item: &str, allowed: &str, lack: &str| {
         Err(Failure::new(format!("{variable}: found {item}, allowed: {allowed}; {lack}")))
@@ -309,14 +312,14 @@ fn scans(context: &Plan<'_>, values: &Values) -> ScanCompatibility {
 }
 
 /// The attitude to start from.
-pub fn start_attitude(context: &Plan<'_>, values: &Values) -> Result<Attitude, Failure> {
+pub(super) fn start_attitude(context: &Plan<'_>, values: &Values) -> Result<Attitude, Failure> {
     let q = values.vector(context.variables.start.q);
     Attitude::from_quaternion(q).map_err(|error| Failure::new(format!("start.q: {error}")))
 }
 
 /// Reads variables at the time of a sample.
 #[derive(Clone, Copy)]
-pub struct Reader<'a> {
+pub(super) struct Reader<'a> {
     context: &'a Plan<'a>,
     values: &'a Values,
     inputs: InputsOverTime<'a>,
@@ -325,7 +328,12 @@ pub struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     /// At `time_s`, where `inputs` moved since they were set.
-    pub fn new(context: &'a Plan<'a>, values: &'a Values, inputs: InputsOverTime<'a>, time_s: f64) -> Self {
+    pub(super) fn new(
+        context: &'a Plan<'a>,
+        values: &'a Values,
+        inputs: InputsOverTime<'a>,
+        time_s: f64,
+    ) -> Self {
         Self { context, values, inputs, time_s }
     }
 
@@ -356,7 +364,7 @@ impl<'a> Reader<'a> {
     }
 
     /// What the inputs command.
-    pub fn command(&self) -> PointingCommand {
+    pub(super) fn command(&self) -> PointingCommand {
         let v = self.context.variables;
         let (boresight, body_roll, external_roll) = (&v.boresight, &v.body_roll, &v.external_roll);
         let (limb, scan) = (&v.limb, &v.scan);
@@ -404,7 +412,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Where everything is at `epoch_s`, by every model that a mode may go by.
-    pub fn places(
+    pub(super) fn places(
         &self,
         fixed: &Fixed,
         command: &PointingCommand,
@@ -459,23 +467,23 @@ impl<'a> Reader<'a> {
     }
 
     /// Sum of the accelerometers' increments.
-    pub fn delta_v_body_m_s(&self) -> Vector3<f64> {
+    pub(super) fn delta_v_body_m_s(&self) -> Vector3<f64> {
         self.vector(self.context.variables.accelerometer.delta_v)
     }
 
     /// System momentum along the body axes.
-    pub fn momentum_body_n_m_s(&self) -> Vector3<f64> {
+    pub(super) fn momentum_body_n_m_s(&self) -> Vector3<f64> {
         self.vector(self.context.variables.momentum.body)
     }
 
     /// Whether an input asks for a mode.
-    pub fn asks_for_a_mode(&self) -> bool {
+    pub(super) fn asks_for_a_mode(&self) -> bool {
         self.item(self.context.variables.mode.request, ModeRequest::mode).is_some()
     }
 
     /// Mode request, estimate and Sun sensors, and whether there is an estimate to be judged. Where it is not connected, or
     /// nothing is placed yet, the attitude commanded now stands in for it.
-    pub fn sensed(&self, commanded: Attitude, is_placed: bool) -> Result<(Sensed, bool), Failure> {
+    pub(super) fn sensed(&self, commanded: Attitude, is_placed: bool) -> Result<(Sensed, bool), Failure> {
         let v = self.context.variables;
         let q = self.inputs.vector(self.values, v.estimate.q, self.time_s);
         let valid = self.flag(v.estimate.valid);

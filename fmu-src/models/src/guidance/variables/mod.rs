@@ -1,13 +1,13 @@
 //! Guidance's variables at its public face.
 
-pub mod burn;
-pub mod choices;
-pub mod commands;
-pub mod ephemeris;
-pub mod limits;
-pub mod momentum;
-pub mod outputs;
-pub mod surroundings;
+pub(super) mod burn;
+pub(super) mod choices;
+pub(super) mod commands;
+pub(super) mod ephemeris;
+pub(super) mod limits;
+pub(super) mod momentum;
+pub(super) mod outputs;
+pub(super) mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
 use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;

@@ -13,7 +13,7 @@ use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::choices::OrbitFrame;
 
 /// The centre and the orbit's elements about it, as the parameters act.
-pub struct Center {
+pub(super) struct Center {
     /// The body in the centre.
     pub data: BodyData,
     /// Its surface; Mercury's where it has none.
@@ -38,7 +38,7 @@ fn handles(variables: &PlantVariables) -> ElementHandles {
 
 impl Center {
     /// The centre that `orbit.center` names.
-    pub fn read(context: &Plan<'_>, values: &Values) -> Self {
+    pub(super) fn read(context: &Plan<'_>, values: &Values) -> Self {
         let (planet, orbit) = (&context.variables.planet, &context.variables.orbit);
         let body = context.setup.bodies.body(values.choice(orbit.center).0);
         let (own, own_surface) = (body.data, body.surface());
@@ -82,7 +82,7 @@ impl Center {
     }
 
     /// Writes the parameters as they act.
-    pub fn write(&self, variables: &PlantVariables, values: &mut Values) {
+    pub(super) fn write(&self, variables: &PlantVariables, values: &mut Values) {
         let (planet, data) = (&variables.planet, &self.data);
         values.set_real(planet.gravitational_parameter, data.gm_m3_s2);
         values.set_real(planet.radius, data.radius_m);
@@ -99,7 +99,7 @@ impl Center {
 }
 
 /// Warns of elements that nobody gave and that are another's than the centre of the start values, before they are resolved.
-pub fn say_followed(context: &Plan<'_>, values: &Values) {
+pub(super) fn say_followed(context: &Plan<'_>, values: &Values) {
     let orbit = &context.variables.orbit;
     let body = values.choice(orbit.center).0;
     if body == context.setup.center.data.body || values.choice(orbit.source).is_given() {

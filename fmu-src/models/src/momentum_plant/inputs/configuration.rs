@@ -29,7 +29,7 @@ use crate::momentum_plant::variables::choices::{
 
 /// The configuration that parameters, inputs and state describe, about `center` and in the memory of `panels`; angles of panels
 /// move as the inputs do.
-pub fn read(
+pub(super) fn read(
     context: &Plan<'_>,
     values: &Values,
     state: &PlantState,
@@ -217,7 +217,11 @@ fn without_table(center: &CenterBody, source: &str) -> Result<plant::EphemerisSo
 }
 
 /// The orbit phase's own guidance on this orbit, unmanaged.
-pub fn guidance_law(context: &Plan<'_>, values: &Values, orbit: &TwoBodyOrbit) -> Result<Guided, Failure> {
+pub(super) fn guidance_law(
+    context: &Plan<'_>,
+    values: &Values,
+    orbit: &TwoBodyOrbit,
+) -> Result<Guided, Failure> {
     let variables = context.variables;
     let is_planet = values.choice(variables.orbit.center).0.is_planet();
     let period_s = if is_planet { orbit.period_s() } else { f64::INFINITY };

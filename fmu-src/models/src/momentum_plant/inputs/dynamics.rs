@@ -25,7 +25,7 @@ fn or_none(value: f64) -> f64 {
 }
 
 /// What parameters say of a flight in this mode.
-pub fn settings(
+pub(super) fn settings(
     context: &Plan<'_>,
     values: &Values,
     configuration: &Configuration,
@@ -228,7 +228,7 @@ fn ideal_settings(context: &Plan<'_>, values: &Values) -> Result<IdealSettings, 
 }
 
 /// Distribution of momentum over the wheels; `None` unless they span all directions.
-pub fn wheel_array(context: &Plan<'_>, values: &Values) -> Option<WheelArray> {
+pub(crate) fn wheel_array(context: &Plan<'_>, values: &Values) -> Option<WheelArray> {
     let wheels = context.variables.wheel.iter();
     let axes = wheels.map(|wheel| Vector3::from(values.vector(wheel.axis)).try_normalize(0.0));
     WheelArray::new(&axes.collect::<Option<Vec<_>>>()?)

@@ -3,8 +3,8 @@
 mod center;
 mod configuration;
 mod dynamics;
-pub mod propulsion;
-pub mod step_inputs;
+pub(super) mod propulsion;
+pub(super) mod step_inputs;
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::attitude::Attitude;
@@ -24,10 +24,10 @@ use super::state::PlantState;
 use super::variables::choices::EphemerisSource;
 use crate::common::effects::unused_map;
 use crate::common::ephemeris;
-pub use dynamics::wheel_array;
+pub(super) use dynamics::wheel_array;
 
 /// What parameters and inputs say to one step, beside what [`PlantState::inputs`] hold.
-pub struct Reading<'a> {
+pub(super) struct Reading<'a> {
     /// What is another than at the last step; `None` where nothing was set.
     pub changes: Option<Changes>,
     /// Whether the flight begins, everything it needs being known.
@@ -43,7 +43,7 @@ pub struct Reading<'a> {
 }
 
 /// What flies.
-pub struct Configured {
+pub(super) struct Configured {
     /// What follows from inputs and tunable parameters, among others.
     pub configuration: Configuration,
     /// Settings, where they follow from them too.
@@ -53,7 +53,7 @@ pub struct Configured {
 }
 
 /// What follows from parameters that stay.
-pub struct FixedParameters {
+pub(super) struct FixedParameters {
     /// Effects in closed form.
     pub laws: Laws,
     /// Light and heat beyond direct sunlight.
@@ -64,25 +64,29 @@ pub struct FixedParameters {
 
 impl Reading<'_> {
     /// Force and torque from outside.
-    pub fn external(&self) -> impl Fn(f64) -> [physics::loads::ForceTorque; 2] + '_ {
+    pub(super) fn external(&self) -> impl Fn(f64) -> [physics::loads::ForceTorque; 2] + '_ {
         |time_s| self.applied.at(time_s)
     }
 
     /// The choice of the Sun's place.
-    pub fn planner(
+    pub(super) fn planner(
         &self,
     ) -> impl Fn(&mut DownlinkForecast<'_>) -> Result<Option<ChosenPlace>, PlantError> + '_ {
         |forecast| self.manager.choose(forecast)
     }
 
     /// What the flight is given with the load from outside.
-    pub fn given<'r>(&'r self, external: &'r External<'r>, planner: &'r SunPlanner<'r>) -> StepContext<'r> {
+    pub(super) fn given<'r>(
+        &'r self,
+        external: &'r External<'r>,
+        planner: &'r SunPlanner<'r>,
+    ) -> StepContext<'r> {
         StepContext { prepared: self.prepared, external, planner, work_limit: self.work_limit }
     }
 }
 
 /// Reads what a step goes by; `state` takes over what is another than before.
-pub fn read<'a>(
+pub(super) fn read<'a>(
     context: &Plan<'a>,
     values: &Values,
     state: &mut PlantState,
@@ -158,7 +162,7 @@ fn configured(
 }
 
 /// Reads what a flight begins with.
-pub fn start(context: &Plan<'_>, values: &Values, start_s: f64) -> Result<PlantState, Failure> {
+pub(super) fn start(context: &Plan<'_>, values: &Values, start_s: f64) -> Result<PlantState, Failure> {
     let mut inputs = StepInputs::default();
     inputs.update(context, values, InputsOverTime::held());
     let q = values.vector(context.variables.start.q);
@@ -171,7 +175,7 @@ pub fn start(context: &Plan<'_>, values: &Values, start_s: f64) -> Result<PlantS
 ///
 /// # Errors
 /// A setting that cannot have any.
-pub fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
+pub(super) fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
     let (variables, spacecraft) = (context.variables, &context.setup.spacecraft);
     let shape = values.choice(variables.sunshade.shape).0;
     let shadows = variables.shadowing.check(values, spacecraft, shape)?;
@@ -183,7 +187,7 @@ pub fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure>
 }
 
 /// Writes the parameters that follow `orbit.center` as they act.
-pub fn resolve_start(context: &Plan<'_>, values: &mut Values) {
+pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     let ellipse = &context.variables.ephemeris.ellipse;
     let center = Center::read(context, values);
     let elements = ellipse.read(context, values, &context.setup.bodies.body(center.data.body));
@@ -192,7 +196,7 @@ pub fn resolve_start(context: &Plan<'_>, values: &mut Values) {
 }
 
 /// Refuses a step that leaves the span of the onboard ephemerides it goes by.
-pub fn check_span(
+pub(super) fn check_span(
     context: &Plan<'_>,
     values: &Values,
     state: &PlantState,

@@ -8,7 +8,10 @@ use physics::spacecraft::{Tank, Thruster, ValveTiming};
 use crate::momentum_plant::setup::Plan;
 
 /// Thrusters and tanks as parameters say.
-pub fn reaction_control(context: &Plan<'_>, values: &Values) -> Result<ReactionControlSettings, Failure> {
+pub(crate) fn reaction_control(
+    context: &Plan<'_>,
+    values: &Values,
+) -> Result<ReactionControlSettings, Failure> {
     let v = context.variables;
     let spacecraft = &context.setup.spacecraft;
     let thrusters = spacecraft.thrusters.iter().zip(&v.thruster).map(|(thruster, variables)| Thruster {
@@ -52,7 +55,7 @@ pub fn reaction_control(context: &Plan<'_>, values: &Values) -> Result<ReactionC
 }
 
 /// Refuses tanks that hold more than there is.
-pub fn check(flight: &Flight) -> Result<(), Failure> {
+pub(crate) fn check(flight: &Flight) -> Result<(), Failure> {
     let Some(Configuration { mass_kg, .. }) = flight.configuration() else { return Ok(()) };
     let held_kg: f64 = flight.thrusters.settings.tanks.iter().map(|tank| tank.propellant_kg).sum();
     if held_kg >= *mass_kg {
@@ -65,7 +68,7 @@ pub fn check(flight: &Flight) -> Result<(), Failure> {
 }
 
 /// Says once that a dump found no thrusters.
-pub fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, said: &mut ThrusterWarnings) {
+pub(crate) fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, said: &mut ThrusterWarnings) {
     if said.unserved || report.thrusters.unserved_dumps() == 0 {
         return;
     }
@@ -81,7 +84,7 @@ pub fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, said: &mut Thruste
 }
 
 /// What a step's commands to thrusters leave undone, once each.
-pub fn warn(
+pub(crate) fn warn(
     context: &Plan<'_>,
     inputs: &DynamicsInputs,
     settings: &ReactionControlSettings,

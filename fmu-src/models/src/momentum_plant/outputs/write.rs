@@ -16,7 +16,7 @@ use super::super::state::PlantState;
 use crate::common::loads;
 
 /// Writes every output but those of single faces, and what follows from parameters where these are others.
-pub fn write(context: &Plan<'_>, values: &mut Values, report: &Report<'_>, is_reconfigured: bool) {
+pub(crate) fn write(context: &Plan<'_>, values: &mut Values, report: &Report<'_>, is_reconfigured: bool) {
     if is_reconfigured {
         write_polynomial(context, values, report.configuration);
     }
@@ -175,7 +175,7 @@ fn write_thrusters(context: &Plan<'_>, values: &mut Values, report: &Report<'_>)
 }
 
 /// Writes the faces that are reported one by one; those of panels that are left out stay 0, and all while the flight waits.
-pub fn write_faces(
+pub(crate) fn write_faces(
     context: &Plan<'_>,
     values: &mut Values,
     flight: &mut Flight,
@@ -206,7 +206,7 @@ fn write_polynomial(context: &Plan<'_>, values: &mut Values, configuration: &Con
 }
 
 /// Writes what dump thresholds the wheels guarantee, which follows from parameters alone.
-pub fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
+pub(crate) fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
     let capacities_n_m_s = context.variables.wheel.iter().map(|wheel| values.real(wheel.capacity));
     let array = wheel_array(context, values);
     let guaranteed_n_m_s = array.map_or(0.0, |it| it.guaranteed_threshold_n_m_s(capacities_n_m_s));
@@ -214,7 +214,12 @@ pub fn write_guaranteed(context: &Plan<'_>, values: &mut Values) {
 }
 
 /// First derivative of what the plant integrates, from the rates at the same time.
-pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, output: Real) -> Option<f64> {
+pub(crate) fn derivative(
+    context: &Plan<'_>,
+    values: &Values,
+    state: &PlantState,
+    output: Real,
+) -> Option<f64> {
     if state.waiting {
         return None;
     }
@@ -258,7 +263,7 @@ pub fn derivative(context: &Plan<'_>, values: &Values, state: &PlantState, outpu
 }
 
 /// Why a flight ends, with the variables to look at.
-pub fn failure(error: PlantError) -> Failure {
+pub(crate) fn failure(error: PlantError) -> Failure {
     let hint = match &error {
         PlantError::WithoutPosition { .. } | PlantError::Light { .. } => {
             "; see orbit.*, sun.position and planet.radius"
@@ -297,7 +302,7 @@ pub fn failure(error: PlantError) -> Failure {
 }
 
 /// Refuses a place where there is no flight: inside the planet or the Sun, or nowhere.
-pub fn flyable(report: &Report<'_>) -> Result<(), Failure> {
+pub(crate) fn flyable(report: &Report<'_>) -> Result<(), Failure> {
     let time_s = report.time_s;
     if !report.shown.totals.is_finite() {
         return Err(Failure::new(format!(
@@ -309,7 +314,7 @@ pub fn flyable(report: &Report<'_>) -> Result<(), Failure> {
 }
 
 /// Reports a dump.
-pub fn log_dump(context: &Plan<'_>, event: &DumpEvent) {
+pub(crate) fn log_dump(context: &Plan<'_>, event: &DumpEvent) {
     if context.log.events_enabled() {
         let message = format!(
             "thruster dump: momentum {:?} -> {:?} N.m.s (body)",

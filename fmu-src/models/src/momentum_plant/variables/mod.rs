@@ -1,9 +1,9 @@
 //! The plant's variables at its public face.
 
-pub mod body;
-pub mod choices;
+pub(super) mod body;
+pub(super) mod choices;
 mod control;
-pub mod defaults;
+pub(super) mod defaults;
 mod effects;
 mod flexibility;
 mod motion;

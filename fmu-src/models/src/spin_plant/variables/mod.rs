@@ -2,7 +2,7 @@
 
 mod body;
 mod burn;
-pub mod choices;
+pub(super) mod choices;
 mod observation;
 
 use fmi_export::{Integer, Real, RealVector, Variables};

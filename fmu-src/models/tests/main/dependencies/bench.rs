@@ -42,7 +42,7 @@ fn note(seen: &mut Sightings, pairs: BTreeSet<(usize, usize)>) {
 }
 
 /// A model with everything that does not change in flight, and what was seen so far.
-pub struct Bench<M: Model> {
+pub(super) struct Bench<M: Model> {
     setup: M::Setup,
     handles: M::Variables,
     start: Values,
@@ -57,7 +57,7 @@ pub struct Bench<M: Model> {
 }
 
 /// A flight at a communication point.
-pub struct Simulation<M: Model> {
+pub(super) struct Simulation<M: Model> {
     pub values: Tables,
     state: M::State,
     time_s: f64,
@@ -65,7 +65,7 @@ pub struct Simulation<M: Model> {
 }
 
 impl<M: Model> Bench<M> {
-    pub fn new(text: &str, seed: u64) -> Self {
+    pub(super) fn new(text: &str, seed: u64) -> Self {
         let setup = M::parse_setup("spacecraft.toml", text).unwrap();
         let mut scope = Declare::new();
         let handles = M::Variables::declare(&mut scope, &setup, 0).unwrap();
@@ -88,7 +88,7 @@ impl<M: Model> Bench<M> {
     }
 
     /// A file beside the setup.
-    pub fn with_schedule(mut self, schedule: &str, text: &str) -> Self {
+    pub(super) fn with_schedule(mut self, schedule: &str, text: &str) -> Self {
         M::parse_schedule(&mut self.setup, schedule, schedule, text).unwrap();
         self
     }
@@ -97,18 +97,18 @@ impl<M: Model> Bench<M> {
         Context { setup: &self.setup, variables: &self.handles, start: &self.start, log: &Silent }
     }
 
-    pub fn defaults(&self) -> Tables {
+    pub(super) fn defaults(&self) -> Tables {
         Tables::of(&self.start)
     }
 
     /// Writes a variable, if the spacecraft has it and a master may set it.
-    pub fn put(&self, tables: &mut Tables, name: &str, value: f64) {
+    pub(super) fn put(&self, tables: &mut Tables, name: &str, value: f64) {
         if let Some(&at) = self.by_name.get(name).filter(|at| self.variables[**at].exact) {
             self.write(tables, at, value);
         }
     }
 
-    pub fn read(&self, tables: &Tables, at: usize) -> f64 {
+    pub(super) fn read(&self, tables: &Tables, at: usize) -> f64 {
         let variable = &self.variables[at];
         match variable.base {
             Base::Real => tables.reals[variable.slot],
@@ -118,7 +118,7 @@ impl<M: Model> Bench<M> {
         }
     }
 
-    pub fn write(&self, tables: &mut Tables, at: usize, value: f64) {
+    pub(super) fn write(&self, tables: &mut Tables, at: usize, value: f64) {
         let variable = &self.variables[at];
         match variable.base {
             Base::Real => tables.reals[variable.slot] = value,
@@ -128,13 +128,13 @@ impl<M: Model> Bench<M> {
         }
     }
 
-    pub fn initialize(&self, tables: &Tables, start_s: f64) -> Option<Simulation<M>> {
+    pub(super) fn initialize(&self, tables: &Tables, start_s: f64) -> Option<Simulation<M>> {
         let mut values = tables.marked_where_other_than(&self.start).back();
         let state = M::initialize(&self.context(), &mut values, start_s).ok()?;
         Some(Simulation { values: Tables::of(&values), state, time_s: start_s, changed: false })
     }
 
-    pub fn step(&self, flight: &mut Simulation<M>, length_s: f64) -> Option<()> {
+    pub(super) fn step(&self, flight: &mut Simulation<M>, length_s: f64) -> Option<()> {
         let end_s = flight.time_s + length_s;
         let step =
             Step { start_s: flight.time_s, end_s, changed: flight.changed, inputs: InputsOverTime::held() };
@@ -187,7 +187,7 @@ impl<M: Model> Bench<M> {
     }
 
     /// Changes inputs and exact parameters before the start at `start_s` and records which unknowns follow.
-    pub fn look_at_start(&mut self, tables: &Tables, start_s: f64) -> Option<()> {
+    pub(super) fn look_at_start(&mut self, tables: &Tables, start_s: f64) -> Option<()> {
         let base = self.initialize(tables, start_s)?;
         self.looks[0] += 1;
         let unknowns = indices(&self.description.structure.initial_unknowns);
@@ -210,7 +210,7 @@ impl<M: Model> Bench<M> {
     }
 
     /// Changes every input at the flight's communication point and records which outputs follow directly.
-    pub fn look_at_step(&mut self, flight: &Simulation<M>) -> Option<()> {
+    pub(super) fn look_at_step(&mut self, flight: &Simulation<M>) -> Option<()> {
         let outputs = indices(&self.description.structure.outputs);
         let after = |bench: &Self, values: &Tables, length_s: f64| {
             let (state, time_s) = (flight.state.clone(), flight.time_s);
@@ -257,7 +257,7 @@ impl<M: Model> Bench<M> {
 
     /// What was seen and is not declared, a line an unknown. It counts from the second state on: an event may fall right on a
     /// communication point, but not twice.
-    pub fn undeclared(&self) -> String {
+    pub(super) fn undeclared(&self) -> String {
         let structure = &self.description.structure;
         let lists = [
             ("Outputs", &structure.outputs, &self.seen_in_steps),
@@ -280,7 +280,7 @@ impl<M: Model> Bench<M> {
     }
 
     /// How many pairs were seen in each list.
-    pub fn seen(&self) -> [usize; 2] {
+    pub(super) fn seen(&self) -> [usize; 2] {
         [self.seen_in_steps.len(), self.seen_at_start.len()]
     }
 }

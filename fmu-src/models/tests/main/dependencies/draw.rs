@@ -9,7 +9,7 @@ use super::variable::Base;
 
 /// How a variable is drawn.
 #[derive(Clone, Copy)]
-pub enum Draw {
+pub(super) enum Draw {
     /// A vector in any direction, its length between two bounds.
     Vector(f64, f64),
     /// A quaternion.
@@ -21,13 +21,13 @@ pub enum Draw {
 }
 
 /// A variable, with `*` for every index of a group, how it is drawn and how often; otherwise it stays at its default.
-pub type Row = (&'static str, Draw, f64);
+pub(super) type Row = (&'static str, Draw, f64);
 
 /// Which enumerations and flags stay as they are, by the beginning of their names.
-pub type Kept = &'static [&'static str];
+pub(super) type Kept = &'static [&'static str];
 
 /// Draws options and numbers.
-pub fn draw<M: Model>(bench: &mut Bench<M>, kept: Kept, rows: &[Row]) -> Tables {
+pub(super) fn draw<M: Model>(bench: &mut Bench<M>, kept: Kept, rows: &[Row]) -> Tables {
     let mut random = bench.random.clone();
     let mut values = bench.defaults();
     for at in 0..bench.variables.len() {
@@ -51,7 +51,12 @@ pub fn draw<M: Model>(bench: &mut Bench<M>, kept: Kept, rows: &[Row]) -> Tables 
 }
 
 /// Draws numbers.
-pub fn redraw<M: Model>(bench: &Bench<M>, random: &mut RandomNumbers, rows: &[Row], values: &mut Tables) {
+pub(super) fn redraw<M: Model>(
+    bench: &Bench<M>,
+    random: &mut RandomNumbers,
+    rows: &[Row],
+    values: &mut Tables,
+) {
     for (name, how, share) in rows {
         for name in names(name) {
             if random.next() < *share {

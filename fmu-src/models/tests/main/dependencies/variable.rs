@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use fmi_export::model_description::{Causality, Description, Initial, SimpleTypeKind, VariableKind, rules};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Base {
+pub(super) enum Base {
     Real,
     Integer,
     Boolean,
     Text,
 }
 
-pub struct Variable {
+pub(super) struct Variable {
     pub name: String,
     pub base: Base,
     /// Place in the table of its base type.
@@ -31,7 +31,7 @@ pub struct Variable {
 }
 
 /// A change of a Real that matters, by its unit.
-pub fn natural(unit: &str) -> f64 {
+pub(super) fn natural(unit: &str) -> f64 {
     match unit {
         "rad" => 0.7,
         "rad/s" => 1e-3,
@@ -47,7 +47,7 @@ pub fn natural(unit: &str) -> f64 {
     }
 }
 
-pub fn variables(description: &Description) -> Vec<Variable> {
+pub(super) fn variables(description: &Description) -> Vec<Variable> {
     let mut counts = [0; 4];
     let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     let group_of = |name: &str| match name.strip_suffix(']').and_then(|name| name.rsplit_once('[')) {

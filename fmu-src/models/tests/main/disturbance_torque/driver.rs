@@ -13,7 +13,7 @@ use super::super::random::RandomNumbers;
 use super::super::spacecraft::RADIATING;
 
 /// The models of a spacecraft's file, whose `[start]` may have names of each.
-pub static LIBRARY: Library = Library {
+pub(super) static LIBRARY: Library = Library {
     entries: &[Entry::of::<DisturbanceTorque>(), Entry::of::<MomentumPlant>(), Entry::of::<Guidance>()],
 };
 
@@ -36,7 +36,7 @@ fn resources(name: &str, text: &str) -> std::path::PathBuf {
 }
 
 /// A model of the spacecraft of a TOML text, in a folder of its own.
-pub fn instance(model: &str, name: &str, text: &str) -> NamedInstance {
+pub(crate) fn instance(model: &str, name: &str, text: &str) -> NamedInstance {
     let folder = resources(name, text);
     let entry = LIBRARY.find(model).unwrap();
     let description = LIBRARY.describe(entry, Some("spacecraft.toml"), Some(text)).unwrap();
@@ -46,7 +46,7 @@ pub fn instance(model: &str, name: &str, text: &str) -> NamedInstance {
 }
 
 /// The model through FMI's functions.
-pub struct Disturbance(NamedInstance);
+pub(crate) struct Disturbance(NamedInstance);
 
 impl Deref for Disturbance {
     type Target = NamedInstance;
@@ -64,37 +64,37 @@ impl DerefMut for Disturbance {
 
 impl Disturbance {
     /// MESSENGER as shipped.
-    pub fn messenger() -> Self {
+    pub(crate) fn messenger() -> Self {
         Self(NamedInstance::of(&LIBRARY, "DisturbanceTorque"))
     }
 
     /// The spacecraft with shadows.
-    pub fn shadowed() -> Self {
+    pub(crate) fn shadowed() -> Self {
         Self::of("shadowed", &format!("{RADIATING}{SHADOWED}"))
     }
 
     /// The spacecraft of a TOML text, in a folder of its own.
-    pub fn of(name: &str, text: &str) -> Self {
+    pub(crate) fn of(name: &str, text: &str) -> Self {
         Self(instance("DisturbanceTorque", name, text))
     }
 
     /// With light of the planet by cells in so many belts.
-    pub fn by_cells(mut self, belts: i32) -> Self {
+    pub(crate) fn by_cells(mut self, belts: i32) -> Self {
         self.put_integer("planetLight.method", 2);
         self.put_integer("planetLight.belts", belts);
         self
     }
 
-    pub fn start(&mut self) {
+    pub(crate) fn start(&mut self) {
         self.begin(0.0);
     }
 
-    pub fn step(&mut self) -> Status {
+    pub(crate) fn step(&mut self) -> Status {
         self.try_step(1.0)
     }
 
     /// Name of a Real.
-    pub fn name(&self, reference: u32) -> &str {
+    pub(crate) fn name(&self, reference: u32) -> &str {
         let is = |v: &&model_description::ScalarVariable| {
             v.value_reference == reference && matches!(v.kind, model_description::VariableKind::Real { .. })
         };
@@ -102,7 +102,7 @@ impl Disturbance {
     }
 
     /// Of each of `outputs`, where it and the other components of its vector stand in them.
-    pub fn vectors_of(&self, outputs: &[u32]) -> Vec<Vec<usize>> {
+    pub(crate) fn vectors_of(&self, outputs: &[u32]) -> Vec<Vec<usize>> {
         let vector = |reference: u32| {
             let name = self.name(reference);
             if name.ends_with(']') { name.rsplit_once('[').unwrap().0 } else { name }
@@ -111,7 +111,7 @@ impl Disturbance {
         outputs.iter().map(|of| same(*of)).collect()
     }
 
-    pub fn references(&self, causality: Causality) -> Vec<u32> {
+    pub(crate) fn references(&self, causality: Causality) -> Vec<u32> {
         let real = |v: &&model_description::ScalarVariable| {
             v.causality == causality && matches!(v.kind, model_description::VariableKind::Real { .. })
         };
@@ -119,13 +119,13 @@ impl Disturbance {
     }
 
     /// Every output after a step with these inputs.
-    pub fn outputs_at(&mut self, inputs: &[u32], values: &[f64], outputs: &[u32]) -> Vec<f64> {
+    pub(crate) fn outputs_at(&mut self, inputs: &[u32], values: &[f64], outputs: &[u32]) -> Vec<f64> {
         assert_eq!(self.fmu.set_real(inputs, values), Status::Ok);
         assert_eq!(self.step(), Status::Ok, "{:?}", self.fmu.take_messages());
         self.read(outputs)
     }
 
-    pub fn slopes(&mut self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Vec<f64> {
+    pub(crate) fn slopes(&mut self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Vec<f64> {
         let mut result = vec![f64::NAN; unknowns.len()];
         let status = self.fmu.get_directional_derivative(unknowns, knowns, seed, &mut result);
         assert_eq!(status, Status::Ok, "{:?}", self.fmu.take_messages());
@@ -135,7 +135,7 @@ impl Disturbance {
 
 impl RandomNumbers {
     /// Sun, planet, centre of mass, angles, in the order of the inputs' names.
-    pub fn inputs(&mut self, fmu: &Disturbance, in_shadow: bool) -> (Vec<u32>, Vec<f64>) {
+    pub(crate) fn inputs(&mut self, fmu: &Disturbance, in_shadow: bool) -> (Vec<u32>, Vec<f64>) {
         let sun = self.direction();
         let altitude = 1.05 + 3.0 * self.next();
         // Toward the penumbra: the planet before the Sun, off by its angular radius.

@@ -4,4 +4,4 @@ mod driver;
 mod laws;
 mod slopes;
 
-pub use driver::{Disturbance, instance};
+pub(crate) use driver::{Disturbance, instance};

@@ -7,7 +7,7 @@ use super::{PLACED, with};
 
 /// A scan; the monitor at work in Safe Hold; windows of the orbit phase with slews; a burn that times out; downlinks that put
 /// the Sun elsewhere, of the scenario and of the orbit phase; science that unloads.
-pub const CUT: [&[(&str, f64)]; 7] = [
+pub(crate) const CUT: [&[(&str, f64)]; 7] = [
     &[
         ("pointing.scenario", 2.0),
         ("aimpoint.option", 7.0),

@@ -14,7 +14,7 @@ mod predictive;
 mod same_law;
 mod zeros;
 
-pub use cuts::CUT;
+pub(crate) use cuts::CUT;
 use models::Guidance;
 use nalgebra::UnitQuaternion;
 
@@ -23,7 +23,7 @@ use super::named_model::NamedInstance;
 type Flight<'a> = NamedInstance<'a, Guidance>;
 
 /// Above Mercury, with Sun and Earth as inputs.
-pub const PLACED: &[(&str, f64)] = &[
+pub(crate) const PLACED: &[(&str, f64)] = &[
     ("ephemeris.source", 3.0),
     ("position[1]", 3e6),
     ("position[2]", 1e6),

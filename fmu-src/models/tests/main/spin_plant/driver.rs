@@ -9,7 +9,7 @@ use models::SpinPlant;
 
 static LIBRARY: Library = Library { entries: &[Entry::of::<SpinPlant>()] };
 
-pub struct Spinner {
+pub(super) struct Spinner {
     named: NamedInstance,
     real_outputs: Vec<u32>,
 }
@@ -29,7 +29,7 @@ impl DerefMut for Spinner {
 }
 
 impl Spinner {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         let named = NamedInstance::of(&LIBRARY, "SpinPlant");
         let real_outputs = named
             .description
@@ -41,46 +41,46 @@ impl Spinner {
         Self { named, real_outputs }
     }
 
-    pub fn set(mut self, name: &str, value: f64) -> Self {
+    pub(super) fn set(mut self, name: &str, value: f64) -> Self {
         self.put(name, value);
         self
     }
 
-    pub fn set_integer(mut self, name: &str, value: i32) -> Self {
+    pub(super) fn set_integer(mut self, name: &str, value: i32) -> Self {
         self.put_integer(name, value);
         self
     }
 
-    pub fn set_text(mut self, name: &str, value: &str) -> Self {
+    pub(super) fn set_text(mut self, name: &str, value: &str) -> Self {
         self.put_text(name, value);
         self
     }
 
-    pub fn fire(&mut self, thruster: u32, on: bool) {
+    pub(super) fn fire(&mut self, thruster: u32, on: bool) {
         self.put_boolean(&format!("thruster[{thruster}].fire"), on);
     }
 
-    pub fn start(mut self) -> Self {
+    pub(super) fn start(mut self) -> Self {
         self.begin(0.0);
         self
     }
 
-    pub fn refusal(mut self) -> String {
+    pub(super) fn refusal(mut self) -> String {
         assert_ne!(self.fmu.start(0.0, None), Status::Ok);
         self.fmu.take_messages().into_iter().map(|Message { text, .. }| text).collect()
     }
 
-    pub fn to(&mut self, end_s: f64) {
+    pub(super) fn to(&mut self, end_s: f64) {
         self.step_to(end_s);
     }
 
     /// Every Real output.
-    pub fn outputs(&mut self) -> Vec<f64> {
+    pub(super) fn outputs(&mut self) -> Vec<f64> {
         self.named.read(&self.real_outputs)
     }
 }
 
-pub fn assert_names(text: &str, parts: &[&str]) {
+pub(super) fn assert_names(text: &str, parts: &[&str]) {
     for part in parts {
         assert!(text.contains(part), "`{part}` is missing from: {text}");
     }

@@ -17,7 +17,7 @@ use crate::guidance::{Guided, Schedule, ScienceRule};
 const EPOCH_S: f64 = 355_363_200.0;
 
 /// Science by a rule between downlinks of these windows, from `start_s` to `end_s` after every `every`-th periapsis.
-pub fn guided(science: ScienceRule, period_s: f64, [start_s, end_s]: [f64; 2], every: u32) -> Guided {
+pub(crate) fn guided(science: ScienceRule, period_s: f64, [start_s, end_s]: [f64; 2], every: u32) -> Guided {
     let schedule = Schedule {
         periapsis_s: 0.0,
         period_s,
@@ -39,7 +39,11 @@ pub fn guided(science: ScienceRule, period_s: f64, [start_s, end_s]: [f64; 2], e
 }
 
 /// At epoch 0 about Mercury, with Sun and Earth that stand still.
-pub fn about_mercury(position: Vector3<f64>, sun: Vector3<f64>, earth: Vector3<f64>) -> EphemerisAtTime {
+pub(crate) fn about_mercury(
+    position: Vector3<f64>,
+    sun: Vector3<f64>,
+    earth: Vector3<f64>,
+) -> EphemerisAtTime {
     EphemerisAtTime {
         epoch_s: 0.0,
         planet: TargetPlanet::of(Body::Mercury.data()),
@@ -52,7 +56,7 @@ pub fn about_mercury(position: Vector3<f64>, sun: Vector3<f64>, earth: Vector3<f
 }
 
 /// The orbit of paper 001: periapsis at 200 km, 60 deg north, inclined by 80 deg, about a triaxial Mercury.
-pub struct TestOrbit {
+pub(crate) struct TestOrbit {
     pub orbit: TwoBodyOrbit,
     ephemeris: RefCell<Ephemeris>,
     planet: TargetPlanet,
@@ -60,7 +64,7 @@ pub struct TestOrbit {
 
 impl TestOrbit {
     /// Of a period in hours.
-    pub fn new(period_h: f64) -> Self {
+    pub(crate) fn new(period_h: f64) -> Self {
         let data = Body::Mercury.data();
         let a_m = semi_major_axis_m(data.gm_m3_s2, period_h * 3600.0);
         let elements = Elements {
@@ -80,7 +84,7 @@ impl TestOrbit {
     }
 
     /// At a time after periapsis.
-    pub fn surroundings(&self, time_s: f64) -> EphemerisAtTime {
+    pub(crate) fn surroundings(&self, time_s: f64) -> EphemerisAtTime {
         let epoch_s = EPOCH_S + time_s;
         let mut ephemeris = self.ephemeris.borrow_mut();
         let mercury = ephemeris.state(Body::Mercury, epoch_s);
@@ -102,7 +106,7 @@ impl TestOrbit {
     }
 
     /// 1 Hz instants over one orbit, densest about periapsis, in s.
-    pub fn times_s(&self) -> [f64; 48] {
+    pub(crate) fn times_s(&self) -> [f64; 48] {
         core::array::from_fn(|at| {
             let part = (at as f64 - 24.0) / 24.0;
             (0.5 * self.orbit.period_s() * part * part.abs()).round()
@@ -112,7 +116,7 @@ impl TestOrbit {
 
 /// Largest component of the difference between the body rate of `axes` and the fourth-order difference of its values over
 /// `step_s`, over the larger of the rate and `floor_rad_s`; `None` where a value is missing.
-pub fn rate_error(
+pub(crate) fn rate_error(
     axes: impl Fn(f64) -> Option<MovingMatrix>,
     time_s: f64,
     step_s: f64,

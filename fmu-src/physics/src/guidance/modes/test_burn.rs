@@ -28,7 +28,7 @@ const RATE_HZ: u32 = 50;
 
 /// The thrust as it is.
 #[derive(Clone, Copy, Debug)]
-pub struct TrueThrust {
+pub(crate) struct TrueThrust {
     /// In N.
     pub force_n: f64,
     /// At the start, in kg.
@@ -45,7 +45,7 @@ pub struct TrueThrust {
 
 /// A burn to fly.
 #[derive(Clone, Copy, Debug)]
-pub struct BurnFlight {
+pub(crate) struct BurnFlight {
     pub settings: BurnSettings,
     pub thrust: TrueThrust,
     pub accelerometers: AccelerometerSettings,
@@ -60,7 +60,7 @@ pub struct BurnFlight {
 
 /// What a flight came to.
 #[derive(Clone, Copy, Debug)]
-pub struct Simulated {
+pub(crate) struct Simulated {
     /// True velocity added, EME2000, in m/s.
     pub velocity_m_s: Vector3<f64>,
     /// True thrust direction at the end, body frame.
@@ -74,13 +74,13 @@ pub struct Simulated {
 }
 
 /// The Sun to the side of burns along x.
-pub fn surroundings() -> EphemerisAtTime {
+pub(crate) fn surroundings() -> EphemerisAtTime {
     let position = Vector3::x() * Body::Mercury.data().radius_m * 2.0;
     about_mercury(position, Vector3::new(1e10, 5e10, 2e10), Vector3::new(4e10, 8e10, 1e10))
 }
 
 /// 10 m/s by 88 N on 1000 kg along +Z.
-pub fn settings(delta_v_m_s: Vector3<f64>) -> BurnSettings {
+pub(crate) fn settings(delta_v_m_s: Vector3<f64>) -> BurnSettings {
     BurnSettings {
         path: VelocityPath::linear(delta_v_m_s),
         thrusters: None,
@@ -98,7 +98,7 @@ pub fn settings(delta_v_m_s: Vector3<f64>) -> BurnSettings {
 }
 
 /// Without constraints.
-pub fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static> {
+pub(crate) fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static> {
     let keep_in = nearest_zone(0.3, 0.3);
     GuidanceSettings {
         hardware: no_instruments(),
@@ -122,7 +122,7 @@ pub fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static> {
 }
 
 /// What a sample reads while a burn is commanded.
-pub fn sample_inputs(attitude: Attitude, delta_v_body_m_s: Vector3<f64>) -> SampleInputs {
+pub(crate) fn sample_inputs(attitude: Attitude, delta_v_body_m_s: Vector3<f64>) -> SampleInputs {
     SampleInputs {
         command: PointingCommand { scenario: Some(Scenario::Burn), ..PointingCommand::default() },
         entries: TimedEntries::default(),
@@ -139,13 +139,13 @@ pub fn sample_inputs(attitude: Attitude, delta_v_body_m_s: Vector3<f64>) -> Samp
 }
 
 /// The same at rest.
-pub fn still_inputs() -> SampleInputs {
+pub(crate) fn still_inputs() -> SampleInputs {
     sample_inputs(Attitude::default(), Vector3::zeros())
 }
 
 impl BurnFlight {
     /// The case.
-    pub fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self {
             settings: settings(Vector3::x() * 10.0),
             thrust: TrueThrust {
@@ -184,7 +184,7 @@ impl BurnFlight {
     }
 
     /// Flies it for `duration_s`.
-    pub fn fly(&self, duration_s: u32) -> Simulated {
+    pub(crate) fn fly(&self, duration_s: u32) -> Simulated {
         let settings = guidance_settings(self.settings);
         let path = self.settings.path.unwrap();
         let dt = 1.0 / f64::from(RATE_HZ);

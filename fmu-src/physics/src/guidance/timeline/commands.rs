@@ -47,12 +47,12 @@ pub(super) struct Commands<'d, 'i> {
 
 impl<'d, 'i> Commands<'d, 'i> {
     /// For this spacecraft.
-    pub fn new(check: Checker<'d>, spacecraft: &'i Spacecraft) -> Self {
+    pub(super) fn new(check: Checker<'d>, spacecraft: &'i Spacecraft) -> Self {
         Self { check, spacecraft, scenario: String::new() }
     }
 
     /// Where a command points, without its scan.
-    pub fn pointing(&mut self, at: &Place, given: &CommandDescription) -> PointingCommand {
+    pub(super) fn pointing(&mut self, at: &Place, given: &CommandDescription) -> PointingCommand {
         let scenario_place = at.key("scenario");
         let Some(scenario) = given.scenario else {
             self.report_lack_of_scenario(at, given);
@@ -101,7 +101,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// Changes of the Sun keep-in zone.
-    pub fn keep_in(&mut self, at: &Place, given: Option<&KeepInDescription>) -> KeepInOverride {
+    pub(super) fn keep_in(&mut self, at: &Place, given: Option<&KeepInDescription>) -> KeepInOverride {
         let Some(given) = given else { return KeepInOverride::default() };
         let place = at.key("keepIn");
         if given.enabled.is_none() && given.azimuth.is_none() && given.elevation.is_none() {
@@ -129,7 +129,13 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// Reports keys among the `known` ones that are given and not read, and keys that lack.
-    pub fn judge(&mut self, at: &Place, known: &[&str], Keys { needed, optional }: Keys, reader: &str) {
+    pub(super) fn judge(
+        &mut self,
+        at: &Place,
+        known: &[&str],
+        Keys { needed, optional }: Keys,
+        reader: &str,
+    ) {
         for key in known {
             let (is_given, is_needed) = (self.check.is_written(&at.key(key)), needed.contains(key));
             if is_given && !is_needed && !optional.contains(key) {
@@ -317,7 +323,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// A quantity, in SI.
-    pub fn quantity(&mut self, at: &Place, given: &Quantity, kind: &Kind) -> f64 {
+    pub(super) fn quantity(&mut self, at: &Place, given: &Quantity, kind: &Kind) -> f64 {
         let Some(value) = given.si(kind) else {
             self.check.report(at, given, kind);
             return 0.0;
@@ -342,7 +348,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// Three quantities in SI, 0 unless given.
-    pub fn three(&mut self, at: &Place, given: &Option<[Quantity; 3]>, kind: &Kind) -> [f64; 3] {
+    pub(super) fn three(&mut self, at: &Place, given: &Option<[Quantity; 3]>, kind: &Kind) -> [f64; 3] {
         let Some(given) = given else { return [0.0; 3] };
         [0, 1, 2].map(|index| self.quantity(&at.item(index), &given[index], kind))
     }

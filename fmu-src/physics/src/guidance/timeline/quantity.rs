@@ -63,7 +63,7 @@ pub(super) const TIME: Kind =
 
 impl Quantity {
     /// The value in the SI unit; `None` where this is no quantity of this kind.
-    pub fn si(&self, kind: &Kind) -> Option<f64> {
+    pub(super) fn si(&self, kind: &Kind) -> Option<f64> {
         let text = match self {
             Self::Number(number) => return Some(*number),
             Self::Text(text) => text.trim(),

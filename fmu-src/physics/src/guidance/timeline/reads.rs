@@ -15,7 +15,7 @@ pub(super) struct Keys {
 
 impl Keys {
     /// Whether a key is among them.
-    pub fn has(&self, key: &str) -> bool {
+    pub(super) fn has(&self, key: &str) -> bool {
         self.needed.contains(&key) || self.optional.contains(&key)
     }
 }

@@ -44,11 +44,11 @@ const SHORTEST_SHARE: f64 = 0.1;
 const ORDER: usize = 4;
 
 /// A vector that changes linearly: at the start, and per second.
-pub type Linear = [Vector3<f64>; 2];
+pub(crate) type Linear = [Vector3<f64>; 2];
 
 /// What acts on the body and where the Sun stands, over one interval.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct DisturbanceInterval {
+pub(crate) struct DisturbanceInterval {
     #[serde(with = "or_infinite")]
     start_s: f64,
     #[serde(with = "or_infinite")]
@@ -66,7 +66,7 @@ pub struct DisturbanceInterval {
 
 impl DisturbanceInterval {
     /// Before the first interval.
-    pub fn before() -> Self {
+    pub(crate) fn before() -> Self {
         let nothing = [Vector3::zeros(); 2];
         Self {
             start_s: f64::NEG_INFINITY,
@@ -82,7 +82,7 @@ impl DisturbanceInterval {
     ///
     /// # Errors
     /// What ends a flight.
-    pub fn next(&self, plant: &mut Plant<'_>, start_s: f64, grid_s: f64) -> Result<Self, PlantError> {
+    pub(crate) fn next(&self, plant: &mut Plant<'_>, start_s: f64, grid_s: f64) -> Result<Self, PlantError> {
         plant.spend(Effort::Segment, start_s)?;
         let (known_s, begin) = plant.begin(start_s, next_multiple_s(start_s, grid_s))?;
         let limit_s = plant.kinematics.smooth_until(start_s, known_s);
@@ -132,7 +132,7 @@ impl DisturbanceInterval {
     }
 
     /// Whether a simulation can produce it.
-    pub fn is_valid(&self) -> bool {
+    pub(crate) fn is_valid(&self) -> bool {
         let is_before = self.start_s == f64::NEG_INFINITY && self.end_s == f64::NEG_INFINITY;
         (is_before || self.start_s.is_finite() && self.end_s.is_finite())
             && self.start_s <= self.end_s
@@ -140,17 +140,17 @@ impl DisturbanceInterval {
     }
 
     /// Up to when it holds, in s.
-    pub fn end_s(&self) -> f64 {
+    pub(crate) fn end_s(&self) -> f64 {
         self.end_s
     }
 
     /// Forgets what is beyond `time_s`.
-    pub fn cut(&mut self, time_s: f64) {
+    pub(crate) fn cut(&mut self, time_s: f64) {
         self.end_s = self.end_s.min(time_s);
     }
 
     /// Force and torque by effect at `time_s`.
-    pub fn loads_at(&self, time_s: f64) -> Loads {
+    pub(crate) fn loads_at(&self, time_s: f64) -> Loads {
         let elapsed_s = time_s - self.start_s;
         let mut loads = Loads::zero();
         for (effect, lines) in self.loads.present() {
@@ -161,12 +161,12 @@ impl DisturbanceInterval {
     }
 
     /// Torque of a disturbance that acts at `time_s` and its slope, in N m and N m/s.
-    pub fn torque_at(&self, effect: Effect, time_s: f64) -> Option<Linear> {
+    pub(crate) fn torque_at(&self, effect: Effect, time_s: f64) -> Option<Linear> {
         self.loads[effect].map(|[_, [start, slope]]| [start + slope * (time_s - self.start_s), slope])
     }
 
     /// Sum over the effects at `time_s`: force in N and its slope in N/s, torque in N m and its slope in N m/s.
-    pub fn total_at(&self, time_s: f64) -> [Linear; 2] {
+    pub(crate) fn total_at(&self, time_s: f64) -> [Linear; 2] {
         let elapsed_s = time_s - self.start_s;
         let mut total = [[Vector3::zeros(); 2]; 2];
         for (_, lines) in self.loads.present() {
@@ -179,7 +179,7 @@ impl DisturbanceInterval {
     }
 
     /// Unit vector to the Sun, EME2000, and the visible part of its disc at `time_s`.
-    pub fn sun_at(&self, time_s: f64) -> (Vector3<f64>, f64) {
+    pub(crate) fn sun_at(&self, time_s: f64) -> (Vector3<f64>, f64) {
         let elapsed_s = time_s - self.start_s;
         let to_sun = (self.to_sun[0] + self.to_sun[1] * elapsed_s).normalize();
         (to_sun, (self.lit_fraction[0] + self.lit_fraction[1] * elapsed_s).clamp(0.0, 1.0))

@@ -1,6 +1,6 @@
 //! What acts on the body at an instant and over an interval.
 
-pub mod by_source;
-pub mod disturbance_interval;
-pub mod evaluation;
-pub mod laws;
+pub(super) mod by_source;
+pub(super) mod disturbance_interval;
+pub(super) mod evaluation;
+pub(super) mod laws;

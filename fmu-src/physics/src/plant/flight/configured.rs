@@ -58,7 +58,7 @@ pub(crate) struct ConfiguredFlight<'a> {
 
 impl ConfiguredFlight<'_> {
     /// Frame and rate that this guidance commands where the flight begins.
-    pub fn frame_by(&mut self, law: &Guided, time_s: f64) -> Result<MovingFrame, PlantError> {
+    pub(super) fn frame_by(&mut self, law: &Guided, time_s: f64) -> Result<MovingFrame, PlantError> {
         self.world.begin_work(self.given.work_limit);
         let mut plant = self.plant();
         plant.prepare(time_s, time_s)?;
@@ -68,7 +68,7 @@ impl ConfiguredFlight<'_> {
     /// Chooses the Sun's place where a downlink has begun at `time_s`, or began right there and its momentum is another since;
     /// where it is over, the next one may choose. Science that unloads is alike. At the `first` time of a flight nothing is
     /// forecast, and a downlink that has begun before keeps its default attitude; science that has is chosen for what is left of it.
-    pub fn choose_sun_place(
+    pub(super) fn choose_sun_place(
         &mut self,
         time_s: f64,
         totals: &Totals,
@@ -144,7 +144,7 @@ impl ConfiguredFlight<'_> {
     }
 
     /// Thrust over the present segment of the motion moves the spacecraft off the orbit that was computed ahead.
-    pub fn take_thrust(&mut self, motion: &GyrostatMotion) -> Result<(), PlantError> {
+    pub(super) fn take_thrust(&mut self, motion: &GyrostatMotion) -> Result<(), PlantError> {
         let load = self.thrusters.load();
         let thrust_m_s2 = (!load.law.is_none()).then_some(|time_s: f64| {
             motion.attitude_at(time_s).inertial_from_body(&load.acceleration_body_m_s2(time_s))
@@ -155,17 +155,17 @@ impl ConfiguredFlight<'_> {
     }
 
     /// The plant in the attitude of its configuration.
-    pub fn plant(&mut self) -> Plant<'_> {
+    pub(super) fn plant(&mut self) -> Plant<'_> {
         Plant::new(self.given.prepared, self.world, self.propagator, self.given.external)
     }
 
     /// The plant with the body as it turns at `time_s`.
-    pub fn plant_at(&mut self, time_s: f64, body: &BodyMotion) -> Plant<'_> {
+    pub(super) fn plant_at(&mut self, time_s: f64, body: &BodyMotion) -> Plant<'_> {
         self.turning_plant(time_s, body, [Vector3::zeros(); 2])
     }
 
     /// The same, its rate changing by these terms of its series, in rad/s2 and rad/s3.
-    pub fn turning_plant(
+    pub(super) fn turning_plant(
         &mut self,
         time_s: f64,
         body: &BodyMotion,

@@ -52,7 +52,7 @@ pub(crate) struct Sampled<'a> {
 
 impl ControlLoop {
     /// At the start of a flight with so many wheels.
-    pub fn new(wheels: usize, time_s: f64, attitude: Attitude, rate_body_rad_s: Vector3<f64>) -> Self {
+    pub(super) fn new(wheels: usize, time_s: f64, attitude: Attitude, rate_body_rad_s: Vector3<f64>) -> Self {
         Self {
             controller: ControllerState::new(attitude, rate_body_rad_s),
             wheels: WheelControl::new(wheels),
@@ -64,19 +64,19 @@ impl ControlLoop {
     }
 
     /// Whether a simulation with so many wheels can produce it.
-    pub fn is_valid(&self, wheels: usize) -> bool {
+    pub(super) fn is_valid(&self, wheels: usize) -> bool {
         self.controller.is_valid()
             && self.wheels.is_valid(wheels)
             && self.guidance.as_ref().is_none_or(Command::is_valid)
     }
 
     /// Whether wheels or thrusters could not give the torque requested at the last sample.
-    pub fn is_limited(&self) -> bool {
+    pub(super) fn is_limited(&self) -> bool {
         if self.by_thrusters { self.thrusters_limited } else { self.wheels.is_limited() }
     }
 
     /// What the controller is to bring the body to at the end of the motion.
-    pub fn target(
+    pub(super) fn target(
         &mut self,
         flight: &mut ConfiguredFlight<'_>,
         tracked: Tracked,
@@ -125,7 +125,7 @@ impl ControlLoop {
     }
 
     /// The torque the controller asks for, and what wheels or thrusters give of it.
-    pub fn control(
+    pub(super) fn control(
         &mut self,
         control: &Control,
         thrusters: &mut Thrusters,

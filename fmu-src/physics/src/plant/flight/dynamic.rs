@@ -46,7 +46,7 @@ pub(crate) struct AttitudeDynamics {
 
 impl AttitudeDynamics {
     /// At the start of a flight.
-    pub fn begin(
+    pub(super) fn begin(
         settings: &mut DynamicsSettings,
         flight: &mut ConfiguredFlight<'_>,
         time_s: f64,
@@ -96,7 +96,7 @@ impl AttitudeDynamics {
     }
 
     /// Whether a simulation with so many wheels, modal coordinates and panels can produce it.
-    pub fn is_valid(&self, wheels: usize, oscillators: usize, panels: usize) -> bool {
+    pub(super) fn is_valid(&self, wheels: usize, oscillators: usize, panels: usize) -> bool {
         self.motion.is_valid(wheels, oscillators)
             && self.mass.is_valid()
             && self.panels.is_valid(panels)
@@ -107,13 +107,13 @@ impl AttitudeDynamics {
     }
 
     /// Whether it has come to `time_s` and not beyond the segment there.
-    pub fn covers(&self, time_s: f64) -> bool {
+    pub(super) fn covers(&self, time_s: f64) -> bool {
         let tolerance_s = tolerance_s(time_s);
         self.motion.start_s() <= time_s + tolerance_s && time_s <= self.motion.end_s() + tolerance_s
     }
 
     /// Something that acts changes at `time_s`; `loads_change` tells whether light and place do.
-    pub fn cut(&mut self, time_s: f64, loads_change: bool) {
+    pub(super) fn cut(&mut self, time_s: f64, loads_change: bool) {
         if time_s < self.motion.end_s() - tolerance_s(time_s) {
             self.motion.cut(time_s);
         }
@@ -123,7 +123,7 @@ impl AttitudeDynamics {
     }
 
     /// Advances until the motion covers `end_s`.
-    pub fn advance(
+    pub(super) fn advance(
         &mut self,
         settings: &mut DynamicsSettings,
         flight: &mut ConfiguredFlight<'_>,
@@ -152,14 +152,14 @@ impl AttitudeDynamics {
     }
 
     /// The body has the mass properties of the present segment, and what flies those of the last edge of the grid.
-    pub fn resume(&self, settings: &mut DynamicsSettings, flight: &mut ConfiguredFlight<'_>) {
+    pub(super) fn resume(&self, settings: &mut DynamicsSettings, flight: &mut ConfiguredFlight<'_>) {
         settings.set_mass_properties(&self.mass.now);
         let world = &mut *flight.world;
         world.mass_at_zero = self.mass.left.unwrap_or_else(|| world.configuration.loaded());
     }
 
     /// At the present end of the motion: edges of thrusters, disturbances anew, a dump's end, the sample, where they are due.
-    pub fn process_events(
+    pub(super) fn process_events(
         &mut self,
         settings: &mut DynamicsSettings,
         flight: &mut ConfiguredFlight<'_>,
@@ -314,7 +314,7 @@ impl AttitudeDynamics {
     }
 
     /// Thrusters bring the momentum to `target_body_n_m_s` from the present end of the motion on.
-    pub fn dump_to(
+    pub(super) fn dump_to(
         &mut self,
         settings: &DynamicsSettings,
         flight: &mut ConfiguredFlight<'_>,
@@ -365,7 +365,7 @@ impl AttitudeDynamics {
     }
 
     /// Where everything is and what acts at `time_s`, as the motion takes it.
-    pub fn evaluation(
+    pub(super) fn evaluation(
         &self,
         settings: &DynamicsSettings,
         flight: &mut ConfiguredFlight<'_>,

@@ -49,7 +49,7 @@ pub(crate) struct Fork<'f> {
 impl<'f> Fork<'f> {
     /// Begins at a time in s with these totals, in default attitudes of the law and without dumps, evaluated about every `step_s`;
     /// tolerances shorten what is too coarse.
-    pub fn guided(
+    pub(super) fn guided(
         prepared: PreparedSpacecraft<'f>,
         world: &'f mut World,
         propagator: &PropagatorState,
@@ -76,7 +76,7 @@ impl<'f> Fork<'f> {
     ///
     /// # Errors
     /// What ends a flight.
-    pub fn advance(&mut self, time_s: f64) -> Result<(), PlantError> {
+    pub(super) fn advance(&mut self, time_s: f64) -> Result<(), PlantError> {
         let settings = self.world.configuration.momentum;
         let external = |_: f64| self.applied;
         let mut plant = Plant::new(self.prepared, self.world, &mut self.propagator, &external);
@@ -84,7 +84,7 @@ impl<'f> Fork<'f> {
     }
 
     /// Momentum and geometry at `time_s`, where the fork has come.
-    pub fn momentum_at(&mut self, time_s: f64) -> ForecastMomentum {
+    pub(super) fn momentum_at(&mut self, time_s: f64) -> ForecastMomentum {
         let external = |_: f64| self.applied;
         let mut plant = Plant::new(self.prepared, self.world, &mut self.propagator, &external);
         let instant = plant.instant(time_s);

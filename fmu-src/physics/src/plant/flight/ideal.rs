@@ -26,7 +26,7 @@ pub(crate) struct IdealFlight {
 
 impl IdealFlight {
     /// From `time_s` on with these totals.
-    pub fn new(time_s: f64, totals: Totals) -> Self {
+    pub(super) fn new(time_s: f64, totals: Totals) -> Self {
         Self {
             integrator: MomentumIntegrator::new(time_s, totals),
             spacing: DumpSpacing::default(),
@@ -35,12 +35,12 @@ impl IdealFlight {
     }
 
     /// Whether a simulation can produce it.
-    pub fn is_valid(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         self.integrator.is_valid() && self.spacing.is_valid()
     }
 
     /// At the start of a flight, where the system has this momentum, body frame, in N m s.
-    pub fn begin(
+    pub(super) fn begin(
         spacecraft: &mut ConfiguredFlight<'_>,
         time_s: f64,
         momentum_body_n_m_s: Vector3<f64>,
@@ -59,7 +59,7 @@ impl IdealFlight {
     }
 
     /// Dumps to this momentum, body frame, in N m s, at `time_s` on request.
-    pub fn dump_to(
+    pub(super) fn dump_to(
         &mut self,
         spacecraft: &mut ConfiguredFlight<'_>,
         time_s: f64,
@@ -71,7 +71,11 @@ impl IdealFlight {
     }
 
     /// Advances until the momentum is known at `time_s`.
-    pub fn advance(&mut self, spacecraft: &mut ConfiguredFlight<'_>, time_s: f64) -> Result<(), PlantError> {
+    pub(super) fn advance(
+        &mut self,
+        spacecraft: &mut ConfiguredFlight<'_>,
+        time_s: f64,
+    ) -> Result<(), PlantError> {
         let settings = spacecraft.world.configuration.momentum;
         let mut dumped_s = None;
         spacecraft.world.begin_work(spacecraft.given.work_limit);

@@ -10,11 +10,11 @@ mod ideal;
 mod momentum_dumps;
 mod sensing;
 
-pub mod downlink_forecast;
-pub mod propagator_state;
-pub mod report;
-pub mod sun_choice;
-pub mod wheel_control;
+pub(super) mod downlink_forecast;
+pub(super) mod propagator_state;
+pub(super) mod report;
+pub(super) mod sun_choice;
+pub(super) mod wheel_control;
 
 pub use configured::StepContext;
 pub use fork::ForecastMomentum;

@@ -34,40 +34,40 @@ pub(crate) struct MomentumDumps {
 
 impl MomentumDumps {
     /// Whether a simulation can produce it.
-    pub fn is_valid(&self) -> bool {
+    pub(super) fn is_valid(&self) -> bool {
         self.dumps.is_valid() && self.spacing.is_valid()
     }
 
     /// When a constant torque ends, in s; infinite where none acts.
-    pub fn until_s(&self) -> f64 {
+    pub(super) fn until_s(&self) -> f64 {
         self.constant.map_or(f64::INFINITY, |dump| dump.until_s)
     }
 
     /// Constant torque of a dump that lasts, in N m.
-    pub fn torque_body_n_m(&self) -> Vector3<f64> {
+    pub(super) fn torque_body_n_m(&self) -> Vector3<f64> {
         self.constant.map_or(Vector3::zeros(), |dump| dump.torque_body_n_m)
     }
 
     /// Ends a constant torque whose time has come.
-    pub fn end(&mut self, due_s: f64) {
+    pub(super) fn end(&mut self, due_s: f64) {
         self.constant = self.constant.filter(|dump| dump.until_s > due_s);
     }
 
     /// Adds what the effects did in the segment that ends; nothing of a dump's time counts.
-    pub fn accumulate(&mut self, motion: &GyrostatMotion, is_dumping: bool) {
+    pub(super) fn accumulate(&mut self, motion: &GyrostatMotion, is_dumping: bool) {
         self.by_source =
             if is_dumping { SourceMomenta::default() } else { self.by_source(motion, motion.end_s()) };
         self.torques = Default::default();
     }
 
     /// What each effect did to the momentum since the end of the last dump, at `time_s`.
-    pub fn by_source(&self, motion: &GyrostatMotion, time_s: f64) -> SourceMomenta {
+    pub(super) fn by_source(&self, motion: &GyrostatMotion, time_s: f64) -> SourceMomenta {
         self.by_source.with(&motion.impulses_inertial_n_m_s(self.torques.values(), time_s))
     }
 
     /// Begins a dump at the end of the motion: by thrusters that give torque all ways about the centre of mass, or by a constant
     /// torque.
-    pub fn begin(
+    pub(super) fn begin(
         &mut self,
         event: DumpEvent,
         thrusters: &mut Thrusters,
@@ -91,12 +91,12 @@ impl MomentumDumps {
     }
 
     /// Whether one lasts at `time_s`.
-    pub fn is_dumping(&self, thrusters: &Thrusters, time_s: f64) -> bool {
+    pub(super) fn is_dumping(&self, thrusters: &Thrusters, time_s: f64) -> bool {
         self.constant.is_some_and(|dump| time_s < dump.until_s) || thrusters.is_dumping()
     }
 
     /// Whether another may begin.
-    pub fn are_over(&self, thrusters: &Thrusters) -> bool {
+    pub(super) fn are_over(&self, thrusters: &Thrusters) -> bool {
         self.constant.is_none() && !thrusters.is_dumping()
     }
 }

@@ -65,7 +65,7 @@ impl RadiationBuilder<'_, '_> {
     }
 
     /// Makes sure that light and heat are known from `start_s` on, and tells up to where, at most `limit_s`.
-    pub fn extend(
+    pub(crate) fn extend(
         &mut self,
         light: &mut RadiationSolver,
         segment: &mut Option<RadiationSegment>,
@@ -195,7 +195,7 @@ impl RadiationBuilder<'_, '_> {
     ///
     /// # Errors
     /// A geometry without meaning.
-    pub fn faces(
+    pub(crate) fn faces(
         &mut self,
         light: &mut RadiationSolver,
         segment: Option<&RadiationSegment>,

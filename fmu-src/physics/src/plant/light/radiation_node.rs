@@ -29,7 +29,7 @@ pub(crate) struct ViewingGeometry {
 }
 
 impl RadiationNode {
-    pub fn new(panels: usize, faces: usize) -> Self {
+    pub(crate) fn new(panels: usize, faces: usize) -> Self {
         Self {
             viewing: ViewingGeometry {
                 sun_direction_body: Vector3::zeros(),
@@ -48,14 +48,14 @@ impl RadiationNode {
     }
 
     /// Computes light and heat, every surface in balance with its light.
-    pub fn balance(&mut self, model: &DisturbanceModel) -> Result<(), Refusal> {
+    pub(crate) fn balance(&mut self, model: &DisturbanceModel) -> Result<(), Refusal> {
         self.found = model.evaluate(&self.viewing.geometry(), Recoil::Balance, &mut self.workspace)?;
         model.heat_w(&self.workspace, &mut self.heat_w);
         Ok(())
     }
 
     /// After [`RadiationNode::balance`]: the recoil anew, at this node's stored temperatures.
-    pub fn radiate_stored(&mut self, model: &DisturbanceModel) -> Result<(), Refusal> {
+    pub(crate) fn radiate_stored(&mut self, model: &DisturbanceModel) -> Result<(), Refusal> {
         let stored = Recoil::Stored(&self.temperatures_k);
         self.found[Effect::Thermal] = model.recoil(&self.viewing.geometry(), stored, &mut self.workspace)?;
         Ok(())

@@ -32,7 +32,7 @@ struct Point {
 }
 
 impl HeatRule {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let nodes = Segment::<1, NODES>::nodes(-1.0, 1.0);
         let point = |at: f64, node| Point { at, shares: lagrange(&nodes, at), node };
         let mut points = vec![point(-1.0, None)];
@@ -49,7 +49,7 @@ impl HeatRule {
     }
 
     /// Temperatures at every node (the segment's nodes, whose heat is known) and at the segment's end.
-    pub fn integrate(
+    pub(crate) fn integrate(
         &mut self,
         model: &DisturbanceModel,
         nodes: &mut [RadiationNode],
@@ -77,7 +77,7 @@ impl HeatRule {
     }
 
     /// Temperatures at the end of the segment last integrated.
-    pub fn end_k(&self) -> &[f64] {
+    pub(crate) fn end_k(&self) -> &[f64] {
         &self.temperatures_k
     }
 }

@@ -56,35 +56,40 @@ pub(crate) struct Kinematics<'a> {
 
 impl Kinematics<'_> {
     /// Counts work, the flight having come to `time_s`.
-    pub fn spend_units(&mut self, cost: Cost, units: u32, time_s: f64) -> Result<(), PlantError> {
+    pub(crate) fn spend_units(&mut self, cost: Cost, units: u32, time_s: f64) -> Result<(), PlantError> {
         Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
     }
 
     /// Mass, centre of mass and inertia as the panels stand at `time_s`, the Sun being there (unit vector, body frame).
-    pub fn mass_properties(&self, panels: &[Panel], sun_body: &Vector3<f64>, time_s: f64) -> MassProperties {
+    pub(crate) fn mass_properties(
+        &self,
+        panels: &[Panel],
+        sun_body: &Vector3<f64>,
+        time_s: f64,
+    ) -> MassProperties {
         self.configuration.mass_properties(&self.mass_at_zero, panels, sun_body, time_s)
     }
 
     /// The event functions alone, counted as a search.
-    pub fn events(&mut self, time_s: f64) -> EventValues {
+    pub(crate) fn events(&mut self, time_s: f64) -> EventValues {
         self.work.note_search();
         self.instant(time_s).events
     }
 
     /// Matrix that takes body components to EME2000 alone, by which a dump is sought and for which it counts.
-    pub fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64> {
+    pub(crate) fn inertial_from_body(&mut self, time_s: f64) -> Rotation3<f64> {
         self.work.note_dump_search();
         let geometry = self.geometry(time_s);
         self.attitude(time_s, &geometry).frame.inertial_from_body
     }
 
     /// What `time_s` is rounded to, in s: everything is constant over less.
-    pub fn time_rounding_s(&self, time_s: f64) -> f64 {
+    pub(crate) fn time_rounding_s(&self, time_s: f64) -> f64 {
         spacing(time_s).max(spacing(time_s + self.configuration.epoch_minus_time_s))
     }
 
     /// Everything but the loads at `time_s`.
-    pub fn instant(&mut self, time_s: f64) -> Instant {
+    pub(crate) fn instant(&mut self, time_s: f64) -> Instant {
         let geometry = self.geometry(time_s);
         let law = self.attitude(time_s, &geometry);
         let (lit_fraction, gaps_rad) = self.light_fraction(&geometry);
@@ -170,20 +175,20 @@ impl Kinematics<'_> {
     }
 
     /// What guidance commands at `time_s`; `None` where there is none.
-    pub fn guided_attitude(&mut self, time_s: f64) -> Option<GuidedAttitude> {
+    pub(crate) fn guided_attitude(&mut self, time_s: f64) -> Option<GuidedAttitude> {
         let configuration = self.configuration;
         configuration.attitude.guided().map(|law| self.attitude_by(law, time_s))
     }
 
     /// What this guidance commands at `time_s`.
-    pub fn attitude_by(&mut self, law: &Guided, time_s: f64) -> GuidedAttitude {
+    pub(crate) fn attitude_by(&mut self, law: &Guided, time_s: f64) -> GuidedAttitude {
         let geometry = self.geometry(time_s);
         self.guided(law, time_s, &geometry)
     }
 
     /// Least and greatest angle between Sun and Earth from one time to a later one, in rad, the spacecraft going on along the
     /// ellipse that it is on.
-    pub fn separations_rad(&mut self, from_s: f64, to_s: f64) -> [f64; 2] {
+    pub(crate) fn separations_rad(&mut self, from_s: f64, to_s: f64) -> [f64; 2] {
         let mut ahead = self.geometry_ahead(from_s);
         sampled_range(|share| {
             let geometry = ahead(from_s + (to_s - from_s) * share);
@@ -192,7 +197,7 @@ impl Kinematics<'_> {
     }
 
     /// Sun and planet from one time to a later one, likewise.
-    pub fn science_course(&mut self, gimbal: Gimbal, from_s: f64, to_s: f64) -> ScienceCourse {
+    pub(crate) fn science_course(&mut self, gimbal: Gimbal, from_s: f64, to_s: f64) -> ScienceCourse {
         let light = self.configuration.light;
         let mut ahead = self.geometry_ahead(from_s);
         ScienceCourse::of(gimbal, to_s - from_s, |share| {
@@ -227,7 +232,7 @@ impl Kinematics<'_> {
     }
 
     /// The number at which the window or slew of `instant`, at `time_s`, ends, if it does before `limit_s`.
-    pub fn attitude_until_s(&mut self, time_s: f64, instant: &Instant, limit_s: f64) -> f64 {
+    pub(crate) fn attitude_until_s(&mut self, time_s: f64, instant: &Instant, limit_s: f64) -> f64 {
         let epoch_s = instant.attitude_until_s + self.configuration.epoch_minus_time_s;
         let rounding_s = EPOCH_ROUNDING_S + 4.0 * (spacing(epoch_s) + spacing(instant.attitude_until_s));
         let (before_s, behind_s) =
@@ -248,7 +253,7 @@ impl Kinematics<'_> {
     }
 
     /// The latest time up to `limit_s` until which attitude and light are smooth from `start_s` on.
-    pub fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> f64 {
+    pub(crate) fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> f64 {
         // The edge this span starts at was found on an orbit that has been computed anew since.
         let after_s = after_event_s(start_s).min(limit_s);
         let first = self.instant(after_s);

@@ -1,7 +1,7 @@
 //! Where the spacecraft is and how it moves: orbit, geometry, attitude, turning panels.
 
-pub mod geometry;
-pub mod instant;
-pub mod kinematics;
-pub mod panel_motion;
-pub mod trajectory;
+pub(super) mod geometry;
+pub(super) mod instant;
+pub(super) mod kinematics;
+pub(super) mod panel_motion;
+pub(super) mod trajectory;

@@ -1,11 +1,11 @@
 //! What is set for a flight: configuration, dynamics, thrusters, light, bounds of work.
 
-pub mod configuration;
-pub mod control_defaults;
-pub mod dynamics_settings;
-pub mod error;
-pub mod ideal_settings;
-pub mod panel_setting;
-pub mod radiation_settings;
-pub mod reaction_control_settings;
-pub mod work;
+pub(super) mod configuration;
+pub(super) mod control_defaults;
+pub(super) mod dynamics_settings;
+pub(super) mod error;
+pub(super) mod ideal_settings;
+pub(super) mod panel_setting;
+pub(super) mod radiation_settings;
+pub(super) mod reaction_control_settings;
+pub(super) mod work;

@@ -76,7 +76,7 @@ pub(crate) struct Feed<'a> {
 
 impl Feed<'_> {
     /// Thrust of thruster `k` over its nominal one, by the pressure of its tank.
-    pub fn pressure_ratio(&self, k: usize) -> f64 {
+    pub(crate) fn pressure_ratio(&self, k: usize) -> f64 {
         let thruster = &self.settings.thrusters[k];
         self.settings.tanks.get(thruster.tank).map_or(0.0, |tank| {
             let used_kg = self.propellant.used_kg(thruster.tank, self.time_s);
@@ -85,7 +85,7 @@ impl Feed<'_> {
     }
 
     /// How long the valve of thruster `k` opens for so many seconds of nominal thrust; not below zero.
-    pub fn opens_for_s(&self, k: usize, full_s: f64) -> f64 {
+    pub(crate) fn opens_for_s(&self, k: usize, full_s: f64) -> f64 {
         if full_s <= 0.0 {
             return 0.0;
         }

@@ -1,6 +1,6 @@
 //! Thrusters at work: what they exert, dumps, reaction control.
 
-pub mod pulsed_dump;
-pub mod reaction_control;
+pub(super) mod pulsed_dump;
+pub(super) mod reaction_control;
 mod selected;
-pub mod thruster_load;
+pub(super) mod thruster_load;

@@ -21,7 +21,7 @@ pub(super) struct Selected(Option<(Vector3<f64>, Purpose, Option<ThrusterSelecti
 
 impl Selected {
     /// The thrusters for this, none where they do not give torque all ways.
-    pub fn about(
+    pub(super) fn about(
         &mut self,
         settings: &ReactionControlSettings,
         purpose: Purpose,

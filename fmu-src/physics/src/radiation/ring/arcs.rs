@@ -26,7 +26,7 @@ pub(super) enum Arc<T> {
 impl<T: Scalar> Arc<T> {
     /// The arc of a linear condition; `reach` is not negative.
     #[inline]
-    pub fn of(level: T, reach: T) -> Self {
+    pub(super) fn of(level: T, reach: T) -> Self {
         let (level_value, reach_value) = (level.value(), reach.value());
         if level_value >= reach_value {
             return if level_value > 0.0 { Self::Full } else { Self::Empty };
@@ -56,7 +56,7 @@ pub(super) struct Azimuth<T> {
 
 impl<T: Scalar> Azimuth<T> {
     /// The azimuth of a horizontal vector and the vector's length; east when it has none.
-    pub fn of(east: T, north: T) -> (Self, T) {
+    pub(super) fn of(east: T, north: T) -> (Self, T) {
         let length_squared = east * east + north * north;
         if length_squared.value() <= 0.0 {
             return (Self { cos: T::constant(1.0), sin: T::constant(0.0) }, T::constant(0.0));
@@ -67,7 +67,7 @@ impl<T: Scalar> Azimuth<T> {
 
     /// Another azimuth counted from this one.
     #[inline]
-    pub fn to(&self, other: &Self) -> Self {
+    pub(super) fn to(&self, other: &Self) -> Self {
         Self {
             cos: self.cos * other.cos + self.sin * other.sin,
             sin: self.cos * other.sin - self.sin * other.cos,
@@ -76,13 +76,13 @@ impl<T: Scalar> Azimuth<T> {
 
     /// Components in the frame whose x axis has this azimuth.
     #[inline]
-    pub fn turned_back(&self, v: &Vector3<T>) -> Vector3<T> {
+    pub(super) fn turned_back(&self, v: &Vector3<T>) -> Vector3<T> {
         Vector3::new(v.x * self.cos + v.y * self.sin, v.y * self.cos - v.x * self.sin, v.z)
     }
 
     /// The inverse of [`Azimuth::turned_back`].
     #[inline]
-    pub fn turned_forth(&self, v: &Vector3<T>) -> Vector3<T> {
+    pub(super) fn turned_forth(&self, v: &Vector3<T>) -> Vector3<T> {
         Vector3::new(v.x * self.cos - v.y * self.sin, v.y * self.cos + v.x * self.sin, v.z)
     }
 
@@ -107,7 +107,7 @@ pub(super) struct EvenMoments<T> {
 impl<T: Scalar> EvenMoments<T> {
     /// Over an arc about azimuth 0.
     #[inline]
-    pub fn over(arc: Arc<T>) -> Self {
+    pub(super) fn over(arc: Arc<T>) -> Self {
         let zero = T::constant(0.0);
         match arc {
             Arc::Empty => Self { angle: zero, c1: zero, c2: zero, s2: zero, c3: zero, c1s2: zero },
@@ -183,7 +183,12 @@ impl<T: Scalar> Moments<T> {
     /// Over what an arc about azimuth 0, or the whole ring, has in common with a part of the ring about azimuth
     /// `ahead`, in (-pi, pi], whose cosine and sine are given.
     #[inline]
-    pub fn common(seen: Arc<T>, (half, cos_half, sin_half): (T, T, T), ahead: T, middle: Azimuth<T>) -> Self {
+    pub(super) fn common(
+        seen: Arc<T>,
+        (half, cos_half, sin_half): (T, T, T),
+        ahead: T,
+        middle: Azimuth<T>,
+    ) -> Self {
         let mut sum = Self::empty();
         let start = middle.turned(cos_half, -sin_half);
         let end = middle.turned(cos_half, sin_half);

@@ -43,7 +43,7 @@ pub(super) struct Segment<T> {
 
 impl<T: Scalar> Segment<T> {
     /// The range of the variable y; past a birth y2 is the distance from it, in units of that of `to`.
-    pub fn range(&self) -> (T, T) {
+    pub(super) fn range(&self) -> (T, T) {
         let one = T::constant(1.0);
         match self.births {
             Some((birth, _)) if self.from.value() > birth.value() => {
@@ -55,7 +55,7 @@ impl<T: Scalar> Segment<T> {
 
     /// The ring at y and its derivative by y.
     #[inline]
-    pub fn at(&self, y: T) -> (T, T) {
+    pub(super) fn at(&self, y: T) -> (T, T) {
         match self.births {
             Some((birth, _)) => {
                 let length = self.to - birth;
@@ -69,7 +69,7 @@ impl<T: Scalar> Segment<T> {
     }
 
     /// The distance of an earlier birth in units of y, as far as `closest` from this one: the integrand bends there.
-    pub fn singularity(&self, closest: f64) -> Option<T> {
+    pub(super) fn singularity(&self, closest: f64) -> Option<T> {
         let (birth, earlier) = self.births?;
         let squared = (birth - earlier) / (self.to - birth);
         let range = closest * closest..FARTHEST_SINGULARITY * FARTHEST_SINGULARITY;
@@ -79,7 +79,7 @@ impl<T: Scalar> Segment<T> {
 
 impl<T: Scalar> Breaks<T> {
     /// The pieces in ascending order. Breaks that coincide count as the first of them.
-    pub fn segments(&self) -> impl Iterator<Item = Segment<T>> + '_ {
+    pub(super) fn segments(&self) -> impl Iterator<Item = Segment<T>> + '_ {
         let mut births: Option<(T, T)> = None;
         let mut from = self.at[0];
         (1..self.count).filter_map(move |i| {
@@ -97,13 +97,13 @@ impl<T: Scalar> Breaks<T> {
     }
 
     /// No breaks.
-    pub fn none() -> Self {
+    pub(super) fn none() -> Self {
         let zero = T::constant(0.0);
         Self { at: [zero; 6], born: [false; 6], count: 0, unseen_before: f64::NEG_INFINITY }
     }
 
     /// Puts a break in its place; at most six.
-    pub fn insert(&mut self, at: T, born: bool) {
+    pub(super) fn insert(&mut self, at: T, born: bool) {
         let mut i = self.count;
         while i > 0 && self.at[i - 1].value() > at.value() {
             self.at[i] = self.at[i - 1];

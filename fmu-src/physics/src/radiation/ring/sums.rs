@@ -22,14 +22,14 @@ pub(super) struct Tensors<T: Scalar> {
     second: [T; 6],
 }
 impl<T: Scalar> Tensors<T> {
-    pub fn zero() -> Self {
+    pub(super) fn zero() -> Self {
         let zero = T::constant(0.0);
         Self { first: Vector3::repeat(zero), second: [zero; 6] }
     }
 
     /// Adds a ring's azimuth integrals.
     #[inline]
-    pub fn add(&mut self, sin_eta: T, cos_eta: T, w: &Weighted<T>) {
+    pub(super) fn add(&mut self, sin_eta: T, cos_eta: T, w: &Weighted<T>) {
         let Weighted([one, c, s, cc, cs, ss]) = *w;
         let (c, s, one) = (sin_eta * c, sin_eta * s, cos_eta * one);
         let sin_squared = sin_eta * sin_eta;
@@ -45,7 +45,7 @@ impl<T: Scalar> Tensors<T> {
     }
 
     /// What a plate of this normal receives, all in one frame: E = n.V / pi, I = M n / pi, over the speed of light.
-    pub fn on(&self, n: &Vector3<T>) -> ReceivedLight<T> {
+    pub(super) fn on(&self, n: &Vector3<T>) -> ReceivedLight<T> {
         const PER_LAMBERT_S_M: f64 = 1.0 / (PI * SPEED_OF_LIGHT_M_S);
         let [xx, xy, yy, xz, yz, zz] = self.second;
         let moment = Vector3::new(
@@ -66,20 +66,20 @@ pub(super) struct Weighted<T>([T; 6]);
 impl<T: Scalar> Weighted<T> {
     /// Weight 1.
     #[inline]
-    pub fn flat(m: &Moments<T>) -> Self {
+    pub(super) fn flat(m: &Moments<T>) -> Self {
         Self([m.angle, m.c1, m.s1, m.c2, m.c1s1, m.s2])
     }
 
     /// Weight 1 over an arc about azimuth 0.
     #[inline]
-    pub fn flat_even(m: &EvenMoments<T>) -> Self {
+    pub(super) fn flat_even(m: &EvenMoments<T>) -> Self {
         let zero = T::constant(0.0);
         Self([m.angle, m.c1, zero, m.c2, zero, m.s2])
     }
 
     /// Weight `level + x cos + y sin` over an arc about azimuth 0.
     #[inline]
-    pub fn slanted_even(m: &EvenMoments<T>, (level, x, y): (T, T, T)) -> Self {
+    pub(super) fn slanted_even(m: &EvenMoments<T>, (level, x, y): (T, T, T)) -> Self {
         Self([
             level * m.angle + x * m.c1,
             level * m.c1 + x * m.c2,
@@ -92,7 +92,7 @@ impl<T: Scalar> Weighted<T> {
 
     /// Weight `level + x cos + y sin`.
     #[inline]
-    pub fn slanted(m: &Moments<T>, (level, x, y): (T, T, T)) -> Self {
+    pub(super) fn slanted(m: &Moments<T>, (level, x, y): (T, T, T)) -> Self {
         Self([
             level * m.angle + x * m.c1 + y * m.s1,
             level * m.c1 + x * m.c2 + y * m.c1s1,
@@ -105,13 +105,13 @@ impl<T: Scalar> Weighted<T> {
 
     /// Times a factor.
     #[inline]
-    pub fn scaled(&self, by: T) -> Self {
+    pub(super) fn scaled(&self, by: T) -> Self {
         Self(self.0.map(|it| by * it))
     }
 
     /// Plus another times a factor.
     #[inline]
-    pub fn plus(self, factor: T, other: &Self) -> Self {
+    pub(super) fn plus(self, factor: T, other: &Self) -> Self {
         Self(core::array::from_fn(|i| self.0[i] + factor * other.0[i]))
     }
 }

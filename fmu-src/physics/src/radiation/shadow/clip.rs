@@ -25,22 +25,22 @@ impl<T: Scalar> Default for Pieces<T> {
 
 impl<T: Scalar> Pieces<T> {
     /// Removes all pieces; those to come lie within `radius_m` of the origin.
-    pub fn clear(&mut self, radius_m: f64) {
+    pub(super) fn clear(&mut self, radius_m: f64) {
         self.points.clear();
         self.ends.clear();
         self.flat_m2 = flat_m2(radius_m);
     }
 
-    pub fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = &[Vector2<T>]> + '_ {
+    pub(super) fn iter(&self) -> impl Iterator<Item = &[Vector2<T>]> + '_ {
         let starts = core::iter::once(0).chain(self.ends.iter().copied());
         starts.zip(&self.ends).map(|(start, end)| &self.points[start..*end])
     }
 
-    pub fn push(&mut self, piece: impl Iterator<Item = Vector2<T>>) {
+    pub(super) fn push(&mut self, piece: impl Iterator<Item = Vector2<T>>) {
         self.points.extend(piece);
         self.close();
     }
@@ -55,7 +55,7 @@ impl<T: Scalar> Pieces<T> {
     }
 
     /// Area, and its first moments about the origin.
-    pub fn area_and_moments(&self) -> (T, Vector2<T>) {
+    pub(super) fn area_and_moments(&self) -> (T, Vector2<T>) {
         let mut area = T::constant(0.0);
         let mut moments = Vector2::repeat(area);
         for piece in self.iter() {
@@ -71,7 +71,12 @@ impl<T: Scalar> Pieces<T> {
     }
 
     /// What is left of these pieces outside a convex counter-clockwise `hole`; `left` is overwritten.
-    pub fn subtract_into(&self, hole: &[Vector2<T>], scratch: &mut [Vec<Vector2<T>>; 2], left: &mut Self) {
+    pub(super) fn subtract_into(
+        &self,
+        hole: &[Vector2<T>],
+        scratch: &mut [Vec<Vector2<T>>; 2],
+        left: &mut Self,
+    ) {
         left.points.clear();
         left.ends.clear();
         left.flat_m2 = self.flat_m2;

@@ -16,7 +16,7 @@ pub(super) struct FlatParts {
 }
 
 impl FlatParts {
-    pub fn new(polygon: &Polygon) -> Self {
+    pub(super) fn new(polygon: &Polygon) -> Self {
         let origin = polygon.centroid_m();
         let normal = polygon.normal();
         let edge = polygon.vertices_m()[1] - polygon.vertices_m()[0];
@@ -30,7 +30,10 @@ impl FlatParts {
     }
 
     /// Vertices of a part in space.
-    pub fn in_space<'p>(&'p self, part: &'p [Vector2<f64>]) -> impl Iterator<Item = Vector3<f64>> + 'p {
+    pub(super) fn in_space<'p>(
+        &'p self,
+        part: &'p [Vector2<f64>],
+    ) -> impl Iterator<Item = Vector3<f64>> + 'p {
         part.iter().map(|p| self.origin + self.east * p.x + self.north * p.y)
     }
 }

@@ -65,13 +65,13 @@ pub(super) struct LitMean<T: Scalar> {
 }
 
 impl<T: Scalar> LitMean<T> {
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         let zero = T::constant(0.0);
         Self { weight: zero, area_m2: zero, moment_m3: Vector3::repeat(zero), touched: false }
     }
 
     /// Adds a direction that lights so much about such a centre; `touched` where something shadows it.
-    pub fn add(&mut self, weight: T, (area_m2, center_m): (T, Vector3<T>), touched: bool) {
+    pub(super) fn add(&mut self, weight: T, (area_m2, center_m): (T, Vector3<T>), touched: bool) {
         self.weight += weight;
         self.area_m2 += area_m2 * weight;
         self.moment_m3 += center_m * (area_m2 * weight);
@@ -79,7 +79,7 @@ impl<T: Scalar> LitMean<T> {
     }
 
     /// Mean area and its centre; `center_m` where nothing is lit, and `None` where nothing shadows it.
-    pub fn found(&self, center_m: &Vector3<T>) -> Option<(T, Vector3<T>)> {
+    pub(super) fn found(&self, center_m: &Vector3<T>) -> Option<(T, Vector3<T>)> {
         if !self.touched || self.weight.value() <= 0.0 {
             return None;
         }

@@ -23,12 +23,12 @@ pub(crate) struct Motion {
 
 impl Motion {
     /// The point after the motion.
-    pub fn of(&self, point_m: &Vector3<f64>) -> Vector3<f64> {
+    pub(super) fn of(&self, point_m: &Vector3<f64>) -> Vector3<f64> {
         self.matrix * point_m + self.shift_m
     }
 
     /// The outline after the motion; a mirrored one runs the other way round, so that its front stays in front.
-    pub fn of_outline(&self, outline: &Polygon) -> Polygon {
+    pub(super) fn of_outline(&self, outline: &Polygon) -> Polygon {
         let moved = outline.moved(|vertex| self.of(vertex));
         if self.matrix.determinant() < 0.0 { moved.reversed() } else { moved }
     }

@@ -17,7 +17,7 @@ pub(crate) struct Material {
 
 impl Material {
     /// Stands in for a material that was reported as unknown.
-    pub const BLACK: Self = Self {
+    pub(crate) const BLACK: Self = Self {
         optics: Optics::from_reflectivities(0.0, 0.0),
         thermal: FaceThermal::like_sunlight(&Optics::from_reflectivities(0.0, 0.0)),
     };
@@ -39,7 +39,7 @@ pub(crate) struct Materials {
 
 impl Materials {
     /// Those of a file.
-    pub fn read(check: &mut Checker<'_>, description: &Description) -> Self {
+    pub(crate) fn read(check: &mut Checker<'_>, description: &Description) -> Self {
         let none = SurroundingsDescription::default();
         let thermal = description.thermal.as_ref().unwrap_or(&none);
         let surroundings = ThermalEnvironment {
@@ -56,7 +56,7 @@ impl Materials {
     }
 
     /// The material of this name; an unknown one is reported.
-    pub fn find(&self, check: &mut Checker<'_>, at: &Place, name: &str) -> Material {
+    pub(crate) fn find(&self, check: &mut Checker<'_>, at: &Place, name: &str) -> Material {
         if let Some(material) = self.by_name.get(name) {
             return *material;
         }

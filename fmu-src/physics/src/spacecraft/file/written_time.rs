@@ -28,7 +28,7 @@ pub(crate) enum WrittenTime {
 
 impl WrittenTime {
     /// The time; `None` where this is none.
-    pub fn read(&self) -> Option<TimeAfterPeriapsis> {
+    pub(crate) fn read(&self) -> Option<TimeAfterPeriapsis> {
         let text = match self {
             Self::Number(number) => return in_range(TimeAfterPeriapsis::Seconds(*number)),
             Self::Text(text) => text.trim(),
@@ -44,7 +44,7 @@ impl WrittenTime {
     }
 
     /// What stands there, for messages.
-    pub fn found(&self) -> String {
+    pub(crate) fn found(&self) -> String {
         match self {
             Self::Number(number) => number.to_string(),
             Self::Text(text) => format!("{text:?}"),

@@ -57,7 +57,7 @@ impl Directions {
 
 impl DirectionSource {
     /// Directions at the start; with an L1 orbit only the star of `given` counts.
-    pub fn new(given: Directions, l1: Option<L1Ephemeris>, start_s: f64) -> Self {
+    pub(super) fn new(given: Directions, l1: Option<L1Ephemeris>, start_s: f64) -> Self {
         let mut source = Self { present: given, l1, refresh_count: 0, refresh_s: f64::INFINITY };
         if l1.is_some() {
             source.refresh_count = (start_s / INTERVAL_S).floor() as i64;
@@ -68,7 +68,7 @@ impl DirectionSource {
     }
 
     /// New directions; with the L1 orbit in charge, only the star of `given` counts.
-    pub fn give(&mut self, given: Directions) {
+    pub(super) fn give(&mut self, given: Directions) {
         let Directions { sun_inertial, earth_inertial, .. } = self.present;
         self.present = match self.l1 {
             Some(_) => Directions { sun_inertial, earth_inertial, ..given },
@@ -77,7 +77,7 @@ impl DirectionSource {
     }
 
     /// Looks up Sun and Earth on the L1 orbit for the interval that begins; when it does, in s.
-    pub fn refresh(&mut self) -> Option<f64> {
+    pub(super) fn refresh(&mut self) -> Option<f64> {
         self.l1.as_ref()?;
         let from_s = self.refresh_s;
         self.present = self.at(from_s);
@@ -87,7 +87,7 @@ impl DirectionSource {
     }
 
     /// Directions at a time: on the L1 orbit they move.
-    pub fn at(&self, time_s: f64) -> Directions {
+    pub(super) fn at(&self, time_s: f64) -> Directions {
         let mut directions = self.present;
         if let Some(l1) = &self.l1 {
             let seen = l1.sun_earth(time_s);
@@ -98,7 +98,7 @@ impl DirectionSource {
     }
 
     /// Whether a decoded source can be one at `time_s`.
-    pub fn is_valid(&self, time_s: f64) -> bool {
+    pub(super) fn is_valid(&self, time_s: f64) -> bool {
         let refreshes = match &self.l1 {
             None => self.refresh_s == f64::INFINITY,
             Some(l1) => {

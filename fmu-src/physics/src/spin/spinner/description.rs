@@ -15,7 +15,7 @@ use crate::{constants::ASTRONOMICAL_UNIT_M, spin::geometry::L1Orbit};
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(title = "heliotorque spinner"))]
-pub struct Description {
+pub(super) struct Description {
     /// Name of the spacecraft.
     pub name: String,
     /// Mass and inertia as functions of the propellant on board.
@@ -47,7 +47,7 @@ pub struct Description {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct MassEntry {
+pub(super) struct MassEntry {
     /// I3 at each point, in kg m2.
     #[cfg_attr(feature = "schema", schemars(length(min = 2)))]
     spin_inertia_kg_m2: Vec<f64>,
@@ -69,7 +69,7 @@ pub struct MassEntry {
 
 impl MassEntry {
     /// With what is left out.
-    pub fn table(self) -> MassTable {
+    pub(super) fn table(self) -> MassTable {
         let most_kg = self.propellant_kg.last().copied().unwrap_or(0.0);
         MassTable {
             spin_inertia_kg_m2: self.spin_inertia_kg_m2,
@@ -87,7 +87,7 @@ impl MassEntry {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct DamperEntry {
+pub(super) struct DamperEntry {
     /// 1/e time of the nutation angle, in s; 0 without a damper.
     pub time_constant_s: NotNegative,
 }
@@ -96,7 +96,7 @@ pub struct DamperEntry {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ThrustersEntry {
+pub(super) struct ThrustersEntry {
     /// Smallest pulse, and the step to which its width and thruster[k].onDelay are rounded, in s.
     pub resolution_s: Positive,
     /// Specific impulse, in s.
@@ -107,7 +107,7 @@ pub struct ThrustersEntry {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ThrusterEntry {
+pub(super) struct ThrusterEntry {
     /// A name of its own.
     pub name: String,
     /// Force at full thrust, in N.
@@ -130,7 +130,7 @@ pub struct ThrusterEntry {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct GroupEntry {
+pub(super) struct GroupEntry {
     /// A name of its own.
     pub name: String,
     /// Names of the thrusters.
@@ -144,7 +144,7 @@ pub struct GroupEntry {
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct StarTrackerEntry {
+pub(super) struct StarTrackerEntry {
     /// Boresight azimuth from body X toward Y, in deg; otherwise 90.
     azimuth_deg: Option<Finite>,
     /// Full width of the field in declination, in deg; otherwise 20.
@@ -160,7 +160,7 @@ pub struct StarTrackerEntry {
 
 impl StarTrackerEntry {
     /// With what is left out.
-    pub fn tracker(&self) -> StarTracker {
+    pub(super) fn tracker(&self) -> StarTracker {
         StarTracker {
             azimuth_deg: self.azimuth_deg.map_or(90.0, f64::from),
             field_of_view_deg: self.field_of_view_deg.map_or(20.0, f64::from),
@@ -175,7 +175,7 @@ impl StarTrackerEntry {
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct SunSensorEntry {
+pub(super) struct SunSensorEntry {
     /// Azimuth of the slit from body X toward Y, in deg; otherwise 0.
     azimuth_deg: Option<Finite>,
     /// Standard deviation of a Sun angle, in deg; otherwise 0.
@@ -186,7 +186,7 @@ pub struct SunSensorEntry {
 
 impl SunSensorEntry {
     /// With what is left out.
-    pub fn sensor(&self) -> SunSensor {
+    pub(super) fn sensor(&self) -> SunSensor {
         SunSensor {
             azimuth_deg: self.azimuth_deg.map_or(0.0, f64::from),
             noise_deg: self.noise_deg.map_or(0.0, f64::from),
@@ -206,7 +206,7 @@ const L1_FREQUENCIES: [f64; 2] = [2.0864, 2.0152];
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct L1OrbitEntry {
+pub(super) struct L1OrbitEntry {
     /// Rate of the Earth-Sun line, in deg/day; otherwise the Earth's mean, 0.98561.
     line_rate_deg_day: Option<Finite>,
     /// Sun to Earth, in m; otherwise 1 AU.
@@ -225,7 +225,7 @@ pub struct L1OrbitEntry {
 
 impl L1OrbitEntry {
     /// With what is left out.
-    pub fn orbit(&self) -> L1Orbit {
+    pub(super) fn orbit(&self) -> L1Orbit {
         let [in_plane, out_of_plane] = L1_FREQUENCIES;
         L1Orbit {
             line_rate_deg_day: self.line_rate_deg_day.map_or(LINE_RATE_DEG_DAY, f64::from),

@@ -9,16 +9,16 @@ use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 use crate::epoch::{self, Dates};
 
 /// The table of start values in a setup file.
-pub const START: &str = "start";
+pub(crate) const START: &str = "start";
 /// The table of what is constant in an FMU.
-pub const FIXED: &str = "fixed";
+pub(super) const FIXED: &str = "fixed";
 
 /// The file's text with the values that `settings` give to variables of the model in a table, each with where it is given; the
 /// rest stays, comments too.
 ///
 /// # Errors
 /// A name that the model does not have or that cannot be set, a value that it does not take.
-pub fn with_values(
+pub(crate) fn with_values(
     text: &str,
     table_name: &str,
     model: &str,
@@ -55,7 +55,7 @@ pub fn with_values(
 }
 
 /// Whether a time in the tables of start values is a date.
-pub fn has_dates(text: &str) -> bool {
+pub(super) fn has_dates(text: &str) -> bool {
     fn within(table: &dyn TableLike) -> bool {
         table.iter().any(|(key, item)| match item.as_table_like() {
             Some(table) => within(table),

@@ -28,9 +28,9 @@ const TAIL: usize = 48;
 /// The ring.
 const RING: usize = 64;
 /// 4 MiB: the rows of some milliseconds.
-pub const RING_WORDS: usize = 1 << 19;
+pub(super) const RING_WORDS: usize = 1 << 19;
 /// What is wrong with a frame that nobody waits for.
-pub const NOT_REQUESTED: &str = "it sent what was not requested";
+pub(crate) const NOT_REQUESTED: &str = "it sent what was not requested";
 /// Longest payload; a row of a million Reals fits.
 const MAX_WORDS: usize = 1 << 21;
 /// How often a child checks whether a full ring has space again, and how much has to be free before it goes on.
@@ -38,7 +38,7 @@ const PAUSE: Duration = Duration::from_millis(1);
 const FREE_WORDS: u64 = RING_WORDS as u64 / 4;
 
 /// The child's end.
-pub struct Link {
+pub(crate) struct Link {
     words: &'static SharedWords,
     token: u64,
     head: u64,
@@ -48,7 +48,7 @@ pub struct Link {
 impl Link {
     /// Takes the memory that the parent gave as standard input, keeps the parent's limits and ends with the parent.
     /// `command` is what starts such a child.
-    pub fn attach(command: &str) -> Result<Self, String> {
+    pub(crate) fn attach(command: &str) -> Result<Self, String> {
         Self::attached().map_err(|error| format!("`{command}` starts this: {error}"))
     }
 
@@ -72,7 +72,7 @@ impl Link {
     }
 
     /// The word by which the parent requests the child's end: other than 0.
-    pub fn cancel_word(&self) -> &'static AtomicU64 {
+    pub(crate) fn cancel_word(&self) -> &'static AtomicU64 {
         &self.words[CANCEL]
     }
 
@@ -82,7 +82,7 @@ impl Link {
     }
 
     /// Sends a frame; waits while the ring is full.
-    pub fn send(&mut self, kind: u8, payload: impl FnOnce(&mut Vec<u64>)) -> Result<(), String> {
+    pub(crate) fn send(&mut self, kind: u8, payload: impl FnOnce(&mut Vec<u64>)) -> Result<(), String> {
         let mut frame = std::mem::take(&mut self.frame);
         frame.clear();
         frame.extend([0, self.token]);
@@ -116,12 +116,12 @@ impl Link {
 }
 
 /// Appends a text to a payload.
-pub fn push_text(payload: &mut Vec<u64>, text: &str) {
+pub(crate) fn push_text(payload: &mut Vec<u64>, text: &str) {
     push_bytes(payload, text.as_bytes());
 }
 
 /// Appends bytes to a payload.
-pub fn push_bytes(payload: &mut Vec<u64>, bytes: &[u8]) {
+pub(super) fn push_bytes(payload: &mut Vec<u64>, bytes: &[u8]) {
     payload.push(bytes.len() as u64);
     payload.extend(bytes.chunks(8).map(|chunk| {
         let mut bytes = [0; 8];
@@ -131,43 +131,43 @@ pub fn push_bytes(payload: &mut Vec<u64>, bytes: &[u8]) {
 }
 
 /// A payload, read from its beginning on.
-pub struct Payload<'a>(&'a [u64]);
+pub(crate) struct Payload<'a>(&'a [u64]);
 
 impl<'a> Payload<'a> {
     /// The next word.
-    pub fn word(&mut self) -> Option<u64> {
+    pub(crate) fn word(&mut self) -> Option<u64> {
         let (first, rest) = self.0.split_first()?;
         self.0 = rest;
         Some(*first)
     }
 
     /// The next words.
-    pub fn words(&mut self, count: usize) -> Option<&'a [u64]> {
+    pub(crate) fn words(&mut self, count: usize) -> Option<&'a [u64]> {
         let (words, rest) = self.0.split_at_checked(count)?;
         self.0 = rest;
         Some(words)
     }
 
     /// The next text.
-    pub fn text(&mut self) -> Option<String> {
+    pub(crate) fn text(&mut self) -> Option<String> {
         Some(String::from_utf8_lossy(&self.bytes()?).into_owned())
     }
 
     /// The next bytes.
-    pub fn bytes(&mut self) -> Option<Vec<u8>> {
+    pub(crate) fn bytes(&mut self) -> Option<Vec<u8>> {
         let length = usize::try_from(self.word()?).ok()?;
         let words = self.words(length.div_ceil(8))?;
         Some(words.iter().flat_map(|word| word.to_le_bytes()).take(length).collect())
     }
 
     /// Whether everything was read.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 }
 
 /// The parent's end.
-pub struct Inbox {
+pub(super) struct Inbox {
     words: SharedWords,
     token: u64,
     tail: u64,
@@ -177,7 +177,7 @@ pub struct Inbox {
 
 impl Inbox {
     /// The memory, and the file to hand to the child; limits in bytes and files.
-    pub fn create(memory: Option<u64>, files: Option<u64>) -> io::Result<(std::fs::File, Self)> {
+    pub(super) fn create(memory: Option<u64>, files: Option<u64>) -> io::Result<(std::fs::File, Self)> {
         let (file, words) = SharedWords::create(RING + RING_WORDS)?;
         let token = RandomState::new().build_hasher().finish();
         let head = [
@@ -193,17 +193,17 @@ impl Inbox {
     }
 
     /// Requests the child's end.
-    pub fn cancel(&self) {
+    pub(super) fn cancel(&self) {
         self.words[CANCEL].store(1, Ordering::Relaxed);
     }
 
     /// The record of calls.
-    pub fn calls(&self) -> Option<&CallRecord> {
+    pub(super) fn calls(&self) -> Option<&CallRecord> {
         <&CallRecord>::try_from(&self.words[CALLS..CALLS + CALL_RECORD_WORDS]).ok()
     }
 
     /// Hands every frame that has come to `take`, whose error ends it; gives the number of words that came.
-    pub fn drain(
+    pub(super) fn drain(
         &mut self,
         take: &mut dyn FnMut(u8, Payload<'_>) -> Result<(), String>,
     ) -> Result<usize, String> {

@@ -9,12 +9,12 @@ use super::wheels;
 const TERMS: [&str; 9] = ["x", "y", "z", "x y", "x z", "y z", "x^2", "y^2", "z^2"];
 
 /// Whether a table here shows this calculated parameter.
-pub fn shows(name: &str) -> bool {
+pub(super) fn shows(name: &str) -> bool {
     name.starts_with("sunshade.coefficient[") || name == "dump.guaranteedThreshold"
 }
 
 /// The tables of those parts that the FMU has.
-pub fn tables(fmu: &Fmu, instance: &mut Instance) -> Result<Vec<String>, Error> {
+pub(super) fn tables(fmu: &Fmu, instance: &mut Instance) -> Result<Vec<String>, Error> {
     let mut tables = Vec::new();
     if fmu.find("sunshade.coefficient[3,9]").is_some() {
         tables.push(polynomial(instance)?);

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use physics::momentum::WheelCapacity;
 
 /// What the wheels guarantee.
-pub fn table(fmu: &Fmu, instance: &mut Instance) -> Result<String, Error> {
+pub(super) fn table(fmu: &Fmu, instance: &mut Instance) -> Result<String, Error> {
     let count = (1..).take_while(|number| fmu.find(&format!("wheel[{number}].capacity")).is_some()).count();
     let (mut capacities_n_m_s, mut axes_body) = (Vec::new(), Vec::new());
     for number in 1..=count {

@@ -41,7 +41,7 @@ fn group(name: &str) -> String {
 }
 
 /// The picture, drawn at the end.
-pub struct Svg {
+pub(super) struct Svg {
     /// The file, of which nothing is written yet.
     pub file: Destination,
     /// The variables that it shows; `None`: everything recorded.
@@ -318,7 +318,7 @@ fn eclipses(recording: &Recording, seconds: f64) -> Vec<(f64, f64)> {
 }
 
 /// Whether a variable is the part of the Sun's disc that is seen.
-pub fn is_lit_fraction(name: &str) -> bool {
+pub(crate) fn is_lit_fraction(name: &str) -> bool {
     const LIT_FRACTION: &str = "sun.litFraction";
     name.strip_suffix(LIT_FRACTION).is_some_and(|part| part.is_empty() || part.ends_with('.'))
 }

@@ -13,7 +13,12 @@ use model_description::{Description, escape};
 const STYLE: &str = include_str!("manual.css");
 
 /// The page of an FMU of this description, with the setup it is packed with and a picture of that, an SVG.
-pub fn html(description: &Description, described: &Described, setup: &str, drawing: Option<&str>) -> String {
+pub(super) fn html(
+    description: &Description,
+    described: &Described,
+    setup: &str,
+    drawing: Option<&str>,
+) -> String {
     let mut sections = opening::sections(description, described);
     sections.extend(spacecraft::section(setup, drawing));
     sections.extend(variables::sections(description));

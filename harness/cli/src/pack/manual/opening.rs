@@ -9,7 +9,7 @@ use super::section::Section;
 const FMU: &str = "{fmu}";
 
 /// The sections that the library has texts for.
-pub fn sections(description: &Description, described: &Described) -> Vec<Section> {
+pub(super) fn sections(description: &Description, described: &Described) -> Vec<Section> {
     let identifier = description.co_simulation.as_ref().map_or("", |it| it.model_identifier.as_str());
     let code = |text: &str| {
         let own = text.replace(FMU, &format!("{identifier}.fmu"));

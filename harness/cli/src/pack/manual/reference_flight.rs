@@ -5,7 +5,7 @@ use model_description::{Description, escape};
 use super::section::Section;
 
 /// The section; none for an FMU that cannot be stepped.
-pub fn section(description: &Description) -> Option<Section> {
+pub(super) fn section(description: &Description) -> Option<Section> {
     let name = &description.co_simulation.as_ref()?.model_identifier;
     let code = format!(
         "from fmpy import extract, read_csv, simulate_fmu\n\

@@ -10,7 +10,7 @@ use physics::{
 use super::section::{Section, table};
 
 /// The section with its picture; none for a setup that is no spacecraft.
-pub fn section(setup: &str, drawing: Option<&str>) -> Option<Section> {
+pub(super) fn section(setup: &str, drawing: Option<&str>) -> Option<Section> {
     let tables = match Spacecraft::from_toml("", setup) {
         Ok(spacecraft) => of_spacecraft(&spacecraft),
         Err(_) => of_spinner(&Spinner::parse("", setup).ok()?),

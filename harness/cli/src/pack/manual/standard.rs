@@ -9,7 +9,7 @@ use super::section::{Section, table};
 use crate::info;
 
 /// By what the FMU computes.
-pub fn sources(sources: &[(String, String)]) -> Option<Section> {
+pub(super) fn sources(sources: &[(String, String)]) -> Option<Section> {
     let row = |(what, by): &(String, String)| {
         format!("<tr><td>{}</td><td>{}</td></tr>\n", escape(what), escape(by))
     };
@@ -18,7 +18,7 @@ pub fn sources(sources: &[(String, String)]) -> Option<Section> {
 }
 
 /// Default experiment, GUID, log categories, capability flags.
-pub fn facts(description: &Description) -> Section {
+pub(super) fn facts(description: &Description) -> Section {
     let mut rows = Vec::new();
     let mut row = |name: &str, value: &str| {
         rows.push(format!("<tr><td class=\"n\">{}</td><td>{}</td></tr>\n", escape(name), escape(value)));
@@ -47,7 +47,7 @@ pub fn facts(description: &Description) -> Section {
 }
 
 /// What an importer may count on between two communication points.
-pub fn stepping(description: &Description) -> Section {
+pub(super) fn stepping(description: &Description) -> Section {
     let mut page = String::from(
         "<p>Communication points may lie anywhere: while inputs and tunable parameters stay \
          as they are, results do not depend on where they lie, except as Sources states. Setting an input to another value takes effect at the \
@@ -81,7 +81,7 @@ pub fn stepping(description: &Description) -> Section {
 }
 
 /// Which function may be called in which state.
-pub fn calls() -> Section {
+pub(super) fn calls() -> Section {
     let mut page = String::from(
         "<p>Which function may be called in which state (FMI 2.0.5, 4.2.4). A call \
          outside the table is logged and answered with <code>fmi2Error</code>.</p>\n\

@@ -19,7 +19,7 @@ const SECTIONS: [(Causality, &str, &str); 6] = [
 ];
 
 /// Every section that has something to list.
-pub fn sections(description: &Description) -> Vec<Section> {
+pub(super) fn sections(description: &Description) -> Vec<Section> {
     let listed = SECTIONS.into_iter().filter_map(|(causality, id, heading)| {
         let of_causality = description.variables.iter().filter(|it| it.causality == causality);
         let of_causality: Vec<&ScalarVariable> = of_causality.collect();

@@ -11,7 +11,7 @@ use super::spk_file::{Segment, SpkFile};
 const HIGHEST: usize = 16;
 
 /// The segment that places a body at an epoch, and its file.
-pub fn segment(files: &[SpkFile], id: i32, at_s: f64) -> Option<(&SpkFile, &Segment)> {
+pub(super) fn segment(files: &[SpkFile], id: i32, at_s: f64) -> Option<(&SpkFile, &Segment)> {
     let mut all = files.iter().rev().flat_map(|file| file.segments.iter().rev().map(move |it| (file, it)));
     all.find(|(_, it)| {
         let [start_s, end_s] = it.span_s();
@@ -20,7 +20,7 @@ pub fn segment(files: &[SpkFile], id: i32, at_s: f64) -> Option<(&SpkFile, &Segm
 }
 
 /// A body, the center it is placed from, that one's center and so on.
-pub fn ancestors(files: &[SpkFile], id: i32, at_s: f64) -> Vec<i32> {
+pub(super) fn ancestors(files: &[SpkFile], id: i32, at_s: f64) -> Vec<i32> {
     let mut ids = vec![id];
     let mut last = id;
     while let Some((_, segment)) = segment(files, last, at_s)
@@ -33,7 +33,7 @@ pub fn ancestors(files: &[SpkFile], id: i32, at_s: f64) -> Vec<i32> {
 }
 
 /// The nearest center that two bodies have in common.
-pub fn common(one: &[i32], other: &[i32]) -> Option<i32> {
+pub(super) fn common(one: &[i32], other: &[i32]) -> Option<i32> {
     one.iter().find(|id| other.contains(id)).copied()
 }
 
@@ -42,7 +42,12 @@ pub fn common(one: &[i32], other: &[i32]) -> Option<i32> {
 /// # Errors
 ///
 /// A segment that cannot be read.
-pub fn state_from(files: &[SpkFile], id: i32, ancestor: i32, at_s: f64) -> Result<CartesianState, String> {
+pub(super) fn state_from(
+    files: &[SpkFile],
+    id: i32,
+    ancestor: i32,
+    at_s: f64,
+) -> Result<CartesianState, String> {
     let mut sum = CartesianState::default();
     let mut last = id;
     while last != ancestor

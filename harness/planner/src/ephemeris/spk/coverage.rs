@@ -14,7 +14,7 @@ use crate::ephemeris::utc_date;
 /// # Errors
 ///
 /// The body that no kernel holds, or the span over which they place one that is needed.
-pub fn check(files: &[SpkFile], id: i32, center: Center, span_s: [f64; 2]) -> Result<(), String> {
+pub(super) fn check(files: &[SpkFile], id: i32, center: Center, span_s: [f64; 2]) -> Result<(), String> {
     let gap = probes(files, span_s).into_iter().find_map(|at_s| {
         let chains = [id, center.id].map(|id| ancestors(files, id, at_s));
         common(&chains[0], &chains[1]).is_none().then_some(chains)

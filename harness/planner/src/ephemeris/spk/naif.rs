@@ -4,10 +4,10 @@ use anise::constants::celestial_objects::celestial_name_from_id;
 use physics::{bodies::Body, environment::onboard::OnboardTarget};
 
 /// MESSENGER.
-pub const MESSENGER: i32 = -236;
+pub(super) const MESSENGER: i32 = -236;
 
 /// The id of a body itself, not of the barycentre of its system.
-pub const fn id(body: Body) -> i32 {
+pub(super) const fn id(body: Body) -> i32 {
     match body {
         Body::Sun => 10,
         Body::Mercury => 199,
@@ -21,7 +21,7 @@ pub const fn id(body: Body) -> i32 {
 }
 
 /// A name with its id, for messages.
-pub fn named(id: i32) -> String {
+pub(super) fn named(id: i32) -> String {
     match celestial_name_from_id(id) {
         Some(name) => format!("{name} ({id})"),
         None if id == MESSENGER => format!("MESSENGER ({id})"),

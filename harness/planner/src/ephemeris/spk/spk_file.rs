@@ -39,7 +39,7 @@ const J2000_FRAME: i32 = 1;
 const KM_M: f64 = 1000.0;
 
 /// An open file.
-pub struct SpkFile {
+pub(super) struct SpkFile {
     /// Its name without folders.
     pub name: String,
     spk: SPK,
@@ -49,7 +49,7 @@ pub struct SpkFile {
 
 /// A segment: one body over a span of time.
 #[derive(Clone, Copy, Debug)]
-pub struct Segment {
+pub(super) struct Segment {
     summary: SPKSummaryRecord,
     block: Option<usize>,
     place: usize,
@@ -57,17 +57,17 @@ pub struct Segment {
 
 impl Segment {
     /// The body that it places.
-    pub fn target(&self) -> i32 {
+    pub(super) fn target(&self) -> i32 {
         self.summary.target_id
     }
 
     /// From where its positions count.
-    pub fn center(&self) -> i32 {
+    pub(super) fn center(&self) -> i32 {
         self.summary.center_id
     }
 
     /// First and last epoch, in s past J2000 TDB.
-    pub fn span_s(&self) -> [f64; 2] {
+    pub(super) fn span_s(&self) -> [f64; 2] {
         [self.summary.start_epoch_et_s, self.summary.end_epoch_et_s]
     }
 }
@@ -78,7 +78,7 @@ impl SpkFile {
     /// # Errors
     ///
     /// No file, no SPK, a torn one; with the path.
-    pub fn open(path: &Path) -> Result<Self, String> {
+    pub(super) fn open(path: &Path) -> Result<Self, String> {
         let in_file = |what: String| format!("{}: {what}", path.display());
         let bytes = files::read(path).map_err(|error| in_file(error.to_string()))?;
         check_kind(&bytes).and_then(|()| check_chain(&bytes)).map_err(in_file)?;
@@ -114,7 +114,7 @@ impl SpkFile {
     /// # Errors
     ///
     /// A frame or a type of data that is not read, data that make no sense.
-    pub fn state(&self, segment: &Segment, at_s: f64) -> Result<CartesianState, String> {
+    pub(super) fn state(&self, segment: &Segment, at_s: f64) -> Result<CartesianState, String> {
         let Segment { summary, .. } = segment;
         let refuse = |what: String| format!("{}: {}: {what}", self.name, naif::named(summary.target_id));
         if summary.frame_id != J2000_FRAME {
