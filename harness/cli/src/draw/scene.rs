@@ -222,7 +222,7 @@ impl Part {
 }
 
 /// Colours of antennas, boresights, Sun sensors and wheels.
-const ANTENNA: &str = "#8a4fa3";
+const ANTENNA: &str = "#b5179e";
 const BORESIGHT: &str = "#0072b2";
 const SUN_SENSOR: &str = "#b35900";
 const WHEEL: &str = "#00795a";
@@ -337,7 +337,7 @@ impl Devices {
             (spacecraft.instruments.is_empty(), "Blue arrows are boresights of instruments."),
             (
                 spacecraft.antennas.is_empty(),
-                "Purple arrows are where antennas look: fans from the one to the other.",
+                "Magenta arrows are where antennas look: fans from the one to the other.",
             ),
             (!is_given, "Brown arrows are axes of Sun sensors."),
             (spacecraft.thrusters.is_empty(), "Nozzles point where the jet goes."),

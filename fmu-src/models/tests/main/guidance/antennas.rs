@@ -48,7 +48,8 @@ fn a_fixed_antenna_is_turned_to_the_earth_and_the_sun_as_near_to_minus_y_as_that
 #[test]
 fn a_fan_of_another_range_has_the_sun_on_minus_y_where_it_reaches_the_earth_and_else_stands_at_its_bound() {
     let place = Vector3::new(3e6, 1e6, 2e6);
-    let [sun, earth] = [Vector3::new(3e10, -4e10, 2e9), Vector3::new(-9e10, 5e10, -3e9)].map(|it| it - place);
+    let [sun, earth]: [Vector3<f64>; 2] =
+        [Vector3::new(3e10, -4e10, 2e9), Vector3::new(-9e10, 5e10, -3e9)].map(|it| it - place);
     let separation_deg = sun.angle(&earth).to_degrees();
     for (range_deg, azimuth_deg, is_in_range) in [
         ([140, 175], separation_deg, true),
