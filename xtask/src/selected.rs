@@ -19,7 +19,7 @@ const RECORDED: &[(&str, Option<&str>, Option<&str>)] = &[
     ("reference", Some("reference::"), None),
     ("schema", Some("in_step"), None),
     ("mistakes", Some("mistakes::"), None),
-    ("guide", None, Some("prints_what")),
+    ("guide", None, Some("prints_what or follow_the_schemas")),
 ];
 
 /// A program with tests, and the folder of its crate.
