@@ -63,7 +63,7 @@ fn python() -> Outcome {
 
 /// What acts is declared, at many more states.
 fn dependencies() -> Outcome {
-    run(&mut cargo("test --locked --release -p models --all-features dependencies:: -- --ignored"))
+    run(cargo("test --locked --release -p models --all-features dependencies::").env("HELIOTORQUE_LONG", "1"))
 }
 
 fn skipped(what: &str, missing: &str) -> Outcome {

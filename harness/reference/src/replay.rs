@@ -54,7 +54,9 @@ pub fn replays(fmu: &Fmu) -> Result<Option<Vec<Result<Replay, String>>>, String>
     let is_flight = |related: &&Related| related.role == "result" && related.kind == "text/csv";
     let flights = manifest.related.iter().filter(is_flight);
     Ok(Some(
-        flights.map(|flight| fly(fmu, flight).map_err(|what| format!("{}: {what}", flight.source))).collect(),
+        flights
+            .map(|flight| simulated(fmu, flight).map_err(|what| format!("{}: {what}", flight.source)))
+            .collect(),
     ))
 }
 
@@ -85,7 +87,7 @@ fn table(fmu: &Fmu, source: &str) -> Result<(Vec<String>, Vec<Vec<String>>), Str
     Ok((header, rows))
 }
 
-fn fly(fmu: &Fmu, flight: &Related) -> Result<Replay, String> {
+fn simulated(fmu: &Fmu, flight: &Related) -> Result<Replay, String> {
     let (mut header, mut rows) = table(fmu, &flight.source)?;
     let mut times_s = Vec::with_capacity(rows.len());
     for (index, row) in rows.iter().enumerate() {

@@ -45,14 +45,14 @@ fn plant() -> NamedInstance {
 }
 
 fn plant_with_dumps() -> u64 {
-    fly(plant(), 90.0 * DAY_S, 600.0)
+    simulated(plant(), 90.0 * DAY_S, 600.0)
 }
 
 fn plant_with_light_and_heat() -> u64 {
     let mut plant = plant();
     plant.put_boolean("planetLight.enabled", true);
     plant.put_boolean("thermal.enabled", true);
-    fly(plant, 90.0 * DAY_S, 600.0)
+    simulated(plant, 90.0 * DAY_S, 600.0)
 }
 
 fn plant_with_all() -> u64 {
@@ -60,11 +60,11 @@ fn plant_with_all() -> u64 {
     plant.put_boolean("planetLight.enabled", true);
     plant.put_boolean("thermal.enabled", true);
     plant.put_integer("orbit.dynamics", DISTURBED);
-    fly(plant, 10.0 * DAY_S, 60.0)
+    simulated(plant, 10.0 * DAY_S, 60.0)
 }
 
 fn manoeuvre() -> u64 {
-    fly(instance("SpinPlant"), 1400.0, 1.0)
+    simulated(instance("SpinPlant"), 1400.0, 1.0)
 }
 
 fn guidance() -> u64 {
@@ -90,7 +90,7 @@ fn instance(model: &str) -> NamedInstance {
 }
 
 /// Steps to `stop_s` and digests all outputs at every communication point.
-fn fly(instance: NamedInstance, stop_s: f64, step_s: f64) -> u64 {
+fn simulated(instance: NamedInstance, stop_s: f64, step_s: f64) -> u64 {
     fly_with(instance, stop_s, step_s, |_| ())
 }
 

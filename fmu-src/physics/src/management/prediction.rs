@@ -53,7 +53,7 @@ pub trait Forecast {
     ///
     /// # Errors
     /// What ends a forecast.
-    fn fly(
+    fn simulated(
         &mut self,
         times_s: impl Iterator<Item = f64>,
         step_s: f64,
@@ -146,7 +146,7 @@ impl Components {
             }
         });
         let (mut visited, mut base) = (0, [0.0; 2]);
-        forecast.fly(times_s, science_s / LATER_SAMPLES as f64, |at| {
+        forecast.simulated(times_s, science_s / LATER_SAMPLES as f64, |at| {
             let separation_rad = at.to_earth.map(|earth| angle_between_rad(&at.to_sun, &earth));
             let (cycle, sample) = cycle_and_sample(visited);
             visited += 1;
@@ -269,7 +269,7 @@ impl PredictedScience {
         let (mut left, mut has_begun, mut has_ended) = (None, false, false);
         let mut squares = SquareSum::default();
         let times_s = (0..=SAMPLES).map(|k| (begin_s + k as f64 * step_s).min(until_s));
-        forecast.fly(times_s, step_s, |at| {
+        forecast.simulated(times_s, step_s, |at| {
             if at.downlink {
                 has_ended |= has_begun;
                 if !has_ended {

@@ -97,7 +97,7 @@ impl Forecast for SampledForecast<'_> {
         self.policy
     }
 
-    fn fly(
+    fn simulated(
         &mut self,
         times_s: impl Iterator<Item = f64>,
         step_s: f64,

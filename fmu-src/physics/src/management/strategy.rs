@@ -82,7 +82,7 @@ impl Forecast for DownlinkForecast<'_> {
         DownlinkForecast::dump_policy(self)
     }
 
-    fn fly(
+    fn simulated(
         &mut self,
         times_s: impl Iterator<Item = f64>,
         step_s: f64,

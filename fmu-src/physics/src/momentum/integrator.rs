@@ -65,8 +65,8 @@ impl MomentumIntegrator {
     }
 
     /// Rate in the body frame of what the body and its panels have of momentum at a time inside the current segment, in N m.
-    pub fn own_rate_body_n_m(&self, inertia_body_kg_m2: &Matrix3<f64>, time_s: f64) -> Vector3<f64> {
-        self.segment.own_rate_body_n_m(inertia_body_kg_m2, time_s)
+    pub fn structure_rate_body_n_m(&self, inertia_body_kg_m2: &Matrix3<f64>, time_s: f64) -> Vector3<f64> {
+        self.segment.structure_rate_body_n_m(inertia_body_kg_m2, time_s)
     }
 
     /// Whether [`MomentumIntegrator::advance`] has reached `time_s`, and its totals are known there.

@@ -21,7 +21,7 @@ const NODES: usize = 8;
 const SHORTEST_S: f64 = 1e-3;
 /// Largest last Chebyshev term of the momentum of body and panels relative to its largest: only the wheels' torque that is shown
 /// follows from it.
-const OWN_TOLERANCE: f64 = 1e-8;
+const STRUCTURE_TOLERANCE: f64 = 1e-8;
 /// Terms of a series this much below its largest are rounding; halving the segment does not make them smaller.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
@@ -55,7 +55,7 @@ pub(super) struct MomentumSegment {
     /// Angular rate, body frame, in rad/s; absent for a segment without length.
     rate_body_rad_s: Option<Segment<3, NODES>>,
     /// Momentum of the body and its panels, body frame, in N m s; absent where no panel has a mass.
-    own_body_n_m_s: Option<Segment<3, NODES>>,
+    structure_body_n_m_s: Option<Segment<3, NODES>>,
     /// Components of the momentum, body frame, that come to their dump thresholds at the end.
     at_threshold: [bool; 3],
 }
@@ -72,7 +72,7 @@ impl MomentumSegment {
             by_source_at_start: by_source,
             by_source: ByEffect::default(),
             rate_body_rad_s: None,
-            own_body_n_m_s: None,
+            structure_body_n_m_s: None,
             at_threshold: [false; 3],
         }
     }
@@ -82,7 +82,7 @@ impl MomentumSegment {
         self.next_longest_s > 0.0
             && self.totals.as_ref().is_none_or(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
             && self.by_source.present().all(|(_, it)| it.is_valid() && it.spans(self.start_s, self.end_s))
-            && [&self.rate_body_rad_s, &self.own_body_n_m_s]
+            && [&self.rate_body_rad_s, &self.structure_body_n_m_s]
                 .into_iter()
                 .flatten()
                 .all(|it| it.is_valid() && it.spans(self.start_s, self.end_s))
@@ -114,7 +114,7 @@ impl MomentumSegment {
         let (at_start, by_source_at_start) = at_start;
         let mut interval = AdaptiveInterval::new(start_s, settings.grid_s, longest_s, horizon_s, SHORTEST_S);
         let mut watched = false;
-        let (nodes, samples, totals, own_body_n_m_s, next_longest_s) = loop {
+        let (nodes, samples, totals, structure_body_n_m_s, next_longest_s) = loop {
             let end_s = interval.end_s();
             let nodes = Segment::<RATES, NODES>::nodes(start_s, end_s);
             let samples = nodes.map(|at_s| flight.sample(at_s));
@@ -137,21 +137,21 @@ impl MomentumSegment {
             });
             let totals: Segment<RATES, { NODES + 1 }> =
                 Segment::<RATES, NODES>::from_samples(start_s, end_s, &rates).integral(at_start.to_vector());
-            let own_body_n_m_s: Option<Segment<3, NODES>> = samples[0].own_body_n_m_s.map(|_| {
-                let own = samples.each_ref().map(|s| s.own_body_n_m_s.unwrap_or_default());
-                Segment::from_samples(start_s, end_s, &own)
+            let structure_body_n_m_s: Option<Segment<3, NODES>> = samples[0].structure_body_n_m_s.map(|_| {
+                let momenta = samples.each_ref().map(|s| s.structure_body_n_m_s.unwrap_or_default());
+                Segment::from_samples(start_s, end_s, &momenta)
             });
             let terms = totals.coefficients();
             let mut unresolved = terms.column(NODES).amax().max(terms.column(NODES - 1).amax());
             let tolerance = settings.tolerance.max(ROUNDING * terms.amax());
-            if let Some(terms) = own_body_n_m_s.as_ref().map(Segment::coefficients)
+            if let Some(terms) = structure_body_n_m_s.as_ref().map(Segment::coefficients)
                 && terms.amax() > 0.0
             {
                 let share = terms.columns(NODES - 2, 2).amax() / terms.amax();
-                unresolved = unresolved.max(share / OWN_TOLERANCE * tolerance);
+                unresolved = unresolved.max(share / STRUCTURE_TOLERANCE * tolerance);
             }
             if let Some(next_longest_s) = interval.accept(unresolved, tolerance, NODES) {
-                break (nodes, samples, totals, own_body_n_m_s, next_longest_s);
+                break (nodes, samples, totals, structure_body_n_m_s, next_longest_s);
             }
             flight.spend(Effort::Refinement, start_s)?;
         };
@@ -177,7 +177,7 @@ impl MomentumSegment {
             by_source_at_start,
             by_source,
             rate_body_rad_s: Some(rate_body_rad_s),
-            own_body_n_m_s,
+            structure_body_n_m_s,
             at_threshold: [false; 3],
         };
         if let Some(excess) = segment.first_excess(flight, settings, &nodes, &samples) {
@@ -224,9 +224,13 @@ impl MomentumSegment {
 
     /// Rate in the body frame of what the body and its panels have of momentum, d/dt (J w + h_p), at a time inside the segment, in
     /// N m; J w' where no panel has a mass.
-    pub(super) fn own_rate_body_n_m(&self, inertia_body_kg_m2: &Matrix3<f64>, time_s: f64) -> Vector3<f64> {
-        match &self.own_body_n_m_s {
-            Some(own) => own.value_and_derivative(time_s).1,
+    pub(super) fn structure_rate_body_n_m(
+        &self,
+        inertia_body_kg_m2: &Matrix3<f64>,
+        time_s: f64,
+    ) -> Vector3<f64> {
+        match &self.structure_body_n_m_s {
+            Some(momentum) => momentum.value_and_derivative(time_s).1,
             None => inertia_body_kg_m2 * self.acceleration_body_rad_s2(time_s),
         }
     }

@@ -23,7 +23,7 @@ pub struct Sample {
     pub rate_body_rad_s: Vector3<f64>,
     /// Momentum of the body and its panels without the wheels, body frame, in N m s; absent where no panel has a mass, as the
     /// inertia is constant there.
-    pub own_body_n_m_s: Option<Vector3<f64>>,
+    pub structure_body_n_m_s: Option<Vector3<f64>>,
     /// Total external torque about the centre of mass, body frame, in N m.
     pub torque_body_n_m: Vector3<f64>,
     /// The same of the effects that act.

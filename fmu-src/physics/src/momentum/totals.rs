@@ -58,22 +58,26 @@ impl Totals {
     }
 
     /// What ideal wheels hold, body frame, in N m s: the system's momentum less the body's and its panels' own, J w + h_p.
-    pub fn wheels_body_n_m_s(&self, own_body_n_m_s: &Vector3<f64>, frame: &MovingFrame) -> Vector3<f64> {
-        self.momentum_body_n_m_s(Convention::Inertial, &frame.inertial_from_body) - own_body_n_m_s
+    pub fn wheels_body_n_m_s(
+        &self,
+        structure_body_n_m_s: &Vector3<f64>,
+        frame: &MovingFrame,
+    ) -> Vector3<f64> {
+        self.momentum_body_n_m_s(Convention::Inertial, &frame.inertial_from_body) - structure_body_n_m_s
     }
 
     /// Rate of the same under an external torque (body frame, N m), in N m: what wheels that follow ideally take up,
     /// T - w x H - d/dt (J w + h_p).
     pub fn wheels_rate_body_n_m(
         &self,
-        own_rate_body_n_m: &Vector3<f64>,
+        structure_rate_body_n_m: &Vector3<f64>,
         frame: &MovingFrame,
         torque_body_n_m: &Vector3<f64>,
     ) -> Vector3<f64> {
         let system = self.momentum_body_n_m_s(Convention::Inertial, &frame.inertial_from_body);
         let rate_body_rad_s = &frame.rate_body_rad_s;
         Convention::Inertial.momentum_rate_body_n_m(&system, torque_body_n_m, rate_body_rad_s)
-            - own_rate_body_n_m
+            - structure_rate_body_n_m
     }
 
     /// System momentum in the body frame by `convention`, in N m s.

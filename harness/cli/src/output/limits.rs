@@ -20,7 +20,7 @@ pub(crate) struct Limit {
 }
 
 /// How a limit fares.
-struct Judged {
+struct LimitCheck {
     limit: Limit,
     /// Time in s and value when it was first broken.
     broken: Option<(f64, f64)>,
@@ -29,36 +29,36 @@ struct Judged {
 }
 
 /// The limits of a run.
-pub(crate) struct Judge {
-    judged: Vec<Judged>,
+pub(crate) struct LimitChecks {
+    checks: Vec<LimitCheck>,
     rows: usize,
 }
 
-impl Judge {
+impl LimitChecks {
     /// Before the first row.
     pub(crate) fn new(limits: Vec<Limit>) -> Self {
-        let judged = limits.into_iter().map(|limit| Judged {
+        let checks = limits.into_iter().map(|limit| LimitCheck {
             limit,
             broken: None,
             smallest: f64::INFINITY,
             largest: f64::NEG_INFINITY,
         });
-        Self { judged: judged.collect(), rows: 0 }
+        Self { checks: checks.collect(), rows: 0 }
     }
 
-    /// Judges the rows that were added.
+    /// Checks the rows that were added.
     pub(crate) fn update(&mut self, recording: &Recording) {
         let rows = recording.times_s.len();
-        for judged in &mut self.judged {
-            let Some(column) = recording.column(&judged.limit.name) else { continue };
+        for check in &mut self.checks {
+            let Some(column) = recording.column(&check.limit.name) else { continue };
             for row in self.rows..rows {
                 let value = column.number(row);
-                judged.smallest = judged.smallest.min(value);
-                judged.largest = judged.largest.max(value);
-                let is_kept = judged.limit.min.is_none_or(|min| value >= min)
-                    && judged.limit.max.is_none_or(|max| value <= max);
-                if !is_kept && judged.broken.is_none() {
-                    judged.broken = Some((recording.times_s[row], value));
+                check.smallest = check.smallest.min(value);
+                check.largest = check.largest.max(value);
+                let is_kept = check.limit.min.is_none_or(|min| value >= min)
+                    && check.limit.max.is_none_or(|max| value <= max);
+                if !is_kept && check.broken.is_none() {
+                    check.broken = Some((recording.times_s[row], value));
                 }
             }
         }
@@ -67,16 +67,16 @@ impl Judge {
 
     /// Whether all were kept.
     pub(crate) fn is_kept(&self) -> bool {
-        self.judged.iter().all(|judged| judged.broken.is_none())
+        self.checks.iter().all(|check| check.broken.is_none())
     }
 
     /// A line for each limit; `epoch_minus_time_s` gives dates.
     pub(crate) fn report(&self, described: &Description, epoch_minus_time_s: Option<f64>) -> Vec<String> {
-        self.judged.iter().map(|judged| judged.line(described, epoch_minus_time_s)).collect()
+        self.checks.iter().map(|check| check.line(described, epoch_minus_time_s)).collect()
     }
 }
 
-impl Judged {
+impl LimitCheck {
     fn line(&self, described: &Description, epoch_minus_time_s: Option<f64>) -> String {
         let shown = Shown::of(described, &self.limit.name);
         let number = |value: f64| shown.text(shown.value(value));
@@ -115,26 +115,26 @@ mod tests {
 
     use super::*;
 
-    fn judge(values: &[f64], min: Option<f64>, max: Option<f64>) -> Judge {
+    fn checked(values: &[f64], min: Option<f64>, max: Option<f64>) -> LimitChecks {
         let limit = Limit { name: "x".to_owned(), min, max, at: "m.toml:3: limits.x".to_owned() };
-        let mut judge = Judge::new(vec![limit]);
+        let mut checks = LimitChecks::new(vec![limit]);
         // Row by row, as a run would show them.
         for rows in 1..=values.len() {
-            judge.update(&Recording {
+            checks.update(&Recording {
                 times_s: (0..rows).map(|k| 60.0 * k as f64).collect(),
                 names: vec!["x".to_owned()],
                 units: vec![String::new()],
                 columns: vec![Column::Real(values[..rows].to_vec())],
             });
         }
-        judge
+        checks
     }
 
     #[test]
     fn the_first_row_outside_is_reported() {
-        let judge_of = |values: &[f64]| judge(values, Some(-1.0), Some(2.0));
-        assert!(judge_of(&[-1.0, 0.0, 2.0]).is_kept(), "bounds are kept at themselves");
-        let broken = judge_of(&[0.0, 3.0, -5.0, 1.0]);
+        let checked_of = |values: &[f64]| checked(values, Some(-1.0), Some(2.0));
+        assert!(checked_of(&[-1.0, 0.0, 2.0]).is_kept(), "bounds are kept at themselves");
+        let broken = checked_of(&[0.0, 3.0, -5.0, 1.0]);
         assert!(!broken.is_kept());
         let [line] = broken.report(&Description::default(), None).try_into().unwrap();
         assert_eq!(
@@ -143,6 +143,6 @@ mod tests {
         );
         let dated = broken.report(&Description::default(), Some(0.0)).remove(0);
         assert!(dated.contains("at 60 s (2000-01-01T11:59:55.816 UTC)"), "{dated}");
-        assert!(!judge(&[1.0, f64::NAN], Some(0.0), None).is_kept());
+        assert!(!checked(&[1.0, f64::NAN], Some(0.0), None).is_kept());
     }
 }

@@ -30,7 +30,7 @@ use svg::Svg;
 
 pub(crate) use file::OutputFile;
 pub(crate) use known::Known;
-pub(crate) use limits::{Judge, Limit};
+pub(crate) use limits::{Limit, LimitChecks};
 pub(crate) use origin::Origin;
 pub(crate) use svg::is_lit_fraction;
 pub(crate) use svg_path::{check_path as check_svg_path, is_svg_path};

@@ -35,7 +35,7 @@ pub(super) fn check(file: &OutputFile, destination: &Destination, kind: Kind<'_>
         ));
     }
     let Some(existing) = destination.existing() else { return Ok(()) };
-    match kind.judge(&head(existing)) {
+    match kind.standing_of(&head(existing)) {
         Standing::Same => Ok(()),
         Standing::Alike => {
             terminal::note(&format!(
@@ -69,7 +69,7 @@ impl Kind<'_> {
         }
     }
 
-    fn judge(self, head: &[u8]) -> Standing {
+    fn standing_of(self, head: &[u8]) -> Standing {
         let text = String::from_utf8_lossy(head);
         match self {
             // An empty file holds nothing to lose.
@@ -114,7 +114,7 @@ mod tests {
             ("mass = 1\n", Standing::Other),
             ("\u{0}\u{1}", Standing::Other),
         ] {
-            assert_eq!(table.judge(text.as_bytes()), expected, "{text:?}");
+            assert_eq!(table.standing_of(text.as_bytes()), expected, "{text:?}");
         }
         let panel = drawing::Panel {
             series: vec![drawing::Series::line("", vec![(0.0, 0.0)])],
@@ -122,9 +122,9 @@ mod tests {
         };
         let chart = drawing::Chart { panels: vec![panel], ..drawing::Chart::default() };
         let svg = drawing::svg(&[&chart]).unwrap();
-        assert!(Kind::Picture.judge(svg.as_bytes()) == Standing::Same, "{svg}");
+        assert!(Kind::Picture.standing_of(svg.as_bytes()) == Standing::Same, "{svg}");
         for text in ["<svg xmlns=\"http://www.w3.org/2000/svg\"><path/></svg>", "time,a,b\n0,1,2\n"] {
-            assert_eq!(Kind::Picture.judge(text.as_bytes()), Standing::Other, "{text:?}");
+            assert_eq!(Kind::Picture.standing_of(text.as_bytes()), Standing::Other, "{text:?}");
         }
     }
 }

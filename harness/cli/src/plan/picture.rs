@@ -128,8 +128,8 @@ fn sphere(burn: &PlannedBurn) -> PlaneChart {
     let angle_rad = burn.task.angle_rad;
     let map = Map::about(aim.on_great_circle(0.5 * angle_rad));
     let limit = |name: &str| {
-        let judged = burn.judged.iter().find(|judged| judged.limit == name);
-        judged.map_or(f64::NAN, |judged| judged.allowed.1)
+        let check = burn.checks.iter().find(|check| check.limit == name);
+        check.map_or(f64::NAN, |check| check.allowed.1)
     };
     let (sun_limit_deg, earth_limit_deg) = (limit("Sun angle"), limit("Earth angle"));
     let axes = std::iter::once(burn.flight.start_axis_inertial)

@@ -23,7 +23,7 @@ use crate::{
     interrupt::INTERRUPTED,
     low_orbit,
     outcome::Outcome,
-    output::{self, Judge, Known, Origin, Outputs},
+    output::{self, Known, LimitChecks, Origin, Outputs},
     pointing, variables,
 };
 pub(crate) use child::{RunInChild, run as run_in_child};
@@ -126,8 +126,8 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
     if !arguments.quiet {
         warnings.iter().for_each(|warning| terminal::note(&format!("warning: {warning}")));
     }
-    let is_judged = !limits.is_empty();
-    let mut judge = Judge::new(limits);
+    let has_limits = !limits.is_empty();
+    let mut checks = LimitChecks::new(limits);
     let mut collector = Collector::new(described, &positions);
     let child = child::start(&subject, input_copy.as_deref())
         .map_err(|error| format!("the process of the FMU cannot be started: {error}"))?;
@@ -139,7 +139,7 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
         if let Some(time_s) = time_s {
             progress.set_position((time_s - times.start_s).max(0.0) as u64);
         }
-        judge.update(recording);
+        checks.update(recording);
         outputs.update(recording)?;
         if outputs.has_lost_reader() { Err(LOST_READER.to_owned()) } else { Ok(()) }
     });
@@ -147,18 +147,18 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
     progress.finish_and_clear();
 
     let recording = collector.recording();
-    judge.update(recording);
+    checks.update(recording);
     if arguments.log {
         result.messages.iter().for_each(|it| terminal::note(&format!("{} {it}", it.status)));
     }
     let last_s = recording.times_s.last().copied().unwrap_or(times.start_s);
     let last = terminal::short(last_s);
     if outputs.has_lost_reader() {
-        // Nobody is there for the rest; what is drawn and judged at the end is not, and that is no success.
-        return if requested.plots.is_empty() && !is_judged {
+        // Nobody is there for the rest; what is drawn and checked at the end is not, and that is no success.
+        return if requested.plots.is_empty() && !has_limits {
             Ok(ExitCode::SUCCESS)
         } else {
-            Err(format!("{LOST_READER}: the run ends at {last} s, without pictures and judgement").into())
+            Err(format!("{LOST_READER}: the run ends at {last} s, without pictures and limits").into())
         };
     }
     let rows = recording.times_s.len();
@@ -181,8 +181,8 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
         let steps = ((last_s - times.start_s) / times.step_s).ceil();
         terminal::note(&format!("{steps} steps to {last} s in {:.3} s", elapsed.as_secs_f64()));
     }
-    if !arguments.quiet || !judge.is_kept() {
-        let lines = judge.report(described, simulated.zero_epoch_s(times.start_s));
+    if !arguments.quiet || !checks.is_kept() {
+        let lines = checks.report(described, simulated.zero_epoch_s(times.start_s));
         lines.iter().for_each(|line| terminal::note(line));
     }
     match ended {
@@ -199,7 +199,7 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
     match result.fault {
         // The recording is complete, the FMU is not what it should be.
         Some(fault) => Err(fault.into()),
-        None if !judge.is_kept() => Ok(ExitCode::FAILURE),
+        None if !checks.is_kept() => Ok(ExitCode::FAILURE),
         None => Ok(ExitCode::SUCCESS),
     }
 }

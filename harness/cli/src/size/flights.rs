@@ -46,7 +46,7 @@ pub(super) fn undumped(sized: &SizedSpacecraft, is_quiet: bool) -> Result<Record
     let patterns = ["momentum.*".to_owned()];
     let record = selected(sized.fmu.description(), &patterns, loader::select_outputs)?;
     let bar = terminal::progress(sized.span_s as u64, "s without dumps", is_quiet);
-    let recording = fly(sized, (Vector3::repeat(NEVER_N_M_S), "dumpsOnly"), record, &mut |time_s| {
+    let recording = simulated(sized, (Vector3::repeat(NEVER_N_M_S), "dumpsOnly"), record, &mut |time_s| {
         bar.set_position((time_s - sized.start_s) as u64);
     });
     bar.finish_and_clear();
@@ -78,7 +78,7 @@ pub(super) fn sweep(sized: &SizedSpacecraft, budget_s: f64, is_quiet: bool) -> R
 fn dumped(sized: &SizedSpacecraft, threshold_n_m_s: Vector3<f64>, strategy: &str) -> Result<Dumped, Failure> {
     let patterns = ["dump.count", "dump.impulse", "propellant.used"].map(str::to_owned);
     let record = selected(sized.fmu.description(), &patterns, loader::select_outputs)?;
-    let simulated = fly(sized, (threshold_n_m_s, strategy), record, &mut |_| {})?;
+    let simulated = simulated(sized, (threshold_n_m_s, strategy), record, &mut |_| {})?;
     let column = |name: &str| -> Result<Vec<f64>, Failure> {
         Ok(simulated.column(name).ok_or_else(|| format!("the FMU has no output {name}"))?.numbers())
     };
@@ -98,7 +98,7 @@ fn dumped(sized: &SizedSpacecraft, threshold_n_m_s: Vector3<f64>, strategy: &str
 }
 
 /// One flight; every dump has a row of its own.
-fn fly(
+fn simulated(
     sized: &SizedSpacecraft,
     (threshold_n_m_s, strategy): (Vector3<f64>, &str),
     record: Vec<usize>,

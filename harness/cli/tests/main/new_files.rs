@@ -40,17 +40,17 @@ fn every_new_file_works_unchanged() {
         assert!(reported.contains(".toml: ok"), "{reported}");
         assert!(!reported.contains("warning"), "{reported}");
         let fmu = at(&format!("{kind}.fmu"));
-        let craft = ["--spacecraft", shown(&file)];
+        let spacecraft = ["--spacecraft", shown(&file)];
         let packs: &[&[&str]] = match kind {
             "mission" => &[&["--mission", shown(&file)]],
             "timeline" => &[&["--model", "Guidance", "--timeline", shown(&file)]],
             // Every model's reference flight suits a file that says little.
             "spacecraft" => &[
-                &craft,
+                &spacecraft,
                 &["--model", "Guidance", "--spacecraft", shown(&file)],
                 &["--model", "DisturbanceTorque", "--spacecraft", shown(&file)],
             ],
-            _ => &[&craft],
+            _ => &[&spacecraft],
         };
         for pack in packs {
             with(&[&["pack", "--output", shown(&fmu)], *pack].concat());

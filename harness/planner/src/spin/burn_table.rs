@@ -8,12 +8,12 @@ use super::{
     PlanError, Row, Task,
     aim::{Way, right_ascension_declination_deg},
     flight::Flight,
-    judgement::Judged,
+    limit_checks::LimitCheck,
     start_values::{self, Setting},
     timing_label,
 };
 
-/// A plan that was simulated and judged.
+/// A plan that was simulated and checked against its limits.
 #[derive(Clone, Debug)]
 pub struct PlannedBurn {
     /// Of the spacecraft.
@@ -27,7 +27,7 @@ pub struct PlannedBurn {
     /// How it is simulated.
     pub flight: Flight,
     /// Its limits.
-    pub judged: Vec<Judged>,
+    pub checks: Vec<LimitCheck>,
 }
 
 /// One line of the table.
@@ -95,7 +95,7 @@ struct Document<'a> {
     propellant_kg: f64,
     worst_nutation_deg: f64,
     worst_final_nutation_deg: f64,
-    limits: &'a [Judged],
+    limits: &'a [LimitCheck],
     start_values: serde_json::Map<String, serde_json::Value>,
     pulses: Vec<Line<'a>>,
 }
@@ -147,7 +147,7 @@ impl PlannedBurn {
             propellant_kg: self.row.propellant_kg,
             worst_nutation_deg: self.row.peak_rad.to_degrees(),
             worst_final_nutation_deg: self.row.final_rad.to_degrees(),
-            limits: &self.judged,
+            limits: &self.checks,
             start_values: values,
             pulses: self.lines().collect(),
         };

@@ -111,9 +111,9 @@ fn csv_and_json_agree() {
 }
 
 #[test]
-fn limits_are_named_and_judged() {
+fn limits_are_named_and_checked() {
     let verdicts = |arguments: &str| -> Vec<(&'static str, Option<bool>)> {
-        planned(arguments).judged.iter().map(|judged| (judged.limit, judged.kept)).collect()
+        planned(arguments).checks.iter().map(|check| (check.limit, check.kept)).collect()
     };
     let kept = |arguments: &str, limit: &str| {
         let all = verdicts(arguments);
@@ -135,9 +135,9 @@ fn limits_are_named_and_judged() {
     assert_eq!(kept("--angle 2 --max-duration 8", "spin period varies"), Some(false));
     assert_eq!(kept("--angle 2 --max-nutation 0.02", "spin period varies"), Some(true));
     let beyond = planned(away);
-    let sun = beyond.judged.iter().find(|judged| judged.limit == "Sun angle").unwrap();
+    let sun = beyond.checks.iter().find(|check| check.limit == "Sun angle").unwrap();
     assert!((sun.found - 22.0).abs() < 0.3 && sun.verdict().starts_with("BROKEN: from "), "{sun:?}");
-    // Only what was given is judged, and called kept.
+    // Only what was given is checked, and called kept.
     let names: Vec<&str> = verdicts("--angle 2").iter().map(|(name, _)| *name).collect();
     assert_eq!(names, ["Sun angle", "Earth angle", "spin rate", "spin period varies", "propellant"]);
     let given = verdicts("--angle 2 --max-nutation 0.2 --max-final 0.1 --max-duration 30");
@@ -146,13 +146,13 @@ fn limits_are_named_and_judged() {
         flags,
         [("worst nutation", true), ("worst nutation left", true), ("time", true), ("propellant", true)]
     );
-    let judged_in_table = |arguments: &str| {
+    let checked_in_table = |arguments: &str| {
         let text = text(arguments);
         let line = text.lines().find(|line| line.starts_with("limits: ")).unwrap();
         line.strip_prefix("limits: ").unwrap().split(", ").map(str::to_owned).collect::<Vec<_>>()
     };
-    assert_eq!(judged_in_table("--angle 2"), ["Sun angle", "spin rate", "spin period varies", "propellant"]);
-    let with_earth = judged_in_table("--from 0,2 --sun 0,10 --earth 180,0 --angle 1 --max-nutation 0.02");
+    assert_eq!(checked_in_table("--angle 2"), ["Sun angle", "spin rate", "spin period varies", "propellant"]);
+    let with_earth = checked_in_table("--from 0,2 --sun 0,10 --earth 180,0 --angle 1 --max-nutation 0.02");
     assert!(with_earth.contains(&"Earth angle".to_owned()), "{with_earth:?}");
     assert!(with_earth.contains(&"worst nutation".to_owned()), "{with_earth:?}");
 }

@@ -4,8 +4,8 @@ use physics::spin::spinner::Spinner;
 
 use super::{
     PlanError, Row, Task,
-    flight::fly,
-    judgement::{broken, judge},
+    flight::simulated,
+    limit_checks::{broken, check_limits},
 };
 
 /// Limits that a train breaks as it is simulated, and over the range where the plan knows it.
@@ -17,8 +17,8 @@ pub(super) fn broken_limits(
     task: &Task,
     row: &Row,
 ) -> Result<Vec<&'static str>, PlanError> {
-    let flight = fly(spinner, task, row)?;
-    Ok(broken(&judge(spinner, task, row, &flight)))
+    let flight = simulated(spinner, task, row)?;
+    Ok(broken(&check_limits(spinner, task, row, &flight)))
 }
 
 /// Trains that keep the limits of the flags and break the fewest of the file, in the order of `rows`. The search ends with `most`

@@ -127,7 +127,7 @@ fn start(spinner: &Spinner, task: &Task, row: &Row) -> Start {
 ///
 /// # Errors
 /// A burn that the plant refuses, or that does not end.
-pub(super) fn fly(spinner: &Spinner, task: &Task, row: &Row) -> Result<Flight, PlanError> {
+pub(super) fn simulated(spinner: &Spinner, task: &Task, row: &Row) -> Result<Flight, PlanError> {
     let directions = Directions {
         sun_inertial: task.aim.sun_inertial,
         earth_inertial: task.aim.earth_inertial.unwrap_or_else(Vector3::zeros),

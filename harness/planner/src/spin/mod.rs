@@ -7,7 +7,7 @@ mod campaign;
 mod choice;
 mod error;
 mod flight;
-mod judgement;
+mod limit_checks;
 mod months;
 mod options;
 mod start_values;
@@ -32,7 +32,7 @@ pub use burn_table::PlannedBurn;
 pub use campaign::{Cadence, campaign, longest_interval_s, windows};
 pub use error::PlanError;
 pub use flight::{Flight, Pulse, Sample};
-pub use judgement::Judged;
+pub use limit_checks::LimitCheck;
 #[cfg(test)]
 use options::ACE;
 pub use options::{Options, TimingOption};

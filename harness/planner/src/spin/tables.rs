@@ -2,7 +2,7 @@
 
 use terminal::Table;
 
-use super::{Row, judgement::Judged};
+use super::{Row, limit_checks::LimitCheck};
 
 /// A table whose columns stand one space apart.
 pub(super) fn narrow(header: &[&str]) -> Table {
@@ -10,12 +10,12 @@ pub(super) fn narrow(header: &[&str]) -> Table {
 }
 
 /// `count` rows of a trade: the best trains, and the uniform plan as the last; `None` for no rows. `keeps` says which keep the
-/// limits of the flags and those of the file that are `judged`.
+/// limits of the flags and those of the file in `checks`.
 pub(super) fn trade(
     rows: &[&Row],
     uniform: &Row,
     count: usize,
-    judged: &[Judged],
+    checks: &[LimitCheck],
     keeps: impl Fn(&Row) -> bool,
 ) -> Option<String> {
     let with_uniform = count > 1;
@@ -40,7 +40,7 @@ pub(super) fn trade(
          left, peak: worst nutation after the last pulse, at any time\n\
          saved, lost: damping time against the uniform plan, time without science",
     );
-    let names = judged.iter().filter(|judged| judged.kept.is_some()).map(|judged| judged.limit);
+    let names = checks.iter().filter(|check| check.kept.is_some()).map(|check| check.limit);
     text.push_str("\nlimits: ");
     text.push_str(&names.collect::<Vec<_>>().join(", "));
     if with_uniform {
@@ -68,9 +68,9 @@ fn cells(row: &Row, keeps: bool, mark: &str) -> Vec<String> {
 }
 
 /// What each limit comes to.
-pub(super) fn limits(judged: &[Judged]) -> String {
+pub(super) fn limits(checks: &[LimitCheck]) -> String {
     let mut table = narrow(&["limit", "found", "allowed", "verdict"]);
-    for one in judged {
+    for one in checks {
         let (least, most) = one.allowed;
         let allowed = if least > 0.0 {
             format!("{} to {} {}", terminal::short(least), terminal::short(most), one.unit)

@@ -10,9 +10,9 @@ use super::{
     aim::{Way, right_ascension_declination_deg},
     best,
     choice::{broken_limits, by_all_limits},
-    flight::fly,
+    flight::simulated,
     frontier,
-    judgement::{broken, judge},
+    limit_checks::{broken, check_limits},
     months::months,
     options::ACE,
     start_values, tables, timing_label, trade, uniform_plan, verify,
@@ -64,9 +64,9 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
     best(&rows)?;
     let candidates = by_all_limits(spinner, &task, &rows, MOST_SIMULATED)?;
     let (chosen, simulations) = simulated_again(options, &task, &candidates)?;
-    let flight = fly(spinner, &task, chosen)?;
-    let judged = judge(spinner, &task, chosen, &flight);
-    let broken = broken(&judged);
+    let flight = simulated(spinner, &task, chosen)?;
+    let checks = check_limits(spinner, &task, chosen, &flight);
+    let broken = broken(&checks);
     let mut text = String::new();
     let spin = &task.case.spin;
     let mut line = |line: String| {
@@ -102,7 +102,7 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
     let shown: Vec<&Row> = std::iter::once(chosen).chain(others).collect();
     let keeps =
         |row: &Row| row.fits && broken_limits(spinner, &task, row).is_ok_and(|broken| broken.is_empty());
-    if let Some(table) = tables::trade(&shown, &uniform, options.rows, &judged, keeps) {
+    if let Some(table) = tables::trade(&shown, &uniform, options.rows, &checks, keeps) {
         line(table);
     }
     line(format!(
@@ -150,14 +150,14 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
         "Limits of the spacecraft's file, as flown, and of the flags, at their worst over the range:"
             .to_owned(),
     );
-    line(tables::limits(&judged));
+    line(tables::limits(&checks));
     let burn = PlannedBurn {
         name: spinner.name.clone(),
         epoch_s: options.date,
         task,
         row: chosen.clone(),
         flight,
-        judged,
+        checks,
     };
     if options.output.is_none() {
         line(

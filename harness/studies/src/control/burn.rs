@@ -63,7 +63,7 @@ pub(crate) fn burn(run: &mut Run<'_>) -> Outcome {
     let cases: Vec<(Kind, i32)> =
         kinds.iter().flat_map(|kind| (1..=SEEDS).map(|seed| (*kind, seed))).collect();
     let step_s = run.options.step_s;
-    let simulated = run.all(&cases, |(kind, seed)| kind.fly(&both, *seed, step_s))?;
+    let simulated = run.all(&cases, |(kind, seed)| kind.simulated(&both, *seed, step_s))?;
     run.line("A burn of 10 m/s at 0.088 m/s2 with the thrust 0.75 deg off (paper 001, Figures 10 and 11)\n");
     let each: Vec<(Kind, &[Simulated])> =
         kinds.iter().copied().zip(simulated.chunks(SEEDS as usize)).collect();

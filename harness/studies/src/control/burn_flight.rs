@@ -76,7 +76,12 @@ pub(super) struct Simulated {
 
 impl Kind {
     /// Flies one from the attitude that is commanded first, in steps of `step_s`, otherwise of a second.
-    pub(super) fn fly(&self, both: &Loop, seed: i32, step_s: Option<f64>) -> Result<Simulated, StudyError> {
+    pub(super) fn simulated(
+        &self,
+        both: &Loop,
+        seed: i32,
+        step_s: Option<f64>,
+    ) -> Result<Simulated, StudyError> {
         let step_s = whole_part_of_a_second(step_s)?;
         let label = format!("{}, seed {seed}", self.label);
         let samples = |case: Case, wanted_m_s: &Vector| -> Result<Vec<Sample>, StudyError> {

@@ -76,7 +76,7 @@ impl Dump {
     }
 }
 
-fn fly(fmu: &Fmu, dump: &Dump) -> Result<Simulated, StudyError> {
+fn simulated(fmu: &Fmu, dump: &Dump) -> Result<Simulated, StudyError> {
     let [one, two] = HELD_N_M_S;
     let controlled = dump.case("controlled").set("wheel[1].startMomentum", one);
     let controlled = controlled.set("wheel[2].startMomentum", two).simulate(fmu, Sample::NAMES)?;
@@ -128,7 +128,7 @@ assumed; the thrusters' layout is assumed too (messenger-full.toml).";
 pub(crate) fn dump(run: &mut Run<'_>) -> Outcome {
     let cases = run.chosen(dumps(), |dump| dump.label.to_owned())?;
     let fmu = run.options.fmu("MessengerFull.fmu")?;
-    let simulated = run.all(&cases, |dump| fly(&fmu, dump))?;
+    let simulated = run.all(&cases, |dump| simulated(&fmu, dump))?;
     run.line("Dumps of the controlled spacecraft by pulses of its 4.4 N thrusters\n");
     let rows: Vec<_> = simulated.iter().map(Simulated::row).collect();
     run.table_and_csv("dump.csv", HEADER, rows)?;

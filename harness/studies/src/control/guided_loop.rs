@@ -125,7 +125,11 @@ impl Loop {
 
     /// Flies it in steps of `step_s`, otherwise of a second; a sample a second. It begins in the attitude and at the rate
     /// that is commanded first.
-    pub(super) fn fly(&self, flight: &Flight<'_>, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
+    pub(super) fn simulated(
+        &self,
+        flight: &Flight<'_>,
+        step_s: Option<f64>,
+    ) -> Result<Vec<Sample>, StudyError> {
         let step_s = whole_part_of_a_second(step_s)?;
         let samples = |case: Case| -> Result<Vec<Sample>, StudyError> {
             let case = case

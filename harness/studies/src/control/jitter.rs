@@ -68,7 +68,7 @@ pub(crate) fn jitter(run: &mut Run<'_>) -> Outcome {
     let fmu = run.options.fmu("FlexibleCraft.fmu")?;
     let structure = Structure::read(&fmu)?;
     let cases = run.chosen(flights(&structure), |flight| flight.label.clone())?;
-    let shaken = run.all(&cases, |flight| flight.fly(&fmu, &structure))?;
+    let shaken = run.all(&cases, |flight| flight.simulated(&fmu, &structure))?;
     run.line("Attitude jitter by the static imbalance of one wheel of FlexibleCraft\n");
     let rows: Vec<_> = shaken.iter().map(|shaken| shown(shaken, &structure)).collect();
     run.table_and_csv("jitter.csv", HEADER, rows)?;

@@ -48,7 +48,7 @@ fn dark(label: &str, stop_s: f64) -> Case {
 
 impl Flight {
     /// Flies it.
-    pub(super) fn fly(&self, fmu: &Fmu, structure: &Structure) -> Result<Shaken, StudyError> {
+    pub(super) fn simulated(&self, fmu: &Fmu, structure: &Structure) -> Result<Shaken, StudyError> {
         let stop_s = SETTLED_S + COUNT as f64 / RATE_HZ;
         let held_n_m_s = structure.rotor_kg_m2 * std::f64::consts::TAU * self.wheel_hz;
         let mut case = dark(&self.label, stop_s).set("wheel[1].startMomentum", held_n_m_s);

@@ -14,7 +14,7 @@ pub(crate) fn safe_mode(run: &mut Run<'_>) -> Outcome {
     let both = Loop::open(run.options)?;
     let parameters = Parameters::read(&both)?;
     let step_s = run.options.step_s;
-    let simulated = run.all(&cases, |chain| Ok((*chain, chain.fly(&both, step_s)?)))?;
+    let simulated = run.all(&cases, |chain| Ok((*chain, chain.simulated(&both, step_s)?)))?;
     run.line("Safe modes (paper 001), Guidance and the controlled plant in a loop\n");
     let rows: Vec<_> = simulated
         .iter()

@@ -88,7 +88,7 @@ impl Chain {
     }
 
     /// Flies it.
-    pub(super) fn fly(self, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
+    pub(super) fn simulated(self, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
         let events = self.events();
         let inputs = |sample: &Sample| {
             let due = events.iter().filter(|(at_s, _)| (at_s - sample.time_s).abs() < 0.25);
@@ -98,7 +98,7 @@ impl Chain {
             Self::AttitudeLost => LOST_END_S,
             Self::ZoneViolated => VIOLATED_END_S,
         };
-        both.fly(
+        both.simulated(
             &Flight {
                 label: self.label(),
                 epoch_s: EPOCH_S,

@@ -150,7 +150,7 @@ pub(crate) fn slew(run: &mut Run<'_>) -> Outcome {
     let cases = run.chosen(slews, |slew| slew.label.to_owned())?;
     let plant = Plant::open(run.options)?;
     let step_s = run.options.step_s;
-    let simulated = run.all(&cases, |slew| plant.fly(slew, step_s))?;
+    let simulated = run.all(&cases, |slew| plant.simulated(slew, step_s))?;
     run.line("Slews under the plant's own controller; the command jumps at 10 s\n");
     let rows: Vec<_> = simulated.iter().map(|simulated| Measures::of(simulated).row(simulated)).collect();
     run.table_and_csv("slew.csv", HEADER, rows)?;

@@ -155,7 +155,7 @@ impl Plant {
     }
 
     /// Flies it.
-    pub(super) fn fly(&self, slew: &Slew, step_s: Option<f64>) -> Result<Simulated, StudyError> {
+    pub(super) fn simulated(&self, slew: &Slew, step_s: Option<f64>) -> Result<Simulated, StudyError> {
         let target = self.q * Attitude::from_scaled_axis(slew.axis * slew.angle_rad);
         let mut outputs: Vec<String> = BodySample::NAMES.iter().map(|name| (*name).to_owned()).collect();
         for k in 1..=self.limits.axes.len() {

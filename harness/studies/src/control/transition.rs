@@ -46,7 +46,7 @@ impl Case {
         }
     }
 
-    fn fly(self, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
+    fn simulated(self, both: &Loop, step_s: Option<f64>) -> Result<Vec<Sample>, StudyError> {
         // The camera stands as far sunward of +Z as nadir does with the Sun on -Y.
         let camera = |sample: &Sample| {
             let sun_nadir_rad = angle_rad(&sample.to_sun_m(), &sample.to_planet_m());
@@ -73,7 +73,7 @@ impl Case {
             ];
             of("plant", noise.concat())
         };
-        both.fly(
+        both.simulated(
             &Flight {
                 label: self.label(),
                 epoch_s: TRANSITION_EPOCH_S,
@@ -124,7 +124,7 @@ pub(crate) fn transition(run: &mut Run<'_>) -> Outcome {
     let both = Loop::open(run.options)?;
     let limits = Limits::read(&both)?;
     let step_s = run.options.step_s;
-    let simulated = run.all(&cases, |case| Ok((*case, case.fly(&both, step_s)?)))?;
+    let simulated = run.all(&cases, |case| Ok((*case, case.simulated(&both, step_s)?)))?;
     run.line(
         "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8), under the plant's own controller\n",
     );

@@ -65,8 +65,8 @@ impl Simulated {
 /// Study `momentum/off-sun`.
 pub(crate) fn off_sun(run: &mut Run<'_>) -> Outcome {
     let sphere = sphere::map(&run.options.fmu("MessengerLight.fmu")?)?;
-    let few = fly(&run.options.fmu("MomentumPlant.fmu")?, "shade and panels")?;
-    let whole = fly(&run.options.fmu("MessengerFull.fmu")?, "whole")?;
+    let few = simulated(&run.options.fmu("MomentumPlant.fmu")?, "shade and panels")?;
+    let whole = simulated(&run.options.fmu("MessengerFull.fmu")?, "whole")?;
     run.line("Sunlight on the whole MESSENGER (messenger-full.toml), its surfaces shadowing one another\n");
     over_the_sphere(run, &sphere)?;
     within_the_zone(run, &few, &whole)
@@ -187,7 +187,7 @@ Guidance keeps the Sun at no azimuth, where the shade keeps bus and boom dark: w
 through the slit of 6 mm that the printed heights leave between the shade and its top. A strip of the bus' sides would be lit
 from 10.5 deg of azimuth on.";
 
-fn fly(fmu: &Fmu, label: &str) -> Result<Simulated, StudyError> {
+fn simulated(fmu: &Fmu, label: &str) -> Result<Simulated, StudyError> {
     let surfaces = surfaces(fmu);
     let forces = (1..=surfaces.len()).map(|number| format!("plate[{number}].force"));
     let names: Vec<String> = Sample::NAMES.iter().map(|name| (*name).to_owned()).chain(forces).collect();

@@ -91,7 +91,7 @@ struct Found {
 pub(crate) fn sensitivity(run: &mut Run<'_>) -> Outcome {
     let changes = run.chosen(CHANGES, |change| change.what.to_owned())?;
     let template = run.options.fmu("MomentumPlant.fmu")?;
-    let found = run.all(&changes, |change| fly(change, &template))?;
+    let found = run.all(&changes, |change| simulated(change, &template))?;
     run.line("Small changes of the spacecraft: dumps in 90 days and momentum a day (paper 000, plates and panels)\n");
     let join = |dumps: &[i64; 3]| dumps.map(|count| count.to_string()).join(" / ");
     let cells = |it: &Found, k: usize| [join(&it.dumps[k]), format!("{:.4}", it.daily_n_m_s[k])];
@@ -108,7 +108,7 @@ Dumps: with dumps only / reactive / predictive targets; 5.5 N.m.s, to 0.9 of the
 Z = -2.54 cm. Momentum a day: mean magnitude of what each of the 90 days adds without dumps or targets. Unchanged: panels at
 65 deg, shade cloth of specular 0.15, turns at once. An axis of a panel is turned with its cell side.";
 
-fn fly(change: &Change, template: &Fmu) -> Result<Found, StudyError> {
+fn simulated(change: &Change, template: &Fmu) -> Result<Found, StudyError> {
     let failed = |source| StudyError::Simulation { case: change.what.to_owned(), source };
     let variant = Variant::of(template, change.edits).map_err(failed)?;
     let simulate = |case: &Case, name: &str| {

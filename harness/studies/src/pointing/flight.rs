@@ -136,7 +136,7 @@ impl Fmus {
     }
 
     /// Flies it. Where the plant is does not hang on what is commanded: it goes first.
-    pub(super) fn fly(&self, flight: &Flight<'_>) -> Result<Simulated, StudyError> {
+    pub(super) fn simulated(&self, flight: &Flight<'_>) -> Result<Simulated, StudyError> {
         let case = Case::new(flight.label, f64::from(flight.seconds + 1), 1.0);
         let case = case.set("start.epoch", flight.epoch_s);
         let anomaly_rad = flight.true_anomaly_deg.to_radians();

@@ -37,11 +37,11 @@ impl Case {
         }
     }
 
-    fn fly(&self, fmus: &Fmus) -> Result<Simulated, StudyError> {
+    fn simulated(&self, fmus: &Fmus) -> Result<Simulated, StudyError> {
         let (azimuth_deg, height_rate_m_s, seconds) = match *self {
             Self::Azimuth(azimuth_deg) => (azimuth_deg, 0.0, 1),
             Self::Scan => (SCAN_AZIMUTH_DEG, HEIGHT_RATE_M_S, SCAN_S),
-            Self::Terminator => return limb_orbit::fly(fmus),
+            Self::Terminator => return limb_orbit::simulated(fmus),
         };
         let command = move |_: &Place| {
             [
@@ -51,7 +51,7 @@ impl Case {
             ]
             .concat()
         };
-        fmus.fly(&Flight {
+        fmus.simulated(&Flight {
             label: &self.label(),
             epoch_s: EPOCH_S,
             true_anomaly_deg: TRUE_ANOMALY_DEG,
@@ -67,7 +67,7 @@ pub(crate) fn limb(run: &mut Run<'_>) -> Outcome {
     let all = AZIMUTHS_DEG.map(Case::Azimuth).into_iter().chain([Case::Scan, Case::Terminator]);
     let cases = run.chosen(all, Case::label)?;
     let fmus = Fmus::open(run.options)?;
-    let simulated = run.all(&cases, |case| Ok((*case, case.fly(&fmus)?)))?;
+    let simulated = run.all(&cases, |case| Ok((*case, case.simulated(&fmus)?)))?;
     run.line("Limb pointing (paper 001, eqs 20 to 22 and Figure 6)\n");
     let azimuths: Vec<(f64, &Simulated)> = simulated
         .iter()

@@ -19,9 +19,9 @@ const EVERY: usize = 60;
 const ZONE_DEG: [f64; 2] = [15.0, 13.0];
 
 /// Flies it without constraints: on this orbit the Sun would leave its zone.
-pub(super) fn fly(fmus: &Fmus) -> Result<Simulated, StudyError> {
+pub(super) fn simulated(fmus: &Fmus) -> Result<Simulated, StudyError> {
     let off = ["keepIn.enabled", "hotPole.enabled", "monitor.enabled"].map(|name| set(name, false));
-    fmus.fly(&Flight {
+    fmus.simulated(&Flight {
         label: "terminator",
         epoch_s: EPOCH_S,
         true_anomaly_deg: 0.0,

@@ -80,7 +80,7 @@ pub(crate) fn mosaic(run: &mut Run<'_>) -> Outcome {
     let cases = run.chosen(CASES, |case| case.label.to_owned())?;
     let fmus = Fmus::open(run.options)?;
     let mosaics = run.all(&cases, |case| {
-        let simulated = case.fly(&fmus)?;
+        let simulated = case.simulated(&fmus)?;
         Ok(Mosaic { case: *case, numbers: Numbers::of(case, &simulated), simulated })
     })?;
     run.line("Mosaics by scans with reversals and pauses (paper 001, \"Scan patterns\")\n");

@@ -200,7 +200,7 @@ impl Case {
     }
 
     /// Flies it.
-    pub(super) fn fly(&self, fmus: &Fmus) -> Result<Simulated, StudyError> {
+    pub(super) fn simulated(&self, fmus: &Fmus) -> Result<Simulated, StudyError> {
         // A flight of one second shows where the planet's axes are.
         let flight = Flight {
             label: self.label,
@@ -210,7 +210,7 @@ impl Case {
             parameters: Vec::new(),
             command: &|_: &Place| Vec::new(),
         };
-        let planet = fmus.fly(&flight)?.planet;
+        let planet = fmus.simulated(&flight)?.planet;
         let axes = match self.kind {
             Kind::PlanetFixed => *planet.at(self.epoch_s()).axes(),
             Kind::Inertial | Kind::Body => Matrix3::identity(),
@@ -218,7 +218,7 @@ impl Case {
         let command = |place: &Place| {
             if place.time_s == 0.0 { self.settings(place, &axes, planet.radii_m[0]) } else { Vec::new() }
         };
-        fmus.fly(&Flight { seconds: self.seconds(), command: &command, ..flight })
+        fmus.simulated(&Flight { seconds: self.seconds(), command: &command, ..flight })
     }
 
     /// Its frames; none while the axis from row to row moves.

@@ -35,7 +35,7 @@ impl Angle {
         }
     }
 
-    fn fly(self, fmus: &Fmus) -> Result<Simulated, StudyError> {
+    fn simulated(self, fmus: &Fmus) -> Result<Simulated, StudyError> {
         let command = |place: &Place| -> Settings {
             let camera = || {
                 // -Y at the Sun and the camera at nadir: the camera stands as far sunward of +Z as nadir does.
@@ -52,7 +52,7 @@ impl Angle {
                 Vec::new()
             }
         };
-        fmus.fly(&Flight {
+        fmus.simulated(&Flight {
             label: self.label(),
             epoch_s: EPOCH_S,
             true_anomaly_deg: TRUE_ANOMALY_DEG,
@@ -91,7 +91,7 @@ pub(crate) fn transition(run: &mut Run<'_>) -> Outcome {
     let angles = [Angle::Followed, Angle::Held];
     let cases = run.chosen(angles, |angle| angle.label().to_owned())?;
     let fmus = Fmus::open(run.options)?;
-    let simulated = run.all(&cases, |angle| Ok((*angle, angle.fly(&fmus)?)))?;
+    let simulated = run.all(&cases, |angle| Ok((*angle, angle.simulated(&fmus)?)))?;
     run.line(
         "Downlink until 500 s, then the camera at nadir (paper 001, Figures 7 and 8, commanded curves)\n",
     );

@@ -154,7 +154,7 @@ impl<M: Model> Search<M> {
         Self { bench: Bench::new(text, 11), kept: &[], rows, longest_s: 30.0, prepare: |_, _| {} }
     }
 
-    fn judge(mut self, states: usize) {
+    fn report_missing(mut self, states: usize) {
         let mut drawn = 0;
         while self.bench.looks[1] < states {
             drawn += 1;
@@ -232,42 +232,37 @@ fn controlled() -> String {
     format!("{FULL}\n[fixed]\n{entries}")
 }
 
-const FLOWN: &str = include_str!("still_ephemeris.toml");
+const ONBOARD: &str = include_str!("still_ephemeris.toml");
 
 fn guidance() -> Search<Guidance> {
     let mut search = Search::new(Guidance::DEFAULT_SETUP, GUIDANCE);
-    search.bench = search.bench.with_schedule("ephemeris.toml", FLOWN);
+    search.bench = search.bench.with_schedule("ephemeris.toml", ONBOARD);
     search
 }
 
-/// A test of every run and its long search.
+/// A test of every run; `cargo xtask test --long` sets the variable for many times as many states.
 macro_rules! searches {
-    ($($name:ident, $long:ident, $states:literal: $search:expr;)*) => { $(
+    ($($name:ident, $states:literal: $search:expr;)*) => { $(
         #[test]
         fn $name() {
-            $search.judge($states);
-        }
-
-        #[test]
-        #[ignore = "runs in `cargo xtask test --long`"]
-        fn $long() {
-            $search.judge($states * LONG);
+            let times = if std::env::var_os("HELIOTORQUE_LONG").is_some() { LONG } else { 1 };
+            $search.report_missing($states * times);
         }
     )* };
 }
 
 searches! {
-    momentum_plant, momentum_plant_long, 8: plant(MomentumPlant::DEFAULT_SETUP);
-    momentum_plant_per_plate, momentum_plant_per_plate_long, 6: plant(RADIATING);
-    momentum_plant_with_everything, momentum_plant_with_everything_long, 6: plant(ALL);
-    momentum_plant_with_thrusters, momentum_plant_with_thrusters_long, 8: plant(FULL);
-    momentum_plant_controlled, momentum_plant_controlled_long, 6: plant(&controlled());
-    disturbance_torque, disturbance_torque_long, 8:
+    momentum_plant, 8: plant(MomentumPlant::DEFAULT_SETUP);
+    momentum_plant_per_plate, 6: plant(RADIATING);
+    momentum_plant_with_everything, 6: plant(ALL);
+    momentum_plant_with_thrusters, 8: plant(FULL);
+    momentum_plant_controlled, 6: plant(&controlled());
+    disturbance_torque, 8:
         Search::<DisturbanceTorque>::new(DisturbanceTorque::DEFAULT_SETUP, DISTURBANCE);
-    disturbance_torque_per_plate, disturbance_torque_per_plate_long, 8:
+    disturbance_torque_per_plate, 8:
         Search::<DisturbanceTorque>::new(RADIATING, DISTURBANCE);
-    disturbance_torque_with_everything, disturbance_torque_with_everything_long, 8:
+    disturbance_torque_with_everything, 8:
         Search::<DisturbanceTorque>::new(ALL, DISTURBANCE);
-    spin_plant, spin_plant_long, 25: Search::<SpinPlant>::new(SpinPlant::DEFAULT_SETUP, SPIN);
-    guidance_shipped, guidance_shipped_long, 25: guidance();
+    spin_plant, 25: Search::<SpinPlant>::new(SpinPlant::DEFAULT_SETUP, SPIN);
+    guidance_shipped, 25: guidance();
 }

@@ -290,15 +290,22 @@ fn panels_that_keep_to_the_sun_turn_a_spinning_body_back() {
     assert!(worst_deg < 0.01, "{worst_deg:e}");
 }
 
+/// Commanded flight with momentum in the wheels.
+const COMMANDED: Start<'_> = &[("attitude.source", 2.0), ("start.momentum[2]", 1.5)];
+
+/// The flight with a command that turns about X and Z.
+fn turning_as_commanded(mut flight: Flight<'_>) -> Flight<'_> {
+    flight.set("command.q[4]", 1.0);
+    flight.set("command.rate[1]", 2e-3);
+    flight.set("command.rate[3]", -1e-3);
+    flight
+}
+
 #[test]
 fn ideal_wheels_hold_what_the_panels_do_not() {
     let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
     let spacecraft = hinged();
-    let commanded: Start<'_> = &[("attitude.source", 2.0), ("start.momentum[2]", 1.5)];
-    let mut flight = fly(&named, &[commanded, DARK, BY_ANGLE]);
-    flight.set("command.q[4]", 1.0);
-    flight.set("command.rate[1]", 2e-3);
-    flight.set("command.rate[3]", -1e-3);
+    let mut flight = turning_as_commanded(fly(&named, &[COMMANDED, DARK, BY_ANGLE]));
     let rates = [0.05, -0.02];
     flight.step_moving(7.0, &[("panel[1].angle", rates[0]), ("panel[2].angle", rates[1])]).unwrap();
     let held = to_inertial(&flight) * held_momentum(&flight);
@@ -337,11 +344,7 @@ fn ideal_wheels_take_up_what_turning_panels_give() {
         assert!(off < 1e-6, "{start_s}: {off}");
     }
     // An input does, and its derivative.
-    let commanded = [("attitude.source", 2.0), ("start.momentum[2]", 1.5)];
-    let mut flight = wheel_torque::fly(&named, &[&commanded[..], BY_ANGLE].concat());
-    flight.set("command.q[4]", 1.0);
-    flight.set("command.rate[1]", 2e-3);
-    flight.set("command.rate[3]", -1e-3);
+    let mut flight = turning_as_commanded(wheel_torque::fly(&named, &[COMMANDED, BY_ANGLE].concat()));
     let rates = [("panel[1].angle", 0.05), ("panel[2].angle", -0.02)];
     let off = torques_off(&mut flight, 2.0, |flight, at_s| {
         let now_s = flight.time_s();
@@ -356,11 +359,7 @@ fn ideal_wheels_take_up_what_turning_panels_give() {
 fn ideal_wheels_show_the_torque_of_fast_panels_in_a_long_step() {
     let named = NamedModel::<MomentumPlant>::with("hinged.toml", &text(HINGED));
     let spacecraft = hinged();
-    let commanded: Start<'_> = &[("attitude.source", 2.0), ("start.momentum[2]", 1.5)];
-    let mut flight = fly(&named, &[commanded, DARK, BY_ANGLE]);
-    flight.set("command.q[4]", 1.0);
-    flight.set("command.rate[1]", 2e-3);
-    flight.set("command.rate[3]", -1e-3);
+    let mut flight = turning_as_commanded(fly(&named, &[COMMANDED, DARK, BY_ANGLE]));
     let (rates, time_s, difference_s) = ([0.5, -0.3], 40.0, 1e-4);
     flight.step_moving(time_s, &[("panel[1].angle", rates[0]), ("panel[2].angle", rates[1])]).unwrap();
     let turning = flight.vector("attitude.rate");

@@ -158,7 +158,7 @@ antennas = [
     }
 }
 
-/// The file's zone holds at the Earth too, unless the file says up to where.
+/// The file's zone counts at the Earth too, unless the file limits its distance from the Sun.
 #[test]
 fn a_keep_in_zone_counts_up_to_the_files_distance() {
     for (distance, counts) in [("", true), (", distance_m = 1.2e11", false)] {
@@ -169,15 +169,15 @@ fn a_keep_in_zone_counts_up_to_the_files_distance() {
         guidance.put_vector("position", [7e6, 0.0, 0.0]);
         guidance.put_vector("velocity", [0.0, 7.5e3, 0.0]);
         guidance.begin(0.0);
-        let mut kept = false;
+        let mut is_applied = false;
         // All around an orbit in the equator nadir itself has the Sun outside of the zone somewhere.
         for step in 1..=36_u32 {
             let (sine, cosine) = (f64::from(step) * 10_f64.to_radians()).sin_cos();
             guidance.put_vector("position", [7e6 * cosine, 7e6 * sine, 0.0]);
             guidance.put_vector("velocity", [-7.5e3 * sine, 7.5e3 * cosine, 0.0]);
             guidance.step_to(f64::from(step));
-            kept |= guidance.boolean("constraint.sunKeepIn");
+            is_applied |= guidance.boolean("constraint.sunKeepIn");
         }
-        assert_eq!(kept, counts, "{zone}");
+        assert_eq!(is_applied, counts, "{zone}");
     }
 }

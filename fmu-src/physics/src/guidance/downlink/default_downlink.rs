@@ -40,7 +40,7 @@ impl Default for DefaultDownlink {
 }
 
 impl DefaultDownlink {
-    /// With these antennas; without one, the Earth where MESSENGER's would have it.
+    /// With these antennas; without one, as with fans all round.
     pub fn of(antennas: &Antennas) -> Self {
         let mut all = Self { first: EarthBoresight::Behind, changes: Vec::new() };
         let mut last = None;
@@ -105,8 +105,8 @@ fn candidates_rad(antennas: &Antennas) -> Vec<f64> {
     let inside = middles_rad.filter(|angle_rad| (0.0..=PI).contains(angle_rad));
     let mut all: Vec<f64> = inside.chain([0.0, FRAC_PI_2, PI]).collect();
     all.sort_by(f64::total_cmp);
-    // What rounding tells apart is one; 90 deg stays what it is.
-    let same = |next: &mut f64, kept: &mut f64| *next != FRAC_PI_2 && (*next - *kept).abs() < BOUND_RAD;
+    // Values that differ by rounding are one; 90 deg stays exact.
+    let same = |next: &mut f64, before: &mut f64| *next != FRAC_PI_2 && (*next - *before).abs() < BOUND_RAD;
     all.dedup_by(same);
     all
 }

@@ -1,4 +1,4 @@
-//! Downlink: an antenna at the Earth, the Sun where the momentum wants it (paper 000, eqs 14 to 22).
+//! Downlink: an antenna at the Earth, the Sun where momentum management places it (paper 000, eqs 14 to 22).
 //!
 //! Fans are steered in the XY plane over ranges of azimuth; MESSENGER's -90 to 0 deg and 90 to 180 deg, its quadrants.
 //! With the Sun at azimuth A and elevation E and the Earth in the XY plane, theta from the Sun, the Earth's azimuth is
@@ -185,7 +185,7 @@ pub(crate) fn is_ahead(antennas: &Antennas, [minus_rad, plus_rad]: [f64; 2], cos
         let nearest = antennas.nearest_fan(azimuth_rad);
         if nearest.is_in_range() { 0.0 } else { nearest.outside_rad }
     };
-    // Of ranges that lie alike about the Sun's line both are as far outside, whatever rounding says.
+    // Symmetric ranges about the Sun line are equally far outside; rounding does not choose between them.
     let (minus_rad, plus_rad) = (outside_rad(minus_rad), outside_rad(plus_rad));
     if cosine > 0.0 { plus_rad < minus_rad - BOUND_RAD } else { plus_rad <= minus_rad + BOUND_RAD }
 }

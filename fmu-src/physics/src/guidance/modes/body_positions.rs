@@ -78,7 +78,7 @@ impl EphemerisTrust {
     }
 
     /// Takes a sample. Where attitude or Sun are not known, or `check` is `None`, nothing contradicts the models.
-    pub fn judge(
+    pub fn sample(
         &mut self,
         check: Option<&Monitor>,
         time_s: f64,

@@ -163,7 +163,7 @@ impl ModeState {
         }
         let sensed_sun = sensed.sun_body.and_then(direction);
         let sun_in_estimate = sensed.estimate.zip(sensed_sun);
-        self.ephemeris.judge(settings.ephemeris_check.as_ref(), sensed.time_s, places, sun_in_estimate);
+        self.ephemeris.sample(settings.ephemeris_check.as_ref(), sensed.time_s, places, sun_in_estimate);
         if self.mode == Mode::Operational && !self.ephemeris.is_valid() {
             // Coarse models do not point as Operational demands.
             self.demote(ModeReason::Ephemeris);

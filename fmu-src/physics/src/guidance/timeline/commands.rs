@@ -77,7 +77,7 @@ impl<'d, 'i> Commands<'d, 'i> {
             self.check.report(&scenario_place, named("the scenario", scenario), allowed);
         }
         let read = tables(scenario);
-        self.judge_scenario(at, TABLES, read);
+        self.check_scenario_keys(at, TABLES, read);
         let mut command = PointingCommand { scenario: Some(scenario), ..PointingCommand::default() };
         if let Some(boresight) = given.boresight.as_ref().filter(|_| read.has("boresight")) {
             command.boresight = self.boresight(&at.key("boresight"), boresight, scenario);
@@ -129,7 +129,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// Reports keys among the `known` ones that are given and not read, and keys that lack.
-    pub(super) fn judge(
+    pub(super) fn check_keys(
         &mut self,
         at: &Place,
         known: &[&str],
@@ -149,14 +149,14 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     /// The same where the scenario reads them.
-    fn judge_scenario(&mut self, at: &Place, known: &[&str], read: Keys) {
-        self.judge(at, known, read, &self.scenario.clone());
+    fn check_scenario_keys(&mut self, at: &Place, known: &[&str], read: Keys) {
+        self.check_keys(at, known, read, &self.scenario.clone());
     }
 
     /// The same where an option reads them, unless nobody wrote the option.
-    fn judge_option(&mut self, at: &Place, known: &[&str], read: Keys, option: impl Serialize) {
+    fn check_option_keys(&mut self, at: &Place, known: &[&str], read: Keys, option: impl Serialize) {
         if !self.check.is_stand_in(&at.key("option")) {
-            self.judge(at, known, read, &named("the option", option));
+            self.check_keys(at, known, read, &named("the option", option));
         }
     }
 
@@ -176,12 +176,12 @@ impl<'d, 'i> Commands<'d, 'i> {
                     self.needs_fan(&place, named("the option", option));
                 }
                 let read = Keys { optional: &["option"], ..boresight_keys(option) };
-                self.judge_option(at, BORESIGHT, read, option);
+                self.check_option_keys(at, BORESIGHT, read, option);
             }
-            (Scenario::Generic, None) => self.judge_scenario(at, &["option"], keys(&["option"], &[])),
+            (Scenario::Generic, None) => self.check_scenario_keys(at, &["option"], keys(&["option"], &[])),
             // That the scenario's own boresight is the boresight may be written.
             (Scenario::Gimbal, None | Some(BoresightOption::Gimbal)) => {
-                self.judge_scenario(at, BORESIGHT, keys(&["angle"], &["option"]));
+                self.check_scenario_keys(at, BORESIGHT, keys(&["angle"], &["option"]));
             }
             (Scenario::Downlink, None | Some(BoresightOption::PhasedArray)) => {
                 let is_given = ["option", "azimuth"].iter().any(|key| self.check.is_written(&at.key(key)));
@@ -189,7 +189,7 @@ impl<'d, 'i> Commands<'d, 'i> {
                 if is_given && !self.spacecraft.antennas.is_empty() {
                     self.needs_fan(&place, named("the option", BoresightOption::PhasedArray));
                 }
-                self.judge_scenario(at, BORESIGHT, read);
+                self.check_scenario_keys(at, BORESIGHT, read);
             }
             (Scenario::Gimbal, Some(option)) => {
                 self.check.report(&place, named("the option", option), "gimbal, this scenario's boresight");
@@ -198,7 +198,7 @@ impl<'d, 'i> Commands<'d, 'i> {
                 let allowed = "phasedArray, this scenario's boresight, or no boresight";
                 self.check.report(&place, named("the option", option), allowed);
             }
-            _ => self.judge_scenario(at, BORESIGHT, keys(&[], &["instrument"])),
+            _ => self.check_scenario_keys(at, BORESIGHT, keys(&[], &["instrument"])),
         }
         let instrument = given.instrument.as_ref();
         BoresightCommand {
@@ -262,7 +262,7 @@ impl<'d, 'i> Commands<'d, 'i> {
                 let allowed = named("no aimpoint, or this scenario's own:", own);
                 self.check.report(&at.key("option"), named("the option", given.option), allowed);
             }
-            None => self.judge_option(at, AIMPOINT, aimpoint_keys(given.option), given.option),
+            None => self.check_option_keys(at, AIMPOINT, aimpoint_keys(given.option), given.option),
         }
         AimpointCommand {
             option: Some(given.option),
@@ -292,7 +292,7 @@ impl<'d, 'i> Commands<'d, 'i> {
 
     fn body_roll(&mut self, at: &Place, given: &BodyRollDescription) -> BodyRollCommand {
         let known = &["vector", "azimuth", "elevation"];
-        self.judge_option(at, known, body_roll_keys(given.option), given.option);
+        self.check_option_keys(at, known, body_roll_keys(given.option), given.option);
         BodyRollCommand {
             option: Some(given.option),
             vector: self.direction(&at.key("vector"), given.vector),
@@ -303,7 +303,7 @@ impl<'d, 'i> Commands<'d, 'i> {
 
     fn external_roll(&mut self, at: &Place, given: &ExternalRollDescription) -> ExternalRollCommand {
         let known = &["vector", "rightAscension", "declination"];
-        self.judge_option(at, known, external_roll_keys(given.option), given.option);
+        self.check_option_keys(at, known, external_roll_keys(given.option), given.option);
         ExternalRollCommand {
             option: Some(given.option),
             vector: self.direction(&at.key("vector"), given.vector),
@@ -313,7 +313,7 @@ impl<'d, 'i> Commands<'d, 'i> {
     }
 
     fn limb(&mut self, at: &Place, given: &LimbDescription, scenario: Scenario) -> LimbCommand {
-        self.judge_scenario(at, &["azimuth", "reference", "height", "heightRate"], limb_keys(scenario));
+        self.check_scenario_keys(at, &["azimuth", "reference", "height", "heightRate"], limb_keys(scenario));
         LimbCommand {
             azimuth_rad: self.or_zero(&at.key("azimuth"), &given.azimuth, &TURN),
             reference: given.reference,

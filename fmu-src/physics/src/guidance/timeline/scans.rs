@@ -24,7 +24,7 @@ pub(super) fn scan(
     let at = at.key("scan");
     if !commands.check.is_stand_in(&at.key("frame")) {
         let known = &["reference", "rate", "speed", "duration", "pause", "segments", "reverse"];
-        commands.judge(&at, known, scan_keys(given.frame), &named("the frame", given.frame));
+        commands.check_keys(&at, known, scan_keys(given.frame), &named("the frame", given.frame));
         let aim = aim_kind(scenario, command.aimpoint.option);
         if aim.is_some_and(|aim| !ScanCompatibility::default().allows(given.frame, aim)) {
             let found = named("the frame", given.frame) + ", which does not go with this aimpoint";
@@ -42,12 +42,12 @@ pub(super) fn scan(
         segments: given.segments.unwrap_or_default(),
         reverse: given.reverse.unwrap_or_default(),
     };
-    judge_motions(commands, &at, given, &scan);
+    check_motions(commands, &at, given, &scan);
     scan
 }
 
 /// An axis moves, every axis that does for a time, and no time is negative.
-fn judge_motions(commands: &mut Commands<'_, '_>, at: &Place, given: &ScanDescription, scan: &ScanCommand) {
+fn check_motions(commands: &mut Commands<'_, '_>, at: &Place, given: &ScanDescription, scan: &ScanCommand) {
     let check = &mut commands.check;
     for (key, times_s) in [("duration", scan.duration_s), ("pause", scan.pause_s)] {
         for (axis, time_s) in times_s.into_iter().enumerate().filter(|(_, time_s)| *time_s < 0.0) {

@@ -58,7 +58,7 @@ impl Forecast for ByHand {
         }
     }
 
-    fn fly(
+    fn simulated(
         &mut self,
         times_s: impl Iterator<Item = f64>,
         _step_s: f64,

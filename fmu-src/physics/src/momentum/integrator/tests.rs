@@ -23,7 +23,7 @@ impl TorqueModel for Known {
         Sample {
             inertial_from_body: self.inertial_from_body(time_s),
             rate_body_rad_s: Vector3::new(1e-3, 0.0, 0.0),
-            own_body_n_m_s: None,
+            structure_body_n_m_s: None,
             torque_body_n_m: Vector3::new(AMPLITUDE_N_M * (FREQUENCY_RAD_S * time_s).cos(), 0.0, 1e-6),
             by_source_body_n_m: ByEffect::default(),
             acceleration_inertial_m_s2: Vector3::new(if time_s < 1000.0 { 1e-7 } else { 2e-7 }, 0.0, 0.0),
@@ -112,7 +112,7 @@ impl TorqueModel for Spinning {
         Sample {
             inertial_from_body,
             rate_body_rad_s: Vector3::z() * self.rate_rad_s,
-            own_body_n_m_s: None,
+            structure_body_n_m_s: None,
             torque_body_n_m,
             by_source_body_n_m: ByEffect::default(),
             acceleration_inertial_m_s2: Vector3::zeros(),

@@ -81,7 +81,7 @@ impl Evaluation {
     }
 
     /// Momentum of the body and its panels without the wheels, J w + h_p, body frame, in N m s.
-    pub fn own_body_n_m_s(&self) -> Vector3<f64> {
+    pub fn structure_body_n_m_s(&self) -> Vector3<f64> {
         self.mass.inertia_body_kg_m2 * self.instant.frame.rate_body_rad_s + self.panels_body_n_m_s
     }
 
@@ -374,7 +374,7 @@ impl TorqueModel for Plant<'_> {
         Sample {
             inertial_from_body: evaluation.instant.frame.inertial_from_body,
             rate_body_rad_s: evaluation.instant.frame.rate_body_rad_s,
-            own_body_n_m_s: self.has_panel_mass().then(|| evaluation.own_body_n_m_s()),
+            structure_body_n_m_s: self.has_panel_mass().then(|| evaluation.structure_body_n_m_s()),
             torque_body_n_m: evaluation.loads.total().torque_body_n_m,
             by_source_body_n_m: torques_body_n_m(&evaluation.loads, self.kinematics.configuration.effects),
             acceleration_inertial_m_s2: evaluation.acceleration_inertial_m_s2(evaluation.mass.mass_kg),

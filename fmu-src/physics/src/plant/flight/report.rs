@@ -156,7 +156,8 @@ pub(super) fn ideal<'a>(
     let (totals, dumps) = (simulated.integrator.totals(time_s), *simulated.integrator.dumps());
     let Evaluation { instant, loads, mass, .. } = evaluation;
     let frame = &instant.frame;
-    let own_rate_body_n_m = simulated.integrator.own_rate_body_n_m(&mass.inertia_body_kg_m2, time_s);
+    let structure_rate_body_n_m =
+        simulated.integrator.structure_rate_body_n_m(&mass.inertia_body_kg_m2, time_s);
     Shown {
         time_s,
         totals,
@@ -176,9 +177,9 @@ pub(super) fn ideal<'a>(
         control: ControlReport::default(),
         body: Bodies::Ideal {
             settings,
-            momentum_body_n_m_s: totals.wheels_body_n_m_s(&evaluation.own_body_n_m_s(), frame),
+            momentum_body_n_m_s: totals.wheels_body_n_m_s(&evaluation.structure_body_n_m_s(), frame),
             rate_body_n_m: totals.wheels_rate_body_n_m(
-                &own_rate_body_n_m,
+                &structure_rate_body_n_m,
                 frame,
                 &loads.total().torque_body_n_m,
             ),

@@ -30,7 +30,7 @@ fn sensed(off_rad: f64) -> Option<(Attitude, Vector3<f64>)> {
 fn valid_after(offs_rad: &[Option<f64>]) -> bool {
     let mut trust = EphemerisTrust::default();
     for (second, off_rad) in offs_rad.iter().enumerate() {
-        trust.judge(Some(&CHECK), second as f64, &places(), off_rad.and_then(sensed));
+        trust.sample(Some(&CHECK), second as f64, &places(), off_rad.and_then(sensed));
     }
     trust.is_valid()
 }
@@ -49,11 +49,11 @@ fn a_disagreement_counts_once_it_has_lasted() {
 #[test]
 fn a_span_that_is_left_ends_them_at_once_and_lack_of_places_does_not() {
     let mut trust = EphemerisTrust::default();
-    trust.judge(None, 0.0, &BodyPositions { precise: None, coarse: None, ..places() }, None);
+    trust.sample(None, 0.0, &BodyPositions { precise: None, coarse: None, ..places() }, None);
     assert!(trust.is_valid());
-    trust.judge(None, 0.0, &BodyPositions { precise: None, by_mode: false, ..places() }, None);
+    trust.sample(None, 0.0, &BodyPositions { precise: None, by_mode: false, ..places() }, None);
     assert!(trust.is_valid());
-    trust.judge(None, 0.0, &BodyPositions { precise: None, ..places() }, None);
+    trust.sample(None, 0.0, &BodyPositions { precise: None, ..places() }, None);
     assert!(!trust.is_valid());
     trust.renew();
     assert!(trust.is_valid());
@@ -65,7 +65,7 @@ fn each_mode_goes_by_its_own_models() {
     let [precise, coarse] = [places.precise.as_ref(), places.coarse.as_ref()];
     let modes = [Mode::Operational, Mode::SafeHold, Mode::EarthAcquisition];
     assert_eq!(modes.map(|mode| places.in_mode(mode, &trust)), [precise, precise, coarse]);
-    trust.judge(None, 0.0, &BodyPositions { precise: None, ..places }, None);
+    trust.sample(None, 0.0, &BodyPositions { precise: None, ..places }, None);
     assert_eq!(modes.map(|mode| places.in_mode(mode, &trust)), [precise, coarse, coarse]);
     let alone = BodyPositions { by_mode: false, ..places };
     assert_eq!(modes.map(|mode| alone.in_mode(mode, &trust)), [precise; 3]);

@@ -10,7 +10,7 @@ use super::{Row, Task, flight::Flight};
 
 /// One limit.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Judged {
+pub struct LimitCheck {
     /// Of what.
     pub limit: &'static str,
     /// The key or flag that gives it.
@@ -23,27 +23,27 @@ pub struct Judged {
     pub unit: &'static str,
     /// Whether it is kept; `None` where that cannot be reported.
     pub kept: Option<bool>,
-    /// When it is first broken, in s, or why it is not judged.
+    /// When it is first broken, in s, or why it is not checked.
     pub remark: String,
 }
 
-impl Judged {
+impl LimitCheck {
     /// In words.
     pub fn verdict(&self) -> String {
         let verdict = match self.kept {
             Some(true) => "kept",
             Some(false) => "BROKEN",
-            None => "not judged",
+            None => "not checked",
         };
         if self.remark.is_empty() { verdict.to_owned() } else { format!("{verdict}: {}", self.remark) }
     }
 }
 
-/// The limits that the spacecraft's file and the flags give, each judged on the flight, and on the worst of the range where
+/// The limits that the spacecraft's file and the flags give, each checked on the flight, and on the worst of the range where
 /// the plan knows it.
-pub(super) fn judge(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) -> Vec<Judged> {
+pub(super) fn check_limits(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) -> Vec<LimitCheck> {
     let (limits, sun) = (&spinner.limits, task.aim.sun_inertial);
-    let mut judged = vec![
+    let mut checks = vec![
         over_time(
             flight,
             ("Sun angle", "limits.sun_angle_deg", "deg"),
@@ -57,7 +57,7 @@ pub(super) fn judge(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) 
                 (0.0, limits.earth_angle_deg.0),
                 |axis, _| angle_between_rad(&-axis, &earth).to_degrees(),
             ),
-            None => Judged {
+            None => LimitCheck {
                 limit: "Earth angle",
                 given_by: "limits.earth_angle_deg",
                 found: f64::NAN,
@@ -96,15 +96,15 @@ pub(super) fn judge(spinner: &Spinner, task: &Task, row: &Row, flight: &Flight) 
     ] {
         if most.is_finite() {
             let (allowed, kept, remark) = ((0.0, most), Some(found <= most), String::new());
-            judged.push(Judged { limit, given_by, found, allowed, unit, kept, remark });
+            checks.push(LimitCheck { limit, given_by, found, allowed, unit, kept, remark });
         }
     }
-    judged
+    checks
 }
 
 /// Names of the limits that are broken.
-pub(super) fn broken(judged: &[Judged]) -> Vec<&'static str> {
-    judged.iter().filter(|judged| judged.kept == Some(false)).map(|judged| judged.limit).collect()
+pub(super) fn broken(checks: &[LimitCheck]) -> Vec<&'static str> {
+    checks.iter().filter(|check| check.kept == Some(false)).map(|check| check.limit).collect()
 }
 
 /// A limit that holds all the time.
@@ -113,7 +113,7 @@ fn over_time(
     (limit, given_by, unit): (&'static str, &'static str, &'static str),
     allowed: (f64, f64),
     value: impl Fn(&nalgebra::Vector3<f64>, &super::flight::Sample) -> f64,
-) -> Judged {
+) -> LimitCheck {
     // None of these is below 0.
     let least = if allowed.0 > 0.0 { allowed.0 } else { f64::NEG_INFINITY };
     let excess = |found: f64| (found - allowed.1).max(least - found);
@@ -136,5 +136,5 @@ fn over_time(
         Some(first_s) => format!("from {first_s:.0} to {last_s:.0} s"),
         None => String::new(),
     };
-    Judged { limit, given_by, found: worst, allowed, unit, kept: Some(first_s.is_none()), remark }
+    LimitCheck { limit, given_by, found: worst, allowed, unit, kept: Some(first_s.is_none()), remark }
 }
