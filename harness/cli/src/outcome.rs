@@ -24,10 +24,10 @@ pub(crate) fn written(destination: Destination, content: &[u8], report: &str) ->
     Ok(ExitCode::SUCCESS)
 }
 
-/// Prints the problems of a file and counts them; `judged` says as what.
-pub(crate) fn refused(file: &str, problems: &str, judged: &str) -> Outcome {
+/// Prints the problems of a file and counts them; `kind` is what the file was read as.
+pub(crate) fn refused(file: &str, problems: &str, kind: &str) -> Outcome {
     terminal::print(problems)?;
-    terminal::note(&format!("{file}: {}, judged as {judged}", problem_count(problems, file)));
+    terminal::note(&format!("{file}: {}, judged as {kind}", problem_count(problems, file)));
     Ok(ExitCode::FAILURE)
 }
 

@@ -68,13 +68,13 @@ pub(crate) fn check(flight: &Flight) -> Result<(), Failure> {
 }
 
 /// Says once that a dump found no thrusters.
-pub(crate) fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, said: &mut ThrusterWarnings) {
-    if said.unserved || report.thrusters.unserved_dumps() == 0 {
+pub(crate) fn warn_unserved(context: &Plan<'_>, report: &Report<'_>, warned: &mut ThrusterWarnings) {
+    if warned.unserved || report.thrusters.unserved_dumps() == 0 {
         return;
     }
     let center_of_mass_body_m = report.evaluation.mass.center_of_mass_body_m;
     if let Err(error) = report.thrusters.settings.dump_selection(&center_of_mass_body_m) {
-        said.unserved = true;
+        warned.unserved = true;
         context.log.warning(&format!(
             "dump.count: {error} (centerOfMass = {:?} m); dumps are as those of a file without [[thrusters]]: at once in guided \
              and commanded flight, by dump.torque in controlled and free flight, without propellant",
@@ -88,13 +88,13 @@ pub(crate) fn warn(
     context: &Plan<'_>,
     inputs: &DynamicsInputs,
     settings: &ReactionControlSettings,
-    said: &mut ThrusterWarnings,
+    warned: &mut ThrusterWarnings,
     step: &Step<'_>,
 ) {
-    if !said.cut {
+    if !warned.cut {
         let is_cut = |pulse: &PulseCommand| pulse.is_cut(step.start_s, step.end_s);
         if let Some(k) = inputs.pulses.iter().position(is_cut) {
-            said.cut = true;
+            warned.cut = true;
             context.log.warning(&format!(
                 "thruster[{}].onDelay and onTime reach beyond the step from {} to {} s: the pulse is cut there, and others \
                  like it",
@@ -105,10 +105,10 @@ pub(crate) fn warn(
         }
     }
     if let Some(set) = inputs.thrust.set
-        && !said.no_set
+        && !warned.no_set
         && settings.thrusters.iter().all(|thruster| thruster.set != Some(set))
     {
-        said.no_set = true;
+        warned.no_set = true;
         let sets = &context.setup.spacecraft.thruster_sets;
         let name = sets.get(usize::from(set.0)).map_or("an unknown set", String::as_str);
         context.log.warning(&format!(

@@ -24,7 +24,7 @@ fn direction_error_deg(predictive: bool, reactive: bool, bias_m_s2: f64) -> f64 
         (flight.settings.predictive, flight.settings.reactive) = (predictive, reactive);
         flight.accelerometers.bias_m_s2 = bias_m_s2;
         let end = end_m_s(&flight.settings.path.unwrap());
-        let simulated = flight.fly(140);
+        let simulated = flight.simulated(140);
         (simulated.velocity_m_s.angle(&end) / DEG_RAD).powi(2)
     });
     (squares.sum::<f64>() / 16.0).sqrt()
@@ -52,7 +52,7 @@ fn the_thrust_direction_is_found() {
         let mut flight = BurnFlight::new(seed);
         (flight.thrust.jitter_rad, flight.thrust.drift_rad) = (0.0, 0.0);
         flight.accelerometers = AccelerometerSettings::default();
-        let simulated = flight.fly(140);
+        let simulated = flight.simulated(140);
         let found = simulated.guidance.burn().thrust_body(&flight.settings);
         let off = found.cross(&simulated.thrust_body).norm();
         assert!(off < 1e-9, "{off} rad");
@@ -70,7 +70,7 @@ fn magnitude_error_m_s(stops_between: bool, delta_v_m_s: f64) -> f64 {
         flight.settings = settings(Vector3::x() * (delta_v_m_s + 0.005 * seed as f64));
         flight.accelerometers = AccelerometerSettings::default();
         flight.stops_between = stops_between;
-        let simulated = flight.fly(140);
+        let simulated = flight.simulated(140);
         let requested = flight.settings.path.unwrap().length_m_s();
         (simulated.velocity_m_s.norm() - requested).powi(2)
     });
@@ -93,7 +93,7 @@ fn a_short_burn_ends_by_the_nominal_acceleration() {
     flight.settings = settings(Vector3::x() * 0.03);
     flight.accelerometers = AccelerometerSettings::default();
     flight.samples_per_exchange = 1;
-    let simulated = flight.fly(20);
+    let simulated = flight.simulated(20);
     // It begins one exchange after its command, and the prediction does not know.
     assert!((simulated.velocity_m_s.norm() - 0.03).abs() < 1.01 * 0.088 * 0.02, "{}", simulated.velocity_m_s);
 }
@@ -113,7 +113,7 @@ fn a_powered_turn_is_followed() {
     flight.thrust.force_n = 660.0;
     flight.thrust.exhaust_m_s = 3100.0;
     flight.accelerometers = AccelerometerSettings::default();
-    let simulated = flight.fly(400);
+    let simulated = flight.simulated(400);
     let end = end_m_s(&flight.settings.path.unwrap());
     let error = simulated.velocity_m_s - end;
     assert!(simulated.velocity_m_s.angle(&end) < 0.01 * DEG_RAD, "{error}");

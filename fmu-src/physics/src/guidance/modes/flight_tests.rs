@@ -68,7 +68,7 @@ struct Simulated {
     jumps: Vec<(u32, f64)>,
 }
 
-fn fly(all: &GuidanceSettings<'_>, command: PointingCommand, places: &[EphemerisAtTime]) -> Simulated {
+fn simulated(all: &GuidanceSettings<'_>, command: PointingCommand, places: &[EphemerisAtTime]) -> Simulated {
     let mut guidance = GuidanceState::new(Attitude::default(), 0.0);
     let mut simulated = Simulated { flags: Vec::with_capacity(places.len()), jumps: Vec::new() };
     for (second, surroundings) in (0_u32..).zip(places) {
@@ -128,7 +128,7 @@ fn no_flag_flickers_and_no_command_jumps_over_half_a_day_of_every_scenario() {
                 (command, law(science, slew_rate_rad_s))
             }));
         for (command, orbit_phase) in commands {
-            let simulated = fly(&flight_settings(orbit_phase), command, &places);
+            let simulated = simulated(&flight_settings(orbit_phase), command, &places);
             for (flag, most) in greatest.iter_mut().enumerate() {
                 let count = changes(&simulated, flag, 1);
                 *most = count.max(*most);

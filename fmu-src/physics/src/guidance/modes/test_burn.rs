@@ -184,7 +184,7 @@ impl BurnFlight {
     }
 
     /// Flies it for `duration_s`.
-    pub(crate) fn fly(&self, duration_s: u32) -> Simulated {
+    pub(crate) fn simulated(&self, duration_s: u32) -> Simulated {
         let settings = guidance_settings(self.settings);
         let path = self.settings.path.unwrap();
         let dt = 1.0 / f64::from(RATE_HZ);
