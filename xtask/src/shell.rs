@@ -3,6 +3,7 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
+use std::time::Instant;
 
 /// What a task ends with; the text says what went wrong.
 pub(crate) type Outcome = Result<(), String>;
@@ -47,11 +48,17 @@ pub(crate) fn cargo(arguments: &str) -> Command {
 pub(crate) fn run(command: &mut Command) -> Outcome {
     let shown = show(command);
     eprintln!("+ {shown}");
+    let start = Instant::now();
     let status = command.status().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
-    ended(&shown, status)
+    ended(&shown, start, status)
 }
 
-fn ended(shown: &str, status: ExitStatus) -> Outcome {
+/// Of what ran for seconds it says for how long.
+fn ended(shown: &str, start: Instant, status: ExitStatus) -> Outcome {
+    let seconds = start.elapsed().as_secs();
+    if seconds >= 5 {
+        eprintln!("  {} min {:02} s: {shown}", seconds / 60, seconds % 60);
+    }
     if status.success() { Ok(()) } else { Err(format!("`{shown}` ended with {status}")) }
 }
 
@@ -59,6 +66,7 @@ fn ended(shown: &str, status: ExitStatus) -> Outcome {
 pub(crate) struct Beside {
     child: Child,
     shown: String,
+    start: Instant,
 }
 
 impl Beside {
@@ -67,13 +75,13 @@ impl Beside {
         let shown = show(command);
         eprintln!("+ {shown} &");
         let child = command.spawn().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
-        Ok(Self { child, shown })
+        Ok(Self { child, shown, start: Instant::now() })
     }
 
     /// Waits for its end and expects success.
     pub(crate) fn finish(mut self) -> Outcome {
         let status = self.child.wait().map_err(|error| format!("`{}`: {error}", self.shown))?;
-        ended(&self.shown, status)
+        ended(&self.shown, self.start, status)
     }
 }
 
