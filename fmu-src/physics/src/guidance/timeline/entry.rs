@@ -1,5 +1,9 @@
-//! A command of a timeline: when, where to point, what else it changes.
+//! What a timeline holds: commands (when, where to point, what else it changes), panels, events.
 
+use nalgebra::Vector3;
+use serde::Deserialize;
+
+use crate::attitude::SunAngles;
 use crate::guidance::burn::delta_v::BurnSettings;
 use crate::guidance::burn::nominal_thrust::NominalThrust;
 use crate::guidance::burn::velocity_path::VelocityPath;
@@ -18,6 +22,20 @@ pub enum TimelineClock {
     FmiTime,
 }
 
+/// Whether a plan may change a command.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase")]
+pub enum PlanStatus {
+    /// It stays as it is.
+    #[default]
+    Fixed,
+    /// It stays, and its cost is told.
+    Planned,
+    /// The plan may change it.
+    Free,
+}
+
 /// A command of a timeline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimelineEntry {
@@ -29,12 +47,76 @@ pub struct TimelineEntry {
     pub until_s: Option<f64>,
     /// Where to point; without a scenario nothing is commanded.
     pub command: PointingCommand,
+    /// Where the Sun stands in its downlink, where it says so, and whether that is turned about the Sun line.
+    pub downlink: DownlinkOverride,
     /// Changes of the Sun keep-in zone while it lasts.
     pub keep_in: KeepInOverride,
     /// A mode requested when it begins.
     pub mode: Option<Mode>,
     /// The burn of its scenario; `None`: that of the parameters.
     pub burn: Option<TimelineBurn>,
+    /// Whether a plan may change it.
+    pub status: PlanStatus,
+}
+
+/// How the panels stand from a time on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimelinePanels {
+    /// Line in the file, from 1.
+    pub line: usize,
+    /// When it begins, in s of the timeline's clock.
+    pub at_s: f64,
+    /// Offset of each panel's cells from the Sun, its sign the sense of the tilt, in rad.
+    pub sun_offsets_rad: Vec<f64>,
+    /// Added to the offsets of panels on one side, and taken from those on the other, in rad.
+    pub windmill_rad: f64,
+}
+
+/// What happens at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimelineEvent {
+    /// Line in the file, from 1.
+    pub line: usize,
+    /// When, in s of the timeline's clock.
+    pub at_s: f64,
+    /// A dump.
+    pub dump: Option<TimelineDump>,
+    /// An impulse.
+    pub maneuver: Option<TimelineManeuver>,
+    /// Centre of mass from then on, body frame, in m, with every panel at angle 0 and full tanks.
+    pub center_of_mass_body_m: Option<Vector3<f64>>,
+}
+
+/// A dump of momentum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TimelineDump {
+    /// To the momentum that parameters say.
+    ByPolicy,
+    /// To this momentum, body frame, in N m s.
+    To {
+        /// The momentum after it.
+        momentum_body_n_m_s: Vector3<f64>,
+    },
+}
+
+/// An impulsive change of velocity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimelineManeuver {
+    /// Velocity to add, EME2000, in m/s.
+    pub delta_v_inertial_m_s: Vector3<f64>,
+    /// The thrusters; `None`: those of the parameters.
+    pub thrusters: Option<ThrusterSet>,
+    /// Whether a dump goes with it; `None`: as by the parameters.
+    pub dumps: Option<bool>,
+}
+
+/// Where the Sun stands in a downlink.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DownlinkOverride {
+    /// In the body frame.
+    pub sun: Option<SunAngles>,
+    /// Whether the attitude is turned by 180 deg about the Sun line.
+    pub alternate: bool,
 }
 
 /// A burn of a timeline.
