@@ -77,6 +77,17 @@ impl MovingFrame {
         }
     }
 
+    /// The frame turned by 180 deg about a direction of space, which keeps its place in the body: the turn 2 s s' - 1 goes at
+    /// 2 s x ds/dt.
+    pub fn half_turned(&self, about: &MovingUnit) -> Self {
+        let turn = Rotation3::from_axis_angle(&Unit::new_unchecked(about.direction), core::f64::consts::PI);
+        let turning = about.direction.cross(&about.rate_1_s) * 2.0;
+        Self {
+            inertial_from_body: turn * self.inertial_from_body,
+            rate_body_rad_s: self.rate_body_rad_s - self.inertial_from_body.inverse() * turning,
+        }
+    }
+
     /// The frame turned by `angle_body_rad * fraction` (a fixed vector, in its own components), where `fraction`
     /// changes by `fraction_rate_1_s`.
     pub fn offset(&self, angle_body_rad: &Vector3<f64>, fraction: f64, fraction_rate_1_s: f64) -> Self {

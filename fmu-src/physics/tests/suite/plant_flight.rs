@@ -82,12 +82,14 @@ pub(crate) fn guided(orbit: &TwoBodyOrbit) -> AttitudeSource {
             period_shares: [None; 2],
             every: 2,
             once: false,
+            throughout: false,
         },
         science: ScienceRule::Scaled { gain: 0.25 },
         elevation_limit_rad: 0.2269,
         slew_rate_rad_s: 3e-3,
         keep_in: None,
         sun_place: None,
+        requested: Default::default(),
         managed: false,
     })
 }

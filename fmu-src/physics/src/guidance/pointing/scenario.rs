@@ -11,10 +11,9 @@ use super::command::{BoresightOption, LimbCommand, PointingCommand, Scenario};
 use super::law::{Pointing, PointingVectors};
 use super::roll::{body_roll, external_roll};
 use super::scan::{ScanCompatibility, ScanTime, scanned};
-use crate::attitude::SunAngles;
 use crate::guidance::burn::delta_v::BurnAim;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
-use crate::guidance::downlink::sun_place::{DownlinkRequest, SunPlace, downlink};
+use crate::guidance::downlink::sun_place::{DownlinkRequest, SunPlace, SunRequest, downlink, half_turned};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::SubsolarMethod;
 use crate::guidance::geometry::limb::{LimbPoint, generic_limb, terminator_limb};
@@ -45,8 +44,10 @@ pub struct PointingProgress {
     pub scan: Option<ScanTime>,
     /// Since the limb scenario began, in s.
     pub limb_elapsed_s: f64,
-    /// Where the Sun stands in the body frame in downlink; `None`: on -Y.
+    /// Where the Sun stands in the body frame in downlink where that was chosen; else as it is requested.
     pub downlink_sun: Option<SunPlace>,
+    /// Where downlink is to have the Sun, and whether it is turned about the Sun line.
+    pub requested: SunRequest,
     /// Where a burn wants its thrust.
     pub burn: Option<BurnAim>,
 }
@@ -203,7 +204,7 @@ impl Reading<'_> {
         let place = self.progress.downlink_sun;
         let request = DownlinkRequest {
             antenna_azimuth_rad: commanded.then_some(boresight.azimuth_rad),
-            sun_body: place.map_or(SunAngles::default(), |place| place.angles),
+            sun_body: place.map_or(self.progress.requested.sun, |place| place.angles),
             earth_ahead: place.map(|place| place.earth_ahead),
         };
         let found = downlink(
@@ -212,6 +213,11 @@ impl Reading<'_> {
             self.hardware.antennas,
             &request,
         )?;
+        if self.progress.requested.alternate && !commanded {
+            let aimpoint = half_turned(&found.vectors.aimpoint, &self.surroundings.to_sun());
+            let vectors = PointingVectors { aimpoint, ..found.vectors };
+            return Some(Aimed { clamped: found.clamped, ..Aimed::at(vectors) });
+        }
         Some(Aimed {
             antenna: Some(Beam::AtTheEarth(found.antenna)),
             clamped: found.clamped,

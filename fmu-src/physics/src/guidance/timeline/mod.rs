@@ -10,6 +10,7 @@ mod description;
 mod entry;
 mod events;
 mod instant;
+mod law;
 mod panels;
 mod quantity;
 mod reads;
@@ -26,5 +27,6 @@ pub use entry::{
     DownlinkOverride, KeepInOverride, PlanStatus, TimelineBurn, TimelineClock, TimelineDump, TimelineEntry,
     TimelineEvent, TimelineManeuver, TimelinePanels,
 };
+pub use law::{Slot, TimelineAttitude, TimelineLaw, TimelineSettings, bodies_of};
 #[cfg(feature = "schema")]
 pub use schema::schema;

@@ -12,6 +12,7 @@ use crate::constants::RADIUS_SUN_M;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
+use crate::guidance::timeline::TimelineLaw;
 use crate::loads::{Effect, ForceTorque, Loads};
 use crate::momentum::{Effort, EventValues, Sample, TorqueModel, torques_body_n_m};
 use crate::numerics::chebyshev::Segment;
@@ -147,6 +148,8 @@ pub struct PreparedSpacecraft<'a> {
     pub orbit_method: &'a OrbitMethod,
     /// The default downlink of its antennas.
     pub default_downlink: &'a DefaultDownlink,
+    /// Commands over time, which guided flight follows.
+    pub timeline: Option<TimelineLaw<'a>>,
 }
 
 impl PreparedSpacecraft<'_> {
@@ -196,6 +199,7 @@ impl<'a> Plant<'a> {
             trajectory,
             ephemeris,
             default_downlink: prepared.default_downlink,
+            timeline: prepared.timeline,
             work,
             mass_at_zero: *mass_at_zero,
         };

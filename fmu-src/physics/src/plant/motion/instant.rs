@@ -53,6 +53,7 @@ impl Instant {
                 window_since_s: f64::NEG_INFINITY,
                 downlink: false,
                 slewing: false,
+                corner_s: f64::INFINITY,
                 in_shadow: false,
             },
             events: EventValues::repeat(f64::INFINITY),
@@ -90,6 +91,8 @@ pub struct Regime {
     pub downlink: bool,
     /// Whether the body turns from one attitude to the other.
     pub slewing: bool,
+    /// When the next motion of a scan begins or ends, in s past J2000 TDB; infinite without one.
+    pub corner_s: f64,
     /// Whether the planet hides a part of the Sun.
     pub in_shadow: bool,
 }

@@ -14,6 +14,7 @@ use crate::environment::kepler_planet::KeplerPlanet;
 use crate::environment::onboard::OnboardEphemeris;
 use crate::environment::orbit::{Elements, Gravity, OrbitError, TwoBodyOrbit};
 use crate::environment::sun::pressure_n_m2;
+use crate::guidance::timeline::TimelineSettings;
 use crate::guidance::{Guided, SunPlace};
 use crate::loads::{Active, Effect};
 use crate::momentum::Settings;
@@ -281,6 +282,8 @@ pub struct Configuration {
     pub light_and_heat: RadiationSettings,
     /// Attitude.
     pub attitude: AttitudeSource,
+    /// What a timeline goes by; `None`: none is followed.
+    pub timeline: Option<TimelineSettings>,
     /// Model of the shade.
     pub sunshade: SunshadeModel,
     /// One setting a panel.
