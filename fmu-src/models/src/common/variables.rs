@@ -11,13 +11,14 @@ use physics::environment::kepler_planet::KeplerPlanet;
 use physics::environment::orbit::{self, Elements as KeplerElements};
 use physics::environment::sun::SOLAR_FLUX_W_M2;
 use physics::guidance::constraints::keep_in::KeepIn;
+use physics::guidance::downlink::sun_place::SunRequest;
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::{self, Guided, Schedule};
 use physics::plant::SunLight;
 use physics::spacecraft::{Spacecraft, TimeAfterPeriapsis};
 
 use super::center::CenterBody;
-use super::choices::{DayTemperature, DownlinkReference, EclipseMethod, ScienceRule};
+use super::choices::{DayTemperature, DownlinkReference, EclipseMethod, GuidedPhase, ScienceRule};
 use super::elements::ElementHandles;
 use super::ephemeris;
 
@@ -178,13 +179,22 @@ pub struct WindowDefaults {
     pub every: i32,
     /// Begin and end as shares of the period, where the file gives them so.
     pub period_shares: [Option<f64>; 2],
+    /// Whether the spacecraft has antennas, and its file has it about the Sun.
+    pub antennas_and_cruise: [bool; 2],
 }
 
 impl WindowDefaults {
     /// Of a file; shares of the period are shown in the orbit that one about `center` begins with.
     pub fn of(spacecraft: &Spacecraft, center: &CenterBody) -> Self {
+        let antennas_and_cruise = [!spacecraft.antennas.is_empty(), center.data.body == Body::Sun];
         let Some(windows) = &spacecraft.downlinks else {
-            return Self { start_s: 0.0, end_s: 0.0, every: 0, period_shares: [None; 2] };
+            return Self {
+                start_s: 0.0,
+                end_s: 0.0,
+                every: 0,
+                period_shares: [None; 2],
+                antennas_and_cruise,
+            };
         };
         let axis_m = center.elements().semi_major_axis_m;
         let period_s = orbit::period_s(center.data.gm_m3_s2, axis_m);
@@ -195,7 +205,14 @@ impl WindowDefaults {
             end_s,
             every: i32::try_from(windows.every).unwrap_or(i32::MAX),
             period_shares: times.map(TimeAfterPeriapsis::period_share),
+            antennas_and_cruise,
         }
+    }
+
+    /// The phase about a body.
+    pub fn phase(&self, is_about_sun: bool) -> GuidedPhase {
+        let [has_antennas, _] = self.antennas_and_cruise;
+        if has_antennas && is_about_sun { GuidedPhase::Cruise } else { GuidedPhase::Orbit }
     }
 }
 
@@ -203,6 +220,10 @@ impl WindowDefaults {
 #[derive(Variables)]
 #[variables(setup = WindowDefaults)]
 pub struct GuidedVariables {
+    /// What guided flight does: science and downlink in turn, or downlink throughout. By default cruise about the Sun where the file
+    /// has antennas.
+    #[parameter(start = setup.phase(setup.antennas_and_cruise[1]))]
+    pub phase: Choice<GuidedPhase>,
     /// How the spacecraft stands while it observes.
     #[parameter(start = ScienceRule::Nadir)]
     pub science_rule: Choice<ScienceRule>,
@@ -313,7 +334,7 @@ impl EllipseVariables {
 
 impl GuidedVariables {
     /// The law with begin and end of its windows as shares of the period, where the file gives them so and nobody set them.
-    pub fn by_shares<M: Model>(
+    fn by_shares<M: Model>(
         &self,
         context: &Context<'_, M>,
         values: &Values,
@@ -331,6 +352,21 @@ impl GuidedVariables {
         ];
         let schedule = Schedule { period_shares, ..law.schedule };
         Guided { schedule: schedule.in_orbit(schedule.period_s), ..law }
+    }
+
+    /// The law by shares of the period, in its phase, which nobody having given it is that about the Sun or about a planet.
+    pub fn in_phase<M: Model>(
+        &self,
+        context: &Context<'_, M>,
+        values: &Values,
+        defaults: &WindowDefaults,
+        (law, is_about_sun): (Guided, bool),
+    ) -> Guided {
+        let law = self.by_shares(context, values, defaults, law);
+        let is_given = context.given(values, &[self.phase.into()]).has(self.phase);
+        let phase = if is_given { values.choice(self.phase) } else { defaults.phase(is_about_sun) };
+        let schedule = Schedule { throughout: phase == GuidedPhase::Cruise, ..law.schedule };
+        Guided { schedule, ..law }
     }
 
     /// Refuses science that unloads without a strategy that chooses the Sun's place.
@@ -378,6 +414,7 @@ impl GuidedVariables {
                 period_shares: [None; 2],
                 every: values.integer(self.downlink_every).unsigned_abs(),
                 once,
+                throughout: false,
             },
             science: match values.choice(self.science_rule) {
                 _ if values.boolean(self.science_unload) => {
@@ -394,6 +431,7 @@ impl GuidedVariables {
             slew_rate_rad_s: values.real(self.slew_rate),
             keep_in: Some(keep_in),
             sun_place: None,
+            requested: SunRequest::default(),
             managed: false,
         })
     }

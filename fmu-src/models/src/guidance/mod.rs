@@ -16,6 +16,7 @@ use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::time;
 use physics::guidance::burn::delta_v::{BurnPhase, BurnSettings, BurnState, Interruption};
+use physics::guidance::downlink::sun_place::SunRequest;
 use physics::guidance::modes::mode::{Mode, ModeReason};
 use physics::guidance::modes::system::{
     GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs, TimedEntries,
@@ -25,6 +26,7 @@ use physics::guidance::timeline::TimelineClock;
 use physics::management::{DumpRequests, SampledManager};
 use physics::numerics::work::Work;
 
+use crate::common::downlink::TIMELINE_FILE;
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
 use crate::common::management::window_warning;
 use inputs::{Fixed, Reader, management};
@@ -37,7 +39,7 @@ impl Model for Guidance {
     const NAME: &'static str = "Guidance";
     const STATE_VERSION: u32 = 7;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
-    const SCHEDULE_FILES: &'static [&'static str] = &["timeline.toml", EPHEMERIS_FILE];
+    const SCHEDULE_FILES: &'static [&'static str] = &[TIMELINE_FILE, EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/Guidance.csv");
     const MANUAL: Manual = crate::manuals::GUIDANCE;
@@ -284,12 +286,17 @@ impl State {
         let entry = context.setup.timeline.as_ref().and_then(|timeline| timeline.entry_at(time_s, epoch_s));
         let mut settings = *settings;
         let given = reader.command();
+        let mut requested_sun = match management::is_managed(context, values) {
+            true => SunRequest::default(),
+            false => context.variables.downlink.request(values),
+        };
         let mut command = given;
         if command.scenario == Some(Scenario::Burn) {
             self.burn_entry = None;
         }
         if let Some(entry) = entry {
             command = command.over(&entry.command);
+            requested_sun = entry.downlink.under(requested_sun);
             let operational = &mut settings.modes.operational;
             operational.keep_in = entry.keep_in.applied(&settings.keep_in, operational.keep_in.is_some());
         }
@@ -339,7 +346,7 @@ impl State {
                 context.log.warning(&warning);
             }
         }
-        let inputs = SampleInputs { command, entries, places, sensed, delta_v_body_m_s };
+        let inputs = SampleInputs { command, requested_sun, entries, places, sensed, delta_v_body_m_s };
         let is_chosen = self.system.sample(&settings, &inputs, |start| manager.choose(start));
         Ok(if is_chosen { manager.work(settings.orbit_phase.science.unloads()) } else { 0 })
     }

@@ -6,6 +6,11 @@ use fmi_export::{Context, Failure, Model, SetupError};
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::onboard::OnboardEphemeris;
 use physics::environment::orbit::OrbitMethod;
+use physics::guidance::geometry::lighting::SubsolarMethod;
+use physics::guidance::pointing::boresight::Gimbal;
+use physics::guidance::pointing::scan::ScanCompatibility;
+use physics::guidance::pointing::scenario::GuidanceHardware;
+use physics::guidance::timeline::{Timeline, TimelineLaw};
 use physics::momentum::WheelArray;
 use physics::plant::{ControlDefaults, PreparedSpacecraft};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
@@ -56,6 +61,9 @@ pub struct PlantSetup {
     /// Positions of Sun and planets over time, if there is a file of them; they do not enter the GUID.
     #[serde(skip)]
     pub ephemeris: Option<Arc<OnboardEphemeris>>,
+    /// Commands over time, if there is a file of them; it does not enter the GUID.
+    #[serde(skip)]
+    pub timeline: Option<Arc<Timeline>>,
     /// How disturbed orbits are integrated.
     #[serde(skip)]
     orbit_method: OrbitMethod,
@@ -84,10 +92,18 @@ impl PlantSetup {
             shapes: PreparedShapes::of(&spacecraft),
             wheel_array,
             ephemeris: None,
+            timeline: None,
             orbit_method: OrbitMethod::default(),
             planets_at_start: OnceLock::new(),
             spacecraft,
         })
+    }
+
+    /// Takes the commands of a timeline.
+    pub fn take_timeline(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
+        let timeline = Timeline::of_plant(file, text, &self.spacecraft);
+        self.timeline = Some(Arc::new(timeline.map_err(|error| SetupError(error.to_string()))?));
+        Ok(())
     }
 
     /// Whether the file asks for controlled or free flight.
@@ -104,6 +120,17 @@ impl PlantSetup {
             solar: self.shapes.solar(model, &self.spacecraft.name)?,
             orbit_method: &self.orbit_method,
             default_downlink: &self.antennas.default_downlink,
+            timeline: self.timeline.as_deref().map(|timeline| TimelineLaw {
+                timeline,
+                hardware: GuidanceHardware {
+                    instruments: &self.spacecraft.instruments,
+                    gimbal: Gimbal::of(&self.spacecraft.instruments),
+                    antennas: &self.antennas.all,
+                    default_downlink: &self.antennas.default_downlink,
+                    subsolar: SubsolarMethod::default(),
+                    scans: ScanCompatibility::default(),
+                },
+            }),
         })
     }
 

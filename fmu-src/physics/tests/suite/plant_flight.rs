@@ -155,6 +155,7 @@ impl Rig {
             solar: &self.solar,
             orbit_method: &self.method,
             default_downlink: &self.default_downlink,
+            timeline: None,
         };
         Plant::new(prepared, self.world.as_mut().unwrap(), &mut self.propagator, load)
     }

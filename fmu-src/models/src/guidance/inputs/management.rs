@@ -26,6 +26,11 @@ pub(crate) fn set_panels(context: &Plan<'_>, values: &Values, panels: &mut Vec<P
     }));
 }
 
+/// Whether a strategy chooses the Sun's place.
+pub(crate) fn is_managed(context: &Plan<'_>, values: &Values) -> bool {
+    values.choice(context.variables.momentum.strategy).0 != Strategy::DumpsOnly
+}
+
 /// Who puts the Sun in its place, where this momentum begins a downlink.
 ///
 /// # Errors

@@ -248,12 +248,15 @@ pub(super) fn settings<'a>(
             sun_separation_rad: real(v.link.sun_exclusion),
             coverage_rad: beam.has(v.link.beam).then(|| real(v.link.beam)),
         },
-        orbit_phase: v.guided.by_shares(
-            context,
-            values,
-            &context.setup.windows,
-            v.guided.read(values, 0.0, f64::INFINITY, real(v.start.epoch), keep_in, gimbal)?,
-        ),
+        orbit_phase: {
+            let law = v.guided.read(values, 0.0, f64::INFINITY, real(v.start.epoch), keep_in, gimbal)?;
+            v.guided.in_phase(
+                context,
+                values,
+                &context.setup.windows,
+                (law, fixed.bodies.center == Body::Sun),
+            )
+        },
         burn: fixed.burn,
     })
 }

@@ -11,7 +11,8 @@ use physics::guidance::pointing::command;
 use physics::spacecraft::SunKeepIn;
 
 use super::super::setup::GuidanceSetup;
-use super::choices::{AntennaSelect, KeepInMethod};
+use super::choices::AntennaSelect;
+use crate::common::choices::KeepInMethod;
 
 /// Sun keep-in zone. The timeline can switch and resize it.
 #[derive(Variables)]

@@ -7,9 +7,11 @@ use physics::constants;
 use physics::environment::CartesianState;
 use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::time;
-use physics::guidance::Guided;
 use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
+use physics::guidance::downlink::sun_place::SunRequest;
 use physics::guidance::pointing::boresight::Gimbal;
+use physics::guidance::timeline::TimelineSettings;
+use physics::guidance::{Guided, TargetPlanet};
 use physics::management::Strategy;
 use physics::momentum::{DumpPolicy, Reinitialise, Settings};
 use physics::plant::{self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, Ramp};
@@ -76,6 +78,7 @@ pub(super) fn read(
         epoch_minus_time_s,
         center: data.body,
         attitude: attitude(context, values, state, &orbit)?,
+        timeline: timeline(context, values, data, epoch_minus_time_s),
         orbit,
         motion: motion(variables, values, data, time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s)),
         ephemeris: ephemeris_source(&context.setup.bodies.body(data.body), context, values, state.waiting)?,
@@ -234,7 +237,30 @@ pub(super) fn guidance_law(
     let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
     let gimbal = Gimbal::of(&context.setup.spacecraft.instruments);
     let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, gimbal)?;
-    Ok(variables.guided.by_shares(context, values, &context.setup.windows, law))
+    Ok(variables.guided.in_phase(context, values, &context.setup.windows, (law, !is_planet)))
+}
+
+/// What the timeline goes by, where there is one that is followed.
+fn timeline(
+    context: &Plan<'_>,
+    values: &Values,
+    center: &BodyData,
+    epoch_minus_time_s: f64,
+) -> Option<TimelineSettings> {
+    let v = &context.variables.keep_in;
+    let timeline = context.setup.timeline.as_ref()?;
+    values.boolean(context.variables.timeline.enabled).then(|| TimelineSettings {
+        keep_in: KeepIn {
+            axis_body: Vector3::from(values.vector(v.axis)),
+            azimuth_rad: values.real(v.azimuth).min(core::f64::consts::FRAC_PI_2),
+            elevation_rad: values.real(v.elevation),
+            method: values.choice(v.method).0,
+        },
+        keep_in_is_enabled: values.boolean(v.enabled),
+        keep_in_distance_m: values.real(v.distance),
+        planet: TargetPlanet::of(center),
+        clock_minus_time_s: timeline.clock_minus_time_s(epoch_minus_time_s),
+    })
 }
 
 fn attitude(
@@ -258,7 +284,9 @@ fn attitude(
             check_windows(&law.schedule)?;
         }
         let law = law.with_sun_places(choice.place(), choice.in_science());
-        Ok::<_, Failure>(Guided { managed, ..law })
+        let inputs = variables.downlink.request(values);
+        let requested = if managed { SunRequest::default() } else { inputs };
+        Ok::<_, Failure>(Guided { managed, requested, ..law })
     };
     let source = state.inputs.source;
     let guided = if source.guides_itself { Some(guided()?) } else { None };

@@ -148,6 +148,9 @@ impl StepInputs {
         self.light.extend(vectors.into_iter().flat_map(|vector| values.vector(vector)));
         self.light
             .extend(v.panel.iter().flat_map(|it| [it.angle, it.sun_offset, it.sun_offset_command].map(real)));
+        let downlink = &v.downlink;
+        self.light.extend([downlink.sun_azimuth, downlink.sun_elevation].map(real));
+        self.light.push(f64::from(u8::from(values.boolean(downlink.alternate))));
         let moves = |input: Real| over_time.derivatives(input).next().is_some();
         self.panels_move = v.panel.iter().any(|panel| moves(panel.angle) || moves(panel.sun_offset_command));
         let ([a, b, c], [d, e, f]) = (values.vector(v.dump.threshold), values.vector(v.dump.target));

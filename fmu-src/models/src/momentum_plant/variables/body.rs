@@ -2,10 +2,13 @@
 
 use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Variables};
 
+use physics::guidance::constraints::keep_in;
+use physics::spacecraft::SunKeepIn;
+
 use super::super::setup::PlantSetup;
 use super::choices::PanelControl;
 use super::defaults;
-use crate::common::choices::{PanelTilt, SunshadeShape};
+use crate::common::choices::{KeepInMethod, PanelTilt, SunshadeShape};
 
 /// Mass properties.
 #[derive(Variables)]
@@ -126,10 +129,23 @@ pub struct WheelVariables {
     pub saturated: Boolean,
 }
 
-/// Sun keep-in zone.
+/// Sun keep-in zone: of guided attitudes azimuth and elevation about -Y, of the timeline's scenarios all of it.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct KeepInVariables {
+    /// Whether scenarios of the timeline keep the Sun inside the zone; the timeline can switch and resize it.
+    #[parameter(start = setup.spacecraft.sun_keep_in.is_some())]
+    pub enabled: Boolean,
+    /// Centre of the zone of the timeline's scenarios, body frame, of any length: the zone's frame is the body's, turned by the
+    /// smallest rotation that takes -Y to it.
+    #[parameter(unit = "1", start = [0.0, -1.0, 0.0])]
+    pub axis: RealVector<3>,
+    /// Greatest distance from the Sun at which the zone of the timeline's scenarios counts.
+    #[parameter(unit = "m", display = "AU", min = 0.0, max = SunKeepIn::FARTHEST_M, start = defaults::keep_in(setup).distance_m)]
+    pub distance: Real,
+    /// Where scenarios of the timeline put a Sun outside.
+    #[parameter(start = KeepInMethod(keep_in::KeepInMethod::Nearest))]
+    pub method: Choice<KeepInMethod>,
     /// Largest Sun azimuth either way.
     #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = defaults::keep_in(setup).azimuth_rad)]
     pub azimuth: Real,

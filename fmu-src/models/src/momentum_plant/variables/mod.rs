@@ -21,7 +21,7 @@ use effects::{
     DumpVariables, ForceVariables, MomentumVariables, SolverVariables, ThermalVariables, TorqueVariables,
 };
 use flexibility::{FlexibleModeVariables, SloshVariables};
-use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables};
+use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables, TimelineVariables};
 use propulsion::{
     AccelerometerVariables, PropellantVariables, TankVariables, ThrustVariables, ThrusterVariables,
 };
@@ -30,6 +30,7 @@ use surroundings::{
 };
 
 use super::setup::PlantSetup;
+use crate::common::downlink::DownlinkVariables;
 use crate::common::effects::{LawVariables, PlanetLightVariables, ShadowingVariables};
 use crate::common::loads::PlateVariables;
 use crate::common::variables::{EclipseVariables, GuidedVariables, SolarVariables};
@@ -44,6 +45,10 @@ pub struct PlantVariables {
     pub command: CommandVariables,
     #[group(setup = &setup.windows)]
     pub guided: GuidedVariables,
+    #[group]
+    pub downlink: DownlinkVariables,
+    #[group]
+    pub timeline: TimelineVariables,
     #[group]
     pub start: StartVariables,
     #[group]

@@ -130,3 +130,16 @@ pub struct OrbitVariables {
     #[output(unit = "s", display = "h", nominal = 1e4)]
     pub time_since_periapsis: Real,
 }
+
+/// Commands over time.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct TimelineVariables {
+    /// Whether guided flight, and controlled flight with command.source guidance, follow the FMU's timeline.toml. Where it commands
+    /// nothing guided.* rules.
+    #[parameter(start = true)]
+    pub enabled: Boolean,
+    /// Row of the `[[command]]` in force, from 1; 0 where none is.
+    #[output]
+    pub command: Integer,
+}

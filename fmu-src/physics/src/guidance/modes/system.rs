@@ -21,7 +21,7 @@ use crate::guidance::downlink::downlink_sun::{DownlinkSun, WindowStart};
 use crate::guidance::downlink::sun_place::{ChosenPlace, LinkLimits, SunPlace, SunRequest, link};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{MovingVector, value};
-use crate::guidance::orbit_phase::guided::Guided;
+use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided};
 use crate::guidance::orbit_phase::orbit_ahead::ellipse_of;
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
 use crate::guidance::orbit_phase::schedule::{Activity, Schedule};
@@ -415,6 +415,7 @@ impl GuidanceState {
             },
             degenerate: pointing.degenerate || !is_given,
             scan_active: aimed.scan_active,
+            downlink: aimed.downlink,
             sun_keep_in,
             hot_pole,
             hot_pole_reached,
@@ -470,6 +471,7 @@ impl GuidanceState {
             second: keeps_nadir.then(|| surroundings.to_planet()),
             antenna: (is_downlink && !law.requested.alternate)
                 .then(|| Beam::AtTheEarth(hardware.antennas.toward(&earth_body()))),
+            downlink: DownlinkStatus::of(&attitude),
             reachable: !attitude.slewing && attitude.margins.iter().all(|margin| *margin >= 0.0),
             ..Aimed::at(pointing.vectors())
         }

@@ -1,5 +1,7 @@
 //! The guided attitude over a whole orbit phase: science, downlink, and the slews between them.
 
+use serde::{Deserialize, Serialize};
+
 use crate::attitude::{MovingFrame, SunAngles};
 
 use super::attitudes::{
@@ -50,6 +52,23 @@ pub struct GuidedAttitude {
     /// When window or slew ends, in the schedule's time scale; infinite where nothing ends. Until then the attitude is
     /// smooth between two roots of the margins.
     pub until_s: f64,
+}
+
+/// What is to be said of a downlink.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct DownlinkStatus {
+    /// Whether one lasts, the turn to it done.
+    pub active: bool,
+    /// Whether Sun, Earth and antennas keep the Sun from the place that it was to have.
+    pub clamped: bool,
+}
+
+impl DownlinkStatus {
+    /// Of what guidance commands.
+    pub fn of(guided: &GuidedAttitude) -> Self {
+        let active = guided.window.activity == Activity::Downlink && !guided.slewing;
+        Self { active, clamped: active && guided.clamped }
+    }
 }
 
 impl Guided {

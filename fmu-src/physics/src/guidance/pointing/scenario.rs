@@ -11,6 +11,7 @@ use super::command::{BoresightOption, LimbCommand, PointingCommand, Scenario};
 use super::law::{Pointing, PointingVectors};
 use super::roll::{body_roll, external_roll};
 use super::scan::{ScanCompatibility, ScanTime, scanned};
+use crate::guidance::DownlinkStatus;
 use crate::guidance::burn::delta_v::BurnAim;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
 use crate::guidance::downlink::sun_place::{DownlinkRequest, SunPlace, SunRequest, downlink, half_turned};
@@ -69,6 +70,8 @@ pub struct Aimed {
     pub clamped: bool,
     /// Whether a scan moves boresight or aim.
     pub scan_active: bool,
+    /// What is to be said of a downlink.
+    pub downlink: DownlinkStatus,
 }
 
 /// A limb point by its command and how long its scan lasts.
@@ -139,6 +142,7 @@ impl Aimed {
             reachable: true,
             clamped: false,
             scan_active: false,
+            downlink: DownlinkStatus::default(),
         }
     }
 
@@ -193,6 +197,7 @@ impl Reading<'_> {
             clamped: boresight.gimbal.is_some_and(|angle| !angle.in_range)
                 || boresight.antenna.is_some_and(|antenna| !antenna.is_in_range()),
             scan_active: scan.is_some(),
+            downlink: DownlinkStatus::default(),
         }
     }
 
@@ -213,14 +218,16 @@ impl Reading<'_> {
             self.hardware.antennas,
             &request,
         )?;
+        let downlink = DownlinkStatus { active: true, clamped: found.clamped };
         if self.progress.requested.alternate && !commanded {
             let aimpoint = half_turned(&found.vectors.aimpoint, &self.surroundings.to_sun());
             let vectors = PointingVectors { aimpoint, ..found.vectors };
-            return Some(Aimed { clamped: found.clamped, ..Aimed::at(vectors) });
+            return Some(Aimed { clamped: found.clamped, downlink, ..Aimed::at(vectors) });
         }
         Some(Aimed {
             antenna: Some(Beam::AtTheEarth(found.antenna)),
             clamped: found.clamped,
+            downlink,
             ..Aimed::at(found.vectors)
         })
     }

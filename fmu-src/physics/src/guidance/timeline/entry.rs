@@ -8,6 +8,7 @@ use crate::guidance::burn::delta_v::BurnSettings;
 use crate::guidance::burn::nominal_thrust::NominalThrust;
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::constraints::keep_in::KeepIn;
+use crate::guidance::downlink::sun_place::SunRequest;
 use crate::guidance::modes::mode::Mode;
 use crate::guidance::pointing::command::PointingCommand;
 use crate::numerics::spacing::spacing;
@@ -150,6 +151,17 @@ impl TimelineBurn {
             // It waits until its command ends.
             wait_s: f64::INFINITY,
             ..*parameters
+        }
+    }
+}
+
+impl DownlinkOverride {
+    /// Where the downlink is to have the Sun, where `requested` by an input says nothing.
+    pub fn under(&self, requested: SunRequest) -> SunRequest {
+        let is_set = requested.sun != SunAngles::default();
+        SunRequest {
+            sun: self.sun.filter(|_| !is_set).unwrap_or(requested.sun),
+            alternate: requested.alternate || self.alternate,
         }
     }
 }

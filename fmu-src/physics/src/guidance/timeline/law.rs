@@ -98,12 +98,7 @@ impl Slot<'_> {
 
     /// Where its downlink is to have the Sun, where `requested` by an input says nothing.
     pub fn sun_request(&self, requested: SunRequest) -> SunRequest {
-        let Some(entry) = self.entry else { return requested };
-        let is_set = requested.sun != SunRequest::default().sun;
-        SunRequest {
-            sun: entry.downlink.sun.filter(|_| !is_set).unwrap_or(requested.sun),
-            alternate: requested.alternate || entry.downlink.alternate,
-        }
+        self.entry.map_or(requested, |entry| entry.downlink.under(requested))
     }
 }
 
@@ -148,7 +143,7 @@ impl TimelineLaw<'_> {
         Some(TimelineAttitude {
             frame: constrained.pointing.frame(),
             margin: margin.unwrap_or(f64::INFINITY),
-            clamped: aimed.clamped,
+            clamped: aimed.downlink.clamped,
             corner_s,
         })
     }

@@ -349,9 +349,11 @@ impl Flight {
         };
         let FlightSetup { world, settings, evaluation } = &mut **setup;
         let mut flight = ConfiguredFlight { given, world, propagator, thrusters, log: &mut |_| {} };
+        let mut sampled = None;
         let (evaluation, shown) = match (mode, settings) {
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
                 dynamics.resume(settings, &mut flight);
+                sampled = Some(dynamics.control.downlink);
                 let body = dynamics.motion.remembered_at(&settings.gyrostat, time_s);
                 let evaluation =
                     &*evaluation.insert(dynamics.evaluation(settings, &mut flight, &body, time_s));
@@ -385,12 +387,21 @@ impl Flight {
             true => 0.0,
             false => propagator.trajectory.time_since_periapsis_s(configuration, time_s),
         };
+        let downlink = sampled.unwrap_or(evaluation.instant.downlink);
+        let followed = configuration.timeline.filter(|_| configuration.attitude.guided().is_some());
+        let timeline_row = given
+            .prepared
+            .timeline
+            .zip(followed)
+            .map_or(0, |(law, settings)| law.timeline.slot(time_s + settings.clock_minus_time_s).row);
         let target_is_clamped = propagator.sun_choice.is_clamped();
         Ok(Report {
             time_s,
             configuration,
             thrusters,
             since_periapsis_s,
+            downlink,
+            timeline_row,
             target_is_clamped,
             evaluation,
             shown,

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use crate::attitude::control::Estimate;
 use crate::attitude::{Appendages, Attitude, BodyMotion, motor_power_w, wheel_speed_rad_s};
+use crate::guidance::DownlinkStatus;
 use crate::momentum::{DumpSpacing, Dumps, SourceMomenta, Totals};
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::settings::configuration::Configuration;
@@ -24,6 +25,10 @@ pub struct Report<'a> {
     pub thrusters: &'a Thrusters,
     /// Time since the last periapsis, in s; 0 where the flight waits.
     pub since_periapsis_s: f64,
+    /// What is to be said of a downlink.
+    pub downlink: DownlinkStatus,
+    /// Row of the timeline's command in force, from 1; 0 where none is.
+    pub timeline_row: usize,
     /// Whether a downlink lasts whose target of momentum is out of reach.
     pub target_is_clamped: bool,
     /// Where everything is and what acts.

@@ -5,6 +5,7 @@ use nalgebra::{Rotation3, Vector3};
 use super::geometry::Geometry;
 use crate::attitude::MovingFrame;
 use crate::environment::CartesianState;
+use crate::guidance::DownlinkStatus;
 use crate::momentum::EventValues;
 
 /// Everything about one time but what acts on the spacecraft.
@@ -28,6 +29,8 @@ pub struct Instant {
     pub regime: Regime,
     /// Outer and inner gap of the shadow, in rad, and the margins of the attitude law; see [`EventValues`].
     pub events: EventValues,
+    /// Whether a downlink lasts, the turn to it done, and whether the Sun's place in it is not the one requested.
+    pub downlink: DownlinkStatus,
     /// Up to when window and slew last, in s of the flight.
     pub attitude_until_s: f64,
 }
@@ -57,6 +60,7 @@ impl Instant {
                 in_shadow: false,
             },
             events: EventValues::repeat(f64::INFINITY),
+            downlink: DownlinkStatus::default(),
             attitude_until_s: f64::INFINITY,
         }
     }

@@ -13,7 +13,8 @@ use crate::guidance::pointing::boresight::Gimbal;
 use crate::guidance::pointing::command::Scenario;
 use crate::guidance::timeline::{TimelineAttitude, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of};
 use crate::guidance::{
-    Activity, CoursePoint, EphemerisAtTime, Guided, GuidedAttitude, ScienceCourse, SunPlace, Window,
+    Activity, CoursePoint, DownlinkStatus, EphemerisAtTime, Guided, GuidedAttitude, ScienceCourse, SunPlace,
+    Window,
 };
 use crate::momentum::{EventValues, after_event_s};
 use crate::numerics::chebyshev::Segment;
@@ -43,6 +44,7 @@ struct LawAt {
     downlink: bool,
     slewing: bool,
     corner_s: f64,
+    status: DownlinkStatus,
     margins: [f64; 2],
     until_s: f64,
 }
@@ -119,6 +121,7 @@ impl Kinematics<'_> {
                 in_shadow: gaps_rad[0] <= 0.0,
             },
             events: EventValues::new(gaps_rad[0], gaps_rad[1], law.margins[0], law.margins[1]),
+            downlink: law.status,
             attitude_until_s: law.until_s,
         }
     }
@@ -147,6 +150,7 @@ impl Kinematics<'_> {
             downlink: false,
             slewing: false,
             corner_s: f64::INFINITY,
+            status: DownlinkStatus::default(),
             margins: [f64::INFINITY; 2],
             until_s: f64::INFINITY,
         };
@@ -159,6 +163,7 @@ impl Kinematics<'_> {
                     downlink: guided.window.activity == Activity::Downlink,
                     slewing: guided.slewing,
                     corner_s: guided.corner_s,
+                    status: DownlinkStatus::of(&guided),
                     margins: guided.margins,
                     until_s: guided.until_s - self.configuration.epoch_minus_time_s,
                 }
