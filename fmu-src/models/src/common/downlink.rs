@@ -7,7 +7,7 @@ use physics::attitude::SunAngles;
 use physics::guidance::downlink::sun_place::SunRequest;
 
 /// The file of commands over time in an FMU.
-pub const TIMELINE_FILE: &str = "timeline.toml";
+pub(crate) const TIMELINE_FILE: &str = "timeline.toml";
 
 /// Downlinks.
 #[derive(Variables)]

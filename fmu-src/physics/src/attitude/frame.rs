@@ -1,6 +1,6 @@
 //! Frames built from moving directions, with their angular rate in closed form.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
 use crate::math;
 

@@ -54,6 +54,7 @@ pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Co
         shadow: Shadow::new(ShadowModel::Off, RADIUS_MERCURY_M).unwrap(),
         light_and_heat: PLAIN,
         attitude,
+        timeline: None,
         sunshade: SunshadeModel::Plates,
         panels: vec![PanelSetting::Disabled; 2],
         center_of_mass_body_m: Vector3::new(0.0, 0.01, -0.03),

@@ -1,6 +1,6 @@
 //! Attitude and orbit: where they come from and what they are.
 
-use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
 use physics::guidance::modes::guidance_command;
