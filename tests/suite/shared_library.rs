@@ -72,8 +72,8 @@ fn the_unwinder_is_part_of_the_library() {
 
 /// Where the library for old systems is, if `cargo xtask dist` has built it: in a folder of its own beside that of this machine.
 fn portable(library: &Path) -> Option<PathBuf> {
-    let (profile, target) = (library.parent()?, library.parent()?.parent()?);
-    let path = target.join("x86_64-unknown-linux-gnu").join(profile.file_name()?).join(library.file_name()?);
+    let target = library.parent()?.parent()?;
+    let path = target.join("x86_64-unknown-linux-gnu").join("fmu").join(library.file_name()?);
     path.exists().then_some(path)
 }
 

@@ -1,10 +1,9 @@
 //! Building the library and the command line.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use crate::python;
-use crate::shell::{self, cargo, command, root, run, target};
+use crate::shell::{self, Outcome, cargo, command, root, run, target};
 
 /// What a build leaves.
 pub(crate) struct Built {
@@ -21,7 +20,7 @@ pub(crate) const TESTS: &str = "--locked --release --workspace --all-features";
 
 /// Builds the shared libraries and the command line.
 pub(crate) fn build() -> Result<Built, String> {
-    run(&mut libraries())?;
+    libraries()?;
     run(&mut cargo("build --locked --release -p heliotorque --all-features"))?;
     Ok(built())
 }
@@ -56,29 +55,37 @@ pub(crate) fn portable() -> Result<Built, String> {
     };
     zigbuild(&["--profile", "fmu", "-p", "component", "-p", "probe"])?;
     zigbuild(&["--release", "-p", "heliotorque", "--all-features"])?;
-    Ok(built_in(&target().join("x86_64-unknown-linux-gnu")))
+    Ok(built_in(&target().join("x86_64-unknown-linux-gnu"), "fmu"))
 }
 
 /// Where a build leaves what it made.
 pub(crate) fn built() -> Built {
-    built_in(&target())
+    built_in(&target(), "fmu")
 }
 
-fn built_in(target: &Path) -> Built {
-    let library = |folder: &str, name: &str| {
+/// Builds everything that tests load and start, with what they share with it: their libraries are not optimised as a whole, which
+/// takes as long as the rest and changes no bit.
+pub(crate) fn build_for_tests() -> Result<Built, String> {
+    run(&mut cargo(&format!("build --quiet {TESTS}")))?;
+    run(&mut cargo(&format!("test --no-run --quiet {TESTS}")))?;
+    Ok(built_in(&target(), "release"))
+}
+
+fn built_in(target: &Path, libraries: &str) -> Built {
+    let library = |name: &str| {
         let file = format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-        target.join(folder).join(file)
+        target.join(libraries).join(file)
     };
     Built {
         heliotorque: target.join("release").join(format!("heliotorque{}", std::env::consts::EXE_SUFFIX)),
-        library: library("fmu", "heliotorque"),
-        probe: library("fmu", "probe"),
+        library: library("heliotorque"),
+        probe: library("probe"),
     }
 }
 
 /// Builds the shared library and the probe's, whole-program optimised.
-pub(crate) fn libraries() -> Command {
-    cargo("build --locked --profile fmu -p component -p probe")
+fn libraries() -> Outcome {
+    run(&mut cargo("build --locked --profile fmu -p component -p probe"))
 }
 
 /// The environment in which tests find what was built.

@@ -1,14 +1,14 @@
-//! `cargo xtask test --long`: fuzzing, sanitizers, Miri, failing allocations, failing writes, dependencies at
-//! many states, long tests in Python.
+//! `cargo xtask test --long`: what is shipped, fuzzing, sanitizers, Miri, failing allocations, failing writes, the models over
+//! long spans and at many states, long tests in Python.
 
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
 use crate::build::{self, Built};
-use crate::dist;
 use crate::shell::{Outcome, available, cargo, command, root, run, target};
 use crate::test::{self, compile_c_with};
+use crate::{dist, guide};
 
 /// Fuzz targets, in `tests/fuzz/targets`.
 const TARGETS: &[&str] = &["spacecraft", "model_description", "state", "calls", "zip"];
@@ -30,12 +30,14 @@ const MOST_WRITES: u32 = 2_000;
 type Part = (&'static str, fn() -> Outcome);
 
 const PARTS: &[Part] = &[
+    ("shipped", test::shipped),
+    ("guide", guide::lint),
     ("fuzz", fuzz),
     ("sanitizers", sanitizers),
     ("miri", miri),
     ("allocations", allocations),
     ("writes", writes),
-    ("dependencies", dependencies),
+    ("models", models),
     ("python", python),
 ];
 
@@ -61,9 +63,9 @@ fn python() -> Outcome {
     test::python(test::current_environment()?, "long")
 }
 
-/// What acts is declared, at many more states.
-fn dependencies() -> Outcome {
-    run(cargo("test --locked --release -p models --all-features dependencies::").env("HELIOTORQUE_LONG", "1"))
+/// The tests of the models at many more states and over longer spans.
+fn models() -> Outcome {
+    run(cargo("test --locked --release -p models --all-features").env("HELIOTORQUE_LONG", "1"))
 }
 
 fn skipped(what: &str, missing: &str) -> Outcome {

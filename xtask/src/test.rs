@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::build::{self, Built, TESTS};
-use crate::shell::{Beside, Outcome, cargo, command, need, root, run};
+use crate::shell::{Outcome, cargo, command, need, root, run};
 use crate::{dist, guide, locale, python, shell};
 
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
@@ -15,29 +15,36 @@ pub(crate) fn all() -> Outcome {
         run(&mut cargo("fmt --all --check"))?;
         guide::check_format()?;
     }
-    // Most of it is optimised on one core: lints and the tests' own build go on beside it.
-    let library = Beside::start(&mut build::libraries())?;
     if shell::output(&mut cargo("clippy --version")).is_ok() {
         run(&mut cargo(&format!("clippy {TESTS} --all-targets --quiet -- -D warnings")))?;
-        guide::lint()?;
     } else if std::env::var_os("CI").is_some() {
         return Err("`cargo clippy` is missing".to_owned());
     } else {
         eprintln!("skipped: lints (no `cargo clippy` on this machine)");
     }
-    run(&mut cargo(&format!("test --no-run {TESTS}")))?;
-    library.finish()?;
-    let built = build::built();
+    let built = build::build_for_tests()?;
     dist::pack_all(&built)?;
     let environment = environment(&built)?;
     let locale = locale::environment()?;
     std::thread::scope(|scope| {
         // It waits for one core, as some of the tests do.
-        let client = scope.spawn(|| c_client(&built));
+        let client = scope.spawn(|| c_client(&built, "200"));
         run(cargo(&format!("test {TESTS}")).envs(environment.clone()).envs(locale))?;
         client.join().map_err(|_| "the C client's thread panicked".to_owned())?
     })?;
     guide::test(environment.clone())?;
+    python(environment, "not long")
+}
+
+/// The libraries as they are shipped, optimised as a whole, under the tests that load them; then the installation.
+pub(crate) fn shipped() -> Outcome {
+    let built = build::build()?;
+    dist::pack_all(&built)?;
+    let environment = environment(&built)?;
+    let long = ("HELIOTORQUE_LONG", "1");
+    let tests = "test --locked --release --all-features -p heliotorque-tests";
+    run(cargo(tests).envs(environment.clone()).env(long.0, long.1))?;
+    c_client(&built, "1000")?;
     python(environment.clone(), "not long")?;
     pytest(environment, &[INSTALLATION])
 }
@@ -54,9 +61,7 @@ pub(crate) fn environment(built: &Built) -> Result<Vec<(&'static str, PathBuf)>,
 
 /// The same, after building and packing what is stale.
 pub(crate) fn current_environment() -> Result<Vec<(&'static str, PathBuf)>, String> {
-    run(&mut build::libraries())?;
-    run(&mut cargo(&format!("test --no-run --quiet {TESTS}")))?;
-    let built = build::built();
+    let built = build::build_for_tests()?;
     dist::pack_stale(&built)?;
     environment(&built)
 }
@@ -96,15 +101,16 @@ fn foreign_fmu() -> Result<PathBuf, String> {
     Ok(fmu)
 }
 
-/// Compiles the C client against the standard's headers and runs it, under valgrind where there is one.
-fn c_client(built: &Built) -> Outcome {
+/// Compiles the C client against the standard's headers and runs it, under valgrind where there is one; the library is unloaded
+/// after each of `simulations`.
+fn c_client(built: &Built, simulations: &str) -> Outcome {
     if !need("gcc", "the C client")? {
         return Ok(());
     }
     let scratch = build::scratch("c-client")?;
     let has_valgrind = need("valgrind", "the memory check of the C client")?;
     // Of each program what it is told beside the libraries, alone and under valgrind, where it is slow.
-    for (name, whole, short) in [("unload", &["1000"][..], "3"), ("client", &[], "--short")] {
+    for (name, whole, short) in [("unload", &[simulations][..], "1"), ("client", &[], "--short")] {
         let program = compile_c(&scratch, name)?;
         run(command(&program).arg(&built.library).arg(&built.probe).args(whole).current_dir(&scratch))?;
         if has_valgrind {
