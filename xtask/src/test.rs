@@ -28,7 +28,7 @@ pub(crate) fn all() -> Outcome {
     let locale = locale::environment()?;
     std::thread::scope(|scope| {
         // It waits for one core, as some of the tests do.
-        let client = scope.spawn(|| c_client(&built, "200"));
+        let client = scope.spawn(|| c_client(&built, false));
         run(cargo(&format!("test {TESTS}")).envs(environment.clone()).envs(locale))?;
         client.join().map_err(|_| "the C client's thread panicked".to_owned())?
     })?;
@@ -44,7 +44,7 @@ pub(crate) fn shipped() -> Outcome {
     let long = ("HELIOTORQUE_LONG", "1");
     let tests = "test --locked --release --all-features -p heliotorque-tests";
     run(cargo(tests).envs(environment.clone()).env(long.0, long.1))?;
-    c_client(&built, "1000")?;
+    c_client(&built, true)?;
     python(environment.clone(), "not long")?;
     pytest(environment, &[INSTALLATION])
 }
@@ -101,19 +101,21 @@ fn foreign_fmu() -> Result<PathBuf, String> {
     Ok(fmu)
 }
 
-/// Compiles the C client against the standard's headers and runs it, under valgrind where there is one; the library is unloaded
-/// after each of `simulations`.
-fn c_client(built: &Built, simulations: &str) -> Outcome {
+/// Compiles the C client against the standard's headers and runs it, under valgrind where there is one; if `is_long`, the library is
+/// unloaded more often, and under valgrind too.
+fn c_client(built: &Built, is_long: bool) -> Outcome {
     if !need("gcc", "the C client")? {
         return Ok(());
     }
     let scratch = build::scratch("c-client")?;
     let has_valgrind = need("valgrind", "the memory check of the C client")?;
     // Of each program what it is told beside the libraries, alone and under valgrind, where it is slow.
-    for (name, whole, short) in [("unload", &[simulations][..], "1"), ("client", &[], "--short")] {
+    let simulations = if is_long { "1000" } else { "200" };
+    let programs = [("unload", &[simulations][..], is_long.then_some("1")), ("client", &[], Some("--short"))];
+    for (name, whole, short) in programs {
         let program = compile_c(&scratch, name)?;
         run(command(&program).arg(&built.library).arg(&built.probe).args(whole).current_dir(&scratch))?;
-        if has_valgrind {
+        if let Some(short) = short.filter(|_| has_valgrind) {
             run(command("valgrind")
                 .args(
                     "--quiet --leak-check=full --errors-for-leak-kinds=definite --error-exitcode=9"
