@@ -63,11 +63,10 @@ pub(crate) fn built() -> Built {
     built_in(&target(), "fmu")
 }
 
-/// Builds everything that tests load and start, with what they share with it: their libraries are not optimised as a whole, which
-/// takes as long as the rest and changes no bit.
+/// Builds the tests and everything that they load and start, in one go: cargo gives crates other features without their tests. The
+/// libraries are not optimised as a whole, which takes long and changes no bit.
 pub(crate) fn build_for_tests() -> Result<Built, String> {
-    run(&mut cargo(&format!("build --quiet {TESTS}")))?;
-    run(&mut cargo(&format!("test --no-run --quiet {TESTS}")))?;
+    run(&mut cargo(&format!("build --quiet {TESTS} --all-targets")))?;
     Ok(built_in(&target(), "release"))
 }
 
