@@ -147,7 +147,7 @@ antennas = [
     for (planet, axis_km) in [("venus", 6551.8), ("earth", 6878.0), ("mars", 3796.0)] {
         let mut wired = Loop::begin(&spacecraft(planet, axis_km, windows), ORBIT_PHASE);
         let mut linked_s = 0.0;
-        while wired.plant.time_s < routine_or_long(3.5, 6.0) * HOUR_S {
+        while wired.plant.time_s < 6.0 * HOUR_S {
             wired.step();
             linked_s += f64::from(u8::from(wired.guidance.boolean("link.available")));
         }
