@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::python;
-use crate::shell::{self, Outcome, cargo, command, root, run, target};
+use crate::shell::{self, cargo, command, root, run, target};
 
 /// What a build leaves.
 pub(crate) struct Built {
@@ -13,16 +13,18 @@ pub(crate) struct Built {
     pub library: PathBuf,
     /// The probe's shared library.
     pub probe: PathBuf,
+    /// Folder of the packed FMUs and systems.
+    pub dist: PathBuf,
 }
 
 /// Programs and tests have the same features, so that hardly a crate is compiled twice.
 pub(crate) const TESTS: &str = "--locked --release --workspace --all-features";
 
-/// Builds the shared libraries and the command line.
+/// Builds the shared libraries, with link-time optimisation, and the command line.
 pub(crate) fn build() -> Result<Built, String> {
-    libraries()?;
+    run(&mut cargo("build --locked --profile fmu -p component -p probe"))?;
     run(&mut cargo("build --locked --release -p heliotorque --all-features"))?;
-    Ok(built())
+    Ok(built_in(&target(), "fmu", root().join("dist")))
 }
 
 /// The oldest system that what is shipped loads on.
@@ -55,22 +57,18 @@ pub(crate) fn portable() -> Result<Built, String> {
     };
     zigbuild(&["--profile", "fmu", "-p", "component", "-p", "probe"])?;
     zigbuild(&["--release", "-p", "heliotorque", "--all-features"])?;
-    Ok(built_in(&target().join("x86_64-unknown-linux-gnu"), "fmu"))
+    Ok(built_in(&target().join("x86_64-unknown-linux-gnu"), "fmu", root().join("dist")))
 }
 
-/// Where a build leaves what it made.
-pub(crate) fn built() -> Built {
-    built_in(&target(), "fmu")
-}
-
-/// Builds the tests and everything that they load and start, in one go: cargo gives crates other features without their tests. The
-/// libraries are not optimised as a whole, which takes long and changes no bit.
+/// Builds all tests with the program and the shared libraries that they load. One command: features of dependencies differ between
+/// builds with and without tests. The libraries have the profile `release`: link-time optimisation takes minutes.
 pub(crate) fn build_for_tests() -> Result<Built, String> {
     run(&mut cargo(&format!("build --quiet {TESTS} --all-targets")))?;
-    Ok(built_in(&target(), "release"))
+    Ok(built_in(&target(), "release", target().join("dist")))
 }
 
-fn built_in(target: &Path, libraries: &str) -> Built {
+/// Paths of a build in the folder `target`, whose libraries were built with the profile `libraries`.
+fn built_in(target: &Path, libraries: &str, dist: PathBuf) -> Built {
     let library = |name: &str| {
         let file = format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
         target.join(libraries).join(file)
@@ -79,12 +77,8 @@ fn built_in(target: &Path, libraries: &str) -> Built {
         heliotorque: target.join("release").join(format!("heliotorque{}", std::env::consts::EXE_SUFFIX)),
         library: library("heliotorque"),
         probe: library("probe"),
+        dist,
     }
-}
-
-/// Builds the shared library and the probe's, whole-program optimised.
-fn libraries() -> Outcome {
-    run(&mut cargo("build --locked --profile fmu -p component -p probe"))
 }
 
 /// The environment in which tests find what was built.
@@ -92,7 +86,7 @@ pub(crate) fn test_environment(built: &Built) -> [(&'static str, PathBuf); 4] {
     [
         ("HELIOTORQUE_LIBRARY", built.library.clone()),
         ("HELIOTORQUE_PROBE_LIBRARY", built.probe.clone()),
-        ("HELIOTORQUE_DIST", root().join("dist")),
+        ("HELIOTORQUE_DIST", built.dist.clone()),
         ("HELIOTORQUE", built.heliotorque.clone()),
     ]
 }

@@ -1,5 +1,5 @@
-//! `cargo xtask test --long`: what is shipped, fuzzing, sanitizers, Miri, failing allocations, failing writes, the models over
-//! long spans and at many states, long tests in Python.
+//! `cargo xtask test --long`: the shipped libraries, fuzzing, sanitizers, Miri, failing allocations, failing writes, long tests of
+//! the models and in Python.
 
 use std::fs;
 use std::path::Path;
@@ -17,8 +17,8 @@ const SECONDS: &str = "60";
 /// Of each input: time, memory, length.
 const LIMITS: &str = "-timeout=20 -rss_limit_mb=2048 -max_len=32768 -len_control=0 -print_final_stats=1";
 const SECONDS_VARIABLE: &str = "HELIOTORQUE_FUZZ_SECONDS";
-/// Parts to run, by name; all, and `cargo xtask test` before them, if it is not set.
-const PARTS_VARIABLE: &str = "HELIOTORQUE_LONG";
+/// Names the parts to run; without it `cargo xtask test` and all parts run. Tests have their long extent where it is set.
+pub(crate) const VARIABLE: &str = "HELIOTORQUE_LONG";
 /// Models, and the step in s, whose allocations fail.
 const FAILING: &[(&str, &str)] =
     &[("MomentumPlant", "600"), ("SpinPlant", "0.5"), ("DisturbanceTorque", "60"), ("Guidance", "1")];
@@ -31,7 +31,7 @@ type Part = (&'static str, fn() -> Outcome);
 
 const PARTS: &[Part] = &[
     ("shipped", test::shipped),
-    ("guide", guide::lint),
+    ("guide", lint_guide),
     ("fuzz", fuzz),
     ("sanitizers", sanitizers),
     ("miri", miri),
@@ -43,7 +43,7 @@ const PARTS: &[Part] = &[
 
 /// Everything `cargo xtask test` runs, then the longer searches for faults; stops at the first that fails.
 pub(crate) fn all() -> Outcome {
-    let Some(chosen) = std::env::var_os(PARTS_VARIABLE) else {
+    let Some(chosen) = std::env::var_os(VARIABLE) else {
         test::all()?;
         return PARTS.iter().try_for_each(|(_, part)| part());
     };
@@ -51,7 +51,7 @@ pub(crate) fn all() -> Outcome {
     for name in chosen.split(',') {
         let (_, part) = PARTS.iter().find(|(known, _)| *known == name).ok_or_else(|| {
             let names: Vec<&str> = PARTS.iter().map(|(name, _)| *name).collect();
-            format!("{PARTS_VARIABLE}: no part `{name}`; there are {}", names.join(", "))
+            format!("{VARIABLE}: no part `{name}`; there are {}", names.join(", "))
         })?;
         part()?;
     }
@@ -63,9 +63,17 @@ fn python() -> Outcome {
     test::python(test::current_environment()?, "long")
 }
 
-/// The tests of the models at many more states and over longer spans.
+/// Lints of the guide's builder.
+fn lint_guide() -> Outcome {
+    if !answers(&mut cargo("clippy --version")) {
+        return skipped("lints of the guide's builder", "`cargo clippy`");
+    }
+    guide::lint()
+}
+
+/// Tests of the models in their long extent.
 fn models() -> Outcome {
-    run(cargo("test --locked --release -p models --all-features").env("HELIOTORQUE_LONG", "1"))
+    run(cargo("test --locked --release -p models --all-features").env(VARIABLE, "models"))
 }
 
 fn skipped(what: &str, missing: &str) -> Outcome {
@@ -190,7 +198,7 @@ fn writes() -> Outcome {
         .arg("-o")
         .arg(&full_disk)
         .arg("-ldl"))?;
-    let plant = root().join("dist").join("MomentumPlant.fmu");
+    let plant = built.dist.join("MomentumPlant.fmu");
     let plant = plant.to_string_lossy();
     let spacecraft = root().join("fmu-src").join("resources").join("messenger.toml");
     let commands: [(&[&str], &str, &str); 3] = [

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::build::{self, Built, TESTS};
 use crate::shell::{Outcome, cargo, command, need, root, run};
-use crate::{dist, guide, locale, python, shell};
+use crate::{dist, guide, locale, long, python, shell};
 
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
 const DRAWS: &str = "PROPTEST_RNG_SEED";
@@ -36,14 +36,15 @@ pub(crate) fn all() -> Outcome {
     python(environment, "not long")
 }
 
-/// The libraries as they are shipped, optimised as a whole, under the tests that load them; then the installation.
+/// Tests of the shipped libraries, which have link-time optimisation, and of the installation.
 pub(crate) fn shipped() -> Outcome {
     let built = build::build()?;
     dist::pack_all(&built)?;
     let environment = environment(&built)?;
-    let long = ("HELIOTORQUE_LONG", "1");
-    let tests = "test --locked --release --all-features -p heliotorque-tests";
-    run(cargo(tests).envs(environment.clone()).env(long.0, long.1))?;
+    run(cargo("test --locked --release --all-features -p heliotorque-tests")
+        .envs(environment.clone())
+        .envs(locale::environment()?)
+        .env(long::VARIABLE, "shipped"))?;
     c_client(&built, true)?;
     python(environment.clone(), "not long")?;
     pytest(environment, &[INSTALLATION])
@@ -52,7 +53,7 @@ pub(crate) fn shipped() -> Outcome {
 /// Where the tests find what was built, and the seed of their draws.
 pub(crate) fn environment(built: &Built) -> Result<Vec<(&'static str, PathBuf)>, String> {
     let mut environment = build::test_environment(built).to_vec();
-    environment.push(("HELIOTORQUE_FOREIGN_FMU", foreign_fmu()?));
+    environment.push(("HELIOTORQUE_FOREIGN_FMU", foreign_fmu(built)?));
     if std::env::var_os(DRAWS).is_none() {
         environment.push((DRAWS, "20040803".into()));
     }
@@ -92,26 +93,26 @@ pub(crate) fn python(environment: Vec<(&'static str, PathBuf)>, mark: &str) -> O
 }
 
 /// An FMU whose library others built: FMPy's container around our plant.
-fn foreign_fmu() -> Result<PathBuf, String> {
+fn foreign_fmu(built: &Built) -> Result<PathBuf, String> {
     let fmu = build::scratch("foreign")?.join("container.fmu");
     run(command(python::interpreter()?)
         .args(["tests/python/foreign_fmu.py"])
-        .arg(root().join("dist").join("MomentumPlant.fmu"))
+        .arg(built.dist.join("MomentumPlant.fmu"))
         .arg(&fmu))?;
     Ok(fmu)
 }
 
-/// Compiles the C client against the standard's headers and runs it, under valgrind where there is one; if `is_long`, the library is
-/// unloaded more often, and under valgrind too.
+/// Compiles the C client against the standard's headers and runs it, also under valgrind if available; if `is_long`, with more
+/// loads and unloads, also under valgrind.
 fn c_client(built: &Built, is_long: bool) -> Outcome {
     if !need("gcc", "the C client")? {
         return Ok(());
     }
     let scratch = build::scratch("c-client")?;
     let has_valgrind = need("valgrind", "the memory check of the C client")?;
-    // Of each program what it is told beside the libraries, alone and under valgrind, where it is slow.
+    // Further arguments of each program, alone and under valgrind.
     let simulations = if is_long { "1000" } else { "200" };
-    let programs = [("unload", &[simulations][..], is_long.then_some("1")), ("client", &[], Some("--short"))];
+    let programs = [("unload", &[simulations][..], is_long.then_some("3")), ("client", &[], Some("--short"))];
     for (name, whole, short) in programs {
         let program = compile_c(&scratch, name)?;
         run(command(&program).arg(&built.library).arg(&built.probe).args(whole).current_dir(&scratch))?;

@@ -9,7 +9,7 @@ pub use in_process::{InProcess, Message, StatePointer};
 pub use named::NamedInstance;
 pub use names::Names;
 
-/// How much a test does: the first in every run, the second in `cargo xtask test --long`, which sets the variable.
-pub fn routine_or_long<T>(routine: T, long: T) -> T {
-    if std::env::var_os("HELIOTORQUE_LONG").is_some() { long } else { routine }
+/// Selects the extent of a test: `long` in `cargo xtask test --long`, which sets the variable, else `short`.
+pub fn short_or_long<T>(short: T, long: T) -> T {
+    if std::env::var_os("HELIOTORQUE_LONG").is_some() { long } else { short }
 }

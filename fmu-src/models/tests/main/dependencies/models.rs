@@ -1,6 +1,6 @@
 //! The models' states and the searches.
 
-use client::routine_or_long;
+use client::short_or_long;
 use fmi_export::Model;
 use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 
@@ -241,12 +241,12 @@ fn guidance() -> Search<Guidance> {
     search
 }
 
-/// A test of every run, `cargo xtask test --long` at many times as many states.
+/// One test a search; `cargo xtask test --long` searches many times as many states.
 macro_rules! searches {
     ($($name:ident, $states:literal: $search:expr;)*) => { $(
         #[test]
         fn $name() {
-            $search.report_missing($states * routine_or_long(1, LONG));
+            $search.report_missing($states * short_or_long(1, LONG));
         }
     )* };
 }

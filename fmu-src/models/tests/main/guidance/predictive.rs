@@ -1,6 +1,6 @@
 //! Predictive targets of a sampled guidance against those of a plant that guides itself, where sunlight alone acts.
 
-use client::routine_or_long;
+use client::short_or_long;
 use models::{Guidance, MomentumPlant};
 
 use super::super::named_model::{NamedInstance, NamedModel};
@@ -27,10 +27,10 @@ fn craft(strategy: f64, convention: f64) -> Vec<(&'static str, f64)> {
 }
 
 fn span_s() -> f64 {
-    routine_or_long(10.0, 30.0) * CYCLE_S
+    short_or_long(10.0, 30.0) * CYCLE_S
 }
 
-/// Thresholds low enough for dumps within a month.
+/// Thresholds low enough for dumps within days.
 const LOW: &[(&str, f64)] =
     &[("dump.threshold[1]", 1.0), ("dump.threshold[2]", 1.0), ("dump.threshold[3]", 1.0)];
 
