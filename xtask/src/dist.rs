@@ -38,7 +38,7 @@ pub(crate) fn dist() -> Result<Built, String> {
 pub(crate) fn pack_all(built: &Built) -> Outcome {
     pack(built)?;
     systems::pack(built, &scratch("systems")?)?;
-    // Only here is everything packed, which `pack_stale` looks at.
+    // `pack_stale` compares with it.
     let stamp = stamp(built);
     fs::write(&stamp, "").map_err(|error| format!("{}: {error}", stamp.display()))
 }
