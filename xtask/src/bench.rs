@@ -42,7 +42,7 @@ fn system(built: &Built) -> Outcome {
     let seconds = median_s(
         command(&built.heliotorque)
             .arg("run")
-            .arg(built.dist.join("MessengerLoop.ssp"))
+            .arg(root().join("dist").join("MessengerLoop.ssp"))
             .args(["--quiet", "--step", "20ms", "--every", "600", "--record", "plant.momentum.body"])
             .args(["--stop", &SPAN_S.to_string(), "--output", "-"]),
     )?;
@@ -73,7 +73,7 @@ fn study(built: &Built) -> Outcome {
     let seconds = median_s(
         command(&built.heliotorque)
             .args(["study", "momentum/table2", "--quiet", "--only", "to 0.9", "--dist"])
-            .arg(&built.dist)
+            .arg(root().join("dist"))
             .arg("--output")
             .arg(&folder),
     )?;

@@ -1,6 +1,7 @@
 //! Building the library and the command line.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use crate::python;
 use crate::shell::{self, cargo, command, root, run, target};
@@ -13,18 +14,16 @@ pub(crate) struct Built {
     pub library: PathBuf,
     /// The probe's shared library.
     pub probe: PathBuf,
-    /// Folder of the packed FMUs and systems.
-    pub dist: PathBuf,
 }
 
 /// Programs and tests have the same features, so that hardly a crate is compiled twice.
 pub(crate) const TESTS: &str = "--locked --release --workspace --all-features";
 
-/// Builds the shared libraries, with link-time optimisation, and the command line.
+/// Builds the shared libraries and the command line.
 pub(crate) fn build() -> Result<Built, String> {
-    run(&mut cargo("build --locked --profile fmu -p component -p probe"))?;
+    run(&mut libraries())?;
     run(&mut cargo("build --locked --release -p heliotorque --all-features"))?;
-    Ok(built_in(&target(), "fmu", root().join("dist")))
+    Ok(built())
 }
 
 /// The oldest system that what is shipped loads on.
@@ -57,28 +56,29 @@ pub(crate) fn portable() -> Result<Built, String> {
     };
     zigbuild(&["--profile", "fmu", "-p", "component", "-p", "probe"])?;
     zigbuild(&["--release", "-p", "heliotorque", "--all-features"])?;
-    Ok(built_in(&target().join("x86_64-unknown-linux-gnu"), "fmu", root().join("dist")))
+    Ok(built_in(&target().join("x86_64-unknown-linux-gnu")))
 }
 
-/// Builds all tests with the program and the shared libraries that they load. One command: features of dependencies differ between
-/// builds with and without tests. The libraries have the profile `release`: link-time optimisation takes minutes.
-pub(crate) fn build_for_tests() -> Result<Built, String> {
-    run(&mut cargo(&format!("build --quiet {TESTS} --all-targets")))?;
-    Ok(built_in(&target(), "release", target().join("dist")))
+/// Where a build leaves what it made.
+pub(crate) fn built() -> Built {
+    built_in(&target())
 }
 
-/// Paths of a build in the folder `target`, whose libraries were built with the profile `libraries`.
-fn built_in(target: &Path, libraries: &str, dist: PathBuf) -> Built {
-    let library = |name: &str| {
+fn built_in(target: &Path) -> Built {
+    let library = |folder: &str, name: &str| {
         let file = format!("{}{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-        target.join(libraries).join(file)
+        target.join(folder).join(file)
     };
     Built {
         heliotorque: target.join("release").join(format!("heliotorque{}", std::env::consts::EXE_SUFFIX)),
-        library: library("heliotorque"),
-        probe: library("probe"),
-        dist,
+        library: library("fmu", "heliotorque"),
+        probe: library("fmu", "probe"),
     }
+}
+
+/// Builds the shared library and the probe's, whole-program optimised.
+pub(crate) fn libraries() -> Command {
+    cargo("build --locked --profile fmu -p component -p probe")
 }
 
 /// The environment in which tests find what was built.
@@ -86,7 +86,7 @@ pub(crate) fn test_environment(built: &Built) -> [(&'static str, PathBuf); 4] {
     [
         ("HELIOTORQUE_LIBRARY", built.library.clone()),
         ("HELIOTORQUE_PROBE_LIBRARY", built.probe.clone()),
-        ("HELIOTORQUE_DIST", built.dist.clone()),
+        ("HELIOTORQUE_DIST", root().join("dist")),
         ("HELIOTORQUE", built.heliotorque.clone()),
     ]
 }

@@ -1,10 +1,10 @@
-//! Packing the shipped FMUs and systems into the folder of a build.
+//! Packing the shipped FMUs and systems into `dist/`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::build::{Built, build, portable, scratch};
-use crate::shell::{Outcome, command, root, run};
+use crate::shell::{Outcome, command, root, run, target};
 use crate::systems;
 
 /// An FMU: file name, model, spacecraft, further options of `pack`.
@@ -38,8 +38,8 @@ pub(crate) fn dist() -> Result<Built, String> {
 pub(crate) fn pack_all(built: &Built) -> Outcome {
     pack(built)?;
     systems::pack(built, &scratch("systems")?)?;
-    // `pack_stale` compares with it.
-    let stamp = stamp(built);
+    // Only here is everything packed, and `current` looks at it.
+    let stamp = stamp();
     fs::write(&stamp, "").map_err(|error| format!("{}: {error}", stamp.display()))
 }
 
@@ -53,20 +53,18 @@ pub(crate) fn shipped() -> Result<Built, String> {
 /// Packs what was built, where program or library are newer than what is packed.
 pub(crate) fn pack_stale(built: &Built) -> Outcome {
     let changed = |path: &Path| fs::metadata(path).and_then(|file| file.modified()).ok();
-    let packed = changed(&stamp(built));
+    let packed = changed(&stamp());
     let is_current =
         [&built.heliotorque, &built.library].iter().all(|path| packed.is_some() && changed(path) <= packed);
     if is_current { Ok(()) } else { pack_all(built) }
 }
 
 /// Written after everything was packed.
-fn stamp(built: &Built) -> PathBuf {
-    built.library.with_extension("packed")
+fn stamp() -> PathBuf {
+    target().join("dist.stamp")
 }
 
 fn pack(built: &Built) -> Outcome {
-    fs::create_dir_all(&built.dist)
-        .map_err(|error| format!("cannot create {}: {error}", built.dist.display()))?;
     SHIPPED.iter().try_for_each(|(name, model, spacecraft, options)| {
         run(command(&built.heliotorque)
             .args(["pack", "--name", name, "--model", model, "--library"])
@@ -75,6 +73,6 @@ fn pack(built: &Built) -> Outcome {
             .arg(root().join("fmu-src").join("resources").join(spacecraft))
             .args(systems::options(options))
             .arg("--output")
-            .arg(built.dist.join(format!("{name}.fmu"))))
+            .arg(root().join("dist").join(format!("{name}.fmu"))))
     })
 }

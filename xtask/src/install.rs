@@ -7,7 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::shell::{self, Outcome, run};
+use crate::shell::{self, Outcome, root, run};
 use crate::{build, dist};
 
 /// Where the library and the FMUs stand below the prefix; the program looks there from its own folder.
@@ -24,7 +24,7 @@ pub(crate) fn install(options: &[String]) -> Outcome {
     let folder = LIBRARY_FOLDER.iter().fold(prefix.clone(), |path, part| path.join(part));
     let program = built.heliotorque.clone();
     let mut files = vec![(built.heliotorque, &binaries), (built.library, &folder)];
-    files.extend(files_in(&built.dist, &["fmu", "ssp"])?.into_iter().map(|path| (path, &folder)));
+    files.extend(packed()?.into_iter().map(|path| (path, &folder)));
     let manual = MANUAL_FOLDER.iter().fold(prefix.clone(), |path, part| path.join(part));
     files.extend(pages(&program)?.into_iter().map(|path| (path, &manual)));
     for (from, to) in files {
@@ -61,6 +61,11 @@ fn prefix(options: &[String]) -> Result<PathBuf, String> {
         }
     };
     std::path::absolute(&folder).map_err(|error| format!("{}: {error}", folder.display()))
+}
+
+/// The FMUs and systems of `dist/`, by name.
+fn packed() -> Result<Vec<PathBuf>, String> {
+    files_in(&root().join("dist"), &["fmu", "ssp"])
 }
 
 /// The manual's pages, as the program writes them.

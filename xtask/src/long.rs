@@ -1,14 +1,14 @@
-//! `cargo xtask test --long`: the shipped libraries, fuzzing, sanitizers, Miri, failing allocations, failing writes, long tests of
-//! the models and in Python.
+//! `cargo xtask test --long`: fuzzing, sanitizers, Miri, failing allocations, failing writes, long tests of
+//! the models, of the shared library and in Python.
 
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
 use crate::build::{self, Built};
+use crate::dist;
 use crate::shell::{Outcome, available, cargo, command, root, run, target};
 use crate::test::{self, compile_c_with};
-use crate::{dist, guide};
 
 /// Fuzz targets, in `tests/fuzz/targets`.
 const TARGETS: &[&str] = &["spacecraft", "model_description", "state", "calls", "zip"];
@@ -18,7 +18,7 @@ const SECONDS: &str = "60";
 const LIMITS: &str = "-timeout=20 -rss_limit_mb=2048 -max_len=32768 -len_control=0 -print_final_stats=1";
 const SECONDS_VARIABLE: &str = "HELIOTORQUE_FUZZ_SECONDS";
 /// Names the parts to run; without it `cargo xtask test` and all parts run. Tests have their long extent where it is set.
-pub(crate) const VARIABLE: &str = "HELIOTORQUE_LONG";
+const VARIABLE: &str = "HELIOTORQUE_LONG";
 /// Models, and the step in s, whose allocations fail.
 const FAILING: &[(&str, &str)] =
     &[("MomentumPlant", "600"), ("SpinPlant", "0.5"), ("DisturbanceTorque", "60"), ("Guidance", "1")];
@@ -30,14 +30,13 @@ const MOST_WRITES: u32 = 2_000;
 type Part = (&'static str, fn() -> Outcome);
 
 const PARTS: &[Part] = &[
-    ("shipped", test::shipped),
-    ("guide", lint_guide),
     ("fuzz", fuzz),
     ("sanitizers", sanitizers),
     ("miri", miri),
     ("allocations", allocations),
     ("writes", writes),
     ("models", models),
+    ("suite", suite),
     ("python", python),
 ];
 
@@ -63,17 +62,17 @@ fn python() -> Outcome {
     test::python(test::current_environment()?, "long")
 }
 
-/// Lints of the guide's builder.
-fn lint_guide() -> Outcome {
-    if !answers(&mut cargo("clippy --version")) {
-        return skipped("lints of the guide's builder", "`cargo clippy`");
-    }
-    guide::lint()
-}
-
 /// Tests of the models in their long extent.
 fn models() -> Outcome {
     run(cargo("test --locked --release -p models --all-features").env(VARIABLE, "models"))
+}
+
+/// Tests of the shared library in their long extent, and the C client.
+fn suite() -> Outcome {
+    let environment = test::current_environment()?;
+    let tests = "test --locked --release --all-features -p heliotorque-tests";
+    run(cargo(tests).envs(environment).env(VARIABLE, "suite"))?;
+    test::c_client(&build::built(), true)
 }
 
 fn skipped(what: &str, missing: &str) -> Outcome {
@@ -198,7 +197,7 @@ fn writes() -> Outcome {
         .arg("-o")
         .arg(&full_disk)
         .arg("-ldl"))?;
-    let plant = built.dist.join("MomentumPlant.fmu");
+    let plant = root().join("dist").join("MomentumPlant.fmu");
     let plant = plant.to_string_lossy();
     let spacecraft = root().join("fmu-src").join("resources").join("messenger.toml");
     let commands: [(&[&str], &str, &str); 3] = [

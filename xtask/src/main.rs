@@ -24,11 +24,11 @@ cargo xtask <task>
   demo    build the library, pack dist/MomentumPlant.fmu, simulate paper 000's 90 days, compare with its Table 2
   test    everything that must hold: format, lints, Rust tests, the guide, FMPy, C client
   test --long
-          the same, then tests of the shipped libraries and of the installation, long tests of the models and in Python, and
-          the longer searches for faults: each fuzz target of tests/fuzz for a minute
+          the same, then long tests of the models, of the shared library and in Python, and the longer searches for
+          faults: each fuzz target of tests/fuzz for a minute
           (cargo-fuzz, nightly), the C client under the address and thread sanitizers, the exporter's unit tests in Miri, a failing n-th
           allocation, a full disk from the n-th write on; what this machine lacks is named and skipped.
-          HELIOTORQUE_LONG picks parts alone (shipped,guide,fuzz,sanitizers,miri,allocations,writes,models,python);
+          HELIOTORQUE_LONG picks parts alone (fuzz,sanitizers,miri,allocations,writes,models,suite,python);
           HELIOTORQUE_FUZZ_SECONDS is another time per target
   test NAME
           the tests in Rust and Python that have NAME in their name, with what they need built first
@@ -83,12 +83,12 @@ fn main() -> ExitCode {
 
 fn demo() -> Outcome {
     let built = dist::dist()?;
-    let folder = built.dist.join("demo");
+    let folder = shell::root().join("dist").join("demo");
     shell::run(
         shell::command(&built.heliotorque)
             .args(["study", "momentum/table2", "--only", "4 N.m.s"])
             .arg("--dist")
-            .arg(&built.dist)
+            .arg(shell::root().join("dist"))
             .arg("--output")
             .arg(&folder),
     )

@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus};
+use std::process::{Child, Command, ExitStatus};
 use std::time::Instant;
 
 /// What a task ends with; the text says what went wrong.
@@ -60,6 +60,37 @@ fn ended(shown: &str, start: Instant, status: ExitStatus) -> Outcome {
         eprintln!("  {} min {:02} s: {shown}", seconds / 60, seconds % 60);
     }
     if status.success() { Ok(()) } else { Err(format!("`{shown}` ended with {status}")) }
+}
+
+/// A program that runs beside this one; it ends with it.
+pub(crate) struct Beside {
+    child: Child,
+    shown: String,
+    start: Instant,
+}
+
+impl Beside {
+    /// Starts it.
+    pub(crate) fn start(command: &mut Command) -> Result<Self, String> {
+        let shown = show(command);
+        eprintln!("+ {shown} &");
+        let child = command.spawn().map_err(|error| format!("cannot start `{shown}`: {error}"))?;
+        Ok(Self { child, shown, start: Instant::now() })
+    }
+
+    /// Waits for its end and expects success.
+    pub(crate) fn finish(mut self) -> Outcome {
+        let status = self.child.wait().map_err(|error| format!("`{}`: {error}", self.shown))?;
+        ended(&self.shown, self.start, status)
+    }
+}
+
+impl Drop for Beside {
+    fn drop(&mut self) {
+        // Nothing is left to end of one that was waited for.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
 }
 
 /// Runs to the end, expects success, gives what it printed.

@@ -82,7 +82,7 @@ const SYSTEMS: &[System] = &[
     },
 ];
 
-/// Packs every shipped system.
+/// Packs every shipped system into `dist/`.
 pub(crate) fn pack(built: &Built, scratch: &Path) -> Outcome {
     for system in SYSTEMS {
         let mut fmus = Vec::new();
@@ -100,7 +100,7 @@ pub(crate) fn pack(built: &Built, scratch: &Path) -> Outcome {
                 .args(["--stop", system.stop, "--step", system.step, "--outputs", system.outputs, "--quiet"])
                 .args(options)
                 .arg("--output")
-                .arg(built.dist.join(file)))?;
+                .arg(root().join("dist").join(file)))?;
             record(built, file)?;
         }
     }
@@ -112,7 +112,7 @@ const EVERY: &str = "600";
 
 /// The default experiment beside the system, outputs at the start being exchanged in initialization.
 fn record(built: &Built, file: &str) -> Outcome {
-    let system = built.dist.join(file);
+    let system = root().join("dist").join(file);
     run(command(&built.heliotorque)
         .arg("run")
         .arg(&system)

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::build::{self, Built, TESTS};
-use crate::shell::{Outcome, cargo, command, need, root, run};
-use crate::{dist, guide, locale, long, python, shell};
+use crate::shell::{Beside, Outcome, cargo, command, need, root, run};
+use crate::{dist, guide, locale, python, shell};
 
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
 const DRAWS: &str = "PROPTEST_RNG_SEED";
@@ -15,14 +15,19 @@ pub(crate) fn all() -> Outcome {
         run(&mut cargo("fmt --all --check"))?;
         guide::check_format()?;
     }
+    // Most of it is optimised on one core: lints and the tests' own build go on beside it.
+    let library = Beside::start(&mut build::libraries())?;
     if shell::output(&mut cargo("clippy --version")).is_ok() {
         run(&mut cargo(&format!("clippy {TESTS} --all-targets --quiet -- -D warnings")))?;
+        guide::lint()?;
     } else if std::env::var_os("CI").is_some() {
         return Err("`cargo clippy` is missing".to_owned());
     } else {
         eprintln!("skipped: lints (no `cargo clippy` on this machine)");
     }
-    let built = build::build_for_tests()?;
+    run(&mut cargo(&format!("test --no-run {TESTS}")))?;
+    library.finish()?;
+    let built = build::built();
     dist::pack_all(&built)?;
     let environment = environment(&built)?;
     let locale = locale::environment()?;
@@ -33,19 +38,6 @@ pub(crate) fn all() -> Outcome {
         client.join().map_err(|_| "the C client's thread panicked".to_owned())?
     })?;
     guide::test(environment.clone())?;
-    python(environment, "not long")
-}
-
-/// Tests of the shipped libraries, which have link-time optimisation, and of the installation.
-pub(crate) fn shipped() -> Outcome {
-    let built = build::build()?;
-    dist::pack_all(&built)?;
-    let environment = environment(&built)?;
-    run(cargo("test --locked --release --all-features -p heliotorque-tests")
-        .envs(environment.clone())
-        .envs(locale::environment()?)
-        .env(long::VARIABLE, "shipped"))?;
-    c_client(&built, true)?;
     python(environment.clone(), "not long")?;
     pytest(environment, &[INSTALLATION])
 }
@@ -53,7 +45,7 @@ pub(crate) fn shipped() -> Outcome {
 /// Where the tests find what was built, and the seed of their draws.
 pub(crate) fn environment(built: &Built) -> Result<Vec<(&'static str, PathBuf)>, String> {
     let mut environment = build::test_environment(built).to_vec();
-    environment.push(("HELIOTORQUE_FOREIGN_FMU", foreign_fmu(built)?));
+    environment.push(("HELIOTORQUE_FOREIGN_FMU", foreign_fmu()?));
     if std::env::var_os(DRAWS).is_none() {
         environment.push((DRAWS, "20040803".into()));
     }
@@ -62,7 +54,9 @@ pub(crate) fn environment(built: &Built) -> Result<Vec<(&'static str, PathBuf)>,
 
 /// The same, after building and packing what is stale.
 pub(crate) fn current_environment() -> Result<Vec<(&'static str, PathBuf)>, String> {
-    let built = build::build_for_tests()?;
+    run(&mut build::libraries())?;
+    run(&mut cargo(&format!("test --no-run --quiet {TESTS}")))?;
+    let built = build::built();
     dist::pack_stale(&built)?;
     environment(&built)
 }
@@ -93,18 +87,18 @@ pub(crate) fn python(environment: Vec<(&'static str, PathBuf)>, mark: &str) -> O
 }
 
 /// An FMU whose library others built: FMPy's container around our plant.
-fn foreign_fmu(built: &Built) -> Result<PathBuf, String> {
+fn foreign_fmu() -> Result<PathBuf, String> {
     let fmu = build::scratch("foreign")?.join("container.fmu");
     run(command(python::interpreter()?)
         .args(["tests/python/foreign_fmu.py"])
-        .arg(built.dist.join("MomentumPlant.fmu"))
+        .arg(root().join("dist").join("MomentumPlant.fmu"))
         .arg(&fmu))?;
     Ok(fmu)
 }
 
 /// Compiles the C client against the standard's headers and runs it, also under valgrind if available; if `is_long`, with more
 /// loads and unloads, also under valgrind.
-fn c_client(built: &Built, is_long: bool) -> Outcome {
+pub(crate) fn c_client(built: &Built, is_long: bool) -> Outcome {
     if !need("gcc", "the C client")? {
         return Ok(());
     }
