@@ -1,5 +1,5 @@
-//! `cargo xtask test --long`: fuzzing, sanitizers, Miri, failing allocations, failing writes, dependencies at
-//! many states, long tests in Python.
+//! `cargo xtask test --long`: fuzzing, sanitizers, Miri, failing allocations, failing writes, long tests of
+//! the models, of the shared library and in Python.
 
 use std::fs;
 use std::path::Path;
@@ -17,8 +17,8 @@ const SECONDS: &str = "60";
 /// Of each input: time, memory, length.
 const LIMITS: &str = "-timeout=20 -rss_limit_mb=2048 -max_len=32768 -len_control=0 -print_final_stats=1";
 const SECONDS_VARIABLE: &str = "HELIOTORQUE_FUZZ_SECONDS";
-/// Parts to run, by name; all, and `cargo xtask test` before them, if it is not set.
-const PARTS_VARIABLE: &str = "HELIOTORQUE_LONG";
+/// Names the parts to run; without it `cargo xtask test` and all parts run. Tests have their long extent where it is set.
+const VARIABLE: &str = "HELIOTORQUE_LONG";
 /// Models, and the step in s, whose allocations fail.
 const FAILING: &[(&str, &str)] =
     &[("MomentumPlant", "600"), ("SpinPlant", "0.5"), ("DisturbanceTorque", "60"), ("Guidance", "1")];
@@ -35,13 +35,14 @@ const PARTS: &[Part] = &[
     ("miri", miri),
     ("allocations", allocations),
     ("writes", writes),
-    ("dependencies", dependencies),
+    ("models", models),
+    ("suite", suite),
     ("python", python),
 ];
 
 /// Everything `cargo xtask test` runs, then the longer searches for faults; stops at the first that fails.
 pub(crate) fn all() -> Outcome {
-    let Some(chosen) = std::env::var_os(PARTS_VARIABLE) else {
+    let Some(chosen) = std::env::var_os(VARIABLE) else {
         test::all()?;
         return PARTS.iter().try_for_each(|(_, part)| part());
     };
@@ -49,7 +50,7 @@ pub(crate) fn all() -> Outcome {
     for name in chosen.split(',') {
         let (_, part) = PARTS.iter().find(|(known, _)| *known == name).ok_or_else(|| {
             let names: Vec<&str> = PARTS.iter().map(|(name, _)| *name).collect();
-            format!("{PARTS_VARIABLE}: no part `{name}`; there are {}", names.join(", "))
+            format!("{VARIABLE}: no part `{name}`; there are {}", names.join(", "))
         })?;
         part()?;
     }
@@ -61,9 +62,17 @@ fn python() -> Outcome {
     test::python(test::current_environment()?, "long")
 }
 
-/// What acts is declared, at many more states.
-fn dependencies() -> Outcome {
-    run(cargo("test --locked --release -p models --all-features dependencies::").env("HELIOTORQUE_LONG", "1"))
+/// Tests of the models in their long extent.
+fn models() -> Outcome {
+    run(cargo("test --locked --release -p models --all-features").env(VARIABLE, "models"))
+}
+
+/// Tests of the shared library in their long extent, and the C client.
+fn suite() -> Outcome {
+    let environment = test::current_environment()?;
+    let tests = "test --locked --release --all-features -p heliotorque-tests";
+    run(cargo(tests).envs(environment).env(VARIABLE, "suite"))?;
+    test::c_client(&build::built(), true)
 }
 
 fn skipped(what: &str, missing: &str) -> Outcome {

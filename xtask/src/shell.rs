@@ -53,7 +53,7 @@ pub(crate) fn run(command: &mut Command) -> Outcome {
     ended(&shown, start, status)
 }
 
-/// Of what ran for seconds it says for how long.
+/// Reports the duration of a command from 5 s on, and its failure.
 fn ended(shown: &str, start: Instant, status: ExitStatus) -> Outcome {
     let seconds = start.elapsed().as_secs();
     if seconds >= 5 {

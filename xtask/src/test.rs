@@ -33,7 +33,7 @@ pub(crate) fn all() -> Outcome {
     let locale = locale::environment()?;
     std::thread::scope(|scope| {
         // It waits for one core, as some of the tests do.
-        let client = scope.spawn(|| c_client(&built));
+        let client = scope.spawn(|| c_client(&built, false));
         run(cargo(&format!("test {TESTS}")).envs(environment.clone()).envs(locale))?;
         client.join().map_err(|_| "the C client's thread panicked".to_owned())?
     })?;
@@ -96,18 +96,21 @@ fn foreign_fmu() -> Result<PathBuf, String> {
     Ok(fmu)
 }
 
-/// Compiles the C client against the standard's headers and runs it, under valgrind where there is one.
-fn c_client(built: &Built) -> Outcome {
+/// Compiles the C client against the standard's headers and runs it, also under valgrind if available; if `is_long`, with more
+/// loads and unloads, also under valgrind.
+pub(crate) fn c_client(built: &Built, is_long: bool) -> Outcome {
     if !need("gcc", "the C client")? {
         return Ok(());
     }
     let scratch = build::scratch("c-client")?;
     let has_valgrind = need("valgrind", "the memory check of the C client")?;
-    // Of each program what it is told beside the libraries, alone and under valgrind, where it is slow.
-    for (name, whole, short) in [("unload", &["1000"][..], "3"), ("client", &[], "--short")] {
+    // Further arguments of each program, alone and under valgrind.
+    let simulations = if is_long { "1000" } else { "200" };
+    let programs = [("unload", &[simulations][..], is_long.then_some("3")), ("client", &[], Some("--short"))];
+    for (name, whole, short) in programs {
         let program = compile_c(&scratch, name)?;
         run(command(&program).arg(&built.library).arg(&built.probe).args(whole).current_dir(&scratch))?;
-        if has_valgrind {
+        if let Some(short) = short.filter(|_| has_valgrind) {
             run(command("valgrind")
                 .args(
                     "--quiet --leak-check=full --errors-for-leak-kinds=definite --error-exitcode=9"

@@ -8,3 +8,8 @@ mod names;
 pub use in_process::{InProcess, Message, StatePointer};
 pub use named::NamedInstance;
 pub use names::Names;
+
+/// Selects the extent of a test: `long` in `cargo xtask test --long`, which sets the variable, else `short`.
+pub fn short_or_long<T>(short: T, long: T) -> T {
+    if std::env::var_os("HELIOTORQUE_LONG").is_some() { long } else { short }
+}

@@ -1,5 +1,6 @@
 //! The models' states and the searches.
 
+use client::short_or_long;
 use fmi_export::Model;
 use models::{DisturbanceTorque, Guidance, MomentumPlant, SpinPlant};
 
@@ -240,13 +241,12 @@ fn guidance() -> Search<Guidance> {
     search
 }
 
-/// A test of every run; `cargo xtask test --long` sets the variable for many times as many states.
+/// One test a search; `cargo xtask test --long` searches many times as many states.
 macro_rules! searches {
     ($($name:ident, $states:literal: $search:expr;)*) => { $(
         #[test]
         fn $name() {
-            let times = if std::env::var_os("HELIOTORQUE_LONG").is_some() { LONG } else { 1 };
-            $search.report_missing($states * times);
+            $search.report_missing($states * short_or_long(1, LONG));
         }
     )* };
 }

@@ -1,6 +1,6 @@
 //! An own spacecraft, controlled and wired with Guidance: its instrument stays at nadir, it talks in its windows, it is never demoted.
 
-use client::NamedInstance;
+use client::{NamedInstance, short_or_long};
 use nalgebra::Vector3;
 
 use super::super::disturbance_torque::instance;
@@ -123,11 +123,11 @@ impl Loop {
 }
 
 #[test]
-fn nadir_is_kept_for_a_day_without_a_keep_in_zone() {
+fn nadir_pointing_holds_without_a_keep_in_zone() {
     for (planet, axis_km) in [("venus", 6551.8), ("earth", 6878.0), ("mars", 3796.0)] {
         let mut wired = Loop::begin(&spacecraft(planet, axis_km, ""), NADIR);
         let mut worst_deg = wired.off_nadir_deg();
-        while wired.plant.time_s < 24.0 * HOUR_S {
+        while wired.plant.time_s < short_or_long(3.5, 24.0) * HOUR_S {
             wired.step();
             worst_deg = worst_deg.max(wired.off_nadir_deg());
         }

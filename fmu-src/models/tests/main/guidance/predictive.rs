@@ -1,5 +1,6 @@
 //! Predictive targets of a sampled guidance against those of a plant that guides itself, where sunlight alone acts.
 
+use client::short_or_long;
 use models::{Guidance, MomentumPlant};
 
 use super::super::named_model::{NamedInstance, NamedModel};
@@ -25,9 +26,11 @@ fn craft(strategy: f64, convention: f64) -> Vec<(&'static str, f64)> {
     ]
 }
 
-const MONTH_S: f64 = 30.0 * CYCLE_S;
+fn span_s() -> f64 {
+    short_or_long(10.0, 30.0) * CYCLE_S
+}
 
-/// Thresholds low enough for dumps within a month.
+/// Thresholds low enough for dumps within days.
 const LOW: &[(&str, f64)] =
     &[("dump.threshold[1]", 1.0), ("dump.threshold[2]", 1.0), ("dump.threshold[3]", 1.0)];
 
@@ -98,7 +101,7 @@ fn dumps_by_samples(strategy: f64) -> i32 {
     let follows = [("attitude.source", 2.0), ("momentum.strategy", 1.0)];
     let mut plant = plants.fly(0.0, &with(&[&reported, PLANT, &follows])).unwrap();
     let mut guidance = guidances.fly(0.0, &with(&[&reported, GUIDANCE])).unwrap();
-    while plant.time_s() < MONTH_S {
+    while plant.time_s() < span_s() {
         let end_s = plant.time_s() + 600.0;
         observe(&mut guidance, &plant);
         guidance.step_to(end_s).unwrap();
@@ -114,7 +117,7 @@ fn samples_that_look_ahead_save_as_many_dumps_as_a_plant_that_does() {
     let plants = NamedModel::<MomentumPlant>::shipped();
     let [reactive, predictive] = [2.0, 3.0].map(|strategy| {
         let mut plant = plants.fly(0.0, &with(&[&craft(strategy, 2.0), LOW, PLANT])).unwrap();
-        plant.fly_to(MONTH_S, HOUR_S).unwrap();
+        plant.fly_to(span_s(), HOUR_S).unwrap();
         (plant.integer("dump.count"), dumps_by_samples(strategy))
     });
     println!("dumps of the plant's own and of samples: reactive {reactive:?}, predictive {predictive:?}");
