@@ -9,7 +9,7 @@ use super::polygon::Polygon;
 use super::surface::Plate;
 use super::thermal::Thermal;
 use crate::enumeration::enumeration;
-use crate::numerics::scalar::{Scalar, acos, constant_vector, cos, sin_cos};
+use crate::numerics::scalar::{Scalar, constant_vector, sin_cos};
 
 enumeration! {
     /// How a panel's angle comes about.
@@ -52,7 +52,8 @@ pub struct Panel {
     pub polygon: Option<Polygon>,
     /// How the angle comes about unless somebody chooses otherwise.
     pub control: PanelControl,
-    /// Angle between cell normal and Sun for [`PanelControl::SunOffset`], in rad, 0 to pi.
+    /// Angle between cell normal and Sun for [`PanelControl::SunOffset`], in rad, -pi to pi; the sign
+    /// is a sense of tilt.
     pub sun_offset_rad: f64,
     /// Which way the panel tilts off the Sun: +1 or -1 about the axis.
     pub tilt_sign: f64,
@@ -85,17 +86,21 @@ impl Panel {
     }
 
     /// The angle about the axis at which the cell normal makes `sun_offset_rad` with the Sun's direction (a unit
-    /// vector in the body frame), tilted by `tilt_sign` about the axis from the Sun-facing angle.
+    /// vector in the body frame), tilted by `tilt_sign` times the offset's sign about the axis from the Sun-facing angle.
     ///
-    /// The offset is measured in space, not in the panel's plane of rotation. Where the Sun is so near the axis that
-    /// no angle gives the offset, the nearest is taken: cells turned straight at (or away from) the Sun's projection.
-    /// With the Sun on the axis itself every angle gives 90 deg; then the answer is 0.
+    /// The offset is measured in space, not in the panel's plane of rotation: with o the offset and a the Sun's part along the
+    /// axis, cos(tilt) = cos o / sqrt(1 - a^2), so tan(tilt) = sin o sqrt(1 - (a / sin o)^2) / cos o, which is smooth through
+    /// offset 0 with the axis across the Sun. Where the Sun is so near the axis that no angle gives the offset, the nearest is
+    /// taken: cells turned straight at (or away from) the Sun's projection. With the Sun on the axis itself every angle gives
+    /// 90 deg; then the answer is 0.
     pub fn angle_for_sun_offset<T: Scalar>(
         &self,
         sun_body: &Vector3<T>,
         sun_offset_rad: T,
         tilt_sign: f64,
     ) -> T {
+        /// The axis is across the Sun but for the rounding of a unit vector.
+        const ACROSS: f64 = 4.0 * f64::EPSILON;
         let toward_zero = dot(&self.zero_normal_body, sun_body);
         let toward_quarter = dot(&self.quarter_normal(), sun_body);
         let in_plane_squared = toward_zero * toward_zero + toward_quarter * toward_quarter;
@@ -103,14 +108,18 @@ impl Panel {
             return T::constant(0.0);
         }
         let facing = T::polar_angle(toward_quarter, toward_zero);
-        // n.s = |s in the plane| cos(angle - facing): at least -|s|, at most |s|.
-        let cos_tilt = in_plane_squared.sqrt().recip() * cos(sun_offset_rad);
-        let tilt = if cos_tilt.value() >= 1.0 {
+        let along_axis = dot(&self.axis_body, sun_body);
+        let (sin, cos) = sin_cos(sun_offset_rad);
+        let (along, across) = (along_axis.value().abs(), sin.value().abs());
+        let tilt = if along <= ACROSS {
+            T::polar_angle(sin, cos)
+        } else if across > along {
+            let share = along_axis / sin;
+            T::polar_angle(sin * (T::constant(1.0) - share * share).sqrt(), cos)
+        } else if cos.value() >= 0.0 {
             T::constant(0.0)
-        } else if cos_tilt.value() <= -1.0 {
-            T::constant(core::f64::consts::PI)
         } else {
-            acos(cos_tilt)
+            T::constant(core::f64::consts::PI.copysign(sin.value()))
         };
         facing + tilt * tilt_sign
     }

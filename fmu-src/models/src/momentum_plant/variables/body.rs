@@ -1,5 +1,7 @@
 //! The spacecraft itself: mass, shade, panels, wheels, faces.
 
+use core::f64::consts::PI;
+
 use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
@@ -46,10 +48,10 @@ pub struct PanelVariables {
     /// What sets the panel's rotation angle.
     #[parameter(start = PanelControl(setup.spacecraft.panels[index].control))]
     pub control: Choice<PanelControl>,
-    /// Angle between the panel's normal and the Sun direction when it is held by Sun offset.
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
+    /// Angle between the panel's normal and the Sun direction when it is held by Sun offset; its sign is a sense of tilt.
+    #[parameter(tunable, unit = "rad", display = "deg", min = -PI, max = PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub sun_offset: Real,
-    /// Sense of that tilt; the paper does not print it.
+    /// Sense of tilt of a positive offset; the paper does not print it.
     #[parameter(start = PanelTilt::of(&setup.spacecraft.panels[index]))]
     pub tilt: Choice<PanelTilt>,
     /// Whether the panel takes part; paper 000's Tables 2 and 3 leave the panels out.
@@ -58,8 +60,8 @@ pub struct PanelVariables {
     /// Rotation angle about the panel's axis from its zero position; it counts when panel control is by angle.
     #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
     pub angle: Real,
-    /// Angle between the panel's normal and the Sun direction when panel control is by command.
-    #[input(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
+    /// Angle between the panel's normal and the Sun direction when panel control is by command; its sign is a sense of tilt.
+    #[input(unit = "rad", display = "deg", min = -PI, max = PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub sun_offset_command: Real,
     /// Rotation angle in effect, about the panel's axis from its zero position.
     #[output(unit = "rad", display = "deg")]

@@ -251,9 +251,9 @@ struct PanelDescription {
     inertia_kg_m2: Option<[[f64; 3]; 3]>,
     /// How the angle comes about.
     control: PanelControl = PanelControl::SunOffset,
-    /// Angle between cell normal and Sun for `sun_offset`, in deg.
-    sun_offset_deg: HalfTurn = 0.0,
-    /// Which way the panel tilts off the Sun about its axis: 1 or -1.
+    /// Angle between cell normal and Sun for `sun_offset`, in deg; its sign is a sense of tilt.
+    sun_offset_deg: HalfTurnEither = 0.0,
+    /// Which way the panel tilts off the Sun about its axis at a positive offset: 1 or -1.
     #[cfg_attr(feature = "schema", schemars(extend("enum" = [1, -1])))]
     tilt_sign: i64 = 1,
     /// Angle about the axis for `angle`, in deg.
