@@ -8,8 +8,9 @@ use super::optics::Optics;
 use super::polygon::Polygon;
 use super::surface::Plate;
 use super::thermal::Thermal;
+use crate::constants::ASTRONOMICAL_UNIT_M;
 use crate::enumeration::enumeration;
-use crate::numerics::scalar::{Scalar, constant_vector, sin_cos};
+use crate::numerics::scalar::{Scalar, acos, constant_vector, sin_cos};
 
 enumeration! {
     /// How a panel's angle comes about.
@@ -23,6 +24,11 @@ enumeration! {
         2 => Angle,
         /// The angle to the Sun of the input sunOffsetCommand.
         3 => Command,
+        /// The angle to the Sun and the windmill angle of the timeline; where it says nothing, the constant angle to the Sun.
+        4 => Timeline,
+        /// The angle to the Sun at which the light on the cells is articulation.targetSuns; where not even full sunlight reaches
+        /// that, cells toward the Sun.
+        5 => Distance,
     }
 }
 
@@ -57,6 +63,8 @@ pub struct Panel {
     pub sun_offset_rad: f64,
     /// Which way the panel tilts off the Sun: +1 or -1 about the axis.
     pub tilt_sign: f64,
+    /// Which way a windmill angle turns the panel about its axis: +1, -1, or 0, not at all.
+    pub windmill_side: f64,
     /// Angle for [`PanelControl::Angle`], in rad.
     pub angle_rad: f64,
     /// Its part of the mass; without one centre of mass and inertia do not follow its angle.
@@ -124,10 +132,25 @@ impl Panel {
         facing + tilt * tilt_sign
     }
 
+    /// Light on the cells in suns, at an angle about the axis and this far from the Sun, whose direction is a unit vector in the
+    /// body frame: 1 is full sunlight across the cells at 1 AU.
+    pub fn suns(&self, angle_rad: f64, sun_body: &Vector3<f64>, sun_distance_m: f64) -> f64 {
+        let distance_au = sun_distance_m / ASTRONOMICAL_UNIT_M;
+        self.normal_body(angle_rad).dot(sun_body).max(0.0) / (distance_au * distance_au)
+    }
+
     /// Unit normal of the cell side at 90 deg, body frame.
     pub fn quarter_normal(&self) -> Vector3<f64> {
         self.axis_body.cross(&self.zero_normal_body)
     }
+}
+
+/// Angle between cell normal and Sun, in rad, at which the light on the cells is `suns`, this far from the Sun; 0 where not even full
+/// sunlight is so much.
+pub fn offset_for_suns<T: Scalar>(suns: f64, sun_distance_m: T) -> T {
+    let distance_au = sun_distance_m * (1.0 / ASTRONOMICAL_UNIT_M);
+    let cosine = distance_au * distance_au * suns;
+    if cosine.value() < 1.0 { acos(cosine) } else { T::constant(0.0) }
 }
 
 fn dot<T: Scalar>(constant: &Vector3<f64>, vector: &Vector3<T>) -> T {

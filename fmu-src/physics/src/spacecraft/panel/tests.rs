@@ -20,6 +20,7 @@ fn panel() -> Panel {
         control: PanelControl::SunOffset,
         sun_offset_rad: 65_f64.to_radians(),
         tilt_sign: 1.0,
+        windmill_side: 1.0,
         angle_rad: 0.0,
         mass: None,
     }
@@ -76,6 +77,28 @@ fn the_rate_of_the_angle_is_that_of_its_differences() {
         let rate = panel().angle_for_sun_offset(&moving, Dual64::new(offset, 0.8), -1.0).eps;
         assert!((rate - difference).abs() < 1e-7 * difference.abs() + 1e-8, "{offset}: {rate} {difference}");
     }
+}
+
+#[test]
+fn the_light_on_the_cells_is_what_the_offset_was_chosen_for() {
+    let sun = Vector3::new(0.1, -0.8, 0.5).normalize();
+    for (suns, distance_au) in [(3.0, 0.31), (3.0, 0.5), (1.0, 0.7), (0.2, 0.99), (9.0, 0.3)] {
+        let distance_m = distance_au * ASTRONOMICAL_UNIT_M;
+        let offset = offset_for_suns(suns, distance_m);
+        let angle = panel().angle_for_sun_offset(&sun, offset, -1.0);
+        // By the inverse square of the distance and the cosine.
+        let found = panel().normal_body(angle).dot(&sun) / (distance_au * distance_au);
+        assert!((found - suns).abs() < 1e-12 * suns, "{suns} {distance_au}: {found}");
+        assert!((panel().suns(angle, &sun, distance_m) - suns).abs() < 1e-12 * suns);
+        let step_m = 1e3;
+        let [before, after] = [-step_m, step_m].map(|step_m| offset_for_suns(suns, distance_m + step_m));
+        let rate = offset_for_suns(suns, Dual64::new(distance_m, 1.0)).eps;
+        assert!((rate - (after - before) / (2.0 * step_m)).abs() < 1e-6 * rate.abs(), "{suns} {distance_au}");
+    }
+    // Beyond 1 / sqrt(3) AU not even full sunlight is three suns.
+    assert_eq!(offset_for_suns(3.0, Dual64::new(0.6 * ASTRONOMICAL_UNIT_M, 1.0)), Dual64::new(0.0, 0.0));
+    // Cells that look away are dark.
+    assert_eq!(panel().suns(core::f64::consts::PI, &-Vector3::y(), ASTRONOMICAL_UNIT_M), 0.0);
 }
 
 proptest! {
