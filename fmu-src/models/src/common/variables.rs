@@ -14,7 +14,7 @@ use physics::guidance::constraints::keep_in::KeepIn;
 use physics::guidance::downlink::sun_place::SunRequest;
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::{self, Guided, Schedule};
-use physics::plant::SunLight;
+use physics::plant::{LightSource, SunLight};
 use physics::spacecraft::{Spacecraft, TimeAfterPeriapsis};
 
 use super::center::CenterBody;
@@ -103,6 +103,10 @@ pub struct SolarFluxVariables {
     /// pressure, 1365 fits paper 004 (well-known simulators use 1349 to 1368).
     #[parameter(unit = "W/m2", min = 0.0, max = 1e6, start = SOLAR_FLUX_W_M2)]
     pub flux: Real,
+    /// Factor of force and torque of direct sunlight, as a fit to a flown momentum gives it; heat and light of the planet go by the
+    /// flux alone.
+    #[parameter(tunable, unit = "1", min = 0.0, max = 1e3, start = 1.0)]
+    pub scale: Real,
 }
 
 /// Sunlight.
@@ -121,11 +125,12 @@ pub struct SolarVariables {
 impl SolarVariables {
     /// The sunlight.
     pub fn read(&self, values: &Values) -> SunLight {
-        if values.boolean(self.fixed_pressure) {
-            SunLight::Fixed { pressure_pa: values.real(self.pressure) }
+        let source = if values.boolean(self.fixed_pressure) {
+            LightSource::Fixed { pressure_pa: values.real(self.pressure) }
         } else {
-            SunLight::Distance { flux_w_m2: values.real(self.at_1_au.flux) }
-        }
+            LightSource::Distance { flux_w_m2: values.real(self.at_1_au.flux) }
+        };
+        SunLight { source, scale: values.real(self.at_1_au.scale) }
     }
 }
 

@@ -89,7 +89,8 @@ impl Parameters {
         let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
         // Guidance balances torques against the momentum.
         let aimed = &knowns![&v.guided, &v.momentum, &v.solar, &v.spacecraft, wheels.collect::<Knowns>()];
-        let turned = knowns![&orbit, &v.attitude, &v.command, &v.keep_in, &v.sunshade, &v.panel];
+        let panels = knowns![&v.panel, v.articulation.target_suns];
+        let turned = knowns![&orbit, &v.attitude, &v.command, &v.keep_in, &v.sunshade, panels];
         let attitude = knowns![turned, aimed.clone().only_if(choice.guided || choice.begins_guided)];
         let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, &v.noise, v.control.rate];
         let light = knowns![
@@ -127,7 +128,9 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramet
     let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
     let seen = knowns![v.attitude.q, v.attitude.rate, sun, others, v.sunshade.polynomial_valid];
     table.output(seen, &inputs.attitude, &parameters.attitude);
-    table.output(&v.panel, knowns![&inputs.attitude, &v.panel], &parameters.attitude);
+    // How the panels stand, and to the corridor.
+    let stood = knowns![&parameters.attitude, &v.articulation];
+    table.output(&v.panel, knowns![&inputs.attitude, &v.panel], stood);
     let sensed = knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid];
     table.output(sensed, knowns![&inputs.attitude, &inputs.failures], &parameters.sensors);
 }

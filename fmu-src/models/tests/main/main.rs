@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "what a test expects may come from the system's functions")]
 
+mod articulation;
 mod center_defaults;
 mod custom_body;
 mod dependencies;

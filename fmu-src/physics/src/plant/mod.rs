@@ -39,7 +39,7 @@ pub use motion::instant::{Instant, Regime};
 pub use motion::panel_motion::PanelMotion;
 pub use motion::trajectory::Trajectory;
 pub use settings::configuration::{
-    AttitudeSource, Command, Configuration, DynamicAttitude, EphemerisSource, Motion, SunLight,
+    AttitudeSource, Command, Configuration, DynamicAttitude, EphemerisSource, LightSource, Motion, SunLight,
     orbit_from_elements,
 };
 pub use settings::control_defaults::ControlDefaults;
@@ -48,7 +48,7 @@ pub use settings::dynamics_settings::{
 };
 pub use settings::error::PlantError;
 pub use settings::ideal_settings::IdealSettings;
-pub use settings::panel_setting::{PanelSetting, Ramp};
+pub use settings::panel_setting::{PanelSetting, PanelStep, Ramp, SunAt};
 pub use settings::radiation_settings::RadiationSettings;
 pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
 pub use settings::work::{Cost, Work, WorkExceeded};

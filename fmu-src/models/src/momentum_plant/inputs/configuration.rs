@@ -57,6 +57,7 @@ pub(super) fn read(
     if !matches!(values.choice(variables.ephemeris.source), EphemerisSource::Inputs) {
         ephemeris::check_start(epoch_s)?;
     }
+    let corridor = variables.articulation.read(values)?;
     panels.clear();
     panels.extend(variables.panel.iter().map(|panel| {
         if !values.boolean(panel.enabled) {
@@ -67,11 +68,16 @@ pub(super) fn read(
             rate_rad_s: over_time.rate(input, over_time.start_s()),
             since_s: over_time.start_s(),
         };
-        let offset = |offset| PanelSetting::SunOffset { offset, tilt_sign: values.choice(panel.tilt).sign() };
+        let tilt_sign = values.choice(panel.tilt).sign();
+        let offset = |offset| PanelSetting::SunOffset { offset, tilt_sign };
         match values.choice(panel.control).0 {
             PanelControl::Angle => PanelSetting::Angle(ramp(panel.angle)),
-            PanelControl::SunOffset => offset(Ramp::held(values.real(panel.sun_offset))),
+            // No timeline says anything of panels yet.
+            PanelControl::SunOffset | PanelControl::Timeline => {
+                offset(Ramp::held(values.real(panel.sun_offset)))
+            }
             PanelControl::Command => offset(ramp(panel.sun_offset_command)),
+            PanelControl::Distance => PanelSetting::Distance { suns: corridor.target_suns, tilt_sign },
         }
     }));
     Ok(Configuration {

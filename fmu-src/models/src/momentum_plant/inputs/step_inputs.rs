@@ -146,6 +146,7 @@ impl StepInputs {
         let vectors = [v.sun.position, v.sun.velocity, v.earth.position, v.earth.velocity, center_of_mass];
         self.light.clear();
         self.light.extend(vectors.into_iter().flat_map(|vector| values.vector(vector)));
+        self.light.push(real(v.solar.at_1_au.scale));
         self.light
             .extend(v.panel.iter().flat_map(|it| [it.angle, it.sun_offset, it.sun_offset_command].map(real)));
         let downlink = &v.downlink;

@@ -87,9 +87,16 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
         .is_none_or(|shade| polynomial_valid(shade, configuration.sunshade, &instant.sun_body));
     values.set_boolean(variables.sunshade.polynomial_valid, valid);
     let panels = context.setup.spacecraft.panels.iter().zip(&configuration.panels);
+    let sun = instant.sun_at(time_s);
+    // The corridor was checked where the flight began.
+    let corridor = variables.articulation.read(values).unwrap_or_default();
     for (panel, (body, setting)) in variables.panel.iter().zip(panels) {
-        values
-            .set_real(panel.angle_actual, setting.angle_rad(body, &instant.sun_body, time_s).unwrap_or(0.0));
+        let angle_rad = setting.angle_rad(body, &sun);
+        let lit = angle_rad.filter(|_| sun.distance_m > 0.0);
+        let suns = lit.map(|angle_rad| body.suns(angle_rad, &sun.direction_body, sun.distance_m));
+        values.set_real(panel.angle_actual, angle_rad.unwrap_or(0.0));
+        values.set_real(panel.suns, suns.unwrap_or(0.0));
+        values.set_real(panel.corridor_margin, suns.map_or(0.0, |suns| corridor.margin_suns(suns)));
     }
 }
 

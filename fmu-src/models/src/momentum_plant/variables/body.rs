@@ -1,6 +1,9 @@
 //! The spacecraft itself: mass, shade, panels, wheels, faces.
 
-use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Variables};
+use core::f64::consts::PI;
+
+use fmi_export::{Boolean, Choice, Failure, Real, RealMatrix, RealVector, Values, Variables};
+use physics::spacecraft::Articulation;
 
 use physics::guidance::constraints::keep_in;
 use physics::spacecraft::SunKeepIn;
@@ -49,10 +52,10 @@ pub struct PanelVariables {
     /// What sets the panel's rotation angle.
     #[parameter(start = PanelControl(setup.spacecraft.panels[index].control))]
     pub control: Choice<PanelControl>,
-    /// Angle between the panel's normal and the Sun direction when it is held by Sun offset.
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
+    /// Angle between the panel's normal and the Sun direction when it is held by Sun offset; its sign is a sense of tilt.
+    #[parameter(tunable, unit = "rad", display = "deg", min = -PI, max = PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub sun_offset: Real,
-    /// Sense of that tilt; the paper does not print it.
+    /// Sense of tilt of a positive offset; the paper does not print it.
     #[parameter(start = PanelTilt::of(&setup.spacecraft.panels[index]))]
     pub tilt: Choice<PanelTilt>,
     /// Whether the panel takes part; paper 000's Tables 2 and 3 leave the panels out.
@@ -61,12 +64,51 @@ pub struct PanelVariables {
     /// Rotation angle about the panel's axis from its zero position; it counts when panel control is by angle.
     #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
     pub angle: Real,
-    /// Angle between the panel's normal and the Sun direction when panel control is by command.
-    #[input(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
+    /// Angle between the panel's normal and the Sun direction when panel control is by command; its sign is a sense of tilt.
+    #[input(unit = "rad", display = "deg", min = -PI, max = PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub sun_offset_command: Real,
     /// Rotation angle in effect, about the panel's axis from its zero position.
     #[output(unit = "rad", display = "deg")]
     pub angle_actual: Real,
+    /// Light on the cells, in suns: the cosine of the angle between their normal and the Sun, 0 where they look away, over the square
+    /// of the distance in AU; shadows do not count.
+    #[output(unit = "1", min = 0.0, nominal = 1.0)]
+    pub suns: Real,
+    /// How far that light is inside articulation.minimumSuns and maximumSuns, the nearer of both; negative outside.
+    #[output(unit = "1", nominal = 1.0)]
+    pub corridor_margin: Real,
+}
+
+/// Corridor of light on the cells of the panels, in suns: 1 is full sunlight across the cells at 1 AU.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct ArticulationVariables {
+    /// Least light on the cells, for power.
+    #[parameter(unit = "1", min = 0.0, max = 1e12, start = setup.spacecraft.articulation.min_suns)]
+    pub minimum_suns: Real,
+    /// Greatest light on the cells, for their temperature.
+    #[parameter(unit = "1", min = 0.0, max = 1e12, start = setup.spacecraft.articulation.max_suns)]
+    pub maximum_suns: Real,
+    /// Light that panels with panel control distance keep on their cells; where not even full sunlight is so much they face the Sun.
+    #[parameter(unit = "1", min = 0.0, max = 1e12, start = setup.spacecraft.articulation.target_suns)]
+    pub target_suns: Real,
+}
+
+impl ArticulationVariables {
+    /// The corridor.
+    ///
+    /// # Errors
+    /// A greatest light that is not above the least.
+    pub fn read(&self, values: &Values) -> Result<Articulation, Failure> {
+        let [min_suns, max_suns, target_suns] =
+            [self.minimum_suns, self.maximum_suns, self.target_suns].map(|suns| values.real(suns));
+        if max_suns > min_suns {
+            return Ok(Articulation { min_suns, max_suns, target_suns });
+        }
+        Err(Failure::new(format!(
+            "articulation.maximumSuns: found {max_suns:?}, allowed: more than articulation.minimumSuns, {min_suns:?}"
+        )))
+    }
 }
 
 /// One reaction wheel. In guided and commanded flight the wheels hold the system momentum less the body's own; there friction

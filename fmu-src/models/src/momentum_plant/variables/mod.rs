@@ -12,7 +12,10 @@ mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
 
-use body::{KeepInVariables, PanelVariables, SpacecraftVariables, SunshadeVariables, WheelVariables};
+use body::{
+    ArticulationVariables, KeepInVariables, PanelVariables, SpacecraftVariables, SunshadeVariables,
+    WheelVariables,
+};
 use control::{
     ControlVariables, EstimateVariables, GyroVariables, NoiseVariables, StarTrackerVariables,
     SunSensorVariables,
@@ -75,6 +78,8 @@ pub struct PlantVariables {
     pub sunshade: SunshadeVariables,
     #[group(count = setup.spacecraft.panels.len())]
     pub panel: Vec<PanelVariables>,
+    #[group]
+    pub articulation: ArticulationVariables,
     #[group(count = setup.spacecraft.wheels.len())]
     pub wheel: Vec<WheelVariables>,
     #[group(count = setup.spacecraft.flexible_modes.len())]

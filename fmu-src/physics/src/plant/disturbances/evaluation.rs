@@ -153,12 +153,12 @@ pub struct PreparedSpacecraft<'a> {
 }
 
 impl PreparedSpacecraft<'_> {
-    /// The spacecraft as sunlight meets it at `time_s`.
+    /// The spacecraft as sunlight meets it at `time_s`, so far from the Sun.
     pub(crate) fn sunlit<'c>(
         &'c self,
         configuration: &'c Configuration,
         mass_at_zero: &MassProperties,
-        time_s: f64,
+        [time_s, sun_distance_m]: [f64; 2],
     ) -> SunlitCraft<'c> {
         SunlitCraft {
             solar: self.solar,
@@ -166,6 +166,7 @@ impl PreparedSpacecraft<'_> {
             settings: &configuration.panels,
             mass_at_zero: *mass_at_zero,
             time_s,
+            sun_distance_m,
         }
     }
 }
@@ -230,7 +231,7 @@ impl<'a> Plant<'a> {
 
     /// Mass, centre of mass and inertia as the panels stand at `time_s`.
     pub fn mass_properties(&self, instant: &Instant, time_s: f64) -> MassProperties {
-        self.kinematics.mass_properties(self.prepared.panels, &instant.sun_body, time_s)
+        self.kinematics.mass_properties(self.prepared.panels, &instant.sun_at(time_s))
     }
 
     /// Momentum in N m s of the panels relative to the body, body frame, as their laws turn them at `time_s`.
@@ -244,8 +245,7 @@ impl<'a> Plant<'a> {
             return Vector3::zeros();
         }
         let configuration = self.kinematics.configuration;
-        let sun = [&instant.sun_body, &instant.sun_rate_body_1_s()];
-        configuration.panel_momentum_body_n_m_s(self.prepared.panels, mass, sun, time_s)
+        configuration.panel_momentum_body_n_m_s(self.prepared.panels, mass, &instant.moving_sun_at(time_s))
     }
 
     fn has_panel_mass(&self) -> bool {
@@ -278,12 +278,14 @@ impl<'a> Plant<'a> {
         {
             shadowed = configuration.light_and_heat.shadowing && light.model.can_shadow();
             loads = segment.loads(time_s);
+            loads[Effect::Solar] = loads[Effect::Solar].scaled(configuration.light.scale);
         }
         if !shadowed {
             let pressure_pa = configuration.light.pressure_pa(instant.sun_distance_m);
             let beam =
                 Beam { source_body: instant.sun_body, pressure_pa: pressure_pa * instant.lit_fraction };
-            let sunlit = self.prepared.sunlit(configuration, &self.kinematics.mass_at_zero, time_s);
+            let at = [time_s, instant.sun_distance_m];
+            let sunlit = self.prepared.sunlit(configuration, &self.kinematics.mass_at_zero, at);
             loads[Effect::Solar] = sunlit.load(&beam, center_of_mass_body_m);
         }
         loads
@@ -316,7 +318,7 @@ impl<'a> Plant<'a> {
     pub(crate) fn begin(&mut self, start_s: f64, limit_s: f64) -> Result<(f64, Instant), PlantError> {
         let known_s = self.orbit_and_light(start_s)?.min(limit_s);
         let instant = self.kinematics.instant(start_s);
-        Ok((self.kinematics.attitude_until_s(start_s, &instant, known_s), instant))
+        Ok((self.kinematics.laws_until_s(start_s, &instant, known_s), instant))
     }
 
     fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {

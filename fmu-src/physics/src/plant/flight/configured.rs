@@ -125,6 +125,7 @@ impl ConfiguredFlight<'_> {
                 momentum,
                 to_sun: instant.geometry.to_sun.position_m.normalize(),
                 to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
+                sun_distance_m: instant.sun_distance_m,
                 pressure_pa,
                 separations_rad,
                 science,

@@ -230,9 +230,10 @@ impl AttitudeDynamics {
         }
         if settings.panels_have_mass {
             let was_turning = self.panels.is_turning();
-            let end_s = self.disturbance.end_s();
+            let hinged = plant.hinged();
+            let end_s = hinged.configuration.last_of_panels_s(time_s, self.disturbance.end_s());
             let [now, end] = [time_s, end_s].map(|at_s| plant.instant(at_s));
-            self.panels.turn_until(plant.hinged(), &now, &end, end_s);
+            self.panels.turn_until(hinged, &now, &end, end_s);
             if was_turning || self.panels.is_turning() {
                 self.turn_mass(settings, flight);
                 let internal = self.panels.internal(flight.given.prepared.panels, &self.mass.now, time_s);
@@ -249,9 +250,9 @@ impl AttitudeDynamics {
         plant: &mut Plant<'_>,
     ) -> Option<BodyMotion> {
         let time_s = self.motion.end_s();
-        let to_sun = plant.instant(time_s).geometry.to_sun.position_m.normalize();
+        let to_sun_m = plant.instant(time_s).geometry.to_sun.position_m;
         let hinged = plant.hinged();
-        let attitude = self.panels.follow(hinged, &mut settings.gyrostat, &self.motion, &to_sun)?;
+        let attitude = self.panels.follow(hinged, &mut settings.gyrostat, &self.motion, &to_sun_m)?;
         let mass = self.panels.mass_properties(&hinged.mass_at_zero, hinged.panels, time_s);
         self.set_known_mass(settings, mass);
         let internal = self.panels.internal(hinged.panels, &mass, time_s);

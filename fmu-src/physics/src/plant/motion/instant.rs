@@ -7,6 +7,8 @@ use crate::attitude::MovingFrame;
 use crate::environment::CartesianState;
 use crate::guidance::DownlinkStatus;
 use crate::momentum::EventValues;
+use crate::numerics::scalar::Dual64;
+use crate::plant::settings::panel_setting::SunAt;
 
 /// Everything about one time but what acts on the spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,8 +67,25 @@ impl Instant {
         }
     }
 
+    /// The Sun from the spacecraft; this being the instant at `time_s`.
+    pub fn sun_at(&self, time_s: f64) -> SunAt {
+        SunAt { time_s, direction_body: self.sun_body, distance_m: self.sun_distance_m }
+    }
+
+    /// The same with the rate of everything, time's being 1.
+    pub fn moving_sun_at(&self, time_s: f64) -> SunAt<Dual64> {
+        let to_sun = &self.geometry.to_sun;
+        let approach_m_s =
+            to_sun.position_m.try_normalize(0.0).map_or(0.0, |unit| unit.dot(&to_sun.velocity_m_s));
+        SunAt {
+            time_s: Dual64::new(time_s, 1.0),
+            direction_body: self.sun_body.zip_map(&self.sun_rate_body_1_s(), Dual64::new),
+            distance_m: Dual64::new(self.sun_distance_m, approach_m_s),
+        }
+    }
+
     /// How the unit vector to the Sun moves in the body frame, in 1/s.
-    pub fn sun_rate_body_1_s(&self) -> Vector3<f64> {
+    fn sun_rate_body_1_s(&self) -> Vector3<f64> {
         let to_sun = &self.geometry.to_sun;
         let moving = to_sun.position_m.try_normalize(0.0).map_or(Vector3::zeros(), |unit| {
             (to_sun.velocity_m_s - unit * unit.dot(&to_sun.velocity_m_s)) / self.sun_distance_m

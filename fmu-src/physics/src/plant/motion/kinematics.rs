@@ -30,6 +30,7 @@ use super::instant::{Instant, Regime};
 use super::trajectory::Trajectory;
 use crate::plant::settings::configuration::{AttitudeSource, Configuration, Motion};
 use crate::plant::settings::error::PlantError;
+use crate::plant::settings::panel_setting::SunAt;
 use crate::plant::settings::work::{Cost, Work};
 
 /// Nodes at which a span is looked through for events.
@@ -70,14 +71,9 @@ impl Kinematics<'_> {
         Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
     }
 
-    /// Mass, centre of mass and inertia as the panels stand at `time_s`, the Sun being there (unit vector, body frame).
-    pub(crate) fn mass_properties(
-        &self,
-        panels: &[Panel],
-        sun_body: &Vector3<f64>,
-        time_s: f64,
-    ) -> MassProperties {
-        self.configuration.mass_properties(&self.mass_at_zero, panels, sun_body, time_s)
+    /// Mass, centre of mass and inertia as the panels stand with the Sun there.
+    pub(crate) fn mass_properties(&self, panels: &[Panel], sun: &SunAt) -> MassProperties {
+        self.configuration.mass_properties(&self.mass_at_zero, panels, sun)
     }
 
     /// The event functions alone, counted as a search.
@@ -309,8 +305,10 @@ impl Kinematics<'_> {
         }
     }
 
-    /// The number at which the window or slew of `instant`, at `time_s`, ends, if it does before `limit_s`.
-    pub(crate) fn attitude_until_s(&mut self, time_s: f64, instant: &Instant, limit_s: f64) -> f64 {
+    /// The number at which the window or slew of `instant`, at `time_s`, ends or a panel goes elsewhere at once, if that is before
+    /// `limit_s`.
+    pub(crate) fn laws_until_s(&mut self, time_s: f64, instant: &Instant, limit_s: f64) -> f64 {
+        let limit_s = limit_s.min(self.configuration.panels_until_s(time_s));
         let epoch_s = instant.attitude_until_s + self.configuration.epoch_minus_time_s;
         let rounding_s = EPOCH_ROUNDING_S + 4.0 * (spacing(epoch_s) + spacing(instant.attitude_until_s));
         let (before_s, behind_s) =
@@ -336,7 +334,9 @@ impl Kinematics<'_> {
         // The edge this span starts at was found on an orbit that has been computed anew since.
         let after_s = after_event_s(start_s).min(limit_s);
         let first = self.instant(after_s);
-        let limit_s = self.attitude_until_s(after_s, &first, limit_s);
+        // Where a panel goes elsewhere is known to the number, however soon that is.
+        let limit_s = limit_s.min(self.configuration.panels_until_s(start_s));
+        let limit_s = self.laws_until_s(after_s, &first, limit_s);
         let samples = Segment::<4, NODES>::nodes(start_s, limit_s).map(|at_s| self.instant(at_s).events);
         let rounding_s = self.time_rounding_s(limit_s);
         first_event(after_s, start_s, limit_s, rounding_s, &samples, |at_s| self.events(at_s))
