@@ -22,7 +22,7 @@ use variables::PlantVariables;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
-    const STATE_VERSION: u32 = 13;
+    const STATE_VERSION: u32 = 14;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &[EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");

@@ -7,7 +7,7 @@ use physics::environment::ephemeris::Ephemeris;
 use physics::environment::onboard::OnboardEphemeris;
 use physics::environment::orbit::OrbitMethod;
 use physics::momentum::WheelArray;
-use physics::plant::{ControlDefaults, PreparedSpacecraft};
+use physics::plant::{ControlDefaults, PreparedSpacecraft, ScheduledEvent};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
 
@@ -56,6 +56,9 @@ pub struct PlantSetup {
     /// Positions of Sun and planets over time, if there is a file of them; they do not enter the GUID.
     #[serde(skip)]
     pub ephemeris: Option<Arc<OnboardEphemeris>>,
+    /// Dumps, maneuvers and places of the centre of mass by time, in order; they do not enter the GUID.
+    #[serde(skip)]
+    pub scheduled_events: Arc<[ScheduledEvent]>,
     /// How disturbed orbits are integrated.
     #[serde(skip)]
     orbit_method: OrbitMethod,
@@ -84,6 +87,7 @@ impl PlantSetup {
             shapes: PreparedShapes::of(&spacecraft),
             wheel_array,
             ephemeris: None,
+            scheduled_events: Arc::default(),
             orbit_method: OrbitMethod::default(),
             planets_at_start: OnceLock::new(),
             spacecraft,
