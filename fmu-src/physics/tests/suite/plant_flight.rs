@@ -20,8 +20,8 @@ use physics::momentum::{
 use physics::numerics::quadrature;
 use physics::plant::{
     AttitudeSource, Command, Configuration, EphemerisSource, External, Laws, Motion, PanelSetting, Plant,
-    PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver, SunLight, World,
-    orbit_from_elements,
+    PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver, SunLight, ThrusterEventSettings,
+    World, orbit_from_elements,
 };
 use physics::radiation::SolarModel;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
@@ -69,6 +69,7 @@ pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Co
                 reinitialise: Reinitialise::Opposite { fraction: 1.0 },
             },
         },
+        thruster_events: ThrusterEventSettings::default(),
     }
 }
 
