@@ -94,8 +94,11 @@ impl Parameters {
         let turned = knowns![&orbit, &v.attitude, &v.command, &v.keep_in, &v.sunshade, &v.panel];
         let attitude = knowns![turned, aimed.clone().only_if(choice.guided || choice.begins_guided)];
         let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, &v.noise, v.control.rate];
+        // In free flight they are fitted along the torque-free turn ahead, which goes by the rotors' inertia.
+        let rotors = v.wheel.iter().map(|wheel| wheel.inertia).collect::<Knowns>();
         let light = knowns![
             &attitude,
+            rotors,
             &v.planet_light,
             &v.thermal,
             &v.shadowing,
