@@ -49,7 +49,9 @@ struct Inputs {
 
 impl Inputs {
     fn of(setup: &PlantSetup, choice: OpenChoices, v: &PlantVariables) -> Self {
-        let places = knowns![v.orbit.position, v.orbit.velocity, &v.sun, &v.earth];
+        // A maneuver puts it on another orbit at once.
+        let maneuver = knowns![&v.maneuver].only_if(choice.ideal);
+        let places = knowns![v.orbit.position, v.orbit.velocity, &v.sun, &v.earth, &maneuver];
         let panels_weigh = setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some());
         // The Sun's place in a downlink follows the momentum, and that the dump.
         let guided = knowns![&v.panel, &v.dump].only_if(choice.guided);
@@ -60,7 +62,7 @@ impl Inputs {
         Self {
             places,
             attitude,
-            dumped_at_once: knowns![&v.dump].only_if(choice.ideal),
+            dumped_at_once: knowns![&v.dump, maneuver].only_if(choice.ideal),
             failures: knowns![
                 v.star_tracker.failed,
                 v.star_tracker.spare_failed,
@@ -68,7 +70,7 @@ impl Inputs {
                 sensors,
                 wheels
             ],
-            commanded: knowns![&v.command, &v.dump, &v.thrust, &v.thruster, &v.wheel, &v.panel],
+            commanded: knowns![&v.command, &v.dump, &v.maneuver, &v.thrust, &v.thruster, &v.wheel, &v.panel],
         }
     }
 }
@@ -93,8 +95,11 @@ impl Parameters {
         let turned = knowns![&orbit, &v.attitude, &v.command, &v.keep_in, &v.sunshade, panels];
         let attitude = knowns![turned, aimed.clone().only_if(choice.guided || choice.begins_guided)];
         let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, &v.noise, v.control.rate];
+        // In free flight they are fitted along the torque-free turn ahead, which goes by the rotors' inertia.
+        let rotors = v.wheel.iter().map(|wheel| wheel.inertia).collect::<Knowns>();
         let light = knowns![
             &attitude,
+            rotors,
             &v.planet_light,
             &v.thermal,
             &v.shadowing,
@@ -106,8 +111,8 @@ impl Parameters {
         ];
         let momentum = knowns![&attitude, aimed, &v.dump];
         Self {
-            // A dump at once takes propellant, which moves the centre of mass.
-            light: knowns![light, knowns![&momentum, &v.thruster].only_if(choice.ideal)],
+            // A dump at once takes propellant, which moves the centre of mass, and may move it at random.
+            light: knowns![light, knowns![&momentum, &v.thruster, &v.noise].only_if(choice.ideal)],
             actuators: knowns![&momentum, &sensors, &v.control, &v.wheel, &v.thruster, &v.tank, &v.thrust],
             sensors: knowns![&attitude, sensors],
             orbit,
@@ -164,6 +169,7 @@ fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, param
     let moved = knowns![v.delta_v, v.accelerometer.delta_v];
     table.output(knowns![spent, moved], dumped, &parameters.actuators);
     table.output(&v.dump, target, &parameters.actuators);
+    table.output(&v.maneuver, knowns![&inputs.attitude, &v.maneuver], knowns![&v.maneuver, &v.noise]);
     table.calculated(v.dump.guaranteed_threshold, &v.wheel);
 }
 

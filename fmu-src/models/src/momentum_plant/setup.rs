@@ -12,7 +12,7 @@ use physics::guidance::pointing::scan::ScanCompatibility;
 use physics::guidance::pointing::scenario::GuidanceHardware;
 use physics::guidance::timeline::{Timeline, TimelineLaw};
 use physics::momentum::WheelArray;
-use physics::plant::{ControlDefaults, PreparedSpacecraft};
+use physics::plant::{ControlDefaults, PreparedSpacecraft, ScheduledEvent};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
 
@@ -64,6 +64,9 @@ pub struct PlantSetup {
     /// Commands over time, if there is a file of them; it does not enter the GUID.
     #[serde(skip)]
     pub timeline: Option<Arc<Timeline>>,
+    /// Dumps, maneuvers and places of the centre of mass by time, in order; they do not enter the GUID.
+    #[serde(skip)]
+    pub scheduled_events: Arc<[ScheduledEvent]>,
     /// How disturbed orbits are integrated.
     #[serde(skip)]
     orbit_method: OrbitMethod,
@@ -93,6 +96,7 @@ impl PlantSetup {
             wheel_array,
             ephemeris: None,
             timeline: None,
+            scheduled_events: Arc::default(),
             orbit_method: OrbitMethod::default(),
             planets_at_start: OnceLock::new(),
             spacecraft,

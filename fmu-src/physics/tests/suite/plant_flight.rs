@@ -21,7 +21,7 @@ use physics::numerics::quadrature;
 use physics::plant::{
     AttitudeSource, Command, Configuration, EphemerisSource, External, Laws, LightSource, Motion,
     PanelSetting, PanelStep, Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver,
-    Ramp, SunLight, World, orbit_from_elements,
+    Ramp, SunLight, ThrusterEventSettings, World, orbit_from_elements,
 };
 use physics::radiation::SolarModel;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
@@ -70,6 +70,7 @@ pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Co
                 reinitialise: Reinitialise::Opposite { fraction: 1.0 },
             },
         },
+        thruster_events: ThrusterEventSettings::default(),
     }
 }
 

@@ -14,7 +14,10 @@ use physics::guidance::timeline::TimelineSettings;
 use physics::guidance::{Guided, TargetPlanet};
 use physics::management::Strategy;
 use physics::momentum::{DumpPolicy, Reinitialise, Settings};
-use physics::plant::{self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, Ramp};
+use physics::plant::{
+    self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, Ramp,
+    ThrusterEventSettings,
+};
 use physics::spacecraft::PanelControl;
 
 use super::center::Center;
@@ -104,6 +107,14 @@ pub(super) fn read(
         inertia_body_kg_m2,
         effects: variables.laws.active(values, switches),
         momentum: settings(context, values),
+        thruster_events: ThrusterEventSettings {
+            schedule: context.setup.scheduled_events.clone(),
+            magnitude_error: values.real(variables.maneuver.magnitude_error),
+            direction_error_rad: values.real(variables.maneuver.direction_error),
+            center_of_mass_shift_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass_shift)),
+            seed: values.integer(variables.noise.seed).unsigned_abs().into(),
+            requested_body_n_m_s: Vector3::from(values.vector(variables.dump.target)),
+        },
     })
 }
 

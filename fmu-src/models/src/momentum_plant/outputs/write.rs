@@ -5,8 +5,9 @@ use nalgebra::Vector3;
 use physics::attitude::{Attitude, SunAngles};
 use physics::environment::time;
 use physics::loads::Effect;
-use physics::momentum::DumpEvent;
-use physics::plant::{Configuration, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report};
+use physics::plant::{
+    Configuration, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report, ThrusterEvent,
+};
 use physics::propulsion::surface_in_plume;
 use physics::radiation::{TorquePolynomial, polynomial_valid};
 
@@ -139,6 +140,10 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
     values.set_boolean(dump.too_close, closest_s.is_some_and(|closest_s| closest_s < required_s));
     values.set_vector(dump.impulse, shown.dump_impulse_body_n_m_s.into());
     values.set_vector(dump.delta_v, shown.dump_delta_v_inertial_m_s.into());
+    let (last_s, executed_m_s) = shown.maneuvers.last.unwrap_or((-1.0, Vector3::from([0.0; 3])));
+    values.set_integer(v.maneuver.count, shown.maneuvers.count);
+    values.set_real(v.maneuver.last_time, last_s);
+    values.set_vector(v.maneuver.executed, executed_m_s.into());
 }
 
 /// Sensors and control.
@@ -278,6 +283,7 @@ pub(crate) fn failure(error: PlantError) -> Failure {
         PlantError::WithoutPosition { .. } | PlantError::Light { .. } => {
             "; see orbit.*, sun.position and planet.radius"
         }
+        PlantError::Maneuver { .. } => "; see maneuver.request, maneuver.deltaV and maneuver.thrusters",
         PlantError::Dumps(_) => "; see dump.threshold, dump.reinitTo and torque.applied",
         PlantError::Work(exceeded) => {
             let most = match exceeded.most {
@@ -323,14 +329,28 @@ pub(crate) fn flyable(report: &Report<'_>) -> Result<(), Failure> {
     report.evaluation.check(time_s).map_err(failure)
 }
 
-/// Reports a dump.
-pub(crate) fn log_dump(context: &Plan<'_>, event: &DumpEvent) {
-    if context.log.events_enabled() {
-        let message = format!(
-            "thruster dump: momentum {:?} -> {:?} N.m.s (body)",
-            event.before_body_n_m_s.as_slice(),
-            event.after_body_n_m_s.as_slice()
-        );
-        context.log.event(event.time_s, &message);
+/// Reports a dump or a maneuver.
+pub(crate) fn log_event(context: &Plan<'_>, event: &ThrusterEvent) {
+    if !context.log.events_enabled() {
+        return;
     }
+    let (time_s, message) = match event {
+        ThrusterEvent::Dump(event) => (
+            event.time_s,
+            format!(
+                "thruster dump: momentum {:?} -> {:?} N.m.s (body)",
+                event.before_body_n_m_s.as_slice(),
+                event.after_body_n_m_s.as_slice()
+            ),
+        ),
+        ThrusterEvent::Maneuver { time_s, asked_m_s, executed_m_s } => (
+            *time_s,
+            format!(
+                "maneuver: {:?} m/s asked, {:?} m/s executed (EME2000)",
+                asked_m_s.as_slice(),
+                executed_m_s.as_slice()
+            ),
+        ),
+    };
+    context.log.event(time_s, &message);
 }

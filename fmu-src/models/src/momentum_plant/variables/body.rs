@@ -26,6 +26,10 @@ pub struct SpacecraftVariables {
     /// Centre of mass in the body frame, with every panel at angle 0; panels that have a mass move it by the file's masses.
     #[parameter(tunable, unit = "m", display = "cm", min = -1e4, max = 1e4, start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
     pub center_of_mass: RealVector<3>,
+    /// Standard deviation by which the centre of mass lies off spacecraft.centerOfMass, drawn from noise.seed anew at each thruster
+    /// event (dump or maneuver), in guided and commanded flight; 0 in controlled and free flight.
+    #[parameter(unit = "m", display = "cm", min = 0.0, max = 1e2, start = [0.0; 3])]
+    pub center_of_mass_shift: RealVector<3>,
 }
 
 /// Sunshade.

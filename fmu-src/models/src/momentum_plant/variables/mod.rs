@@ -26,7 +26,8 @@ use effects::{
 use flexibility::{FlexibleModeVariables, SloshVariables};
 use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables, TimelineVariables};
 use propulsion::{
-    AccelerometerVariables, PropellantVariables, TankVariables, ThrustVariables, ThrusterVariables,
+    AccelerometerVariables, ManeuverVariables, PropellantVariables, TankVariables, ThrustVariables,
+    ThrusterVariables,
 };
 use surroundings::{
     EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SunVariables,
@@ -106,6 +107,8 @@ pub struct PlantVariables {
     pub propellant: PropellantVariables,
     #[group]
     pub thrust: ThrustVariables,
+    #[group]
+    pub maneuver: ManeuverVariables,
     #[group]
     pub noise: NoiseVariables,
     #[group]

@@ -47,6 +47,8 @@ const PLANT: &[Row] = &[
     ("dump.target", Vector(0.0, 1.0), 1.0),
     ("dump.threshold[*]", Between(1.6, 4.0), 1.0),
     ("dump.request", Flag(0.2), 1.0),
+    ("maneuver.request", Flag(0.2), 0.5),
+    ("maneuver.deltaV", Vector(1.0, 10.0), 1.0),
     ("panel[*].angle", Between(-3.0, 3.0), 1.0),
     ("panel[*].control", Whole(1, 5), 0.7),
     ("panel[*].sunOffsetCommand", Between(-1.2, 1.2), 1.0),

@@ -194,7 +194,7 @@ impl<'a> Plant<'a> {
         external: &'a External<'a>,
     ) -> Self {
         let World { configuration, mass_at_zero, ephemeris, laws, light, work } = world;
-        let PropagatorState { trajectory, light: segment, sun_choice } = propagator;
+        let PropagatorState { trajectory, light: segment, sun_choice, .. } = propagator;
         let kinematics = Kinematics {
             configuration,
             trajectory,

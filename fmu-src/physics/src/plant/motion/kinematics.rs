@@ -291,7 +291,7 @@ impl Kinematics<'_> {
         let now = self.trajectory.state_at(configuration, from_s);
         let from_epoch_s = from_s + configuration.epoch_minus_time_s;
         let ellipse = match configuration.motion {
-            Motion::TwoBody => Some(configuration.orbit),
+            Motion::TwoBody => Some(*self.trajectory.two_body(configuration)),
             Motion::Disturbed { gravity, .. } => {
                 TwoBodyOrbit::from_state(&now, gravity.mu_m3_s2, from_epoch_s).ok()
             }

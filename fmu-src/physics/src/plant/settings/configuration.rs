@@ -23,6 +23,7 @@ use crate::spacecraft::{MassProperties, Panel, SunshadeModel, hinged_masses, wit
 
 use super::panel_setting::{PanelSetting, SunAt};
 use super::radiation_settings::RadiationSettings;
+use super::thruster_events::ThrusterEventSettings;
 
 /// Where the attitude comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -316,4 +317,6 @@ pub struct Configuration {
     pub effects: Active,
     /// Integration of momentum.
     pub momentum: Settings,
+    /// What thruster events go by, and those that are scheduled.
+    pub thruster_events: ThrusterEventSettings,
 }
