@@ -122,6 +122,7 @@ fn upright() -> Attitude {
 }
 
 /// What a distance and an offset leave, by body axes, in N m s a day.
+#[derive(Clone)]
 struct Worth {
     distance_au: f64,
     offset_deg: f64,
