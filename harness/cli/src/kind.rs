@@ -149,7 +149,8 @@ impl fmt::Display for FileKind {
 fn panels_have_times(root: &DeTable<'_>) -> bool {
     let (list, keys) = PANELS;
     let items = root.get(list).and_then(|list| list.get_ref().as_array());
-    let mut tables = items.into_iter().flat_map(|items| items.iter()).filter_map(|it| it.get_ref().as_table());
+    let mut tables =
+        items.into_iter().flat_map(|items| items.iter()).filter_map(|it| it.get_ref().as_table());
     tables.any(|table| keys.into_iter().any(|key| table.contains_key(key)))
 }
 

@@ -38,7 +38,8 @@ pub(crate) fn summary(timeline: &Timeline) -> String {
     let (entries, panels, events) = (timeline.entries(), timeline.panels(), timeline.events());
     let until = entries.last().and_then(|entry| entry.until_s);
     // Begin of the first and end of the last, where that has one.
-    let commands = entries.first().map(|entry| (entry.at_s, until.map_or_else(|| "the end".to_owned(), shown)));
+    let commands =
+        entries.first().map(|entry| (entry.at_s, until.map_or_else(|| "the end".to_owned(), shown)));
     let positions = panels.first().map(|it| (it.at_s, "the end".to_owned()));
     let last_event = events.last().map_or_else(String::new, |it| shown(it.at_s));
     let happen = events.first().map(|it| (it.at_s, last_event));
@@ -60,7 +61,12 @@ pub(crate) fn summary(timeline: &Timeline) -> String {
 }
 
 /// What one of both models alone does of a timeline that Guidance takes, a line each.
-pub(crate) fn of_one_model(file: &str, text: &str, spacecraft: &Spacecraft, timeline: &Timeline) -> Vec<String> {
+pub(crate) fn of_one_model(
+    file: &str,
+    text: &str,
+    spacecraft: &Spacecraft,
+    timeline: &Timeline,
+) -> Vec<String> {
     let refused = Timeline::of_plant(file, text, spacecraft).err();
     let problems = refused.map_or_else(Vec::new, |error| error.problems);
     let place = |line: Option<usize>| line.map_or_else(String::new, |line| format!(":{line}"));
@@ -73,10 +79,13 @@ pub(crate) fn of_one_model(file: &str, text: &str, spacecraft: &Spacecraft, time
         (events.iter().filter(|it| it.maneuver.is_some()).count(), "maneuver"),
         (events.iter().filter(|it| it.center_of_mass_body_m.is_some()).count(), "centre of mass"),
     ];
-    let plant: Vec<String> =
-        counted.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| numbered(count, what)).collect();
-    let plant =
-        (!plant.is_empty()).then(|| format!("MomentumPlant only: {}; Guidance leaves them out", plant.join(", ")));
+    let plant: Vec<String> = counted
+        .into_iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, what)| numbered(count, what))
+        .collect();
+    let plant = (!plant.is_empty())
+        .then(|| format!("MomentumPlant only: {}; Guidance leaves them out", plant.join(", ")));
     guidance.chain(plant).collect()
 }
 
@@ -94,7 +103,9 @@ pub(crate) fn warnings(
     parts: &[(String, PathBuf)],
 ) -> Vec<String> {
     let read = |folder: &Path| files::read_text(&folder.join("resources").join(FILE)).ok();
-    let warning = |(prefix, folder): &(String, PathBuf)| panels_without_effect(&read(folder)?, description, sets, prefix);
+    let warning = |(prefix, folder): &(String, PathBuf)| {
+        panels_without_effect(&read(folder)?, description, sets, prefix)
+    };
     parts.iter().filter_map(warning).collect()
 }
 
@@ -133,13 +144,17 @@ mod tests {
             "[[command]]\nat = 0\nscenario = \"burn\"\n[[panels]]\nat = 0\nsunOffset = 1\n[[panels]]\nat = 9\nsunOffset = 1\n\
              [[event]]\nat = 5\ncenterOfMass = [0, 0, 0]\nmaneuver = { deltaV = [1, 0, 0] }",
         );
-        assert_eq!(all, "1 command from 0 s to the end, 2 positions of the panels from 0 s to the end, 1 event at 5 s");
+        assert_eq!(
+            all,
+            "1 command from 0 s to the end, 2 positions of the panels from 0 s to the end, 1 event at 5 s"
+        );
         let expected = [
             "Guidance only: t.toml:3: command[1].scenario: the scenario burn; MomentumPlant refuses it",
             "MomentumPlant only: 2 positions of the panels, 1 maneuver, 1 centre of mass; Guidance leaves them out",
         ];
         assert_eq!(of_one, expected);
-        let (events, of_one) = said("[[event]]\nat = 5\ndump = true\n[[event]]\nat = \"1 h\"\ndump = [0, 0, 1]");
+        let (events, of_one) =
+            said("[[event]]\nat = 5\ndump = true\n[[event]]\nat = \"1 h\"\ndump = [0, 0, 1]");
         assert_eq!((events.as_str(), of_one.len()), ("2 events from 5 s to 3600 s", 0));
     }
 }

@@ -88,7 +88,8 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
     if !low.is_empty() {
         sections.push(Section::new("orbit", low.into_iter().map(Finding::note).collect()));
     }
-    let panels = carried::timeline::warnings(fmu.description(), &[], &[(String::new(), fmu.folder().to_owned())]);
+    let panels =
+        carried::timeline::warnings(fmu.description(), &[], &[(String::new(), fmu.folder().to_owned())]);
     if !panels.is_empty() {
         sections.push(Section::new("panels", panels.into_iter().map(Finding::note).collect()));
     }

@@ -115,16 +115,29 @@ fn a_file_is_judged_for_both_models() {
         &run(&["check", file], 0),
         &[
             "ok: 3 commands from 0 s to the end, 2 positions of the panels from 0 s to the end, 2 events from 10800 s to 14400 s",
-            &format!("\nGuidance only: {file}:7: command[2].scenario: the scenario burn; MomentumPlant refuses it"),
-            &format!("\nGuidance only: {file}:10: command[3].mode: the mode safeHold; MomentumPlant refuses it"),
+            &format!(
+                "\nGuidance only: {file}:7: command[2].scenario: the scenario burn; MomentumPlant refuses it"
+            ),
+            &format!(
+                "\nGuidance only: {file}:10: command[3].mode: the mode safeHold; MomentumPlant refuses it"
+            ),
             "\nMomentumPlant only: 2 positions of the panels, 1 maneuver; Guidance leaves them out",
         ],
     );
     // What only one of them reads is judged too.
     fs::write(file, BOTH.replace("\"55 deg\"", "\"5 km\"").replace("N.m.s\"]", "N.m\"]")).unwrap();
     let said = run(&["check", file], 1);
-    says(&said, &["both.toml:13: panels[1].sunOffset[2]: found \"5 km\"", "both.toml:20: event[1].dump[3]: found \"0.5 N.m\""]);
-    says(&said, &["an angular momentum: a number in N.m.s or a string with a unit: N.m.s, mN.m.s", "2 problems"]);
+    says(
+        &said,
+        &[
+            "both.toml:13: panels[1].sunOffset[2]: found \"5 km\"",
+            "both.toml:20: event[1].dump[3]: found \"0.5 N.m\"",
+        ],
+    );
+    says(
+        &said,
+        &["an angular momentum: a number in N.m.s or a string with a unit: N.m.s, mN.m.s", "2 problems"],
+    );
 }
 
 #[test]
@@ -134,19 +147,37 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
     let (file, fmu) = (scratch.path().join("both.toml"), scratch.path().join("Timed.fmu"));
     fs::write(&file, BOTH).unwrap();
     let pack = |model: &'static str| {
-        ["pack", "--library", shown(&library), "--model", model, "--timeline", shown(&file), "--output", shown(&fmu)]
-            .map(str::to_owned)
+        [
+            "pack",
+            "--library",
+            shown(&library),
+            "--model",
+            model,
+            "--timeline",
+            shown(&file),
+            "--output",
+            shown(&fmu),
+        ]
+        .map(str::to_owned)
     };
     let arguments = pack("MomentumPlant");
     let arguments = arguments.each_ref().map(String::as_str);
     let said = run(&arguments, 1);
     says(&said, &["both.toml:7: command[2].scenario: found the scenario burn, allowed: another scenario"]);
-    says(&said, &["both.toml:10: command[3].mode: found the mode safeHold, allowed: no such key", "[[event]] with `maneuver`"]);
+    says(
+        &said,
+        &[
+            "both.toml:10: command[3].mode: found the mode safeHold, allowed: no such key",
+            "[[event]] with `maneuver`",
+        ],
+    );
     assert!(!fmu.exists());
     run(&pack("Guidance").each_ref().map(String::as_str), 0);
     says(&run(&["info", shown(&fmu)], 0), &["3 commands from 0 s to the end, 2 positions"]);
 
-    let plant = BOTH.replace("scenario = \"burn\"", "scenario = \"nadir\"").replace("mode = \"safeHold\"", "scenario = \"nadir\"");
+    let plant = BOTH
+        .replace("scenario = \"burn\"", "scenario = \"nadir\"")
+        .replace("mode = \"safeHold\"", "scenario = \"nadir\"");
     fs::write(&file, &plant).unwrap();
     // Panels stand by another rule unless it is chosen, and that is said.
     let without = "[[panels]] of the timeline are without effect: found panel[k].control = sunOffset, sunOffset, allowed: timeline";
@@ -156,7 +187,12 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
     let chosen = [&arguments[..], &["--set", "panel[1].control=timeline"]].concat();
     assert!(!run(&chosen, 0).contains("warning"));
     let said = run(&["info", shown(&fmu)], 0);
-    says(&said, &["3 commands from 0 s to the end, 2 positions of the panels from 0 s to the end, 2 events from 10800 s"]);
+    says(
+        &said,
+        &[
+            "3 commands from 0 s to the end, 2 positions of the panels from 0 s to the end, 2 events from 10800 s",
+        ],
+    );
     let said = run(&["check", shown(&fmu), "--only", "simulation", "--verbose"], 0);
     says(&said, &["2 events from 10800 s to 14400 s"]);
 
@@ -166,13 +202,18 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
                 record = [\"timeline.command\", \"sun.azimuth\"]\noutput = \"timed.csv\"\n";
     fs::write(&mission, text).unwrap();
     let check = ["check", shown(&mission), "--template", shown(&plain)];
-    says(&run(&check, 0), &["ok: timed flies", "without effect: found panel[k].control = sunOffset, sunOffset"]);
+    says(
+        &run(&check, 0),
+        &["ok: timed flies", "without effect: found panel[k].control = sunOffset, sunOffset"],
+    );
     let set = format!("{text}[set]\n\"panel[1].control\" = \"timeline\"\n");
     fs::write(&mission, set).unwrap();
     assert!(!run(&check, 0).contains("warning"));
     run(&["run", shown(&mission), "--template", shown(&plain), "--quiet"], 0);
     let rows = fs::read_to_string(scratch.path().join("timed.csv")).unwrap();
-    let row = |number: usize| rows.lines().nth(number).unwrap().split(',').map(|it| it.parse().unwrap()).collect::<Vec<f64>>();
+    let row = |number: usize| {
+        rows.lines().nth(number).unwrap().split(',').map(|it| it.parse().unwrap()).collect::<Vec<f64>>()
+    };
     let commands = [1, 7, 13, 31].map(|number| row(number)[1]);
     assert_eq!(commands, [1.0, 2.0, 3.0, 3.0], "{rows}");
     // A mission's mistakes are told by the timeline's lines.

@@ -1,8 +1,8 @@
 //! What turning panels, tilting, moving the centre of mass and alternating change in the momentum of a day, by offset and distance.
 //!
-//! One flight a distance: the attitude is commanded, the place held, panels stand by a timeline of `[[panels]]`. Momentum gathers
-//! for `STEP_S` under each change both ways; half of what both leave apart, over the change, is its worth (central difference, off
-//! by a share of `TURN_RAD` squared). Momentum is inertial, by the body axes of the attitude that has the Sun on -Y.
+//! One flight each: the attitude is commanded, the place held, panels stand by a timeline of `[[panels]]`. Momentum gathers for
+//! `STEP_S` under each change both ways; half of what both leave apart, over the change, is its worth (central difference, off by
+//! a share of `TURN_RAD` squared). Momentum is inertial, by the body axes of the attitude that has the Sun on -Y.
 
 use loader::Fmu;
 use nalgebra::Unit;
@@ -122,19 +122,18 @@ fn upright() -> Attitude {
 }
 
 /// What a distance and an offset leave, by body axes, in N m s a day.
-#[derive(Clone)]
 struct Worth {
     distance_au: f64,
     offset_deg: f64,
     /// Without a change.
     still: Vector,
-    /// By a degree, a centimetre, an alternation; `None` where the spacecraft has no such control.
-    of: Vec<(Control, Option<Vector>)>,
+    /// By a degree, a centimetre, an alternation, of the controls that the spacecraft has.
+    of: Vec<(Control, Vector)>,
 }
 
 impl Worth {
     fn of(&self, control: Control) -> Option<Vector> {
-        self.of.iter().find(|(known, _)| *known == control)?.1
+        self.of.iter().find(|(known, _)| *known == control).map(|(_, worth)| *worth)
     }
 
     /// The part along the light.
@@ -150,21 +149,31 @@ impl Worth {
 
 /// What is flown.
 struct Craft {
-    plant: Variant,
+    plants: Vec<Plant>,
     /// Changed by the user.
     sets: Settings,
     center_m: Vector,
     panels: usize,
     controls: Vec<Control>,
+}
+
+/// The plant with a timeline of how its panels stand about one offset.
+struct Plant {
+    variant: Variant,
+    offset_deg: f64,
     points: Vec<Point>,
 }
 
 /// Study `momentum/authority`.
 pub(crate) fn authority(run: &mut Run<'_>) -> Outcome {
-    let distances = run.chosen(DISTANCES_AU, |distance_au| format!("{distance_au} AU"))?;
     let craft = Craft::of(run)?;
-    let worths = run.all(&distances, |distance_au| craft.simulated(*distance_au))?.concat();
-    run.line("What a change is worth in momentum, by distance from the Sun and offset of the panels [N.m.s/day]\n");
+    let each =
+        DISTANCES_AU.into_iter().flat_map(|distance_au| craft.plants.iter().map(move |it| (distance_au, it)));
+    let cases = run.chosen(each, |(distance_au, plant)| craft.label(*distance_au, plant))?;
+    let worths = run.all(&cases, |(distance_au, plant)| craft.simulated(*distance_au, plant))?;
+    run.line(
+        "What a change is worth in momentum, by distance from the Sun and offset of the panels [N.m.s/day]\n",
+    );
     let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.4}"));
     let row = |worth: &Worth| {
         let windmill = worth.of(Control::Windmill);
@@ -186,7 +195,7 @@ pub(crate) fn authority(run: &mut Run<'_>) -> Outcome {
     balance(run, &craft, &worths);
     run.line(REMARK);
     csv(run, &worths)?;
-    run.picture("authority.svg", &chart(&craft, &distances, &worths))
+    run.picture("authority.svg", &chart(&craft, &worths))
 }
 
 const REMARK: &str = "\
@@ -198,7 +207,11 @@ a central difference of flights of MomentumPlant that is held and commanded, all
 /// Tells at which offsets windmilling leaves nothing along the light.
 fn balance(run: &mut Run<'_>, craft: &Craft, worths: &[Worth]) {
     if !craft.controls.contains(&Control::Windmill) {
-        let why = if craft.panels == 0 { "it has no panels" } else { "none of its panels has a side (`windmill_side`)" };
+        let why = if craft.panels == 0 {
+            "it has no panels"
+        } else {
+            "none of its panels has a side (`windmill_side`)"
+        };
         return run.line(&format!("No windmilling: {why}.\n"));
     }
     let Some(first_au) = worths.first().map(|it| it.distance_au) else { return };
@@ -209,7 +222,11 @@ fn balance(run: &mut Run<'_>, craft: &Craft, worths: &[Worth]) {
         .collect();
     let zeros = zeros(&at);
     let shown: Vec<String> = zeros.iter().map(|zero_deg| format!("{zero_deg:.1} deg")).collect();
-    let shown = if shown.is_empty() { "at none of these offsets".to_owned() } else { format!("at {}", shown.join(", ")) };
+    let shown = if shown.is_empty() {
+        "at none of these offsets".to_owned()
+    } else {
+        format!("at {}", shown.join(", "))
+    };
     run.line(&format!("Along the light windmilling is worth nothing {shown}.\n"));
 }
 
@@ -217,9 +234,10 @@ fn balance(run: &mut Run<'_>, craft: &Craft, worths: &[Worth]) {
 fn zeros(at: &[(f64, f64)]) -> Vec<f64> {
     // Where no torque is, rounding has signs.
     let least = 1e-9 * at.iter().map(|(_, value)| value.abs()).fold(0.0, f64::max);
-    let changes = at.windows(2).enumerate().filter(|(_, pair)| {
-        pair[0].1 * pair[1].1 < 0.0 && pair.iter().all(|(_, value)| value.abs() > least)
-    });
+    let changes = at
+        .windows(2)
+        .enumerate()
+        .filter(|(_, pair)| pair[0].1 * pair[1].1 < 0.0 && pair.iter().all(|(_, value)| value.abs() > least));
     let zero = |(k, pair): (usize, &[(f64, f64)])| {
         let begin = k.saturating_sub(1).min(at.len().saturating_sub(4));
         let near = &at[begin..at.len().min(begin + 4)];
@@ -250,10 +268,13 @@ fn csv(run: &mut Run<'_>, worths: &[Worth]) -> Outcome {
         Control::Alternation => "n_m_s_d",
         _ => "n_m_s_d_deg",
     };
-    let mut header = "distance_au | offset_deg | still_x_n_m_s_d | still_y_n_m_s_d | still_z_n_m_s_d".to_owned();
+    let mut header =
+        "distance_au | offset_deg | still_x_n_m_s_d | still_y_n_m_s_d | still_z_n_m_s_d".to_owned();
     for control in Control::ALL {
         let name = control.name();
-        ["x", "y", "z"].iter().for_each(|axis| header.push_str(&format!(" | {name}_{axis}_{}", per(control))));
+        ["x", "y", "z"]
+            .iter()
+            .for_each(|axis| header.push_str(&format!(" | {name}_{axis}_{}", per(control))));
     }
     let row = |worth: &Worth| {
         let of = |control| worth.of(control).map_or_else(|| vec![String::new(); 3], |it| it.cells());
@@ -264,7 +285,7 @@ fn csv(run: &mut Run<'_>, worths: &[Worth]) -> Outcome {
 }
 
 /// Of every control the worth by offset, a line each distance; where there are no panels by distance.
-fn chart(craft: &Craft, distances_au: &[f64], worths: &[Worth]) -> Chart {
+fn chart(craft: &Craft, worths: &[Worth]) -> Chart {
     type Of = fn(Vector) -> f64;
     let size: Of = |it| it.norm();
     let rows: [(&str, &str, Control, Of); 9] = [
@@ -282,9 +303,14 @@ fn chart(craft: &Craft, distances_au: &[f64], worths: &[Worth]) -> Chart {
     let title = "What a change is worth in momentum a day";
     if craft.panels == 0 {
         let line = |control, of: Of| {
-            Series::line("", worths.iter().filter_map(|it| Some((it.distance_au, of(it.of(control)?)))).collect())
+            Series::line(
+                "",
+                worths.iter().filter_map(|it| Some((it.distance_au, of(it.of(control)?)))).collect(),
+            )
         };
-        let panels = rows.map(|(title, unit, control, of)| Panel::new(format!("[{unit}]")).titled(title).with([line(control, of)]));
+        let panels = rows.map(|(title, unit, control, of)| {
+            Panel::new(format!("[{unit}]")).titled(title).with([line(control, of)])
+        });
         return Chart::new(title, "distance from the Sun [AU]").with(panels);
     }
     let line = |distance_au: f64, control, of: Of, label: String| {
@@ -293,7 +319,8 @@ fn chart(craft: &Craft, distances_au: &[f64], worths: &[Worth]) -> Chart {
     };
     let panels = rows.enumerate().map(|(k, (title, unit, control, of))| {
         let label = |distance_au: f64| if k == 0 { format!("{distance_au} AU") } else { String::new() };
-        let lines = distances_au.iter().map(|distance_au| line(*distance_au, control, of, label(*distance_au)));
+        let flown = DISTANCES_AU.into_iter().filter(|au| worths.iter().any(|it| it.distance_au == *au));
+        let lines = flown.map(|distance_au| line(distance_au, control, of, label(distance_au)));
         Panel::new(format!("[{unit}]")).titled(title).with(lines.collect::<Vec<_>>())
     });
     Chart::new(title, "offset of the panels from the Sun [deg]").with(panels)
@@ -308,40 +335,55 @@ impl Craft {
             Some(path) => files::read_text(path).map_err(|error| failed(error.into()))?,
             None => Variant::text_of(&template).map_err(failed)?,
         };
-        let file = run.options.spacecraft.as_ref().map_or_else(|| "spacecraft.toml".into(), |it| it.display().to_string());
+        let file = run
+            .options
+            .spacecraft
+            .as_ref()
+            .map_or_else(|| "spacecraft.toml".into(), |it| it.display().to_string());
         let plain = Variant::of_text(&template, &file, &text, None).map_err(failed)?;
         let panels = count_of_panels(&plain.fmu);
-        let has_sides = panels > 0 && Variant::takes(&template, &text, &timeline(&[Point { offset_rad: 0.0, change: Some((Control::Windmill, TURN_RAD)) }]));
+        let has_sides = panels > 0
+            && Variant::takes(
+                &template,
+                &text,
+                &timeline(&[Point { offset_rad: 0.0, change: Some((Control::Windmill, TURN_RAD)) }]),
+            );
         let is_there = |control: &Control| match control {
             Control::Windmill => has_sides,
             _ => panels > 0 || !control.is_of_panels(),
         };
         let controls: Vec<Control> = Control::ALL.into_iter().filter(is_there).collect();
-        let mut points = Vec::new();
-        for offset_deg in offsets_deg(panels) {
+        let plant = |offset_deg: f64| {
             let offset_rad = offset_deg * DEG;
-            points.push(Point { offset_rad, change: None });
-            for control in &controls {
-                let changes = control.changes().0.iter();
-                points.extend(changes.map(|by| Point { offset_rad, change: Some((*control, *by)) }));
-            }
-        }
-        let plant = match panels {
-            0 => plain,
-            _ => Variant::of_text(&template, &file, &text, Some(&timeline(&points))).map_err(failed)?,
+            let changes = controls
+                .iter()
+                .flat_map(|control| control.changes().0.iter().map(|by| Some((*control, *by))));
+            let points: Vec<Point> =
+                [None].into_iter().chain(changes).map(|change| Point { offset_rad, change }).collect();
+            let timeline = (panels > 0).then(|| timeline(&points));
+            let variant = Variant::of_text(&template, &file, &text, timeline.as_deref()).map_err(failed)?;
+            Ok(Plant { variant, offset_deg, points })
         };
-        let sets = run.options.assigned(plant.fmu.description())?;
+        let plants = offsets_deg(panels).map(plant).collect::<Result<Vec<_>, StudyError>>()?;
+        let sets = run.options.assigned(plain.fmu.description())?;
         if let Some((name, _)) = sets.iter().find(|(name, _)| is_own(name)) {
             return Err(StudyError::OwnSetting { study: run.study, name: name.clone() });
         }
-        let center_m = Case::new("start values", 1.0, 1.0).with(sets.clone()).simulate(&plant.fmu, &["spacecraft.centerOfMass"])?.first();
-        Ok(Self { plant, sets, center_m, panels, controls, points })
+        let start = Case::new("the start", 1.0, 1.0).with(sets.clone());
+        let center_m = start.simulate(&plain.fmu, &["spacecraft.centerOfMass"])?.first();
+        Ok(Self { plants, sets, center_m, panels, controls })
     }
 
-    fn simulated(&self, distance_au: f64) -> Result<Vec<Worth>, StudyError> {
+    fn label(&self, distance_au: f64, plant: &Plant) -> String {
+        let offset = if self.panels == 0 { String::new() } else { format!(", {} deg", plant.offset_deg) };
+        format!("{distance_au} AU{offset}")
+    }
+
+    fn simulated(&self, distance_au: f64, plant: &Plant) -> Result<Worth, StudyError> {
         let distance_m = distance_au * AU_M;
         let speed_m_s = (GM_M3_S2 / distance_m).sqrt();
-        let case = Case::new(format!("{distance_au} AU"), self.points.len() as f64 * STEP_S, STEP_S)
+        let stop_s = plant.points.len() as f64 * STEP_S;
+        let case = Case::new(self.label(distance_au, plant), stop_s, STEP_S)
             .with(self.sets.clone())
             .with((1..=self.panels).flat_map(|number| set(&format!("panel[{number}].control"), "timeline")))
             .set("attitude.source", "commanded")
@@ -353,30 +395,25 @@ impl Craft {
             .set("orbit.source", "held")
             .set("orbit.position", [-distance_m, 0.0, 0.0])
             .set("orbit.velocity", [0.0, speed_m_s, 0.0]);
-        let mut ahead = self.points.iter();
+        let mut ahead = plant.points.iter();
         let mut inputs =
             |_: Row<'_>| ahead.next().map_or_else(Settings::new, |point| point.settings(self.center_m));
         let momentum_n_m_s: Vec<Vector> =
-            case.steer(&self.plant.fmu, &["momentum.inertial"], &mut inputs)?.all(0);
+            case.steer(&plant.variant.fmu, &["momentum.inertial"], &mut inputs)?.all(0);
         // By the body axes, in N m s a day.
-        let gathered = |k: usize| {
-            let apart = momentum_n_m_s.get(k + 1).zip(momentum_n_m_s.get(k)).map(|(after, before)| after - before);
-            upright().inverse_transform_vector(&apart.unwrap_or(Vector::repeat(f64::NAN))) * (DAY_S / STEP_S)
+        let gathered =
+            |pair: &[Vector]| upright().inverse_transform_vector(&(pair[1] - pair[0])) * (DAY_S / STEP_S);
+        let mut rates = momentum_n_m_s.windows(2).map(gathered);
+        let mut take = || rates.next().unwrap_or(Vector::repeat(f64::NAN));
+        let still = take();
+        let worth = |control: &Control| {
+            let (changes, per) = control.changes();
+            let first = take();
+            let other = if changes.len() > 1 { take() } else { still };
+            (*control, (first - other) / per)
         };
-        let mut next = 0..;
-        let mut take = || gathered(next.next().unwrap_or_default());
-        let worths = offsets_deg(self.panels).map(|offset_deg| {
-            let still = take();
-            let mut of: Vec<(Control, Option<Vector>)> = Vec::new();
-            for control in &self.controls {
-                let (changes, per) = control.changes();
-                let found: Vec<Vector> = changes.iter().map(|_| take()).collect();
-                let other = found.get(1).copied().unwrap_or(still);
-                of.push((*control, found.first().map(|first| (first - other) / per)));
-            }
-            Worth { distance_au, offset_deg, still, of }
-        });
-        Ok(worths.collect())
+        let of = self.controls.iter().map(worth).collect();
+        Ok(Worth { distance_au, offset_deg: plant.offset_deg, still, of })
     }
 }
 
@@ -415,7 +452,8 @@ fn is_own(name: &str) -> bool {
         "panel[1].control",
         "start.epoch",
     ];
-    GROUPS.iter().any(|own| name.starts_with(own)) || name.starts_with("panel[") && name.ends_with("].control")
+    GROUPS.iter().any(|own| name.starts_with(own))
+        || name.starts_with("panel[") && name.ends_with("].control")
 }
 
 #[cfg(test)]
@@ -425,10 +463,14 @@ mod tests {
 
     #[test]
     fn zeros_of_a_cubic_are_found() {
-        let at: Vec<(f64, f64)> = (0..=12).map(|k| 5.0 * f64::from(k)).map(|x| (x, (x - 3.0) * (x - 31.7) * (x - 58.0))).collect();
+        let at: Vec<(f64, f64)> =
+            (0..=12).map(|k| 5.0 * f64::from(k)).map(|x| (x, (x - 3.0) * (x - 31.7) * (x - 58.0))).collect();
         let found = zeros(&at);
         assert_eq!(found.len(), 3);
-        found.iter().zip([3.0, 31.7, 58.0]).for_each(|(found, zero)| assert!((found - zero).abs() < 1e-9, "{found}"));
+        found
+            .iter()
+            .zip([3.0, 31.7, 58.0])
+            .for_each(|(found, zero)| assert!((found - zero).abs() < 1e-9, "{found}"));
         assert_eq!(zeros(&[(0.0, 1.0), (5.0, 2.0)]), []);
     }
 
