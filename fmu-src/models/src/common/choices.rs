@@ -5,6 +5,7 @@ use fmi_export::variables::{DeclaredItem, EnumerationType, Item};
 use physics::bodies::{Body, surface};
 use physics::enumeration::{Enumerated, Item as EnumeratedItem};
 use physics::environment::eclipse::ShadowModel;
+use physics::guidance::constraints::keep_in;
 use physics::guidance::modes::guidance_command;
 use physics::momentum::Convention;
 use physics::spacecraft::{CustomBody, Panel, Spacecraft, SunshadeModel, ThrusterSet};
@@ -109,6 +110,8 @@ choices! {
     EclipseMethod(ShadowModel);
     /// Shape of the sunshade.
     SunshadeShape(SunshadeModel);
+    /// Where a Sun outside the keep-in zone is put.
+    KeepInMethod(keep_in::KeepInMethod);
 }
 
 impl SunshadeShape {
@@ -230,6 +233,15 @@ impl ThrustRequest {
     pub fn first(spacecraft: &Spacecraft) -> Self {
         Self((!spacecraft.thruster_sets.is_empty()).then_some(ThrusterSet(0)))
     }
+}
+
+/// What guided flight does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum GuidedPhase {
+    /// Science and downlink in turn, by the windows.
+    Orbit = 1,
+    /// Downlink throughout.
+    Cruise = 2,
 }
 
 /// From where downlinks are counted.

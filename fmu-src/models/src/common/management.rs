@@ -100,6 +100,9 @@ pub(crate) fn check_windows_have_antenna(schedule: &Schedule, antennas: &Antenna
         return Ok(());
     }
     let found = match (schedule.once, schedule.every) {
+        _ if schedule.throughout => {
+            "guided.phase: found cruise, downlink throughout, allowed: orbit".to_owned()
+        }
         (true, _) => "guided.downlinkReference: found start, one window, allowed: periapsis".to_owned(),
         (false, every) => format!("guided.downlinkEvery: found {every}, allowed: 0, no downlink"),
     };
@@ -150,6 +153,7 @@ pub(crate) fn window_warning(schedule: &Schedule) -> Option<String> {
             "{names}: a window from {downlink_start_s} s to {downlink_end_s} s every {every_s} s is always open: the spacecraft \
              is in downlink for ever and never observes"
         )),
+        NoCycle::Throughout => None,
         NoCycle::Never if every > 0 && schedule.period_s.is_finite() => Some(format!(
             "{names}: a window from {downlink_start_s} s to {downlink_end_s} s is never open: there is no downlink"
         )),

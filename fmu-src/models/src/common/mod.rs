@@ -2,6 +2,7 @@
 
 pub(crate) mod center;
 pub(crate) mod choices;
+pub(crate) mod downlink;
 pub(crate) mod effects;
 pub(crate) mod elements;
 pub(crate) mod ephemeris;

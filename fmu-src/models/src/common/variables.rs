@@ -11,13 +11,14 @@ use physics::environment::kepler_planet::KeplerPlanet;
 use physics::environment::orbit::{self, Elements as KeplerElements};
 use physics::environment::sun::SOLAR_FLUX_W_M2;
 use physics::guidance::constraints::keep_in::KeepIn;
+use physics::guidance::downlink::sun_place::SunRequest;
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::{self, Guided, Schedule};
-use physics::plant::SunLight;
+use physics::plant::{LightSource, SunLight};
 use physics::spacecraft::{Spacecraft, TimeAfterPeriapsis};
 
 use super::center::CenterBody;
-use super::choices::{DayTemperature, DownlinkReference, EclipseMethod, ScienceRule};
+use super::choices::{DayTemperature, DownlinkReference, EclipseMethod, GuidedPhase, ScienceRule};
 use super::elements::ElementHandles;
 use super::ephemeris;
 
@@ -102,6 +103,10 @@ pub struct SolarFluxVariables {
     /// pressure, 1365 fits paper 004 (well-known simulators use 1349 to 1368).
     #[parameter(unit = "W/m2", min = 0.0, max = 1e6, start = SOLAR_FLUX_W_M2)]
     pub flux: Real,
+    /// Factor of force and torque of direct sunlight, as a fit to a flown momentum gives it; heat and light of the planet go by the
+    /// flux alone.
+    #[parameter(tunable, unit = "1", min = 0.0, max = 1e3, start = 1.0)]
+    pub scale: Real,
 }
 
 /// Sunlight.
@@ -120,11 +125,12 @@ pub struct SolarVariables {
 impl SolarVariables {
     /// The sunlight.
     pub fn read(&self, values: &Values) -> SunLight {
-        if values.boolean(self.fixed_pressure) {
-            SunLight::Fixed { pressure_pa: values.real(self.pressure) }
+        let source = if values.boolean(self.fixed_pressure) {
+            LightSource::Fixed { pressure_pa: values.real(self.pressure) }
         } else {
-            SunLight::Distance { flux_w_m2: values.real(self.at_1_au.flux) }
-        }
+            LightSource::Distance { flux_w_m2: values.real(self.at_1_au.flux) }
+        };
+        SunLight { source, scale: values.real(self.at_1_au.scale) }
     }
 }
 
@@ -178,13 +184,22 @@ pub struct WindowDefaults {
     pub every: i32,
     /// Begin and end as shares of the period, where the file gives them so.
     pub period_shares: [Option<f64>; 2],
+    /// Whether the spacecraft has antennas, and its file has it about the Sun.
+    pub antennas_and_cruise: [bool; 2],
 }
 
 impl WindowDefaults {
     /// Of a file; shares of the period are shown in the orbit that one about `center` begins with.
     pub fn of(spacecraft: &Spacecraft, center: &CenterBody) -> Self {
+        let antennas_and_cruise = [!spacecraft.antennas.is_empty(), center.data.body == Body::Sun];
         let Some(windows) = &spacecraft.downlinks else {
-            return Self { start_s: 0.0, end_s: 0.0, every: 0, period_shares: [None; 2] };
+            return Self {
+                start_s: 0.0,
+                end_s: 0.0,
+                every: 0,
+                period_shares: [None; 2],
+                antennas_and_cruise,
+            };
         };
         let axis_m = center.elements().semi_major_axis_m;
         let period_s = orbit::period_s(center.data.gm_m3_s2, axis_m);
@@ -195,7 +210,14 @@ impl WindowDefaults {
             end_s,
             every: i32::try_from(windows.every).unwrap_or(i32::MAX),
             period_shares: times.map(TimeAfterPeriapsis::period_share),
+            antennas_and_cruise,
         }
+    }
+
+    /// The phase about a body.
+    pub fn phase(&self, is_about_sun: bool) -> GuidedPhase {
+        let [has_antennas, _] = self.antennas_and_cruise;
+        if has_antennas && is_about_sun { GuidedPhase::Cruise } else { GuidedPhase::Orbit }
     }
 }
 
@@ -203,6 +225,10 @@ impl WindowDefaults {
 #[derive(Variables)]
 #[variables(setup = WindowDefaults)]
 pub struct GuidedVariables {
+    /// What guided flight does: science and downlink in turn, or downlink throughout. By default cruise about the Sun where the file
+    /// has antennas.
+    #[parameter(start = setup.phase(setup.antennas_and_cruise[1]))]
+    pub phase: Choice<GuidedPhase>,
     /// How the spacecraft stands while it observes.
     #[parameter(start = ScienceRule::Nadir)]
     pub science_rule: Choice<ScienceRule>,
@@ -313,7 +339,7 @@ impl EllipseVariables {
 
 impl GuidedVariables {
     /// The law with begin and end of its windows as shares of the period, where the file gives them so and nobody set them.
-    pub fn by_shares<M: Model>(
+    fn by_shares<M: Model>(
         &self,
         context: &Context<'_, M>,
         values: &Values,
@@ -331,6 +357,37 @@ impl GuidedVariables {
         ];
         let schedule = Schedule { period_shares, ..law.schedule };
         Guided { schedule: schedule.in_orbit(schedule.period_s), ..law }
+    }
+
+    /// The law by shares of the period, in the phase that acts: where nobody gave it, that about the Sun or about a planet.
+    pub fn in_phase<M: Model>(
+        &self,
+        context: &Context<'_, M>,
+        values: &Values,
+        defaults: &WindowDefaults,
+        (law, is_about_sun): (Guided, bool),
+    ) -> Guided {
+        let law = self.by_shares(context, values, defaults, law);
+        let throughout = self.phase(context, values, defaults, is_about_sun) == GuidedPhase::Cruise;
+        Guided { schedule: Schedule { throughout, ..law.schedule }, ..law }
+    }
+
+    /// The phase that acts.
+    pub fn phase<M: Model>(
+        &self,
+        context: &Context<'_, M>,
+        values: &Values,
+        defaults: &WindowDefaults,
+        is_about_sun: bool,
+    ) -> GuidedPhase {
+        let [start, end] = [self.downlink_start, self.downlink_end].map(Elements::from);
+        let windows =
+            [self.phase.into(), self.downlink_reference.into(), self.downlink_every.into(), start, end];
+        if context.given(values, &windows).has(self.phase) {
+            values.choice(self.phase)
+        } else {
+            defaults.phase(is_about_sun)
+        }
     }
 
     /// Refuses science that unloads without a strategy that chooses the Sun's place.
@@ -378,6 +435,7 @@ impl GuidedVariables {
                 period_shares: [None; 2],
                 every: values.integer(self.downlink_every).unsigned_abs(),
                 once,
+                throughout: false,
             },
             science: match values.choice(self.science_rule) {
                 _ if values.boolean(self.science_unload) => {
@@ -394,6 +452,7 @@ impl GuidedVariables {
             slew_rate_rad_s: values.real(self.slew_rate),
             keep_in: Some(keep_in),
             sun_place: None,
+            requested: SunRequest::default(),
             managed: false,
         })
     }

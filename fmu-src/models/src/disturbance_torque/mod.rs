@@ -14,7 +14,7 @@ use fmi_export::{
     Step, StepEnd, Values,
 };
 use physics::numerics::scalar::Dual64;
-use physics::plant::Positions;
+use physics::plant::{Parameters, Positions};
 use physics::radiation::disturbance::Workspace;
 use serde::{Deserialize, Serialize};
 
@@ -27,6 +27,8 @@ use variables::DisturbanceVariables;
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct DisturbanceState {
     positions: Positions<f64>,
+    /// Factor of force and torque of direct sunlight, a tunable parameter.
+    solar_scale: f64,
     /// Whether the warning was given which inputs are not set yet.
     said_unset: bool,
     #[serde(skip)]
@@ -37,7 +39,7 @@ pub struct DisturbanceState {
 
 impl Model for DisturbanceTorque {
     const NAME: &'static str = "DisturbanceTorque";
-    const STATE_VERSION: u32 = 2;
+    const STATE_VERSION: u32 = 3;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger-thermal.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/DisturbanceTorque.csv");
@@ -89,6 +91,7 @@ impl Model for DisturbanceTorque {
         let prepared = Arc::new(Prepared::new(context, values)?);
         let mut state = DisturbanceState {
             positions: prepared.inputs.map(|input| values.real(*input)),
+            solar_scale: prepared.parameters.solar_scale,
             said_unset: false,
             prepared: Some(prepared.clone()),
             workspace: Workspace::default(),
@@ -110,6 +113,7 @@ impl Model for DisturbanceTorque {
         for (position, input) in state.positions.iter_mut().zip(prepared.inputs.iter()) {
             *position = step.inputs.real(values, *input, step.end_s);
         }
+        state.solar_scale = values.real(context.variables.solar.scale);
         if !state.said_unset {
             let unset = prepared.unset(&state.positions);
             state.said_unset = !unset.is_empty();
@@ -162,7 +166,9 @@ impl Differentiable for DisturbanceTorque {
             position.eps = along(*input);
         }
         let seeded = |parameter| Dual64::new(values.real(parameter), along(parameter));
-        let parameters = variables.parameters(values, seeded);
+        let mut parameters = variables.parameters(values, seeded);
+        // Of the step that the outputs are of.
+        parameters.solar_scale.re = state.solar_scale;
         let mut workspace = Workspace::<Dual64>::default();
         let found = prepared.evaluate(&parameters, &positions, &mut workspace)?;
         for (unknown, product) in unknowns.iter().zip(products) {
@@ -181,10 +187,11 @@ fn update(
     state: &mut DisturbanceState,
     prepared: &Prepared,
 ) -> Result<(), Failure> {
-    let found = prepared.evaluate(&prepared.parameters, &state.positions, &mut state.workspace)?;
+    let parameters = Parameters { solar_scale: state.solar_scale, ..prepared.parameters };
+    let found = prepared.evaluate(&parameters, &state.positions, &mut state.workspace)?;
     if !found.loads.total().is_finite() {
         return Err(Failure::new(
-            "force or torque is no number at these inputs; see sun.positionBody, planet.positionBody, spacecraft.centerOfMass, solar.flux and \
+            "force or torque is no number at these inputs; see sun.positionBody, planet.positionBody, spacecraft.centerOfMass, solar.flux, solar.scale and \
              spacecraft.inertia, allowed: values a spacecraft can have",
         ));
     }

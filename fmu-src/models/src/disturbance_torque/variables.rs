@@ -66,6 +66,7 @@ impl DisturbanceVariables {
         let planet = &self.planet;
         Parameters {
             flux_at_1_au_w_m2: read(self.solar.flux),
+            solar_scale: read(self.solar.scale),
             sun_radius_m: read(self.sun.radius),
             inertia_body_kg_m2: Matrix3::from_fn(|i, j| read(self.spacecraft.inertia.element(i, j))),
             planet: planet.surface.read(values, planet.radius, &read),

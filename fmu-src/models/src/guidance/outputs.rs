@@ -57,6 +57,8 @@ pub(super) fn write(
     values.set_boolean(v.constraint.sun_keep_in, status.sun_keep_in);
     values.set_boolean(v.constraint.hot_pole, status.hot_pole);
     values.set_boolean(v.constraint.clamped, status.clamped);
+    values.set_boolean(v.downlink.active, status.downlink.active);
+    values.set_boolean(v.downlink.clamped, status.downlink.clamped || state.downlink_sun().is_clamped());
     self::burn(context, values, state.burn(), burn);
     for panel in &v.panel {
         values.set_real(panel.sun_offset, values.real(panel.nominal_sun_offset));

@@ -24,7 +24,7 @@ pub(super) fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
 fn turned(v: &PlantVariables) -> Knowns {
     let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
     let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
-    let seen = knowns![&v.attitude, sun, others, v.sunshade.polynomial_valid, &v.panel];
+    let seen = knowns![&v.attitude, sun, others, v.sunshade.polynomial_valid, &v.panel, &v.downlink];
     let sensed = knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid, &v.control];
     let loads = knowns![&v.torque, &v.force, &v.plate, v.acceleration, v.delta_v, v.accelerometer.delta_v];
     let spent = knowns![v.mass, &v.propellant, &v.tank, v.center_of_mass, &v.dump];
@@ -49,10 +49,12 @@ struct Inputs {
 
 impl Inputs {
     fn of(setup: &PlantSetup, choice: OpenChoices, v: &PlantVariables) -> Self {
-        let places = knowns![v.orbit.position, v.orbit.velocity, &v.sun, &v.earth];
+        // A maneuver puts it on another orbit at once.
+        let maneuver = knowns![&v.maneuver].only_if(choice.ideal);
+        let places = knowns![v.orbit.position, v.orbit.velocity, &v.sun, &v.earth, &maneuver];
         let panels_weigh = setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some());
         // The Sun's place in a downlink follows the momentum, and that the dump.
-        let guided = knowns![&v.panel, &v.dump].only_if(choice.guided);
+        let guided = knowns![&v.panel, &v.dump, &v.downlink].only_if(choice.guided);
         let commanded = knowns![&v.command].only_if(choice.ideal || choice.waits);
         let attitude = knowns![&places, guided, commanded, knowns![&v.panel].only_if(panels_weigh)];
         let sensors = v.sun_sensor.iter().map(|sensor| sensor.failed).collect::<Knowns>();
@@ -60,7 +62,7 @@ impl Inputs {
         Self {
             places,
             attitude,
-            dumped_at_once: knowns![&v.dump].only_if(choice.ideal),
+            dumped_at_once: knowns![&v.dump, maneuver].only_if(choice.ideal),
             failures: knowns![
                 v.star_tracker.failed,
                 v.star_tracker.spare_failed,
@@ -68,7 +70,7 @@ impl Inputs {
                 sensors,
                 wheels
             ],
-            commanded: knowns![&v.command, &v.dump, &v.thrust, &v.thruster, &v.wheel, &v.panel],
+            commanded: knowns![&v.command, &v.dump, &v.maneuver, &v.thrust, &v.thruster, &v.wheel, &v.panel],
         }
     }
 }
@@ -89,11 +91,16 @@ impl Parameters {
         let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
         // Guidance balances torques against the momentum.
         let aimed = &knowns![&v.guided, &v.momentum, &v.solar, &v.spacecraft, wheels.collect::<Knowns>()];
-        let turned = knowns![&orbit, &v.attitude, &v.command, &v.keep_in, &v.sunshade, &v.panel];
+        let panels = knowns![&v.panel, v.articulation.target_suns];
+        let followed = knowns![&v.attitude, &v.command, &v.timeline, &v.keep_in];
+        let turned = knowns![&orbit, followed, &v.sunshade, panels];
         let attitude = knowns![turned, aimed.clone().only_if(choice.guided || choice.begins_guided)];
         let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, &v.noise, v.control.rate];
+        // In free flight they are fitted along the torque-free turn ahead, which goes by the rotors' inertia.
+        let rotors = v.wheel.iter().map(|wheel| wheel.inertia).collect::<Knowns>();
         let light = knowns![
             &attitude,
+            rotors,
             &v.planet_light,
             &v.thermal,
             &v.shadowing,
@@ -105,8 +112,8 @@ impl Parameters {
         ];
         let momentum = knowns![&attitude, aimed, &v.dump];
         Self {
-            // A dump at once takes propellant, which moves the centre of mass.
-            light: knowns![light, knowns![&momentum, &v.thruster].only_if(choice.ideal)],
+            // A dump at once takes propellant, which moves the centre of mass, and may move it at random.
+            light: knowns![light, knowns![&momentum, &v.thruster, &v.noise].only_if(choice.ideal)],
             actuators: knowns![&momentum, &sensors, &v.control, &v.wheel, &v.thruster, &v.tank, &v.thrust],
             sensors: knowns![&attitude, sensors],
             orbit,
@@ -126,8 +133,10 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramet
     let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
     let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
     let seen = knowns![v.attitude.q, v.attitude.rate, sun, others, v.sunshade.polynomial_valid];
-    table.output(seen, &inputs.attitude, &parameters.attitude);
-    table.output(&v.panel, knowns![&inputs.attitude, &v.panel], &parameters.attitude);
+    table.output(knowns![seen, &v.downlink, &v.timeline], &inputs.attitude, &parameters.attitude);
+    // How the panels stand, and to the corridor.
+    let stood = knowns![&parameters.attitude, &v.articulation];
+    table.output(&v.panel, knowns![&inputs.attitude, &v.panel], stood);
     let sensed = knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid];
     table.output(sensed, knowns![&inputs.attitude, &inputs.failures], &parameters.sensors);
 }
@@ -161,6 +170,7 @@ fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, param
     let moved = knowns![v.delta_v, v.accelerometer.delta_v];
     table.output(knowns![spent, moved], dumped, &parameters.actuators);
     table.output(&v.dump, target, &parameters.actuators);
+    table.output(&v.maneuver, knowns![&inputs.attitude, &v.maneuver], knowns![&v.maneuver, &v.noise]);
     table.calculated(v.dump.guaranteed_threshold, &v.wheel);
 }
 

@@ -14,6 +14,7 @@ use fmi_export::{
     StepEnd, Values,
 };
 
+use crate::common::downlink::TIMELINE_FILE;
 use crate::common::ephemeris::{self, EPHEMERIS_FILE};
 use setup::Plan;
 pub use setup::{MomentumPlant, PlantSetup};
@@ -22,9 +23,9 @@ use variables::PlantVariables;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
-    const STATE_VERSION: u32 = 13;
+    const STATE_VERSION: u32 = 15;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
-    const SCHEDULE_FILES: &'static [&'static str] = &[EPHEMERIS_FILE];
+    const SCHEDULE_FILES: &'static [&'static str] = &[TIMELINE_FILE, EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/MomentumPlant.csv");
     const MANUAL: Manual = crate::manuals::MOMENTUM_PLANT;
@@ -40,12 +41,15 @@ impl Model for MomentumPlant {
 
     fn parse_schedule(
         setup: &mut PlantSetup,
-        _schedule: &str,
+        schedule: &str,
         file: &str,
         text: &str,
     ) -> Result<(), SetupError> {
-        setup.ephemeris = Some(ephemeris::read(file, text)?);
-        Ok(())
+        if schedule == EPHEMERIS_FILE {
+            setup.ephemeris = Some(ephemeris::read(file, text)?);
+            return Ok(());
+        }
+        setup.take_timeline(file, text)
     }
 
     fn start_values(setup: &PlantSetup) -> Vec<StartValue> {

@@ -6,8 +6,13 @@ use fmi_export::{Context, Failure, Model, SetupError};
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::onboard::OnboardEphemeris;
 use physics::environment::orbit::OrbitMethod;
+use physics::guidance::geometry::lighting::SubsolarMethod;
+use physics::guidance::pointing::boresight::Gimbal;
+use physics::guidance::pointing::scan::ScanCompatibility;
+use physics::guidance::pointing::scenario::GuidanceHardware;
+use physics::guidance::timeline::{Timeline, TimelineLaw};
 use physics::momentum::WheelArray;
-use physics::plant::{ControlDefaults, PreparedSpacecraft};
+use physics::plant::{ControlDefaults, PanelStep, PreparedSpacecraft};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
 
@@ -56,6 +61,12 @@ pub struct PlantSetup {
     /// Positions of Sun and planets over time, if there is a file of them; they do not enter the GUID.
     #[serde(skip)]
     pub ephemeris: Option<Arc<OnboardEphemeris>>,
+    /// Commands over time, if there is a file of them; it does not enter the GUID.
+    #[serde(skip)]
+    pub timeline: Option<Arc<Timeline>>,
+    /// Its panels, one by one; empty where there is none.
+    #[serde(skip)]
+    pub panel_steps: Vec<Arc<[PanelStep]>>,
     /// How disturbed orbits are integrated.
     #[serde(skip)]
     orbit_method: OrbitMethod,
@@ -84,10 +95,23 @@ impl PlantSetup {
             shapes: PreparedShapes::of(&spacecraft),
             wheel_array,
             ephemeris: None,
+            timeline: None,
+            panel_steps: Vec::new(),
             orbit_method: OrbitMethod::default(),
             planets_at_start: OnceLock::new(),
             spacecraft,
         })
+    }
+
+    /// Takes the commands of a timeline.
+    pub fn take_timeline(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
+        let timeline = Timeline::of_plant(file, text, &self.spacecraft);
+        let timeline = timeline.map_err(|error| SetupError(error.to_string()))?;
+        let panels = self.spacecraft.panels.iter().enumerate();
+        self.panel_steps =
+            panels.map(|(k, panel)| PanelStep::of_timeline(timeline.panels(), k, panel)).collect();
+        self.timeline = Some(Arc::new(timeline));
+        Ok(())
     }
 
     /// Whether the file asks for controlled or free flight.
@@ -104,6 +128,17 @@ impl PlantSetup {
             solar: self.shapes.solar(model, &self.spacecraft.name)?,
             orbit_method: &self.orbit_method,
             default_downlink: &self.antennas.default_downlink,
+            timeline: self.timeline.as_deref().map(|timeline| TimelineLaw {
+                timeline,
+                hardware: GuidanceHardware {
+                    instruments: &self.spacecraft.instruments,
+                    gimbal: Gimbal::of(&self.spacecraft.instruments),
+                    antennas: &self.antennas.all,
+                    default_downlink: &self.antennas.default_downlink,
+                    subsolar: SubsolarMethod::default(),
+                    scans: ScanCompatibility::default(),
+                },
+            }),
         })
     }
 

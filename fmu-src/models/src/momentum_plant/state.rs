@@ -27,6 +27,8 @@ pub struct PlantState {
     last: LastInputs,
     /// `dump.request` at the last step.
     pub request: Request,
+    /// `maneuver.request` at the last step.
+    pub maneuver_request: Request,
     /// Which warnings were given.
     pub warned: Warned,
     /// What inputs and tunables say.
@@ -110,6 +112,7 @@ impl PlantState {
                 force: inputs.applied[0],
             },
             request: Request::default(),
+            maneuver_request: Request::default(),
             warned: Warned::default(),
             inputs,
         };

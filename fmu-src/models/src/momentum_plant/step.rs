@@ -4,7 +4,7 @@ use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::plant::{Undo, World};
 
 use super::inputs::{self, Reading, propulsion};
-use super::outputs::{self, failure, log_dump};
+use super::outputs::{self, failure, log_event};
 use super::setup::Plan;
 use super::state::PlantState;
 use crate::common::management::window_warning;
@@ -94,7 +94,7 @@ fn begin(
     }
     let (external, planner) = (reading.external(), reading.planner());
     let given = reading.given(&external, &planner);
-    let log = &mut |event: &_| log_dump(context, event);
+    let log = &mut |event: &_| log_event(context, event);
     state.flight.begin(given, time_s, log).map_err(failure)?;
     if let Some(planets) = state.flight.ephemeris() {
         context.setup.planets_at_start.get_or_init(|| planets.clone());
@@ -116,13 +116,16 @@ fn advance(
     reading: &Reading<'_>,
     step: &Step<'_>,
 ) -> Result<(), Failure> {
-    let PlantState { flight, inputs, request, warned, .. } = state;
+    let PlantState { flight, inputs, request, maneuver_request, warned, .. } = state;
     propulsion::warn(context, &inputs.dynamics, &flight.thrusters.settings, &mut warned.thrusters, step);
     let (is_requested, target_body_n_m_s) = inputs.dump;
     inputs.dynamics.dump_to_body_n_m_s = request.rises(is_requested).then_some(target_body_n_m_s);
+    let (is_requested, maneuver) = inputs.maneuver;
+    inputs.dynamics.maneuver = maneuver_request.rises(is_requested).then_some(maneuver);
+    propulsion::drop_empty_maneuver(context, &mut inputs.dynamics, step.start_s);
     let (external, planner) = (reading.external(), reading.planner());
     let given = reading.given(&external, &planner);
-    let log = &mut |event: &_| log_dump(context, event);
+    let log = &mut |event: &_| log_event(context, event);
     flight.advance(given, &inputs.dynamics, [step.start_s, step.end_s], log).map_err(failure)
 }
 

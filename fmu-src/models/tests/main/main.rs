@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "what a test expects may come from the system's functions")]
 
+mod articulation;
 mod center_defaults;
 mod custom_body;
 mod dependencies;
@@ -12,6 +13,7 @@ mod dynamics;
 mod fixed;
 mod guidance;
 mod management;
+mod maneuvers;
 mod named_model;
 mod onboard_ephemeris;
 mod plant_changes;
@@ -27,10 +29,12 @@ mod plant_tolerance;
 mod plant_unset;
 mod plant_work;
 mod random;
+mod scheduled_events;
 mod science_unload;
 mod spacecraft;
 mod spin_plant;
 mod start_values;
+mod timeline;
 mod torn_states;
 mod valves;
 mod vocabulary;

@@ -265,3 +265,54 @@ fn a_flight_that_ends_in_the_planet_says_where() {
     );
     assert!(failure.contains("inside the planet") || failure.contains("more than its radius"), "{failure}");
 }
+
+#[test]
+fn the_scale_of_sunlight_is_one_of_its_force_and_not_of_its_heat() {
+    let named = radiating::<MomentumPlant>();
+    for effects in [EFFECTS, &[]] {
+        let undumped =
+            ["dump.threshold[1]", "dump.threshold[2]", "dump.threshold[3]"].map(|name| (name, 1e6));
+        let sets = [effects, SHADOWED, &undumped, &[("attitude.source", 2.0)]].concat();
+        let mut plain = named.fly(0.0, &sets).unwrap();
+        let mut scaled = named.fly(0.0, &[&sets, [("solar.scale", 2.0)].as_slice()].concat()).unwrap();
+        let mut shaded = 0;
+        for k in 1..=60 {
+            let at_s = 301.0 * f64::from(k);
+            if k == 40 {
+                // Twice from here on by a change on the way.
+                plain.set("solar.scale", 3.0);
+                scaled.set("solar.scale", 6.0);
+            }
+            plain.step_to(at_s).unwrap();
+            scaled.step_to(at_s).unwrap();
+            // Which intervals are halved goes by the momentum's size.
+            let integrated = plain.real("solver.disturbanceTolerance");
+            for (name, allowed) in
+                [("torque.solar", 1e-12), ("force.solar", 1e-12), ("momentum.solar", integrated)]
+            {
+                let [once, twice] = [plain.vector(name), scaled.vector(name)];
+                assert!(
+                    (twice - once * 2.0).norm() <= allowed * twice.norm(),
+                    "{name} at {at_s} s: {twice} {once}"
+                );
+            }
+            for source in ["albedo", "infrared", "thermal", "gravityGradient"] {
+                let name = format!("torque.{source}");
+                assert_eq!(plain.vector(&name), scaled.vector(&name), "{name} at {at_s} s");
+            }
+            for face in 1..=FACES {
+                let name = format!("plate[{face}].temperature");
+                assert_eq!(plain.real(&name), scaled.real(&name), "{name} at {at_s} s");
+            }
+            let total = scaled.vector("force.total") - plain.vector("force.total");
+            assert!((total - plain.vector("force.solar")).norm() <= 1e-12 * total.norm());
+            let of_faces = |flight: &NamedInstance<'_, MomentumPlant>| -> Vector3<f64> {
+                (1..=FACES).map(|face| flight.vector(&format!("plate[{face}].force"))).sum()
+            };
+            let more = of_faces(&scaled) - of_faces(&plain);
+            assert!((more - total).norm() < 2e-4 * (1e-6 + total.norm()), "{more} {total}");
+            shaded += i32::from(plain.real("sun.litFraction") < 1.0);
+        }
+        assert!(plain.vector("torque.solar").norm() > 1e-7 && shaded < 60);
+    }
+}

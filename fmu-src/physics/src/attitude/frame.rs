@@ -1,6 +1,6 @@
 //! Frames built from moving directions, with their angular rate in closed form.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
 use crate::math;
 
@@ -74,6 +74,17 @@ impl MovingFrame {
         Self {
             inertial_from_body: self.inertial_from_body * turn,
             rate_body_rad_s: turn.inverse() * self.rate_body_rad_s + Vector3::x() * angle_rate_rad_s,
+        }
+    }
+
+    /// The frame turned by 180 deg about a direction of space, which keeps its place in the body: the turn 2 s s' - 1 goes at
+    /// 2 s x ds/dt.
+    pub fn half_turned(&self, about: &MovingUnit) -> Self {
+        let turn = Rotation3::from_axis_angle(&Unit::new_unchecked(about.direction), core::f64::consts::PI);
+        let turning = about.direction.cross(&about.rate_1_s) * 2.0;
+        Self {
+            inertial_from_body: turn * self.inertial_from_body,
+            rate_body_rad_s: self.rate_body_rad_s - self.inertial_from_body.inverse() * turning,
         }
     }
 

@@ -37,6 +37,11 @@ impl<T: Scalar> ForceTorque<T> {
     pub fn about(self, displacement_body_m: &Vector3<T>) -> Self {
         Self { torque_body_n_m: self.torque_body_n_m - displacement_body_m.cross(&self.force_body_n), ..self }
     }
+
+    /// So many times as much.
+    pub fn scaled(&self, factor: T) -> Self {
+        Self { force_body_n: self.force_body_n * factor, torque_body_n_m: self.torque_body_n_m * factor }
+    }
 }
 
 impl<T: Scalar> Add for ForceTorque<T> {

@@ -30,6 +30,25 @@ pub enum Stop {
         /// When, in s.
         at_s: f64,
     },
+    /// A scheduled time has come.
+    Scheduled {
+        /// When, in s.
+        at_s: f64,
+    },
+}
+
+/// Times at which the integration stops, or does not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StopTimes {
+    /// The next scheduled time, in s; infinite where there is none.
+    pub scheduled_s: f64,
+    /// The last dump, in s, which is not watched for again.
+    pub dumped_s: Option<f64>,
+}
+
+impl StopTimes {
+    /// Nothing scheduled, no dump so far.
+    pub const NONE: Self = Self { scheduled_s: f64::INFINITY, dumped_s: None };
 }
 
 impl MomentumIntegrator {
@@ -107,15 +126,15 @@ impl MomentumIntegrator {
         time_s: f64,
         mut report: impl FnMut(&DumpEvent),
     ) -> Result<(), F::Failure> {
-        let mut dumped_s = None;
-        while let Stop::Dump(event) = self.advance_to_stop(flight, settings, time_s, dumped_s)? {
+        let mut times = StopTimes::NONE;
+        while let Stop::Dump(event) = self.advance_to_stop(flight, settings, time_s, times)? {
             report(&event);
-            dumped_s = Some(event.time_s);
+            times.dumped_s = Some(event.time_s);
         }
         Ok(())
     }
 
-    /// The same up to the next dump, which is over, or choice, which is due; a dump at `dumped_s` is not watched for again.
+    /// The same up to the next dump, which is over, or a choice or scheduled time, which is due.
     ///
     /// # Errors
     /// What ends the flight; everything before stays.
@@ -124,18 +143,22 @@ impl MomentumIntegrator {
         flight: &mut F,
         settings: &Settings,
         time_s: f64,
-        dumped_s: Option<f64>,
+        StopTimes { scheduled_s, dumped_s }: StopTimes,
     ) -> Result<Stop, F::Failure> {
         let edge_tolerance_s = edge_tolerance_s(time_s);
         while self.segment.end_s() <= time_s + edge_tolerance_s {
             let start_s = self.segment.end_s();
+            if start_s >= scheduled_s {
+                flight.spend(Effort::Dump, start_s)?;
+                return Ok(Stop::Scheduled { at_s: start_s });
+            }
             if flight.must_choose(start_s) {
                 return Ok(Stop::Choice { at_s: start_s });
             }
             let longest_s = self.segment.next_longest_s();
             let (totals, by_source) = (self.segment.totals(start_s), self.segment.by_source(start_s));
             let (horizon_s, inertial_from_body) =
-                flight.prepare(start_s, next_multiple_s(start_s, settings.grid_s))?;
+                flight.prepare(start_s, next_multiple_s(start_s, settings.grid_s).min(scheduled_s))?;
             let momentum = totals.momentum_body_n_m_s(settings.convention, &inertial_from_body);
             // A component that just came to its threshold does not exceed it yet.
             let mut exceeded = settings.policy.exceeded_by(&momentum);

@@ -39,6 +39,12 @@ pub enum Channel {
     ThrustDirection,
     /// Jitter of a delta-v's thrust, by second.
     ThrustJitter,
+    /// Magnitude of a maneuver.
+    ManeuverMagnitude,
+    /// Direction of a maneuver.
+    ManeuverDirection,
+    /// Centre of mass after a thruster event, by body axis.
+    CenterOfMass,
 }
 
 impl Channel {
@@ -58,6 +64,9 @@ impl Channel {
             Self::Thruster(number) => (11, u64::from(number)),
             Self::ThrustDirection => (12, 0),
             Self::ThrustJitter => (13, 0),
+            Self::ManeuverMagnitude => (14, 0),
+            Self::ManeuverDirection => (15, 0),
+            Self::CenterOfMass => (16, 0),
         };
         (code << 56) ^ (number << 40) ^ event
     }

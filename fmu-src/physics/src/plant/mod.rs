@@ -26,6 +26,7 @@ pub use disturbances::by_source::{BySource, Parameters, PositionError, Positions
 pub use disturbances::evaluation::{Evaluation, External, Plant, PreparedSpacecraft, World};
 pub use disturbances::laws::{Laws, NearPlanet};
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
+pub use flight::ideal::Maneuvers;
 pub use flight::propagator_state::PropagatorState;
 pub use flight::report::{ControlReport, Report, Shown, WheelReport};
 pub use flight::sun_choice::SunChoice;
@@ -39,18 +40,19 @@ pub use motion::instant::{Instant, Regime};
 pub use motion::panel_motion::PanelMotion;
 pub use motion::trajectory::Trajectory;
 pub use settings::configuration::{
-    AttitudeSource, Command, Configuration, DynamicAttitude, EphemerisSource, Motion, SunLight,
+    AttitudeSource, Command, Configuration, DynamicAttitude, EphemerisSource, LightSource, Motion, SunLight,
     orbit_from_elements,
 };
 pub use settings::control_defaults::ControlDefaults;
 pub use settings::dynamics_settings::{
     Control, DynamicsInputs, DynamicsSettings, StartMotion, StartPointing, ThrusterControl, Tracked,
 };
-pub use settings::error::PlantError;
+pub use settings::error::{ManeuverError, PlantError};
 pub use settings::ideal_settings::IdealSettings;
-pub use settings::panel_setting::{PanelSetting, Ramp};
+pub use settings::panel_setting::{PanelSetting, PanelStep, Ramp, SunAt};
 pub use settings::radiation_settings::RadiationSettings;
 pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
+pub use settings::thruster_events::{Maneuver, ThrusterEvent, ThrusterEventSettings};
 pub use settings::work::{Cost, Work, WorkExceeded};
 pub use thrusters::reaction_control::Thrusters;
 pub use thrusters::thruster_load::{ThrusterLoad, ThrusterTotals};

@@ -33,7 +33,7 @@ pub(super) fn sun_body() -> Vector3<f64> {
 pub(super) fn panel_angle_rad(panel: &Panel) -> f64 {
     match panel.control {
         PanelControl::Angle => panel.angle_rad,
-        PanelControl::SunOffset | PanelControl::Command => {
+        PanelControl::SunOffset | PanelControl::Command | PanelControl::Timeline | PanelControl::Distance => {
             panel.angle_for_sun_offset(&sun_body(), panel.sun_offset_rad, panel.tilt_sign)
         }
     }

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use super::antennas::NamedAntenna;
+use super::articulation::Articulation;
 use super::body::CustomBody;
 use super::downlinks::DownlinkWindows;
 use super::file::antennas::antenna;
@@ -18,7 +19,7 @@ use super::file::plates::{body_plates, panel, sunshade};
 use super::file::propulsion::{tank, thruster};
 use super::file::swinging::{mode, slosh, swinging_fits};
 use super::file::thruster_sets::{set_of, thruster_sets};
-use super::file::windows::{downlinks, hot_pole};
+use super::file::windows::{articulation, downlinks, hot_pole};
 use super::hot_pole::HotPoleZone;
 use super::instruments::Instrument;
 use super::mass::MassProperties;
@@ -71,6 +72,8 @@ pub struct Spacecraft {
     pub sun_keep_in: Option<SunKeepIn>,
     /// When it talks to the Earth; `None`: never by its file.
     pub downlinks: Option<DownlinkWindows>,
+    /// Corridor of light on the cells.
+    pub articulation: Articulation,
     /// Where -Z does not look at the planet.
     pub hot_pole: Option<HotPoleZone>,
     /// Whether models report temperature and force of every face.
@@ -211,6 +214,10 @@ impl Spacecraft {
                 .downlinks
                 .as_ref()
                 .map(|it| downlinks(check, &root.key("downlinks"), it, &start, has_antenna)),
+            articulation: description
+                .articulation
+                .as_ref()
+                .map_or(Articulation::default(), |it| articulation(check, &root.key("articulation"), it)),
             hot_pole: description.hot_pole.as_ref().map(hot_pole),
             start,
             sun_keep_in: description.sun_keep_in.as_ref().map(|limits| SunKeepIn {

@@ -8,6 +8,7 @@
 //! axis of the panels; the origin is wherever the file's coordinates start, not the centre of mass.
 
 mod antennas;
+mod articulation;
 mod assembly;
 mod body;
 mod downlinks;
@@ -34,6 +35,7 @@ mod tests;
 
 pub use crate::toml::{MOST_ANTENNAS, MOST_THRUSTERS};
 pub use antennas::{Antenna, AntennaRange, FanAzimuths, NamedAntenna};
+pub use articulation::Articulation;
 pub use assembly::{Spacecraft, SunKeepIn};
 pub use body::{BodyMotion, BodyOrbit, CustomBody, InertialFrame};
 pub use downlinks::{DownlinkWindows, TimeAfterPeriapsis};
@@ -44,7 +46,7 @@ pub use instruments::{GimbalMount, Instrument};
 pub(crate) use mass::steiner;
 pub use mass::{MassProperties, PanelMass, check_inertia};
 pub use optics::Optics;
-pub use panel::{Panel, PanelControl};
+pub use panel::{Panel, PanelControl, offset_for_suns};
 pub use panel_mass::{hinged_masses, with_panels};
 pub use planet_map::{PlanetCell, PlanetMap};
 pub use polygon::Polygon;

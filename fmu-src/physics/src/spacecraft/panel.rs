@@ -8,8 +8,9 @@ use super::optics::Optics;
 use super::polygon::Polygon;
 use super::surface::Plate;
 use super::thermal::Thermal;
+use crate::constants::ASTRONOMICAL_UNIT_M;
 use crate::enumeration::enumeration;
-use crate::numerics::scalar::{Scalar, acos, constant_vector, cos, sin_cos};
+use crate::numerics::scalar::{Scalar, acos, constant_vector, sin_cos};
 
 enumeration! {
     /// How a panel's angle comes about.
@@ -23,6 +24,11 @@ enumeration! {
         2 => Angle,
         /// The angle to the Sun of the input sunOffsetCommand.
         3 => Command,
+        /// The angle to the Sun and the windmill angle of the timeline; where it says nothing, the constant angle to the Sun.
+        4 => Timeline,
+        /// The angle to the Sun at which the light on the cells is articulation.targetSuns; where not even full sunlight reaches
+        /// that, cells toward the Sun.
+        5 => Distance,
     }
 }
 
@@ -52,10 +58,13 @@ pub struct Panel {
     pub polygon: Option<Polygon>,
     /// How the angle comes about unless somebody chooses otherwise.
     pub control: PanelControl,
-    /// Angle between cell normal and Sun for [`PanelControl::SunOffset`], in rad, 0 to pi.
+    /// Angle between cell normal and Sun for [`PanelControl::SunOffset`], in rad, -pi to pi; the sign
+    /// is a sense of tilt.
     pub sun_offset_rad: f64,
     /// Which way the panel tilts off the Sun: +1 or -1 about the axis.
     pub tilt_sign: f64,
+    /// Which way a windmill angle turns the panel about its axis: +1, -1, or 0, not at all.
+    pub windmill_side: f64,
     /// Angle for [`PanelControl::Angle`], in rad.
     pub angle_rad: f64,
     /// Its part of the mass; without one centre of mass and inertia do not follow its angle.
@@ -85,17 +94,21 @@ impl Panel {
     }
 
     /// The angle about the axis at which the cell normal makes `sun_offset_rad` with the Sun's direction (a unit
-    /// vector in the body frame), tilted by `tilt_sign` about the axis from the Sun-facing angle.
+    /// vector in the body frame), tilted by `tilt_sign` times the offset's sign about the axis from the Sun-facing angle.
     ///
-    /// The offset is measured in space, not in the panel's plane of rotation. Where the Sun is so near the axis that
-    /// no angle gives the offset, the nearest is taken: cells turned straight at (or away from) the Sun's projection.
-    /// With the Sun on the axis itself every angle gives 90 deg; then the answer is 0.
+    /// The offset is measured in space, not in the panel's plane of rotation: with o the offset and a the Sun's part along the
+    /// axis, cos(tilt) = cos o / sqrt(1 - a^2), so tan(tilt) = sin o sqrt(1 - (a / sin o)^2) / cos o, which is smooth through
+    /// offset 0 with the axis across the Sun. Where the Sun is so near the axis that no angle gives the offset, the nearest is
+    /// taken: cells turned straight at (or away from) the Sun's projection. With the Sun on the axis itself every angle gives
+    /// 90 deg; then the answer is 0.
     pub fn angle_for_sun_offset<T: Scalar>(
         &self,
         sun_body: &Vector3<T>,
         sun_offset_rad: T,
         tilt_sign: f64,
     ) -> T {
+        /// The axis is across the Sun but for the rounding of a unit vector.
+        const ACROSS: f64 = 4.0 * f64::EPSILON;
         let toward_zero = dot(&self.zero_normal_body, sun_body);
         let toward_quarter = dot(&self.quarter_normal(), sun_body);
         let in_plane_squared = toward_zero * toward_zero + toward_quarter * toward_quarter;
@@ -103,22 +116,41 @@ impl Panel {
             return T::constant(0.0);
         }
         let facing = T::polar_angle(toward_quarter, toward_zero);
-        // n.s = |s in the plane| cos(angle - facing): at least -|s|, at most |s|.
-        let cos_tilt = in_plane_squared.sqrt().recip() * cos(sun_offset_rad);
-        let tilt = if cos_tilt.value() >= 1.0 {
+        let along_axis = dot(&self.axis_body, sun_body);
+        let (sin, cos) = sin_cos(sun_offset_rad);
+        let (along, across) = (along_axis.value().abs(), sin.value().abs());
+        let tilt = if along <= ACROSS {
+            T::polar_angle(sin, cos)
+        } else if across > along {
+            let share = along_axis / sin;
+            T::polar_angle(sin * (T::constant(1.0) - share * share).sqrt(), cos)
+        } else if cos.value() >= 0.0 {
             T::constant(0.0)
-        } else if cos_tilt.value() <= -1.0 {
-            T::constant(core::f64::consts::PI)
         } else {
-            acos(cos_tilt)
+            T::constant(core::f64::consts::PI.copysign(sin.value()))
         };
         facing + tilt * tilt_sign
+    }
+
+    /// Light on the cells in suns, at an angle about the axis and this far from the Sun, whose direction is a unit vector in the
+    /// body frame: 1 is full sunlight across the cells at 1 AU.
+    pub fn suns(&self, angle_rad: f64, sun_body: &Vector3<f64>, sun_distance_m: f64) -> f64 {
+        let distance_au = sun_distance_m / ASTRONOMICAL_UNIT_M;
+        self.normal_body(angle_rad).dot(sun_body).max(0.0) / (distance_au * distance_au)
     }
 
     /// Unit normal of the cell side at 90 deg, body frame.
     pub fn quarter_normal(&self) -> Vector3<f64> {
         self.axis_body.cross(&self.zero_normal_body)
     }
+}
+
+/// Angle between cell normal and Sun, in rad, at which the light on the cells is `suns`, this far from the Sun; 0 where not even full
+/// sunlight is so much.
+pub fn offset_for_suns<T: Scalar>(suns: f64, sun_distance_m: T) -> T {
+    let distance_au = sun_distance_m * (1.0 / ASTRONOMICAL_UNIT_M);
+    let cosine = distance_au * distance_au * suns;
+    if cosine.value() < 1.0 { acos(cosine) } else { T::constant(0.0) }
 }
 
 fn dot<T: Scalar>(constant: &Vector3<f64>, vector: &Vector3<T>) -> T {

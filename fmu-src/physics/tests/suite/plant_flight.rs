@@ -19,9 +19,9 @@ use physics::momentum::{
 };
 use physics::numerics::quadrature;
 use physics::plant::{
-    AttitudeSource, Command, Configuration, EphemerisSource, External, Laws, Motion, PanelSetting, Plant,
-    PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver, SunLight, World,
-    orbit_from_elements,
+    AttitudeSource, Command, Configuration, EphemerisSource, External, Laws, LightSource, Motion,
+    PanelSetting, PanelStep, Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver,
+    Ramp, SunLight, ThrusterEventSettings, World, orbit_from_elements,
 };
 use physics::radiation::SolarModel;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
@@ -50,10 +50,11 @@ pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Co
         orbit,
         motion: Motion::TwoBody,
         ephemeris: EphemerisSource::Vsop87,
-        light: SunLight::Distance { flux_w_m2: 1353.0 },
+        light: SunLight { source: LightSource::Distance { flux_w_m2: 1353.0 }, scale: 1.0 },
         shadow: Shadow::new(ShadowModel::Off, RADIUS_MERCURY_M).unwrap(),
         light_and_heat: PLAIN,
         attitude,
+        timeline: None,
         sunshade: SunshadeModel::Plates,
         panels: vec![PanelSetting::Disabled; 2],
         center_of_mass_body_m: Vector3::new(0.0, 0.01, -0.03),
@@ -69,6 +70,7 @@ pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Co
                 reinitialise: Reinitialise::Opposite { fraction: 1.0 },
             },
         },
+        thruster_events: ThrusterEventSettings::default(),
     }
 }
 
@@ -82,12 +84,14 @@ pub(crate) fn guided(orbit: &TwoBodyOrbit) -> AttitudeSource {
             period_shares: [None; 2],
             every: 2,
             once: false,
+            throughout: false,
         },
         science: ScienceRule::Scaled { gain: 0.25 },
         elevation_limit_rad: 0.2269,
         slew_rate_rad_s: 3e-3,
         keep_in: None,
         sun_place: None,
+        requested: Default::default(),
         managed: false,
     })
 }
@@ -153,6 +157,7 @@ impl Rig {
             solar: &self.solar,
             orbit_method: &self.method,
             default_downlink: &self.default_downlink,
+            timeline: None,
         };
         Plant::new(prepared, self.world.as_mut().unwrap(), &mut self.propagator, load)
     }
@@ -317,5 +322,73 @@ fn light_follows_an_attitude_that_is_known_only_up_to_now() {
         assert!(scale_n > 0.0);
         assert!((continuous.force_body_n - sampled.force_body_n).norm() < 1e-9 * scale_n);
         assert!((continuous.torque_body_n_m - sampled.torque_body_n_m).norm() < 1e-9 * scale_n);
+    }
+}
+
+/// Each stretch between two edges is a flight with panels that are held; the second edge comes sooner after the first than an event
+/// that is searched for could.
+#[test]
+fn spans_end_at_the_number_where_a_panel_goes_elsewhere() {
+    const END_S: f64 = 9000.0;
+    const EDGES_S: [f64; 4] = [0.0, 1_234.567_890_123, 1_234.567_95, 5_000.3];
+    const OFFSETS_RAD: [[f64; 2]; 4] = [[0.9, 0.9], [-0.4, 0.7], [-0.4, -0.2], [1.2, 1.2]];
+    let orbit = orbit();
+    // So slow that no surface comes out of the dark: that bends the torque, by however little within an interval.
+    let turning = Command {
+        attitude: Attitude::from_quaternion([0.5, -0.5, 0.5, 0.5]).unwrap(),
+        rate_body_rad_s: Vector3::new(2e-6, -1e-6, 3e-6),
+        since_s: 0.0,
+    };
+    for attitude in [guided(&orbit), AttitudeSource::Commanded(turning)] {
+        let whole = configuration(orbit, attitude);
+        let steps = |panel: usize| {
+            let all = EDGES_S.iter().zip(OFFSETS_RAD).skip(1);
+            all.map(|(&at_s, offsets)| PanelStep { at_s, offset_rad: offsets[panel] }).collect()
+        };
+        let timeline = |panel: usize| PanelSetting::Timeline {
+            steps: steps(panel),
+            clock_minus_time_s: 0.0,
+            before_rad: OFFSETS_RAD[0][panel],
+            tilt_sign: 1.0,
+        };
+        let stepped = Configuration { panels: vec![timeline(0), timeline(1)], ..whole.clone() };
+        let fly = |cut_s: f64| {
+            let mut rig = Rig::new();
+            let mut plant = rig.plant(&stepped);
+            let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
+            let mut now_s = 0.0;
+            while now_s < END_S {
+                now_s = (now_s + cut_s).min(END_S);
+                integrator.advance(&mut plant, &stepped.momentum, now_s, |_| {}).unwrap();
+            }
+            integrator.totals(END_S).momentum_inertial_n_m_s
+        };
+        let found = fly(END_S);
+        for cut_s in [100.0, 617.284, 86_400.0] {
+            assert_eq!(fly(cut_s), found, "{cut_s}");
+        }
+        let mut totals = Totals::default();
+        for (k, &start_s) in EDGES_S.iter().enumerate() {
+            let end_s = EDGES_S.get(k + 1).copied().unwrap_or(END_S);
+            let offset = |angle| PanelSetting::SunOffset { offset: Ramp::held(angle), tilt_sign: 1.0 };
+            let held = Configuration { panels: OFFSETS_RAD[k].map(offset).to_vec(), ..whole.clone() };
+            let mut rig = Rig::new();
+            let mut plant = rig.plant(&held);
+            let mut integrator = MomentumIntegrator::new(start_s, totals);
+            integrator.advance(&mut plant, &held.momentum, end_s, |_| {}).unwrap();
+            totals = integrator.totals(end_s);
+            let mut rig = Rig::new();
+            let mut plant = rig.plant(&stepped);
+            if k + 1 < EDGES_S.len() {
+                for before_s in [end_s.next_down(), end_s - 5e-5, end_s - 0.5] {
+                    let within = before_s >= start_s;
+                    assert!(!within || plant.prepare(before_s, END_S).unwrap().0 == end_s, "{before_s}");
+                }
+            }
+        }
+        let apart = (found - totals.momentum_inertial_n_m_s).norm();
+        // Where an interval is halved depends on the one before; both are within the integrator's tolerance.
+        let allowed = stepped.momentum.tolerance * found.norm();
+        assert!(apart < allowed && found.norm() > 1e-2, "{apart:e} of {}", found.norm());
     }
 }

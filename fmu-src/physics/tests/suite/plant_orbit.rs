@@ -52,7 +52,10 @@ fn fly<T>(
 #[test]
 fn without_disturbances_it_is_the_closed_form() {
     let still = Configuration {
-        light: physics::plant::SunLight::Fixed { pressure_pa: 0.0 },
+        light: physics::plant::SunLight {
+            source: physics::plant::LightSource::Fixed { pressure_pa: 0.0 },
+            scale: 1.0,
+        },
         ..disturbed(Gravity::point_mass(MU), guided(&orbit()))
     };
     let two_body = Configuration { motion: Motion::TwoBody, ..still.clone() };
@@ -97,7 +100,10 @@ fn runge_kutta(
 #[test]
 fn a_force_moves_the_spacecraft_as_newton_says() {
     let configuration = Configuration {
-        light: physics::plant::SunLight::Fixed { pressure_pa: 0.0 },
+        light: physics::plant::SunLight {
+            source: physics::plant::LightSource::Fixed { pressure_pa: 0.0 },
+            scale: 1.0,
+        },
         ..disturbed(Gravity::point_mass(MU), at_rest())
     };
     let force_n = Vector3::new(0.02, -0.01, 0.03);
@@ -150,7 +156,10 @@ fn periapses_are_counted_where_they_are_passed() {
 
 fn undisturbed() -> Configuration {
     Configuration {
-        light: physics::plant::SunLight::Fixed { pressure_pa: 0.0 },
+        light: physics::plant::SunLight {
+            source: physics::plant::LightSource::Fixed { pressure_pa: 0.0 },
+            scale: 1.0,
+        },
         ..disturbed(Gravity::point_mass(MU), guided(&orbit()))
     }
 }

@@ -10,7 +10,7 @@ use physics::environment::orbit::{Elements, TwoBodyOrbit};
 use physics::loads::{Active, ForceTorque};
 use physics::momentum::{MomentumIntegrator, TorqueModel, Totals};
 use physics::plant::{
-    AttitudeSource, Command, Configuration, EphemerisSource, SunLight, orbit_from_elements,
+    AttitudeSource, Command, Configuration, EphemerisSource, LightSource, SunLight, orbit_from_elements,
 };
 
 use super::plant_flight::{EPOCH_S, Rig, configuration, still};
@@ -53,7 +53,7 @@ fn in_light(orbit: TwoBodyOrbit, model: ShadowModel, grid_s: f64) -> Configurati
             sun: still(Vector3::new(-sun_m.y, 0.0, 0.0)),
             earth: still(Vector3::new(0.0, 1e11, 0.0)),
         },
-        light: SunLight::Fixed { pressure_pa: 5e-5 },
+        light: SunLight { source: LightSource::Fixed { pressure_pa: 5e-5 }, scale: 1.0 },
         shadow: Shadow::new(model, RADIUS_MERCURY_M).unwrap(),
         effects: Active::by(|_| false),
         momentum,

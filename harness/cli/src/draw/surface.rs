@@ -62,7 +62,10 @@ pub(super) fn surfaces(spacecraft: &Spacecraft, angle_rad: impl Fn(usize) -> f64
 pub(super) fn angle_of_file_rad(panel: &Panel) -> f64 {
     match panel.control {
         physics::spacecraft::PanelControl::Angle => panel.angle_rad,
-        physics::spacecraft::PanelControl::SunOffset | physics::spacecraft::PanelControl::Command => {
+        physics::spacecraft::PanelControl::SunOffset
+        | physics::spacecraft::PanelControl::Command
+        | physics::spacecraft::PanelControl::Timeline
+        | physics::spacecraft::PanelControl::Distance => {
             panel.angle_for_sun_offset(&TO_SUN, panel.sun_offset_rad, panel.tilt_sign)
         }
     }

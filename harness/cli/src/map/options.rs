@@ -119,8 +119,8 @@ fn distance(text: &str) -> Result<f64, String> {
 
 fn offset(text: &str) -> Result<f64, String> {
     match angle(text)? {
-        offset_rad if (0.0..=core::f64::consts::PI).contains(&offset_rad) => Ok(offset_rad),
-        _ => Err("allowed is 0 to 180 deg".to_owned()),
+        offset_rad if offset_rad.abs() <= core::f64::consts::PI => Ok(offset_rad),
+        _ => Err("allowed is -180 to 180 deg".to_owned()),
     }
 }
 
@@ -166,7 +166,7 @@ mod tests {
         for bad in ["0deg", "7deg", "-1deg", "nandeg", "0.01deg", "180deg", "1"] {
             assert!(steps(bad).is_err(), "{bad}");
         }
-        for bad in ["-1deg", "181deg", "65"] {
+        for bad in ["-181deg", "181deg", "65"] {
             assert!(offset(bad).is_err(), "{bad}");
         }
     }

@@ -8,7 +8,9 @@ use physics::{
     bodies::Body,
     constants::ASTRONOMICAL_UNIT_M as AU_M,
     enumeration::Enumerated,
-    spacecraft::{DownlinkWindows, Panel, PanelControl, Spacecraft, TimeAfterPeriapsis},
+    spacecraft::{
+        Articulation, DownlinkWindows, Panel, PanelControl, Spacecraft, TimeAfterPeriapsis, offset_for_suns,
+    },
 };
 use planner::torque_map::{LitSpacecraft, Rule, TurnedPanels};
 
@@ -102,17 +104,22 @@ impl MappedSpacecraft {
         unpacked(&source, &described, &text)?.write_below(folder.path())?;
         let fmu = Fmu::open(folder.path())?;
         let spacecraft = Spacecraft::from_toml(&file, &text).map_err(|error| error.to_string())?;
-        let panels = turned(spacecraft.panels, &fmu, &simulated, arguments.panel_offset);
-        if arguments.panel_offset.is_some()
-            && !panels.iter().any(|it| matches!(it.rule, Rule::SunOffset { .. }))
-        {
-            return Err(format!("--panel-offset: {file} has no panel held by Sun offset").into());
-        }
         let default = describe(MODEL, None)?;
         let distance_m = match arguments.distance {
             Some(distance_au) => distance_au * AU_M,
             None => distance_m(fmu.description(), &simulated, &default),
         };
+        let panels = turned(
+            (spacecraft.panels, &spacecraft.articulation),
+            &fmu,
+            &simulated,
+            (arguments.panel_offset, distance_m),
+        );
+        if arguments.panel_offset.is_some()
+            && !panels.iter().any(|it| matches!(it.rule, Rule::SunOffset { .. }))
+        {
+            return Err(format!("--panel-offset: {file} has no panel held by Sun offset").into());
+        }
         let [azimuth_rad, elevation_rad] =
             ["keepIn.azimuth", "keepIn.elevation"].map(|name| real(&simulated, name));
         let simulated_zone_rad =
@@ -150,26 +157,37 @@ fn unpacked(source: &Source, described: &Described, text: &str) -> Result<Entrie
 
 /// The panels with the angles that MomentumPlant would give them.
 fn turned(
-    panels: Vec<Panel>,
+    (panels, corridor): (Vec<Panel>, &Articulation),
     fmu: &Fmu,
     simulated: &Description,
-    offset_rad: Option<f64>,
+    (offset_rad, distance_m): (Option<f64>, f64),
 ) -> Vec<TurnedPanels> {
     let rule = |number: usize, panel: &Panel| {
         let name = |last: &str| format!("panel[{number}].{last}");
-        let is_offset = match item(simulated, &name("control")) {
-            Some(item) => item == "sunOffset",
-            None => panel.control == PanelControl::SunOffset,
+        let control = match item(simulated, &name("control")) {
+            Some("sunOffset") => PanelControl::SunOffset,
+            Some("timeline") => PanelControl::Timeline,
+            Some("distance") => PanelControl::Distance,
+            Some(_) => PanelControl::Angle,
+            None => panel.control,
         };
-        if !is_offset {
-            return Rule::Angle(real(fmu.description(), &name("angle")).unwrap_or(panel.angle_rad));
-        }
+        let own_rad = match control {
+            PanelControl::SunOffset | PanelControl::Timeline => {
+                real(simulated, &name("sunOffset")).unwrap_or(panel.sun_offset_rad)
+            }
+            PanelControl::Distance => {
+                let suns = real(simulated, "articulation.targetSuns").unwrap_or(corridor.target_suns);
+                offset_for_suns(suns, distance_m)
+            }
+            PanelControl::Angle | PanelControl::Command => {
+                return Rule::Angle(real(fmu.description(), &name("angle")).unwrap_or(panel.angle_rad));
+            }
+        };
         let tilt_sign = match item(simulated, &name("tilt")) {
             Some("positive") => 1.0,
             Some("negative") => -1.0,
             _ => panel.tilt_sign,
         };
-        let own_rad = real(simulated, &name("sunOffset")).unwrap_or(panel.sun_offset_rad);
         Rule::SunOffset { offset_rad: offset_rad.unwrap_or(own_rad), tilt_sign }
     };
     let numbered = panels.into_iter().enumerate();

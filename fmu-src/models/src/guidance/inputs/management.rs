@@ -26,6 +26,11 @@ pub(crate) fn set_panels(context: &Plan<'_>, values: &Values, panels: &mut Vec<P
     }));
 }
 
+/// Whether a strategy chooses the Sun's place.
+pub(crate) fn is_managed(context: &Plan<'_>, values: &Values) -> bool {
+    values.choice(context.variables.momentum.strategy).0 != Strategy::DumpsOnly
+}
+
 /// Who puts the Sun in its place, where this momentum begins a downlink.
 ///
 /// # Errors
@@ -65,8 +70,9 @@ pub(crate) fn manager<'a>(
                 center_of_mass_body_m: Vector3::from(values.vector(v.spacecraft.center_of_mass)),
                 ..spacecraft.mass_properties
             },
-            // The panels are held.
+            // The panels are held at their offsets, whenever and however far from the Sun.
             time_s: 0.0,
+            sun_distance_m: 0.0,
         },
         light: v.solar.read(values),
         convention: values.choice(v.momentum.convention).0,

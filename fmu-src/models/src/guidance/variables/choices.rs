@@ -4,7 +4,6 @@ use fmi_export::Enumeration;
 use fmi_export::variables::{DeclaredItem, EnumerationType, Item};
 use physics::bodies::Body;
 use physics::enumeration::Enumerated;
-use physics::guidance::constraints::keep_in;
 use physics::guidance::geometry::lighting;
 use physics::guidance::modes::mode;
 use physics::guidance::pointing::antenna::AntennaRow;
@@ -59,8 +58,6 @@ choices! {
     ActiveMode(mode::Mode);
     /// Which point of the ellipsoid is the subsolar point.
     SubsolarMethod(lighting::SubsolarMethod);
-    /// Where a Sun outside the keep-in zone is put.
-    KeepInMethod(keep_in::KeepInMethod);
 }
 
 /// The antenna in use.

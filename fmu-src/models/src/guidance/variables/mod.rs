@@ -13,6 +13,7 @@ use fmi_export::{Real, RealVector, Variables};
 use physics::guidance::pointing::scan::DEFAULT_COMPATIBILITY;
 
 use super::setup::GuidanceSetup;
+use crate::common::downlink::DownlinkVariables;
 use crate::common::variables::{GuidedVariables, SolarVariables, WorkLimit};
 use burn::{AccelerometerVariables, BurnVariables, ThrustVariables};
 use commands::{
@@ -69,6 +70,8 @@ pub struct GuidanceVariables {
     pub sun_search: SunSearchVariables,
     #[group(setup = &setup.windows)]
     pub guided: GuidedVariables,
+    #[group]
+    pub downlink: DownlinkVariables,
     #[group]
     pub pointing: PointingVariables,
     #[group]

@@ -33,10 +33,10 @@ pub struct SunshadeVariables {
 #[derive(Variables)]
 #[variables(setup = GuidanceSetup)]
 pub struct PanelVariables {
-    /// Angle between the panel's normal and the Sun direction that is commanded, and that targets count on.
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
+    /// Angle between the panel's normal and the Sun direction that is commanded, and that targets count on; its sign is a sense of tilt.
+    #[parameter(tunable, unit = "rad", display = "deg", min = -PI, max = PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub nominal_sun_offset: Real,
-    /// Sense of that tilt; the paper does not print it.
+    /// Sense of tilt of a positive offset; the paper does not print it.
     #[parameter(start = PanelTilt::of(&setup.spacecraft.panels[index]))]
     pub tilt: Choice<PanelTilt>,
     /// Whether the panel takes part; here in the torque that targets count on.

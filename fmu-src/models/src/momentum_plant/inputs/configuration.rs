@@ -7,16 +7,22 @@ use physics::constants;
 use physics::environment::CartesianState;
 use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::time;
-use physics::guidance::Guided;
 use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
+use physics::guidance::downlink::sun_place::SunRequest;
 use physics::guidance::pointing::boresight::Gimbal;
+use physics::guidance::timeline::TimelineSettings;
+use physics::guidance::{Guided, TargetPlanet};
 use physics::management::Strategy;
 use physics::momentum::{DumpPolicy, Reinitialise, Settings};
-use physics::plant::{self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, Ramp};
+use physics::plant::{
+    self, Configuration, DynamicAttitude, Motion, PanelSetting, RadiationSettings, Ramp,
+    ThrusterEventSettings,
+};
 use physics::spacecraft::PanelControl;
 
 use super::center::Center;
 use crate::common::center::CenterBody;
+use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::ephemeris;
 use crate::common::management::{check_strategy_has_antenna, check_windows, check_windows_have_antenna};
 use crate::common::spacecraft::inertia_body_kg_m2;
@@ -55,8 +61,11 @@ pub(super) fn read(
     if !matches!(values.choice(variables.ephemeris.source), EphemerisSource::Inputs) {
         ephemeris::check_start(epoch_s)?;
     }
+    let corridor = variables.articulation.read(values)?;
+    let followed = context.setup.timeline.as_ref().filter(|_| values.boolean(variables.timeline.enabled));
+    let clock_minus_time_s = followed.map_or(0.0, |it| it.clock_minus_time_s(epoch_minus_time_s));
     panels.clear();
-    panels.extend(variables.panel.iter().map(|panel| {
+    panels.extend(variables.panel.iter().enumerate().map(|(k, panel)| {
         if !values.boolean(panel.enabled) {
             return PanelSetting::Disabled;
         }
@@ -65,17 +74,28 @@ pub(super) fn read(
             rate_rad_s: over_time.rate(input, over_time.start_s()),
             since_s: over_time.start_s(),
         };
-        let offset = |offset| PanelSetting::SunOffset { offset, tilt_sign: values.choice(panel.tilt).sign() };
+        let tilt_sign = values.choice(panel.tilt).sign();
+        let offset = |offset| PanelSetting::SunOffset { offset, tilt_sign };
         match values.choice(panel.control).0 {
             PanelControl::Angle => PanelSetting::Angle(ramp(panel.angle)),
             PanelControl::SunOffset => offset(Ramp::held(values.real(panel.sun_offset))),
+            PanelControl::Timeline => PanelSetting::Timeline {
+                steps: followed.and_then(|_| context.setup.panel_steps.get(k).cloned()).unwrap_or_default(),
+                clock_minus_time_s,
+                before_rad: values.real(panel.sun_offset),
+                tilt_sign,
+            },
             PanelControl::Command => offset(ramp(panel.sun_offset_command)),
+            PanelControl::Distance => PanelSetting::Distance { suns: corridor.target_suns, tilt_sign },
         }
     }));
     Ok(Configuration {
         epoch_minus_time_s,
         center: data.body,
         attitude: attitude(context, values, state, &orbit)?,
+        timeline: followed
+            .map(|_| timeline(context.variables, values, data, clock_minus_time_s))
+            .transpose()?,
         orbit,
         motion: motion(variables, values, data, time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s)),
         ephemeris: ephemeris_source(&context.setup.bodies.body(data.body), context, values, state.waiting)?,
@@ -95,6 +115,17 @@ pub(super) fn read(
         inertia_body_kg_m2,
         effects: variables.laws.active(values, switches),
         momentum: settings(context, values),
+        thruster_events: ThrusterEventSettings {
+            schedule: followed.map(|it| it.events().clone()).unwrap_or_default(),
+            clock_minus_time_s,
+            thrusters: values.choice(variables.maneuver.thrusters).0,
+            dumps: values.boolean(variables.maneuver.dump),
+            magnitude_error: values.real(variables.maneuver.magnitude_error),
+            direction_error_rad: values.real(variables.maneuver.direction_error),
+            center_of_mass_shift_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass_shift)),
+            seed: values.integer(variables.noise.seed).unsigned_abs().into(),
+            requested_body_n_m_s: Vector3::from(values.vector(variables.dump.target)),
+        },
     })
 }
 
@@ -234,7 +265,33 @@ pub(super) fn guidance_law(
     let (periapsis_s, start_s) = (orbit.periapsis_epoch_s(0), values.real(variables.start.epoch));
     let gimbal = Gimbal::of(&context.setup.spacecraft.instruments);
     let law = variables.guided.read(values, periapsis_s, period_s, start_s, keep_in, gimbal)?;
-    Ok(variables.guided.by_shares(context, values, &context.setup.windows, law))
+    Ok(variables.guided.in_phase(context, values, &context.setup.windows, (law, !is_planet)))
+}
+
+/// What the timeline goes by.
+fn timeline(
+    variables: &PlantVariables,
+    values: &Values,
+    center: &BodyData,
+    clock_minus_time_s: f64,
+) -> Result<TimelineSettings, Failure> {
+    let v = &variables.keep_in;
+    let axis_body = Vector3::from(values.vector(v.axis));
+    if axis_body == Vector3::zeros() {
+        return Err(Failure::new(ZERO_KEEP_IN_AXIS));
+    }
+    Ok(TimelineSettings {
+        keep_in: KeepIn {
+            axis_body,
+            azimuth_rad: values.real(v.azimuth).min(core::f64::consts::FRAC_PI_2),
+            elevation_rad: values.real(v.elevation),
+            method: values.choice(v.method).0,
+        },
+        keep_in_is_enabled: values.boolean(v.enabled),
+        keep_in_distance_m: values.real(v.distance),
+        planet: TargetPlanet::of(center),
+        clock_minus_time_s,
+    })
 }
 
 fn attitude(
@@ -258,7 +315,9 @@ fn attitude(
             check_windows(&law.schedule)?;
         }
         let law = law.with_sun_places(choice.place(), choice.in_science());
-        Ok::<_, Failure>(Guided { managed, ..law })
+        let inputs = variables.downlink.request(values);
+        let requested = if managed { SunRequest::default() } else { inputs };
+        Ok::<_, Failure>(Guided { managed, requested, ..law })
     };
     let source = state.inputs.source;
     let guided = if source.guides_itself { Some(guided()?) } else { None };

@@ -85,6 +85,13 @@ fn dynamics_settings(
             )));
         }
     }
+    let shift = values.vector(v.spacecraft.center_of_mass_shift);
+    if shift != [0.0; 3] {
+        return Err(Failure::new(format!(
+            "spacecraft.centerOfMassShift: found {shift:?} m, allowed with attitude.source controlled (3) and free (4): 0, as \
+             thruster events move the centre of mass in guided and commanded flight alone"
+        )));
+    }
     let axes: Vec<_> = wheels.iter().map(|wheel| wheel.axis_body).collect();
     let appendages = appendages(context, values)?;
     let gyrostat = Gyrostat::new(configuration.inertia_body_kg_m2, wheels)

@@ -1,6 +1,7 @@
 //! From parameters and inputs to thrusters, tanks and delta-v; refuses what cannot be simulated, by name.
 
 use fmi_export::{Failure, Step, Values};
+use nalgebra::Vector3;
 use physics::plant::{Configuration, DynamicsInputs, Flight, ReactionControlSettings, Report};
 use physics::propulsion::{PulseCommand, ThrustErrors};
 use physics::spacecraft::{Tank, Thruster, ValveTiming};
@@ -114,6 +115,17 @@ pub(crate) fn warn(
         context.log.warning(&format!(
             "thrust.request asks for {name}, which no thruster of {} belongs to (key set of [[thrusters]]): nothing fires",
             context.setup.spacecraft.name
+        ));
+    }
+}
+
+/// A maneuver that adds no velocity is none, and says so.
+pub(crate) fn drop_empty_maneuver(context: &Plan<'_>, inputs: &mut DynamicsInputs, time_s: f64) {
+    let is_empty = inputs.maneuver.is_some_and(|it| it.delta_v_inertial_m_s == Vector3::from([0.0; 3]));
+    if is_empty {
+        inputs.maneuver = None;
+        context.log.warning(&format!(
+            "maneuver.request rose at {time_s:?} s with maneuver.deltaV = (0, 0, 0) m/s: nothing is executed, and no dump with it"
         ));
     }
 }

@@ -6,7 +6,7 @@ use physics::attitude::control::SensorHealth;
 use physics::bodies::Body;
 use physics::guidance::modes::guidance_command::CommandKind as Kind;
 use physics::loads::ForceTorque;
-use physics::plant::{DynamicsInputs, ThrustCommand};
+use physics::plant::{DynamicsInputs, Maneuver, ThrustCommand};
 use physics::propulsion::PulseCommand;
 use serde::{Deserialize, Serialize};
 
@@ -44,6 +44,8 @@ pub struct StepInputs {
     pub earth_is_unset: bool,
     /// Whether a dump is requested, and what it leaves, body frame, in N m s.
     pub dump: (bool, Vector3<f64>),
+    /// Whether a maneuver is requested, and which.
+    pub maneuver: (bool, Maneuver),
     /// What wheels, sensors and thrusters are given; the controller's command follows from the state.
     pub dynamics: DynamicsInputs,
 }
@@ -146,14 +148,24 @@ impl StepInputs {
         let vectors = [v.sun.position, v.sun.velocity, v.earth.position, v.earth.velocity, center_of_mass];
         self.light.clear();
         self.light.extend(vectors.into_iter().flat_map(|vector| values.vector(vector)));
+        self.light.push(real(v.solar.at_1_au.scale));
         self.light
             .extend(v.panel.iter().flat_map(|it| [it.angle, it.sun_offset, it.sun_offset_command].map(real)));
+        let downlink = &v.downlink;
+        self.light.extend([downlink.sun_azimuth, downlink.sun_elevation].map(real));
+        self.light.push(f64::from(u8::from(values.boolean(downlink.alternate))));
         let moves = |input: Real| over_time.derivatives(input).next().is_some();
         self.panels_move = v.panel.iter().any(|panel| moves(panel.angle) || moves(panel.sun_offset_command));
         let ([a, b, c], [d, e, f]) = (values.vector(v.dump.threshold), values.vector(v.dump.target));
         self.tunables = [real(v.spacecraft.mass), real(v.dump.reinit_fraction), a, b, c, d, e, f];
         self.applied = [v.force.applied, v.torque.applied].map(|vector| values.vector(vector));
         self.dump = (values.boolean(v.dump.request), Vector3::new(d, e, f));
+        let maneuver = Maneuver {
+            delta_v_inertial_m_s: Vector3::from(values.vector(v.maneuver.delta_v)),
+            thrusters: values.choice(v.maneuver.thrusters).0,
+            dumps: values.boolean(v.maneuver.dump),
+        };
+        self.maneuver = (values.boolean(v.maneuver.request), maneuver);
 
         let orbit_source = values.choice(v.orbit.source);
         let is_unset = |place: RealVector<3>| values.vector(place) == [0.0; 3];

@@ -2,4 +2,4 @@
 
 mod write;
 
-pub(super) use write::{derivative, failure, flyable, log_dump, write, write_faces, write_guaranteed};
+pub(super) use write::{derivative, failure, flyable, log_event, write, write_faces, write_guaranteed};

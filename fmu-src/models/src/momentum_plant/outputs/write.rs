@@ -5,8 +5,9 @@ use nalgebra::Vector3;
 use physics::attitude::{Attitude, SunAngles};
 use physics::environment::time;
 use physics::loads::Effect;
-use physics::momentum::DumpEvent;
-use physics::plant::{Configuration, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report};
+use physics::plant::{
+    Configuration, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report, ThrusterEvent,
+};
 use physics::propulsion::surface_in_plume;
 use physics::radiation::{TorquePolynomial, polynomial_valid};
 
@@ -87,9 +88,16 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
         .is_none_or(|shade| polynomial_valid(shade, configuration.sunshade, &instant.sun_body));
     values.set_boolean(variables.sunshade.polynomial_valid, valid);
     let panels = context.setup.spacecraft.panels.iter().zip(&configuration.panels);
+    let sun = instant.sun_at(time_s);
+    // The corridor was checked where the flight began.
+    let corridor = variables.articulation.read(values).unwrap_or_default();
     for (panel, (body, setting)) in variables.panel.iter().zip(panels) {
-        values
-            .set_real(panel.angle_actual, setting.angle_rad(body, &instant.sun_body, time_s).unwrap_or(0.0));
+        let angle_rad = setting.angle_rad(body, &sun);
+        let lit = angle_rad.filter(|_| sun.distance_m > 0.0);
+        let suns = lit.map(|angle_rad| body.suns(angle_rad, &sun.direction_body, sun.distance_m));
+        values.set_real(panel.angle_actual, angle_rad.unwrap_or(0.0));
+        values.set_real(panel.suns, suns.unwrap_or(0.0));
+        values.set_real(panel.corridor_margin, suns.map_or(0.0, |suns| corridor.margin_suns(suns)));
     }
 }
 
@@ -106,6 +114,9 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
         values.set_vector(output, shown.by_source.body_n_m_s(effect, convention, rotation).into());
     }
     values.set_boolean(v.momentum.target_clamped, report.target_is_clamped);
+    values.set_boolean(v.downlink.active, report.downlink.active);
+    values.set_boolean(v.downlink.clamped, report.downlink.clamped);
+    values.set_integer(v.timeline.command, i32::try_from(report.timeline_row).unwrap_or(i32::MAX));
     for (k, variables) in v.wheel.iter().enumerate() {
         let Some(wheel) = shown.wheel(k) else { break };
         values.set_real(variables.momentum, wheel.momentum_n_m_s);
@@ -129,6 +140,10 @@ fn write_momentum(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) 
     values.set_boolean(dump.too_close, closest_s.is_some_and(|closest_s| closest_s < required_s));
     values.set_vector(dump.impulse, shown.dump_impulse_body_n_m_s.into());
     values.set_vector(dump.delta_v, shown.dump_delta_v_inertial_m_s.into());
+    let (last_s, executed_m_s) = shown.maneuvers.last.unwrap_or((-1.0, Vector3::from([0.0; 3])));
+    values.set_integer(v.maneuver.count, shown.maneuvers.count);
+    values.set_real(v.maneuver.last_time, last_s);
+    values.set_vector(v.maneuver.executed, executed_m_s.into());
 }
 
 /// Sensors and control.
@@ -268,6 +283,7 @@ pub(crate) fn failure(error: PlantError) -> Failure {
         PlantError::WithoutPosition { .. } | PlantError::Light { .. } => {
             "; see orbit.*, sun.position and planet.radius"
         }
+        PlantError::Maneuver { .. } => "; see maneuver.request, maneuver.deltaV and maneuver.thrusters",
         PlantError::Dumps(_) => "; see dump.threshold, dump.reinitTo and torque.applied",
         PlantError::Work(exceeded) => {
             let most = match exceeded.most {
@@ -313,14 +329,28 @@ pub(crate) fn flyable(report: &Report<'_>) -> Result<(), Failure> {
     report.evaluation.check(time_s).map_err(failure)
 }
 
-/// Reports a dump.
-pub(crate) fn log_dump(context: &Plan<'_>, event: &DumpEvent) {
-    if context.log.events_enabled() {
-        let message = format!(
-            "thruster dump: momentum {:?} -> {:?} N.m.s (body)",
-            event.before_body_n_m_s.as_slice(),
-            event.after_body_n_m_s.as_slice()
-        );
-        context.log.event(event.time_s, &message);
+/// Reports a dump or a maneuver.
+pub(crate) fn log_event(context: &Plan<'_>, event: &ThrusterEvent) {
+    if !context.log.events_enabled() {
+        return;
     }
+    let (time_s, message) = match event {
+        ThrusterEvent::Dump(event) => (
+            event.time_s,
+            format!(
+                "thruster dump: momentum {:?} -> {:?} N.m.s (body)",
+                event.before_body_n_m_s.as_slice(),
+                event.after_body_n_m_s.as_slice()
+            ),
+        ),
+        ThrusterEvent::Maneuver { time_s, asked_m_s, executed_m_s } => (
+            *time_s,
+            format!(
+                "maneuver: {:?} m/s asked, {:?} m/s executed (EME2000)",
+                asked_m_s.as_slice(),
+                executed_m_s.as_slice()
+            ),
+        ),
+    };
+    context.log.event(time_s, &message);
 }

@@ -1,11 +1,17 @@
 //! The spacecraft itself: mass, shade, panels, wheels, faces.
 
-use fmi_export::{Boolean, Choice, Real, RealMatrix, RealVector, Variables};
+use core::f64::consts::PI;
+
+use fmi_export::{Boolean, Choice, Failure, Real, RealMatrix, RealVector, Values, Variables};
+use physics::spacecraft::Articulation;
+
+use physics::guidance::constraints::keep_in;
+use physics::spacecraft::SunKeepIn;
 
 use super::super::setup::PlantSetup;
 use super::choices::PanelControl;
 use super::defaults;
-use crate::common::choices::{PanelTilt, SunshadeShape};
+use crate::common::choices::{KeepInMethod, PanelTilt, SunshadeShape};
 
 /// Mass properties.
 #[derive(Variables)]
@@ -20,6 +26,10 @@ pub struct SpacecraftVariables {
     /// Centre of mass in the body frame, with every panel at angle 0; panels that have a mass move it by the file's masses.
     #[parameter(tunable, unit = "m", display = "cm", min = -1e4, max = 1e4, start = setup.spacecraft.mass_properties.center_of_mass_body_m.into())]
     pub center_of_mass: RealVector<3>,
+    /// Standard deviation by which the centre of mass lies off spacecraft.centerOfMass, drawn from noise.seed anew at each thruster
+    /// event (dump or maneuver), in guided and commanded flight; 0 in controlled and free flight.
+    #[parameter(unit = "m", display = "cm", min = 0.0, max = 1e2, start = [0.0; 3])]
+    pub center_of_mass_shift: RealVector<3>,
 }
 
 /// Sunshade.
@@ -46,10 +56,10 @@ pub struct PanelVariables {
     /// What sets the panel's rotation angle.
     #[parameter(start = PanelControl(setup.spacecraft.panels[index].control))]
     pub control: Choice<PanelControl>,
-    /// Angle between the panel's normal and the Sun direction when it is held by Sun offset.
-    #[parameter(tunable, unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
+    /// Angle between the panel's normal and the Sun direction when it is held by Sun offset; its sign is a sense of tilt.
+    #[parameter(tunable, unit = "rad", display = "deg", min = -PI, max = PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub sun_offset: Real,
-    /// Sense of that tilt; the paper does not print it.
+    /// Sense of tilt of a positive offset; the paper does not print it.
     #[parameter(start = PanelTilt::of(&setup.spacecraft.panels[index]))]
     pub tilt: Choice<PanelTilt>,
     /// Whether the panel takes part; paper 000's Tables 2 and 3 leave the panels out.
@@ -58,12 +68,51 @@ pub struct PanelVariables {
     /// Rotation angle about the panel's axis from its zero position; it counts when panel control is by angle.
     #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
     pub angle: Real,
-    /// Angle between the panel's normal and the Sun direction when panel control is by command.
-    #[input(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
+    /// Angle between the panel's normal and the Sun direction when panel control is by command; its sign is a sense of tilt.
+    #[input(unit = "rad", display = "deg", min = -PI, max = PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub sun_offset_command: Real,
     /// Rotation angle in effect, about the panel's axis from its zero position.
     #[output(unit = "rad", display = "deg")]
     pub angle_actual: Real,
+    /// Light on the cells, in suns: the cosine of the angle between their normal and the Sun, 0 where they look away, over the square
+    /// of the distance in AU; shadows do not count.
+    #[output(unit = "1", min = 0.0, nominal = 1.0)]
+    pub suns: Real,
+    /// How far that light is inside articulation.minimumSuns and maximumSuns, the nearer of both; negative outside.
+    #[output(unit = "1", nominal = 1.0)]
+    pub corridor_margin: Real,
+}
+
+/// Corridor of light on the cells of the panels, in suns: 1 is full sunlight across the cells at 1 AU.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct ArticulationVariables {
+    /// Least light on the cells, for power.
+    #[parameter(unit = "1", min = 0.0, max = 1e12, start = setup.spacecraft.articulation.min_suns)]
+    pub minimum_suns: Real,
+    /// Greatest light on the cells, for their temperature.
+    #[parameter(unit = "1", min = 0.0, max = 1e12, start = setup.spacecraft.articulation.max_suns)]
+    pub maximum_suns: Real,
+    /// Light that panels with panel control distance keep on their cells; where not even full sunlight is so much they face the Sun.
+    #[parameter(unit = "1", min = 0.0, max = 1e12, start = setup.spacecraft.articulation.target_suns)]
+    pub target_suns: Real,
+}
+
+impl ArticulationVariables {
+    /// The corridor.
+    ///
+    /// # Errors
+    /// A greatest light that is not above the least.
+    pub fn read(&self, values: &Values) -> Result<Articulation, Failure> {
+        let [min_suns, max_suns, target_suns] =
+            [self.minimum_suns, self.maximum_suns, self.target_suns].map(|suns| values.real(suns));
+        if max_suns > min_suns {
+            return Ok(Articulation { min_suns, max_suns, target_suns });
+        }
+        Err(Failure::new(format!(
+            "articulation.maximumSuns: found {max_suns:?}, allowed: more than articulation.minimumSuns, {min_suns:?}"
+        )))
+    }
 }
 
 /// One reaction wheel. In guided and commanded flight the wheels hold the system momentum less the body's own; there friction
@@ -126,10 +175,24 @@ pub struct WheelVariables {
     pub saturated: Boolean,
 }
 
-/// Sun keep-in zone.
+/// Sun keep-in zone: of guided attitudes azimuth and elevation about -Y, of the timeline's scenarios all of it.
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct KeepInVariables {
+    /// Whether commands keep the Sun inside the zone: scenarios of the timeline, which can switch and resize it. Guided flight
+    /// without one always does.
+    #[parameter(start = setup.spacecraft.sun_keep_in.is_some())]
+    pub enabled: Boolean,
+    /// Centre of the zone, body frame, of any length: the zone's frame is the body's, turned by the smallest rotation that takes -Y
+    /// to it. For scenarios of the timeline.
+    #[parameter(unit = "1", start = [0.0, -1.0, 0.0])]
+    pub axis: RealVector<3>,
+    /// Greatest distance from the Sun at which the zone counts; for scenarios of the timeline.
+    #[parameter(unit = "m", display = "AU", min = 0.0, max = SunKeepIn::FARTHEST_M, start = defaults::keep_in(setup).distance_m)]
+    pub distance: Real,
+    /// Where a Sun outside is put; by scenarios of the timeline.
+    #[parameter(start = KeepInMethod(keep_in::KeepInMethod::Nearest))]
+    pub method: Choice<KeepInMethod>,
     /// Largest Sun azimuth either way.
     #[parameter(unit = "rad", display = "deg", min = 0.0, max = core::f64::consts::PI, start = defaults::keep_in(setup).azimuth_rad)]
     pub azimuth: Real,

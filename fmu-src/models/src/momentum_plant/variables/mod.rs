@@ -12,7 +12,10 @@ mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
 
-use body::{KeepInVariables, PanelVariables, SpacecraftVariables, SunshadeVariables, WheelVariables};
+use body::{
+    ArticulationVariables, KeepInVariables, PanelVariables, SpacecraftVariables, SunshadeVariables,
+    WheelVariables,
+};
 use control::{
     ControlVariables, EstimateVariables, GyroVariables, NoiseVariables, StarTrackerVariables,
     SunSensorVariables,
@@ -21,15 +24,17 @@ use effects::{
     DumpVariables, ForceVariables, MomentumVariables, SolverVariables, ThermalVariables, TorqueVariables,
 };
 use flexibility::{FlexibleModeVariables, SloshVariables};
-use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables};
+use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables, TimelineVariables};
 use propulsion::{
-    AccelerometerVariables, PropellantVariables, TankVariables, ThrustVariables, ThrusterVariables,
+    AccelerometerVariables, ManeuverVariables, PropellantVariables, TankVariables, ThrustVariables,
+    ThrusterVariables,
 };
 use surroundings::{
     EarthVariables, EphemerisVariables, HeliocentricVariables, PlanetVariables, SunVariables,
 };
 
 use super::setup::PlantSetup;
+use crate::common::downlink::DownlinkVariables;
 use crate::common::effects::{LawVariables, PlanetLightVariables, ShadowingVariables};
 use crate::common::loads::PlateVariables;
 use crate::common::variables::{EclipseVariables, GuidedVariables, SolarVariables};
@@ -44,6 +49,10 @@ pub struct PlantVariables {
     pub command: CommandVariables,
     #[group(setup = &setup.windows)]
     pub guided: GuidedVariables,
+    #[group]
+    pub downlink: DownlinkVariables,
+    #[group]
+    pub timeline: TimelineVariables,
     #[group]
     pub start: StartVariables,
     #[group]
@@ -70,6 +79,8 @@ pub struct PlantVariables {
     pub sunshade: SunshadeVariables,
     #[group(count = setup.spacecraft.panels.len())]
     pub panel: Vec<PanelVariables>,
+    #[group]
+    pub articulation: ArticulationVariables,
     #[group(count = setup.spacecraft.wheels.len())]
     pub wheel: Vec<WheelVariables>,
     #[group(count = setup.spacecraft.flexible_modes.len())]
@@ -96,6 +107,8 @@ pub struct PlantVariables {
     pub propellant: PropellantVariables,
     #[group]
     pub thrust: ThrustVariables,
+    #[group]
+    pub maneuver: ManeuverVariables,
     #[group]
     pub noise: NoiseVariables,
     #[group]

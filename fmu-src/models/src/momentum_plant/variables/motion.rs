@@ -1,6 +1,6 @@
 //! Attitude and orbit: where they come from and what they are.
 
-use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
 
 use super::super::setup::PlantSetup;
 use physics::guidance::modes::guidance_command;
@@ -129,4 +129,17 @@ pub struct OrbitVariables {
     /// Time since the last periapsis.
     #[output(unit = "s", display = "h", nominal = 1e4)]
     pub time_since_periapsis: Real,
+}
+
+/// Commands over time.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct TimelineVariables {
+    /// Whether guided flight, and controlled flight with command.source guidance, follow the FMU's timeline.toml. Where it commands
+    /// nothing guided.* rules.
+    #[parameter(start = true)]
+    pub enabled: Boolean,
+    /// Row of the `[[command]]` in force, from 1; 0 where none is.
+    #[output]
+    pub command: Integer,
 }

@@ -92,6 +92,44 @@ pub struct ThrustVariables {
     pub active: Boolean,
 }
 
+/// A delta-v as an impulse through the centre of mass, in guided and commanded flight; in controlled and free flight burns are
+/// thrust.*, and a request is refused. Momentum stays as it is, and the orbit is another from there on; one that is held stays.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct ManeuverVariables {
+    /// A rising edge executes maneuver.deltaV where the step begins.
+    #[input(start = false)]
+    pub request: Boolean,
+    /// Velocity to add, in EME2000; a request with 0 does nothing but warn.
+    #[input(unit = "m/s", start = [0.0; 3])]
+    pub delta_v: RealVector<3>,
+    /// The thrusters whose propellant it takes, by the specific impulse of their total force; none takes none. The first set of
+    /// the spacecraft file unless its start table says another.
+    #[parameter(
+        start = ThrustRequest::first(&setup.spacecraft),
+        items = ThrustRequest::sets(&setup.spacecraft)
+    )]
+    pub thrusters: Choice<ThrustRequest>,
+    /// Whether a dump to dump.target goes with it.
+    #[parameter(start = true)]
+    pub dump: Boolean,
+    /// Standard deviation of the magnitude, as a share of it, drawn from noise.seed for each maneuver.
+    #[parameter(unit = "1", display = "%", min = 0.0, max = 0.5, start = 0.0)]
+    pub magnitude_error: Real,
+    /// Standard deviation of the direction about each axis across it, drawn likewise.
+    #[parameter(unit = "rad", display = "deg", min = 0.0, max = 0.5, start = 0.0)]
+    pub direction_error: Real,
+    /// Maneuvers so far.
+    #[output]
+    pub count: Integer,
+    /// Time of the last maneuver; -1 before any.
+    #[output(discrete, unit = "s", display = "d")]
+    pub last_time: Real,
+    /// Velocity that the last maneuver added, its errors included, in EME2000.
+    #[output(unit = "m/s")]
+    pub executed: RealVector<3>,
+}
+
 /// Accelerometers along the body axes, sampled at control.rate in controlled and free flight.
 #[derive(Variables)]
 pub struct AccelerometerVariables {

@@ -4,6 +4,7 @@ use client::{Message, StatePointer};
 use fmi_export::{Model, Status};
 use model_description::{Causality, validate};
 use models::DisturbanceTorque;
+use nalgebra::Vector3;
 
 use super::super::random::RandomNumbers;
 use super::driver::Disturbance;
@@ -176,4 +177,36 @@ fn without_a_planet_only_sunlight_is_left() {
 #[test]
 fn the_shipped_setup_reads() {
     assert!(DisturbanceTorque::parse_setup("spacecraft.toml", DisturbanceTorque::DEFAULT_SETUP).is_ok());
+}
+
+#[test]
+fn the_scale_of_sunlight_is_one_of_its_force_and_not_of_its_heat() {
+    let read = |fmu: &mut Disturbance, name: &str| Vector3::from(fmu.vector(name));
+    let mut fmu = Disturbance::messenger();
+    fmu.put_boolean("thermal.enabled", true);
+    fmu.put_boolean("planetLight.enabled", true);
+    fmu.start();
+    let names = [
+        "force.solar",
+        "force.albedo",
+        "force.infrared",
+        "force.thermal",
+        "torque.gravityGradient",
+        "force.total",
+    ];
+    let loads = |fmu: &mut Disturbance| names.map(|name| read(fmu, name));
+    let slope = |fmu: &mut Disturbance| {
+        let [sun, output] = [fmu.at("sun.positionBody[2]"), fmu.at("force.solar[2]")];
+        fmu.slopes(&[output], &[sun], &[1.0])[0]
+    };
+    let (once, slope_once) = (loads(&mut fmu), slope(&mut fmu));
+    fmu.put("solar.scale", 2.0);
+    // What was computed stays until the step.
+    assert_eq!((loads(&mut fmu), slope(&mut fmu)), (once, slope_once));
+    assert_eq!(fmu.step(), Status::Ok);
+    let (twice, slope_twice) = (loads(&mut fmu), slope(&mut fmu));
+    assert!(once[..4].iter().all(|force| force.norm() > 0.0) && slope_once != 0.0);
+    assert_eq!((twice[0], slope_twice), (once[0] * 2.0, slope_once * 2.0));
+    assert_eq!(twice[1..5], once[1..5]);
+    assert!((twice[5] - once[5] - once[0]).norm() < 1e-12 * once[0].norm(), "{twice:?} {once:?}");
 }

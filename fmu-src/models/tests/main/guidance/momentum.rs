@@ -241,3 +241,26 @@ fn zero_inputs_and_bad_ones() {
     let found = plates.refusal(&[("sunshade.shape", 2.0)]);
     assert!(found.contains("sunshade.shape"), "{found}");
 }
+
+#[test]
+fn targets_count_on_the_scale_of_sunlight() {
+    let (guidances, plants) = (NamedModel::<Guidance>::shipped(), NamedModel::<MomentumPlant>::shipped());
+    let requested = [
+        ("momentum.target[1]", TARGET.x),
+        ("momentum.target[2]", TARGET.y),
+        ("momentum.target[3]", TARGET.z),
+    ];
+    let missed = |of_guidance: f64, of_plant: f64| {
+        let place = still(60.0);
+        let scaled = |scale: f64| [("solar.scale", scale)];
+        let mut guidance =
+            guidances.fly(0.0, &with(&[&place, QUIET, &requested, &scaled(of_guidance)])).unwrap();
+        let mut plant = plants.fly(0.0, &with(&[&place, FOLLOWS, &scaled(of_plant)])).unwrap();
+        guidance.step_to(1.0).unwrap();
+        assert!(!guidance.boolean("momentum.targetClamped"));
+        follow(&mut plant, &guidance);
+        plant.step_to(SPAN_S).unwrap();
+        (plant.vector("momentum.body") - TARGET).xz().amax()
+    };
+    assert!(missed(1.2, 1.2) < 1e-9 && missed(1.0, 1.2) > 1e-3);
+}

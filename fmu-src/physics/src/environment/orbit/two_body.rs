@@ -65,6 +65,17 @@ impl TwoBodyOrbit {
         Self::from_elements(Elements::from_state(state, mu_m3_s2)?, mu_m3_s2, epoch_s)
     }
 
+    /// Rejects decoded orbits that no computation can produce.
+    pub fn is_valid(&self) -> bool {
+        let axes = [self.to_periapsis, self.to_latus];
+        self.elements.check().is_ok()
+            && check_mu(self.mu_m3_s2).is_ok()
+            && self.mean_motion_rad_s.is_normal()
+            && self.mean_motion_rad_s > 0.0
+            && self.periapsis_epoch_s.is_finite()
+            && axes.iter().all(|axis| (axis.norm() - 1.0).abs() < 1e-9)
+    }
+
     /// Position and velocity at an epoch, in the frame of the elements.
     pub fn state_at(&self, epoch_s: f64) -> CartesianState {
         let (a, e) = (self.elements.semi_major_axis_m, self.elements.eccentricity);

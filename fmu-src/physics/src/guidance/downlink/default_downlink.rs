@@ -28,6 +28,7 @@ pub enum EarthBoresight {
 /// What looks at the Earth, by the angle between Sun and Earth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DefaultDownlink {
+    antennas: Antennas,
     first: EarthBoresight,
     /// Cosines of the angles at which the choice changes, with what is chosen beyond; they fall.
     changes: Vec<(f64, EarthBoresight)>,
@@ -42,7 +43,7 @@ impl Default for DefaultDownlink {
 impl DefaultDownlink {
     /// With these antennas; without one, as with fans all round.
     pub fn of(antennas: &Antennas) -> Self {
-        let mut all = Self { first: EarthBoresight::Behind, changes: Vec::new() };
+        let mut all = Self { antennas: antennas.clone(), first: EarthBoresight::Behind, changes: Vec::new() };
         let mut last = None;
         for pair in candidates_rad(antennas).windows(2) {
             let (Some(from_rad), Some(to_rad)) = (pair.first(), pair.last()) else { continue };
@@ -60,6 +61,11 @@ impl DefaultDownlink {
             last = Some(chosen);
         }
         all
+    }
+
+    /// The antennas.
+    pub fn antennas(&self) -> &Antennas {
+        &self.antennas
     }
 
     /// Where the Earth is with this cosine of the angle between Sun and Earth.

@@ -55,6 +55,15 @@ impl SunPlace {
     }
 }
 
+/// Where a downlink is to have the Sun.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SunRequest {
+    /// In the body frame; zero is on -Y.
+    pub sun: SunAngles,
+    /// Whether the attitude is turned by 180 deg about the Sun line: the Sun stays in its place, there is no link.
+    pub alternate: bool,
+}
+
 /// A place of the Sun that was chosen for a downlink.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChosenPlace {
@@ -138,6 +147,11 @@ pub fn downlink(
         antenna,
         clamped: cut || at_bound,
     })
+}
+
+/// The vector turned by 180 deg about a direction: 2 s (s v) - v; unchanged where there is no direction.
+pub fn half_turned(vector: &MovingVector, about: &MovingVector) -> MovingVector {
+    unit(about).map_or(*vector, |axis| axis * (axis.dot(vector) * 2.0) - vector)
 }
 
 /// Both azimuths of the Earth in the XY plane with the Sun at `sun_body` (eq 20); `None` where one has no direction.

@@ -26,6 +26,7 @@ pub(crate) fn guided(science: ScienceRule, period_s: f64, [start_s, end_s]: [f64
         period_shares: [None; 2],
         every,
         once: false,
+        throughout: false,
     };
     Guided {
         schedule,
@@ -34,6 +35,7 @@ pub(crate) fn guided(science: ScienceRule, period_s: f64, [start_s, end_s]: [f64
         slew_rate_rad_s: 0.0,
         keep_in: None,
         sun_place: None,
+        requested: Default::default(),
         managed: false,
     }
 }

@@ -192,6 +192,7 @@ fn random_flights_with_slews_stay_in_the_zone() {
             downlink_start_s: 0.0,
             downlink_end_s: length_s,
             once: true,
+            throughout: false,
             ..base.schedule
         };
         let law = Guided {

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::{Attitude, MovingFrame};
 use crate::enumeration::enumeration;
+use crate::guidance::orbit_phase::guided::DownlinkStatus;
 use crate::guidance::pointing::antenna::AntennaRow;
 use crate::guidance::pointing::boresight::DeviceAngle;
 
@@ -61,6 +62,8 @@ pub struct CommandStatus {
     pub degenerate: bool,
     /// Whether a scan moves boresight or aim.
     pub scan_active: bool,
+    /// What is to be said of a downlink.
+    pub downlink: DownlinkStatus,
     /// Whether the keep-in zone changed the attitude.
     pub sun_keep_in: bool,
     /// Whether the hot-pole keep-out did.
@@ -150,6 +153,7 @@ impl CommandStatus {
         reachable: false,
         degenerate: false,
         scan_active: false,
+        downlink: DownlinkStatus { active: false, clamped: false },
         sun_keep_in: false,
         hot_pole: false,
         hot_pole_reached: true,

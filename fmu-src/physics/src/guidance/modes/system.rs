@@ -18,10 +18,10 @@ use crate::guidance::constraints::constrained::{ConstrainedPointing, Constraints
 use crate::guidance::constraints::hot_pole::TurnSide;
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::downlink::downlink_sun::{DownlinkSun, WindowStart};
-use crate::guidance::downlink::sun_place::{ChosenPlace, LinkLimits, SunPlace, link};
+use crate::guidance::downlink::sun_place::{ChosenPlace, LinkLimits, SunPlace, SunRequest, link};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{MovingVector, value};
-use crate::guidance::orbit_phase::guided::Guided;
+use crate::guidance::orbit_phase::guided::{DownlinkStatus, Guided};
 use crate::guidance::orbit_phase::orbit_ahead::ellipse_of;
 use crate::guidance::orbit_phase::periapsis_count::PeriapsisCount;
 use crate::guidance::orbit_phase::schedule::{Activity, Schedule};
@@ -64,6 +64,8 @@ pub struct GuidanceSettings<'a> {
 pub struct SampleInputs {
     /// What is commanded.
     pub command: PointingCommand,
+    /// Where downlinks are to have the Sun where no strategy chooses it.
+    pub requested_sun: SunRequest,
     /// The timeline's entries that say scan, limb and mode, where they and no input do: each begins with its entry.
     pub entries: TimedEntries,
     /// Where everything is.
@@ -115,6 +117,7 @@ struct SampleContext<'a> {
     settings: &'a GuidanceSettings<'a>,
     constraints: Constraints,
     surroundings: &'a EphemerisAtTime,
+    requested_sun: SunRequest,
     time_s: f64,
 }
 
@@ -235,7 +238,16 @@ impl GuidanceState {
                     let attitude = sensed.estimate.unwrap_or_else(|| self.command.attitude_at(time_s));
                     is_chosen = self.place_sun(settings, &command, surroundings, attitude, choose);
                     self.compute_attitude(
-                        &SampleContext { settings, constraints, surroundings, time_s },
+                        &SampleContext {
+                            settings,
+                            constraints,
+                            surroundings,
+                            requested_sun: match self.modes.mode {
+                                Mode::Operational => inputs.requested_sun,
+                                _ => SunRequest::default(),
+                            },
+                            time_s,
+                        },
                         &command,
                     );
                     let is_law = self.law.is_some_and(|law| law.scenario == Some(Scenario::Burn));
@@ -403,6 +415,7 @@ impl GuidanceState {
             },
             degenerate: pointing.degenerate || !is_given,
             scan_active: aimed.scan_active,
+            downlink: aimed.downlink,
             sun_keep_in,
             hot_pole,
             hot_pole_reached,
@@ -426,6 +439,7 @@ impl GuidanceState {
         if command.scenario == Some(Scenario::OrbitPhase) {
             let science = self.downlink_sun.in_science().filter(|_| self.modes.mode == Mode::Operational);
             let law = now.settings.orbit_phase.with_sun_places(self.sun_place(), science);
+            let law = Guided { requested: now.requested_sun, ..law };
             return Some(self.orbit_phase(&law, now.surroundings, &now.settings.hardware));
         }
         let progress = PointingProgress {
@@ -435,6 +449,7 @@ impl GuidanceState {
             }),
             limb_elapsed_s: self.limb.map_or(0.0, |(_, since_s)| now.time_s - since_s),
             downlink_sun: self.sun_place(),
+            requested: now.requested_sun,
             burn: self.burn.aim(&now.settings.burn),
         };
         aim(command, &now.settings.hardware, now.surroundings, &progress)
@@ -454,7 +469,9 @@ impl GuidanceState {
         let earth_body = || value(&pointing.to_body(&surroundings.to_earth()));
         Aimed {
             second: keeps_nadir.then(|| surroundings.to_planet()),
-            antenna: is_downlink.then(|| Beam::AtTheEarth(hardware.antennas.toward(&earth_body()))),
+            antenna: (is_downlink && !law.requested.alternate)
+                .then(|| Beam::AtTheEarth(hardware.antennas.toward(&earth_body()))),
+            downlink: DownlinkStatus::of(&attitude),
             reachable: !attitude.slewing && attitude.margins.iter().all(|margin| *margin >= 0.0),
             ..Aimed::at(pointing.vectors())
         }

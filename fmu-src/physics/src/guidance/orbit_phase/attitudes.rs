@@ -6,8 +6,9 @@ use nalgebra::{ComplexField, Vector3};
 use crate::attitude::{MovingFrame, MovingUnit, SunAngles, angle_between_rad, direction_from_angles};
 use crate::environment::CartesianState;
 use crate::guidance::downlink::default_downlink::{DefaultDownlink, EarthBoresight};
-use crate::guidance::downlink::sun_place::{SunPlace, both_solutions};
+use crate::guidance::downlink::sun_place::{self, DownlinkRequest, SunPlace, both_solutions};
 use crate::guidance::geometry::moving::{Moving, direction, fixed, moving};
+use crate::guidance::pointing::antenna::Antennas;
 use crate::guidance::pointing::boresight::Gimbal;
 use crate::guidance::pointing::law::PointingVectors;
 use crate::math;
@@ -72,6 +73,20 @@ pub struct AttitudeCommand {
     /// Functions of the geometry alone at whose roots the law takes another form; infinite where there is none. Between two
     /// roots the attitude is smooth.
     pub margins: [f64; 2],
+    /// Whether Sun, Earth and antennas do not allow the place of the Sun that was requested.
+    pub clamped: bool,
+}
+
+impl AttitudeCommand {
+    fn new(frame: MovingFrame, margins: [f64; 2]) -> Self {
+        Self { frame, margins, clamped: false }
+    }
+
+    /// Turned by 180 deg about the Sun line: the Sun stays in its place.
+    #[must_use]
+    pub fn alternate(self, to_sun: &MovingUnit) -> Self {
+        Self { frame: self.frame.half_turned(to_sun), ..self }
+    }
 }
 
 /// Margins of a law that has one form only.
@@ -102,7 +117,7 @@ pub fn science(lines: &LinesOfSight, rule: ScienceRule, elevation_limit_rad: f64
         (elevation_rad, gain * angle_rate_rad_s)
     };
     // A positive pitch lifts the Sun toward +Z, which is negative elevation.
-    AttitudeCommand { frame: base.pitched(-elevation_rad, -rate_rad_s), margins }
+    AttitudeCommand::new(base.pitched(-elevation_rad, -rate_rad_s), margins)
 }
 
 /// Science attitude of paper 001's off-pointing: the Sun at `sun`, turned about the Sun line until nadir lies in the plane that the
@@ -138,7 +153,7 @@ pub fn unloading(lines: &LinesOfSight, sun: SunAngles, gimbal: &Gimbal) -> Attit
     };
     vectors
         .pointing()
-        .map_or_else(|| sun_pointing(lines), |pointing| AttitudeCommand { frame: pointing.frame(), margins })
+        .map_or_else(|| sun_pointing(lines), |pointing| AttitudeCommand::new(pointing.frame(), margins))
 }
 
 /// Paper 004's attitude; without a planet that moves about the Sun, [`sun_pointing`].
@@ -149,7 +164,7 @@ fn planet_orbit(lines: &LinesOfSight) -> AttitudeCommand {
         let north = MovingUnit::of(sun.position_m.cross(&sun.velocity_m_s), Vector3::zeros())?;
         Some(MovingFrame::from_yz(&opposite(&toward), &opposite(&north)))
     });
-    frame.map_or_else(|| sun_pointing(lines), |frame| AttitudeCommand { frame, margins: NO_MARGINS })
+    frame.map_or_else(|| sun_pointing(lines), |frame| AttitudeCommand::new(frame, NO_MARGINS))
 }
 
 /// Default downlink attitude (eq 18): -Y toward the Sun, the Earth where `law` has it; MESSENGER's in the -X,-Y quadrant of the XY
@@ -167,7 +182,7 @@ pub fn downlink(lines: &LinesOfSight, law: &DefaultDownlink) -> AttitudeCommand 
             let vectors = PointingVectors { boresight_body, aimpoint, body_roll, external_roll };
             return vectors.pointing().map_or_else(
                 || sun_pointing(lines),
-                |pointing| AttitudeCommand { frame: pointing.frame(), margins },
+                |pointing| AttitudeCommand::new(pointing.frame(), margins),
             );
         }
     };
@@ -177,7 +192,7 @@ pub fn downlink(lines: &LinesOfSight, law: &DefaultDownlink) -> AttitudeCommand 
         return sun_pointing(lines);
     }
     match MovingUnit::of(normal, normal_rate) {
-        Some(z) => AttitudeCommand { frame: MovingFrame::from_yz(&opposite(sun), &z), margins },
+        Some(z) => AttitudeCommand::new(MovingFrame::from_yz(&opposite(sun), &z), margins),
         None => sun_pointing(lines),
     }
 }
@@ -199,7 +214,21 @@ pub fn downlink_toward(lines: &LinesOfSight, place: &SunPlace) -> AttitudeComman
     // Beyond it no attitude has the Sun there and the Earth in the plane.
     let sine = math::sin(angle_between_rad(&lines.sun.direction, &lines.earth.direction));
     let margin = sine - math::sin(place.angles.elevation_rad).abs();
-    AttitudeCommand { frame: pointing.frame(), margins: [margin, f64::INFINITY] }
+    AttitudeCommand {
+        clamped: margin < 0.0,
+        ..AttitudeCommand::new(pointing.frame(), [margin, f64::INFINITY])
+    }
+}
+
+/// Downlink attitude with the Sun at a place that is requested, as near as Sun, Earth and antennas allow.
+pub fn downlink_with(lines: &LinesOfSight, sun: SunAngles, antennas: &Antennas) -> AttitudeCommand {
+    let [to_sun, to_earth] = [&lines.sun, &lines.earth].map(|to| moving(to.direction, to.rate_1_s));
+    let request = DownlinkRequest { sun_body: sun, ..DownlinkRequest::default() };
+    let found = sun_place::downlink(&to_sun, &to_earth, antennas, &request);
+    let Some((found, pointing)) = found.and_then(|found| Some((found, found.vectors.pointing()?))) else {
+        return sun_pointing(lines);
+    };
+    AttitudeCommand { clamped: found.clamped, ..AttitudeCommand::new(pointing.frame(), NO_MARGINS) }
 }
 
 /// Fallback with nothing but the Sun: -Y toward it, +Z toward the north of EME2000 as far as possible (toward the
@@ -212,7 +241,7 @@ pub fn sun_pointing(lines: &LinesOfSight) -> AttitudeCommand {
     };
     let side = toward(Vector3::z()).or_else(|| toward(Vector3::x()));
     let z = side.map_or(lines.sun, |(side, _, _)| side);
-    AttitudeCommand { frame: MovingFrame::from_yz(&y, &z), margins: NO_MARGINS }
+    AttitudeCommand::new(MovingFrame::from_yz(&y, &z), NO_MARGINS)
 }
 
 fn opposite(unit: &MovingUnit) -> MovingUnit {

@@ -1,13 +1,17 @@
 //! The guided attitude over a whole orbit phase: science, downlink, and the slews between them.
 
+use serde::{Deserialize, Serialize};
+
 use crate::attitude::{MovingFrame, SunAngles};
 
-use super::attitudes::{AttitudeCommand, LinesOfSight, ScienceRule, downlink, downlink_toward, science};
+use super::attitudes::{
+    AttitudeCommand, LinesOfSight, ScienceRule, downlink, downlink_toward, downlink_with, science,
+};
 use super::schedule::{Activity, Schedule, Window};
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::constraints::slew::{Slew, SlewStart};
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
-use crate::guidance::downlink::sun_place::SunPlace;
+use crate::guidance::downlink::sun_place::{SunPlace, SunRequest};
 
 /// The guidance law of the orbital phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +28,8 @@ pub struct Guided {
     pub keep_in: Option<KeepIn>,
     /// Where the Sun stands during the present downlink, and during the slew out of it; `None`: on -Y.
     pub sun_place: Option<SunPlace>,
+    /// Where downlinks are to have the Sun where no such place is chosen, and whether they are turned about the Sun line.
+    pub requested: SunRequest,
     /// Whether that place is chosen anew where a downlink begins, and that of science where it unloads.
     pub managed: bool,
 }
@@ -39,9 +45,30 @@ pub struct GuidedAttitude {
     pub slewing: bool,
     /// See [`AttitudeCommand::margins`].
     pub margins: [f64; 2],
+    /// Whether a place of the Sun that was requested is not allowed.
+    pub clamped: bool,
+    /// When the next motion of a scan begins or ends, in the schedule's time scale; infinite without one.
+    pub corner_s: f64,
     /// When window or slew ends, in the schedule's time scale; infinite where nothing ends. Until then the attitude is
     /// smooth between two roots of the margins.
     pub until_s: f64,
+}
+
+/// What is to be said of a downlink.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct DownlinkStatus {
+    /// Whether one lasts, the turn to it done.
+    pub active: bool,
+    /// Whether Sun, Earth and antennas keep the Sun from the place that it was to have.
+    pub clamped: bool,
+}
+
+impl DownlinkStatus {
+    /// Of what guidance commands.
+    pub fn of(guided: &GuidedAttitude) -> Self {
+        let active = guided.window.activity == Activity::Downlink && !guided.slewing;
+        Self { active, clamped: active && guided.clamped }
+    }
 }
 
 impl Guided {
@@ -78,6 +105,8 @@ impl Guided {
             window,
             slewing: false,
             margins: target.margins,
+            clamped: target.clamped,
+            corner_s: f64::INFINITY,
             until_s: window.until_s,
         };
         if self.slew_rate_rad_s.is_nan() || self.slew_rate_rad_s <= 0.0 || !window.since_s.is_finite() {
@@ -148,10 +177,17 @@ impl Guided {
     ) -> AttitudeCommand {
         match activity {
             Activity::Science => science(lines, self.science, self.elevation_limit_rad),
-            Activity::Downlink => match &self.sun_place {
-                Some(place) => downlink_toward(lines, place),
-                None => downlink(lines, default_downlink),
-            },
+            Activity::Downlink => {
+                let SunRequest { sun, alternate } = self.requested;
+                let command = match &self.sun_place {
+                    Some(place) => downlink_toward(lines, place),
+                    None if sun != SunAngles::default() => {
+                        downlink_with(lines, sun, default_downlink.antennas())
+                    }
+                    None => downlink(lines, default_downlink),
+                };
+                if alternate { command.alternate(&lines.sun) } else { command }
+            }
         }
     }
 }

@@ -31,6 +31,8 @@ pub struct Schedule {
     pub every: u32,
     /// Whether the first window is the only one, whatever `every` says.
     pub once: bool,
+    /// Whether all is downlink, without windows: in cruise.
+    pub throughout: bool,
 }
 
 /// Why windows give no cycles of science and downlink.
@@ -39,6 +41,9 @@ pub enum NoCycle {
     /// No window is ever open.
     #[error("no downlink")]
     Never,
+    /// Nothing else is done.
+    #[error("downlink throughout")]
+    Throughout,
     /// A window is still open when the next one begins.
     #[error("downlinks that overlap, one every {every_s:?} s")]
     Overlap {
@@ -76,6 +81,9 @@ impl Schedule {
 
     /// Activity at `time_s`, in the time scale of `periapsis_s`. Edges belong to what follows them.
     pub fn window(&self, time_s: f64) -> Window {
+        if self.throughout {
+            return Window { activity: Activity::Downlink, ..Window::NEVER };
+        }
         let cycle_s = f64::from(self.every) * self.period_s;
         if self.once {
             return self.window_after(&[self.periapsis_s], time_s);
@@ -98,7 +106,7 @@ impl Schedule {
 
     /// Length of a cycle of science and downlink, in s; infinite where none follows.
     pub fn cycle_s(&self) -> f64 {
-        if self.once { f64::INFINITY } else { f64::from(self.every) * self.period_s }
+        if self.once || self.throughout { f64::INFINITY } else { f64::from(self.every) * self.period_s }
     }
 
     /// Length of a downlink, in s.
@@ -112,7 +120,9 @@ impl Schedule {
     /// Windows that never open or overlap.
     pub fn check_windows(&self) -> Result<(), NoCycle> {
         let cycle_s = self.cycle_s();
-        if self.downlink_start_s >= self.downlink_end_s || (self.every == 0 && !self.once) {
+        if self.throughout {
+            Err(NoCycle::Throughout)
+        } else if self.downlink_start_s >= self.downlink_end_s || (self.every == 0 && !self.once) {
             Err(NoCycle::Never)
         } else if self.downlink_end_s - self.downlink_start_s >= cycle_s {
             Err(NoCycle::Overlap { every_s: cycle_s })
@@ -131,6 +141,9 @@ impl Schedule {
     /// The same for periapses that were met instead of computed: every `every`-th one, the latest first. A window is
     /// as long as requested; the next one ends it. Before the first window all is science.
     pub fn window_after(&self, periapses_s: &[f64], time_s: f64) -> Window {
+        if self.throughout {
+            return self.window(time_s);
+        }
         let length_s = self.downlink_end_s - self.downlink_start_s;
         if (self.every == 0 && !self.once) || length_s.is_nan() || length_s <= 0.0 {
             return Window::NEVER;

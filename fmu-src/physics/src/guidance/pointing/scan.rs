@@ -140,6 +140,25 @@ pub fn axis_offset(command: &ScanCommand, axis: usize, speed: f64, time: ScanTim
     }
 }
 
+/// When the next motion of an axis begins or ends, in s since the scan began; `None` where nothing moves any more.
+pub fn next_corner_s(command: &ScanCommand, time: ScanTime) -> Option<f64> {
+    command.frame?;
+    let speeds = (0..3).map(|axis| (axis, [command.rate_rad_s[axis], command.speed_m_s[axis]]));
+    let moving = speeds.filter(|(axis, speeds)| *speeds != [0.0; 2] && command.duration_s[*axis] > 0.0);
+    let next = moving.filter_map(|(axis, _)| {
+        let (duration_s, pause_s) = (command.duration_s[axis], command.pause_s[axis].max(0.0));
+        let (cycle_s, tolerance_s) = (duration_s + pause_s, time.tolerance_s + 4.0 * spacing(time.elapsed_s));
+        let reached_s = time.elapsed_s + tolerance_s;
+        let cycle = (reached_s / cycle_s).floor().max(0.0);
+        let corners_s =
+            [cycle * cycle_s + duration_s, (cycle + 1.0) * cycle_s, (cycle + 1.0) * cycle_s + duration_s];
+        let segments = f64::from(command.segments[axis]);
+        let end_s = if segments > 0.0 { segments * cycle_s - pause_s } else { f64::INFINITY };
+        corners_s.into_iter().find(|corner_s| *corner_s > reached_s && *corner_s <= end_s)
+    });
+    next.reduce(f64::min)
+}
+
 /// Rz Ry Rx; axes that do not turn are left out.
 fn rotation(command: &ScanCommand, time: ScanTime) -> MovingMatrix {
     let mut turned = MovingMatrix::identity();

@@ -11,10 +11,10 @@ use super::command::{BoresightOption, LimbCommand, PointingCommand, Scenario};
 use super::law::{Pointing, PointingVectors};
 use super::roll::{body_roll, external_roll};
 use super::scan::{ScanCompatibility, ScanTime, scanned};
-use crate::attitude::SunAngles;
+use crate::guidance::DownlinkStatus;
 use crate::guidance::burn::delta_v::BurnAim;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
-use crate::guidance::downlink::sun_place::{DownlinkRequest, SunPlace, downlink};
+use crate::guidance::downlink::sun_place::{DownlinkRequest, SunPlace, SunRequest, downlink, half_turned};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::lighting::SubsolarMethod;
 use crate::guidance::geometry::limb::{LimbPoint, generic_limb, terminator_limb};
@@ -45,8 +45,10 @@ pub struct PointingProgress {
     pub scan: Option<ScanTime>,
     /// Since the limb scenario began, in s.
     pub limb_elapsed_s: f64,
-    /// Where the Sun stands in the body frame in downlink; `None`: on -Y.
+    /// Where the Sun stands in the body frame in downlink where that was chosen; else as it is requested.
     pub downlink_sun: Option<SunPlace>,
+    /// Where downlink is to have the Sun, and whether it is turned about the Sun line.
+    pub requested: SunRequest,
     /// Where a burn wants its thrust.
     pub burn: Option<BurnAim>,
 }
@@ -68,6 +70,8 @@ pub struct Aimed {
     pub clamped: bool,
     /// Whether a scan moves boresight or aim.
     pub scan_active: bool,
+    /// What is to be said of a downlink.
+    pub downlink: DownlinkStatus,
 }
 
 /// A limb point by its command and how long its scan lasts.
@@ -138,6 +142,7 @@ impl Aimed {
             reachable: true,
             clamped: false,
             scan_active: false,
+            downlink: DownlinkStatus::default(),
         }
     }
 
@@ -192,6 +197,7 @@ impl Reading<'_> {
             clamped: boresight.gimbal.is_some_and(|angle| !angle.in_range)
                 || boresight.antenna.is_some_and(|antenna| !antenna.is_in_range()),
             scan_active: scan.is_some(),
+            downlink: DownlinkStatus::default(),
         }
     }
 
@@ -203,7 +209,7 @@ impl Reading<'_> {
         let place = self.progress.downlink_sun;
         let request = DownlinkRequest {
             antenna_azimuth_rad: commanded.then_some(boresight.azimuth_rad),
-            sun_body: place.map_or(SunAngles::default(), |place| place.angles),
+            sun_body: place.map_or(self.progress.requested.sun, |place| place.angles),
             earth_ahead: place.map(|place| place.earth_ahead),
         };
         let found = downlink(
@@ -212,9 +218,16 @@ impl Reading<'_> {
             self.hardware.antennas,
             &request,
         )?;
+        let downlink = DownlinkStatus { active: true, clamped: found.clamped };
+        if self.progress.requested.alternate && !commanded {
+            let aimpoint = half_turned(&found.vectors.aimpoint, &self.surroundings.to_sun());
+            let vectors = PointingVectors { aimpoint, ..found.vectors };
+            return Some(Aimed { clamped: found.clamped, downlink, ..Aimed::at(vectors) });
+        }
         Some(Aimed {
             antenna: Some(Beam::AtTheEarth(found.antenna)),
             clamped: found.clamped,
+            downlink,
             ..Aimed::at(found.vectors)
         })
     }

@@ -1,22 +1,26 @@
 //! The timeline, from its file: times in order, each command checked.
 
+use std::sync::Arc;
+
 use super::burn::{Span, burn as burn_of};
-use super::commands::Commands;
-use super::description::{CommandDescription, Description};
-use super::entry::{TimelineClock, TimelineEntry};
-use super::instant::instant;
-use super::quantity::Quantity;
+use super::commands::{Commands, Reader};
+use super::description::Description;
+use super::entry::{Slot, TimelineClock, TimelineEntry, TimelineEvent, TimelinePanels};
+use super::events::event;
+use super::panels::panels;
 use super::scans::scan;
+use super::times::Times;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::spacecraft::Spacecraft;
 use crate::toml::{Checker, Document, FileError, Place};
 
-/// Commands one after the other.
+/// Commands, panels and events one after the other; of each list the times grow, and one list at least is not empty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timeline {
     clock: TimelineClock,
-    /// At least one, with times that grow.
     entries: Vec<TimelineEntry>,
+    panels: Vec<TimelinePanels>,
+    events: Arc<[TimelineEvent]>,
 }
 
 impl Timeline {
@@ -28,20 +32,41 @@ impl Timeline {
     /// Text that is not TOML, or all unknown, missing and ill-typed keys, all commands that cannot be carried out and all
     /// times that are out of order, each with line, key, what was found and what is allowed.
     pub fn from_toml(file: &str, text: &str, spacecraft: &Spacecraft) -> Result<Self, FileError> {
+        Self::read(file, text, spacecraft, Reader::Guidance)
+    }
+
+    /// The same for the plant, which has neither burns with a law of guidance nor modes.
+    ///
+    /// # Errors
+    ///
+    /// The same, and commands with a burn or a mode.
+    pub fn of_plant(file: &str, text: &str, spacecraft: &Spacecraft) -> Result<Self, FileError> {
+        Self::read(file, text, spacecraft, Reader::Plant)
+    }
+
+    fn read(file: &str, text: &str, spacecraft: &Spacecraft, reader: Reader) -> Result<Self, FileError> {
         let document = Document::parse(file, text)?;
         let (description, findings) = document.read::<Description>()?;
-        let mut commands = Commands::new(Checker::new(&document, findings), spacecraft);
-        let place = Place::root().key("command");
-        let list = &description.command;
-        if list.is_empty() {
-            commands.check.report(&place, "an empty list", "at least one command");
+        let mut commands = Commands::new(Checker::new(&document, findings), spacecraft, reader);
+        let [place, panels_place, events_place] =
+            ["command", "panels", "event"].map(|list| Place::root().key(list));
+        let list = description.command.as_deref().unwrap_or_default();
+        let panels_list = description.panels.as_deref().unwrap_or_default();
+        let events_list = description.event.as_deref().unwrap_or_default();
+        if list.is_empty() && panels_list.is_empty() && events_list.is_empty() {
+            let allowed = "at least one [[command]], [[panels]] or [[event]]";
+            commands.check.report(&Place::root(), "an empty timeline", allowed);
         }
-        let (clock, times) = times(&mut commands.check, &place, list);
+        let mut times = Times::new(&mut commands.check);
+        let spans = times.spans(&place, list.iter().map(|command| (&command.at, command.until.as_ref())));
+        let panel_times = times.instants(&panels_place, panels_list.iter().map(|it| &it.at));
+        let event_times = times.instants(&events_place, events_list.iter().map(|it| &it.at));
+        let clock = times.clock();
         let mut entries = Vec::with_capacity(list.len());
-        for (index, (description, [at_s, until_s])) in list.iter().zip(times.iter().copied()).enumerate() {
+        for (index, (description, [at_s, until_s])) in list.iter().zip(spans.iter().copied()).enumerate() {
             let at = place.item(index);
             let command = commands.pointing(&at, description);
-            let next_s = times.iter().skip(index + 1).find_map(|[next_s, _]| *next_s);
+            let next_s = spans.iter().skip(index + 1).find_map(|[next_s, _]| *next_s);
             let end_s = until_s.or(next_s).unwrap_or(f64::INFINITY);
             let span = Span { clock, at_s: at_s.unwrap_or(f64::NAN), end_s };
             let burns = command.scenario == Some(Scenario::Burn);
@@ -53,12 +78,26 @@ impl Timeline {
                 at_s: at_s.unwrap_or(f64::NAN),
                 until_s,
                 command: PointingCommand { scan, ..command },
+                downlink: commands.downlink(&at, description),
                 keep_in: commands.keep_in(&at, description.keep_in.as_ref()),
                 mode: description.mode,
                 burn,
+                status: description.status.unwrap_or_default(),
             });
         }
-        commands.check.finish(Self { clock, entries })
+        let panels = panels_list
+            .iter()
+            .zip(panel_times)
+            .enumerate()
+            .map(|(index, (given, at_s))| panels(&mut commands, &panels_place.item(index), given, at_s))
+            .collect();
+        let events = events_list
+            .iter()
+            .zip(event_times)
+            .enumerate()
+            .map(|(index, (given, at_s))| event(&mut commands, &events_place.item(index), given, at_s))
+            .collect();
+        commands.check.finish(Self { clock, entries, panels, events })
     }
 
     /// By which clock it counts.
@@ -69,6 +108,24 @@ impl Timeline {
     /// The commands in the order of their times.
     pub fn entries(&self) -> &[TimelineEntry] {
         &self.entries
+    }
+
+    /// How the panels stand, in the order of the times.
+    pub fn panels(&self) -> &[TimelinePanels] {
+        &self.panels
+    }
+
+    /// What happens at one time, in the order of the times.
+    pub fn events(&self) -> &Arc<[TimelineEvent]> {
+        &self.events
+    }
+
+    /// The clock at a time of the simulation, minus that time, in s, the epoch being `epoch_minus_time_s` ahead of it.
+    pub fn clock_minus_time_s(&self, epoch_minus_time_s: f64) -> f64 {
+        match self.clock {
+            TimelineClock::Epoch => epoch_minus_time_s,
+            TimelineClock::FmiTime => 0.0,
+        }
     }
 
     /// The command that begins on this line of the file.
@@ -86,59 +143,23 @@ impl Timeline {
         let last = self.entries.get(begun.checked_sub(1)?)?;
         last.until_s.is_none_or(|until_s| now_s < until_s).then_some(last)
     }
-}
 
-/// The clock, and begin and end of each command where they are given and not reported: times of one clock that grow, each end
-/// after its beginning and before the next one's.
-fn times(
-    check: &mut Checker<'_>,
-    place: &Place,
-    list: &[CommandDescription],
-) -> (TimelineClock, Vec<[Option<f64>; 2]>) {
-    let mut clock = None;
-    let mut read = |place: Place, quantity: &Quantity| {
-        let (counted_by, time_s) = instant(check, &place, quantity)?;
-        if counted_by == *clock.get_or_insert(counted_by) {
-            return Some(time_s);
-        }
-        let [found, allowed] = match counted_by {
-            TimelineClock::Epoch => ["a date", "FMI time, as in the first command: a file has one kind"],
-            TimelineClock::FmiTime => ["FMI time", "a date, as in the first command: a file has one kind"],
+    /// What is in force at a time of the clock, in s.
+    pub fn slot(&self, now_s: f64) -> Slot<'_> {
+        let entries = self.entries();
+        let begun = entries.partition_point(|entry| entry.at_s <= now_s);
+        let next_s = entries.get(begun).map_or(f64::INFINITY, |next| next.at_s);
+        let Some(last) = begun.checked_sub(1).and_then(|index| entries.get(index)) else {
+            return Slot { entry: None, row: 0, since_s: f64::NEG_INFINITY, until_s: next_s };
         };
-        check.report(&place, format_args!("{quantity}, {found}"), allowed);
-        None
-    };
-    let mut times = Vec::with_capacity(list.len());
-    for (index, description) in list.iter().enumerate() {
-        let at = place.item(index);
-        let begin_s = read(at.key("at"), &description.at);
-        times.push([begin_s, description.until.as_ref().and_then(|until| read(at.key("until"), until))]);
-    }
-    let mut last: Option<(usize, f64)> = None;
-    for (index, (description, [begin_s, end_s])) in list.iter().zip(&times).enumerate() {
-        let here = place.item(index);
-        let next =
-            times[index + 1..].iter().zip(index + 1..).find_map(|([next_s, _], at)| Some((at, (*next_s)?)));
-        let Some(begin_s) = *begin_s else { continue };
-        if let Some((before, before_s)) = last.filter(|(_, before_s)| begin_s <= *before_s) {
-            let (before, relation) =
-                (place.item(before), if begin_s == before_s { "when" } else { "before" });
-            let found = format!("{}, {relation} {before} begins", description.at);
-            check.report(&here.key("at"), found, "a time after the commands above");
-        }
-        last = Some((index, begin_s));
-        let (Some(end_s), Some(written)) = (*end_s, &description.until) else { continue };
-        if end_s <= begin_s {
-            let allowed = format!("a time after {}", description.at);
-            check.report(&here.key("until"), format_args!("{written}, not after `at`"), allowed);
-        } else if let Some((next, next_s)) = next
-            && begin_s < next_s
-            && end_s > next_s
-        {
-            let found = format!("{written}, after {} begins", place.item(next));
-            let allowed = format!("a time up to {}, or no such key", list[next].at);
-            check.report(&here.key("until"), found, allowed);
+        match last.until_s {
+            Some(end_s) if end_s <= now_s => Slot { entry: None, row: 0, since_s: end_s, until_s: next_s },
+            end_s => Slot {
+                entry: Some(last),
+                row: begun,
+                since_s: last.at_s,
+                until_s: end_s.unwrap_or(f64::INFINITY).min(next_s),
+            },
         }
     }
-    (clock.unwrap_or(TimelineClock::FmiTime), times)
 }

@@ -9,7 +9,7 @@ use super::instant::{instant, is_date};
 use super::quantity::{SPEED, TIME};
 use crate::guidance::burn::nominal_thrust::NominalThrust;
 use crate::guidance::burn::velocity_path::VelocityPath;
-use crate::spacecraft::{Spacecraft, ThrusterSet};
+use crate::spacecraft::ThrusterSet;
 use crate::toml::{Place, hint};
 
 /// When a command begins and ends, in s of a clock; without end infinite.
@@ -47,7 +47,7 @@ pub(super) fn burn(
             None
         }
     };
-    let set = thruster_set(commands, &at.key("thrusters"), spacecraft, &given.thrusters);
+    let set = thruster_set(commands, &at.key("thrusters"), &given.thrusters);
     let begin_s = start(commands, at, given, span);
     let duration_s = given.duration.as_ref().map(|duration| {
         let place = at.key("duration");
@@ -102,12 +102,8 @@ fn start(commands: &mut Commands<'_, '_>, at: &Place, given: &BurnDescription, s
 }
 
 /// The set of this name.
-fn thruster_set(
-    commands: &mut Commands<'_, '_>,
-    at: &Place,
-    spacecraft: &Spacecraft,
-    name: &str,
-) -> Option<ThrusterSet> {
+pub(super) fn thruster_set(commands: &mut Commands<'_, '_>, at: &Place, name: &str) -> Option<ThrusterSet> {
+    let spacecraft = commands.spacecraft;
     let found = spacecraft.thruster_set(name);
     if found.is_none() && !commands.check.is_stand_in(at) {
         let sets: Vec<&str> = spacecraft.thruster_sets.iter().map(String::as_str).collect();

@@ -7,12 +7,13 @@ use super::description::{
     AimpointDescription, BodyRollDescription, BoresightDescription, CommandDescription,
     ExternalRollDescription, KeepInDescription, LimbDescription,
 };
-use super::entry::KeepInOverride;
+use super::entry::{DownlinkOverride, KeepInOverride};
 use super::quantity::{Kind, LATITUDE, LENGTH, QUARTER_TURN, Quantity, SPEED, TURN};
 use super::reads::{
     Keys, NOTHING, TABLES, aimpoint_keys, body_roll_keys, boresight_keys, external_roll_keys, keys,
     limb_keys, own_aimpoint, tables,
 };
+use crate::attitude::SunAngles;
 use crate::bodies::Body;
 use crate::enumeration::Enumerated;
 use crate::guidance::modes::mode::Mode;
@@ -37,23 +38,34 @@ const AIMPOINT: &[&str] = &[
     "body",
 ];
 
+/// Who reads a timeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Reader {
+    /// Guidance.
+    Guidance,
+    /// The plant, which has neither modes nor burns with a law.
+    Plant,
+}
+
 /// Builds commands and gathers what is wrong with them.
 pub(super) struct Commands<'d, 'i> {
     pub check: Checker<'d>,
     pub spacecraft: &'i Spacecraft,
+    reader: Reader,
     /// The scenario of the current command, for messages.
     scenario: String,
 }
 
 impl<'d, 'i> Commands<'d, 'i> {
     /// For this spacecraft.
-    pub(super) fn new(check: Checker<'d>, spacecraft: &'i Spacecraft) -> Self {
-        Self { check, spacecraft, scenario: String::new() }
+    pub(super) fn new(check: Checker<'d>, spacecraft: &'i Spacecraft, reader: Reader) -> Self {
+        Self { check, spacecraft, reader, scenario: String::new() }
     }
 
     /// Where a command points, without its scan.
     pub(super) fn pointing(&mut self, at: &Place, given: &CommandDescription) -> PointingCommand {
         let scenario_place = at.key("scenario");
+        self.check_reader(at, given);
         let Some(scenario) = given.scenario else {
             self.report_lack_of_scenario(at, given);
             return PointingCommand::default();
@@ -98,6 +110,40 @@ impl<'d, 'i> Commands<'d, 'i> {
             command.limb = self.limb(&at.key("limb"), limb, scenario);
         }
         command
+    }
+
+    /// Reports what Guidance alone does.
+    fn check_reader(&mut self, at: &Place, given: &CommandDescription) {
+        if self.reader != Reader::Plant {
+            return;
+        }
+        if let Some(mode) = given.mode {
+            let allowed = "no such key: MomentumPlant has no modes; FMU Guidance has, and commands it";
+            self.check.report(&at.key("mode"), named("the mode", mode), allowed);
+        }
+        if given.scenario == Some(Scenario::Burn) {
+            let allowed = "another scenario: in MomentumPlant a change of velocity is an [[event]] with `maneuver`; FMU Guidance \
+                           steers burns";
+            self.check.report(&at.key("scenario"), named("the scenario", Scenario::Burn), allowed);
+        }
+    }
+
+    /// Where the Sun stands in a downlink.
+    pub(super) fn downlink(&mut self, at: &Place, given: &CommandDescription) -> DownlinkOverride {
+        let alternate = given.alternate.unwrap_or_default();
+        let (place, is_written) = (at.key("sun"), |it: &Self, key| it.check.is_written(&at.key(key)));
+        for key in ["sun", "alternate"] {
+            if given.boresight.is_some() && is_written(self, key) {
+                let allowed =
+                    "no `boresight` beside it, or no such key: the antenna follows from the Sun's place";
+                self.check.report(&at.key(key), "it beside `boresight`", allowed);
+            }
+        }
+        let sun = given.sun.as_ref().map(|sun| SunAngles {
+            azimuth_rad: self.or_zero(&place.key("azimuth"), &sun.azimuth, &TURN),
+            elevation_rad: self.or_zero(&place.key("elevation"), &sun.elevation, &LATITUDE),
+        });
+        DownlinkOverride { sun, alternate }
     }
 
     /// Changes of the Sun keep-in zone.

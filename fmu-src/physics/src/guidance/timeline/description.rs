@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use super::entry::PlanStatus;
 use super::quantity::Quantity;
 use crate::bodies::Body;
 use crate::guidance::modes::mode::Mode;
@@ -10,15 +11,83 @@ use crate::guidance::pointing::command::{
     Scenario,
 };
 
-/// Commands of Guidance over time.
+/// What is commanded over time: attitudes, panels, events. A file has one of the three lists at least.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "schema", schemars(title = "heliotorque timeline"))]
 #[serde(deny_unknown_fields)]
 pub(super) struct Description {
     /// The commands in the order of their times. Each lasts until the next one or until its own `until`.
-    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
-    pub command: Vec<CommandDescription>,
+    pub command: Option<Vec<CommandDescription>>,
+    /// How the panels stand, in the order of the times, where MomentumPlant's `panel[k].control` is timeline. Each lasts until
+    /// the next one.
+    pub panels: Option<Vec<PanelsDescription>>,
+    /// What happens at one time, in the order of the times. Guidance reads dumps alone.
+    pub event: Option<Vec<EventDescription>>,
+}
+
+/// How the panels stand from a time on.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct PanelsDescription {
+    /// When it begins, in the clock of the commands.
+    pub at: Quantity,
+    /// Angle of the cells' normal from the Sun, its sign the sense of the tilt: one for all panels, or one a panel.
+    pub sun_offset: AnglesDescription,
+    /// Angle that the panels of both sides turn against one another: a panel stands at sunOffset plus windmill times its
+    /// `windmill_side` in the spacecraft file. 0 unless given.
+    pub windmill: Option<Quantity>,
+}
+
+/// An angle for all, or one each.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub(super) enum AnglesDescription {
+    /// One each.
+    Each(Vec<Quantity>),
+    /// One for all.
+    All(Quantity),
+}
+
+/// What happens at a time.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct EventDescription {
+    /// When, in the clock of the commands.
+    pub at: Quantity,
+    /// A dump of momentum: true, or the momentum after it in the body frame (N.m.s).
+    pub dump: Option<DumpDescription>,
+    pub maneuver: Option<ManeuverDescription>,
+    /// Centre of mass from then on, body frame, with every panel at angle 0 and full tanks.
+    pub center_of_mass: Option<[Quantity; 3]>,
+}
+
+/// A dump.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub(super) enum DumpDescription {
+    /// To the momentum that parameters say.
+    Is(bool),
+    /// To this momentum, body frame.
+    To(Vec<Quantity>),
+}
+
+/// An impulsive change of velocity.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct ManeuverDescription {
+    /// Velocity to add, EME2000.
+    #[serde(rename = "deltaV")]
+    pub delta_v: [Quantity; 3],
+    /// Name of a set of thrusters in the spacecraft file; maneuver.thrusters unless given.
+    pub thrusters: Option<String>,
+    /// Whether a dump goes with it; maneuver.dump unless given.
+    pub dump: Option<bool>,
 }
 
 /// A command.
@@ -41,9 +110,26 @@ pub(super) struct CommandDescription {
     pub limb: Option<LimbDescription>,
     pub scan: Option<ScanDescription>,
     pub burn: Option<BurnDescription>,
+    /// Where the Sun stands in downlink; on -Y unless given.
+    pub sun: Option<SunDescription>,
+    /// Whether the downlink attitude is turned by 180 deg about the Sun line, without a link; false unless given.
+    pub alternate: Option<bool>,
     pub keep_in: Option<KeepInDescription>,
     /// A mode requested when the command begins; Safe Hold follows downlink alone.
     pub mode: Option<Mode>,
+    /// For a plan: whether it may change this command. FMUs ignore it; fixed unless given.
+    pub status: Option<PlanStatus>,
+}
+
+/// Where the Sun stands in the body frame.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct SunDescription {
+    /// Azimuth from -Y toward +X; 0 unless given.
+    pub azimuth: Option<Quantity>,
+    /// Elevation, positive toward -Z; 0 unless given.
+    pub elevation: Option<Quantity>,
 }
 
 /// The boresight.

@@ -1,11 +1,16 @@
-//! A command of a timeline: when, where to point, what else it changes.
+//! What a timeline holds: commands (when, where to point, what else it changes), panels, events.
 
+use nalgebra::Vector3;
+use serde::Deserialize;
+
+use crate::attitude::SunAngles;
 use crate::guidance::burn::delta_v::BurnSettings;
 use crate::guidance::burn::nominal_thrust::NominalThrust;
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::constraints::keep_in::KeepIn;
+use crate::guidance::downlink::sun_place::SunRequest;
 use crate::guidance::modes::mode::Mode;
-use crate::guidance::pointing::command::PointingCommand;
+use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::numerics::spacing::spacing;
 use crate::spacecraft::ThrusterSet;
 
@@ -16,6 +21,20 @@ pub enum TimelineClock {
     Epoch,
     /// FMI time in s.
     FmiTime,
+}
+
+/// Whether a plan may change a command.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase")]
+pub enum PlanStatus {
+    /// It stays as it is.
+    #[default]
+    Fixed,
+    /// It stays, and its cost is told.
+    Planned,
+    /// The plan may change it.
+    Free,
 }
 
 /// A command of a timeline.
@@ -29,12 +48,101 @@ pub struct TimelineEntry {
     pub until_s: Option<f64>,
     /// Where to point; without a scenario nothing is commanded.
     pub command: PointingCommand,
+    /// Where the Sun stands in its downlink, where it says so, and whether that is turned about the Sun line.
+    pub downlink: DownlinkOverride,
     /// Changes of the Sun keep-in zone while it lasts.
     pub keep_in: KeepInOverride,
     /// A mode requested when it begins.
     pub mode: Option<Mode>,
     /// The burn of its scenario; `None`: that of the parameters.
     pub burn: Option<TimelineBurn>,
+    /// Whether a plan may change it.
+    pub status: PlanStatus,
+}
+
+/// What is in force over a span of the timeline's clock.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slot<'a> {
+    /// The command; `None`: nothing is commanded.
+    pub entry: Option<&'a TimelineEntry>,
+    /// Its row, from 1; 0 where nothing is commanded.
+    pub row: usize,
+    /// Since when, in s; minus infinity before the first command.
+    pub since_s: f64,
+    /// Until when, in s; infinite after the last one.
+    pub until_s: f64,
+}
+
+impl Slot<'_> {
+    /// The scenario that it commands itself, the orbit phase's aside.
+    pub fn scenario(&self) -> Option<Scenario> {
+        self.entry.and_then(|entry| entry.command.scenario).filter(|it| *it != Scenario::OrbitPhase)
+    }
+
+    /// Where its downlink is to have the Sun, where `requested` by an input says nothing.
+    pub fn sun_request(&self, requested: SunRequest) -> SunRequest {
+        self.entry.map_or(requested, |entry| entry.downlink.under(requested))
+    }
+}
+
+/// How the panels stand from a time on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimelinePanels {
+    /// Line in the file, from 1.
+    pub line: usize,
+    /// When it begins, in s of the timeline's clock.
+    pub at_s: f64,
+    /// Offset of each panel's cells from the Sun, its sign the sense of the tilt, in rad.
+    pub sun_offsets_rad: Vec<f64>,
+    /// Added to the offsets of panels on one side, and taken from those on the other, in rad.
+    pub windmill_rad: f64,
+}
+
+/// What happens at a time: the centre of mass is placed, then the maneuver, then the dump.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TimelineEvent {
+    /// Line in the file, from 1.
+    pub line: usize,
+    /// When, in s of the timeline's clock.
+    pub at_s: f64,
+    /// A dump; it is the maneuver's where there is one.
+    pub dump: Option<TimelineDump>,
+    /// A maneuver.
+    pub maneuver: Option<TimelineManeuver>,
+    /// Nominal centre of mass from then on, body frame, in m, with every panel at angle 0 and full tanks.
+    pub center_of_mass_body_m: Option<Vector3<f64>>,
+}
+
+/// Where a dump takes the momentum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TimelineDump {
+    /// Where dumps on request take it.
+    Requested,
+    /// To this momentum, body frame, by the flight's convention, in N m s.
+    To {
+        /// The momentum after it.
+        momentum_body_n_m_s: Vector3<f64>,
+    },
+}
+
+/// A delta-v as an impulse through the centre of mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimelineManeuver {
+    /// Velocity to add, EME2000, in m/s.
+    pub delta_v_inertial_m_s: Vector3<f64>,
+    /// The thrusters; `None`: those of the parameters.
+    pub thrusters: Option<ThrusterSet>,
+    /// Whether a dump goes with it; `None`: as by the parameters.
+    pub dumps: Option<bool>,
+}
+
+/// Where the Sun stands in a downlink.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DownlinkOverride {
+    /// In the body frame.
+    pub sun: Option<SunAngles>,
+    /// Whether the attitude is turned by 180 deg about the Sun line.
+    pub alternate: bool,
 }
 
 /// A burn of a timeline.
@@ -68,6 +176,17 @@ impl TimelineBurn {
             // It waits until its command ends.
             wait_s: f64::INFINITY,
             ..*parameters
+        }
+    }
+}
+
+impl DownlinkOverride {
+    /// Where the downlink is to have the Sun, where `requested` by an input says nothing.
+    pub fn under(&self, requested: SunRequest) -> SunRequest {
+        let is_set = requested.sun != SunAngles::default();
+        SunRequest {
+            sun: self.sun.filter(|_| !is_set).unwrap_or(requested.sun),
+            alternate: requested.alternate || self.alternate,
         }
     }
 }

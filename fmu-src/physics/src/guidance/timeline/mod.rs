@@ -1,24 +1,32 @@
 //! Commands over time from a file, checked before the flight.
 //!
-//! A timeline is one TOML file ([`Timeline::from_toml`]) of `[[command]]` tables. Keys and items are those of Guidance's
-//! variables; numbers are SI, or strings with a unit.
+//! A timeline is one TOML file ([`Timeline::from_toml`]) of `[[command]]`, `[[panels]]` and `[[event]]` tables. Keys and items are
+//! those of the FMUs' variables; numbers are SI, or strings with a unit.
 
 mod build;
 mod burn;
 mod commands;
 mod description;
 mod entry;
+mod events;
 mod instant;
+mod law;
+mod panels;
 mod quantity;
 mod reads;
 mod scans;
 #[cfg(feature = "schema")]
 mod schema;
+mod times;
 
 #[cfg(test)]
 mod tests;
 
 pub use build::Timeline;
-pub use entry::{KeepInOverride, TimelineBurn, TimelineClock, TimelineEntry};
+pub use entry::{
+    DownlinkOverride, KeepInOverride, PlanStatus, Slot, TimelineBurn, TimelineClock, TimelineDump,
+    TimelineEntry, TimelineEvent, TimelineManeuver, TimelinePanels,
+};
+pub use law::{TimelineAttitude, TimelineLaw, TimelineSettings, bodies_of};
 #[cfg(feature = "schema")]
 pub use schema::schema;

@@ -7,7 +7,9 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use crate::constants::{ASTRONOMICAL_UNIT_M, DAY_S, DEG_RAD, RPM_RAD_S};
-use crate::guidance::pointing::command::{BACK_TURN_RAD, DOWN_ANGLE_RAD, FULL_TURN_RAD, RIGHT_ANGLE_RAD};
+use crate::guidance::pointing::command::{
+    BACK_HALF_TURN_RAD, BACK_TURN_RAD, DOWN_ANGLE_RAD, FULL_TURN_RAD, RIGHT_ANGLE_RAD,
+};
 
 /// What stands in the file.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -48,6 +50,9 @@ const fn angle(range_rad: RangeInclusive<f64>, allowed: &'static str) -> Kind {
 pub(super) const TURN: Kind = angle(BACK_TURN_RAD..=FULL_TURN_RAD, "an angle from -360 to 360 deg");
 /// Elevations, latitudes and declinations.
 pub(super) const LATITUDE: Kind = angle(DOWN_ANGLE_RAD..=RIGHT_ANGLE_RAD, "an angle from -90 to 90 deg");
+/// Offsets of panels from the Sun.
+pub(super) const HALF_TURN: Kind =
+    angle(BACK_HALF_TURN_RAD..=core::f64::consts::PI, "an angle from -180 to 180 deg");
 /// Half widths of a zone.
 pub(super) const QUARTER_TURN: Kind = angle(0.0..=RIGHT_ANGLE_RAD, "an angle from 0 to 90 deg");
 /// Rates of rotations.
@@ -57,6 +62,8 @@ pub(super) const LENGTH: Kind =
     kind("a length", &[("m", 1.0), ("km", 1e3), ("cm", 1e-2), ("mm", 1e-3), ("AU", ASTRONOMICAL_UNIT_M)]);
 /// Speeds.
 pub(super) const SPEED: Kind = kind("a speed", &[("m/s", 1.0), ("km/s", 1e3), ("mm/s", 1e-3)]);
+/// Angular momentum.
+pub(super) const MOMENTUM: Kind = kind("an angular momentum", &[("N.m.s", 1.0), ("mN.m.s", 1e-3)]);
 /// Times.
 pub(super) const TIME: Kind =
     kind("a time", &[("s", 1.0), ("ms", 1e-3), ("min", 60.0), ("h", 3600.0), ("d", DAY_S)]);
@@ -69,8 +76,9 @@ impl Quantity {
             Self::Text(text) => text.trim(),
             Self::Truth(_) | Self::List(_) | Self::Table(_) => return None,
         };
-        // A unit holds no digit, a number ends in a digit or a point.
-        let end = text.rfind(|c: char| c.is_ascii_digit() || c == '.')? + 1;
+        // A unit holds no digit, a number ends in a digit or in a point right behind one.
+        let digits = text.rfind(|c: char| c.is_ascii_digit())? + 1;
+        let end = digits + usize::from(text[digits..].starts_with('.'));
         let (number, unit) = text.split_at_checked(end)?;
         let number: f64 = number.parse().ok()?;
         let unit = unit.trim();
@@ -138,6 +146,8 @@ mod tests {
             ("5 min", &TIME, 300.0),
             (" 1.5  d ", &TIME, 129_600.0),
             ("2. km/s", &SPEED, 2000.0),
+            ("20 mN.m.s", &MOMENTUM, 0.02),
+            ("1.N.m.s", &MOMENTUM, 1.0),
         ] {
             assert_eq!(si(text, kind), Some(requested), "{text}");
         }

@@ -33,8 +33,18 @@ const AZIMUTH_ELEVATION: Keys = keys(&["azimuth", "elevation"], &[]);
 const CELESTIAL: Keys = keys(&["rightAscension", "declination"], &[]);
 
 /// Tables of a command that a scenario may read.
-pub(super) const TABLES: &[&str] =
-    &["boresight", "aimpoint", "secondAimpoint", "bodyRoll", "externalRoll", "limb", "scan", "burn"];
+pub(super) const TABLES: &[&str] = &[
+    "boresight",
+    "aimpoint",
+    "secondAimpoint",
+    "bodyRoll",
+    "externalRoll",
+    "limb",
+    "scan",
+    "burn",
+    "sun",
+    "alternate",
+];
 
 /// Tables that a scenario reads.
 pub(super) fn tables(scenario: Scenario) -> Keys {
@@ -44,7 +54,7 @@ pub(super) fn tables(scenario: Scenario) -> Keys {
         Scenario::Nadir => keys(&[], &["boresight", "aimpoint", "scan"]),
         Scenario::Gimbal => keys(&["boresight", "aimpoint"], &["scan"]),
         Scenario::DoubleTarget => keys(&["aimpoint", "secondAimpoint"], &["boresight", "scan"]),
-        Scenario::Downlink => keys(&[], &["boresight", "aimpoint"]),
+        Scenario::Downlink => keys(&[], &["boresight", "aimpoint", "sun", "alternate"]),
         Scenario::LimbTerminator => keys(&[], &["boresight", "limb", "scan"]),
         Scenario::LimbGeneric => keys(&["limb"], &["boresight", "scan"]),
         Scenario::Burn => keys(&[], &["burn"]),

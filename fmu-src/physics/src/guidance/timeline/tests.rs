@@ -403,3 +403,64 @@ fn a_burn_is_read_with_its_set_and_times() {
     let curved = VelocityPath::cubic([Vector3::x(), Vector3::y(), Vector3::zeros()]);
     assert_eq!(command(turn).burn.unwrap().path, curved);
 }
+
+#[test]
+fn downlinks_say_where_the_sun_stands() {
+    let place = |text: &str| command(&format!("scenario = \"downlink\"\n{text}")).downlink;
+    let at = |azimuth_deg: f64, elevation_deg: f64| {
+        let [azimuth_rad, elevation_rad] = [azimuth_deg, elevation_deg].map(|it| it * DEG_RAD);
+        Some(crate::attitude::SunAngles { azimuth_rad, elevation_rad })
+    };
+    assert_eq!(place(""), DownlinkOverride { sun: None, alternate: false });
+    let both = place("sun = { azimuth = \"-10 deg\", elevation = \"3 deg\" }\nalternate = true");
+    assert_eq!(both, DownlinkOverride { sun: at(-10.0, 3.0), alternate: true });
+    assert_eq!(place("sun = { elevation = \"-3 deg\" }").sun, at(0.0, -3.0));
+    assert_eq!(command("scenario = \"downlink\"\nstatus = \"free\"").status, PlanStatus::Free);
+    assert_eq!(command("scenario = \"nadir\"").status, PlanStatus::Fixed);
+}
+
+#[test]
+fn panels_and_events_stand_without_commands() {
+    let timeline = read(
+        "[[panels]]\nat = 0\nsunOffset = \"-40 deg\"\n[[panels]]\nat = \"1 d\"\nsunOffset = [0, \"60 deg\"]\nwindmill = 0.5\n\
+         [[event]]\nat = \"2 h\"\ndump = true\n[[event]]\nat = \"3 h\"\ndump = [0, \"20 mN.m.s\", -1]\n\
+         maneuver = { deltaV = [1, 0, \"-2 km/s\"] }\ncenterOfMass = [\"1 cm\", 0, 0.1]\n\
+         [[event]]\nat = \"4 h\"\nmaneuver = { deltaV = [0, 1, 0], thrusters = \"lva\", dump = false }",
+    );
+    assert!(timeline.entries().is_empty());
+    let [first, second] = timeline.panels() else { panic!("not two") };
+    let offset_rad = -40.0 * DEG_RAD;
+    assert_eq!((first.at_s, &first.sun_offsets_rad[..]), (0.0, &[offset_rad, offset_rad][..]));
+    assert_eq!((second.at_s, second.windmill_rad), (86_400.0, 0.5));
+    assert_eq!(second.sun_offsets_rad, [0.0, 60.0 * DEG_RAD]);
+    let [dump, maneuver, last] = timeline.events().as_ref() else { panic!("not three") };
+    assert_eq!((dump.at_s, dump.dump), (7200.0, Some(TimelineDump::Requested)));
+    let to = TimelineDump::To { momentum_body_n_m_s: Vector3::new(0.0, 0.02, -1.0) };
+    assert_eq!(
+        (maneuver.dump, maneuver.center_of_mass_body_m),
+        (Some(to), Some(Vector3::new(0.01, 0.0, 0.1)))
+    );
+    let expected = TimelineManeuver {
+        delta_v_inertial_m_s: Vector3::new(1.0, 0.0, -2000.0),
+        thrusters: None,
+        dumps: None,
+    };
+    assert_eq!(maneuver.maneuver, Some(expected));
+    let set = spacecraft().thruster_set("lva");
+    assert_eq!(last.maneuver.map(|it| (it.thrusters, it.dumps)), Some((set, Some(false))));
+}
+
+#[test]
+fn the_plant_has_neither_burns_nor_modes() {
+    for (text, found) in [
+        ("scenario = \"burn\"", "command[1].scenario: found the scenario burn"),
+        ("mode = \"safeHold\"", "command[1].mode: found the mode safeHold"),
+    ] {
+        let text = format!("[[command]]\nat = 0\n{text}");
+        read(&text);
+        let error = Timeline::of_plant("t.toml", &text, &spacecraft()).unwrap_err().to_string();
+        assert!(error.contains(found) && error.contains("t.toml:3"), "{error}");
+    }
+    let text = "[[command]]\nat = 0\nscenario = \"downlink\"\n[[event]]\nat = 5\ndump = true";
+    assert!(Timeline::of_plant("t.toml", text, &spacecraft()).is_ok());
+}

@@ -138,7 +138,7 @@ fn first_dump_s(flight: &mut Spinning, threshold_n_m_s: f64) -> f64 {
     };
     let setting = Settings { grid_s: 600.0, policy, ..settings(1.0, Convention::Inertial) };
     let mut integrator = MomentumIntegrator::new(0.0, totals);
-    match integrator.advance_to_stop(flight, &setting, 1e4, None).unwrap() {
+    match integrator.advance_to_stop(flight, &setting, 1e4, StopTimes::NONE).unwrap() {
         Stop::Dump(event) => event.time_s,
         stop => panic!("{stop:?}"),
     }

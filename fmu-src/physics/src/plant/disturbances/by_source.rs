@@ -32,6 +32,8 @@ pub struct Positions<T> {
 pub struct Parameters<T: Scalar> {
     /// The Sun's flux at 1 AU, in W/m2.
     pub flux_at_1_au_w_m2: T,
+    /// Factor of force and torque of direct sunlight.
+    pub solar_scale: T,
     /// The Sun's radius, in m.
     pub sun_radius_m: T,
     /// Inertia about the centre of mass, body frame, in kg m2.
@@ -125,7 +127,8 @@ impl<T: Scalar> BySource<T> {
             &positions.panel_angles_rad,
             Vector3::from(positions.center_of_mass_m),
         )?
-        .with_sun_radius(parameters.sun_radius_m);
+        .with_sun_radius(parameters.sun_radius_m)
+        .with_solar_scale(parameters.solar_scale);
         if let Some(planet) = &mut geometry.planet {
             let pole = Vector3::from(positions.pole);
             planet.pole_body = if is_zero(&pole) { -Vector3::z() } else { pole };

@@ -101,7 +101,8 @@ impl DisturbanceInterval {
             if turning_rad_s * span_s < SHORTEST_TURN_RAD {
                 break nodes;
             }
-            let ends = [start_s, interval.end_s()].map(|at_s| plant.evaluate(at_s));
+            let last_s = plant.kinematics.configuration.last_of_panels_s(start_s, interval.end_s());
+            let ends = [start_s, last_s].map(|at_s| plant.evaluate(at_s));
             let left_out = left_out(active, &nodes, &ends);
             let unresolved = left_out * left_out.max(math::powi(rate_rad_s * span_s, 2) / 12.0);
             if let Some(longest_s) = interval.accept(unresolved, tolerance, ORDER) {

@@ -12,6 +12,7 @@ use crate::constants::RADIUS_SUN_M;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
+use crate::guidance::timeline::TimelineLaw;
 use crate::loads::{Effect, ForceTorque, Loads};
 use crate::momentum::{Effort, EventValues, Sample, TorqueModel, torques_body_n_m};
 use crate::numerics::chebyshev::Segment;
@@ -147,15 +148,17 @@ pub struct PreparedSpacecraft<'a> {
     pub orbit_method: &'a OrbitMethod,
     /// The default downlink of its antennas.
     pub default_downlink: &'a DefaultDownlink,
+    /// Commands over time, which guided flight follows.
+    pub timeline: Option<TimelineLaw<'a>>,
 }
 
 impl PreparedSpacecraft<'_> {
-    /// The spacecraft as sunlight meets it at `time_s`.
+    /// The spacecraft as sunlight meets it at `time_s`, so far from the Sun.
     pub(crate) fn sunlit<'c>(
         &'c self,
         configuration: &'c Configuration,
         mass_at_zero: &MassProperties,
-        time_s: f64,
+        [time_s, sun_distance_m]: [f64; 2],
     ) -> SunlitCraft<'c> {
         SunlitCraft {
             solar: self.solar,
@@ -163,6 +166,7 @@ impl PreparedSpacecraft<'_> {
             settings: &configuration.panels,
             mass_at_zero: *mass_at_zero,
             time_s,
+            sun_distance_m,
         }
     }
 }
@@ -190,12 +194,13 @@ impl<'a> Plant<'a> {
         external: &'a External<'a>,
     ) -> Self {
         let World { configuration, mass_at_zero, ephemeris, laws, light, work } = world;
-        let PropagatorState { trajectory, light: segment, sun_choice } = propagator;
+        let PropagatorState { trajectory, light: segment, sun_choice, .. } = propagator;
         let kinematics = Kinematics {
             configuration,
             trajectory,
             ephemeris,
             default_downlink: prepared.default_downlink,
+            timeline: prepared.timeline,
             work,
             mass_at_zero: *mass_at_zero,
         };
@@ -226,7 +231,7 @@ impl<'a> Plant<'a> {
 
     /// Mass, centre of mass and inertia as the panels stand at `time_s`.
     pub fn mass_properties(&self, instant: &Instant, time_s: f64) -> MassProperties {
-        self.kinematics.mass_properties(self.prepared.panels, &instant.sun_body, time_s)
+        self.kinematics.mass_properties(self.prepared.panels, &instant.sun_at(time_s))
     }
 
     /// Momentum in N m s of the panels relative to the body, body frame, as their laws turn them at `time_s`.
@@ -240,8 +245,7 @@ impl<'a> Plant<'a> {
             return Vector3::zeros();
         }
         let configuration = self.kinematics.configuration;
-        let sun = [&instant.sun_body, &instant.sun_rate_body_1_s()];
-        configuration.panel_momentum_body_n_m_s(self.prepared.panels, mass, sun, time_s)
+        configuration.panel_momentum_body_n_m_s(self.prepared.panels, mass, &instant.moving_sun_at(time_s))
     }
 
     fn has_panel_mass(&self) -> bool {
@@ -274,12 +278,14 @@ impl<'a> Plant<'a> {
         {
             shadowed = configuration.light_and_heat.shadowing && light.model.can_shadow();
             loads = segment.loads(time_s);
+            loads[Effect::Solar] = loads[Effect::Solar].scaled(configuration.light.scale);
         }
         if !shadowed {
             let pressure_pa = configuration.light.pressure_pa(instant.sun_distance_m);
             let beam =
                 Beam { source_body: instant.sun_body, pressure_pa: pressure_pa * instant.lit_fraction };
-            let sunlit = self.prepared.sunlit(configuration, &self.kinematics.mass_at_zero, time_s);
+            let at = [time_s, instant.sun_distance_m];
+            let sunlit = self.prepared.sunlit(configuration, &self.kinematics.mass_at_zero, at);
             loads[Effect::Solar] = sunlit.load(&beam, center_of_mass_body_m);
         }
         loads
@@ -312,7 +318,7 @@ impl<'a> Plant<'a> {
     pub(crate) fn begin(&mut self, start_s: f64, limit_s: f64) -> Result<(f64, Instant), PlantError> {
         let known_s = self.orbit_and_light(start_s)?.min(limit_s);
         let instant = self.kinematics.instant(start_s);
-        Ok((self.kinematics.attitude_until_s(start_s, &instant, known_s), instant))
+        Ok((self.kinematics.laws_until_s(start_s, &instant, known_s), instant))
     }
 
     fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {

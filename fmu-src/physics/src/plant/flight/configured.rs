@@ -4,13 +4,14 @@ use nalgebra::Vector3;
 
 use crate::attitude::{Attitude, BodyMotion, GyrostatMotion, MovingFrame};
 use crate::guidance::{Activity, Guided, Schedule, ScienceRule, Window};
-use crate::momentum::{DumpEvent, TorqueModel, Totals};
+use crate::momentum::{TorqueModel, Totals};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 use super::propagator_state::PropagatorState;
 use crate::plant::disturbances::evaluation::{External, Plant, PreparedSpacecraft, World};
 use crate::plant::settings::configuration::{AttitudeSource, Command, DynamicAttitude};
 use crate::plant::settings::error::PlantError;
+use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::settings::work::Cost;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
@@ -52,8 +53,8 @@ pub(crate) struct ConfiguredFlight<'a> {
     pub world: &'a mut World,
     pub propagator: &'a mut PropagatorState,
     pub thrusters: &'a mut Thrusters,
-    /// Receives dumps.
-    pub log: &'a mut dyn FnMut(&DumpEvent),
+    /// Receives dumps and maneuvers.
+    pub log: &'a mut dyn FnMut(&ThrusterEvent),
 }
 
 impl ConfiguredFlight<'_> {
@@ -125,6 +126,7 @@ impl ConfiguredFlight<'_> {
                 momentum,
                 to_sun: instant.geometry.to_sun.position_m.normalize(),
                 to_earth: instant.geometry.to_earth.position_m.try_normalize(0.0),
+                sun_distance_m: instant.sun_distance_m,
                 pressure_pa,
                 separations_rad,
                 science,

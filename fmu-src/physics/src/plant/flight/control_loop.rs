@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::control::{ControlTarget, ControllerState, Estimate};
 use crate::attitude::{Attitude, BodyMotion, Gyrostat, GyrostatMotion};
+use crate::guidance::DownlinkStatus;
 use crate::momentum::Totals;
 use crate::numerics::intervals::next_multiple_s;
 use crate::numerics::spacing::spacing;
@@ -31,6 +32,8 @@ pub(crate) struct ControlLoop {
     pub wheels: WheelControl,
     /// What guidance commanded last.
     guidance: Option<Command>,
+    /// What it said of a downlink.
+    pub downlink: DownlinkStatus,
     /// When guidance is sampled next, in s.
     next_guidance_s: f64,
     /// Whether thrusters control the attitude, and whether they could not give the torque requested.
@@ -57,6 +60,7 @@ impl ControlLoop {
             controller: ControllerState::new(attitude, rate_body_rad_s),
             wheels: WheelControl::new(wheels),
             guidance: None,
+            downlink: DownlinkStatus::default(),
             next_guidance_s: time_s,
             by_thrusters: false,
             thrusters_limited: false,
@@ -116,6 +120,7 @@ impl ControlLoop {
         let momentum = StartMomentum::Inertial(body.momentum_inertial_n_m_s);
         flight.choose_sun_place(time_s, &totals, momentum, self.guidance.is_none())?;
         let guided = flight.plant_at(time_s, body).kinematics.guided_attitude(time_s);
+        self.downlink = guided.as_ref().map(DownlinkStatus::of).unwrap_or_default();
         let (attitude, rate_body_rad_s) =
             guided.map_or((sampled.estimate.attitude, Vector3::zeros()), |guided| {
                 let frame = guided.frame;

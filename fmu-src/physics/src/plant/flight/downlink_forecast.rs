@@ -63,6 +63,8 @@ pub struct DownlinkForecast<'o> {
     pub to_sun: Vector3<f64>,
     /// Unit vector to the Earth, EME2000; `None` where its place is not known.
     pub to_earth: Option<Vector3<f64>>,
+    /// Distance from the Sun's centre, in m.
+    pub sun_distance_m: f64,
     /// Pressure of sunlight, in Pa, without a shadow.
     pub pressure_pa: f64,
     /// Least and greatest angle between Sun and Earth while the downlink lasts, in rad.
@@ -74,7 +76,7 @@ pub struct DownlinkForecast<'o> {
 impl DownlinkForecast<'_> {
     fn sunlit(&self) -> SunlitCraft<'_> {
         let World { configuration, mass_at_zero, .. } = &*self.world;
-        self.prepared.sunlit(configuration, mass_at_zero, self.time_s)
+        self.prepared.sunlit(configuration, mass_at_zero, [self.time_s, self.sun_distance_m])
     }
 
     /// Torque of direct sunlight without shadows in N m, body frame, the Sun being there in the body frame.

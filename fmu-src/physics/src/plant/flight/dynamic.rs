@@ -26,13 +26,14 @@ use crate::plant::settings::dynamics_settings::{
     DynamicsInputs, DynamicsSettings, StartMotion, StartPointing,
 };
 use crate::plant::settings::error::PlantError;
+use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::settings::work::Cost;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
 /// Units of work of a segment of the motion with flexible modes, slosh or imbalance; one of a rigid body's is a unit.
 const FLEXIBLE_UNITS: u32 = 8;
 
-/// State of the attitude dynamics: body, panels, disturbances, sensors, control, dumps.
+/// State of the attitude dynamics: body, panels, disturbances, sensors, control, dumps and their schedule.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct AttitudeDynamics {
     pub motion: GyrostatMotion,
@@ -42,6 +43,8 @@ pub(crate) struct AttitudeDynamics {
     pub sensing: Sensing,
     pub control: ControlLoop,
     pub dumps: MomentumDumps,
+    /// How many events of the schedule are over.
+    scheduled: usize,
 }
 
 impl AttitudeDynamics {
@@ -51,6 +54,9 @@ impl AttitudeDynamics {
         flight: &mut ConfiguredFlight<'_>,
         time_s: f64,
     ) -> Result<Self, PlantError> {
+        let events = &flight.world.configuration.thruster_events;
+        let scheduled = events.before(time_s);
+        events.check_for_dynamics(scheduled)?;
         let StartMotion { mut attitude, mut rate_body_rad_s, pointing, rate_is_pointed, .. } = settings.start;
         if let Some(pointing) = pointing {
             let frame = match pointing {
@@ -84,6 +90,7 @@ impl AttitudeDynamics {
             sensing: Sensing::new(settings, time_s, attitude, rate_body_rad_s),
             control: ControlLoop::new(gyrostat.wheels().len(), time_s, attitude, rate_body_rad_s),
             dumps: MomentumDumps::default(),
+            scheduled,
         };
         if settings.panels_have_mass {
             let mut plant = flight.plant_at(time_s, &body);
@@ -140,7 +147,8 @@ impl AttitudeDynamics {
             self.process_events(settings, flight, inputs)?;
             let edge_s = flight.thrusters.next_edge_s();
             let limit_s = self.sensing.next_s().min(self.disturbance.end_s()).min(edge_s);
-            let limit_s = limit_s.min(self.dumps.until_s());
+            let events = &flight.world.configuration.thruster_events;
+            let limit_s = limit_s.min(self.dumps.until_s()).min(events.next_s(self.scheduled));
             let external = (flight.given.external)(time_s);
             let mut load = self.load(&external, flight.thrusters, time_s);
             load.internal = self.panels.internal(flight.given.prepared.panels, &self.mass.now, time_s);
@@ -184,6 +192,7 @@ impl AttitudeDynamics {
         if grid_due {
             self.begin_interval(settings, flight)?;
         }
+        self.dump_as_scheduled(settings, flight, due_s);
         if sample_due {
             self.sample(settings, flight, inputs)?;
             flight.thrusters.process_valve_events(time_s);
@@ -230,9 +239,10 @@ impl AttitudeDynamics {
         }
         if settings.panels_have_mass {
             let was_turning = self.panels.is_turning();
-            let end_s = self.disturbance.end_s();
+            let hinged = plant.hinged();
+            let end_s = hinged.configuration.last_of_panels_s(time_s, self.disturbance.end_s());
             let [now, end] = [time_s, end_s].map(|at_s| plant.instant(at_s));
-            self.panels.turn_until(plant.hinged(), &now, &end, end_s);
+            self.panels.turn_until(hinged, &now, &end, end_s);
             if was_turning || self.panels.is_turning() {
                 self.turn_mass(settings, flight);
                 let internal = self.panels.internal(flight.given.prepared.panels, &self.mass.now, time_s);
@@ -249,9 +259,9 @@ impl AttitudeDynamics {
         plant: &mut Plant<'_>,
     ) -> Option<BodyMotion> {
         let time_s = self.motion.end_s();
-        let to_sun = plant.instant(time_s).geometry.to_sun.position_m.normalize();
+        let to_sun_m = plant.instant(time_s).geometry.to_sun.position_m;
         let hinged = plant.hinged();
-        let attitude = self.panels.follow(hinged, &mut settings.gyrostat, &self.motion, &to_sun)?;
+        let attitude = self.panels.follow(hinged, &mut settings.gyrostat, &self.motion, &to_sun_m)?;
         let mass = self.panels.mass_properties(&hinged.mass_at_zero, hinged.panels, time_s);
         self.set_known_mass(settings, mass);
         let internal = self.panels.internal(hinged.panels, &mass, time_s);
@@ -325,11 +335,28 @@ impl AttitudeDynamics {
         self.begin_dump(flight, &momentum_body, target_body_n_m_s);
     }
 
+    /// Begins the dumps of the schedule whose time has come.
+    fn dump_as_scheduled(
+        &mut self,
+        settings: &DynamicsSettings,
+        flight: &mut ConfiguredFlight<'_>,
+        due_s: f64,
+    ) {
+        while let events = &flight.world.configuration.thruster_events
+            && let Some(event) = events.next(self.scheduled).filter(|event| events.time_s(event) <= due_s)
+        {
+            self.scheduled = self.scheduled.saturating_add(1);
+            if let Some(target_body_n_m_s) = events.dump_target_body_n_m_s(event) {
+                self.dump_to(settings, flight, target_body_n_m_s);
+            }
+        }
+    }
+
     fn begin_dump(&mut self, flight: &mut ConfiguredFlight<'_>, before: &Vector3<f64>, after: Vector3<f64>) {
         let time_s = self.motion.end_s();
         let event = DumpEvent { time_s, before_body_n_m_s: *before, after_body_n_m_s: after };
         self.dumps.begin(event, flight.thrusters, &self.motion, &self.mass.known);
-        (flight.log)(&event);
+        (flight.log)(&ThrusterEvent::Dump(event));
     }
 
     /// What acts from `time_s` on.

@@ -1,15 +1,20 @@
 //! A fork of a flight: the same spacecraft simulated on from a copy of its state, guided ideally, nothing of the flight changing.
+//!
+//! It has no dumps, scheduled ones neither. Of the events ahead it sees maneuvers, without their errors and propellant, and places of
+//! the centre of mass.
 
 use nalgebra::{Rotation3, Vector3};
 
 use super::propagator_state::PropagatorState;
 use crate::guidance::Guided;
+use crate::guidance::timeline::TimelineManeuver;
 use crate::loads::ForceTorque;
-use crate::momentum::{MomentumIntegrator, Settings, Totals};
+use crate::momentum::{MomentumIntegrator, Settings, Stop, StopTimes, Totals};
 use crate::plant::disturbances::evaluation::{Plant, PreparedSpacecraft, World};
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::radiation_settings::RadiationSettings;
+use crate::spacecraft::MassProperties;
 
 /// Greatest last Chebyshev term of a forecast's totals, in N m s and m/s: far below any threshold.
 const FORECAST_TOLERANCE: f64 = 1e-6;
@@ -43,7 +48,9 @@ pub(crate) struct Fork<'f> {
     integrator: MomentumIntegrator,
     /// Applied from outside, with its rate.
     applied: [ForceTorque<f64>; 2],
-    flight: (AttitudeSource, Settings, RadiationSettings),
+    /// Events of the schedule that are over.
+    scheduled: usize,
+    flight: (AttitudeSource, Settings, RadiationSettings, MassProperties),
 }
 
 impl<'f> Fork<'f> {
@@ -61,7 +68,9 @@ impl<'f> Fork<'f> {
         let configuration = &mut world.configuration;
         let law = Guided { managed: false, ..law.with_sun_places(None, None) };
         let attitude = core::mem::replace(&mut configuration.attitude, AttitudeSource::Guided(law));
-        let flight = (attitude, configuration.momentum, configuration.light_and_heat);
+        let flight = (attitude, configuration.momentum, configuration.light_and_heat, world.mass_at_zero);
+        // Those of this time are over.
+        let scheduled = configuration.thruster_events.until(time_s);
         configuration.momentum.grid_s = configuration.momentum.grid_s.max(step_s);
         configuration.light_and_heat.grid_s = configuration.light_and_heat.grid_s.max(step_s);
         configuration.momentum.tolerance = configuration.momentum.tolerance.max(FORECAST_TOLERANCE);
@@ -69,7 +78,7 @@ impl<'f> Fork<'f> {
         let mut propagator = propagator.clone();
         propagator.cut(configuration, time_s, true);
         let integrator = MomentumIntegrator::new(time_s, totals);
-        Self { prepared, world, propagator, integrator, applied, flight }
+        Self { prepared, world, propagator, integrator, applied, scheduled, flight }
     }
 
     /// Advances until everything is known at `time_s`.
@@ -78,9 +87,40 @@ impl<'f> Fork<'f> {
     /// What ends a flight.
     pub(super) fn advance(&mut self, time_s: f64) -> Result<(), PlantError> {
         let settings = self.world.configuration.momentum;
-        let external = |_: f64| self.applied;
-        let mut plant = Plant::new(self.prepared, self.world, &mut self.propagator, &external);
-        self.integrator.advance(&mut plant, &settings, time_s, |_| {})
+        loop {
+            let scheduled_s = self.world.configuration.thruster_events.next_s(self.scheduled);
+            let external = |_: f64| self.applied;
+            let mut plant = Plant::new(self.prepared, self.world, &mut self.propagator, &external);
+            let times = StopTimes { scheduled_s, dumped_s: None };
+            match self.integrator.advance_to_stop(&mut plant, &settings, time_s, times)? {
+                Stop::Scheduled { at_s } => self.take_event(at_s)?,
+                // No threshold, and nothing is chosen.
+                Stop::Reached | Stop::Dump(_) | Stop::Choice { .. } => return Ok(()),
+            }
+        }
+    }
+
+    /// What the schedule has at `time_s`, where the fork has come.
+    fn take_event(&mut self, time_s: f64) -> Result<(), PlantError> {
+        let Self { world, propagator, integrator, .. } = self;
+        let configuration = &world.configuration;
+        let Some(event) = configuration.thruster_events.next(self.scheduled).copied() else { return Ok(()) };
+        self.scheduled += 1;
+        integrator.cut(time_s);
+        if let Some(place_body_m) = event.center_of_mass_body_m {
+            let before = propagator.center_of_mass.of(configuration);
+            propagator.center_of_mass.place(configuration, place_body_m);
+            let after = propagator.center_of_mass.of(configuration);
+            world.mass_at_zero.center_of_mass_body_m +=
+                after.center_of_mass_body_m - before.center_of_mass_body_m;
+            propagator.cut(configuration, time_s, true);
+        }
+        if let Some(TimelineManeuver { delta_v_inertial_m_s, .. }) = event.maneuver {
+            let moved = propagator.maneuver(configuration, time_s, &delta_v_inertial_m_s);
+            moved.map_err(|error| PlantError::Maneuver { time_s, why: error.into() })?;
+            integrator.push(&delta_v_inertial_m_s);
+        }
+        Ok(())
     }
 
     /// Momentum and geometry at `time_s`, where the fork has come.
@@ -107,6 +147,11 @@ impl<'f> Fork<'f> {
 impl Drop for Fork<'_> {
     fn drop(&mut self) {
         let configuration = &mut self.world.configuration;
-        (configuration.attitude, configuration.momentum, configuration.light_and_heat) = self.flight;
+        (
+            configuration.attitude,
+            configuration.momentum,
+            configuration.light_and_heat,
+            self.world.mass_at_zero,
+        ) = self.flight;
     }
 }

@@ -1,19 +1,31 @@
-//! Flight in an attitude that is followed ideally: momentum, and dumps whose thrusters take propellant and push at once.
+//! Flight in an attitude that is followed ideally: momentum, dumps whose thrusters take propellant and push at once, and maneuvers.
 //!
-//! Equations: t = S dH by the thrusters' selection S; dv = sum F t / m; du = sum q t from each tank, nominal thrust and no
+//! Equations of a dump: t = S dH by the thrusters' selection S; dv = sum F t / m; du = sum q t from each tank, nominal thrust and no
 //! shortest pulse. Centre of mass and inertia are those of what is left from there on. Where no thrusters give torque all ways
 //! about the centre of mass a dump is as one of a spacecraft without thrusters.
+//! A maneuver is an impulse through the centre of mass: the velocity jumps and the momentum stays
+//! ([`crate::plant::settings::thruster_events`]).
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, Stop, TorqueModel, Totals};
+use crate::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, Stop, StopTimes, TorqueModel, Totals};
 
 use super::configured::ConfiguredFlight;
 use super::downlink_forecast::StartMomentum;
-use crate::plant::settings::error::PlantError;
+use crate::plant::settings::error::{ManeuverError, PlantError};
+use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
 
-/// Momentum and dumps of a flight in an attitude that is followed ideally.
+/// Maneuvers so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Maneuvers {
+    /// How many.
+    pub count: i32,
+    /// When the last one was, in s, and the delta-v that it executed, EME2000, in m/s.
+    pub last: Option<(f64, Vector3<f64>)>,
+}
+
+/// Momentum, dumps and maneuvers of a flight in an attitude that is followed ideally.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct IdealFlight {
     /// Momentum and velocity change so far.
@@ -22,21 +34,27 @@ pub(crate) struct IdealFlight {
     pub spacing: DumpSpacing,
     /// Velocity change of the last dump, EME2000, in m/s.
     pub dump_delta_v_inertial_m_s: Vector3<f64>,
+    /// Maneuvers so far.
+    pub maneuvers: Maneuvers,
+    /// How many events of the schedule are over.
+    scheduled: usize,
 }
 
 impl IdealFlight {
-    /// From `time_s` on with these totals.
-    pub(super) fn new(time_s: f64, totals: Totals) -> Self {
+    /// From `time_s` on with these totals, so many events of the schedule being over.
+    pub(super) fn new(time_s: f64, totals: Totals, scheduled: usize) -> Self {
         Self {
             integrator: MomentumIntegrator::new(time_s, totals),
             spacing: DumpSpacing::default(),
             dump_delta_v_inertial_m_s: Vector3::zeros(),
+            maneuvers: Maneuvers::default(),
+            scheduled,
         }
     }
 
     /// Whether a simulation can produce it.
     pub(super) fn is_valid(&self) -> bool {
-        self.integrator.is_valid() && self.spacing.is_valid()
+        self.integrator.is_valid() && self.spacing.is_valid() && self.maneuvers.count >= 0
     }
 
     /// At the start of a flight, where the system has this momentum, body frame, in N m s.
@@ -53,7 +71,9 @@ impl IdealFlight {
         let mut plant = spacecraft.plant();
         plant.prepare(time_s, time_s)?;
         let frame = plant.instant(time_s).frame;
-        let mut begun = Self::new(time_s, Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body));
+        let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
+        let over = spacecraft.world.configuration.thruster_events.before(time_s);
+        let mut begun = Self::new(time_s, totals, over);
         begun.advance(spacecraft, time_s)?;
         Ok(begun)
     }
@@ -70,6 +90,65 @@ impl IdealFlight {
         self.dumped(spacecraft, &event);
     }
 
+    /// The maneuver, at `time_s`.
+    pub(super) fn maneuver(
+        &mut self,
+        spacecraft: &mut ConfiguredFlight<'_>,
+        time_s: f64,
+        maneuver: &Maneuver,
+    ) -> Result<(), PlantError> {
+        let refused = |why: ManeuverError| PlantError::Maneuver { time_s, why };
+        let found_m_s = maneuver.delta_v_inertial_m_s;
+        if !found_m_s.iter().all(|it| it.is_finite()) {
+            return Err(refused(ManeuverError::NotFinite { found_m_s: found_m_s.into() }));
+        }
+        let configuration = &spacecraft.world.configuration;
+        let number = u64::from(self.maneuvers.count.unsigned_abs());
+        let executed_m_s = configuration.thruster_events.executed_m_s(&found_m_s, number);
+        if let Some(set) = maneuver.thrusters {
+            let mass_kg = spacecraft.world.mass_at_zero.mass_kg;
+            let given = spacecraft.thrusters.give_at_once(set, executed_m_s.norm(), mass_kg, time_s);
+            given.map_err(refused)?;
+        }
+        let moved = spacecraft.propagator.maneuver(configuration, time_s, &executed_m_s);
+        moved.map_err(|error| refused(error.into()))?;
+        self.integrator.cut(time_s);
+        self.integrator.push(&executed_m_s);
+        self.maneuvers.count = self.maneuvers.count.saturating_add(1);
+        self.maneuvers.last = Some((time_s, executed_m_s));
+        let event = ThrusterEvent::Maneuver { time_s, asked_m_s: found_m_s, executed_m_s };
+        self.move_center_of_mass(spacecraft, time_s);
+        self.set_mass(spacecraft, time_s);
+        (spacecraft.log)(&event);
+        Ok(())
+    }
+
+    /// What the schedule has at `time_s`, where the momentum has come.
+    fn scheduled_event(
+        &mut self,
+        spacecraft: &mut ConfiguredFlight<'_>,
+        time_s: f64,
+    ) -> Result<(), PlantError> {
+        let configuration = &spacecraft.world.configuration;
+        let Some(event) = configuration.thruster_events.next(self.scheduled).copied() else { return Ok(()) };
+        self.scheduled = self.scheduled.saturating_add(1);
+        if let Some(place_body_m) = event.center_of_mass_body_m {
+            spacecraft.propagator.center_of_mass.place(configuration, place_body_m);
+            self.integrator.cut(time_s);
+            spacecraft.propagator.cut(&spacecraft.world.configuration, time_s, true);
+            self.set_mass(spacecraft, time_s);
+        }
+        let events = &spacecraft.world.configuration.thruster_events;
+        let (maneuver, target) = (events.maneuver(&event), events.dump_target_body_n_m_s(&event));
+        if let Some(maneuver) = maneuver {
+            self.maneuver(spacecraft, time_s, &maneuver)?;
+        }
+        if let Some(target_body_n_m_s) = target {
+            self.dump_to(spacecraft, time_s, target_body_n_m_s);
+        }
+        Ok(())
+    }
+
     /// Advances until the momentum is known at `time_s`.
     pub(super) fn advance(
         &mut self,
@@ -80,11 +159,16 @@ impl IdealFlight {
         let mut dumped_s = None;
         spacecraft.world.begin_work(spacecraft.given.work_limit);
         loop {
-            let stop =
-                self.integrator.advance_to_stop(&mut spacecraft.plant(), &settings, time_s, dumped_s)?;
+            let scheduled_s = spacecraft.world.configuration.thruster_events.next_s(self.scheduled);
+            let times = StopTimes { scheduled_s, dumped_s };
+            let stop = self.integrator.advance_to_stop(&mut spacecraft.plant(), &settings, time_s, times)?;
             let at_s = match stop {
                 Stop::Reached => return Ok(()),
                 Stop::Choice { at_s } => at_s,
+                Stop::Scheduled { at_s } => {
+                    self.scheduled_event(spacecraft, at_s)?;
+                    at_s
+                }
                 Stop::Dump(event) => {
                     self.dumped(spacecraft, &event);
                     dumped_s = Some(event.time_s);
@@ -103,7 +187,29 @@ impl IdealFlight {
         if !spacecraft.thrusters.settings.thrusters.is_empty() {
             self.push(spacecraft, event);
         }
-        (spacecraft.log)(event);
+        if self.move_center_of_mass(spacecraft, event.time_s) {
+            self.set_mass(spacecraft, event.time_s);
+        }
+        (spacecraft.log)(&ThrusterEvent::Dump(*event));
+    }
+
+    /// A thruster event is over: the centre of mass is elsewhere, where that is simulated.
+    fn move_center_of_mass(&mut self, spacecraft: &mut ConfiguredFlight<'_>, time_s: f64) -> bool {
+        let configuration = &spacecraft.world.configuration;
+        let events = [self.integrator.dumps().count, self.maneuvers.count].map(i32::unsigned_abs);
+        let number: u64 = events.map(u64::from).iter().sum();
+        let shift = configuration.thruster_events.shift_body_m(number.saturating_sub(1));
+        if shift.is_some() {
+            spacecraft.propagator.center_of_mass.shift_body_m = shift;
+            spacecraft.propagator.cut(configuration, time_s, true);
+        }
+        shift.is_some()
+    }
+
+    /// Mass properties of what is left at `time_s`.
+    fn set_mass(&self, spacecraft: &mut ConfiguredFlight<'_>, time_s: f64) {
+        let loaded = spacecraft.propagator.center_of_mass.of(&spacecraft.world.configuration);
+        spacecraft.world.mass_at_zero = spacecraft.thrusters.left(&loaded, time_s).unwrap_or(loaded);
     }
 
     fn push(&mut self, spacecraft: &mut ConfiguredFlight<'_>, event: &DumpEvent) {
@@ -119,8 +225,7 @@ impl IdealFlight {
         let delta_v_inertial_m_s = instant.frame.inertial_from_body * push_body_n_s / mass.mass_kg;
         self.dump_delta_v_inertial_m_s = delta_v_inertial_m_s;
         self.integrator.push(&delta_v_inertial_m_s);
-        let loaded = spacecraft.world.configuration.loaded();
-        spacecraft.world.mass_at_zero = spacecraft.thrusters.left(&loaded, time_s).unwrap_or(loaded);
+        self.set_mass(spacecraft, time_s);
         spacecraft.propagator.cut_with_jump(
             &spacecraft.world.configuration,
             time_s,

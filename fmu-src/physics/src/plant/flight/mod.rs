@@ -2,15 +2,16 @@
 //!
 //! Parameters and inputs are no state: a restored flight is configured anew before it advances.
 
+mod center_of_mass;
 mod configured;
 mod control_loop;
 mod dynamic;
 mod fork;
-mod ideal;
 mod momentum_dumps;
 mod sensing;
 
 pub(super) mod downlink_forecast;
+pub(super) mod ideal;
 pub(super) mod propagator_state;
 pub(super) mod report;
 pub(super) mod sun_choice;
@@ -24,16 +25,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::control::{Estimate, sample_number, sensed_sun};
 use crate::environment::ephemeris::Ephemeris;
-use crate::momentum::{DumpEvent, Totals};
+use crate::momentum::Totals;
 
 use crate::loads::ForceTorque;
 use crate::plant::disturbances::evaluation::{Evaluation, Plant, PreparedSpacecraft, World};
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::configuration::{Command, Configuration, Motion};
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
-use crate::plant::settings::error::PlantError;
+use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::ideal_settings::IdealSettings;
 use crate::plant::settings::panel_setting::PanelSetting;
+use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::thrusters::reaction_control::Thrusters;
 use crate::spacecraft::Spacecraft;
 use configured::ConfiguredFlight;
@@ -187,7 +189,7 @@ impl Flight {
     /// In flight that is followed ideally nothing flows between dumps.
     fn set_left(&mut self) {
         if let Some(FlightSetup { world, .. }) = self.setup.as_deref_mut() {
-            let loaded = world.configuration.loaded();
+            let loaded = self.propagator.center_of_mass.of(&world.configuration);
             world.mass_at_zero = self.thrusters.left(&loaded, 0.0).unwrap_or(loaded);
         }
     }
@@ -224,6 +226,7 @@ impl Flight {
         }
         if let Some(configuration) = configuration {
             setup.world.configuration = configuration;
+            self.propagator.center_of_mass.reconfigured(&setup.world.configuration);
         }
         if let Some(settings) = settings {
             setup.settings = settings;
@@ -239,7 +242,7 @@ impl Flight {
     fn parts<'a>(
         &'a mut self,
         given: StepContext<'a>,
-        log: &'a mut dyn FnMut(&DumpEvent),
+        log: &'a mut dyn FnMut(&ThrusterEvent),
     ) -> Result<(ConfiguredFlight<'a>, &'a mut ModeSettings, &'a mut Mode), PlantError> {
         let Self { propagator, thrusters, setup: Some(setup), mode } = self else {
             return Err(PlantError::OtherMode);
@@ -256,7 +259,7 @@ impl Flight {
         &mut self,
         given: StepContext<'_>,
         time_s: f64,
-        log: &mut dyn FnMut(&DumpEvent),
+        log: &mut dyn FnMut(&ThrusterEvent),
     ) -> Result<(), PlantError> {
         let (mut flight, settings, mode) = self.parts(given, log)?;
         *flight.propagator = PropagatorState::new(&flight.world.configuration, time_s)?;
@@ -280,18 +283,28 @@ impl Flight {
         given: StepContext<'_>,
         inputs: &DynamicsInputs,
         [start_s, end_s]: [f64; 2],
-        log: &mut dyn FnMut(&DumpEvent),
+        log: &mut dyn FnMut(&ThrusterEvent),
     ) -> Result<(), PlantError> {
         let (mut flight, settings, mode) = self.parts(given, log)?;
         match (mode, settings) {
             (Mode::Waiting, _) => Ok(()),
             (Mode::Ideal(ideal), ModeSettings::Ideal(_)) => {
-                if let Some(target_body_n_m_s) = inputs.dump_to_body_n_m_s {
+                let mut target = inputs.dump_to_body_n_m_s;
+                if let Some(maneuver) = &inputs.maneuver {
+                    ideal.maneuver(&mut flight, start_s, maneuver)?;
+                    let requested = flight.world.configuration.thruster_events.requested_body_n_m_s;
+                    target = target.or(maneuver.dumps.then_some(requested));
+                }
+                if let Some(target_body_n_m_s) = target {
                     ideal.dump_to(&mut flight, start_s, target_body_n_m_s);
                 }
                 ideal.advance(&mut flight, end_s)
             }
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
+                if inputs.maneuver.is_some() {
+                    let why = ManeuverError::ByTorque;
+                    return Err(PlantError::Maneuver { time_s: start_s, why });
+                }
                 if let Some(target_body_n_m_s) = inputs.dump_to_body_n_m_s {
                     dynamics.cut(start_s, false);
                     dynamics.dump_to(settings, &mut flight, target_body_n_m_s);
@@ -317,7 +330,7 @@ impl Flight {
         inputs: &DynamicsInputs,
     ) -> Result<Undo, PlantError> {
         let undo = Undo(self.mode.clone(), self.thrusters.clone());
-        let ignored = &mut |_: &DumpEvent| {};
+        let ignored = &mut |_: &ThrusterEvent| {};
         let (mut flight, settings, mode) = self.parts(given, ignored)?;
         if let (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) = (mode, settings) {
             flight.world.begin_work(given.work_limit);
@@ -349,9 +362,11 @@ impl Flight {
         };
         let FlightSetup { world, settings, evaluation } = &mut **setup;
         let mut flight = ConfiguredFlight { given, world, propagator, thrusters, log: &mut |_| {} };
+        let mut sampled = None;
         let (evaluation, shown) = match (mode, settings) {
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
                 dynamics.resume(settings, &mut flight);
+                sampled = Some(dynamics.control.downlink);
                 let body = dynamics.motion.remembered_at(&settings.gyrostat, time_s);
                 let evaluation =
                     &*evaluation.insert(dynamics.evaluation(settings, &mut flight, &body, time_s));
@@ -376,7 +391,8 @@ impl Flight {
                 let evaluation = &*evaluation.insert(evaluated);
                 let momentum_body_n_m_s = settings.start_momentum_body_n_m_s;
                 let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
-                (evaluation, ideal(&IdealFlight::new(time_s, totals), settings, evaluation, inputs, time_s))
+                let waiting = IdealFlight::new(time_s, totals, 0);
+                (evaluation, ideal(&waiting, settings, evaluation, inputs, time_s))
             }
             _ => return Err(PlantError::OtherMode),
         };
@@ -385,12 +401,21 @@ impl Flight {
             true => 0.0,
             false => propagator.trajectory.time_since_periapsis_s(configuration, time_s),
         };
+        let downlink = sampled.unwrap_or(evaluation.instant.downlink);
+        let followed = configuration.timeline.filter(|_| configuration.attitude.guided().is_some());
+        let timeline_row = given
+            .prepared
+            .timeline
+            .zip(followed)
+            .map_or(0, |(law, settings)| law.timeline.slot(time_s + settings.clock_minus_time_s).row);
         let target_is_clamped = propagator.sun_choice.is_clamped();
         Ok(Report {
             time_s,
             configuration,
             thrusters,
             since_periapsis_s,
+            downlink,
+            timeline_row,
             target_is_clamped,
             evaluation,
             shown,

@@ -3,7 +3,9 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::center_of_mass::CenterOfMass;
 use super::sun_choice::SunChoice;
+use crate::environment::orbit::OrbitError;
 use crate::plant::light::radiation_segment::RadiationSegment;
 use crate::plant::motion::trajectory::Trajectory;
 use crate::plant::settings::configuration::{Configuration, Motion};
@@ -19,6 +21,8 @@ pub struct PropagatorState {
     pub light: Option<RadiationSegment>,
     /// Where the Sun stands during downlinks.
     pub sun_choice: SunChoice,
+    /// Where the centre of mass lies.
+    pub center_of_mass: CenterOfMass,
 }
 
 impl PropagatorState {
@@ -71,5 +75,22 @@ impl PropagatorState {
         if let Some(light) = self.light.as_mut().filter(|_| light_changes || orbit_changes) {
             light.cut(time_s);
         }
+    }
+
+    /// The velocity jumps by `delta_v_m_s`, EME2000, at `time_s` in a maneuver, whatever else acts on the orbit.
+    ///
+    /// # Errors
+    /// A velocity without an orbit.
+    pub(crate) fn maneuver(
+        &mut self,
+        configuration: &Configuration,
+        time_s: f64,
+        delta_v_m_s: &Vector3<f64>,
+    ) -> Result<(), OrbitError> {
+        self.trajectory.maneuver(configuration, time_s, delta_v_m_s)?;
+        if let Some(light) = &mut self.light {
+            light.cut(time_s);
+        }
+        Ok(())
     }
 }

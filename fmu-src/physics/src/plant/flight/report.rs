@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use crate::attitude::control::Estimate;
 use crate::attitude::{Appendages, Attitude, BodyMotion, motor_power_w, wheel_speed_rad_s};
+use crate::guidance::DownlinkStatus;
 use crate::momentum::{DumpSpacing, Dumps, SourceMomenta, Totals};
 use crate::plant::disturbances::evaluation::Evaluation;
 use crate::plant::settings::configuration::Configuration;
@@ -12,7 +13,7 @@ use crate::plant::settings::ideal_settings::IdealSettings;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
 use super::dynamic::AttitudeDynamics;
-use super::ideal::IdealFlight;
+use super::ideal::{IdealFlight, Maneuvers};
 
 /// Everything about a flight at one time.
 pub struct Report<'a> {
@@ -24,6 +25,10 @@ pub struct Report<'a> {
     pub thrusters: &'a Thrusters,
     /// Time since the last periapsis, in s; 0 where the flight waits.
     pub since_periapsis_s: f64,
+    /// What is to be said of a downlink.
+    pub downlink: DownlinkStatus,
+    /// Row of the timeline's command in force, from 1; 0 where none is.
+    pub timeline_row: usize,
     /// Whether a downlink lasts whose target of momentum is out of reach.
     pub target_is_clamped: bool,
     /// Where everything is and what acts.
@@ -49,6 +54,8 @@ pub struct Shown<'a> {
     pub dump_impulse_body_n_m_s: Vector3<f64>,
     /// Velocity change of the last dump, EME2000, in m/s.
     pub dump_delta_v_inertial_m_s: Vector3<f64>,
+    /// Maneuvers so far.
+    pub maneuvers: Maneuvers,
     /// Attitude and rate as sensors know them.
     pub estimate: Estimate,
     /// The Sun in the body frame as sensed.
@@ -167,6 +174,7 @@ pub(super) fn ideal<'a>(
         is_dumping: false,
         dump_impulse_body_n_m_s: impulse_body_n_m_s(&dumps),
         dump_delta_v_inertial_m_s: simulated.dump_delta_v_inertial_m_s,
+        maneuvers: simulated.maneuvers,
         estimate: Estimate {
             attitude: Attitude::from_rotation(&frame.inertial_from_body),
             is_valid: inputs.health.star_tracker,
@@ -213,6 +221,7 @@ pub(super) fn dynamic<'a>(
         dump_impulse_body_n_m_s: dumped
             .map_or_else(|| impulse_body_n_m_s(&dumps.dumps), |[impulse, _]| impulse),
         dump_delta_v_inertial_m_s: dumped.map_or(Vector3::zeros(), |[_, delta_v]| delta_v),
+        maneuvers: Maneuvers::default(),
         estimate: sensing.estimate_at(time_s),
         sun_sensed_body: sensing.sun_sensed_body,
         accelerometer_body_m_s: *sensing.accelerometer.delta_v_body_m_s(),

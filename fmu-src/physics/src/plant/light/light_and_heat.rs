@@ -39,13 +39,16 @@ impl RadiationBuilder<'_, '_> {
         let instant = self.kinematics.instant(time_s);
         let viewing = &mut node.viewing;
         viewing.sun_direction_body = instant.sun_body;
-        let flux_w_m2 = |distance_m: f64| configuration.light.pressure_pa(distance_m) * SPEED_OF_LIGHT_M_S;
+        let light = &configuration.light;
+        let flux_w_m2 = |distance_m: f64| light.source.pressure_pa(distance_m) * SPEED_OF_LIGHT_M_S;
         viewing.sun_sine = configuration.shadow.sun_radius_m() / instant.sun_distance_m;
         viewing.sun_flux_w_m2 = flux_w_m2(instant.sun_distance_m);
+        // Segments are those of the light, whatever its factor; who reads them scales.
+        viewing.solar_scale = 1.0;
         // Inside the planet there is no fraction; what is wrong there is the place.
         viewing.lit_fraction = if instant.lit_fraction.is_nan() { 0.0 } else { instant.lit_fraction };
         viewing.center_of_mass_body_m =
-            self.kinematics.mass_properties(self.panels, &instant.sun_body, time_s).center_of_mass_body_m;
+            self.kinematics.mass_properties(self.panels, &instant.sun_at(time_s)).center_of_mass_body_m;
         viewing.planet = instant.planet_body_m.map(|position_body_m| {
             let sun_from_planet_body_m = instant.sun_position_body_m() - position_body_m;
             let sun_flux_w_m2 = flux_w_m2(sun_from_planet_body_m.norm());
@@ -59,7 +62,7 @@ impl RadiationBuilder<'_, '_> {
         for (angle_rad, &index) in viewing.panel_angles_rad.iter_mut().zip(light_panels) {
             let setting = configuration.panels.get(index).zip(self.panels.get(index));
             *angle_rad = setting
-                .and_then(|(setting, panel)| setting.angle_rad(panel, &viewing.sun_direction_body, time_s))
+                .and_then(|(setting, panel)| setting.angle_rad(panel, &instant.sun_at(time_s)))
                 .unwrap_or(0.0);
         }
     }
@@ -222,6 +225,7 @@ impl RadiationBuilder<'_, '_> {
         let RadiationSolver { model, panels, nodes, .. } = light;
         let Some(node) = nodes.first_mut() else { return Ok(()) };
         self.view(time_s, panels, node);
+        node.viewing.solar_scale = self.kinematics.configuration.light.scale;
         node.balance(model).map_err(|error| self.no_light(time_s, error))?;
         if let Some(segment) = segment.filter(|_| stores) {
             segment.temperatures_at(time_s, &mut node.temperatures_k);

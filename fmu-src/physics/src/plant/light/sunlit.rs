@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::loads::ForceTorque;
-use crate::plant::settings::panel_setting::PanelSetting;
+use crate::plant::settings::panel_setting::{PanelSetting, SunAt};
 use crate::radiation::{Beam, SolarModel};
 use crate::spacecraft::{MassProperties, Panel, with_panels};
 
@@ -18,8 +18,10 @@ pub struct SunlitCraft<'a> {
     pub settings: &'a [PanelSetting],
     /// Mass, centre of mass and inertia with every panel at angle 0.
     pub mass_at_zero: MassProperties,
-    /// When, in s: angles that are set may change evenly.
+    /// When, in s: angles that are set may change.
     pub time_s: f64,
+    /// How far from the Sun's centre, in m.
+    pub sun_distance_m: f64,
 }
 
 impl SunlitCraft<'_> {
@@ -36,7 +38,8 @@ impl SunlitCraft<'_> {
     /// How a panel that takes part stands to the Sun.
     fn angle_rad(&self, index: usize, sun_body: &Vector3<f64>) -> Option<f64> {
         let (panel, setting) = self.panels.get(index).zip(self.settings.get(index))?;
-        setting.angle_rad(panel, sun_body, self.time_s)
+        let Self { time_s, sun_distance_m: distance_m, .. } = *self;
+        setting.angle_rad(panel, &SunAt { time_s, direction_body: *sun_body, distance_m })
     }
 
     /// Its torque in N m, body frame, at this pressure in Pa, the Sun being there.

@@ -73,6 +73,29 @@ impl Geometry {
     }
 }
 
+/// A body from the orbit's centre.
+pub(crate) fn body(
+    configuration: &Configuration,
+    ephemeris: &mut Ephemeris,
+    body: Body,
+    epoch_s: f64,
+) -> CartesianState {
+    let ellipse = match &configuration.ephemeris {
+        EphemerisSource::Given { sun, .. } if body == Body::Sun => return *sun,
+        EphemerisSource::Given { earth, .. } if body == Body::Earth => return *earth,
+        EphemerisSource::Simulated(carried) => {
+            let found = carried.state_carried_on(body.into(), configuration.center, epoch_s);
+            if let Some(found) = found {
+                return found;
+            }
+            None
+        }
+        EphemerisSource::Kepler(planet) => Some(*planet),
+        EphemerisSource::Given { .. } | EphemerisSource::Vsop87 => None,
+    };
+    BodiesFromCenter { center: configuration.center, ellipse, custom: None }.body(body, ephemeris, epoch_s)
+}
+
 /// Sun and Earth from the orbit's centre.
 pub(crate) fn sun_and_earth(
     configuration: &Configuration,

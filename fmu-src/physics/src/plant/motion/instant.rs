@@ -5,7 +5,10 @@ use nalgebra::{Rotation3, Vector3};
 use super::geometry::Geometry;
 use crate::attitude::MovingFrame;
 use crate::environment::CartesianState;
+use crate::guidance::DownlinkStatus;
 use crate::momentum::EventValues;
+use crate::numerics::scalar::Dual64;
+use crate::plant::settings::panel_setting::SunAt;
 
 /// Everything about one time but what acts on the spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +31,8 @@ pub struct Instant {
     pub regime: Regime,
     /// Outer and inner gap of the shadow, in rad, and the margins of the attitude law; see [`EventValues`].
     pub events: EventValues,
+    /// Whether a downlink lasts, the turn to it done, and whether the Sun's place in it is not the one requested.
+    pub downlink: DownlinkStatus,
     /// Up to when window and slew last, in s of the flight.
     pub attitude_until_s: f64,
 }
@@ -53,15 +58,34 @@ impl Instant {
                 window_since_s: f64::NEG_INFINITY,
                 downlink: false,
                 slewing: false,
+                corner_s: f64::INFINITY,
                 in_shadow: false,
             },
             events: EventValues::repeat(f64::INFINITY),
+            downlink: DownlinkStatus::default(),
             attitude_until_s: f64::INFINITY,
         }
     }
 
+    /// The Sun from the spacecraft; this being the instant at `time_s`.
+    pub fn sun_at(&self, time_s: f64) -> SunAt {
+        SunAt { time_s, direction_body: self.sun_body, distance_m: self.sun_distance_m }
+    }
+
+    /// The same with the rate of everything, time's being 1.
+    pub fn moving_sun_at(&self, time_s: f64) -> SunAt<Dual64> {
+        let to_sun = &self.geometry.to_sun;
+        let approach_m_s =
+            to_sun.position_m.try_normalize(0.0).map_or(0.0, |unit| unit.dot(&to_sun.velocity_m_s));
+        SunAt {
+            time_s: Dual64::new(time_s, 1.0),
+            direction_body: self.sun_body.zip_map(&self.sun_rate_body_1_s(), Dual64::new),
+            distance_m: Dual64::new(self.sun_distance_m, approach_m_s),
+        }
+    }
+
     /// How the unit vector to the Sun moves in the body frame, in 1/s.
-    pub fn sun_rate_body_1_s(&self) -> Vector3<f64> {
+    fn sun_rate_body_1_s(&self) -> Vector3<f64> {
         let to_sun = &self.geometry.to_sun;
         let moving = to_sun.position_m.try_normalize(0.0).map_or(Vector3::zeros(), |unit| {
             (to_sun.velocity_m_s - unit * unit.dot(&to_sun.velocity_m_s)) / self.sun_distance_m
@@ -90,6 +114,8 @@ pub struct Regime {
     pub downlink: bool,
     /// Whether the body turns from one attitude to the other.
     pub slewing: bool,
+    /// When the next motion of a scan begins or ends, in s past J2000 TDB; infinite without one.
+    pub corner_s: f64,
     /// Whether the planet hides a part of the Sun.
     pub in_shadow: bool,
 }

@@ -8,8 +8,14 @@ use crate::attitude::{MovingFrame, angle_between_rad};
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::TwoBodyOrbit;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
+use crate::guidance::downlink::sun_place::SunRequest;
 use crate::guidance::pointing::boresight::Gimbal;
-use crate::guidance::{Activity, CoursePoint, Guided, GuidedAttitude, ScienceCourse};
+use crate::guidance::pointing::command::Scenario;
+use crate::guidance::timeline::{TimelineAttitude, TimelineEntry, TimelineLaw, TimelineSettings, bodies_of};
+use crate::guidance::{
+    Activity, CoursePoint, DownlinkStatus, EphemerisAtTime, Guided, GuidedAttitude, ScienceCourse, SunPlace,
+    Window,
+};
 use crate::momentum::{EventValues, after_event_s};
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
@@ -19,11 +25,12 @@ use crate::spacecraft::{MassProperties, Panel};
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::geometry::Geometry;
+use super::geometry::{self, Geometry};
 use super::instant::{Instant, Regime};
 use super::trajectory::Trajectory;
 use crate::plant::settings::configuration::{AttitudeSource, Configuration, Motion};
 use crate::plant::settings::error::PlantError;
+use crate::plant::settings::panel_setting::SunAt;
 use crate::plant::settings::work::{Cost, Work};
 
 /// Nodes at which a span is looked through for events.
@@ -37,6 +44,8 @@ struct LawAt {
     window_since_s: f64,
     downlink: bool,
     slewing: bool,
+    corner_s: f64,
+    status: DownlinkStatus,
     margins: [f64; 2],
     until_s: f64,
 }
@@ -48,6 +57,8 @@ pub(crate) struct Kinematics<'a> {
     pub ephemeris: &'a mut Ephemeris,
     /// The default downlink of the spacecraft's antennas.
     pub default_downlink: &'a DefaultDownlink,
+    /// Commands over time.
+    pub timeline: Option<TimelineLaw<'a>>,
     /// What the step has cost so far.
     pub work: &'a mut Work,
     /// With every panel at angle 0, of what is left of the propellant.
@@ -60,14 +71,9 @@ impl Kinematics<'_> {
         Ok(self.work.spend(cost, units, self.ephemeris.evaluations(), time_s)?)
     }
 
-    /// Mass, centre of mass and inertia as the panels stand at `time_s`, the Sun being there (unit vector, body frame).
-    pub(crate) fn mass_properties(
-        &self,
-        panels: &[Panel],
-        sun_body: &Vector3<f64>,
-        time_s: f64,
-    ) -> MassProperties {
-        self.configuration.mass_properties(&self.mass_at_zero, panels, sun_body, time_s)
+    /// Mass, centre of mass and inertia as the panels stand with the Sun there.
+    pub(crate) fn mass_properties(&self, panels: &[Panel], sun: &SunAt) -> MassProperties {
+        self.configuration.mass_properties(&self.mass_at_zero, panels, sun)
     }
 
     /// The event functions alone, counted as a search.
@@ -107,9 +113,11 @@ impl Kinematics<'_> {
                 window_since_s: law.window_since_s,
                 downlink: law.downlink,
                 slewing: law.slewing,
+                corner_s: law.corner_s,
                 in_shadow: gaps_rad[0] <= 0.0,
             },
             events: EventValues::new(gaps_rad[0], gaps_rad[1], law.margins[0], law.margins[1]),
+            downlink: law.status,
             attitude_until_s: law.until_s,
         }
     }
@@ -137,6 +145,8 @@ impl Kinematics<'_> {
             window_since_s: f64::NEG_INFINITY,
             downlink: false,
             slewing: false,
+            corner_s: f64::INFINITY,
+            status: DownlinkStatus::default(),
             margins: [f64::INFINITY; 2],
             until_s: f64::INFINITY,
         };
@@ -148,6 +158,8 @@ impl Kinematics<'_> {
                     window_since_s: guided.window.since_s,
                     downlink: guided.window.activity == Activity::Downlink,
                     slewing: guided.slewing,
+                    corner_s: guided.corner_s,
+                    status: DownlinkStatus::of(&guided),
                     margins: guided.margins,
                     until_s: guided.until_s - self.configuration.epoch_minus_time_s,
                 }
@@ -157,8 +169,70 @@ impl Kinematics<'_> {
         }
     }
 
-    /// What the orbit phase's own guidance commands at `time_s`.
+    /// What the timeline commands at `time_s`, else the orbit phase's own guidance.
     fn guided(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
+        let Some((law, settings)) = self.timeline.zip(self.configuration.timeline) else {
+            return self.by_orbit_phase(guided, time_s, geometry);
+        };
+        let slot = law.timeline.slot(time_s + settings.clock_minus_time_s);
+        let epoch_minus_clock_s = self.configuration.epoch_minus_time_s - settings.clock_minus_time_s;
+        let [since_s, until_s] = [slot.since_s, slot.until_s].map(|it| it + epoch_minus_clock_s);
+        let requested = slot.sun_request(guided.requested);
+        let commanded = slot.entry.filter(|_| slot.scenario().is_some());
+        if let Some(entry) = commanded
+            && let Some(found) =
+                self.commanded(&law, &settings, entry, time_s, geometry, (guided.sun_place, requested))
+        {
+            let activity = match slot.scenario() {
+                Some(Scenario::Downlink) => Activity::Downlink,
+                _ => Activity::Science,
+            };
+            return GuidedAttitude {
+                frame: found.frame,
+                window: Window { activity, since_s, until_s },
+                slewing: false,
+                margins: [found.margin, f64::INFINITY],
+                clamped: found.clamped,
+                corner_s: found.corner_s + epoch_minus_clock_s,
+                until_s: until_s.min(found.corner_s + epoch_minus_clock_s),
+            };
+        }
+        let keep_in = match (slot.entry, guided.keep_in) {
+            (Some(entry), Some(zone)) => entry.keep_in.applied(&zone, true),
+            (_, zone) => zone,
+        };
+        let own = self.by_orbit_phase(&Guided { requested, keep_in, ..*guided }, time_s, geometry);
+        let window = Window {
+            since_s: own.window.since_s.max(since_s),
+            until_s: own.window.until_s.min(until_s),
+            ..own.window
+        };
+        GuidedAttitude { window, until_s: own.until_s.min(until_s), ..own }
+    }
+
+    /// The attitude of a command of the timeline.
+    fn commanded(
+        &mut self,
+        law: &TimelineLaw<'_>,
+        settings: &TimelineSettings,
+        entry: &TimelineEntry,
+        time_s: f64,
+        geometry: &Geometry,
+        sun: (Option<SunPlace>, SunRequest),
+    ) -> Option<TimelineAttitude> {
+        let epoch_s = time_s + self.configuration.epoch_minus_time_s;
+        let (sun_state, earth) = (geometry.sun_from_center(), geometry.earth_from_center());
+        let mut surroundings =
+            EphemerisAtTime::new(epoch_s, settings.planet, &geometry.spacecraft, &sun_state, &earth);
+        for body in bodies_of(&entry.command) {
+            let place = geometry::body(self.configuration, self.ephemeris, body, epoch_s);
+            surroundings.place_body(body, &place);
+        }
+        law.attitude(settings, entry, time_s + settings.clock_minus_time_s, &surroundings, sun)
+    }
+
+    /// What the orbit phase's own guidance commands at `time_s`.
+    fn by_orbit_phase(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
         let (configuration, ephemeris) = (self.configuration, &mut *self.ephemeris);
         let (trajectory, default_downlink) = (&*self.trajectory, self.default_downlink);
         let epoch_s = time_s + configuration.epoch_minus_time_s;
@@ -217,7 +291,7 @@ impl Kinematics<'_> {
         let now = self.trajectory.state_at(configuration, from_s);
         let from_epoch_s = from_s + configuration.epoch_minus_time_s;
         let ellipse = match configuration.motion {
-            Motion::TwoBody => Some(configuration.orbit),
+            Motion::TwoBody => Some(*self.trajectory.two_body(configuration)),
             Motion::Disturbed { gravity, .. } => {
                 TwoBodyOrbit::from_state(&now, gravity.mu_m3_s2, from_epoch_s).ok()
             }
@@ -231,8 +305,10 @@ impl Kinematics<'_> {
         }
     }
 
-    /// The number at which the window or slew of `instant`, at `time_s`, ends, if it does before `limit_s`.
-    pub(crate) fn attitude_until_s(&mut self, time_s: f64, instant: &Instant, limit_s: f64) -> f64 {
+    /// The number at which the window or slew of `instant`, at `time_s`, ends or a panel goes elsewhere at once, if that is before
+    /// `limit_s`.
+    pub(crate) fn laws_until_s(&mut self, time_s: f64, instant: &Instant, limit_s: f64) -> f64 {
+        let limit_s = limit_s.min(self.configuration.panels_until_s(time_s));
         let epoch_s = instant.attitude_until_s + self.configuration.epoch_minus_time_s;
         let rounding_s = EPOCH_ROUNDING_S + 4.0 * (spacing(epoch_s) + spacing(instant.attitude_until_s));
         let (before_s, behind_s) =
@@ -243,8 +319,9 @@ impl Kinematics<'_> {
         let same = |it: &mut Self, at_s: f64| {
             let geometry = it.geometry(at_s);
             let law = it.attitude(at_s, &geometry);
-            let now = (law.window_since_s, law.downlink, law.slewing);
-            now == (instant.regime.window_since_s, instant.regime.downlink, instant.regime.slewing)
+            let now = (law.window_since_s, law.downlink, law.slewing, law.corner_s);
+            let regime = &instant.regime;
+            now == (regime.window_since_s, regime.downlink, regime.slewing, regime.corner_s)
         };
         if same(self, behind_s) {
             return limit_s;
@@ -257,7 +334,9 @@ impl Kinematics<'_> {
         // The edge this span starts at was found on an orbit that has been computed anew since.
         let after_s = after_event_s(start_s).min(limit_s);
         let first = self.instant(after_s);
-        let limit_s = self.attitude_until_s(after_s, &first, limit_s);
+        // Where a panel goes elsewhere is known to the number, however soon that is.
+        let limit_s = limit_s.min(self.configuration.panels_until_s(start_s));
+        let limit_s = self.laws_until_s(after_s, &first, limit_s);
         let samples = Segment::<4, NODES>::nodes(start_s, limit_s).map(|at_s| self.instant(at_s).events);
         let rounding_s = self.time_rounding_s(limit_s);
         first_event(after_s, start_s, limit_s, rounding_s, &samples, |at_s| self.events(at_s))

@@ -18,6 +18,7 @@ use crate::spacecraft::{MassProperties, Panel, hinged_masses, with_panels};
 
 use super::instant::Instant;
 use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::panel_setting::SunAt;
 
 /// Largest step along the way of a panel, in rad.
 const STEP_RAD: f64 = 0.02;
@@ -69,11 +70,10 @@ impl Hinged<'_> {
 impl PanelMotion {
     /// At the start of a flight, where everything is like that.
     pub(crate) fn at_start(hinged: Hinged<'_>, instant: &Instant, time_s: f64) -> Self {
-        let (sun, moving) = (&instant.sun_body, &instant.sun_rate_body_1_s());
+        let sun = instant.moving_sun_at(time_s);
         let settings = hinged.configuration.panels.iter().zip(hinged.panels);
         let turns = settings.map(|(setting, panel)| {
-            let angle_rad = setting.angle_rad(panel, sun, time_s).unwrap_or(0.0);
-            let rate_rad_s = setting.rate_rad_s(panel, sun, moving, time_s);
+            let [angle_rad, rate_rad_s] = setting.turn_rad(panel, &sun);
             let rate_rad_s = if panel.mass.is_some() { rate_rad_s } else { 0.0 };
             PanelTurn { angle_rad, rate_rad_s, ..PanelTurn::default() }
         });
@@ -120,14 +120,14 @@ impl PanelMotion {
         self.is_turning().then(|| InternalMotion::of(masses, mass.mass_kg, &mass.center_of_mass_body_m))
     }
 
-    /// At `time_s` all panels go at once to where their laws have them, the Sun being in this direction (EME2000), and the body
+    /// At the end of `motion` all panels go at once to where their laws have them, the Sun being there (EME2000, in m), and the body
     /// gives way: its attitude then, or `None` where all are there already. The body of `motion` has the mass properties there.
     pub(crate) fn follow(
         &mut self,
         hinged: Hinged<'_>,
         gyrostat: &mut Gyrostat,
         motion: &GyrostatMotion,
-        to_sun: &Vector3<f64>,
+        to_sun_m: &Vector3<f64>,
     ) -> Option<Quaternion> {
         let time_s = motion.end_s();
         let start = motion.attitude_at(time_s);
@@ -139,8 +139,14 @@ impl PanelMotion {
         }
         self.since_s = time_s;
         let mut attitude = start;
+        let (to_sun, distance_m) = (to_sun_m.normalize(), to_sun_m.norm());
+        let sun = |attitude: &Quaternion| SunAt {
+            time_s,
+            direction_body: attitude.body_from_inertial(&to_sun),
+            distance_m,
+        };
         for _ in 0..ROUNDS {
-            if !self.aim(hinged, &attitude.body_from_inertial(to_sun), time_s) {
+            if !self.aim(hinged, &sun(&attitude)) {
                 break;
             }
             let before = core::mem::replace(&mut attitude, self.given_way(hinged, gyrostat, motion, start));
@@ -151,23 +157,23 @@ impl PanelMotion {
             }
         }
         let moved = self.turns.iter().any(|it| it.way_rad != 0.0);
-        self.arrive(hinged, &attitude.body_from_inertial(to_sun), time_s);
+        self.arrive(hinged, &sun(&attitude));
         moved.then_some(attitude)
     }
 
     /// From here to `end_s` the panels turn to where their laws have them then, everything being like `now` and `end`.
     pub(crate) fn turn_until(&mut self, hinged: Hinged<'_>, now: &Instant, end: &Instant, end_s: f64) {
         let span_s = end_s - self.since_s;
-        let (sun, moving) = (&now.sun_body, &now.sun_rate_body_1_s());
+        let (sun, end_sun) = (now.moving_sun_at(self.since_s), end.sun_at(end_s));
         let settings = hinged.configuration.panels.iter().zip(hinged.panels);
         for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
             (turn.rate_rad_s, turn.acceleration_rad_s2) = (0.0, 0.0);
             if panel.mass.is_none() || span_s <= 0.0 {
                 continue;
             }
-            turn.rate_rad_s = setting.rate_rad_s(panel, sun, moving, self.since_s);
+            [_, turn.rate_rad_s] = setting.turn_rad(panel, &sun);
             if setting.is_by_sun() {
-                let to_rad = setting.angle_rad(panel, &end.sun_body, end_s).unwrap_or(0.0);
+                let to_rad = setting.angle_rad(panel, &end_sun).unwrap_or(0.0);
                 let way_rad = setting.way_rad(turn.angle_rad, to_rad);
                 let bend_rad = way_rad - turn.rate_rad_s * span_s;
                 if bend_rad.abs() < GREATEST_BEND_RAD {
@@ -180,21 +186,21 @@ impl PanelMotion {
     }
 
     /// Looks how far each panel has to go; whether one has to at all.
-    fn aim(&mut self, hinged: Hinged<'_>, sun_body: &Vector3<f64>, time_s: f64) -> bool {
+    fn aim(&mut self, hinged: Hinged<'_>, sun: &SunAt) -> bool {
         let settings = hinged.configuration.panels.iter().zip(hinged.panels);
         for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
-            let to_rad = setting.angle_rad(panel, sun_body, time_s).unwrap_or(0.0);
+            let to_rad = setting.angle_rad(panel, sun).unwrap_or(0.0);
             turn.way_rad = if panel.mass.is_some() { setting.way_rad(turn.angle_rad, to_rad) } else { 0.0 };
         }
         self.turns.iter().any(|it| it.way_rad != 0.0)
     }
 
     /// All panels stand where their laws have them.
-    fn arrive(&mut self, hinged: Hinged<'_>, sun_body: &Vector3<f64>, time_s: f64) {
+    fn arrive(&mut self, hinged: Hinged<'_>, sun: &SunAt) {
         let settings = hinged.configuration.panels.iter().zip(hinged.panels);
         for (turn, (setting, panel)) in self.turns.iter_mut().zip(settings) {
             if turn.way_rad != 0.0 {
-                turn.angle_rad = setting.angle_rad(panel, sun_body, time_s).unwrap_or(0.0);
+                turn.angle_rad = setting.angle_rad(panel, sun).unwrap_or(0.0);
             }
         }
     }

@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
-use crate::environment::orbit::{DisturbedOrbit, OrbitIntegrationError, OrbitMethod};
+use crate::environment::orbit::{
+    DisturbedOrbit, OrbitError, OrbitIntegrationError, OrbitMethod, TwoBodyOrbit,
+};
 use crate::guidance::Window;
 use crate::numerics::roots;
 use crate::numerics::spacing::spacing;
@@ -19,20 +21,40 @@ const SAME_PASSAGE: f64 = 1e-3;
 const SAME_WINDOW: f64 = 1e-7;
 /// Passages kept for the schedule: one may lie ahead of the current time, one may be too recent for its window.
 const KEPT: usize = 3;
+/// No decoded orbit goes round faster, in s, or begins later, in s: passages are counted in whole numbers.
+const SHORTEST_PERIOD_S: f64 = 1e-3;
+/// See [`SHORTEST_PERIOD_S`].
+const LATEST_S: f64 = 1e15;
 /// A passage that never was; a number, for states hold no infinity.
 const BEFORE_ALL_TIME_S: f64 = -1e100;
 
-/// The state of motion. Empty for two-body motion, which needs none.
+/// The state of motion. Empty for two-body motion without maneuvers, which needs none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Trajectory {
     orbit: Option<DisturbedOrbit>,
+    /// The two-body orbit after the last maneuver; its periapses up to there are in `periapses`.
+    coast: Option<Coast>,
     periapses: Periapses,
     /// Where the spacecraft was when the present science or downlink window began, once that time is behind the
     /// current segment: a slew starts from the attitude there.
     window_start: Option<(f64, CartesianState)>,
 }
 
-/// Periapses an integrated orbit has passed, counted as the two-body orbit at the start counts them (number 0 is the
+/// A two-body orbit that a maneuver began.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Coast {
+    since_s: f64,
+    orbit: TwoBodyOrbit,
+}
+
+impl Coast {
+    /// Whether a simulation can produce it.
+    fn is_valid(&self) -> bool {
+        self.orbit.is_valid() && self.orbit.period_s() > SHORTEST_PERIOD_S && self.since_s.abs() < LATEST_S
+    }
+}
+
+/// Periapses an integrated orbit has passed, or a two-body orbit before a maneuver, counted as the two-body orbit at the start counts them (number 0 is the
 /// one nearest to the start).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Periapses {
@@ -72,13 +94,14 @@ impl Trajectory {
         Ok(Self {
             orbit: Some(DisturbedOrbit::new(&start, time_s, segment_length_s, radius_m)?),
             periapses: Periapses::before(configuration, epoch_s),
-            window_start: None,
+            ..Self::default()
         })
     }
 
     /// Whether a simulation can produce it.
     pub fn is_valid(&self) -> bool {
         self.orbit.as_ref().is_none_or(DisturbedOrbit::is_valid)
+            && self.coast.as_ref().is_none_or(|coast| coast.is_valid())
             && self.periapses.number.unsigned_abs() < 1 << 60
     }
 
@@ -94,14 +117,32 @@ impl Trajectory {
 
     /// Position and velocity about the centre at `time_s`, in EME2000.
     pub fn state_at(&self, configuration: &Configuration, time_s: f64) -> CartesianState {
-        match &self.orbit {
-            Some(orbit) => orbit.state_at(time_s),
-            None => closed_form(configuration, time_s),
+        match (&self.orbit, self.coasting(configuration)) {
+            (Some(orbit), _) => orbit.state_at(time_s),
+            (None, Some(coast)) => coast.orbit.state_at(time_s + configuration.epoch_minus_time_s),
+            (None, None) => closed_form(configuration, time_s),
         }
+    }
+
+    /// The two-body orbit since the last maneuver, if there was one.
+    fn coasting(&self, configuration: &Configuration) -> Option<&Coast> {
+        self.coast.as_ref().filter(|_| matches!(configuration.motion, Motion::TwoBody))
+    }
+
+    /// The orbit of two-body motion.
+    pub(crate) fn two_body<'a>(&'a self, configuration: &'a Configuration) -> &'a TwoBodyOrbit {
+        self.coasting(configuration).map_or(&configuration.orbit, |coast| &coast.orbit)
     }
 
     /// Time since the last periapsis, in s.
     pub fn time_since_periapsis_s(&self, configuration: &Configuration, time_s: f64) -> f64 {
+        if let Some(coast) = self.coasting(configuration) {
+            let epoch_s = time_s + configuration.epoch_minus_time_s;
+            return match coast.orbit.period_s().is_finite() {
+                true => time_s - self.passed(configuration, coast, time_s).last_s[0],
+                false => coast.orbit.time_since_periapsis_s(epoch_s),
+            };
+        }
         if self.orbit.is_none() || !configuration.orbit.period_s().is_finite() {
             let epoch_s = match configuration.motion {
                 Motion::Held { since_epoch_s, .. } => since_epoch_s,
@@ -118,19 +159,32 @@ impl Trajectory {
         self.orbit.as_ref().map_or(f64::INFINITY, DisturbedOrbit::end_s)
     }
 
-    /// The schedule's window at `time_s` where it follows an integrated orbit, in the schedule's time scale.
+    /// The schedule's window at `time_s` where it follows an integrated orbit or one that a maneuver began, in the schedule's
+    /// time scale.
     pub(crate) fn window(&self, configuration: &Configuration, time_s: f64) -> Option<Window> {
         let guided = configuration.attitude.guided()?;
-        if self.orbit.is_none() || !guided.schedule.period_s.is_finite() {
+        if !guided.schedule.period_s.is_finite() {
             return None;
         }
+        let scheduled_s = match (&self.orbit, self.coasting(configuration)) {
+            (Some(_), _) => self.periapses.scheduled_s,
+            (None, Some(coast)) => self.passed(configuration, coast, time_s).scheduled_s,
+            (None, None) => return None,
+        };
         let epoch_s = time_s + configuration.epoch_minus_time_s;
-        let met_s = self.periapses.scheduled_s.map(|at_s| at_s + configuration.epoch_minus_time_s);
+        let met_s = scheduled_s.map(|at_s| at_s + configuration.epoch_minus_time_s);
         Some(guided.schedule.window_after(&met_s, epoch_s))
     }
 
     /// Position and velocity at the beginning of a window, which may be past.
     pub(crate) fn state_at_window_start(&self, configuration: &Configuration, time_s: f64) -> CartesianState {
+        if let Some(coast) = self.coasting(configuration).filter(|_| self.orbit.is_none()) {
+            return match &self.window_start {
+                _ if time_s >= coast.since_s => self.state_at(configuration, time_s),
+                Some((since_s, state)) if is_same_window(configuration, *since_s, time_s) => *state,
+                _ => closed_form(configuration, time_s),
+            };
+        }
         match (&self.orbit, &self.window_start) {
             // Where thrust acts the present segment knows the way of its last interval alone.
             (Some(orbit), Some((since_s, state)))
@@ -207,6 +261,72 @@ impl Trajectory {
         self.periapses.forget_after(time_s, radial(&orbit.state_at(time_s)));
     }
 
+    /// The velocity jumps by `delta_v_m_s`, EME2000, at `time_s`: an integrated orbit goes on from there, two-body motion on
+    /// another orbit; a place that is held stays.
+    ///
+    /// # Errors
+    /// A velocity without an orbit.
+    pub(crate) fn maneuver(
+        &mut self,
+        configuration: &Configuration,
+        time_s: f64,
+        delta_v_m_s: &Vector3<f64>,
+    ) -> Result<(), OrbitError> {
+        if self.orbit.is_some() {
+            self.cut(configuration, time_s, delta_v_m_s);
+            return Ok(());
+        }
+        if !matches!(configuration.motion, Motion::TwoBody) {
+            return Ok(());
+        }
+        let epoch_s = time_s + configuration.epoch_minus_time_s;
+        let mut state = self.state_at(configuration, time_s);
+        state.velocity_m_s += delta_v_m_s;
+        let orbit = TwoBodyOrbit::from_state(&state, configuration.orbit.mu_m3_s2(), epoch_s)?;
+        let guided = configuration.attitude.guided();
+        let window = self.window(configuration, time_s).or(guided.map(|law| law.schedule.window(epoch_s)));
+        let since_s = window.map(|window| window.since_s - configuration.epoch_minus_time_s);
+        self.window_start = since_s
+            .filter(|since_s| since_s.is_finite())
+            .map(|since_s| (since_s, self.state_at_window_start(configuration, since_s)));
+        self.periapses = match self.coast {
+            Some(coast) => self.passed(configuration, &coast, time_s).without_next(),
+            None => Periapses::before(configuration, epoch_s),
+        };
+        self.coast = Some(Coast { since_s: time_s, orbit });
+        Ok(())
+    }
+
+    /// Periapses up to `time_s` on the orbit that a maneuver began; of those of the schedule the next one too.
+    fn passed(&self, configuration: &Configuration, coast: &Coast, time_s: f64) -> Periapses {
+        let (before, orbit) = (self.periapses, &coast.orbit);
+        let period_s = orbit.period_s();
+        if period_s.is_infinite() {
+            return before;
+        }
+        let at_s = |number: i64| orbit.periapsis_epoch_s(number) - configuration.epoch_minus_time_s;
+        // A maneuver at periapsis moves it: that is one passage, not two.
+        let mut first = orbit.orbit_number(coast.since_s + configuration.epoch_minus_time_s) + 1;
+        if at_s(first) - before.last_s[0] < SAME_PASSAGE * period_s {
+            first += 1;
+        }
+        let count = (orbit.orbit_number(time_s + configuration.epoch_minus_time_s) - first + 1).max(0);
+        let number = before.number + count;
+        // Of the passage with this number, counted from the last one before the maneuver.
+        let passage_s = |k: i64| if k > 0 { at_s(first + k - 1) } else { before.last_s[usize::from(k < 0)] };
+        let every = every(configuration);
+        let [latest, latest_before] = [number, before.number].map(|it| it - it.rem_euclid(every));
+        let scheduled_s = core::array::from_fn(|back| {
+            let scheduled = latest + every - every * back as i64;
+            if scheduled > before.number {
+                return passage_s(scheduled - before.number);
+            }
+            let index = usize::try_from((latest_before - scheduled) / every).unwrap_or(KEPT);
+            before.scheduled_s.get(index).copied().unwrap_or(BEFORE_ALL_TIME_S)
+        });
+        Periapses { last_s: [passage_s(count), passage_s(count - 1)], number, scheduled_s }
+    }
+
     /// Integrates one more segment, at most to `limit_s`, under gravity and `extra_m_s2(t)`, an acceleration in EME2000.
     ///
     /// # Errors
@@ -272,14 +392,20 @@ impl Periapses {
         }
     }
 
+    /// Without the passage ahead, for an orbit that does not come to it.
+    fn without_next(mut self) -> Self {
+        self.scheduled_s.rotate_left(1);
+        self.scheduled_s[KEPT - 1] = BEFORE_ALL_TIME_S;
+        self
+    }
+
     /// Forgets a passage found beyond `time_s`, where `radial` is position times velocity: it will be met again.
     fn forget_after(&mut self, time_s: f64, radial: f64) {
         if self.last_s[0] <= time_s || radial >= 0.0 {
             return;
         }
         if self.scheduled_s[0] == self.last_s[0] {
-            self.scheduled_s.rotate_left(1);
-            self.scheduled_s[KEPT - 1] = BEFORE_ALL_TIME_S;
+            *self = self.without_next();
         }
         self.last_s[0] = self.last_s[1];
         self.number -= 1;

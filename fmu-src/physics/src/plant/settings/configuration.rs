@@ -14,13 +14,16 @@ use crate::environment::kepler_planet::KeplerPlanet;
 use crate::environment::onboard::OnboardEphemeris;
 use crate::environment::orbit::{Elements, Gravity, OrbitError, TwoBodyOrbit};
 use crate::environment::sun::pressure_n_m2;
+use crate::guidance::timeline::TimelineSettings;
 use crate::guidance::{Guided, SunPlace};
 use crate::loads::{Active, Effect};
 use crate::momentum::Settings;
+use crate::numerics::scalar::Dual64;
 use crate::spacecraft::{MassProperties, Panel, SunshadeModel, hinged_masses, with_panels};
 
-use super::panel_setting::PanelSetting;
+use super::panel_setting::{PanelSetting, SunAt};
 use super::radiation_settings::RadiationSettings;
+use super::thruster_events::ThrusterEventSettings;
 
 /// Where the attitude comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -162,9 +165,25 @@ pub enum Motion {
     },
 }
 
+/// Sunlight: its pressure, and what of it acts as force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SunLight {
+    /// What is absorbed and reflected, too.
+    pub source: LightSource,
+    /// Factor of force and torque of direct sunlight; heat goes by the source alone.
+    pub scale: f64,
+}
+
+impl SunLight {
+    /// Pressure by which direct sunlight acts, at a distance from the Sun's centre, in Pa; NaN where there is no such distance.
+    pub fn pressure_pa(&self, distance_m: f64) -> f64 {
+        self.source.pressure_pa(distance_m) * self.scale
+    }
+}
+
 /// Radiation pressure of sunlight.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SunLight {
+pub enum LightSource {
     /// The same everywhere, in Pa.
     Fixed {
         /// Pressure, in Pa.
@@ -177,7 +196,7 @@ pub enum SunLight {
     },
 }
 
-impl SunLight {
+impl LightSource {
     /// Pressure at a distance from the Sun's centre, in Pa; NaN where there is no such distance.
     pub fn pressure_pa(&self, distance_m: f64) -> f64 {
         match *self {
@@ -222,41 +241,42 @@ impl Configuration {
         }
     }
 
-    /// The same of a body that has `at_zero`, as the panels stand at `time_s`, the Sun being there (unit vector, body frame).
-    pub fn mass_properties(
-        &self,
-        at_zero: &MassProperties,
-        panels: &[Panel],
-        sun_body: &Vector3<f64>,
-        time_s: f64,
-    ) -> MassProperties {
-        with_panels(at_zero, panels, |index| self.panel_angle_rad(panels, index, sun_body, time_s))
+    /// The same of a body that has `at_zero`, as the panels stand with the Sun there.
+    pub fn mass_properties(&self, at_zero: &MassProperties, panels: &[Panel], sun: &SunAt) -> MassProperties {
+        let angle_rad = |index: usize| {
+            let set = self.panels.get(index).zip(panels.get(index));
+            set.and_then(|(setting, panel)| setting.angle_rad(panel, sun)).unwrap_or(0.0)
+        };
+        with_panels(at_zero, panels, angle_rad)
     }
 
-    /// Momentum of the panels relative to the body in N m s, body frame, as they turn at `time_s` about the centre of `mass`, the
-    /// Sun moving in the body frame by `sun_rate_body_1_s`.
+    /// The first time after `time_s` at which a panel goes elsewhere at once, in s; infinite where none does.
+    pub fn panels_until_s(&self, time_s: f64) -> f64 {
+        self.panels.iter().map(|setting| setting.until_s(time_s)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The last time up to `end_s` at which the panels stand by the laws of `start_s`, in s.
+    pub(crate) fn last_of_panels_s(&self, start_s: f64, end_s: f64) -> f64 {
+        let until_s = self.panels_until_s(start_s);
+        if until_s <= end_s { until_s.next_down() } else { end_s }
+    }
+
+    /// Momentum of the panels relative to the body in N m s, body frame, as they turn about the centre of `mass` with the Sun
+    /// moving like that.
     pub fn panel_momentum_body_n_m_s(
         &self,
         panels: &[Panel],
         mass: &MassProperties,
-        [sun_body, sun_rate_body_1_s]: [&Vector3<f64>; 2],
-        time_s: f64,
+        sun: &SunAt<Dual64>,
     ) -> Vector3<f64> {
         let turn = |index: usize| {
             let set = self.panels.get(index).zip(panels.get(index));
-            let rate_rad_s = set.map_or(0.0, |(setting, panel)| {
-                setting.rate_rad_s(panel, sun_body, sun_rate_body_1_s, time_s)
-            });
-            [self.panel_angle_rad(panels, index, sun_body, time_s), rate_rad_s, 0.0]
+            let [angle_rad, rate_rad_s] =
+                set.map_or([0.0; 2], |(setting, panel)| setting.turn_rad(panel, sun));
+            [angle_rad, rate_rad_s, 0.0]
         };
         let center = &mass.center_of_mass_body_m;
         hinged_masses(panels, turn).map(|it| it.momentum_body_n_m_s(center)).sum()
-    }
-
-    /// Angle of panel `index`, in rad; of one that is left out 0.
-    fn panel_angle_rad(&self, panels: &[Panel], index: usize, sun_body: &Vector3<f64>, time_s: f64) -> f64 {
-        let set = self.panels.get(index).zip(panels.get(index));
-        set.and_then(|(setting, panel)| setting.angle_rad(panel, sun_body, time_s)).unwrap_or(0.0)
     }
 }
 
@@ -281,6 +301,8 @@ pub struct Configuration {
     pub light_and_heat: RadiationSettings,
     /// Attitude.
     pub attitude: AttitudeSource,
+    /// What a timeline goes by; `None`: none is followed.
+    pub timeline: Option<TimelineSettings>,
     /// Model of the shade.
     pub sunshade: SunshadeModel,
     /// One setting a panel.
@@ -295,4 +317,6 @@ pub struct Configuration {
     pub effects: Active,
     /// Integration of momentum.
     pub momentum: Settings,
+    /// What thruster events go by, and those that are scheduled.
+    pub thruster_events: ThrusterEventSettings,
 }

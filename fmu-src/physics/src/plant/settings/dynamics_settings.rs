@@ -12,6 +12,7 @@ use crate::spacecraft::MassProperties;
 
 use super::configuration::Command;
 use super::reaction_control_settings::ThrustCommand;
+use super::thruster_events::Maneuver;
 use crate::plant::flight::wheel_control::WheelControlSettings;
 
 /// What parameters say about dynamics and control.
@@ -131,4 +132,6 @@ pub struct DynamicsInputs {
     pub health: SensorHealth,
     /// Momentum that a dump which is requested leaves, body frame, in N m s.
     pub dump_to_body_n_m_s: Option<Vector3<f64>>,
+    /// A maneuver that is requested; a dump that goes with it leaves what dumps on request do.
+    pub maneuver: Option<Maneuver>,
 }

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::work::WorkExceeded;
-use crate::environment::orbit::OrbitIntegrationError;
+use crate::environment::orbit::{OrbitError, OrbitIntegrationError};
 use crate::momentum::TooManyDumps;
 use crate::refusal::Refusal;
 
@@ -56,6 +56,25 @@ pub enum PlantError {
     /// More work than a step may take.
     #[error(transparent)]
     Work(#[from] WorkExceeded),
+    /// A maneuver that cannot be executed.
+    #[error("the maneuver at {time_s:?} s: {why}")]
+    Maneuver {
+        /// When, in s.
+        time_s: f64,
+        /// Why.
+        why: ManeuverError,
+    },
+    /// A scheduled event of a flight by torque that is no dump.
+    #[error(
+        "the [[event]] on line {line} of the timeline has {found}, allowed with attitude.source controlled (3) and free (4): a dump alone; burns are \
+         thrust.request and thrust.command there"
+    )]
+    ScheduledEvent {
+        /// Its line in the file, from 1.
+        line: usize,
+        /// What it has.
+        found: &'static str,
+    },
     /// Restored bytes of another way to fly.
     #[error("the state holds another kind of flight: it belongs to another attitude.source")]
     OtherMode,
@@ -69,4 +88,40 @@ pub enum PlantError {
         /// Where it ends, in s.
         end_s: f64,
     },
+}
+
+/// Why a maneuver cannot be executed.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ManeuverError {
+    /// In a flight by torque.
+    #[error(
+        "found in controlled or free flight, allowed: attitude.source guided (1) and commanded (2); there burns are \
+         thrust.request and thrust.command"
+    )]
+    ByTorque,
+    /// No number.
+    #[error("found a delta-v of {found_m_s:?} m/s, allowed: finite numbers")]
+    NotFinite {
+        /// What was found, EME2000, in m/s.
+        found_m_s: [f64; 3],
+    },
+    /// Thrusters whose forces cancel, or none.
+    #[error("the thrusters of maneuver.thrusters have a total force of {found_n:?} N, allowed: more than 0")]
+    WithoutThrust {
+        /// Magnitude of their sum, in N.
+        found_n: f64,
+    },
+    /// Too little propellant.
+    #[error("it takes {needed_kg:?} kg from tank {tank}, allowed: up to the {left_kg:?} kg left in it")]
+    Propellant {
+        /// The tank's name.
+        tank: String,
+        /// What it takes, in kg.
+        needed_kg: f64,
+        /// What is left, in kg.
+        left_kg: f64,
+    },
+    /// A velocity without an orbit.
+    #[error("no orbit begins with the velocity after it: {0}")]
+    Orbit(#[from] OrbitError),
 }

@@ -8,4 +8,5 @@ pub(super) mod ideal_settings;
 pub(super) mod panel_setting;
 pub(super) mod radiation_settings;
 pub(super) mod reaction_control_settings;
+pub(super) mod thruster_events;
 pub(super) mod work;

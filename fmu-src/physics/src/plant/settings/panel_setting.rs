@@ -1,11 +1,24 @@
-//! How one panel stands: at an angle of its own or by the Sun, held or moving evenly.
+//! How one panel stands: at an angle of its own or by the Sun, held, moving evenly, in steps or by the light on its cells.
 
 use core::f64::consts::TAU;
+use std::sync::Arc;
 
 use nalgebra::Vector3;
 
-use crate::numerics::scalar::Dual64;
-use crate::spacecraft::Panel;
+use crate::guidance::timeline::TimelinePanels;
+use crate::numerics::scalar::{Dual64, Scalar};
+use crate::spacecraft::{Panel, offset_for_suns};
+
+/// The Sun from the spacecraft at a time, which may move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SunAt<T: Scalar = f64> {
+    /// When, in s.
+    pub time_s: T,
+    /// Unit vector to it, body frame.
+    pub direction_body: Vector3<T>,
+    /// Distance from its centre, in m.
+    pub distance_m: T,
+}
 
 /// An angle that is held or changes evenly.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,16 +38,36 @@ impl Ramp {
     }
 
     /// The angle at `time_s`, in rad.
-    pub fn at_rad(&self, time_s: f64) -> f64 {
+    pub fn at_rad<T: Scalar>(&self, time_s: T) -> T {
         if self.rate_rad_s == 0.0 {
-            return self.angle_rad;
+            return T::constant(self.angle_rad);
         }
-        self.angle_rad + self.rate_rad_s * (time_s - self.since_s)
+        (time_s - self.since_s) * self.rate_rad_s + self.angle_rad
+    }
+}
+
+/// One step of a timeline of a panel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PanelStep {
+    /// From when on, in s of the timeline's clock.
+    pub at_s: f64,
+    /// Angle between cell normal and Sun, in rad, with the windmill angle on the panel's side.
+    pub offset_rad: f64,
+}
+
+impl PanelStep {
+    /// The steps of panel `index`.
+    pub fn of_timeline(timeline: &[TimelinePanels], index: usize, panel: &Panel) -> Arc<[Self]> {
+        let offset_rad = |row: &TimelinePanels| {
+            let offset_rad = row.sun_offsets_rad.get(index).copied().unwrap_or_default();
+            offset_rad + row.windmill_rad * panel.windmill_side
+        };
+        timeline.iter().map(|row| Self { at_s: row.at_s, offset_rad: offset_rad(row) }).collect()
     }
 }
 
 /// How one panel stands.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum PanelSetting {
     /// Left out.
     Disabled,
@@ -47,36 +80,56 @@ pub enum PanelSetting {
     },
     /// At this angle about its axis.
     Angle(Ramp),
+    /// Cell normal at angles from the Sun that follow one another at once.
+    Timeline {
+        /// Those angles; their times grow. Each holds from its time on.
+        steps: Arc<[PanelStep]>,
+        /// The timeline's clock minus the time of the simulation, in s.
+        clock_minus_time_s: f64,
+        /// The angle before the first, in rad.
+        before_rad: f64,
+        /// +1 or -1: the sense of the tilt about the axis.
+        tilt_sign: f64,
+    },
+    /// Cell normal at the angle from the Sun that gives the cells this light; toward the Sun where it cannot.
+    Distance {
+        /// That light, in suns.
+        suns: f64,
+        /// +1 or -1: the sense of the tilt about the axis.
+        tilt_sign: f64,
+    },
 }
 
 impl PanelSetting {
-    /// Angle about the panel's axis at `time_s`, in rad, with the Sun at `sun_body` (unit vector); `None` when left out.
-    pub fn angle_rad(&self, panel: &Panel, sun_body: &Vector3<f64>, time_s: f64) -> Option<f64> {
-        match *self {
-            Self::Disabled => None,
-            Self::Angle(angle) => Some(angle.at_rad(time_s)),
-            Self::SunOffset { offset, tilt_sign } => {
-                Some(panel.angle_for_sun_offset(sun_body, offset.at_rad(time_s), tilt_sign))
+    /// Angle about the panel's axis, in rad, with the Sun there; `None` when left out.
+    pub fn angle_rad<T: Scalar>(&self, panel: &Panel, sun: &SunAt<T>) -> Option<T> {
+        let (offset_rad, tilt_sign) = match self {
+            Self::Disabled => return None,
+            Self::Angle(angle) => return Some(angle.at_rad(sun.time_s)),
+            Self::SunOffset { offset, tilt_sign } => (offset.at_rad(sun.time_s), tilt_sign),
+            Self::Timeline { steps, clock_minus_time_s, before_rad, tilt_sign } => {
+                let begun = begun(steps, *clock_minus_time_s, sun.time_s.value());
+                let step = begun.checked_sub(1).and_then(|last| steps.get(last));
+                (T::constant(step.map_or(*before_rad, |step| step.offset_rad)), tilt_sign)
             }
-        }
+            Self::Distance { suns, tilt_sign } => (offset_for_suns(*suns, sun.distance_m), tilt_sign),
+        };
+        Some(panel.angle_for_sun_offset(&sun.direction_body, offset_rad, *tilt_sign))
     }
 
-    /// Rate of that angle, in rad/s, the Sun moving in the body frame by `sun_rate_body_1_s`; 0 when left out.
-    pub fn rate_rad_s(
-        &self,
-        panel: &Panel,
-        sun_body: &Vector3<f64>,
-        sun_rate_body_1_s: &Vector3<f64>,
-        time_s: f64,
-    ) -> f64 {
-        match *self {
-            Self::Disabled => 0.0,
-            Self::Angle(angle) => angle.rate_rad_s,
-            Self::SunOffset { offset, tilt_sign } => {
-                let sun = sun_body.zip_map(sun_rate_body_1_s, Dual64::new);
-                let offset = Dual64::new(offset.at_rad(time_s), offset.rate_rad_s);
-                panel.angle_for_sun_offset(&sun, offset, tilt_sign).eps
+    /// That angle and its rate, in rad and rad/s, the Sun moving; 0 when left out.
+    pub fn turn_rad(&self, panel: &Panel, sun: &SunAt<Dual64>) -> [f64; 2] {
+        self.angle_rad(panel, sun).map_or([0.0; 2], |angle| [angle.re, angle.eps])
+    }
+
+    /// The first time after `time_s` at which it jumps, in s; infinite where it does not.
+    pub fn until_s(&self, time_s: f64) -> f64 {
+        match self {
+            Self::Timeline { steps, clock_minus_time_s, .. } => {
+                let next = steps.get(begun(steps, *clock_minus_time_s, time_s));
+                next.map_or(f64::INFINITY, |next| next.at_s - clock_minus_time_s)
             }
+            Self::Disabled | Self::SunOffset { .. } | Self::Angle(_) | Self::Distance { .. } => f64::INFINITY,
         }
     }
 
@@ -84,14 +137,23 @@ impl PanelSetting {
     /// shorter one.
     pub(crate) fn way_rad(&self, from_rad: f64, to_rad: f64) -> f64 {
         let way_rad = to_rad - from_rad;
-        match self {
-            Self::SunOffset { .. } => way_rad - TAU * (way_rad / TAU).round(),
-            Self::Disabled | Self::Angle(_) => way_rad,
-        }
+        if self.is_by_sun() { way_rad - TAU * (way_rad / TAU).round() } else { way_rad }
     }
 
     /// Whether the Sun gives the angle.
     pub(crate) fn is_by_sun(&self) -> bool {
-        matches!(self, Self::SunOffset { .. })
+        match self {
+            Self::SunOffset { .. } | Self::Timeline { .. } | Self::Distance { .. } => true,
+            Self::Disabled | Self::Angle(_) => false,
+        }
     }
 }
+
+/// How many of the steps have begun at `time_s`.
+fn begun(steps: &[PanelStep], clock_minus_time_s: f64, time_s: f64) -> usize {
+    steps.partition_point(|step| step.at_s - clock_minus_time_s <= time_s)
+}
+
+#[cfg(test)]
+#[path = "panel_setting_tests.rs"]
+mod tests;

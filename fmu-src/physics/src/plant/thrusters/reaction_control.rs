@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::GyrostatMotion;
+use crate::math;
 use crate::momentum::DumpEvent;
 use crate::numerics::or_infinite;
 use crate::numerics::quadrature::GAUSS_3;
@@ -19,7 +20,11 @@ use crate::spacecraft::{MassProperties, Thrust, Thruster, ThrusterSet};
 use super::pulsed_dump::PulsedDump;
 use super::selected::{Purpose, Selected};
 use super::thruster_load::{ThrusterLoad, ThrusterTotals};
+use crate::plant::settings::error::ManeuverError;
 use crate::plant::settings::reaction_control_settings::{Feed, ReactionControlSettings, ThrustCommand};
+
+/// Forces of a set whose sum is below this share of them cancel.
+const LEAST_FORCE: f64 = 1e-6;
 
 /// The current delta-v.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -293,6 +298,48 @@ impl Thrusters {
             }
         }
         Some(push_body_n_s)
+    }
+
+    /// A delta-v of this magnitude at once by nominal thrust of a set, of a spacecraft of this mass: takes the propellant
+    /// m (1 - exp(-dv / c)) from the set's tanks as it flows, c being the set's force over its flow. A set without thrusters takes
+    /// none.
+    ///
+    /// # Errors
+    /// A set whose forces cancel, or more propellant than there is.
+    pub(crate) fn give_at_once(
+        &mut self,
+        set: ThrusterSet,
+        delta_v_m_s: f64,
+        mass_kg: f64,
+        time_s: f64,
+    ) -> Result<(), ManeuverError> {
+        let Self { settings, propellant, .. } = self;
+        let members = || settings.thrusters.iter().filter(|it| it.set == Some(set));
+        if members().next().is_none() {
+            return Ok(());
+        }
+        let [force_body_n, _] = settings.nominal_thrust(set, &Vector3::zeros());
+        let force_n = force_body_n.norm();
+        if force_n <= LEAST_FORCE * members().map(|it| it.force_body_n.norm()).sum::<f64>() {
+            return Err(ManeuverError::WithoutThrust { found_n: force_n });
+        }
+        let total_kg_s: f64 = members().map(|it| it.flow_kg_s).sum();
+        let exhaust_m_s = force_n / total_kg_s;
+        let used_kg = mass_kg * -math::exp_m1(-delta_v_m_s / exhaust_m_s);
+        let needed = |tank: usize| {
+            let flow_kg_s: f64 = members().filter(|it| it.tank == tank).map(|it| it.flow_kg_s).sum();
+            used_kg * (flow_kg_s / total_kg_s)
+        };
+        for (index, tank) in settings.tanks.iter().enumerate() {
+            let (needed_kg, left_kg) = (needed(index), tank.left_kg(propellant.used_kg(index, time_s)));
+            if needed_kg > left_kg {
+                return Err(ManeuverError::Propellant { tank: tank.name.clone(), needed_kg, left_kg });
+            }
+        }
+        for (index, tank) in settings.tanks.iter().enumerate() {
+            propellant.take(index, tank, needed(index));
+        }
+        Ok(())
     }
 
     /// Begins a dump by pulses toward a total momentum, EME2000, in N m s, at the end of the motion; false where no thrusters give

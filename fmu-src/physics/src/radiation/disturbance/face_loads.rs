@@ -42,6 +42,7 @@ impl<T: Scalar> FaceLoads<'_, T> {
                 state.absorbed_sun_w =
                     sunlight.pressure_pa * lit_area_m2 * (face.optics.absorptivity * SPEED_OF_LIGHT_M_S);
                 let force_n = force_per_area_pa(&face.optics, normal, &sunlight) * lit_area_m2;
+                let force_n = force_n * self.geometry.solar_scale;
                 state.forces_body_n[Effect::Solar as usize] = force_n;
                 if !surface.closed_form_sun {
                     let lit_arm_m = lit_center_m - self.geometry.center_of_mass_body_m;

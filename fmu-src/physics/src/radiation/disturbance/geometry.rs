@@ -17,6 +17,8 @@ pub struct Geometry<'a, T: Scalar> {
     pub sun_sine: T,
     /// The Sun's flux at the spacecraft were nothing in between, in W/m2.
     pub sun_flux_w_m2: T,
+    /// Factor of the force of direct sunlight; its heat goes by the flux alone.
+    pub solar_scale: T,
     /// Visible fraction of the Sun's disc (of its light), 1 outside eclipses.
     pub lit_fraction: T,
     /// The planet, if one is near.
@@ -56,6 +58,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
             sun_direction_body,
             sun_sine: T::constant(0.0),
             sun_flux_w_m2,
+            solar_scale: T::constant(1.0),
             lit_fraction: T::constant(1.0),
             planet: None,
             panel_angles_rad: &[],
@@ -105,6 +108,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
             sun_direction_body: sun_position_body_m / distance_m,
             sun_sine: distance_m.recip() * RADIUS_SUN_M,
             sun_flux_w_m2,
+            solar_scale: T::constant(1.0),
             lit_fraction,
             planet,
             panel_angles_rad,
@@ -115,6 +119,11 @@ impl<'a, T: Scalar> Geometry<'a, T> {
     /// The same with a Sun of this radius, in m, in place of the nominal one.
     pub fn with_sun_radius(self, sun_radius_m: T) -> Self {
         Self { sun_sine: self.sun_sine * (sun_radius_m / T::constant(RADIUS_SUN_M)), ..self }
+    }
+
+    /// The same with this factor of the force of direct sunlight.
+    pub fn with_solar_scale(self, solar_scale: T) -> Self {
+        Self { solar_scale, ..self }
     }
 
     /// Sunlight as far as the planet lets it through.
@@ -138,6 +147,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
         finite("the Sun's direction", vector(&self.sun_direction_body))?;
         finite("the Sun's angular radius", self.sun_sine.value().is_finite())?;
         finite("the Sun's flux", self.sun_flux_w_m2.value().is_finite())?;
+        finite("the factor of sunlight's force", self.solar_scale.value().is_finite())?;
         finite("the lit fraction", self.lit_fraction.value().is_finite())?;
         finite("the centre of mass", vector(&self.center_of_mass_body_m))?;
         finite("a panel's angle", self.panel_angles_rad.iter().all(|x| x.value().is_finite()))

@@ -10,6 +10,7 @@ use crate::bodies::surface::PlanetSurface;
 use crate::loads::{Effect, ForceTorque, Loads};
 use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::radiation::faces::{Faces, Normal};
+use crate::radiation::flat_plate::Beam;
 use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::shadow::{DIRECTIONS, ShadowScene, SunDisc};
 use crate::refusal::Refusal;
@@ -180,7 +181,9 @@ impl DisturbanceModel {
         let mut sum = loads.receive(workspace);
         sum[Effect::Thermal] = loads.radiate(recoil, workspace);
         if let Some(cylinder) = &self.faces.cylinder {
-            let sunlight = cylinder.force_torque_about_origin(&geometry.beam());
+            let beam = geometry.beam();
+            let beam = Beam { pressure_pa: beam.pressure_pa * geometry.solar_scale, ..beam };
+            let sunlight = cylinder.force_torque_about_origin(&beam);
             sum[Effect::Solar] += sunlight.about(&geometry.center_of_mass_body_m);
         }
         Ok(sum)

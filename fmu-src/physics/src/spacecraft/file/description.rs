@@ -71,6 +71,7 @@ struct Description {
     momentum: Option<MomentumDescription>,
     sun_keep_in: Option<SunKeepInDescription>,
     downlinks: Option<DownlinksDescription>,
+    articulation: Option<ArticulationDescription>,
     hot_pole: Option<HotPoleDescription>,
     planet_map: Option<PlanetMapDescription>,
     body: Option<BodyDescription>,
@@ -251,11 +252,15 @@ struct PanelDescription {
     inertia_kg_m2: Option<[[f64; 3]; 3]>,
     /// How the angle comes about.
     control: PanelControl = PanelControl::SunOffset,
-    /// Angle between cell normal and Sun for `sun_offset`, in deg.
-    sun_offset_deg: HalfTurn = 0.0,
-    /// Which way the panel tilts off the Sun about its axis: 1 or -1.
+    /// Angle between cell normal and Sun for `sun_offset`, in deg; its sign is a sense of tilt.
+    sun_offset_deg: HalfTurnEither = 0.0,
+    /// Which way the panel tilts off the Sun about its axis at a positive offset: 1 or -1.
     #[cfg_attr(feature = "schema", schemars(extend("enum" = [1, -1])))]
     tilt_sign: i64 = 1,
+    /// Which way a windmill angle turns the panel, about its axis: 1, -1, or 0, not at all. Left out, the sign of the centre's part
+    /// along the axis, so that panels of both sides turn against one another.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = [1, -1, 0])))]
+    windmill_side: Option<i64>,
     /// Angle about the axis for `angle`, in deg.
     angle_deg: TurnEither = 0.0,
     /// Misalignment: turns of the panel frame about the body's X, then Y, then Z axis, in deg.
@@ -404,6 +409,17 @@ struct DownlinksDescription {
     stop: WrittenTime,
     /// A downlink after every how many periapses; 0 is none.
     every: Orbits = 0,
+}
+
+/// Corridor of the light on the cells of panels, in suns: max(0, cosine of the angle to the Sun) over the square of the distance in
+/// AU. The defaults of `articulation.*`.
+struct ArticulationDescription {
+    /// Least light, for power.
+    min_suns: NotNegative = 0.0,
+    /// Greatest light, for temperature.
+    max_suns: Positive = 1e3,
+    /// Light that panels with `control = "distance"` keep.
+    target_suns: Positive = 1.0,
 }
 
 /// Where the top deck, -Z, does not look at the planet: low above its subsolar point, which is hot. Guidance keeps it; left

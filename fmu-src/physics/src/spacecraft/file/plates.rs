@@ -161,6 +161,9 @@ pub(crate) fn panel(
     if tilt_sign.abs() != 1 {
         check.report(&at.key("tilt_sign"), tilt_sign, "1 or -1");
     }
+    if let Some(side) = description.windmill_side.filter(|side| !(-1..=1).contains(side)) {
+        check.report(&at.key("windmill_side"), side, "1, -1 or 0");
+    }
     let front = materials.find(check, &at.key("optics"), &description.optics);
     let rear =
         description.rear_optics.as_ref().map(|name| materials.find(check, &at.key("rear_optics"), name));
@@ -168,6 +171,10 @@ pub(crate) fn panel(
     let area_m2 = checked_area(check, at, description.area_m2, outline.as_ref());
     let center_m = checked_center(check, at, description.center_m, outline.as_ref());
     let mass = panel_mass(check, at, description, area_m2, center_m, &zero_normal);
+    let windmill_side = match description.windmill_side {
+        Some(side) => side as f64,
+        None => side_of(center_m.dot(&axis)),
+    };
     Panel {
         name: description.called(index),
         area_m2,
@@ -182,6 +189,14 @@ pub(crate) fn panel(
         control: description.control(),
         sun_offset_rad: description.sun_offset_deg().to_radians(),
         tilt_sign: if tilt_sign < 0 { -1.0 } else { 1.0 },
+        windmill_side,
         angle_rad: description.angle_deg().to_radians(),
     }
+}
+
+/// On which side of the plane across its axis a panel's centre is that lies so far along it, in m: 1 or -1, 0 within rounding of the
+/// plane.
+fn side_of(along_axis_m: f64) -> f64 {
+    const ROUNDING_M: f64 = 1e-9;
+    if along_axis_m.abs() <= ROUNDING_M { 0.0 } else { along_axis_m.signum() }
 }

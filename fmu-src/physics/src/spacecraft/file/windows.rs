@@ -1,7 +1,8 @@
-//! Downlink windows and the hot pole, from their descriptions.
+//! Downlink windows, hot pole and corridor of light, from their descriptions.
 
-use super::description::{DownlinksDescription, HotPoleDescription};
+use super::description::{ArticulationDescription, DownlinksDescription, HotPoleDescription};
 use super::written_time::{ALLOWED_TIME, WrittenTime};
+use crate::spacecraft::articulation::Articulation;
 use crate::spacecraft::downlinks::{DownlinkWindows, TimeAfterPeriapsis};
 use crate::spacecraft::hot_pole::HotPoleZone;
 use crate::spacecraft::start::StartEntry;
@@ -47,4 +48,32 @@ pub(crate) fn hot_pole(description: &HotPoleDescription) -> HotPoleZone {
         angle_rad: description.angle_deg.0.to_radians(),
         cone_rad: description.cone_deg.0.to_radians(),
     }
+}
+
+pub(crate) fn articulation(
+    check: &mut Checker<'_>,
+    at: &Place,
+    description: &ArticulationDescription,
+) -> Articulation {
+    let found = Articulation {
+        min_suns: description.min_suns(),
+        max_suns: description.max_suns(),
+        target_suns: description.target_suns(),
+    };
+    let Articulation { min_suns, max_suns, target_suns } = found;
+    if ["min_suns", "max_suns", "target_suns"].iter().any(|key| check.has_reported(&at.key(key))) {
+        return found;
+    }
+    if max_suns <= min_suns {
+        check.report_across(
+            at,
+            &at.key("max_suns"),
+            max_suns,
+            format_args!("more than min_suns, {min_suns}"),
+        );
+    } else if found.margin_suns(target_suns) < 0.0 {
+        let allowed = format_args!("from min_suns to max_suns, {min_suns} to {max_suns}");
+        check.report_across(at, &at.key("target_suns"), target_suns, allowed);
+    }
+    found
 }

@@ -12,6 +12,7 @@ fn paper() -> Schedule {
         period_shares: [None; 2],
         every: 2,
         once: false,
+        throughout: false,
     }
 }
 
@@ -88,6 +89,7 @@ fn a_window_begun_now_lasts_its_length() {
             period_shares: [None; 2],
             every: 2,
             once: false,
+            throughout: false,
         };
         let begun = windows.begun_at(now_s);
         let window = begun.window(now_s);

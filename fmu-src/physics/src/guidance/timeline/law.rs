@@ -1,0 +1,104 @@
+//! The attitude that a timeline commands as a function of time: its scenarios, scans and keep-in zone by Guidance's own laws, whose
+//! clocks count from the beginning of a command.
+//!
+//! Between two edges ([`Slot`]) and two corners of a scan the attitude is smooth but where the keep-in zone begins to act, which is a
+//! root of the margin. Where nothing is commanded, or what is has no direction, the orbit phase's own law rules.
+
+use super::build::Timeline;
+use super::entry::TimelineEntry;
+use crate::attitude::MovingFrame;
+use crate::bodies::Body;
+use crate::guidance::constraints::constrained::Constraints;
+use crate::guidance::constraints::keep_in::KeepIn;
+use crate::guidance::downlink::sun_place::{SunPlace, SunRequest};
+use crate::guidance::geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
+use crate::guidance::geometry::moving::value;
+use crate::guidance::pointing::command::{AimpointOption, PointingCommand};
+use crate::guidance::pointing::scan::{ScanTime, next_corner_s};
+use crate::guidance::pointing::scenario::{GuidanceHardware, PointingProgress, aim};
+use crate::numerics::spacing::spacing;
+
+/// What parameters say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimelineSettings {
+    /// The keep-in zone, in force or not.
+    pub keep_in: KeepIn,
+    /// Whether it is in force where the timeline does not say so.
+    pub keep_in_is_enabled: bool,
+    /// Greatest distance from the Sun at which it counts, in m.
+    pub keep_in_distance_m: f64,
+    /// The planet that is orbited.
+    pub planet: TargetPlanet,
+    /// The clock of the timeline minus the time of the simulation, in s.
+    pub clock_minus_time_s: f64,
+}
+
+/// A timeline with what its scenarios point.
+#[derive(Clone, Copy, Debug)]
+pub struct TimelineLaw<'a> {
+    /// The commands.
+    pub timeline: &'a Timeline,
+    /// Instruments, gimbal, antennas.
+    pub hardware: GuidanceHardware<'a>,
+}
+
+/// A commanded attitude.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimelineAttitude {
+    /// Body frame and rate.
+    pub frame: MovingFrame,
+    /// How far the Sun is inside the keep-in zone in the attitude without it, in rad; infinite where none is in force. The law has
+    /// another form beyond a root.
+    pub margin: f64,
+    /// Whether the Sun's place in a downlink is not the one that was requested.
+    pub clamped: bool,
+    /// When the next motion of a scan begins or ends, in s of the clock.
+    pub corner_s: f64,
+}
+
+/// Bodies that a command aims at.
+pub fn bodies_of(command: &PointingCommand) -> impl Iterator<Item = Body> + '_ {
+    let aimpoints = [&command.aimpoint, &command.second_aimpoint].into_iter();
+    aimpoints.filter(|it| it.option == Some(AimpointOption::Body)).filter_map(|it| it.body)
+}
+
+impl TimelineLaw<'_> {
+    /// The attitude of a command at `now_s` of the clock, the Sun of its downlinks standing at `chosen` or as requested; `None` where
+    /// it has no scenario of its own, or boresight, aimpoint or Sun no direction.
+    pub fn attitude(
+        &self,
+        settings: &TimelineSettings,
+        entry: &TimelineEntry,
+        now_s: f64,
+        surroundings: &EphemerisAtTime,
+        (chosen, requested): (Option<SunPlace>, SunRequest),
+    ) -> Option<TimelineAttitude> {
+        let elapsed_s = now_s - entry.at_s;
+        let time_s = now_s - settings.clock_minus_time_s;
+        let scan = ScanTime { elapsed_s, tolerance_s: 4.0 * (spacing(now_s) + spacing(time_s)) };
+        let progress = PointingProgress {
+            scan: entry.command.scan.frame.map(|_| scan),
+            limb_elapsed_s: elapsed_s,
+            downlink_sun: chosen.filter(|_| entry.downlink.sun.is_none()),
+            requested,
+            burn: None,
+        };
+        let aimed = aim(&entry.command, &self.hardware, surroundings, &progress)?;
+        let to_sun = surroundings.to_sun();
+        let counts = value(&to_sun).norm() <= settings.keep_in_distance_m;
+        let keep_in =
+            entry.keep_in.applied(&settings.keep_in, settings.keep_in_is_enabled).filter(|_| counts);
+        let unconstrained = aimed.vectors.pointing()?;
+        let sun_body = || value(&unconstrained.to_body(&to_sun)).try_normalize(0.0);
+        let margin = keep_in.and_then(|zone| Some(-zone.excess_rad(&sun_body()?)?));
+        let constraints = Constraints { keep_in, hot_pole: None };
+        let constrained = constraints.applied(&aimed.vectors, surroundings, None)?;
+        let corner_s = next_corner_s(&entry.command.scan, scan).map_or(f64::INFINITY, |it| it + entry.at_s);
+        Some(TimelineAttitude {
+            frame: constrained.pointing.frame(),
+            margin: margin.unwrap_or(f64::INFINITY),
+            clamped: aimed.downlink.clamped,
+            corner_s,
+        })
+    }
+}

@@ -1,0 +1,169 @@
+//! Thruster events of a flight: what is scheduled, how far a maneuver is off, and how far the centre of mass moves.
+//!
+//! The delta-v that is executed is v (1 + s_m n), turned by the rotation s_d n x: n is a normal draw, n x one about each of the
+//! two axes across v. After every thruster event, a dump or a maneuver, the centre of mass is its nominal place + s_c n, by axis.
+//! Draws are functions of the seed and the event's number.
+
+use std::sync::Arc;
+
+use nalgebra::{Rotation3, Vector3};
+
+use super::error::PlantError;
+use crate::guidance::timeline::{TimelineDump, TimelineEvent, TimelineManeuver};
+use crate::momentum::DumpEvent;
+use crate::numerics::noise::{Channel, normal, normal_vector};
+use crate::spacecraft::ThrusterSet;
+
+/// A delta-v as an impulse through the centre of mass.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Maneuver {
+    /// EME2000, in m/s.
+    pub delta_v_inertial_m_s: Vector3<f64>,
+    /// The thrusters whose propellant it takes; none = no propellant.
+    pub thrusters: Option<ThrusterSet>,
+    /// Whether a dump goes with it.
+    pub dumps: bool,
+}
+
+/// A dump or a maneuver as it happens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ThrusterEvent {
+    /// A dump.
+    Dump(DumpEvent),
+    /// A maneuver.
+    Maneuver {
+        /// When, in s.
+        time_s: f64,
+        /// The delta-v that was asked for, EME2000, in m/s.
+        asked_m_s: Vector3<f64>,
+        /// The delta-v that was executed.
+        executed_m_s: Vector3<f64>,
+    },
+}
+
+/// What thruster events go by.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThrusterEventSettings {
+    /// Events of a timeline, in the order of their times.
+    pub schedule: Arc<[TimelineEvent]>,
+    /// The timeline's clock minus the time of the simulation, in s.
+    pub clock_minus_time_s: f64,
+    /// The thrusters of maneuvers that name none; `None`: they take no propellant.
+    pub thrusters: Option<ThrusterSet>,
+    /// Whether a dump goes with maneuvers that do not say so.
+    pub dumps: bool,
+    /// Standard deviation of a maneuver's magnitude, as a share of it.
+    pub magnitude_error: f64,
+    /// Standard deviation of its direction about each axis across it, in rad.
+    pub direction_error_rad: f64,
+    /// Standard deviation of the centre of mass about its nominal place, body frame, in m.
+    pub center_of_mass_shift_m: Vector3<f64>,
+    /// Of the draws.
+    pub seed: u64,
+    /// Momentum that dumps on request leave, body frame, in N m s.
+    pub requested_body_n_m_s: Vector3<f64>,
+}
+
+impl Default for ThrusterEventSettings {
+    fn default() -> Self {
+        Self {
+            schedule: Arc::default(),
+            clock_minus_time_s: 0.0,
+            thrusters: None,
+            dumps: true,
+            magnitude_error: 0.0,
+            direction_error_rad: 0.0,
+            center_of_mass_shift_m: Vector3::zeros(),
+            seed: 0,
+            requested_body_n_m_s: Vector3::zeros(),
+        }
+    }
+}
+
+impl ThrusterEventSettings {
+    /// What maneuver `number` (from 0 on) executes of a delta-v, EME2000, in m/s.
+    pub fn executed_m_s(&self, delta_v_m_s: &Vector3<f64>, number: u64) -> Vector3<f64> {
+        let mut executed_m_s = *delta_v_m_s;
+        if self.magnitude_error != 0.0 {
+            executed_m_s *=
+                1.0 + self.magnitude_error * normal(self.seed, Channel::ManeuverMagnitude, number);
+        }
+        let Some(along) = delta_v_m_s.try_normalize(0.0).filter(|_| self.direction_error_rad != 0.0) else {
+            return executed_m_s;
+        };
+        let draw = normal_vector(self.seed, Channel::ManeuverDirection, number);
+        let across = draw - along * along.dot(&draw);
+        Rotation3::new(across * self.direction_error_rad) * executed_m_s
+    }
+
+    /// How far thruster event `number` (from 0 on) leaves the centre of mass from its nominal place, body frame, in m; none
+    /// where nothing moves it.
+    pub fn shift_body_m(&self, number: u64) -> Option<Vector3<f64>> {
+        let sigma_m = self.center_of_mass_shift_m;
+        (sigma_m != Vector3::zeros())
+            .then(|| normal_vector(self.seed, Channel::CenterOfMass, number).component_mul(&sigma_m))
+    }
+
+    /// The momentum that the dump of an event leaves, if it has one, body frame, in N m s.
+    pub(crate) fn dump_target_body_n_m_s(&self, event: &TimelineEvent) -> Option<Vector3<f64>> {
+        let dumps = |it: &TimelineManeuver| it.dumps.unwrap_or(self.dumps);
+        match event.dump {
+            Some(TimelineDump::To { momentum_body_n_m_s }) => Some(momentum_body_n_m_s),
+            Some(TimelineDump::Requested) => Some(self.requested_body_n_m_s),
+            None => event.maneuver.as_ref().filter(|it| dumps(it)).map(|_| self.requested_body_n_m_s),
+        }
+    }
+
+    /// The maneuver of an event, if it has one.
+    pub(crate) fn maneuver(&self, event: &TimelineEvent) -> Option<Maneuver> {
+        event.maneuver.map(|it| Maneuver {
+            delta_v_inertial_m_s: it.delta_v_inertial_m_s,
+            thrusters: it.thrusters.or(self.thrusters),
+            dumps: it.dumps.unwrap_or(self.dumps),
+        })
+    }
+
+    /// When an event of the schedule comes, in s.
+    pub(crate) fn time_s(&self, event: &TimelineEvent) -> f64 {
+        event.at_s - self.clock_minus_time_s
+    }
+
+    /// The next event of the schedule, so many being over.
+    pub(crate) fn next(&self, over: usize) -> Option<&TimelineEvent> {
+        self.schedule.get(over)
+    }
+
+    /// How many events lie before `time_s`.
+    pub(crate) fn before(&self, time_s: f64) -> usize {
+        self.schedule.partition_point(|event| self.time_s(event) < time_s)
+    }
+
+    /// How many events lie up to `time_s`.
+    pub(crate) fn until(&self, time_s: f64) -> usize {
+        self.schedule.partition_point(|event| self.time_s(event) <= time_s)
+    }
+
+    /// Refuses what a flight by torque does not have, so many events being over.
+    ///
+    /// # Errors
+    /// An event that is no dump.
+    pub(crate) fn check_for_dynamics(&self, over: usize) -> Result<(), PlantError> {
+        for event in self.schedule.iter().skip(over) {
+            let found = match (event.maneuver, event.center_of_mass_body_m) {
+                (Some(_), _) => "a maneuver",
+                (None, Some(_)) => "a centre of mass",
+                (None, None) => continue,
+            };
+            return Err(PlantError::ScheduledEvent { line: event.line, found });
+        }
+        Ok(())
+    }
+
+    /// When the next event comes, so many being over, in s; infinite where none does.
+    pub(crate) fn next_s(&self, over: usize) -> f64 {
+        self.next(over).map_or(f64::INFINITY, |event| self.time_s(event))
+    }
+}
+
+#[cfg(test)]
+mod tests;
