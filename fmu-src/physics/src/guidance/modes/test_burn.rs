@@ -15,7 +15,7 @@ use crate::constants::DEG_RAD;
 use crate::guidance::burn::delta_v::{BurnPhase, BurnSettings, GAIN, LOOK_AHEAD_S};
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::constraints::constrained::Constraints;
-use crate::guidance::downlink::sun_place::LinkLimits;
+use crate::guidance::downlink::sun_place::{LinkLimits, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::test_orbit::{about_mercury, guided};
 use crate::guidance::orbit_phase::attitudes::ScienceRule;
@@ -125,6 +125,7 @@ pub(crate) fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static>
 pub(crate) fn sample_inputs(attitude: Attitude, delta_v_body_m_s: Vector3<f64>) -> SampleInputs {
     SampleInputs {
         command: PointingCommand { scenario: Some(Scenario::Burn), ..PointingCommand::default() },
+        requested_sun: SunRequest::default(),
         entries: TimedEntries::default(),
         places: BodyPositions::in_every_mode(Some(surroundings())),
         sensed: Sensed {
