@@ -18,6 +18,8 @@ use crate::{
 /// The model that is simulated.
 const MODEL: &str = "MomentumPlant";
 const DUMPS: &str = "dump.count";
+const SOURCE: &str = "attitude.source";
+const STRATEGY: &str = "momentum.strategy";
 const THRESHOLD: &str = "dump.threshold";
 /// A component that is never reached.
 const NEVER_N_M_S: f64 = 1e9;
@@ -146,25 +148,28 @@ impl Flights for FlownMission {
 
 /// A plant whose attitude is followed whatever the momentum is.
 fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) -> Result<(), String> {
-    let source = item(description, sets, "attitude.source");
-    let has = |name: &str| description.variables.iter().any(|it| it.name == name);
-    let names = FITTED.iter().chain(&MOMENTUM).chain(&[DUMPS]);
-    if source.is_none() || names.copied().any(|name| !has(name)) {
-        let found = &description.model_name;
+    let model = &description.model_name;
+    let variable = |name: &str| description.variables.iter().find(|it| it.name == name);
+    let names = [SOURCE, STRATEGY, DUMPS].into_iter().chain(FITTED).chain(MOMENTUM);
+    if let Some(name) = names.into_iter().find(|name| variable(name).is_none()) {
+        return Err(format!("{file}: {model} has no variable {name}, allowed: a {MODEL}"));
+    }
+    let is_fixed = |name: &str| variable(name).is_some_and(|it| loader::set_early(it).is_err());
+    if let Some(name) = FITTED.into_iter().find(|name| is_fixed(name)) {
         return Err(format!(
-            "{file}: found the model {found}, allowed: {MODEL}, in which {} can be set",
-            FITTED[3]
+            "{file}: {name}: found a constant of {model} (`pack --fix`), allowed: a parameter"
         ));
     }
+    let source = item(description, sets, SOURCE);
     if let Some(found @ ("controlled" | "free")) = source {
         return Err(format!(
-            "{file}: attitude.source: found {found}, allowed: guided, commanded, in which momentum is linear in what is fitted"
+            "{file}: {SOURCE}: found {found}, allowed: guided, commanded, in which momentum is linear in what is fitted"
         ));
     }
-    let strategy = item(description, sets, "momentum.strategy");
+    let strategy = item(description, sets, STRATEGY);
     if let (Some("guided"), Some(found @ ("reactive" | "predictive"))) = (source, strategy) {
         return Err(format!(
-            "{file}: momentum.strategy: found {found}, allowed: dumpsOnly: the attitude as it was flown must not follow the \
+            "{file}: {STRATEGY}: found {found}, allowed: dumpsOnly: the attitude as it was flown must not follow the \
              momentum that is fitted; give the Sun's places as they were (timeline, downlink.*)"
         ));
     }

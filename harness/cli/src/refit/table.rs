@@ -85,9 +85,20 @@ impl Found<'_> {
         }
         let mut text = format!("Principal directions, in units of the priors' deviations\n{table}");
         for it in self.fitted.undetermined() {
-            let _ = write!(text, "\nThe history does not determine {}", named(it));
+            let _ = write!(text, "\nThe history does not determine {}.", self.named(it));
         }
         text
+    }
+
+    /// A direction in words.
+    fn named(&self, direction: &Direction) -> String {
+        if direction.vector.w.abs() < NO_SCALE {
+            let [x, y, z] = [0, 1, 2].map(|at| direction.vector[at]);
+            return format!("the centre of mass along ({x:.3}, {y:.3}, {z:.3}) of the body frame");
+        }
+        let moved = direction.vector.component_mul(&self.prior_deviations());
+        let [x, y, z] = [0, 1, 2].map(|at| 1e3 * 0.01 * moved[at] / moved.w);
+        format!("solar.scale with the centre of mass: ({x:.3}, {y:.3}, {z:.3}) mm undo each 1 % more of it")
     }
 
     fn residuals(&self) -> String {
@@ -118,7 +129,7 @@ impl Found<'_> {
             self.mission, self.telemetry
         );
         for it in self.fitted.undetermined() {
-            let _ = writeln!(text, "# Not determined, so as before: {}.", named(it));
+            let _ = writeln!(text, "# Not determined, so as before: {}.", self.named(it));
         }
         let [dx, dy, dz, dscale] = deviations.map(|it| Real(rounded(it)));
         let _ = write!(
@@ -133,16 +144,8 @@ impl Found<'_> {
     }
 }
 
-/// A direction in words: of the centre of mass alone, or with the scale.
-fn named(direction: &Direction) -> String {
-    let [x, y, z, scale]: [f64; 4] = direction.vector.into();
-    let center = format!("({x:.3}, {y:.3}, {z:.3})");
-    if scale.abs() < 1e-3 {
-        format!("the centre of mass along {center} of the body frame")
-    } else {
-        format!("solar.scale with the centre of mass, {scale:.3} of the one with {center} of the other")
-    }
-}
+/// Parts of a direction in `solar.scale` below which it is one of the centre of mass alone.
+const NO_SCALE: f64 = 1e-3;
 
 /// Four significant digits.
 fn rounded(value: f64) -> f64 {
