@@ -67,6 +67,7 @@ impl Cruise {
         let orbit = orbit_from_elements(elements, Frame::Ecliptic, sun, GM_SUN_M3_S2, EPOCH_S).unwrap();
         let panel = |steps: &Vec<PanelStep>| PanelSetting::Timeline {
             steps: steps.as_slice().into(),
+            clock_minus_time_s: 0.0,
             before_rad: steps[0].offset_rad,
             tilt_sign: 1.0,
         };
