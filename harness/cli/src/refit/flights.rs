@@ -6,6 +6,7 @@ use files::Scratch;
 use loader::{Ended, Fmu, InputTable, Options, Value};
 use model_description::Description;
 use nalgebra::Vector3;
+use physics::constants::DAY_S;
 use planner::refit::{FITTED, Failure, Flights, History, MOMENTUM, Parameters, Telemetry};
 use terminal::ProgressBar;
 
@@ -65,7 +66,7 @@ impl FlownMission {
             start_s: times.start_s,
             stop_s: times.stop_s,
             // Inputs change at the mission's steps alone; without any, a flight does not depend on them.
-            step_s: if inputs.is_some() { times.step_s } else { times.stop_s - times.start_s },
+            step_s: if inputs.is_some() { times.step_s } else { times.step_s.max(DAY_S) },
             inputs,
             flown_s: Cell::new(0.0),
             bar: ProgressBar::hidden(),

@@ -66,26 +66,30 @@ impl Found<'_> {
 
     fn directions(&self) -> String {
         let mut table = terminal::table(&[
-            "X, Y, Z, scale",
-            "deviation left",
-            "one sigma: X, Y, Z [mm]",
-            "scale [%]",
+            "X",
+            "Y",
+            "Z",
+            "scale",
+            "sigma",
+            "sigma [mm]",
+            "sigma [% of scale]",
             "determined",
-        ]);
+        ])
+        .narrow();
         let prior_deviations = self.prior_deviations();
         for it in &self.fitted.directions {
             let sigma = it.vector.component_mul(&prior_deviations) * it.sigma;
-            table.add_row([
-                it.vector.as_slice().iter().map(|part| format!("{part:.4}")).collect::<Vec<_>>().join(", "),
+            let parts = it.vector.as_slice().iter().map(|part| format!("{part:.4}"));
+            table.add_row(parts.chain([
                 terminal::short(rounded(it.sigma)),
-                (0..3).map(|at| format!("{:.4}", 1e3 * sigma[at])).collect::<Vec<_>>().join(", "),
-                format!("{:.4}", 100.0 * sigma.w),
-                if it.observable { "yes".to_owned() } else { "no: stays at its prior".to_owned() },
-            ]);
+                format!("{:.4}", 1e3 * sigma.xyz().norm()),
+                format!("{:.4}", 100.0 * sigma.w.abs()),
+                if it.observable { "yes".to_owned() } else { "no".to_owned() },
+            ]));
         }
         let mut text = format!("Principal directions, in units of the priors' deviations\n{table}");
         for it in self.fitted.undetermined() {
-            let _ = write!(text, "\nThe history does not determine {}.", self.named(it));
+            let _ = write!(text, "\nNot determined, so kept at the mission's values: {}.", self.named(it));
         }
         text
     }
@@ -129,7 +133,7 @@ impl Found<'_> {
             self.mission, self.telemetry
         );
         for it in self.fitted.undetermined() {
-            let _ = writeln!(text, "# Not determined, so as before: {}.", self.named(it));
+            let _ = writeln!(text, "# Not determined, so kept at the mission's values: {}.", self.named(it));
         }
         let [dx, dy, dz, dscale] = deviations.map(|it| Real(rounded(it)));
         let _ = write!(

@@ -61,9 +61,11 @@ pub fn fit(
 ) -> Result<Fitted, Failure> {
     let Requested { telemetry, prior, deviations } = requested;
     let mut center = *prior;
-    let mut flown = 0;
-    for round in 1..=MOST_ROUNDS {
+    let (mut flown, mut round) = (0, 0);
+    loop {
+        round += 1;
         let ahead = round * FLIGHTS_OF_ROUND;
+        progress(flown, ahead);
         let mut counted = || {
             flown += 1;
             progress(flown, ahead);
@@ -90,33 +92,31 @@ pub fn fit(
             .zip(&residuals)
             .map(|(a, b)| (a - b).amax());
         let departure_n_m_s = departures.fold(0.0, f64::max);
-        if departure_n_m_s > AGREES * deviations.noise_n_m_s {
-            if round == MOST_ROUNDS {
-                return Err(format!(
-                    "after {flown} flights one departs by {} N m s from what it was expanded to, allowed: {} of --noise, {}",
-                    terminal::short(departure_n_m_s),
-                    terminal::short(AGREES),
-                    terminal::short(AGREES * deviations.noise_n_m_s)
-                )
-                .into());
-            }
-            center = estimate.parameters;
-            continue;
+        let noise_n_m_s = deviations.noise_n_m_s;
+        if departure_n_m_s <= AGREES * noise_n_m_s {
+            let determined = estimate.directions.iter().filter(|it| it.observable).count();
+            return Ok(Fitted {
+                parameters: estimate.parameters,
+                covariance: covariance(&estimate.directions, deviations),
+                directions: estimate.directions,
+                chi_square: residuals.iter().map(|residual| (residual / noise_n_m_s).norm_squared()).sum(),
+                degrees_of_freedom: (3 * (telemetry.times_s.len() - arcs.len())).saturating_sub(determined),
+                arcs,
+                residuals_n_m_s: residuals,
+                flights: flown,
+            });
         }
-        let noise = deviations.noise_n_m_s;
-        let determined = estimate.directions.iter().filter(|it| it.observable).count();
-        return Ok(Fitted {
-            parameters: estimate.parameters,
-            covariance: covariance(&estimate.directions, deviations),
-            directions: estimate.directions,
-            chi_square: residuals.iter().map(|residual| (residual / noise).norm_squared()).sum(),
-            degrees_of_freedom: (3 * (telemetry.times_s.len() - arcs.len())).saturating_sub(determined),
-            arcs,
-            residuals_n_m_s: residuals,
-            flights: flown,
-        });
+        if round == MOST_ROUNDS {
+            return Err(format!(
+                "after {flown} flights one departs by {} N m s from what it was expanded to, allowed: {} of --noise, {}",
+                terminal::short(departure_n_m_s),
+                terminal::short(AGREES),
+                terminal::short(AGREES * noise_n_m_s)
+            )
+            .into());
+        }
+        center = estimate.parameters;
     }
-    Err("no expansion was made".into())
 }
 
 /// Of the parameters in their own units.
