@@ -22,6 +22,14 @@ const DUMPS: &str = "dump.count";
 const SOURCE: &str = "attitude.source";
 const STRATEGY: &str = "momentum.strategy";
 const THRESHOLD: &str = "dump.threshold";
+/// Standard deviations that are drawn by a seed, of which a history knows nothing: its flights are without.
+const DRAWN: [&str; 5] = [
+    "spacecraft.centerOfMassShift[1]",
+    "spacecraft.centerOfMassShift[2]",
+    "spacecraft.centerOfMassShift[3]",
+    "maneuver.magnitudeError",
+    "maneuver.directionError",
+];
 /// A component that is never reached.
 const NEVER_N_M_S: f64 = 1e9;
 
@@ -54,12 +62,16 @@ impl FlownMission {
         let run = Run { fmu: arguments.mission.clone(), template, ..Run::default() };
         let simulated = Simulated::of(&run)?;
         let (subject, folder) = simulated.open()?;
-        let Settings { times, sets, inputs, .. } = Settings::of(&subject, &simulated, None)?;
+        let Settings { times, mut sets, inputs, .. } = Settings::of(&subject, &simulated, None)?;
         let Subject::Fmu(fmu) = subject else {
             return Err(format!("{file}: found a system, allowed: a {MODEL}").into());
         };
         check_plant(&file, fmu.description(), &sets)?;
         check_inputs(&file, fmu.description(), inputs.as_ref())?;
+        let is_drawn = |name: &str| fmu.variable(name).is_ok_and(|it| loader::set_early(it).is_ok());
+        sets.extend(
+            DRAWN.iter().filter(|name| is_drawn(name)).map(|name| ((*name).to_owned(), Value::Real(0.0))),
+        );
         let flown = Self {
             fmu,
             sets,
