@@ -12,7 +12,7 @@ use super::scans::scan;
 use super::times::Times;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::spacecraft::Spacecraft;
-use crate::toml::{Checker, Document, FileError, Place};
+use crate::toml::{Checker, Document, FileError, Place, TIMELINE_LIMITS};
 
 /// Commands, panels and events one after the other; of each list the times grow, and one list at least is not empty.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +45,7 @@ impl Timeline {
     }
 
     fn read(file: &str, text: &str, spacecraft: &Spacecraft, reader: Reader) -> Result<Self, FileError> {
-        let document = Document::parse(file, text)?;
+        let document = Document::parse(file, text)?.limited(TIMELINE_LIMITS);
         let (description, findings) = document.read::<Description>()?;
         let mut commands = Commands::new(Checker::new(&document, findings), spacecraft, reader);
         let [place, panels_place, events_place] =

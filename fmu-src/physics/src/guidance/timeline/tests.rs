@@ -451,6 +451,16 @@ fn panels_and_events_stand_without_commands() {
 }
 
 #[test]
+fn panels_over_time_are_as_many_as_commands() {
+    let rows = |count: usize| -> String {
+        (0..count).map(|at| format!("[[panels]]\nat = {at}\nsunOffset = 0\n")).collect()
+    };
+    assert_eq!(read(&rows(10_000)).panels().len(), 10_000);
+    let error = Timeline::from_toml("t.toml", &rows(10_001), &spacecraft()).unwrap_err().to_string();
+    assert!(error.contains("found 10001 entries, allowed: at most 10000"), "{error}");
+}
+
+#[test]
 fn the_plant_has_neither_burns_nor_modes() {
     for (text, found) in [
         ("scenario = \"burn\"", "command[1].scenario: found the scenario burn"),
