@@ -16,6 +16,7 @@ mod mistakes;
 mod new_files;
 mod packs;
 mod plans;
+mod refits;
 mod runs;
 mod sizes;
 mod timelines;
