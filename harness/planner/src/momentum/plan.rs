@@ -1,0 +1,352 @@
+//! The optimal plan: fewest dumps, then fewest changes of the arrays, then least tilt, flown and linearised again until both agree.
+//!
+//! Each round linearises the momentum about the present controls, solves, and flies the answer through the FMU; what the flight gained
+//! more than the model is added to the model of the next round. A round ends the search where flight and plan differ by no more than
+//! [`AGREED`] of the limit and the flight stays below the limit. Within a round the programme is solved again about its own answer
+//! (sequential convex programming) with the range of the controls around it narrowed, for tilt, windmilling and alternation multiply.
+
+use std::time::{Duration, Instant};
+
+use nalgebra::Vector3;
+
+use super::{
+    baseline::{NoOffset, OffsetStep},
+    counted::{self, Groups},
+    flown::{Flown, SAME_S},
+    model::{ALL, Limit, Model, Part},
+    program::{Goal, Solution},
+    torque::{Controls, LitCraft},
+    windows::{Layout, Window},
+};
+
+/// Flight and plan agree where they differ by less than this share of the limit.
+pub const AGREED: f64 = 0.02;
+/// Share of the limit that a plan leaves, for what it cannot know before the flight.
+const GUARD: f64 = 0.01;
+/// Rounds at most.
+const MOST_ROUNDS: usize = 8;
+/// Solutions within a round at most.
+const MOST_STEPS: usize = 8;
+/// By which the range about the present controls narrows from one to the next.
+const NARROWED: f64 = 0.6;
+/// A solution is taken where the model about it differs by less than this share of the limit.
+const TAKEN: f64 = 2e-3;
+
+/// What is planned.
+#[derive(Clone, Debug)]
+pub struct PlanTask {
+    /// Windows, contacts, how far controls go.
+    pub layout: Layout,
+    /// What momentum is kept below.
+    pub limit: Limit,
+    /// Dumps that the plan may have.
+    pub dumps: usize,
+    /// Time for counted changes, in s.
+    pub budget_s: f64,
+}
+
+/// A dump of the plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlannedDump {
+    /// In s of the flight.
+    pub at_s: f64,
+    /// Momentum after it, EME2000, in N m s.
+    pub after_n_m_s: Vector3<f64>,
+}
+
+/// What a plan says at a row of its flight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlannedRow {
+    /// In s of the flight.
+    pub time_s: f64,
+    /// |H| as planned, in N m s.
+    pub planned_n_m_s: f64,
+    /// |H| as flown, in N m s.
+    pub simulated_n_m_s: f64,
+    /// What it may come to, in N m s.
+    pub allowed_n_m_s: f64,
+    /// Length of the difference of both, in N m s.
+    pub difference_n_m_s: f64,
+}
+
+/// What stands in the way of a plan without dumps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exceeded {
+    /// By which the limit is exceeded without dumps at best, in N m s.
+    pub excess_n_m_s: f64,
+    /// When it is first, in s of the flight: no choice of controls keeps the limit up to then.
+    pub first_s: f64,
+}
+
+/// A plan.
+#[derive(Clone, Debug)]
+pub struct MomentumPlan {
+    /// With their controls.
+    pub windows: Vec<Window>,
+    /// Steps of the baseline.
+    pub baseline: Vec<OffsetStep>,
+    /// Its dumps, in order.
+    pub dumps: Vec<PlannedDump>,
+    /// No plan has fewer.
+    pub dumps_at_least: usize,
+    /// Changes of the arrays.
+    pub changes: usize,
+    /// No plan has fewer.
+    pub changes_at_least: usize,
+    /// Row by row.
+    pub rows: Vec<PlannedRow>,
+    /// Flights that it took.
+    pub rounds: usize,
+    /// Whether the last flight agrees with it and stays below the limit.
+    pub holds: bool,
+    /// Where the limit is not kept without dumps.
+    pub exceeded: Option<Exceeded>,
+    /// The last flight.
+    pub flight: Flown,
+}
+
+impl MomentumPlan {
+    /// Greatest |H| as planned and as flown, in N m s.
+    pub fn greatest_n_m_s(&self) -> [f64; 2] {
+        let most = |of: fn(&PlannedRow) -> f64| self.rows.iter().map(of).fold(0.0, f64::max);
+        [most(|row| row.planned_n_m_s), most(|row| row.simulated_n_m_s)]
+    }
+
+    /// Greatest difference of flight and plan, in N m s.
+    pub fn difference_n_m_s(&self) -> f64 {
+        self.rows.iter().map(|row| row.difference_n_m_s).fold(0.0, f64::max)
+    }
+}
+
+/// Why there is no plan at all.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanError {
+    /// The corridor is empty somewhere.
+    #[error("no offset keeps the light on the cells in its corridor {distance_au:.3} AU from the Sun", distance_au = .0.distance_au)]
+    Corridor(NoOffset),
+    /// A flight failed.
+    #[error("{0}")]
+    Flight(Box<dyn std::error::Error>),
+    /// The solver found nothing.
+    #[error("no programme was solved: {0}")]
+    Programme(&'static str),
+}
+
+/// How a plan is flown.
+pub trait Flies {
+    /// Flies windows and dumps.
+    ///
+    /// # Errors
+    /// The flight fails.
+    fn fly(&mut self, windows: &[Window], dumps: &[PlannedDump])
+    -> Result<Flown, Box<dyn std::error::Error>>;
+
+    /// Told what goes on.
+    fn progress(&mut self, doing: &str);
+}
+
+/// The whole flight as a part.
+fn whole(model: &Model) -> Part {
+    Part { steps: [0, model.instants().len()], free: false }
+}
+
+/// Gives every window the controls of a solution, and every dump its momentum.
+fn give(model: &mut Model, leaders: &[usize], solution: &Solution) {
+    for index in 0..model.windows.len() {
+        let mut controls = Controls::default();
+        for control in ALL {
+            controls = controls.with(control, solution.controls[Model::index(leaders, index, control)]);
+        }
+        model.windows[index].controls = controls;
+    }
+    for ((_, after), begin) in model.dumps.iter_mut().zip(&solution.begins) {
+        *after = *begin;
+    }
+}
+
+/// Solves about its own answers; whether the limits are kept.
+fn refine(
+    model: &mut Model,
+    craft: &LitCraft,
+    leaders: &[usize],
+    goal: Goal,
+    flies: &mut dyn Flies,
+) -> Result<bool, PlanError> {
+    let limit = model.limit.momentum_n_m_s;
+    let mut trust = 1.0;
+    let mut best: Option<(f64, Vec<Window>, Vec<(usize, Vector3<f64>)>)> = None;
+    for step in 0..MOST_STEPS {
+        flies.progress("momentum");
+        let program = model.program(leaders, whole(model), [GUARD, trust]);
+        let cheapest = (goal == Goal::LeastCost).then(|| program.solve(Goal::LeastCost)).flatten();
+        let is_cheapest = cheapest.is_some();
+        let Some(solution) = cheapest.or_else(|| program.solve(Goal::LeastExcess)) else {
+            if step == 0 {
+                return Err(PlanError::Programme("the bounds of the controls leave none"));
+            }
+            break;
+        };
+        give(model, leaders, &solution);
+        model.linearise(craft);
+        let momentum = model.momentum_n_m_s();
+        let of_instants = model.instants().iter().zip(&solution.momentum);
+        let off = of_instants.map(|(row, planned)| (momentum[*row] - planned).norm()).fold(0.0, f64::max);
+        model.look_between();
+        let (excess, _) = model.excess_n_m_s();
+        // A cheap answer that keeps the limits is better than one that keeps them by more.
+        let merit = if goal == Goal::LeastCost { excess.max(-0.5 * GUARD * limit) } else { excess };
+        if best.as_ref().is_none_or(|(least, ..)| merit <= *least) {
+            best = Some((merit, model.windows.clone(), model.dumps.clone()));
+        }
+        if off < TAKEN * limit && (is_cheapest || goal == Goal::LeastExcess) && step > 0 {
+            break;
+        }
+        trust *= NARROWED;
+    }
+    if let Some((excess, windows, dumps)) = best {
+        (model.windows, model.dumps) = (windows, dumps);
+        model.linearise(craft);
+        model.look_between();
+        return Ok(excess <= 0.0);
+    }
+    Ok(false)
+}
+
+/// What was counted in an earlier round.
+struct Structure {
+    groups: Groups,
+    dumps_at_least: usize,
+    exceeded: Option<Exceeded>,
+}
+
+/// Counts dumps and changes about the model.
+fn structure(
+    model: &mut Model,
+    craft: &LitCraft,
+    task: &PlanTask,
+    flies: &mut dyn Flies,
+) -> Result<Structure, PlanError> {
+    let single = counted::single(model);
+    let (mut dumps_at_least, mut exceeded) = (0, None);
+    let start = model.windows.clone();
+    if !refine(model, craft, &single, Goal::LeastCost, flies)? {
+        // Another way: from the start again, as far below the limit as it goes.
+        let first = (model.excess_n_m_s().0, model.windows.clone());
+        model.windows = start;
+        model.linearise(craft);
+        if !refine(model, craft, &single, Goal::LeastExcess, flies)? {
+            if first.0 < model.excess_n_m_s().0 {
+                model.windows = first.1;
+                model.linearise(craft);
+            }
+            let excess_n_m_s = model.excess_n_m_s().0;
+            flies.progress("dumps");
+            let found = counted::fewest_dumps(model, GUARD, &mut || flies.progress("dumps"));
+            let Some(found) = found else {
+                return Err(PlanError::Programme("the limit is exceeded between two instants"));
+            };
+            dumps_at_least = found.at_least;
+            if let Some(row) = found.rows.first() {
+                let first_s =
+                    counted::first_exceeded_s(model, GUARD).unwrap_or(model.flown.rows[*row].time_s);
+                exceeded = Some(Exceeded { excess_n_m_s, first_s });
+            }
+            model.dumps = found.rows.into_iter().map(|row| (row, Vector3::zeros())).collect();
+            refine(model, craft, &single, Goal::LeastCost, flies)?;
+        }
+    }
+    flies.progress("changes");
+    let until = Instant::now() + Duration::from_secs_f64(task.budget_s.clamp(0.0, 1e6));
+    let groups = counted::fewest_changes(model, GUARD, until, &mut || flies.progress("changes"));
+    let groups = groups.unwrap_or_else(|| Groups { changes: single.len() - 1, at_least: 0, leaders: single });
+    Ok(Structure { groups, dumps_at_least, exceeded })
+}
+
+/// The optimal plan of a mission whose flight is given.
+///
+/// # Errors
+/// A corridor without an offset, a flight that fails, a programme without an answer.
+pub fn plan(
+    task: &PlanTask,
+    craft: &LitCraft,
+    flown: &Flown,
+    flies: &mut dyn Flies,
+) -> Result<MomentumPlan, PlanError> {
+    let (windows, baseline) = task.layout.windows(flown).map_err(PlanError::Corridor)?;
+    let mut model = Model::new(craft, flown.clone(), windows, task.limit.clone());
+    let mut counts: Option<Structure> = None;
+    let mut rounds = 0;
+    loop {
+        rounds += 1;
+        if counts.is_none() {
+            counts = Some(structure(&mut model, craft, task, flies)?);
+        }
+        let Some(found) = &counts else { continue };
+        let leaders = found.groups.leaders.clone();
+        let kept = refine(&mut model, craft, &leaders, Goal::LeastCost, flies)?;
+        let dumps = planned_dumps(&model);
+        flies.progress("flight");
+        let flight = flies.fly(&model.windows, &dumps).map_err(PlanError::Flight)?;
+        let rows = rows(&model, &flight);
+        let limit = task.limit.momentum_n_m_s;
+        let off = rows.iter().map(|row| row.difference_n_m_s).fold(0.0, f64::max);
+        let below = rows.iter().all(|row| row.simulated_n_m_s <= row.allowed_n_m_s)
+            && flight.greatest_momentum().0 <= limit * (1.0 - task.limit.margin);
+        let holds = off <= AGREED * limit && below;
+        if holds || rounds == MOST_ROUNDS {
+            return Ok(MomentumPlan {
+                windows: model.windows,
+                baseline,
+                dumps,
+                dumps_at_least: found.dumps_at_least,
+                changes: found.groups.changes,
+                changes_at_least: found.groups.at_least,
+                rows,
+                rounds,
+                holds,
+                exceeded: found.exceeded,
+                flight,
+            });
+        }
+        model.take(&flight);
+        model.look_between();
+        if !kept {
+            // What was counted does not do about the flight.
+            model.dumps.clear();
+            counts = None;
+        }
+    }
+}
+
+fn planned_dumps(model: &Model) -> Vec<PlannedDump> {
+    let dumps = model.dumps.iter();
+    dumps
+        .map(|(row, after)| PlannedDump { at_s: model.flown.rows[*row].time_s, after_n_m_s: *after })
+        .collect()
+}
+
+fn rows(model: &Model, flight: &Flown) -> Vec<PlannedRow> {
+    let (momentum, allowed) = (model.momentum_n_m_s(), model.allowed_n_m_s());
+    let is_at_dump = |time_s: f64| {
+        let of_model =
+            model.dumps.iter().any(|(row, _)| (model.flown.rows[*row].time_s - time_s).abs() <= SAME_S);
+        of_model || model.is_reset_at(time_s)
+    };
+    let all = model.flown.rows.iter().zip(&momentum).zip(&allowed);
+    all.map(|((row, planned), allowed)| {
+        let simulated = flight.momentum_n_m_s(row.time_s);
+        // At a dump the one is before it, the other behind.
+        let difference = if is_at_dump(row.time_s) { 0.0 } else { (simulated - planned).norm() };
+        PlannedRow {
+            time_s: row.time_s,
+            planned_n_m_s: planned.norm(),
+            simulated_n_m_s: simulated.norm(),
+            allowed_n_m_s: *allowed,
+            difference_n_m_s: difference,
+        }
+    })
+    .collect()
+}
+
+#[cfg(test)]
+mod tests;
