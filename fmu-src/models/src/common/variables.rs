@@ -359,7 +359,7 @@ impl GuidedVariables {
         Guided { schedule: schedule.in_orbit(schedule.period_s), ..law }
     }
 
-    /// The law by shares of the period, in its phase, which nobody having given it is that about the Sun or about a planet.
+    /// The law by shares of the period, in the phase that acts: where nobody gave it, that about the Sun or about a planet.
     pub fn in_phase<M: Model>(
         &self,
         context: &Context<'_, M>,
@@ -368,10 +368,20 @@ impl GuidedVariables {
         (law, is_about_sun): (Guided, bool),
     ) -> Guided {
         let law = self.by_shares(context, values, defaults, law);
+        let throughout = self.phase(context, values, defaults, is_about_sun) == GuidedPhase::Cruise;
+        Guided { schedule: Schedule { throughout, ..law.schedule }, ..law }
+    }
+
+    /// The phase that acts.
+    pub fn phase<M: Model>(
+        &self,
+        context: &Context<'_, M>,
+        values: &Values,
+        defaults: &WindowDefaults,
+        is_about_sun: bool,
+    ) -> GuidedPhase {
         let is_given = context.given(values, &[self.phase.into()]).has(self.phase);
-        let phase = if is_given { values.choice(self.phase) } else { defaults.phase(is_about_sun) };
-        let schedule = Schedule { throughout: phase == GuidedPhase::Cruise, ..law.schedule };
-        Guided { schedule, ..law }
+        if is_given { values.choice(self.phase) } else { defaults.phase(is_about_sun) }
     }
 
     /// Refuses science that unloads without a strategy that chooses the Sun's place.

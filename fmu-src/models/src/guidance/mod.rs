@@ -11,6 +11,7 @@ use fmi_export::{
     About, Dependencies, Extensions, Failure, InputsOverTime, Manual, Model, OutputRates, Real, SetupError,
     StartValue, Step, StepEnd, Values,
 };
+use nalgebra::Vector3;
 use physics::enumeration::Enumerated;
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
@@ -22,7 +23,7 @@ use physics::guidance::modes::system::{
     GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs, TimedEntries,
 };
 use physics::guidance::pointing::command::Scenario;
-use physics::guidance::timeline::TimelineClock;
+use physics::guidance::timeline::TimelineDump;
 use physics::management::{DumpRequests, SampledManager};
 use physics::numerics::work::Work;
 
@@ -37,7 +38,7 @@ use variables::GuidanceVariables;
 
 impl Model for Guidance {
     const NAME: &'static str = "Guidance";
-    const STATE_VERSION: u32 = 7;
+    const STATE_VERSION: u32 = 8;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &[TIMELINE_FILE, EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
@@ -100,6 +101,7 @@ impl Model for Guidance {
         let mut state = State {
             system: GuidanceState::new(inputs::start_attitude(context, values)?, start_s),
             dumps: DumpRequests::default(),
+            events_over: 0,
             burn_entry: None,
             time_s: start_s,
             epoch_minus_time_s: time::epoch_minus_time_s(epoch_s, start_s),
@@ -109,6 +111,7 @@ impl Model for Guidance {
             coarse: CoarseEphemeris::default(),
             fixed: None,
         };
+        state.events_over = state.events_until(context, start_s.next_down());
         // Masters that connect inputs one by one look before all of them are set: the first step says what is missing.
         let mut shown = State { warned_unconnected: true, windows_are_checked: true, ..state.clone() };
         let mut fixed = Fixed::read(context, values)?;
@@ -262,13 +265,27 @@ impl State {
         let timeline = context.setup.timeline.as_ref();
         let found = timeline.zip(self.burn_entry).and_then(|(timeline, line)| {
             let burn = timeline.entry_on_line(line)?.burn?;
-            let clock_minus_time_s = match timeline.clock() {
-                TimelineClock::Epoch => self.epoch_minus_time_s,
-                TimelineClock::FmiTime => 0.0,
-            };
-            Some(burn.settings(parameters, clock_minus_time_s))
+            Some(burn.settings(parameters, timeline.clock_minus_time_s(self.epoch_minus_time_s)))
         });
         found.unwrap_or(*parameters)
+    }
+
+    /// How many events of the timeline have come at `time_s`.
+    fn events_until(&self, context: &Plan<'_>, time_s: f64) -> usize {
+        let Some(timeline) = context.setup.timeline.as_ref() else { return 0 };
+        let clock_minus_time_s = timeline.clock_minus_time_s(self.epoch_minus_time_s);
+        timeline.events().partition_point(|event| event.at_s - clock_minus_time_s <= time_s)
+    }
+
+    /// The momentum that a dump of the timeline leaves, body frame, in N m s, where one has come since the last sample.
+    fn scheduled_dump(&mut self, context: &Plan<'_>, time_s: f64) -> Option<Vector3<f64>> {
+        let (before, now) = (self.events_over, self.events_until(context, time_s));
+        self.events_over = now;
+        let events = context.setup.timeline.as_ref()?.events().get(before..now)?;
+        events.iter().rev().find_map(|event| event.dump).map(|dump| match dump {
+            TimelineDump::Requested => Vector3::zeros(),
+            TimelineDump::To { momentum_body_n_m_s } => momentum_body_n_m_s,
+        })
     }
 
     /// Takes the sample that is due; units of work that it took beside its own.
@@ -333,7 +350,8 @@ impl State {
         sensed.is_of_timeline = entries.mode.is_some();
         let delta_v_body_m_s = reader.delta_v_body_m_s();
         let momentum_body_n_m_s = reader.momentum_body_n_m_s();
-        self.dumps.sample(&management::policy(context, values), &momentum_body_n_m_s);
+        let scheduled = self.scheduled_dump(context, time_s);
+        self.dumps.sample(&management::policy(context, values), &momentum_body_n_m_s, scheduled);
         let keep_in = settings.modes.operational.keep_in.unwrap_or(settings.keep_in);
         let manager = management::manager(context, values, &fixed.panels, &keep_in)?;
         let manager = SampledManager { momentum_body_n_m_s, ..manager };

@@ -15,6 +15,8 @@ pub struct State {
     pub system: GuidanceState,
     /// Requests of dumps.
     pub dumps: DumpRequests,
+    /// How many events of the timeline have come.
+    pub events_over: usize,
     /// The line of the timeline's entry whose burn the present or last one is; `None`: the parameters'.
     pub burn_entry: Option<usize>,
     /// The communication point reached, in s.

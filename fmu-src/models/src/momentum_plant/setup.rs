@@ -12,7 +12,7 @@ use physics::guidance::pointing::scan::ScanCompatibility;
 use physics::guidance::pointing::scenario::GuidanceHardware;
 use physics::guidance::timeline::{Timeline, TimelineLaw};
 use physics::momentum::WheelArray;
-use physics::plant::{ControlDefaults, PreparedSpacecraft, ScheduledEvent};
+use physics::plant::{ControlDefaults, PanelStep, PreparedSpacecraft};
 use physics::spacecraft::{Spacecraft, SunshadeModel};
 use serde::Serialize;
 
@@ -64,9 +64,9 @@ pub struct PlantSetup {
     /// Commands over time, if there is a file of them; it does not enter the GUID.
     #[serde(skip)]
     pub timeline: Option<Arc<Timeline>>,
-    /// Dumps, maneuvers and places of the centre of mass by time, in order; they do not enter the GUID.
+    /// Its panels, one by one; empty where there is none.
     #[serde(skip)]
-    pub scheduled_events: Arc<[ScheduledEvent]>,
+    pub panel_steps: Vec<Arc<[PanelStep]>>,
     /// How disturbed orbits are integrated.
     #[serde(skip)]
     orbit_method: OrbitMethod,
@@ -96,7 +96,7 @@ impl PlantSetup {
             wheel_array,
             ephemeris: None,
             timeline: None,
-            scheduled_events: Arc::default(),
+            panel_steps: Vec::new(),
             orbit_method: OrbitMethod::default(),
             planets_at_start: OnceLock::new(),
             spacecraft,
@@ -106,7 +106,11 @@ impl PlantSetup {
     /// Takes the commands of a timeline.
     pub fn take_timeline(&mut self, file: &str, text: &str) -> Result<(), SetupError> {
         let timeline = Timeline::of_plant(file, text, &self.spacecraft);
-        self.timeline = Some(Arc::new(timeline.map_err(|error| SetupError(error.to_string()))?));
+        let timeline = timeline.map_err(|error| SetupError(error.to_string()))?;
+        let panels = self.spacecraft.panels.iter().enumerate();
+        self.panel_steps =
+            panels.map(|(k, panel)| PanelStep::of_timeline(timeline.panels(), k, panel)).collect();
+        self.timeline = Some(Arc::new(timeline));
         Ok(())
     }
 

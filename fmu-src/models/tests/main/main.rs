@@ -34,6 +34,7 @@ mod science_unload;
 mod spacecraft;
 mod spin_plant;
 mod start_values;
+mod timeline;
 mod torn_states;
 mod valves;
 mod vocabulary;

@@ -137,12 +137,6 @@ impl<M: Model> NamedModel<M> {
         self
     }
 
-    /// With the setup changed.
-    pub(crate) fn with_setup(mut self, change: impl FnOnce(&mut M::Setup)) -> Self {
-        change(&mut self.setup);
-        self
-    }
-
     /// What refuses to fly with these start values says.
     pub(crate) fn refusal(&self, sets: &[(&str, f64)]) -> String {
         self.fly(0.0, sets).err().unwrap_or_else(|| panic!("it flies with {sets:?}")).to_string()

@@ -1,48 +1,45 @@
 //! Scheduled events happen at their very time, once, whatever the steps; in controlled and free flight dumps alone may.
 
-use std::sync::Arc;
-
 use models::MomentumPlant;
 use nalgebra::Vector3;
-use physics::plant::{DumpTarget, Maneuver, ScheduledEvent};
 
 use super::maneuvers::{ERRORS, MESSENGER_FULL, full};
 use super::named_model::{NamedModel, assert_cuts_change_nothing, assert_same};
 
-const NOTHING: ScheduledEvent =
-    ScheduledEvent { at_s: 0.0, dump: None, maneuver: None, center_of_mass_body_m: None };
-
-fn dump(at_s: f64, target: DumpTarget) -> ScheduledEvent {
-    ScheduledEvent { at_s, dump: Some(target), ..NOTHING }
+/// An item of `[[event]]`; Rust writes numbers as TOML reads them.
+fn event(at_s: f64, what: &str) -> String {
+    format!("[[event]]\nat = {at_s:?}\n{what}\n")
 }
 
-fn to(x: f64, y: f64, z: f64) -> DumpTarget {
-    DumpTarget::Momentum(Vector3::new(x, y, z))
+fn dump(at_s: f64) -> String {
+    event(at_s, "dump = true")
 }
 
-fn maneuver(at_s: f64, delta_v: [f64; 3], dumps: bool) -> ScheduledEvent {
-    let maneuver = Maneuver { delta_v_inertial_m_s: delta_v.into(), thrusters: None, dumps };
-    ScheduledEvent { at_s, maneuver: Some(maneuver), ..NOTHING }
+fn dump_to(at_s: f64, momentum: [f64; 3]) -> String {
+    event(at_s, &format!("dump = {momentum:?}"))
 }
 
-fn center(at_s: f64, x: f64, y: f64, z: f64) -> ScheduledEvent {
-    ScheduledEvent { at_s, center_of_mass_body_m: Some(Vector3::new(x, y, z)), ..NOTHING }
+fn maneuver(at_s: f64, delta_v: [f64; 3], dumps: bool) -> String {
+    event(at_s, &format!("maneuver = {{ deltaV = {delta_v:?}, dump = {dumps} }}"))
 }
 
-fn scheduled(events: &[ScheduledEvent]) -> NamedModel<MomentumPlant> {
+fn center(at_s: f64, place: [f64; 3]) -> String {
+    event(at_s, &format!("centerOfMass = {place:?}"))
+}
+
+fn scheduled(events: &[String]) -> NamedModel<MomentumPlant> {
     NamedModel::<MomentumPlant>::with("messenger-full.toml", MESSENGER_FULL)
-        .with_setup(|setup| setup.scheduled_events = Arc::from(events))
+        .with_schedule("timeline.toml", &events.concat())
 }
 
 #[test]
 fn events_fall_at_their_time_in_steps_of_any_length_to_the_bit() {
-    let with_dump =
-        ScheduledEvent { dump: Some(to(0.0, 0.5, 0.0)), ..maneuver(43_211.7, [0.1, 0.2, -0.3], true) };
+    let with_dump = maneuver(43_211.7, [0.1, 0.2, -0.3], true) + "dump = [0.0, 0.5, 0.0]\n";
     let named = scheduled(&[
-        dump(5000.5, DumpTarget::Requested),
-        center(20_000.0, 0.01, 0.0, -0.02),
+        dump(5000.5),
+        center(20_000.0, [0.01, 0.0, -0.02]),
         with_dump,
-        dump(43_211.7, to(0.3, 0.0, 0.0)),
+        dump_to(43_211.8, [0.3, 0.0, 0.0]),
         maneuver(86_400.0, [0.0, 5.0, 0.0], false),
         maneuver(150_000.25, [1.0, 0.0, 0.0], true),
     ]);
@@ -60,7 +57,7 @@ fn events_fall_at_their_time_in_steps_of_any_length_to_the_bit() {
 #[test]
 fn the_momentum_is_the_dumps_target_at_its_time() {
     let at_s = 5000.125;
-    let named = scheduled(&[dump(at_s, to(0.5, -1.0, 2.0)), dump(9000.0, DumpTarget::Requested)]);
+    let named = scheduled(&[dump_to(at_s, [0.5, -1.0, 2.0]), dump(9000.0)]);
     let mut flight = named.fly(0.0, &[("start.momentum[1]", 1.0)]).unwrap();
     flight.set_elements("dump.target", &[0.0, 0.25, 0.0]);
     flight.step_to(at_s - 1e-6).unwrap();
@@ -78,7 +75,7 @@ fn a_maneuver_of_the_schedule_is_one_of_the_inputs() {
     let named = scheduled(&[maneuver(7200.0, delta_v, true)]);
     let mut planned = named.fly(0.0, &ERRORS).unwrap();
     let asked = full();
-    let mut asked = asked.fly(0.0, &[&ERRORS[..], &[("maneuver.thrusters", 0.0)]].concat()).unwrap();
+    let mut asked = asked.fly(0.0, &ERRORS).unwrap();
     asked.step_to(7200.0).unwrap();
     asked.set("maneuver.request", 1.0);
     asked.set_elements("maneuver.deltaV", &delta_v);
@@ -107,7 +104,7 @@ fn one_at_the_start_happens_as_the_flight_begins_and_earlier_ones_never() {
 
 #[test]
 fn a_centre_of_mass_holds_until_the_parameter_is_set_anew() {
-    let named = scheduled(&[center(1000.0, 0.0, 0.02, 0.01), center(5000.0, 0.0, 0.0, 0.03)]);
+    let named = scheduled(&[center(1000.0, [0.0, 0.02, 0.01]), center(5000.0, [0.0, 0.0, 0.03])]);
     let mut flight = named.fly(0.0, &[]).unwrap();
     let parameter = flight.vector("spacecraft.centerOfMass");
     assert_eq!(flight.vector("centerOfMass"), parameter);
@@ -132,7 +129,7 @@ fn a_centre_of_mass_holds_until_the_parameter_is_set_anew() {
 
 #[test]
 fn by_torque_dumps_begin_on_schedule_and_the_rest_is_refused() {
-    let named = scheduled(&[dump(20.25, to(0.0, 0.1, 0.0))]);
+    let named = scheduled(&[dump_to(20.25, [0.0, 0.1, 0.0])]);
     for source in [3.0, 4.0] {
         let sets = [("attitude.source", source), ("start.q[4]", 1.0), ("wheel[1].startMomentum", 0.5)];
         let fly = || named.fly(0.0, &sets).unwrap();
@@ -156,13 +153,14 @@ fn by_torque_dumps_begin_on_schedule_and_the_rest_is_refused() {
         assert!(flight.vector("dump.impulse").norm() > 0.2);
     }
     let controlled = [("attitude.source", 3.0)];
-    for (event, what) in [
-        (maneuver(50.0, [1.0, 0.0, 0.0], false), "a maneuver"),
-        (center(50.0, 0.0, 0.0, 0.0), "a centre of mass"),
-    ] {
+    for (event, what) in
+        [(maneuver(50.0, [1.0, 0.0, 0.0], false), "a maneuver"), (center(50.0, [0.0; 3]), "a centre of mass")]
+    {
         let found = scheduled(&[event]).refusal(&controlled);
         assert!(
-            found.contains(what) && found.contains("50.0 s") && found.contains("a dump alone"),
+            found.contains(what)
+                && found.contains("on line 1 of the timeline")
+                && found.contains("a dump alone"),
             "{found}"
         );
     }

@@ -17,13 +17,22 @@ pub struct DumpRequests {
 }
 
 impl DumpRequests {
-    /// Takes a sample: a component asks once, and again after it came back below its threshold.
-    pub fn sample(&mut self, policy: &DumpPolicy, momentum_body_n_m_s: &Vector3<f64>) {
+    /// Takes a sample: a component asks once, and again after it came back below its threshold; a dump that is `scheduled` for it
+    /// leaves the momentum that it names.
+    pub fn sample(
+        &mut self,
+        policy: &DumpPolicy,
+        momentum_body_n_m_s: &Vector3<f64>,
+        scheduled: Option<Vector3<f64>>,
+    ) {
         let exceeded = policy.exceeded_by(momentum_body_n_m_s);
         self.request = exceeded.iter().zip(self.exceeded).any(|(now, before)| *now && !before);
         self.exceeded = exceeded;
         if self.request {
             self.target_body_n_m_s = policy.after(momentum_body_n_m_s);
+        }
+        if let Some(target_body_n_m_s) = scheduled {
+            (self.request, self.target_body_n_m_s) = (true, target_body_n_m_s);
         }
     }
 
@@ -52,7 +61,7 @@ mod tests {
         };
         let mut requests = DumpRequests::default();
         let mut sample = |x, y, z| {
-            requests.sample(&policy, &Vector3::new(x, y, z));
+            requests.sample(&policy, &Vector3::new(x, y, z), None);
             (requests.is_requested(), *requests.target_body_n_m_s())
         };
         assert_eq!(sample(4.0, -5.0, 0.0), (false, Vector3::zeros()));

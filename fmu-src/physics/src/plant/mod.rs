@@ -52,9 +52,7 @@ pub use settings::ideal_settings::IdealSettings;
 pub use settings::panel_setting::{PanelSetting, PanelStep, Ramp, SunAt};
 pub use settings::radiation_settings::RadiationSettings;
 pub use settings::reaction_control_settings::{ReactionControlSettings, ThrustCommand};
-pub use settings::thruster_events::{
-    DumpTarget, Maneuver, ScheduledEvent, ThrusterEvent, ThrusterEventSettings,
-};
+pub use settings::thruster_events::{Maneuver, ThrusterEvent, ThrusterEventSettings};
 pub use settings::work::{Cost, Work, WorkExceeded};
 pub use thrusters::reaction_control::Thrusters;
 pub use thrusters::thruster_load::{ThrusterLoad, ThrusterTotals};

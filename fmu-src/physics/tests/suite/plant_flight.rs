@@ -347,6 +347,7 @@ fn spans_end_at_the_number_where_a_panel_goes_elsewhere() {
         };
         let timeline = |panel: usize| PanelSetting::Timeline {
             steps: steps(panel),
+            clock_minus_time_s: 0.0,
             before_rad: OFFSETS_RAD[0][panel],
             tilt_sign: 1.0,
         };

@@ -36,6 +36,7 @@ use physics::plant::PanelSetting;
 use super::setup::Plan;
 use super::variables::choices::{EphemerisSource, ModeRequest};
 use super::variables::commands::AimpointVariables;
+use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::ephemeris;
 use crate::common::management::{NO_ANTENNA, check_windows_have_antenna};
 use crate::common::variables::NO_GIMBAL;
@@ -130,6 +131,9 @@ pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     values.set_real(v.prime_meridian, planet.prime_meridian_rad);
     values.set_real(v.rotation_rate, planet.rotation_rate_rad_s);
     values.set_real(v.gravitational_parameter, planet.gm_m3_s2);
+    let guided = &context.variables.guided;
+    let phase = guided.phase(context, values, &context.setup.windows, body == Body::Sun);
+    values.set_choice(guided.phase, phase);
 }
 
 /// The burn by its parameters and the spacecraft's thrusters.
@@ -176,7 +180,7 @@ pub(super) fn settings<'a>(
     let method = values.choice(v.keep_in.method).0;
     let axis_body = Vector3::from(values.vector(v.keep_in.axis));
     if axis_body == Vector3::from([0.0; 3]) {
-        return Err(Failure::new("keepIn.axis: found (0, 0, 0), allowed: a vector of any length but zero"));
+        return Err(Failure::new(ZERO_KEEP_IN_AXIS));
     }
     if real(v.gimbal.minimum) > real(v.gimbal.maximum) {
         return Err(Failure::new(format!(

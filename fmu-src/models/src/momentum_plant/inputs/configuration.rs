@@ -22,6 +22,7 @@ use physics::spacecraft::PanelControl;
 
 use super::center::Center;
 use crate::common::center::CenterBody;
+use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::ephemeris;
 use crate::common::management::{check_strategy_has_antenna, check_windows, check_windows_have_antenna};
 use crate::common::spacecraft::inertia_body_kg_m2;
@@ -61,8 +62,10 @@ pub(super) fn read(
         ephemeris::check_start(epoch_s)?;
     }
     let corridor = variables.articulation.read(values)?;
+    let followed = context.setup.timeline.as_ref().filter(|_| values.boolean(variables.timeline.enabled));
+    let clock_minus_time_s = followed.map_or(0.0, |it| it.clock_minus_time_s(epoch_minus_time_s));
     panels.clear();
-    panels.extend(variables.panel.iter().map(|panel| {
+    panels.extend(variables.panel.iter().enumerate().map(|(k, panel)| {
         if !values.boolean(panel.enabled) {
             return PanelSetting::Disabled;
         }
@@ -75,10 +78,13 @@ pub(super) fn read(
         let offset = |offset| PanelSetting::SunOffset { offset, tilt_sign };
         match values.choice(panel.control).0 {
             PanelControl::Angle => PanelSetting::Angle(ramp(panel.angle)),
-            // No timeline says anything of panels yet.
-            PanelControl::SunOffset | PanelControl::Timeline => {
-                offset(Ramp::held(values.real(panel.sun_offset)))
-            }
+            PanelControl::SunOffset => offset(Ramp::held(values.real(panel.sun_offset))),
+            PanelControl::Timeline => PanelSetting::Timeline {
+                steps: followed.and_then(|_| context.setup.panel_steps.get(k).cloned()).unwrap_or_default(),
+                clock_minus_time_s,
+                before_rad: values.real(panel.sun_offset),
+                tilt_sign,
+            },
             PanelControl::Command => offset(ramp(panel.sun_offset_command)),
             PanelControl::Distance => PanelSetting::Distance { suns: corridor.target_suns, tilt_sign },
         }
@@ -87,7 +93,9 @@ pub(super) fn read(
         epoch_minus_time_s,
         center: data.body,
         attitude: attitude(context, values, state, &orbit)?,
-        timeline: timeline(context, values, data, epoch_minus_time_s),
+        timeline: followed
+            .map(|_| timeline(context.variables, values, data, clock_minus_time_s))
+            .transpose()?,
         orbit,
         motion: motion(variables, values, data, time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s)),
         ephemeris: ephemeris_source(&context.setup.bodies.body(data.body), context, values, state.waiting)?,
@@ -108,7 +116,10 @@ pub(super) fn read(
         effects: variables.laws.active(values, switches),
         momentum: settings(context, values),
         thruster_events: ThrusterEventSettings {
-            schedule: context.setup.scheduled_events.clone(),
+            schedule: followed.map(|it| it.events().clone()).unwrap_or_default(),
+            clock_minus_time_s,
+            thrusters: values.choice(variables.maneuver.thrusters).0,
+            dumps: values.boolean(variables.maneuver.dump),
             magnitude_error: values.real(variables.maneuver.magnitude_error),
             direction_error_rad: values.real(variables.maneuver.direction_error),
             center_of_mass_shift_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass_shift)),
@@ -257,18 +268,21 @@ pub(super) fn guidance_law(
     Ok(variables.guided.in_phase(context, values, &context.setup.windows, (law, !is_planet)))
 }
 
-/// What the timeline goes by, where there is one that is followed.
+/// What the timeline goes by.
 fn timeline(
-    context: &Plan<'_>,
+    variables: &PlantVariables,
     values: &Values,
     center: &BodyData,
-    epoch_minus_time_s: f64,
-) -> Option<TimelineSettings> {
-    let v = &context.variables.keep_in;
-    let timeline = context.setup.timeline.as_ref()?;
-    values.boolean(context.variables.timeline.enabled).then(|| TimelineSettings {
+    clock_minus_time_s: f64,
+) -> Result<TimelineSettings, Failure> {
+    let v = &variables.keep_in;
+    let axis_body = Vector3::from(values.vector(v.axis));
+    if axis_body == Vector3::zeros() {
+        return Err(Failure::new(ZERO_KEEP_IN_AXIS));
+    }
+    Ok(TimelineSettings {
         keep_in: KeepIn {
-            axis_body: Vector3::from(values.vector(v.axis)),
+            axis_body,
             azimuth_rad: values.real(v.azimuth).min(core::f64::consts::FRAC_PI_2),
             elevation_rad: values.real(v.elevation),
             method: values.choice(v.method).0,
@@ -276,7 +290,7 @@ fn timeline(
         keep_in_is_enabled: values.boolean(v.enabled),
         keep_in_distance_m: values.real(v.distance),
         planet: TargetPlanet::of(center),
-        clock_minus_time_s: timeline.clock_minus_time_s(epoch_minus_time_s),
+        clock_minus_time_s,
     })
 }
 

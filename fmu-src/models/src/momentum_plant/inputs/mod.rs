@@ -193,6 +193,9 @@ pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     let elements = ellipse.read(context, values, &context.setup.bodies.body(center.data.body));
     ellipse.write(values, &elements);
     center.write(context.variables, values);
+    let guided = &context.variables.guided;
+    let phase = guided.phase(context, values, &context.setup.windows, !center.data.body.is_planet());
+    values.set_choice(guided.phase, phase);
 }
 
 /// Refuses a step that leaves the span of the onboard ephemerides it goes by.

@@ -7,9 +7,35 @@ use super::with;
 
 const ORBIT_S: f64 = 43_200.0;
 
+/// The example's day, its dates as times from its first one.
+fn example() -> String {
+    const TEXT: &str = include_str!("../../../../resources/examples/timeline.toml");
+    let time = |line: &str| {
+        let date = line.split('"').nth(1)?;
+        let (day, clock) = date.strip_suffix(" UTC")?.strip_prefix("2011-04-0")?.split_once('T')?;
+        let [hours, minutes] = [clock.get(..2)?, clock.get(3..5)?].map(|it| it.parse::<i32>().unwrap());
+        let time_s = 86_400 * (day.parse::<i32>().ok()? - 6) + 3600 * hours + 60 * minutes;
+        Some(line.replacen(&format!("\"{date}\""), &time_s.to_string(), 1))
+    };
+    let lines = TEXT.lines().map(|line| time(line).unwrap_or_else(|| line.to_owned()) + "\n");
+    lines.collect()
+}
+
 /// Steps a plant by its own guidance and Guidance with the plant's positions, and compares their attitudes at samples.
 fn compare(plant_sets: &[(&str, f64)], guidance_sets: &[(&str, f64)], length_s: f64, step_s: f64) {
-    let (plants, guidances) = (NamedModel::<MomentumPlant>::shipped(), NamedModel::<Guidance>::shipped());
+    compare_by("[[event]]\nat = 0\ndump = true\n", plant_sets, guidance_sets, (length_s, step_s));
+}
+
+/// The same by a timeline, where it commands anything.
+fn compare_by(
+    timeline: &str,
+    plant_sets: &[(&str, f64)],
+    guidance_sets: &[(&str, f64)],
+    (length_s, step_s): (f64, f64),
+) {
+    let plants = NamedModel::<MomentumPlant>::shipped().with_schedule("timeline.toml", timeline);
+    let guidances = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", timeline);
+    let commands = timeline.contains("[[command]]");
     let epoch = [("start.epoch", 2.9e8), ("guided.slewRate", 0.0)];
     let plant_sets = with(&[plant_sets, &epoch, &[("attitude.source", 1.0), ("orbit.dynamics", 1.0)]]);
     let mut plant = plants.fly(0.0, &plant_sets).unwrap();
@@ -30,6 +56,12 @@ fn compare(plant_sets: &[(&str, f64)], guidance_sets: &[(&str, f64)], length_s: 
         }
         // Just after the sample, which belongs to the step that begins here.
         guidance.step_to(time_s + 1e-9).unwrap();
+        if commands && plant.integer("timeline.command") == 0 {
+            time_s += step_s;
+            plant.step_to(time_s).unwrap();
+            guidance.step_to(time_s).unwrap();
+            continue;
+        }
         let (a, b) = (guidance.quaternion("command.q"), plant.quaternion("attitude.q"));
         let difference = |sign: f64| a.iter().zip(b).map(|(a, b)| (a - sign * b).powi(2)).sum::<f64>().sqrt();
         let off = difference(1.0).min(difference(-1.0));
@@ -61,5 +93,18 @@ fn the_orbit_phase_is_the_plants_guided_attitude_over_three_days() {
     for every in [1.0, 2.0] {
         let windows = [("guided.downlinkEvery", every)];
         compare(&windows, &with(&[&windows, &[("pointing.scenario", 10.0)]]), 3.0 * 86_400.0, 600.0);
+    }
+}
+
+#[test]
+fn a_timeline_is_one_law_in_both() {
+    let quiet = [("guided.downlinkEvery", 0.0)];
+    compare_by(&example(), &quiet, &[], (86_400.0, 30.0));
+    // Where the zone is off, its axis is another, or it holds the Sun elsewhere.
+    let narrow = [("keepIn.azimuth", 0.05), ("keepIn.elevation", 0.1), ("keepIn.method", 2.0)];
+    for zone in
+        [&[("keepIn.enabled", 0.0)][..], &[("keepIn.axis[1]", 0.3), ("keepIn.axis[2]", -1.0)], &narrow]
+    {
+        compare_by(&example(), &with(&[&quiet, zone]), zone, (86_400.0, 90.0));
     }
 }

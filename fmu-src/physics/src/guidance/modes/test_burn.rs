@@ -2,6 +2,7 @@
 //!
 //! Guidance and spacecraft exchange as a master does that calls both over the same step: each sees the other's last results.
 
+use crate::guidance::downlink::sun_place::SunRequest;
 use crate::guidance::geometry::test_geometry::nearest_zone;
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -125,6 +126,7 @@ pub(crate) fn guidance_settings(burn: BurnSettings) -> GuidanceSettings<'static>
 pub(crate) fn sample_inputs(attitude: Attitude, delta_v_body_m_s: Vector3<f64>) -> SampleInputs {
     SampleInputs {
         command: PointingCommand { scenario: Some(Scenario::Burn), ..PointingCommand::default() },
+        requested_sun: SunRequest::default(),
         entries: TimedEntries::default(),
         places: BodyPositions::in_every_mode(Some(surroundings())),
         sensed: Sensed {

@@ -1,5 +1,7 @@
 //! The timeline, from its file: times in order, each command checked.
 
+use std::sync::Arc;
+
 use super::burn::{Span, burn as burn_of};
 use super::commands::{Commands, Reader};
 use super::description::Description;
@@ -18,7 +20,7 @@ pub struct Timeline {
     clock: TimelineClock,
     entries: Vec<TimelineEntry>,
     panels: Vec<TimelinePanels>,
-    events: Vec<TimelineEvent>,
+    events: Arc<[TimelineEvent]>,
 }
 
 impl Timeline {
@@ -114,7 +116,7 @@ impl Timeline {
     }
 
     /// What happens at one time, in the order of the times.
-    pub fn events(&self) -> &[TimelineEvent] {
+    pub fn events(&self) -> &Arc<[TimelineEvent]> {
         &self.events
     }
 

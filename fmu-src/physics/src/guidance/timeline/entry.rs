@@ -73,34 +73,34 @@ pub struct TimelinePanels {
     pub windmill_rad: f64,
 }
 
-/// What happens at a time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What happens at a time: the centre of mass is placed, then the maneuver, then the dump.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TimelineEvent {
     /// Line in the file, from 1.
     pub line: usize,
     /// When, in s of the timeline's clock.
     pub at_s: f64,
-    /// A dump.
+    /// A dump; it is the maneuver's where there is one.
     pub dump: Option<TimelineDump>,
-    /// An impulse.
+    /// A maneuver.
     pub maneuver: Option<TimelineManeuver>,
-    /// Centre of mass from then on, body frame, in m, with every panel at angle 0 and full tanks.
+    /// Nominal centre of mass from then on, body frame, in m, with every panel at angle 0 and full tanks.
     pub center_of_mass_body_m: Option<Vector3<f64>>,
 }
 
-/// A dump of momentum.
+/// Where a dump takes the momentum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TimelineDump {
-    /// To the momentum that parameters say.
-    ByPolicy,
-    /// To this momentum, body frame, in N m s.
+    /// Where dumps on request take it.
+    Requested,
+    /// To this momentum, body frame, by the flight's convention, in N m s.
     To {
         /// The momentum after it.
         momentum_body_n_m_s: Vector3<f64>,
     },
 }
 
-/// An impulsive change of velocity.
+/// A delta-v as an impulse through the centre of mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimelineManeuver {
     /// Velocity to add, EME2000, in m/s.

@@ -37,7 +37,7 @@ pub(super) fn event(
 
 fn dump(commands: &mut Commands<'_, '_>, at: &Place, given: &DumpDescription) -> Option<TimelineDump> {
     match given {
-        DumpDescription::Is(true) => Some(TimelineDump::ByPolicy),
+        DumpDescription::Is(true) => Some(TimelineDump::Requested),
         DumpDescription::Is(false) => {
             commands.check.report(at, "false", "true, the momentum after it, or no such key");
             None

@@ -33,5 +33,10 @@ pub(super) fn panels(
     let windmill_place = at.key("windmill");
     let windmill = given.windmill.as_ref();
     let windmill_rad = windmill.map_or(0.0, |angle| commands.quantity(&windmill_place, angle, &HALF_TURN));
+    if windmill_rad != 0.0 && commands.spacecraft.panels.iter().all(|panel| panel.windmill_side == 0.0) {
+        let allowed =
+            "0, or no such key: no panel of the spacecraft has a side, see [[panels]] windmill_side";
+        commands.check.report(&windmill_place, format!("{windmill_rad:?} rad"), allowed);
+    }
     TimelinePanels { line: commands.check.line(at), at_s, sun_offsets_rad, windmill_rad }
 }

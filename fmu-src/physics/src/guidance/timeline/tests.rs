@@ -433,8 +433,8 @@ fn panels_and_events_stand_without_commands() {
     assert_eq!((first.at_s, &first.sun_offsets_rad[..]), (0.0, &[offset_rad, offset_rad][..]));
     assert_eq!((second.at_s, second.windmill_rad), (86_400.0, 0.5));
     assert_eq!(second.sun_offsets_rad, [0.0, 60.0 * DEG_RAD]);
-    let [dump, maneuver, last] = timeline.events() else { panic!("not three") };
-    assert_eq!((dump.at_s, dump.dump), (7200.0, Some(TimelineDump::ByPolicy)));
+    let [dump, maneuver, last] = timeline.events().as_ref() else { panic!("not three") };
+    assert_eq!((dump.at_s, dump.dump), (7200.0, Some(TimelineDump::Requested)));
     let to = TimelineDump::To { momentum_body_n_m_s: Vector3::new(0.0, 0.02, -1.0) };
     assert_eq!(
         (maneuver.dump, maneuver.center_of_mass_body_m),

@@ -28,8 +28,8 @@ impl<'c, 'd> Times<'c, 'd> {
             return Some(time_s);
         }
         let [found, allowed] = match counted_by {
-            TimelineClock::Epoch => ["a date", "FMI time, as in the first command: a file has one kind"],
-            TimelineClock::FmiTime => ["FMI time", "a date, as in the first command: a file has one kind"],
+            TimelineClock::Epoch => ["a date", "FMI time, as the first time in it: a file has one kind"],
+            TimelineClock::FmiTime => ["FMI time", "a date, as the first time in it: a file has one kind"],
         };
         self.check.report(place, format_args!("{quantity}, {found}"), allowed);
         None

@@ -343,10 +343,10 @@ impl AttitudeDynamics {
         due_s: f64,
     ) {
         while let events = &flight.world.configuration.thruster_events
-            && let Some(event) = events.next(self.scheduled).filter(|event| event.at_s <= due_s)
+            && let Some(event) = events.next(self.scheduled).filter(|event| events.time_s(event) <= due_s)
         {
             self.scheduled = self.scheduled.saturating_add(1);
-            if let Some(target_body_n_m_s) = event.dump.map(|target| events.target_body_n_m_s(target)) {
+            if let Some(target_body_n_m_s) = events.dump_target_body_n_m_s(event) {
                 self.dump_to(settings, flight, target_body_n_m_s);
             }
         }

@@ -7,13 +7,13 @@ use nalgebra::{Rotation3, Vector3};
 
 use super::propagator_state::PropagatorState;
 use crate::guidance::Guided;
+use crate::guidance::timeline::TimelineManeuver;
 use crate::loads::ForceTorque;
 use crate::momentum::{MomentumIntegrator, Settings, Stop, StopTimes, Totals};
 use crate::plant::disturbances::evaluation::{Plant, PreparedSpacecraft, World};
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::radiation_settings::RadiationSettings;
-use crate::plant::settings::thruster_events::Maneuver;
 use crate::spacecraft::MassProperties;
 
 /// Greatest last Chebyshev term of a forecast's totals, in N m s and m/s: far below any threshold.
@@ -115,7 +115,7 @@ impl<'f> Fork<'f> {
                 after.center_of_mass_body_m - before.center_of_mass_body_m;
             propagator.cut(configuration, time_s, true);
         }
-        if let Some(Maneuver { delta_v_inertial_m_s, .. }) = event.maneuver {
+        if let Some(TimelineManeuver { delta_v_inertial_m_s, .. }) = event.maneuver {
             let moved = propagator.maneuver(configuration, time_s, &delta_v_inertial_m_s);
             moved.map_err(|error| PlantError::Maneuver { time_s, why: error.into() })?;
             integrator.push(&delta_v_inertial_m_s);

@@ -138,11 +138,12 @@ impl IdealFlight {
             spacecraft.propagator.cut(&spacecraft.world.configuration, time_s, true);
             self.set_mass(spacecraft, time_s);
         }
-        if let Some(maneuver) = event.maneuver {
+        let events = &spacecraft.world.configuration.thruster_events;
+        let (maneuver, target) = (events.maneuver(&event), events.dump_target_body_n_m_s(&event));
+        if let Some(maneuver) = maneuver {
             self.maneuver(spacecraft, time_s, &maneuver)?;
         }
-        if let Some(target) = event.dump() {
-            let target_body_n_m_s = spacecraft.world.configuration.thruster_events.target_body_n_m_s(target);
+        if let Some(target_body_n_m_s) = target {
             self.dump_to(spacecraft, time_s, target_body_n_m_s);
         }
         Ok(())

@@ -66,12 +66,12 @@ pub enum PlantError {
     },
     /// A scheduled event of a flight by torque that is no dump.
     #[error(
-        "the event at {at_s:?} s has {found}, allowed with attitude.source controlled (3) and free (4): a dump alone; burns are \
+        "the [[event]] on line {line} of the timeline has {found}, allowed with attitude.source controlled (3) and free (4): a dump alone; burns are \
          thrust.request and thrust.command there"
     )]
     ScheduledEvent {
-        /// When, in s.
-        at_s: f64,
+        /// Its line in the file, from 1.
+        line: usize,
         /// What it has.
         found: &'static str,
     },

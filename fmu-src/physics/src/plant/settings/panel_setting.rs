@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
+use crate::guidance::timeline::TimelinePanels;
 use crate::numerics::scalar::{Dual64, Scalar};
 use crate::spacecraft::{Panel, offset_for_suns};
 
@@ -48,10 +49,21 @@ impl Ramp {
 /// One step of a timeline of a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PanelStep {
-    /// From when on, in s of the flight.
+    /// From when on, in s of the timeline's clock.
     pub at_s: f64,
     /// Angle between cell normal and Sun, in rad, with the windmill angle on the panel's side.
     pub offset_rad: f64,
+}
+
+impl PanelStep {
+    /// The steps of panel `index`.
+    pub fn of_timeline(timeline: &[TimelinePanels], index: usize, panel: &Panel) -> Arc<[Self]> {
+        let offset_rad = |row: &TimelinePanels| {
+            let offset_rad = row.sun_offsets_rad.get(index).copied().unwrap_or_default();
+            offset_rad + row.windmill_rad * panel.windmill_side
+        };
+        timeline.iter().map(|row| Self { at_s: row.at_s, offset_rad: offset_rad(row) }).collect()
+    }
 }
 
 /// How one panel stands.
@@ -72,6 +84,8 @@ pub enum PanelSetting {
     Timeline {
         /// Those angles; their times grow. Each holds from its time on.
         steps: Arc<[PanelStep]>,
+        /// The timeline's clock minus the time of the simulation, in s.
+        clock_minus_time_s: f64,
         /// The angle before the first, in rad.
         before_rad: f64,
         /// +1 or -1: the sense of the tilt about the axis.
@@ -93,8 +107,9 @@ impl PanelSetting {
             Self::Disabled => return None,
             Self::Angle(angle) => return Some(angle.at_rad(sun.time_s)),
             Self::SunOffset { offset, tilt_sign } => (offset.at_rad(sun.time_s), tilt_sign),
-            Self::Timeline { steps, before_rad, tilt_sign } => {
-                let step = begun(steps, sun.time_s.value()).checked_sub(1).and_then(|last| steps.get(last));
+            Self::Timeline { steps, clock_minus_time_s, before_rad, tilt_sign } => {
+                let begun = begun(steps, *clock_minus_time_s, sun.time_s.value());
+                let step = begun.checked_sub(1).and_then(|last| steps.get(last));
                 (T::constant(step.map_or(*before_rad, |step| step.offset_rad)), tilt_sign)
             }
             Self::Distance { suns, tilt_sign } => (offset_for_suns(*suns, sun.distance_m), tilt_sign),
@@ -110,8 +125,9 @@ impl PanelSetting {
     /// The first time after `time_s` at which it jumps, in s; infinite where it does not.
     pub fn until_s(&self, time_s: f64) -> f64 {
         match self {
-            Self::Timeline { steps, .. } => {
-                steps.get(begun(steps, time_s)).map_or(f64::INFINITY, |next| next.at_s)
+            Self::Timeline { steps, clock_minus_time_s, .. } => {
+                let next = steps.get(begun(steps, *clock_minus_time_s, time_s));
+                next.map_or(f64::INFINITY, |next| next.at_s - clock_minus_time_s)
             }
             Self::Disabled | Self::SunOffset { .. } | Self::Angle(_) | Self::Distance { .. } => f64::INFINITY,
         }
@@ -134,8 +150,8 @@ impl PanelSetting {
 }
 
 /// How many of the steps have begun at `time_s`.
-fn begun(steps: &[PanelStep], time_s: f64) -> usize {
-    steps.partition_point(|step| step.at_s <= time_s)
+fn begun(steps: &[PanelStep], clock_minus_time_s: f64, time_s: f64) -> usize {
+    steps.partition_point(|step| step.at_s - clock_minus_time_s <= time_s)
 }
 
 #[cfg(test)]

@@ -24,7 +24,7 @@ fn sun_at(time_s: f64) -> SunAt {
 }
 
 fn timeline(of: &[(f64, f64)]) -> PanelSetting {
-    PanelSetting::Timeline { steps: steps(of), before_rad: 1.1, tilt_sign: -1.0 }
+    PanelSetting::Timeline { steps: steps(of), clock_minus_time_s: 0.0, before_rad: 1.1, tilt_sign: -1.0 }
 }
 
 #[test]

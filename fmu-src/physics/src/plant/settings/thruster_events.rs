@@ -9,18 +9,10 @@ use std::sync::Arc;
 use nalgebra::{Rotation3, Vector3};
 
 use super::error::PlantError;
+use crate::guidance::timeline::{TimelineDump, TimelineEvent, TimelineManeuver};
 use crate::momentum::DumpEvent;
 use crate::numerics::noise::{Channel, normal, normal_vector};
 use crate::spacecraft::ThrusterSet;
-
-/// Where a dump takes the momentum.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum DumpTarget {
-    /// Where dumps on request take it.
-    Requested,
-    /// To this, body frame, by the flight's convention, in N m s.
-    Momentum(Vector3<f64>),
-}
 
 /// A delta-v as an impulse through the centre of mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -49,31 +41,17 @@ pub enum ThrusterEvent {
     },
 }
 
-/// What happens at one time: the centre of mass is placed, then the maneuver, then the dump.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScheduledEvent {
-    /// When, in s of flight time.
-    pub at_s: f64,
-    /// A dump; it is the maneuver's where there is one.
-    pub dump: Option<DumpTarget>,
-    /// A maneuver.
-    pub maneuver: Option<Maneuver>,
-    /// Nominal centre of mass from here on, body frame, in m, with every panel at angle 0 and full tanks.
-    pub center_of_mass_body_m: Option<Vector3<f64>>,
-}
-
-impl ScheduledEvent {
-    /// Where its dump takes the momentum, if it has one.
-    pub(crate) fn dump(&self) -> Option<DumpTarget> {
-        self.dump.or(self.maneuver.filter(|it| it.dumps).map(|_| DumpTarget::Requested))
-    }
-}
-
 /// What thruster events go by.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThrusterEventSettings {
-    /// Events ahead, in order of time.
-    pub schedule: Arc<[ScheduledEvent]>,
+    /// Events of a timeline, in the order of their times.
+    pub schedule: Arc<[TimelineEvent]>,
+    /// The timeline's clock minus the time of the simulation, in s.
+    pub clock_minus_time_s: f64,
+    /// The thrusters of maneuvers that name none; `None`: they take no propellant.
+    pub thrusters: Option<ThrusterSet>,
+    /// Whether a dump goes with maneuvers that do not say so.
+    pub dumps: bool,
     /// Standard deviation of a maneuver's magnitude, as a share of it.
     pub magnitude_error: f64,
     /// Standard deviation of its direction about each axis across it, in rad.
@@ -90,6 +68,9 @@ impl Default for ThrusterEventSettings {
     fn default() -> Self {
         Self {
             schedule: Arc::default(),
+            clock_minus_time_s: 0.0,
+            thrusters: None,
+            dumps: true,
             magnitude_error: 0.0,
             direction_error_rad: 0.0,
             center_of_mass_shift_m: Vector3::zeros(),
@@ -123,27 +104,43 @@ impl ThrusterEventSettings {
             .then(|| normal_vector(self.seed, Channel::CenterOfMass, number).component_mul(&sigma_m))
     }
 
-    /// The momentum that a dump leaves, body frame, in N m s.
-    pub(crate) fn target_body_n_m_s(&self, target: DumpTarget) -> Vector3<f64> {
-        match target {
-            DumpTarget::Requested => self.requested_body_n_m_s,
-            DumpTarget::Momentum(momentum_body_n_m_s) => momentum_body_n_m_s,
+    /// The momentum that the dump of an event leaves, if it has one, body frame, in N m s.
+    pub(crate) fn dump_target_body_n_m_s(&self, event: &TimelineEvent) -> Option<Vector3<f64>> {
+        let dumps = |it: &TimelineManeuver| it.dumps.unwrap_or(self.dumps);
+        match event.dump {
+            Some(TimelineDump::To { momentum_body_n_m_s }) => Some(momentum_body_n_m_s),
+            Some(TimelineDump::Requested) => Some(self.requested_body_n_m_s),
+            None => event.maneuver.as_ref().filter(|it| dumps(it)).map(|_| self.requested_body_n_m_s),
         }
     }
 
+    /// The maneuver of an event, if it has one.
+    pub(crate) fn maneuver(&self, event: &TimelineEvent) -> Option<Maneuver> {
+        event.maneuver.map(|it| Maneuver {
+            delta_v_inertial_m_s: it.delta_v_inertial_m_s,
+            thrusters: it.thrusters.or(self.thrusters),
+            dumps: it.dumps.unwrap_or(self.dumps),
+        })
+    }
+
+    /// When an event of the schedule comes, in s.
+    pub(crate) fn time_s(&self, event: &TimelineEvent) -> f64 {
+        event.at_s - self.clock_minus_time_s
+    }
+
     /// The next event of the schedule, so many being over.
-    pub(crate) fn next(&self, over: usize) -> Option<&ScheduledEvent> {
+    pub(crate) fn next(&self, over: usize) -> Option<&TimelineEvent> {
         self.schedule.get(over)
     }
 
     /// How many events lie before `time_s`.
     pub(crate) fn before(&self, time_s: f64) -> usize {
-        self.schedule.partition_point(|event| event.at_s < time_s)
+        self.schedule.partition_point(|event| self.time_s(event) < time_s)
     }
 
     /// How many events lie up to `time_s`.
     pub(crate) fn until(&self, time_s: f64) -> usize {
-        self.schedule.partition_point(|event| event.at_s <= time_s)
+        self.schedule.partition_point(|event| self.time_s(event) <= time_s)
     }
 
     /// Refuses what a flight by torque does not have, so many events being over.
@@ -157,14 +154,14 @@ impl ThrusterEventSettings {
                 (None, Some(_)) => "a centre of mass",
                 (None, None) => continue,
             };
-            return Err(PlantError::ScheduledEvent { at_s: event.at_s, found });
+            return Err(PlantError::ScheduledEvent { line: event.line, found });
         }
         Ok(())
     }
 
     /// When the next event comes, so many being over, in s; infinite where none does.
     pub(crate) fn next_s(&self, over: usize) -> f64 {
-        self.next(over).map_or(f64::INFINITY, |event| event.at_s)
+        self.next(over).map_or(f64::INFINITY, |event| self.time_s(event))
     }
 }
 
