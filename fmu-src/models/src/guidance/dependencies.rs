@@ -25,7 +25,7 @@ pub(super) fn table(_setup: &GuidanceSetup, v: &GuidanceVariables) -> Dependenci
     let all = &v.section();
     let command = knowns![&v.command, v.sun.azimuth, v.sun.elevation, v.earth.sun_separation];
     let status = knowns![&v.geometry, v.target.reachable, &v.constraint, v.scan.active];
-    let devices = knowns![&v.gimbal, &v.antenna, &v.link, v.momentum.target_clamped];
+    let devices = knowns![&v.gimbal, &v.antenna, &v.link, &v.downlink, v.momentum.target_clamped];
     table.output(knowns![command, status, devices], all, all);
     table
 }

@@ -24,7 +24,7 @@ pub(super) fn table(setup: &PlantSetup, v: &PlantVariables) -> Dependencies {
 fn turned(v: &PlantVariables) -> Knowns {
     let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
     let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
-    let seen = knowns![&v.attitude, sun, others, v.sunshade.polynomial_valid, &v.panel];
+    let seen = knowns![&v.attitude, sun, others, v.sunshade.polynomial_valid, &v.panel, &v.downlink];
     let sensed = knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid, &v.control];
     let loads = knowns![&v.torque, &v.force, &v.plate, v.acceleration, v.delta_v, v.accelerometer.delta_v];
     let spent = knowns![v.mass, &v.propellant, &v.tank, v.center_of_mass, &v.dump];
@@ -54,7 +54,7 @@ impl Inputs {
         let places = knowns![v.orbit.position, v.orbit.velocity, &v.sun, &v.earth, &maneuver];
         let panels_weigh = setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some());
         // The Sun's place in a downlink follows the momentum, and that the dump.
-        let guided = knowns![&v.panel, &v.dump].only_if(choice.guided);
+        let guided = knowns![&v.panel, &v.dump, &v.downlink].only_if(choice.guided);
         let commanded = knowns![&v.command].only_if(choice.ideal || choice.waits);
         let attitude = knowns![&places, guided, commanded, knowns![&v.panel].only_if(panels_weigh)];
         let sensors = v.sun_sensor.iter().map(|sensor| sensor.failed).collect::<Knowns>();
@@ -92,7 +92,8 @@ impl Parameters {
         // Guidance balances torques against the momentum.
         let aimed = &knowns![&v.guided, &v.momentum, &v.solar, &v.spacecraft, wheels.collect::<Knowns>()];
         let panels = knowns![&v.panel, v.articulation.target_suns];
-        let turned = knowns![&orbit, &v.attitude, &v.command, &v.keep_in, &v.sunshade, panels];
+        let followed = knowns![&v.attitude, &v.command, &v.timeline, &v.keep_in];
+        let turned = knowns![&orbit, followed, &v.sunshade, panels];
         let attitude = knowns![turned, aimed.clone().only_if(choice.guided || choice.begins_guided)];
         let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, &v.noise, v.control.rate];
         // In free flight they are fitted along the torque-free turn ahead, which goes by the rotors' inertia.
@@ -132,7 +133,7 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramet
     let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
     let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
     let seen = knowns![v.attitude.q, v.attitude.rate, sun, others, v.sunshade.polynomial_valid];
-    table.output(seen, &inputs.attitude, &parameters.attitude);
+    table.output(knowns![seen, &v.downlink, &v.timeline], &inputs.attitude, &parameters.attitude);
     // How the panels stand, and to the corridor.
     let stood = knowns![&parameters.attitude, &v.articulation];
     table.output(&v.panel, knowns![&inputs.attitude, &v.panel], stood);

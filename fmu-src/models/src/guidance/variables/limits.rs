@@ -31,7 +31,7 @@ pub struct KeepInVariables {
     /// takes -Y to it. Also the boresight of Earth Acquisition.
     #[parameter(unit = "1", start = [0.0, -1.0, 0.0])]
     pub axis: RealVector<3>,
-    /// Greatest distance from the Sun at which the zone counts outside Safe Hold.
+    /// Greatest distance from the Sun at which the zone counts; in Safe Hold it always does.
     #[parameter(tunable, unit = "m", display = "AU", min = 0.0, max = SunKeepIn::FARTHEST_M, start = setup.keep_in().distance_m)]
     pub distance: Real,
     /// Where a Sun outside is put.

@@ -179,17 +179,18 @@ pub struct WheelVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct KeepInVariables {
-    /// Whether scenarios of the timeline keep the Sun inside the zone; the timeline can switch and resize it.
+    /// Whether commands keep the Sun inside the zone: scenarios of the timeline, which can switch and resize it. Guided flight
+    /// without one always does.
     #[parameter(start = setup.spacecraft.sun_keep_in.is_some())]
     pub enabled: Boolean,
-    /// Centre of the zone of the timeline's scenarios, body frame, of any length: the zone's frame is the body's, turned by the
-    /// smallest rotation that takes -Y to it.
+    /// Centre of the zone, body frame, of any length: the zone's frame is the body's, turned by the smallest rotation that takes -Y
+    /// to it. For scenarios of the timeline.
     #[parameter(unit = "1", start = [0.0, -1.0, 0.0])]
     pub axis: RealVector<3>,
-    /// Greatest distance from the Sun at which the zone of the timeline's scenarios counts.
+    /// Greatest distance from the Sun at which the zone counts; for scenarios of the timeline.
     #[parameter(unit = "m", display = "AU", min = 0.0, max = SunKeepIn::FARTHEST_M, start = defaults::keep_in(setup).distance_m)]
     pub distance: Real,
-    /// Where scenarios of the timeline put a Sun outside.
+    /// Where a Sun outside is put; by scenarios of the timeline.
     #[parameter(start = KeepInMethod(keep_in::KeepInMethod::Nearest))]
     pub method: Choice<KeepInMethod>,
     /// Largest Sun azimuth either way.

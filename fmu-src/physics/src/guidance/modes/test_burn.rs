@@ -2,7 +2,6 @@
 //!
 //! Guidance and spacecraft exchange as a master does that calls both over the same step: each sees the other's last results.
 
-use crate::guidance::downlink::sun_place::SunRequest;
 use crate::guidance::geometry::test_geometry::nearest_zone;
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -16,7 +15,7 @@ use crate::constants::DEG_RAD;
 use crate::guidance::burn::delta_v::{BurnPhase, BurnSettings, GAIN, LOOK_AHEAD_S};
 use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::constraints::constrained::Constraints;
-use crate::guidance::downlink::sun_place::LinkLimits;
+use crate::guidance::downlink::sun_place::{LinkLimits, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::test_orbit::{about_mercury, guided};
 use crate::guidance::orbit_phase::attitudes::ScienceRule;
