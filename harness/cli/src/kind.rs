@@ -14,7 +14,7 @@ pub(crate) enum FileKind {
     Spacecraft,
     /// A mission.
     Mission,
-    /// Commands over time.
+    /// Commands, positions of panels and events over time.
     Timeline,
     /// Positions over time.
     Ephemeris,
@@ -37,8 +37,10 @@ const OF_PARTS: [&str; 12] = [
     "thrusters",
     "groups",
 ];
-/// The list that every timeline has.
-const OF_TIMELINE: &str = "command";
+/// Lists that only timelines have.
+const OF_TIMELINE: [&str; 2] = ["command", "event"];
+/// The list that timelines share with spacecraft, and the keys of its items that only timelines have.
+const PANELS: (&str, [&str; 3]) = ("panels", ["at", "sunOffset", "windmill"]);
 /// Keys that only missions have.
 const OF_MISSION: [&str; 14] = [
     "spacecraft",
@@ -64,13 +66,17 @@ impl FileKind {
         let root = root.get_ref();
         let has = |key: &str| root.contains_key(key);
         let is_like = |key: &str| root.keys().any(|found| nearest(found.get_ref(), &[key]).is_some());
-        if has(OF_SPACECRAFT) || OF_PARTS.into_iter().any(has) {
+        if has(OF_SPACECRAFT) {
+            Some(Self::Spacecraft)
+        } else if panels_have_times(root) {
+            Some(Self::Timeline)
+        } else if OF_PARTS.into_iter().any(has) {
             Some(Self::Spacecraft)
         } else if ephemeris::is_meant(text) {
             Some(Self::Ephemeris)
         } else if OF_MISSION.into_iter().any(has) {
             Some(Self::Mission)
-        } else if is_like(OF_TIMELINE) {
+        } else if OF_TIMELINE.into_iter().any(is_like) {
             Some(Self::Timeline)
         } else {
             is_like(OF_SPACECRAFT).then_some(Self::Spacecraft)
@@ -139,6 +145,15 @@ impl fmt::Display for FileKind {
     }
 }
 
+/// Whether there are panels, and those of a timeline.
+fn panels_have_times(root: &DeTable<'_>) -> bool {
+    let (list, keys) = PANELS;
+    let items = root.get(list).and_then(|list| list.get_ref().as_array());
+    let mut tables =
+        items.into_iter().flat_map(|items| items.iter()).filter_map(|it| it.get_ref().as_table());
+    tables.any(|table| keys.into_iter().any(|key| table.contains_key(key)))
+}
+
 /// Whether a text has nothing but comments.
 pub(crate) fn is_blank(text: &str) -> bool {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -172,6 +187,10 @@ mod tests {
             (include_str!("new/mission.toml"), Some(FileKind::Mission)),
             (include_str!("new/timeline.toml"), Some(FileKind::Timeline)),
             ("[[comand]]\nat = 0\n", Some(FileKind::Timeline)),
+            ("[[panels]]\nat = 0\n", Some(FileKind::Timeline)),
+            ("[[panels]]\nsun_offset_deg = 3\n[[command]]\n", Some(FileKind::Spacecraft)),
+            ("[[event]]\nat = 0\n[[panels]]\nsunOffset = 0\n", Some(FileKind::Timeline)),
+            ("[[evnt]]\nat = 0\n", Some(FileKind::Timeline)),
             ("spacecraft = \"a.toml\"\nstop = \"torn", Some(FileKind::Mission)),
             ("frame = \"eme2000\"\n[[body]]\n", Some(FileKind::Ephemeris)),
             ("[mass_properties]\n[body]\n", Some(FileKind::Spacecraft)),

@@ -82,6 +82,8 @@ studies! {
         "dumps and momentum a day with misaligned, unequal and slowly turning parts, the paper's open questions";
     "momentum/off-sun" of "000, 003" by momentum::off_sun:
         "sunlight on the whole MESSENGER over the sphere, and its momentum against shade and panels alone";
+    "momentum/authority" of "000, 003" by momentum::authority, takes Spacecraft Set:
+        "what a degree of windmilling, offset, azimuth and elevation, a centimetre of centre of mass and an alternation are worth";
     "pointing/burn" of "001" by control::burn, takes Step:
         "a burn with each correction of its direction over seeds: Figures 10 and 11";
     "pointing/limb" of "001" by pointing::limb:

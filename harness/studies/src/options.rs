@@ -3,7 +3,10 @@
 use std::path::PathBuf;
 
 use loader::Fmu;
+use model_description::Description;
 use systems::System;
+
+use crate::settings::Settings;
 
 /// Where a study finds its FMUs and leaves its files.
 #[derive(Clone, Debug)]
@@ -20,6 +23,10 @@ pub struct Options {
     pub angle_rad: Option<f64>,
     /// Communication step, in s, for studies that take one.
     pub step_s: Option<f64>,
+    /// A spacecraft file in place of the FMU's, for studies that take one.
+    pub spacecraft: Option<PathBuf>,
+    /// Start values, `name=value`, for studies that take them.
+    pub sets: Vec<String>,
 }
 
 /// Options that some studies take.
@@ -29,13 +36,22 @@ pub enum Extra {
     Angle,
     /// [`Options::step_s`].
     Step,
+    /// [`Options::spacecraft`].
+    Spacecraft,
+    /// [`Options::sets`].
+    Set,
 }
 
 impl Options {
     /// Refuses what the study does not take.
     pub(crate) fn check(&self, study: &'static str, takes: &[Extra]) -> Result<(), StudyError> {
-        let given = [("--angle", Extra::Angle, self.angle_rad), ("--step", Extra::Step, self.step_s)];
-        match given.iter().find(|(_, extra, value)| value.is_some() && !takes.contains(extra)) {
+        let given = [
+            ("--angle", Extra::Angle, self.angle_rad.is_some()),
+            ("--step", Extra::Step, self.step_s.is_some()),
+            ("--spacecraft", Extra::Spacecraft, self.spacecraft.is_some()),
+            ("--set", Extra::Set, !self.sets.is_empty()),
+        ];
+        match given.iter().find(|(_, extra, is_given)| *is_given && !takes.contains(extra)) {
             Some((option, ..)) => Err(StudyError::Option { study, option }),
             None => Ok(()),
         }
@@ -44,6 +60,15 @@ impl Options {
     /// Opens an FMU of the folder.
     pub(crate) fn fmu(&self, file: &str) -> Result<Fmu, StudyError> {
         Fmu::open(self.dist.join(file)).map_err(|error| StudyError::Fmu(Box::new(error)))
+    }
+
+    /// The start values by a model's description.
+    pub(crate) fn assigned(&self, description: &Description) -> Result<Settings, StudyError> {
+        let read = self.sets.iter().map(|set| {
+            loader::parse_assignment(description, set)
+                .map_err(|error| StudyError::Set { set: set.clone(), source: Box::new(error) })
+        });
+        Ok(read.collect::<Result<Vec<_>, _>>()?.concat())
     }
 
     /// Opens a system of the folder.
@@ -78,6 +103,22 @@ pub enum StudyError {
         found_s: f64,
         /// What may be given.
         allowed: &'static str,
+    },
+    /// A start value that the FMU does not take.
+    #[error("--set {set}: {source}")]
+    Set {
+        /// What was given.
+        set: String,
+        /// Why.
+        source: Box<loader::Error>,
+    },
+    /// A start value that the study itself sets.
+    #[error("--set: found {name}, which {study} sets itself, allowed: the others")]
+    OwnSetting {
+        /// The study.
+        study: &'static str,
+        /// The variable.
+        name: String,
     },
     /// `only` left nothing.
     #[error("no case of {study} contains `{only}`; the cases are\n  {known}")]

@@ -31,19 +31,24 @@ pub(super) fn run(arguments: &Check) -> Outcome {
     }
 }
 
-/// Whether Guidance can carry out the commands, read with instruments and sets of thrusters of its own spacecraft.
+/// Whether Guidance and MomentumPlant can carry it out, read with instruments, sets of thrusters and panels of their own spacecraft.
 fn of_timeline(file: &str, text: &str) -> Outcome {
     let spacecraft =
         Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).map_err(|error| error.to_string())?;
     let instruments: Vec<&str> = spacecraft.instruments.iter().map(|it| it.name.as_str()).collect();
     match Timeline::from_toml(file, text, &spacecraft) {
-        Ok(read) => outcome::printed(&format!(
-            "{file}: ok: {}; with the instruments of Guidance's own spacecraft, {}, and its sets of thrusters, {}; \
-             `pack --timeline` judges it for yours",
-            timeline::summary(&read),
-            instruments.join(", "),
-            spacecraft.thruster_sets.join(", ")
-        )),
+        Ok(read) => {
+            let of_one = timeline::of_one_model(file, text, &spacecraft, &read);
+            outcome::printed(&format!(
+                "{file}: ok: {}; with the models' own spacecraft, its instruments {}, its sets of thrusters {} and its {} panels; \
+                 `pack --timeline` judges it for yours{}",
+                timeline::summary(&read),
+                instruments.join(", "),
+                spacecraft.thruster_sets.join(", "),
+                spacecraft.panels.len(),
+                of_one.iter().map(|line| format!("\n{line}")).collect::<String>()
+            ))
+        }
         Err(problems) => outcome::refused(file, &problems.to_string(), "a timeline"),
     }
 }

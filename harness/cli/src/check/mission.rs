@@ -6,7 +6,7 @@ use loader::Collector;
 
 use super::options::Check;
 use crate::{
-    epoch, low_orbit,
+    carried, epoch, low_orbit,
     outcome::{self, Outcome},
     pointing,
     run::{Prepared, Run, Settings, long_step},
@@ -34,9 +34,11 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
     let low = low_orbit::warnings(subject.description(), sets);
     let windows = pointing::warnings(subject.description(), sets, &pointing::windows_in(&subject.parts()));
+    let panels = carried::timeline::warnings(subject.description(), sets, &subject.parts());
     let warnings = low
         .iter()
         .chain(&windows)
+        .chain(&panels)
         .chain(&long_step(times))
         .map(|it| format!("\nwarning: {it}"))
         .collect::<String>();

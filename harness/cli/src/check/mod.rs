@@ -88,6 +88,11 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
     if !low.is_empty() {
         sections.push(Section::new("orbit", low.into_iter().map(Finding::note).collect()));
     }
+    let panels =
+        carried::timeline::warnings(fmu.description(), &[], &[(String::new(), fmu.folder().to_owned())]);
+    if !panels.is_empty() {
+        sections.push(Section::new("panels", panels.into_iter().map(Finding::note).collect()));
+    }
     sections.extend(carried::of(&fmu).into_iter().map(|(file, read)| match read {
         Ok(summary) => Section::new(file, vec![Finding::good(summary)]),
         Err(problems) => Section::new(file, problems.lines().map(Finding::bad).collect()),

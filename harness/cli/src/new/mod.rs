@@ -32,7 +32,7 @@ pub(crate) enum NewKind {
     Spinner,
     /// What flies, when, with which values, and what is kept of it; for `run`, `check`, `pack --mission`
     Mission,
-    /// Commands over time, for `pack --timeline`
+    /// Commands, positions of panels and events over time, for `pack --timeline`
     Timeline,
 }
 

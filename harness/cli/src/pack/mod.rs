@@ -12,6 +12,7 @@ use files::Destination;
 
 use crate::{
     assembly::{Assembled, Parts, Source, assemble, reference_flight, unused_map},
+    carried::timeline::panels_without_effect,
     draw,
     mission::Mission,
     outcome::{self, Outcome},
@@ -33,7 +34,8 @@ pub(crate) struct Pack {
     /// the library
     #[arg(long, value_name = "TOML")]
     pub spacecraft: Option<PathBuf>,
-    /// Commands over time, a TOML file (see `heliotorque schema timeline`), for models that take one; the GUID stays
+    /// Commands, positions of panels and events over time, a TOML file (see `heliotorque schema timeline`), for models that take
+    /// one: MomentumPlant, Guidance; the GUID stays
     #[arg(long, value_name = "TOML")]
     pub timeline: Option<PathBuf>,
     /// Positions of Sun, Earth and planets over time, a TOML file (see `heliotorque ephemeris`), for models that take one;
@@ -121,7 +123,9 @@ pub(crate) fn run(arguments: &Pack) -> Outcome {
     let of_mission = arguments.mission.as_deref();
     let inputs: Vec<&Path> = [source.path()].into_iter().chain(files).chain(of_mission).collect();
     let windows = pointing::warnings(&description, &[], pointing::windows_of(&setup).as_slice());
-    for warning in unused_map(&setup, &described.model, &description).iter().chain(&windows) {
+    let timeline = parts.timeline.map(files::read_text).transpose()?;
+    let panels = timeline.and_then(|text| panels_without_effect(&text, &description, &[], ""));
+    for warning in unused_map(&setup, &described.model, &description).iter().chain(&windows).chain(&panels) {
         terminal::note(&format!("warning: {warning}"));
     }
     let destination = Destination::open(&path, "--output", &inputs)?;

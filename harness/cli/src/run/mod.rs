@@ -19,6 +19,7 @@ use files::Scratch;
 use loader::{Collector, Ended, RecordedPoints, Times};
 
 use crate::{
+    carried,
     child::Bounds,
     interrupt::INTERRUPTED,
     low_orbit,
@@ -119,6 +120,7 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
     let described = subject.description();
     let mut warnings = low_orbit::warnings(described, &settings.sets);
     warnings.extend(pointing::warnings(described, &settings.sets, &pointing::windows_in(&subject.parts())));
+    warnings.extend(carried::timeline::warnings(described, &settings.sets, &subject.parts()));
     warnings.extend(variables::repeated("--set", &arguments.set));
     warnings.extend(long_step(&settings.times));
     warnings.extend(subject.unread(&settings.sets));

@@ -7,9 +7,11 @@ use studies::{Options, STUDIES};
 
 use crate::{
     home,
+    kind::FileKind,
     outcome::{self, Outcome},
     patience::Patience,
     values::{angle, span},
+    variables::warn_of_repeated,
 };
 
 /// `heliotorque study`.
@@ -33,6 +35,12 @@ pub(crate) struct Study {
     /// Guidance
     #[arg(long, value_name = "TIME", value_parser = span, allow_hyphen_values = true)]
     pub step: Option<f64>,
+    /// The spacecraft of momentum/authority, a TOML file; otherwise that of MomentumPlant.fmu
+    #[arg(long, value_name = "TOML")]
+    pub spacecraft: Option<PathBuf>,
+    /// Give a parameter of momentum/authority another value; repeatable, written as for `run`: solar.flux=1358
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
     /// Show no progress
     #[arg(long, short)]
     pub quiet: bool,
@@ -50,6 +58,10 @@ pub(crate) fn run(arguments: &Study) -> Outcome {
         }
         return outcome::printed(&table.to_string());
     }
+    if let Some(spacecraft) = &arguments.spacecraft {
+        FileKind::Spacecraft.read(spacecraft)?;
+    }
+    warn_of_repeated("--set", &arguments.set);
     let folder = arguments.dist.clone().unwrap_or_else(home::dist);
     let output = match &arguments.output {
         Some(output) => output.clone(),
@@ -65,6 +77,8 @@ pub(crate) fn run(arguments: &Study) -> Outcome {
             only: arguments.only.clone(),
             angle_rad: arguments.angle,
             step_s: arguments.step,
+            spacecraft: arguments.spacecraft.clone(),
+            sets: arguments.set.clone(),
             progress: !arguments.quiet && std::io::stderr().is_terminal(),
         },
     )?;

@@ -43,7 +43,10 @@ fn every_new_file_works_unchanged() {
         let spacecraft = ["--spacecraft", shown(&file)];
         let packs: &[&[&str]] = match kind {
             "mission" => &[&["--mission", shown(&file)]],
-            "timeline" => &[&["--model", "Guidance", "--timeline", shown(&file)]],
+            "timeline" => &[
+                &["--model", "Guidance", "--timeline", shown(&file)],
+                &["--timeline", shown(&file), "--set", "panel[1].control=timeline"],
+            ],
             // Every model's reference flight suits a file that says little.
             "spacecraft" => &[
                 &spacecraft,

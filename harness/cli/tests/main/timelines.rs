@@ -4,7 +4,7 @@ use std::fs;
 
 use model_description::Description;
 
-use crate::{packed, probe_library, run, shown, words};
+use crate::{library, packed, probe_library, run, says, shown, template, words};
 
 const SCHEDULE: &str = "all-types-schedule.toml";
 
@@ -76,4 +76,147 @@ fn the_timeline_in_an_fmu_is_reported_and_judged() {
     let text = run(&["check", shown(&folder), "--static"], 1);
     assert!(text.contains("timeline.toml:12: command[1].boresight.instrument"), "{text}");
     assert!(text.contains("did you mean \"MLA\"?"), "{text}");
+}
+
+/// Attitudes, panels, events; two lines are Guidance's alone.
+const BOTH: &str = "\
+[[command]]
+at = 0
+scenario = \"downlink\"
+sun = { azimuth = \"-4 deg\" }
+[[command]]
+at = \"1 h\"
+scenario = \"burn\"
+[[command]]
+at = \"2 h\"
+mode = \"safeHold\"
+[[panels]]
+at = 0
+sunOffset = [\"60 deg\", \"55 deg\"]
+windmill = \"1 deg\"
+[[panels]]
+at = \"90 min\"
+sunOffset = \"-60 deg\"
+[[event]]
+at = \"3 h\"
+dump = [0, \"-20 mN.m.s\", \"0.5 N.m.s\"]
+[[event]]
+at = \"4 h\"
+maneuver = { deltaV = [0.1, 0, 0] }
+";
+
+#[test]
+fn a_file_is_judged_for_both_models() {
+    let scratch = tempfile::tempdir().unwrap();
+    let file = scratch.path().join("both.toml");
+    fs::write(&file, BOTH).unwrap();
+    let file = shown(&file);
+    says(
+        &run(&["check", file], 0),
+        &[
+            "ok: 3 commands from 0 s to the end, 2 positions of the panels from 0 s to the end, 2 events from 10800 s to 14400 s",
+            &format!(
+                "\nGuidance only: {file}:7: command[2].scenario: the scenario burn; MomentumPlant refuses it"
+            ),
+            &format!(
+                "\nGuidance only: {file}:10: command[3].mode: the mode safeHold; MomentumPlant refuses it"
+            ),
+            "\nMomentumPlant only: 2 positions of the panels, 1 maneuver; Guidance leaves them out",
+        ],
+    );
+    // What only one of them reads is judged too.
+    fs::write(file, BOTH.replace("\"55 deg\"", "\"5 km\"").replace("N.m.s\"]", "N.m\"]")).unwrap();
+    let said = run(&["check", file], 1);
+    says(
+        &said,
+        &[
+            "both.toml:13: panels[1].sunOffset[2]: found \"5 km\"",
+            "both.toml:20: event[1].dump[3]: found \"0.5 N.m\"",
+        ],
+    );
+    says(
+        &said,
+        &["an angular momentum: a number in N.m.s or a string with a unit: N.m.s, mN.m.s", "2 problems"],
+    );
+}
+
+#[test]
+fn a_plant_takes_a_timeline_without_burns_and_modes() {
+    let Some((scratch, plain)) = template() else { return };
+    let library = library().unwrap();
+    let (file, fmu) = (scratch.path().join("both.toml"), scratch.path().join("Timed.fmu"));
+    fs::write(&file, BOTH).unwrap();
+    let pack = |model: &'static str| {
+        [
+            "pack",
+            "--library",
+            shown(&library),
+            "--model",
+            model,
+            "--timeline",
+            shown(&file),
+            "--output",
+            shown(&fmu),
+        ]
+        .map(str::to_owned)
+    };
+    let arguments = pack("MomentumPlant");
+    let arguments = arguments.each_ref().map(String::as_str);
+    let said = run(&arguments, 1);
+    says(&said, &["both.toml:7: command[2].scenario: found the scenario burn, allowed: another scenario"]);
+    says(
+        &said,
+        &[
+            "both.toml:10: command[3].mode: found the mode safeHold, allowed: no such key",
+            "[[event]] with `maneuver`",
+        ],
+    );
+    assert!(!fmu.exists());
+    run(&pack("Guidance").each_ref().map(String::as_str), 0);
+    says(&run(&["info", shown(&fmu)], 0), &["3 commands from 0 s to the end, 2 positions"]);
+
+    let plant = BOTH
+        .replace("scenario = \"burn\"", "scenario = \"nadir\"")
+        .replace("mode = \"safeHold\"", "scenario = \"nadir\"");
+    fs::write(&file, &plant).unwrap();
+    // Panels stand by another rule unless it is chosen, and that is said.
+    let without = "[[panels]] of the timeline are without effect: found panel[k].control = sunOffset, sunOffset, allowed: timeline";
+    says(&run(&arguments, 0), &[without]);
+    assert_eq!(guid(&fmu), guid(&plain));
+    says(&run(&["check", shown(&fmu), "--static"], 0), &[without]);
+    let chosen = [&arguments[..], &["--set", "panel[1].control=timeline"]].concat();
+    assert!(!run(&chosen, 0).contains("warning"));
+    let said = run(&["info", shown(&fmu)], 0);
+    says(
+        &said,
+        &[
+            "3 commands from 0 s to the end, 2 positions of the panels from 0 s to the end, 2 events from 10800 s",
+        ],
+    );
+    let said = run(&["check", shown(&fmu), "--only", "simulation", "--verbose"], 0);
+    says(&said, &["2 events from 10800 s to 14400 s"]);
+
+    // A mission names it; what flies is told its commands.
+    let mission = scratch.path().join("timed.toml");
+    let text = "model = \"MomentumPlant\"\ntimeline = \"both.toml\"\nstop = \"5 h\"\nstep = \"10 min\"\n\
+                record = [\"timeline.command\", \"sun.azimuth\"]\noutput = \"timed.csv\"\n";
+    fs::write(&mission, text).unwrap();
+    let check = ["check", shown(&mission), "--template", shown(&plain)];
+    says(
+        &run(&check, 0),
+        &["ok: timed flies", "without effect: found panel[k].control = sunOffset, sunOffset"],
+    );
+    let set = format!("{text}[set]\n\"panel[1].control\" = \"timeline\"\n");
+    fs::write(&mission, set).unwrap();
+    assert!(!run(&check, 0).contains("warning"));
+    run(&["run", shown(&mission), "--template", shown(&plain), "--quiet"], 0);
+    let rows = fs::read_to_string(scratch.path().join("timed.csv")).unwrap();
+    let row = |number: usize| {
+        rows.lines().nth(number).unwrap().split(',').map(|it| it.parse().unwrap()).collect::<Vec<f64>>()
+    };
+    let commands = [1, 7, 13, 31].map(|number| row(number)[1]);
+    assert_eq!(commands, [1.0, 2.0, 3.0, 3.0], "{rows}");
+    // A mission's mistakes are told by the timeline's lines.
+    fs::write(&file, plant.replace("\"90 min\"", "0")).unwrap();
+    says(&run(&check, 1), &["both.toml:16: panels[2].at: found 0, when panels[1] begins"]);
 }

@@ -1,5 +1,6 @@
-//! Paper 000: 90 days of momentum under its strategies, and what sunlight does to the whole spacecraft.
+//! Papers 000 and 003: 90 days of momentum under their strategies, what sunlight does to the whole spacecraft, and what changes it.
 
+mod authority;
 mod cases;
 mod figures;
 mod lists;
@@ -13,6 +14,7 @@ mod trends;
 mod variant;
 mod wheels;
 
+pub(crate) use authority::authority;
 pub(crate) use figures::{figure4, figure5};
 pub(crate) use off_sun::off_sun;
 pub(crate) use sensitivity::sensitivity;

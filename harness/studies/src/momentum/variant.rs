@@ -6,6 +6,10 @@ use std::path::Path;
 use files::Scratch;
 use loader::Fmu;
 
+/// Names in an FMU's resources.
+const FILE: &str = "spacecraft.toml";
+const TIMELINE: &str = "timeline.toml";
+
 /// A change of the file's text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Edit {
@@ -50,17 +54,55 @@ impl Variant {
         template: &Fmu,
         edits: &[Edit],
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+        Self::of_text(template, FILE, &edited(&Self::text_of(template)?, edits)?, None)
+    }
+
+    /// The template's spacecraft file.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub(super) fn text_of(template: &Fmu) -> Result<String, Box<dyn std::error::Error + Send + Sync>> {
+        Ok(files::read_text(&template.folder().join("resources").join(FILE))?)
+    }
+
+    /// The template with another spacecraft file, `file` in errors, and a timeline, described by its own library.
+    ///
+    /// # Errors
+    /// A file or a timeline that the model refuses, a folder that cannot be written.
+    pub(super) fn of_text(
+        template: &Fmu,
+        file: &str,
+        text: &str,
+        timeline: Option<&str>,
+    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         let model = template.co_simulation()?.model_identifier.clone();
-        let file = Path::new("resources").join("spacecraft.toml");
-        let text = edited(&files::read_text(&template.folder().join(&file))?, edits)?;
-        let described = template.binary()?.describe(&model, Some("spacecraft.toml"), Some(&text))?;
+        let described = template.binary()?.describe(&model, Some(file), Some(text))?;
         let folder = Scratch::new()?;
+        let resources = folder.path().join("resources");
         copy(&template.folder().join("binaries"), &folder.path().join("binaries"))?;
-        fs::create_dir(folder.path().join("resources"))?;
-        fs::write(folder.path().join(&file), text)?;
+        fs::create_dir(&resources)?;
+        fs::write(resources.join(FILE), text)?;
+        if let Some(timeline) = timeline {
+            check_timeline(template, text, timeline)?;
+            fs::write(resources.join(TIMELINE), timeline)?;
+        }
         fs::write(folder.path().join("modelDescription.xml"), described.xml)?;
         Ok(Self { fmu: Fmu::open(folder.path())?, _folder: folder })
     }
+
+    /// Whether the template's model takes a timeline with a spacecraft file.
+    pub(super) fn takes(template: &Fmu, text: &str, timeline: &str) -> bool {
+        check_timeline(template, text, timeline).is_ok()
+    }
+}
+
+fn check_timeline(
+    template: &Fmu,
+    text: &str,
+    timeline: &str,
+) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+    let model = &template.co_simulation()?.model_identifier;
+    Ok(template.binary()?.check_schedule(model, Some(FILE), Some(text), TIMELINE, (TIMELINE, timeline))?)
 }
 
 fn copy(from: &Path, to: &Path) -> std::io::Result<()> {

@@ -1,0 +1,489 @@
+//! What turning panels, tilting, moving the centre of mass and alternating change in the momentum of a day, by offset and distance.
+//!
+//! One flight each: the attitude is commanded, the place held, panels stand by a timeline of `[[panels]]`. Momentum gathers for
+//! `STEP_S` under each change both ways; half of what both leave apart, over the change, is its worth (central difference, off by
+//! a share of `TURN_RAD` squared). Momentum is inertial, by the body axes of the attitude that has the Sun on -Y.
+
+use loader::Fmu;
+use nalgebra::Unit;
+
+use super::variant::Variant;
+use crate::StudyError;
+use crate::attitude::{Attitude, Vector, across, body_direction};
+use crate::case::{Case, Row};
+use crate::cells::Cells;
+use crate::report::{Outcome, Run};
+use crate::settings::{Settings, set};
+use drawing::{Chart, Panel, Series};
+
+const DAY_S: f64 = 86_400.0;
+const DEG: f64 = std::f64::consts::PI / 180.0;
+const AU_M: f64 = 149_597_870_700.0;
+/// Of the Sun, in m3/s2.
+const GM_M3_S2: f64 = 1.327_124_400_18e20;
+
+/// Distances from the Sun, in AU.
+const DISTANCES_AU: [f64; 5] = [0.31, 0.35, 0.4, 0.5, 0.7];
+/// Offsets of the panels from the Sun, in deg.
+const OFFSETS_DEG: std::ops::RangeInclusive<u8> = 0..=60;
+const SPACING_DEG: usize = 5;
+
+/// How long momentum gathers under each change.
+const STEP_S: f64 = 60.0;
+/// Either way.
+const TURN_RAD: f64 = 1e-3;
+/// Either way; momentum is linear in it.
+const SHIFT_M: f64 = 1e-3;
+/// No dump: above all that gathers.
+const NO_DUMP_N_M_S: f64 = 1e6;
+
+/// What is changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Control {
+    Windmill,
+    Offset,
+    Azimuth,
+    Elevation,
+    /// The centre of mass along an axis.
+    Center(usize),
+    /// The attitude, by half a turn about the Sun line.
+    Alternation,
+}
+
+impl Control {
+    const ALL: [Self; 8] = [
+        Self::Windmill,
+        Self::Offset,
+        Self::Azimuth,
+        Self::Elevation,
+        Self::Center(0),
+        Self::Center(1),
+        Self::Center(2),
+        Self::Alternation,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Windmill => "windmill",
+            Self::Offset => "offset",
+            Self::Azimuth => "azimuth",
+            Self::Elevation => "elevation",
+            Self::Center(axis) => ["center_x", "center_y", "center_z"][axis],
+            Self::Alternation => "alternation",
+        }
+    }
+
+    fn is_of_panels(self) -> bool {
+        matches!(self, Self::Windmill | Self::Offset)
+    }
+
+    /// The changes that it is flown with, and what their difference is divided by so that a degree, a centimetre or an alternation
+    /// is left.
+    fn changes(self) -> (&'static [f64], f64) {
+        match self {
+            Self::Center(_) => (&[SHIFT_M, -SHIFT_M], 2.0 * SHIFT_M / 0.01),
+            Self::Alternation => (&[1.0], 1.0),
+            _ => (&[TURN_RAD, -TURN_RAD], 2.0 * TURN_RAD / DEG),
+        }
+    }
+}
+
+/// What holds while momentum gathers once.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    offset_rad: f64,
+    change: Option<(Control, f64)>,
+}
+
+impl Point {
+    /// By how much a control is changed.
+    fn by(&self, control: Control) -> f64 {
+        self.change.filter(|(changed, _)| *changed == control).map_or(0.0, |(_, by)| by)
+    }
+
+    /// From the body to inertial axes, of which X is toward the Sun.
+    fn attitude(&self) -> Attitude {
+        let ahead = body_direction(0.0, 0.0);
+        let sun = body_direction(self.by(Control::Azimuth), self.by(Control::Elevation));
+        let half_turns = self.by(Control::Alternation);
+        let turned = Attitude::from_axis_angle(&Unit::new_unchecked(sun), half_turns * std::f64::consts::PI);
+        upright() * Attitude::rotation_between(&sun, &ahead).unwrap_or_default() * turned
+    }
+
+    fn settings(&self, center_m: Vector) -> Settings {
+        let moved = Vector::from_fn(|axis, _| self.by(Control::Center(axis)));
+        [set("command.q", self.attitude()), set("spacecraft.centerOfMass", center_m + moved)].concat()
+    }
+}
+
+/// The attitude with the Sun on -Y.
+fn upright() -> Attitude {
+    Attitude::rotation_between(&body_direction(0.0, 0.0), &Vector::x()).unwrap_or_default()
+}
+
+/// What a distance and an offset leave, by body axes, in N m s a day.
+struct Worth {
+    distance_au: f64,
+    offset_deg: f64,
+    /// Without a change.
+    still: Vector,
+    /// By a degree, a centimetre, an alternation, of the controls that the spacecraft has.
+    of: Vec<(Control, Vector)>,
+}
+
+impl Worth {
+    fn of(&self, control: Control) -> Option<Vector> {
+        self.of.iter().find(|(known, _)| *known == control).map(|(_, worth)| *worth)
+    }
+
+    /// The part along the light.
+    fn along(worth: Vector) -> f64 {
+        -worth.dot(&body_direction(0.0, 0.0))
+    }
+
+    /// The size of the part across it.
+    fn across(worth: Vector) -> f64 {
+        across(&worth, &body_direction(0.0, 0.0)).norm()
+    }
+}
+
+/// What is flown.
+struct Craft {
+    plants: Vec<Plant>,
+    /// Changed by the user.
+    sets: Settings,
+    center_m: Vector,
+    panels: usize,
+    controls: Vec<Control>,
+}
+
+/// The plant with a timeline of how its panels stand about one offset.
+struct Plant {
+    variant: Variant,
+    offset_deg: f64,
+    points: Vec<Point>,
+}
+
+/// Study `momentum/authority`.
+pub(crate) fn authority(run: &mut Run<'_>) -> Outcome {
+    let craft = Craft::of(run)?;
+    let each =
+        DISTANCES_AU.into_iter().flat_map(|distance_au| craft.plants.iter().map(move |it| (distance_au, it)));
+    let cases = run.chosen(each, |(distance_au, plant)| craft.label(*distance_au, plant))?;
+    let worths = run.all(&cases, |(distance_au, plant)| craft.simulated(*distance_au, plant))?;
+    run.line(
+        "What a change is worth in momentum, by distance from the Sun and offset of the panels [N.m.s/day]\n",
+    );
+    let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.4}"));
+    let row = |worth: &Worth| {
+        let windmill = worth.of(Control::Windmill);
+        let size = |control| worth.of(control).map(|it| it.norm());
+        let sizes = Control::ALL[1..].iter().map(|control| cell(size(*control)));
+        let head = [
+            worth.distance_au.to_string(),
+            if craft.panels == 0 { "-".to_owned() } else { worth.offset_deg.to_string() },
+            cell(windmill.map(Worth::along)),
+            cell(windmill.map(Worth::across)),
+        ];
+        head.into_iter().chain(sizes).collect::<Vec<String>>()
+    };
+    let header = "\
+        distance [AU] | offset [deg] | windmill along, a deg | across | offset, a deg | azimuth, a deg | elevation, a deg | \
+        centre of mass X, a cm | Y | Z | alternation";
+    let rows: Vec<_> = worths.iter().map(row).collect();
+    run.table(header, &rows);
+    balance(run, &craft, &worths);
+    run.line(REMARK);
+    csv(run, &worths)?;
+    run.picture("authority.svg", &chart(&craft, &worths))
+}
+
+const REMARK: &str = "\
+Windmill: along the light (from the Sun to the spacecraft, its sign as for a vector) and the size of what is across it. The others:
+sizes. Offset: all panels alike. Azimuth and elevation: of the Sun in the body frame. Alternation: half a turn about the Sun line,
+which turns round what is across it. The CSV has all components, by the body axes of the attitude that has the Sun on -Y. Each is
+a central difference of flights of MomentumPlant that is held and commanded, all its effects as its file has them.";
+
+/// Tells at which offsets windmilling leaves nothing along the light.
+fn balance(run: &mut Run<'_>, craft: &Craft, worths: &[Worth]) {
+    if !craft.controls.contains(&Control::Windmill) {
+        let why = if craft.panels == 0 {
+            "it has no panels"
+        } else {
+            "none of its panels has a side (`windmill_side`)"
+        };
+        return run.line(&format!("No windmilling: {why}.\n"));
+    }
+    let Some(first_au) = worths.first().map(|it| it.distance_au) else { return };
+    let at: Vec<(f64, f64)> = worths
+        .iter()
+        .filter(|it| it.distance_au == first_au)
+        .filter_map(|it| Some((it.offset_deg, Worth::along(it.of(Control::Windmill)?))))
+        .collect();
+    let zeros = zeros(&at);
+    let shown: Vec<String> = zeros.iter().map(|zero_deg| format!("{zero_deg:.1} deg")).collect();
+    let shown = if shown.is_empty() {
+        "at none of these offsets".to_owned()
+    } else {
+        format!("at {}", shown.join(", "))
+    };
+    run.line(&format!("Along the light windmilling is worth nothing {shown}.\n"));
+}
+
+/// Where a function that is known at evenly spaced places is zero: of the cubic through the four places about a change of sign.
+fn zeros(at: &[(f64, f64)]) -> Vec<f64> {
+    // Where no torque is, rounding has signs.
+    let least = 1e-9 * at.iter().map(|(_, value)| value.abs()).fold(0.0, f64::max);
+    let changes = at
+        .windows(2)
+        .enumerate()
+        .filter(|(_, pair)| pair[0].1 * pair[1].1 < 0.0 && pair.iter().all(|(_, value)| value.abs() > least));
+    let zero = |(k, pair): (usize, &[(f64, f64)])| {
+        let begin = k.saturating_sub(1).min(at.len().saturating_sub(4));
+        let near = &at[begin..at.len().min(begin + 4)];
+        let [mut low, mut high] = [pair[0].0, pair[1].0];
+        let is_low = |x: f64| interpolated(near, x) * pair[0].1 > 0.0;
+        // A hundred halvings leave nothing.
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if is_low(middle) { low = middle } else { high = middle }
+        }
+        0.5 * (low + high)
+    };
+    changes.map(zero).collect()
+}
+
+/// The value at `x` of the polynomial through all points, by Lagrange.
+fn interpolated(points: &[(f64, f64)], x: f64) -> f64 {
+    let term = |(k, (at, value)): (usize, &(f64, f64))| {
+        let others = points.iter().enumerate().filter(|(other, _)| *other != k);
+        value * others.map(|(_, (other, _))| (x - other) / (at - other)).product::<f64>()
+    };
+    points.iter().enumerate().map(term).sum()
+}
+
+fn csv(run: &mut Run<'_>, worths: &[Worth]) -> Outcome {
+    let per = |control: Control| match control {
+        Control::Center(_) => "n_m_s_d_cm",
+        Control::Alternation => "n_m_s_d",
+        _ => "n_m_s_d_deg",
+    };
+    let mut header =
+        "distance_au | offset_deg | still_x_n_m_s_d | still_y_n_m_s_d | still_z_n_m_s_d".to_owned();
+    for control in Control::ALL {
+        let name = control.name();
+        ["x", "y", "z"]
+            .iter()
+            .for_each(|axis| header.push_str(&format!(" | {name}_{axis}_{}", per(control))));
+    }
+    let row = |worth: &Worth| {
+        let of = |control| worth.of(control).map_or_else(|| vec![String::new(); 3], |it| it.cells());
+        let head = [worth.distance_au.cells(), worth.offset_deg.cells(), worth.still.cells()].concat();
+        head.into_iter().chain(Control::ALL.into_iter().flat_map(of)).collect::<Vec<String>>()
+    };
+    run.csv("authority.csv", &header, worths.iter().map(row))
+}
+
+/// Of every control the worth by offset, a line each distance; where there are no panels by distance.
+fn chart(craft: &Craft, worths: &[Worth]) -> Chart {
+    type Of = fn(Vector) -> f64;
+    let size: Of = |it| it.norm();
+    let rows: [(&str, &str, Control, Of); 9] = [
+        ("windmill, along the light", "N.m.s/d/deg", Control::Windmill, Worth::along),
+        ("windmill, across the light", "N.m.s/d/deg", Control::Windmill, Worth::across),
+        ("offset", "N.m.s/d/deg", Control::Offset, size),
+        ("azimuth of the Sun", "N.m.s/d/deg", Control::Azimuth, size),
+        ("elevation of the Sun", "N.m.s/d/deg", Control::Elevation, size),
+        ("centre of mass along X", "N.m.s/d/cm", Control::Center(0), size),
+        ("centre of mass along Y", "N.m.s/d/cm", Control::Center(1), size),
+        ("centre of mass along Z", "N.m.s/d/cm", Control::Center(2), size),
+        ("alternation", "N.m.s/d", Control::Alternation, size),
+    ];
+    let rows = rows.into_iter().filter(|(_, _, control, _)| craft.controls.contains(control));
+    let title = "What a change is worth in momentum a day";
+    if craft.panels == 0 {
+        let line = |control, of: Of| {
+            Series::line(
+                "",
+                worths.iter().filter_map(|it| Some((it.distance_au, of(it.of(control)?)))).collect(),
+            )
+        };
+        let panels = rows.map(|(title, unit, control, of)| {
+            Panel::new(format!("[{unit}]")).titled(title).with([line(control, of)])
+        });
+        return Chart::new(title, "distance from the Sun [AU]").with(panels);
+    }
+    let line = |distance_au: f64, control, of: Of, label: String| {
+        let there = worths.iter().filter(|it| it.distance_au == distance_au);
+        Series::line(label, there.filter_map(|it| Some((it.offset_deg, of(it.of(control)?)))).collect())
+    };
+    let panels = rows.enumerate().map(|(k, (title, unit, control, of))| {
+        let label = |distance_au: f64| if k == 0 { format!("{distance_au} AU") } else { String::new() };
+        let flown = DISTANCES_AU.into_iter().filter(|au| worths.iter().any(|it| it.distance_au == *au));
+        let lines = flown.map(|distance_au| line(distance_au, control, of, label(distance_au)));
+        Panel::new(format!("[{unit}]")).titled(title).with(lines.collect::<Vec<_>>())
+    });
+    Chart::new(title, "offset of the panels from the Sun [deg]").with(panels)
+}
+
+impl Craft {
+    /// The plant of the options' spacecraft with a timeline of all panels' places.
+    fn of(run: &Run<'_>) -> Result<Self, StudyError> {
+        let template = run.options.fmu("MomentumPlant.fmu")?;
+        let failed = |source| StudyError::Simulation { case: "the spacecraft".to_owned(), source };
+        let text = match &run.options.spacecraft {
+            Some(path) => files::read_text(path).map_err(|error| failed(error.into()))?,
+            None => Variant::text_of(&template).map_err(failed)?,
+        };
+        let file = run
+            .options
+            .spacecraft
+            .as_ref()
+            .map_or_else(|| "spacecraft.toml".into(), |it| it.display().to_string());
+        let plain = Variant::of_text(&template, &file, &text, None).map_err(failed)?;
+        let panels = count_of_panels(&plain.fmu);
+        let has_sides = panels > 0
+            && Variant::takes(
+                &template,
+                &text,
+                &timeline(&[Point { offset_rad: 0.0, change: Some((Control::Windmill, TURN_RAD)) }]),
+            );
+        let is_there = |control: &Control| match control {
+            Control::Windmill => has_sides,
+            _ => panels > 0 || !control.is_of_panels(),
+        };
+        let controls: Vec<Control> = Control::ALL.into_iter().filter(is_there).collect();
+        let plant = |offset_deg: f64| {
+            let offset_rad = offset_deg * DEG;
+            let changes = controls
+                .iter()
+                .flat_map(|control| control.changes().0.iter().map(|by| Some((*control, *by))));
+            let points: Vec<Point> =
+                [None].into_iter().chain(changes).map(|change| Point { offset_rad, change }).collect();
+            let timeline = (panels > 0).then(|| timeline(&points));
+            let variant = Variant::of_text(&template, &file, &text, timeline.as_deref()).map_err(failed)?;
+            Ok(Plant { variant, offset_deg, points })
+        };
+        let plants = offsets_deg(panels).map(plant).collect::<Result<Vec<_>, StudyError>>()?;
+        let sets = run.options.assigned(plain.fmu.description())?;
+        if let Some((name, _)) = sets.iter().find(|(name, _)| is_own(name)) {
+            return Err(StudyError::OwnSetting { study: run.study, name: name.clone() });
+        }
+        let start = Case::new("the start", 1.0, 1.0).with(sets.clone());
+        let center_m = start.simulate(&plain.fmu, &["spacecraft.centerOfMass"])?.first();
+        Ok(Self { plants, sets, center_m, panels, controls })
+    }
+
+    fn label(&self, distance_au: f64, plant: &Plant) -> String {
+        let offset = if self.panels == 0 { String::new() } else { format!(", {} deg", plant.offset_deg) };
+        format!("{distance_au} AU{offset}")
+    }
+
+    fn simulated(&self, distance_au: f64, plant: &Plant) -> Result<Worth, StudyError> {
+        let distance_m = distance_au * AU_M;
+        let speed_m_s = (GM_M3_S2 / distance_m).sqrt();
+        let stop_s = plant.points.len() as f64 * STEP_S;
+        let case = Case::new(self.label(distance_au, plant), stop_s, STEP_S)
+            .with(self.sets.clone())
+            .with((1..=self.panels).flat_map(|number| set(&format!("panel[{number}].control"), "timeline")))
+            .set("attitude.source", "commanded")
+            .set("command.source", "inputs")
+            .set("command.kind", "attitude")
+            .set("momentum.convention", "inertial")
+            .set("dump.threshold", [NO_DUMP_N_M_S; 3])
+            .set("orbit.center", "sun")
+            .set("orbit.source", "held")
+            .set("orbit.position", [-distance_m, 0.0, 0.0])
+            .set("orbit.velocity", [0.0, speed_m_s, 0.0]);
+        let mut ahead = plant.points.iter();
+        let mut inputs =
+            |_: Row<'_>| ahead.next().map_or_else(Settings::new, |point| point.settings(self.center_m));
+        let momentum_n_m_s: Vec<Vector> =
+            case.steer(&plant.variant.fmu, &["momentum.inertial"], &mut inputs)?.all(0);
+        // By the body axes, in N m s a day.
+        let gathered =
+            |pair: &[Vector]| upright().inverse_transform_vector(&(pair[1] - pair[0])) * (DAY_S / STEP_S);
+        let mut rates = momentum_n_m_s.windows(2).map(gathered);
+        let mut take = || rates.next().unwrap_or(Vector::repeat(f64::NAN));
+        let still = take();
+        let worth = |control: &Control| {
+            let (changes, per) = control.changes();
+            let first = take();
+            let other = if changes.len() > 1 { take() } else { still };
+            (*control, (first - other) / per)
+        };
+        let of = self.controls.iter().map(worth).collect();
+        Ok(Worth { distance_au, offset_deg: plant.offset_deg, still, of })
+    }
+}
+
+/// Offsets in deg; of a spacecraft without panels one.
+fn offsets_deg(panels: usize) -> impl Iterator<Item = f64> {
+    let count = if panels == 0 { 1 } else { usize::MAX };
+    OFFSETS_DEG.step_by(SPACING_DEG).map(f64::from).take(count)
+}
+
+fn count_of_panels(fmu: &Fmu) -> usize {
+    let has = |name: &str| fmu.description().variables.iter().any(|it| it.name == name);
+    (1..).take_while(|number| has(&format!("panel[{number}].control"))).count()
+}
+
+/// How the panels stand at each point, as a timeline.
+fn timeline(points: &[Point]) -> String {
+    let list = |(k, point): (usize, &Point)| {
+        format!(
+            "[[panels]]\nat = {:?}\nsunOffset = {:?}\nwindmill = {:?}\n",
+            k as f64 * STEP_S,
+            point.offset_rad + point.by(Control::Offset),
+            point.by(Control::Windmill)
+        )
+    };
+    points.iter().enumerate().map(list).collect()
+}
+
+/// Whether the study itself sets a variable.
+fn is_own(name: &str) -> bool {
+    const GROUPS: [&str; 7] = [
+        "attitude.source",
+        "command.",
+        "momentum.convention",
+        "dump.threshold",
+        "orbit.",
+        "panel[1].control",
+        "start.epoch",
+    ];
+    GROUPS.iter().any(|own| name.starts_with(own))
+        || name.starts_with("panel[") && name.ends_with("].control")
+}
+
+#[cfg(test)]
+mod tests {
+    //! Zeros of a cubic, attitudes by hand.
+    use super::*;
+
+    #[test]
+    fn zeros_of_a_cubic_are_found() {
+        let at: Vec<(f64, f64)> =
+            (0..=12).map(|k| 5.0 * f64::from(k)).map(|x| (x, (x - 3.0) * (x - 31.7) * (x - 58.0))).collect();
+        let found = zeros(&at);
+        assert_eq!(found.len(), 3);
+        found
+            .iter()
+            .zip([3.0, 31.7, 58.0])
+            .for_each(|(found, zero)| assert!((found - zero).abs() < 1e-9, "{found}"));
+        assert_eq!(zeros(&[(0.0, 1.0), (5.0, 2.0)]), []);
+    }
+
+    #[test]
+    fn an_attitude_has_the_sun_at_its_angles() {
+        let by = |control, by| Point { offset_rad: 0.0, change: Some((control, by)) }.attitude();
+        let seen = |attitude: Attitude| attitude.inverse_transform_vector(&Vector::x());
+        let near = |a: Vector, b: Vector| assert!((a - b).norm() < 1e-15, "{a} {b}");
+        near(seen(Point { offset_rad: 0.0, change: None }.attitude()), -Vector::y());
+        near(seen(by(Control::Azimuth, 0.1)), Vector::new(0.1f64.sin(), -(0.1f64.cos()), 0.0));
+        near(seen(by(Control::Elevation, 0.1)), Vector::new(0.0, -(0.1f64.cos()), -(0.1f64.sin())));
+        let turned = by(Control::Alternation, 1.0);
+        near(seen(turned), -Vector::y());
+        near(turned.transform_vector(&Vector::z()), -upright().transform_vector(&Vector::z()));
+    }
+}
