@@ -75,6 +75,22 @@ impl Flown {
         Self { rows }
     }
 
+    /// The flight with what another one reports within a span.
+    pub fn with_part_of(&self, other: &Self, [from_s, to_s]: [f64; 2]) -> Self {
+        let is_inside = |row: &&FlownRow| row.time_s > from_s + SAME_S && row.time_s < to_s - SAME_S;
+        let mut rows: Vec<FlownRow> =
+            self.rows.iter().filter(|row| row.time_s <= from_s + SAME_S).cloned().collect();
+        rows.extend(other.rows.iter().filter(is_inside).cloned());
+        rows.extend(self.rows.iter().filter(|row| row.time_s >= to_s - SAME_S).cloned());
+        Self { rows }
+    }
+
+    /// What is known at a time within the flight, interpolated.
+    pub fn at(&self, time_s: f64) -> Option<FlownRow> {
+        let with = self.with_rows_at(&[time_s]);
+        with.rows.into_iter().find(|row| (row.time_s - time_s).abs() <= SAME_S)
+    }
+
     /// Momentum at a time, in N m s, interpolated; behind a dump that which it leaves.
     pub fn momentum_n_m_s(&self, time_s: f64) -> Vector3<f64> {
         let after = self.rows.partition_point(|row| row.time_s < time_s - SAME_S);

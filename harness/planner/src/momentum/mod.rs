@@ -7,7 +7,9 @@ mod mission;
 mod model;
 pub mod plan;
 mod program;
+pub mod refit_file;
 mod region;
+pub mod report;
 pub mod torque;
 pub mod windows;
 

@@ -7,16 +7,16 @@
 
 use std::time::{Duration, Instant};
 
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Unit, Vector3};
 
 use super::{
     baseline::{NoOffset, OffsetStep},
     counted::{self, Groups},
-    flown::{Flown, SAME_S},
+    flown::{Flown, FlownRow, SAME_S},
     model::{ALL, Limit, Model, Part},
     program::{Goal, Solution},
-    torque::{Controls, LitCraft},
-    windows::{Layout, Window},
+    torque::{Attitude, Control, Controls, LitCraft},
+    windows::{Layout, Window, WindowKind},
 };
 
 /// Flight and plan agree where they differ by less than this share of the limit.
@@ -316,6 +316,94 @@ pub fn plan(
             counts = None;
         }
     }
+}
+
+/// Momentum after a dump in the body frame as it stands then, in N m s.
+pub fn body_momentum_n_m_s(
+    craft: &LitCraft,
+    flown: &Flown,
+    windows: &[Window],
+    dump: &PlannedDump,
+) -> Vector3<f64> {
+    let Some(row) = flown.at(dump.at_s) else { return dump.after_n_m_s };
+    let holds = |window: &&Window| window.start_s <= dump.at_s && window.stop_s > dump.at_s;
+    let window = windows.iter().find(holds).filter(|window| window.kind == WindowKind::Free);
+    let mut inertial_from_body = row.inertial_from_body;
+    if let Some(window) = window {
+        let [azimuth_rad, elevation_rad] =
+            [Control::Azimuth, Control::Elevation].map(|it| window.controls.get(it));
+        if let Some(found) = craft.downlink_attitude(&row, azimuth_rad, elevation_rad) {
+            inertial_from_body = found;
+        }
+        let is_alternate = |[from_s, to_s]: &[f64; 2]| (*from_s..*to_s).contains(&dump.at_s);
+        if window.alternate_spans_s().iter().any(is_alternate) {
+            let axis = Unit::new_normalize(row.to_sun_m);
+            inertial_from_body =
+                Rotation3::from_axis_angle(&axis, core::f64::consts::PI) * inertial_from_body;
+        }
+    }
+    inertial_from_body.inverse() * dump.after_n_m_s
+}
+
+/// The model of a mission before any flight of a plan.
+fn bare(task: &PlanTask, craft: &LitCraft, flown: &Flown) -> Result<Model, PlanError> {
+    let (windows, _) = task.layout.windows(flown).map_err(PlanError::Corridor)?;
+    Ok(Model::new(craft, flown.clone(), windows, task.limit.clone()))
+}
+
+/// Tells nobody.
+struct Silent;
+
+impl Flies for Silent {
+    fn fly(&mut self, _: &[Window], _: &[PlannedDump]) -> Result<Flown, Box<dyn std::error::Error>> {
+        Err("nothing is flown here".into())
+    }
+
+    fn progress(&mut self, _: &str) {}
+}
+
+/// By how much the limit is exceeded without dumps at best, in N m s, by the model before any flight of a plan; negative below.
+///
+/// # Errors
+/// A corridor without an offset, a programme without an answer.
+pub fn least_excess_n_m_s(task: &PlanTask, craft: &LitCraft, flown: &Flown) -> Result<f64, PlanError> {
+    let mut model = bare(task, craft, flown)?;
+    let single = counted::single(&model);
+    refine(&mut model, craft, &single, Goal::LeastExcess, &mut Silent)?;
+    Ok(model.excess_n_m_s().0)
+}
+
+/// The fewest dumps, by the same model; `None` where dumps do not help.
+///
+/// # Errors
+/// A corridor without an offset, a programme without an answer.
+pub fn fewest_dumps(task: &PlanTask, craft: &LitCraft, flown: &Flown) -> Result<Option<usize>, PlanError> {
+    let mut model = bare(task, craft, flown)?;
+    let single = counted::single(&model);
+    if refine(&mut model, craft, &single, Goal::LeastExcess, &mut Silent)? {
+        return Ok(Some(0));
+    }
+    Ok(counted::fewest_dumps(&model, GUARD, &mut || {}).map(|found| found.at_least))
+}
+
+/// Momentum that a downlink with the Sun on -Y would gather over a span, the arrays standing as in the windows, EME2000, in N m s.
+pub fn downlink_momentum_n_m_s(
+    craft: &LitCraft,
+    flown: &Flown,
+    windows: &[Window],
+    [from_s, to_s]: [f64; 2],
+) -> Vector3<f64> {
+    let with = flown.with_rows_at(&[from_s, to_s]);
+    let inside: Vec<_> =
+        with.rows.iter().filter(|row| (from_s - SAME_S..=to_s + SAME_S).contains(&row.time_s)).collect();
+    let torque = |row: &FlownRow| {
+        let window = windows.iter().find(|window| window.stop_s >= row.time_s);
+        let controls = window.map(|window| window.controls).unwrap_or_default();
+        let controls = controls.with(Control::Azimuth, 0.0).with(Control::Elevation, 0.0);
+        craft.torque_n_m(row, Attitude::Downlink, &controls) + row.other_torque_n_m
+    };
+    let pairs = inside.windows(2);
+    pairs.map(|pair| (torque(pair[0]) + torque(pair[1])) * (0.5 * (pair[1].time_s - pair[0].time_s))).sum()
 }
 
 fn planned_dumps(model: &Model) -> Vec<PlannedDump> {
