@@ -29,6 +29,9 @@ const MOST_ROUNDS: usize = 8;
 const MOST_STEPS: usize = 8;
 /// By which the range about the present controls narrows from one to the next.
 const NARROWED: f64 = 0.6;
+/// Share of the range at the beginning, and behind a flight, from which little is left to correct.
+const WHOLE: f64 = 1.0;
+const LITTLE: [f64; 3] = [0.05, 0.15, 0.5];
 /// A solution is taken where the model about it differs by less than this share of the limit.
 const TAKEN: f64 = 2e-3;
 
@@ -164,16 +167,15 @@ fn give(model: &mut Model, leaders: &[usize], solution: &Solution) {
     }
 }
 
-/// Solves about its own answers; whether the limits are kept.
+/// Solves about its own answers, from `trust` of the range of every control on; whether the limits are kept.
 fn refine(
     model: &mut Model,
     craft: &LitCraft,
     leaders: &[usize],
-    goal: Goal,
+    (goal, mut trust): (Goal, f64),
     flies: &mut dyn Flies,
 ) -> Result<bool, PlanError> {
     let limit = model.limit.momentum_n_m_s;
-    let mut trust = 1.0;
     let mut best: Option<(f64, Vec<Window>, Vec<(usize, Vector3<f64>)>)> = None;
     for step in 0..MOST_STEPS {
         flies.progress("momentum");
@@ -229,12 +231,12 @@ fn structure(
     let single = counted::single(model);
     let (mut dumps_at_least, mut exceeded) = (0, None);
     let start = model.windows.clone();
-    if !refine(model, craft, &single, Goal::LeastCost, flies)? {
+    if !refine(model, craft, &single, (Goal::LeastCost, WHOLE), flies)? {
         // Another way: from the start again, as far below the limit as it goes.
         let first = (model.excess_n_m_s().0, model.windows.clone());
         model.windows = start;
         model.linearise(craft);
-        if !refine(model, craft, &single, Goal::LeastExcess, flies)? {
+        if !refine(model, craft, &single, (Goal::LeastExcess, WHOLE), flies)? {
             if first.0 < model.excess_n_m_s().0 {
                 model.windows = first.1;
                 model.linearise(craft);
@@ -252,7 +254,7 @@ fn structure(
                 exceeded = Some(Exceeded { excess_n_m_s, first_s });
             }
             model.dumps = found.rows.into_iter().map(|row| (row, Vector3::zeros())).collect();
-            refine(model, craft, &single, Goal::LeastCost, flies)?;
+            refine(model, craft, &single, (Goal::LeastCost, WHOLE), flies)?;
         }
     }
     flies.progress("changes");
@@ -278,12 +280,17 @@ pub fn plan(
     let mut rounds = 0;
     loop {
         rounds += 1;
-        if counts.is_none() {
+        let is_counted_now = counts.is_none();
+        if is_counted_now {
             counts = Some(structure(&mut model, craft, task, flies)?);
         }
         let Some(found) = &counts else { continue };
         let leaders = found.groups.leaders.clone();
-        let kept = refine(&mut model, craft, &leaders, Goal::LeastCost, flies)?;
+        let mut kept = false;
+        let ranges: &[f64] = if is_counted_now { &[WHOLE] } else { &LITTLE };
+        for trust in ranges {
+            kept = kept || refine(&mut model, craft, &leaders, (Goal::LeastCost, *trust), flies)?;
+        }
         let dumps = planned_dumps(&model);
         flies.progress("flight");
         let flight = flies.fly(&model.windows, &dumps).map_err(PlanError::Flight)?;
@@ -369,7 +376,7 @@ impl Flies for Silent {
 pub fn least_excess_n_m_s(task: &PlanTask, craft: &LitCraft, flown: &Flown) -> Result<f64, PlanError> {
     let mut model = bare(task, craft, flown)?;
     let single = counted::single(&model);
-    refine(&mut model, craft, &single, Goal::LeastExcess, &mut Silent)?;
+    refine(&mut model, craft, &single, (Goal::LeastExcess, WHOLE), &mut Silent)?;
     Ok(model.excess_n_m_s().0)
 }
 
@@ -380,7 +387,7 @@ pub fn least_excess_n_m_s(task: &PlanTask, craft: &LitCraft, flown: &Flown) -> R
 pub fn fewest_dumps(task: &PlanTask, craft: &LitCraft, flown: &Flown) -> Result<Option<usize>, PlanError> {
     let mut model = bare(task, craft, flown)?;
     let single = counted::single(&model);
-    if refine(&mut model, craft, &single, Goal::LeastExcess, &mut Silent)? {
+    if refine(&mut model, craft, &single, (Goal::LeastExcess, WHOLE), &mut Silent)? {
         return Ok(Some(0));
     }
     Ok(counted::fewest_dumps(&model, GUARD, &mut || {}).map(|found| found.at_least))
