@@ -1,6 +1,7 @@
 //! The timeline of a plan: what the mission commands and keeps, and the plan's own commands, panels and dumps.
 //!
-//! Angles are written in deg to a ten-thousandth, times of alternation to a second; what is flown is what is written.
+//! Angles are written in deg to a ten-thousandth, times of alternation to a minute, so that steps of a minute meet them; what is flown is
+//! what is written.
 
 use core::fmt::Write;
 
@@ -58,6 +59,11 @@ pub(super) fn shown_deg(angle_rad: f64) -> f64 {
     deg + 0.0
 }
 
+/// The nearest whole minute, in s.
+fn minute(time_s: f64) -> f64 {
+    60.0 * (time_s / 60.0).round()
+}
+
 /// One stretch of a window in one attitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stretch {
@@ -69,7 +75,7 @@ pub(super) struct Stretch {
 pub(super) fn stretches(window: &Window) -> Vec<Stretch> {
     let mut all = vec![Stretch { at_s: window.start_s, alternate: false }];
     for [from_s, to_s] in window.alternate_spans_s() {
-        let [from_s, to_s] = [from_s.round().max(window.start_s), to_s.round().min(window.stop_s)];
+        let [from_s, to_s] = [minute(from_s).max(window.start_s), minute(to_s).min(window.stop_s)];
         if to_s <= from_s {
             continue;
         }

@@ -68,6 +68,9 @@ fn relative(folder: &Path, path: &Path) -> PathBuf {
     up.chain(to[shared..].iter().copied()).collect()
 }
 
+/// How long a request of a dump is held, in s: seen by steps of a minute.
+const HELD_S: f64 = 60.0;
+
 /// Values of the inputs over a stretch.
 #[derive(Clone, Debug, PartialEq)]
 struct Inputs {
@@ -121,7 +124,7 @@ pub(super) fn inputs(
     }
     for dump in &plan.dumps {
         changes.push((dump.at_s, Change::Dump(true, bodies(dump))));
-        changes.push((dump.at_s + 1.0, Change::Dump(false, bodies(dump))));
+        changes.push((dump.at_s + HELD_S, Change::Dump(false, bodies(dump))));
     }
     changes.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut text = String::from("time");
