@@ -10,6 +10,8 @@ mod program;
 pub mod refit_file;
 mod region;
 pub mod report;
+#[cfg(test)]
+mod test_craft;
 pub mod torque;
 pub mod windows;
 
