@@ -380,8 +380,14 @@ impl GuidedVariables {
         defaults: &WindowDefaults,
         is_about_sun: bool,
     ) -> GuidedPhase {
-        let is_given = context.given(values, &[self.phase.into()]).has(self.phase);
-        if is_given { values.choice(self.phase) } else { defaults.phase(is_about_sun) }
+        let [start, end] = [self.downlink_start, self.downlink_end].map(Elements::from);
+        let windows =
+            [self.phase.into(), self.downlink_reference.into(), self.downlink_every.into(), start, end];
+        if context.given(values, &windows).has(self.phase) {
+            values.choice(self.phase)
+        } else {
+            defaults.phase(is_about_sun)
+        }
     }
 
     /// Refuses science that unloads without a strategy that chooses the Sun's place.

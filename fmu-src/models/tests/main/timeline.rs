@@ -164,7 +164,7 @@ fn alternation_cancels_torque_across_the_sun_line() {
     let [one, two] =
         [(&one, 12.0), (&two, 24.0)].map(|(named, hours)| left_across(named, &cruise(0.4), hours * HOUR_S));
     println!("left across the Sun line: fixed {fixed:e}, +- {one:e}, +--+ {two:e}");
-    assert!(one > 1e-4 && one < 1e-2 && two < 2e-3, "{one:e} {two:e}");
+    assert!(one < 1e-2 && two < 2e-3, "{one:e} {two:e}");
 }
 
 #[test]
@@ -190,13 +190,10 @@ fn the_sun_stands_where_the_downlink_has_it_and_what_cannot_be_is_flagged() {
     }
     assert!(clamped > 0);
     // About the Sun with windows there is science between them.
-    let mut windows = named.fly(0.0, &[&cruise(0.4)[..], &[("guided.phase", 1.0)]].concat()).unwrap();
+    let mut windows = named
+        .fly(0.0, &[&cruise(0.4)[..], &[("guided.phase", 1.0), ("guided.downlinkReference", 2.0)]].concat())
+        .unwrap();
     windows.step_to(60.0).unwrap();
-    println!(
-        "{} {:?}",
-        windows.integer("guided.phase"),
-        ["downlinkEvery"].map(|n| windows.integer(&format!("guided.{n}")))
-    );
     assert!(!windows.boolean("downlink.active"));
     assert_eq!(named.fly(0.0, &[]).unwrap().integer("guided.phase"), 1);
 }

@@ -201,6 +201,38 @@ fn a_component_beyond_its_threshold_asks_once() {
 }
 
 #[test]
+fn a_dump_of_the_timeline_is_requested_at_the_sample_that_it_comes_to() {
+    let timeline = "[[event]]\nat = 9.5\ndump = true\n[[event]]\nat = 12.25\ndump = [0.5, -1, 0.25]\n\
+                    maneuver = { deltaV = [1, 0, 0] }\n[[event]]\nat = 15\ndump = true\n\
+                    [[event]]\nat = 16\ncenterOfMass = [0, 0, 0]\n";
+    let named = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", timeline);
+    let left = Vector3::new(0.5, -1.0, 0.25);
+    // What came before the start is past; at the start it is due.
+    for (start_s, expected) in [
+        (0.0, &[(10.0, Vector3::zeros()), (13.0, left), (15.0, Vector3::zeros())][..]),
+        (15.0, &[(15.0, Vector3::zeros())]),
+    ] {
+        for step_s in [0.5, 1.0] {
+            let mut flight = named.fly(start_s, &with(&[PLACED])).unwrap();
+            let mut requested = Vec::new();
+            let mut sampled_s = f64::NEG_INFINITY;
+            for _ in 0..40 {
+                let before_s = flight.time_s();
+                flight = flight.restored();
+                flight.step_to(before_s + step_s).unwrap();
+                // The sample of the step's begin, or none in the second half of a second.
+                let sample_s = start_s + (before_s - start_s).floor();
+                if flight.boolean("dump.request") && sample_s > sampled_s {
+                    requested.push((sample_s, flight.vector("dump.target")));
+                    sampled_s = sample_s;
+                }
+            }
+            assert_eq!(requested, expected, "{start_s} {step_s}");
+        }
+    }
+}
+
+#[test]
 fn a_request_makes_a_plant_dump_to_its_target() {
     let (guidances, plants) = (NamedModel::<Guidance>::shipped(), NamedModel::<MomentumPlant>::shipped());
     let limits = [("dump.threshold[1]", 0.3)];

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::burn::{Span, burn as burn_of};
 use super::commands::{Commands, Reader};
 use super::description::Description;
-use super::entry::{TimelineClock, TimelineEntry, TimelineEvent, TimelinePanels};
+use super::entry::{Slot, TimelineClock, TimelineEntry, TimelineEvent, TimelinePanels};
 use super::events::event;
 use super::panels::panels;
 use super::scans::scan;
@@ -142,5 +142,24 @@ impl Timeline {
         let begun = self.entries.partition_point(|entry| entry.at_s <= now_s);
         let last = self.entries.get(begun.checked_sub(1)?)?;
         last.until_s.is_none_or(|until_s| now_s < until_s).then_some(last)
+    }
+
+    /// What is in force at a time of the clock, in s.
+    pub fn slot(&self, now_s: f64) -> Slot<'_> {
+        let entries = self.entries();
+        let begun = entries.partition_point(|entry| entry.at_s <= now_s);
+        let next_s = entries.get(begun).map_or(f64::INFINITY, |next| next.at_s);
+        let Some(last) = begun.checked_sub(1).and_then(|index| entries.get(index)) else {
+            return Slot { entry: None, row: 0, since_s: f64::NEG_INFINITY, until_s: next_s };
+        };
+        match last.until_s {
+            Some(end_s) if end_s <= now_s => Slot { entry: None, row: 0, since_s: end_s, until_s: next_s },
+            end_s => Slot {
+                entry: Some(last),
+                row: begun,
+                since_s: last.at_s,
+                until_s: end_s.unwrap_or(f64::INFINITY).min(next_s),
+            },
+        }
     }
 }

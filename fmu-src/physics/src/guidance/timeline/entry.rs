@@ -10,7 +10,7 @@ use crate::guidance::burn::velocity_path::VelocityPath;
 use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::downlink::sun_place::SunRequest;
 use crate::guidance::modes::mode::Mode;
-use crate::guidance::pointing::command::PointingCommand;
+use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::numerics::spacing::spacing;
 use crate::spacecraft::ThrusterSet;
 
@@ -58,6 +58,31 @@ pub struct TimelineEntry {
     pub burn: Option<TimelineBurn>,
     /// Whether a plan may change it.
     pub status: PlanStatus,
+}
+
+/// What is in force over a span of the timeline's clock.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slot<'a> {
+    /// The command; `None`: nothing is commanded.
+    pub entry: Option<&'a TimelineEntry>,
+    /// Its row, from 1; 0 where nothing is commanded.
+    pub row: usize,
+    /// Since when, in s; minus infinity before the first command.
+    pub since_s: f64,
+    /// Until when, in s; infinite after the last one.
+    pub until_s: f64,
+}
+
+impl Slot<'_> {
+    /// The scenario that it commands itself, the orbit phase's aside.
+    pub fn scenario(&self) -> Option<Scenario> {
+        self.entry.and_then(|entry| entry.command.scenario).filter(|it| *it != Scenario::OrbitPhase)
+    }
+
+    /// Where its downlink is to have the Sun, where `requested` by an input says nothing.
+    pub fn sun_request(&self, requested: SunRequest) -> SunRequest {
+        self.entry.map_or(requested, |entry| entry.downlink.under(requested))
+    }
 }
 
 /// How the panels stand from a time on.

@@ -13,23 +13,10 @@ use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::downlink::sun_place::{SunPlace, SunRequest};
 use crate::guidance::geometry::ephemeris_at_time::{EphemerisAtTime, TargetPlanet};
 use crate::guidance::geometry::moving::value;
-use crate::guidance::pointing::command::{AimpointOption, PointingCommand, Scenario};
+use crate::guidance::pointing::command::{AimpointOption, PointingCommand};
 use crate::guidance::pointing::scan::{ScanTime, next_corner_s};
 use crate::guidance::pointing::scenario::{GuidanceHardware, PointingProgress, aim};
 use crate::numerics::spacing::spacing;
-
-/// What is in force over a span of the timeline's clock.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slot<'a> {
-    /// The command; `None`: nothing is commanded.
-    pub entry: Option<&'a TimelineEntry>,
-    /// Its row, from 1; 0 where nothing is commanded.
-    pub row: usize,
-    /// Since when, in s; minus infinity before the first command.
-    pub since_s: f64,
-    /// Until when, in s; infinite after the last one.
-    pub until_s: f64,
-}
 
 /// What parameters say.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,39 +54,6 @@ pub struct TimelineAttitude {
     pub clamped: bool,
     /// When the next motion of a scan begins or ends, in s of the clock.
     pub corner_s: f64,
-}
-
-impl Timeline {
-    /// What is in force at a time of the clock, in s.
-    pub fn slot(&self, now_s: f64) -> Slot<'_> {
-        let entries = self.entries();
-        let begun = entries.partition_point(|entry| entry.at_s <= now_s);
-        let next_s = entries.get(begun).map_or(f64::INFINITY, |next| next.at_s);
-        let Some(last) = begun.checked_sub(1).and_then(|index| entries.get(index)) else {
-            return Slot { entry: None, row: 0, since_s: f64::NEG_INFINITY, until_s: next_s };
-        };
-        match last.until_s {
-            Some(end_s) if end_s <= now_s => Slot { entry: None, row: 0, since_s: end_s, until_s: next_s },
-            end_s => Slot {
-                entry: Some(last),
-                row: begun,
-                since_s: last.at_s,
-                until_s: end_s.unwrap_or(f64::INFINITY).min(next_s),
-            },
-        }
-    }
-}
-
-impl Slot<'_> {
-    /// The scenario that it commands itself, the orbit phase's aside.
-    pub fn scenario(&self) -> Option<Scenario> {
-        self.entry.and_then(|entry| entry.command.scenario).filter(|it| *it != Scenario::OrbitPhase)
-    }
-
-    /// Where its downlink is to have the Sun, where `requested` by an input says nothing.
-    pub fn sun_request(&self, requested: SunRequest) -> SunRequest {
-        self.entry.map_or(requested, |entry| entry.downlink.under(requested))
-    }
 }
 
 /// Bodies that a command aims at.

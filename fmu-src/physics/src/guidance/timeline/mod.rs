@@ -24,9 +24,9 @@ mod tests;
 
 pub use build::Timeline;
 pub use entry::{
-    DownlinkOverride, KeepInOverride, PlanStatus, TimelineBurn, TimelineClock, TimelineDump, TimelineEntry,
-    TimelineEvent, TimelineManeuver, TimelinePanels,
+    DownlinkOverride, KeepInOverride, PlanStatus, Slot, TimelineBurn, TimelineClock, TimelineDump,
+    TimelineEntry, TimelineEvent, TimelineManeuver, TimelinePanels,
 };
-pub use law::{Slot, TimelineAttitude, TimelineLaw, TimelineSettings, bodies_of};
+pub use law::{TimelineAttitude, TimelineLaw, TimelineSettings, bodies_of};
 #[cfg(feature = "schema")]
 pub use schema::schema;
