@@ -50,6 +50,8 @@ pub(super) struct Model {
     pub windows: Vec<Window>,
     /// The limit.
     pub limit: Limit,
+    /// Before this time nothing is judged, in s.
+    pub judged_from_s: f64,
     /// Rows at which planned dumps leave any momentum, with what they leave.
     pub dumps: Vec<(usize, Vector3<f64>)>,
     cells: Vec<Cell>,
@@ -85,6 +87,7 @@ impl Model {
             flown,
             windows,
             limit,
+            judged_from_s: f64::NEG_INFINITY,
             dumps: Vec::new(),
             cells: Vec::new(),
             instants: Vec::new(),
@@ -186,7 +189,14 @@ impl Model {
     pub(super) fn allowed_n_m_s(&self) -> Vec<f64> {
         let limit = &self.limit;
         let most = limit.momentum_n_m_s * (1.0 - limit.margin);
-        let Some(covariance) = limit.covariance else { return vec![most; self.flown.rows.len()] };
+        let judged = |row: usize, allowed: f64| {
+            let is_judged = self.flown.rows[row].time_s >= self.judged_from_s - SAME_S;
+            if is_judged { allowed } else { allowed + UNJUDGED * limit.momentum_n_m_s }
+        };
+        let rows = self.flown.rows.len();
+        let Some(covariance) = limit.covariance else {
+            return (0..rows).map(|row| judged(row, most)).collect();
+        };
         let mut by_error = Matrix3x4::zeros();
         let mut all = vec![most];
         for (index, cell) in self.cells.iter().enumerate() {
@@ -198,7 +208,7 @@ impl Model {
             let variance = SymmetricEigen::new(of_momentum).eigenvalues.max().max(0.0);
             all.push(most - SIGMAS * variance.sqrt());
         }
-        all
+        all.into_iter().enumerate().map(|(row, allowed)| judged(row, allowed)).collect()
     }
 
     /// By how much |H| exceeds what is allowed at the worst row, in N m s, and that row.
@@ -337,6 +347,8 @@ impl Model {
     }
 }
 
+/// Limits that nothing is judged by, where nothing is judged.
+const UNJUDGED: f64 = 1e3;
 /// Windows count as no longer than this where instants are chosen, in s.
 const LONGEST_WINDOW_S: f64 = 3.0 * DAY_S;
 const DAY_S: f64 = 86_400.0;

@@ -369,12 +369,19 @@ impl Flies for Silent {
     fn progress(&mut self, _: &str) {}
 }
 
-/// By how much the limit is exceeded without dumps at best, in N m s, by the model before any flight of a plan; negative below.
+/// By how much the limit is exceeded from a time on without dumps at best, in N m s, by the model before any flight of a plan; negative
+/// below.
 ///
 /// # Errors
 /// A corridor without an offset, a programme without an answer.
-pub fn least_excess_n_m_s(task: &PlanTask, craft: &LitCraft, flown: &Flown) -> Result<f64, PlanError> {
+pub fn least_excess_n_m_s(
+    task: &PlanTask,
+    craft: &LitCraft,
+    flown: &Flown,
+    from_s: f64,
+) -> Result<f64, PlanError> {
     let mut model = bare(task, craft, flown)?;
+    model.judged_from_s = from_s;
     let single = counted::single(&model);
     refine(&mut model, craft, &single, (Goal::LeastExcess, WHOLE), &mut Silent)?;
     Ok(model.excess_n_m_s().0)

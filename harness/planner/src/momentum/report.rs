@@ -34,7 +34,7 @@ pub struct Price {
     pub span_s: [f64; 2],
     /// Momentum that its span gathers more, the rest being as planned, EME2000, in N m s.
     pub gathered_n_m_s: [f64; 3],
-    /// By how much the greatest |H| of the plan with the least of it rises against the limit, in N m s; negative: falls.
+    /// By how much the least greatest |H| that any choice of controls attains from its beginning on rises, in N m s; negative: falls.
     pub momentum_n_m_s: f64,
     /// Dumps more.
     pub dumps: i64,

@@ -37,8 +37,8 @@ pub(super) struct Activity {
 pub(super) struct PlanFile {
     pub file: PathBuf,
     pub mission: At<PathBuf>,
-    pub freeze_s: f64,
-    pub window_s: f64,
+    pub freeze_s: At<f64>,
+    pub window_s: At<f64>,
     pub limit_n_m_s: Option<f64>,
     pub margin: f64,
     pub refit: Option<At<PathBuf>>,
@@ -105,14 +105,16 @@ impl Builder<'_> {
         if momentum.margin.is_some() && momentum.refit.is_some() {
             self.check.report(&margin, "margin beside refit", "one of them");
         }
+        let freeze_s = self.span(&root.key("freeze"), description.freeze.as_ref(), 14.0 * DAY_S, 0.0);
+        let window_s = self.span(&root.key("window"), description.window.as_ref(), 3.0 * DAY_S, 3600.0);
         let contacts = description.contact.unwrap_or_default();
         let contacts = self.contacts(&root.key("contact"), &contacts);
         let activities = description.activity.unwrap_or_default().into_iter().enumerate();
         PlanFile {
             file: file.to_owned(),
             mission: self.at(&root.key("mission"), mission),
-            freeze_s: self.span(&root.key("freeze"), description.freeze.as_ref(), 14.0 * DAY_S, 0.0),
-            window_s: self.span(&root.key("window"), description.window.as_ref(), 3.0 * DAY_S, 3600.0),
+            freeze_s: self.at(&root.key("freeze"), freeze_s),
+            window_s: self.at(&root.key("window"), window_s),
             limit_n_m_s: self.momentum(&of_momentum.key("limit"), momentum.limit.as_ref()),
             margin: self.share(&margin, momentum.margin.as_ref(), 0.0, 0.99),
             refit: momentum.refit.map(|path| {

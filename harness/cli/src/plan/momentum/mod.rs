@@ -156,7 +156,9 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
         format!("{name}={}", values.join(","))
     });
     let settings: Vec<String> = settings.collect();
-    let mission = FlownMission::open(&file.mission.it, template, &settings)?;
+    let mission = FlownMission::open(&file.mission.it, template, &settings)
+        .map_err(|error| file.problem(&file.mission, &error.to_string()))?;
+    check_spans(file, &mission)?;
     let spacecraft = mission.spacecraft()?;
     let found = mission.timeline(&spacecraft)?;
     let timeline = MissionTimeline::of(&mission, found.as_ref())?;
@@ -169,6 +171,29 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     let flown = mission.fly(&mut |_| {})?;
     let last = RefCell::new(String::new());
     Ok(Planned { options, mission, timeline, craft, flown, task, sets, began, last })
+}
+
+/// Most windows of a plan.
+const MOST_WINDOWS: f64 = 1000.0;
+
+/// Refuses a plan without free time, or with windows beyond count.
+fn check_spans(file: &PlanFile, mission: &FlownMission) -> Result<(), Failure> {
+    let length_s = mission.stop_s - mission.start_s;
+    let days = |time_s: f64| terminal::short(time_s / 86_400.0);
+    if file.freeze_s.it >= length_s {
+        let found =
+            format!("found {} d, no less than the mission's {} d", days(file.freeze_s.it), days(length_s));
+        return Err(
+            format!("{}: {found}, allowed: less, so that there is something to plan", at("freeze")).into()
+        );
+    }
+    let least_s = length_s / MOST_WINDOWS;
+    if file.window_s.it < least_s {
+        let found = format!("found {} d of the mission's {} d", days(file.window_s.it), days(length_s));
+        let what = format!("{found}, allowed: from {} d on", days(least_s));
+        return Err(file.problem(&file.window_s, &what).into());
+    }
+    Ok(())
 }
 
 fn layout(
@@ -206,9 +231,9 @@ fn layout(
         .and_then(|(_, angles)| angles.first().copied())
         .unwrap_or_else(|| if sides.is_empty() { 0.0 } else { mission.real("panel[1].sunOffset") });
     Ok(Layout {
-        frozen_until_s: mission.start_s + file.freeze_s,
+        frozen_until_s: mission.start_s + file.freeze_s.it,
         arrays_are_frozen,
-        window_s: file.window_s,
+        window_s: file.window_s.it,
         occupied: timeline.occupied(mission.stop_s),
         contacts_s,
         contact_share: file.contact_share,
@@ -266,8 +291,8 @@ pub(crate) fn checked(file: &Path) -> Result<String, String> {
         "plans {} behind day {} in windows of {} d: windmill {} deg, Sun {} and {} deg off -Y, alternation {}, offset {} deg off the \
          baseline; {} contacts, {} activities",
         found.mission.it.display(),
-        days(found.freeze_s),
-        days(found.window_s),
+        days(found.freeze_s.it),
+        days(found.window_s.it),
         deg(found.windmill_rad.0),
         deg(found.azimuth_rad),
         deg(found.elevation_rad),
@@ -347,7 +372,8 @@ fn check_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) 
     let Some(window) = found.windows.iter().find(full) else { return Ok(()) };
     let mut task = planned.task.clone();
     task.layout.contacts_s.clear();
-    let needs = planner::momentum::plan::least_excess_n_m_s(&task, &planned.craft, &planned.flown);
+    let needs =
+        planner::momentum::plan::least_excess_n_m_s(&task, &planned.craft, &planned.flown, f64::NEG_INFINITY);
     let (Ok(excess), Some(at)) = (
         needs,
         file.contacts.iter().find(|at| {

@@ -2,9 +2,10 @@
 
 use nalgebra::Vector3;
 use planner::momentum::{
-    plan::{MomentumPlan, PlanTask, fewest_dumps, least_excess_n_m_s},
+    flown::Flown,
+    plan::{MomentumPlan, PlanTask, downlink_momentum_n_m_s, fewest_dumps, least_excess_n_m_s},
     report::Price,
-    windows::{Occupied, WindowKind},
+    windows::{Occupied, Window, WindowKind},
 };
 
 use super::{Planned, file::PlanFile, flights::Failure};
@@ -22,20 +23,19 @@ pub(super) fn all(
     }
     planned.say("prices");
     let (craft, flown) = (&planned.craft, &planned.flown);
-    let of = |task: &PlanTask, flown: &planner::momentum::flown::Flown| -> Result<(f64, i64), Failure> {
-        let excess = least_excess_n_m_s(task, craft, flown).map_err(|error| error.to_string())?;
+    let of = |task: &PlanTask, flown: &Flown, from_s: f64| -> Result<(f64, i64), Failure> {
+        let excess = least_excess_n_m_s(task, craft, flown, from_s).map_err(|error| error.to_string())?;
         let dumps = fewest_dumps(task, craft, flown).map_err(|error| error.to_string())?;
         Ok((excess, dumps.map_or(-1, |count| count as i64)))
     };
-    let without = of(task, flown)?;
     let mut prices = Vec::new();
     for removed in task.layout.occupied.iter().filter(|it| it.planned) {
         let mut other = task.clone();
         other.layout.occupied.retain(|it| it != removed);
-        let changed = of(&other, flown)?;
         let span_s =
             [removed.start_s.max(planned.mission.start_s), removed.stop_s.min(planned.mission.stop_s)];
-        let default = planner::momentum::plan::downlink_momentum_n_m_s(craft, flown, &found.windows, span_s);
+        let [without, changed] = [of(task, flown, span_s[0])?, of(&other, flown, span_s[0])?];
+        let default = downlink_momentum_n_m_s(craft, flown, &found.windows, span_s);
         let flight = found.flight.momentum_n_m_s(span_s[1]) - found.flight.momentum_n_m_s(span_s[0]);
         prices.push(Price {
             name: format!("planned command {}", removed.command + 1),
@@ -58,8 +58,7 @@ pub(super) fn all(
                 .problem(at, "found a time outside of the mission, allowed: from its start to its stop")
                 .into());
         }
-        let touches =
-            |window: &&planner::momentum::windows::Window| window.start_s < to_s && window.stop_s > from_s;
+        let touches = |window: &&Window| window.start_s < to_s && window.stop_s > from_s;
         if found.windows.iter().filter(touches).any(|window| window.kind != WindowKind::Free) {
             let what = "found a time that the mission holds fixed, allowed: free time behind `freeze`";
             return Err(file.problem(at, what).into());
@@ -67,9 +66,8 @@ pub(super) fn all(
         let flight = planned
             .fly_plan(&found.windows, &found.dumps, Some((activity, [from_s, to_s])))
             .map_err(|error| file.problem(at, &error.to_string()))?;
-        let gathered = |flight: &planner::momentum::flown::Flown| -> Vector3<f64> {
-            flight.momentum_n_m_s(to_s) - flight.momentum_n_m_s(from_s)
-        };
+        let gathered =
+            |flight: &Flown| -> Vector3<f64> { flight.momentum_n_m_s(to_s) - flight.momentum_n_m_s(from_s) };
         let with = planned.flown.with_part_of(&flight, [from_s, to_s]);
         let mut other = task.clone();
         other.layout.occupied.push(Occupied {
@@ -79,7 +77,7 @@ pub(super) fn all(
             command: usize::MAX,
         });
         other.layout.occupied.sort_by(|a, b| a.start_s.total_cmp(&b.start_s));
-        let changed = of(&other, &with)?;
+        let [without, changed] = [of(task, flown, from_s)?, of(&other, &with, from_s)?];
         prices.push(Price {
             name: activity.name.clone(),
             removed: false,

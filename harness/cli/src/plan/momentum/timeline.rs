@@ -8,7 +8,7 @@ use core::fmt::Write;
 use nalgebra::Vector3;
 use physics::{
     environment::dates,
-    guidance::timeline::{PlanStatus, Timeline, TimelineClock, TimelineEvent},
+    guidance::timeline::{PlanStatus, Timeline, TimelineClock, TimelineDump, TimelineEvent},
 };
 use planner::momentum::{
     plan::PlannedDump,
@@ -47,6 +47,10 @@ pub(super) struct MissionTimeline {
     events: Vec<Kept>,
     /// Offset and windmill angle of the arrays over time, in rad, where the timeline says so: time in s, each panel's angle.
     pub arrays_rad: Vec<(f64, Vec<f64>)>,
+    /// Its maneuvers: times in s and velocities to add, EME2000, in m/s.
+    pub maneuvers: Vec<(f64, Vector3<f64>)>,
+    /// Its dumps without a maneuver: times in s and the momentum after each, body frame, where it says so, in N m s.
+    pub dumps: Vec<(f64, Option<Vector3<f64>>)>,
     /// Its events.
     pub events_of_mission: Vec<PlanEvent>,
     is_dated: bool,
@@ -59,10 +63,7 @@ pub(super) fn shown_deg(angle_rad: f64) -> f64 {
     deg + 0.0
 }
 
-/// The nearest whole minute, in s.
-fn minute(time_s: f64) -> f64 {
-    60.0 * (time_s / 60.0).round()
-}
+const MINUTE_S: f64 = 60.0;
 
 /// One stretch of a window in one attitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +76,8 @@ pub(super) struct Stretch {
 pub(super) fn stretches(window: &Window) -> Vec<Stretch> {
     let mut all = vec![Stretch { at_s: window.start_s, alternate: false }];
     for [from_s, to_s] in window.alternate_spans_s() {
-        let [from_s, to_s] = [minute(from_s).max(window.start_s), minute(to_s).min(window.stop_s)];
+        // Inward, for a contact may be at either end.
+        let [from_s, to_s] = [MINUTE_S * (from_s / MINUTE_S).ceil(), MINUTE_S * (to_s / MINUTE_S).floor()];
         if to_s <= from_s {
             continue;
         }
@@ -130,6 +132,23 @@ impl MissionTimeline {
                 .events()
                 .iter()
                 .map(|event| plan_event(time(event.at_s), event))
+                .collect(),
+            maneuvers: timeline
+                .events()
+                .iter()
+                .filter_map(|event| Some((time(event.at_s), event.maneuver?.delta_v_inertial_m_s)))
+                .collect(),
+            dumps: timeline
+                .events()
+                .iter()
+                .filter(|event| event.maneuver.is_none())
+                .filter_map(|event| {
+                    let target = match event.dump? {
+                        TimelineDump::Requested => None,
+                        TimelineDump::To { momentum_body_n_m_s } => Some(momentum_body_n_m_s),
+                    };
+                    Some((time(event.at_s), target))
+                })
                 .collect(),
             commands: kept("command", commands.collect()),
             panels: kept("panels", panels.collect()),

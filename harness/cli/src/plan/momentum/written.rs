@@ -80,6 +80,15 @@ struct Inputs {
     alternate: bool,
     dump: bool,
     target_n_m_s: Vector3<f64>,
+    maneuver: bool,
+    delta_v_m_s: Vector3<f64>,
+}
+
+/// Which groups of columns there are.
+#[derive(Clone, Copy)]
+struct Columns {
+    dumps: bool,
+    maneuvers: bool,
 }
 
 /// The input table: a row before and one behind every jump.
@@ -98,6 +107,8 @@ pub(super) fn inputs(
         alternate: false,
         dump: false,
         target_n_m_s: Vector3::zeros(),
+        maneuver: false,
+        delta_v_m_s: Vector3::zeros(),
     };
     // What changes, by time.
     let mut changes: Vec<(f64, Change<'_>)> = Vec::new();
@@ -126,26 +137,42 @@ pub(super) fn inputs(
         changes.push((dump.at_s, Change::Dump(true, bodies(dump))));
         changes.push((dump.at_s + HELD_S, Change::Dump(false, bodies(dump))));
     }
+    let requested = Vector3::from([1, 2, 3].map(|axis| planned.real(&format!("dump.target[{axis}]"))));
+    for (at_s, target) in &timeline.dumps {
+        let target = target.unwrap_or(requested);
+        changes.push((*at_s, Change::Dump(true, target)));
+        changes.push((*at_s + HELD_S, Change::Dump(false, target)));
+    }
+    for (at_s, delta_v) in &timeline.maneuvers {
+        changes.push((*at_s, Change::Maneuver(true, *delta_v)));
+        changes.push((*at_s + HELD_S, Change::Maneuver(false, *delta_v)));
+    }
     changes.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut text = String::from("time");
     for number in 1..=count {
         text.push_str(&format!(",panel[{number}].sunOffsetCommand"));
     }
     text.push_str(",downlink.sunAzimuth,downlink.sunElevation,downlink.alternate");
-    if !plan.dumps.is_empty() {
+    let columns = Columns {
+        dumps: !plan.dumps.is_empty() || !timeline.dumps.is_empty(),
+        maneuvers: !timeline.maneuvers.is_empty(),
+    };
+    if columns.maneuvers {
+        text.push_str(",maneuver.request,maneuver.deltaV[1],maneuver.deltaV[2],maneuver.deltaV[3]");
+    }
+    if columns.dumps {
         text.push_str(",dump.request,dump.target[1],dump.target[2],dump.target[3]");
     }
     text.push('\n');
-    let has_dumps = !plan.dumps.is_empty();
     let mut started = false;
     let mut index = 0;
     while index < changes.len() {
         let at_s = changes[index].0;
         if started || at_s > planned.start_s {
             if !started {
-                text.push_str(&row(planned.start_s, &now, has_dumps));
+                text.push_str(&row(planned.start_s, &now, columns));
             }
-            text.push_str(&row(at_s, &now, has_dumps));
+            text.push_str(&row(at_s, &now, columns));
         }
         let before = now.clone();
         while let Some((next_s, change)) = changes.get(index).filter(|(next_s, _)| *next_s == at_s) {
@@ -159,10 +186,10 @@ pub(super) fn inputs(
             text.truncate(last);
             continue;
         }
-        text.push_str(&row(at_s.max(planned.start_s), &now, has_dumps));
+        text.push_str(&row(at_s.max(planned.start_s), &now, columns));
         started = true;
     }
-    text.push_str(&row(planned.stop_s, &now, has_dumps));
+    text.push_str(&row(planned.stop_s, &now, columns));
     text
 }
 
@@ -170,6 +197,7 @@ enum Change<'w> {
     Arrays(Vec<f64>),
     Sun(Option<&'w Window>, bool),
     Dump(bool, Vector3<f64>),
+    Maneuver(bool, Vector3<f64>),
 }
 
 impl Change<'_> {
@@ -184,17 +212,22 @@ impl Change<'_> {
                     (angle(Control::Azimuth), angle(Control::Elevation));
                 inputs.alternate = *alternate;
             }
+            Self::Maneuver(request, delta_v) => (inputs.maneuver, inputs.delta_v_m_s) = (*request, *delta_v),
             Self::Dump(request, target) => (inputs.dump, inputs.target_n_m_s) = (*request, *target),
         }
     }
 }
 
-fn row(time_s: f64, inputs: &Inputs, has_dumps: bool) -> String {
+fn row(time_s: f64, inputs: &Inputs, columns: Columns) -> String {
     let mut cells = vec![format!("{time_s:?}")];
     cells.extend(inputs.panels_rad.iter().map(|angle| format!("{angle:?}")));
     cells.extend([inputs.azimuth_rad, inputs.elevation_rad].map(|angle| format!("{angle:?}")));
     cells.push(inputs.alternate.to_string());
-    if has_dumps {
+    if columns.maneuvers {
+        cells.push(inputs.maneuver.to_string());
+        cells.extend(inputs.delta_v_m_s.iter().map(|component| format!("{component:?}")));
+    }
+    if columns.dumps {
         cells.push(inputs.dump.to_string());
         cells.extend(inputs.target_n_m_s.iter().map(|component| format!("{component:.6}")));
     }
