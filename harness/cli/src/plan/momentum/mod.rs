@@ -183,9 +183,8 @@ fn check_spans(file: &PlanFile, mission: &FlownMission) -> Result<(), Failure> {
     if file.freeze_s.it >= length_s {
         let found =
             format!("found {} d, no less than the mission's {} d", days(file.freeze_s.it), days(length_s));
-        return Err(
-            format!("{}: {found}, allowed: less, so that there is something to plan", at("freeze")).into()
-        );
+        let what = format!("{found}, allowed: less, so that there is something to plan");
+        return Err(file.problem(&file.freeze_s, &what).into());
     }
     let least_s = length_s / MOST_WINDOWS;
     if file.window_s.it < least_s {
