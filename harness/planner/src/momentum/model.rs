@@ -235,6 +235,10 @@ impl Model {
             self.between[step] = (inside - over(from).max(over(to))).max(0.0);
             from = to;
         }
+        // What lies beyond an instant is held by it too.
+        for step in 1..self.between.len() {
+            self.between[step - 1] = self.between[step - 1].max(self.between[step]);
+        }
     }
 
     /// Index of a control in the programmes.
@@ -244,6 +248,26 @@ impl Model {
             Control::Azimuth | Control::Elevation | Control::Alternate => window,
         };
         CONTROLS * of + control as usize
+    }
+
+    /// Whether the arrays of every window stand as those of its leader.
+    pub(super) fn is_of(&self, leaders: &[usize]) -> bool {
+        let same = |window: usize, control: Control| {
+            let leader = &self.windows[leaders[window]].controls;
+            (self.windows[window].controls.get(control) - leader.get(control)).abs() < 1e-9
+        };
+        (0..self.windows.len()).all(|it| same(it, Control::Offset) && same(it, Control::Windmill))
+    }
+
+    /// Present controls by their indices.
+    pub(super) fn controls(&self, leaders: &[usize]) -> Vec<f64> {
+        let mut all = vec![0.0; CONTROLS * self.windows.len()];
+        for (index, window) in self.windows.iter().enumerate() {
+            for control in ALL {
+                all[Self::index(leaders, index, control)] = window.controls.get(control);
+            }
+        }
+        all
     }
 
     /// The programme of a part, the arrays of every window standing as those of its leader; `guard` is a share of the limit that is

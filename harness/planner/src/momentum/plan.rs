@@ -14,7 +14,7 @@ use super::{
     counted::{self, Groups},
     flown::{Flown, FlownRow, SAME_S},
     model::{ALL, Limit, Model, Part},
-    program::{Goal, Solution},
+    program::{Goal, Program, Solution},
     torque::{Attitude, Control, Controls, LitCraft},
     windows::{Layout, Window, WindowKind},
 };
@@ -26,14 +26,17 @@ const GUARD: f64 = 0.01;
 /// Rounds at most.
 const MOST_ROUNDS: usize = 8;
 /// Solutions within a round at most.
-const MOST_STEPS: usize = 8;
-/// By which the range about the present controls narrows from one to the next.
-const NARROWED: f64 = 0.6;
+const MOST_STEPS: usize = 24;
+/// By which the range about the present controls narrows where the model fails, and where that ends.
+const NARROWED: f64 = 0.4;
+const LEAST_TRUST: f64 = 2e-3;
+/// What a N m s over the limit costs, against a day with a radian of tilt.
+const PENALTY: f64 = 1e3;
 /// Share of the range at the beginning, and behind a flight, from which little is left to correct.
 const WHOLE: f64 = 1.0;
 const LITTLE: [f64; 3] = [0.05, 0.15, 0.5];
-/// A solution is taken where the model about it differs by less than this share of the limit.
-const TAKEN: f64 = 2e-3;
+/// A gain in merit below this share is none.
+const TAKEN: f64 = 1e-4;
 
 /// What is planned.
 #[derive(Clone, Debug)]
@@ -167,7 +170,17 @@ fn give(model: &mut Model, leaders: &[usize], solution: &Solution) {
     }
 }
 
+/// What a solution is judged by: cost, and what the limits are exceeded by.
+fn merit(program: &Program, controls: &[f64], excess_n_m_s: f64, goal: Goal) -> f64 {
+    match goal {
+        Goal::LeastExcess => excess_n_m_s,
+        Goal::LeastCost => program.cost(controls) + PENALTY * excess_n_m_s.max(0.0),
+    }
+}
+
 /// Solves about its own answers, from `trust` of the range of every control on; whether the limits are kept.
+///
+/// A trust region: an answer is taken where the model about it is better by the merit, and the range narrows where it is not.
 fn refine(
     model: &mut Model,
     craft: &LitCraft,
@@ -176,42 +189,51 @@ fn refine(
     flies: &mut dyn Flies,
 ) -> Result<bool, PlanError> {
     let limit = model.limit.momentum_n_m_s;
-    let mut best: Option<(f64, Vec<Window>, Vec<(usize, Vector3<f64>)>)> = None;
+    // What instants leave, rows between them may use in part.
+    let exceeded = |model: &Model| model.excess_n_m_s().0 + 0.5 * GUARD * limit;
+    model.look_between();
+    let mut merit_now = f64::INFINITY;
     for step in 0..MOST_STEPS {
         flies.progress("momentum");
         let program = model.program(leaders, whole(model), [GUARD, trust]);
+        if step == 0 && model.is_of(leaders) {
+            merit_now = merit(&program, &model.controls(leaders), exceeded(model), goal);
+        }
         let cheapest = (goal == Goal::LeastCost).then(|| program.solve(Goal::LeastCost)).flatten();
-        let is_cheapest = cheapest.is_some();
         let Some(solution) = cheapest.or_else(|| program.solve(Goal::LeastExcess)) else {
             if step == 0 {
                 return Err(PlanError::Programme("the bounds of the controls leave none"));
             }
             break;
         };
-        give(model, leaders, &solution);
-        model.linearise(craft);
-        let momentum = model.momentum_n_m_s();
-        let of_instants = model.instants().iter().zip(&solution.momentum);
-        let off = of_instants.map(|(row, planned)| (momentum[*row] - planned).norm()).fold(0.0, f64::max);
-        model.look_between();
-        let (excess, _) = model.excess_n_m_s();
-        // A cheap answer that keeps the limits is better than one that keeps them by more.
-        let merit = if goal == Goal::LeastCost { excess.max(-0.5 * GUARD * limit) } else { excess };
-        if best.as_ref().is_none_or(|(least, ..)| merit <= *least) {
-            best = Some((merit, model.windows.clone(), model.dumps.clone()));
+        let mut next = model.clone();
+        give(&mut next, leaders, &solution);
+        next.linearise(craft);
+        next.look_between();
+        let found = merit(&program, &solution.controls, exceeded(&next), goal);
+        let predicted = merit(&program, &solution.controls, solution.excess, goal);
+        if found < merit_now || (step == 0 && merit_now.is_infinite()) {
+            let gained = merit_now - found;
+            let promised = merit_now - predicted;
+            *model = next;
+            merit_now = found;
+            // What is gained no more is not sought.
+            if gained < TAKEN * found.abs().max(limit) && exceeded(model) <= 0.0 {
+                break;
+            }
+            match gained / promised {
+                ratio if ratio > 0.75 => trust = (2.0 * trust).min(WHOLE),
+                ratio if ratio < 0.25 => trust *= NARROWED,
+                _ => {}
+            }
+        } else {
+            trust *= NARROWED;
+            if trust < LEAST_TRUST {
+                break;
+            }
         }
-        if off < TAKEN * limit && (is_cheapest || goal == Goal::LeastExcess) && step > 0 {
-            break;
-        }
-        trust *= NARROWED;
     }
-    if let Some((excess, windows, dumps)) = best {
-        (model.windows, model.dumps) = (windows, dumps);
-        model.linearise(craft);
-        model.look_between();
-        return Ok(excess <= 0.0);
-    }
-    Ok(false)
+    Ok(model.excess_n_m_s().0 <= 0.0)
 }
 
 /// What was counted in an earlier round.

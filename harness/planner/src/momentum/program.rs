@@ -104,6 +104,13 @@ impl Rows {
 }
 
 impl Program {
+    /// What controls cost.
+    pub(super) fn cost(&self, controls: &[f64]) -> f64 {
+        let lengths = self.lengths.iter().map(|([a, b], weight)| weight * controls[*a].hypot(controls[*b]));
+        let magnitudes = self.magnitudes.iter().map(|(index, weight)| weight * controls[*index].abs());
+        lengths.sum::<f64>() + magnitudes.sum::<f64>()
+    }
+
     /// The answer; `None` where no controls are within their bounds, where the limits cannot be kept, or where the method fails.
     pub(super) fn solve(&self, goal: Goal) -> Option<Solution> {
         if self.bounds.iter().any(|[low, high]| low > high || low.is_nan() || high.is_nan()) {
