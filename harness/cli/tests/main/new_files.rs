@@ -4,7 +4,7 @@ use std::{fs, process::Command};
 
 use crate::{run, says, shown, template};
 
-const KINDS: [&str; 4] = ["spacecraft", "spinner", "mission", "timeline"];
+const KINDS: [&str; 5] = ["spacecraft", "spinner", "mission", "timeline", "plan"];
 
 #[test]
 fn a_file_that_is_there_is_kept() {
@@ -43,6 +43,8 @@ fn every_new_file_works_unchanged() {
         let spacecraft = ["--spacecraft", shown(&file)];
         let packs: &[&[&str]] = match kind {
             "mission" => &[&["--mission", shown(&file)]],
+            // It names the mission beside it, and is packed with nothing.
+            "plan" => &[],
             "timeline" => &[
                 &["--model", "Guidance", "--timeline", shown(&file)],
                 &["--timeline", shown(&file), "--set", "panel[1].control=timeline"],
