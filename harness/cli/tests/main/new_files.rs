@@ -93,7 +93,8 @@ fn every_command_has_a_page_that_man_reads() {
         .collect();
     let mut expected: Vec<String> =
         commands.iter().map(|command| format!("heliotorque-{command}.1")).collect();
-    expected.extend(["heliotorque.1".to_owned(), "heliotorque-plan-spin.1".to_owned()]);
+    let more = ["heliotorque.1", "heliotorque-plan-momentum.1", "heliotorque-plan-spin.1"];
+    expected.extend(more.map(str::to_owned));
     expected.sort();
     assert_eq!(pages, expected);
     assert!(commands.contains(&"run") && commands.contains(&"plan"), "{help}");

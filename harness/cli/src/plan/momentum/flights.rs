@@ -3,7 +3,7 @@
 use std::{error::Error, path::Path, sync::atomic::AtomicBool};
 
 use files::Scratch;
-use loader::{Fmu, Options, Recording, Value};
+use loader::{Fmu, InputTable, Options, Recording, Value};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use physics::{
     attitude::Attitude,
@@ -20,7 +20,7 @@ use planner::momentum::{
 use crate::{
     assembly::model_of,
     interrupt,
-    mission::{Mission, SpacecraftSource},
+    mission::{Inputs, Mission, SpacecraftSource},
     run::{Run, Settings, Simulated, Subject},
     values,
     variables::{item, selected, start},
@@ -53,6 +53,7 @@ pub(super) struct FlownMission {
     pub mission: Mission,
     pub fmu: Fmu,
     pub sets: Vec<(String, Value)>,
+    inputs: Option<InputTable>,
     pub start_s: f64,
     pub stop_s: f64,
     /// Epoch of time 0 in s past J2000 TDB, where the mission begins at a date.
@@ -80,6 +81,12 @@ impl FlownMission {
             let allowed = "allowed: spacecraft or model, of which the plan's FMU is packed";
             return Err(format!("{}: {found}, {allowed}", file.display()).into());
         }
+        if let Some(Inputs::Rows(rows)) = &mission.inputs
+            && let Some(at) = rows.iter().find(|at| at.it.0.starts_with("downlink."))
+        {
+            let what = "found an input that the plan commands, allowed: none of downlink.*: inputs rule over timelines";
+            return Err(mission.problem(at, what).into());
+        }
         let (subject, folder) = simulated.open()?;
         let settings = Settings::of(&subject, &simulated, None)?;
         let Subject::Fmu(fmu) = subject else {
@@ -93,6 +100,7 @@ impl FlownMission {
             stop_s: settings.times.stop_s,
             zero_epoch_s: simulated.zero_epoch_s(settings.times.start_s),
             sets: settings.sets,
+            inputs: settings.inputs,
             _folder: folder,
         })
     }
@@ -235,6 +243,7 @@ impl FlownMission {
             stop_s: Some(self.stop_s),
             step_s: Some(STEP_S.min((self.stop_s - self.start_s) / 8.0)),
             sets,
+            inputs: self.inputs.as_ref(),
             record: Some(selected(description, &patterns, loader::select_outputs)?),
             apart: description.variables.iter().position(|it| it.name == "dump.count"),
             progress: Some(&mut reported),

@@ -334,9 +334,6 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
         }
         Err(error) => return Err(error.to_string().into()),
     };
-    if found.exceeded.is_some() {
-        check_contacts(&file, &planned, &found)?;
-    }
     let prices = prices::all(&file, &planned, &found)?;
     let events = events(&planned, &found);
     let sides: Vec<f64> = planned.craft.spacecraft.panels.iter().map(|panel| panel.windmill_side).collect();
@@ -360,6 +357,9 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
         for (name, _) in &contents {
             terminal::note(&format!("wrote {}", options.output.join(name).display()));
         }
+    }
+    if found.exceeded.is_some() {
+        check_contacts(&file, &planned, &found)?;
     }
     let is_planned = report::status(&found, &planned.task) == "planned";
     Ok(if is_planned { ExitCode::SUCCESS } else { ExitCode::FAILURE })

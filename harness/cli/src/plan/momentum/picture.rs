@@ -7,6 +7,8 @@ use planner::momentum::{
     windows::Window,
 };
 
+use super::timeline::shown_deg;
+
 const DAY_S: f64 = 86_400.0;
 
 /// As SVG text.
@@ -42,9 +44,14 @@ pub(super) fn svg(name: &str, plan: &MomentumPlan, task: &PlanTask) -> Result<St
     let deg = |control: Control| move |window: &Window| window.controls.get(control).to_degrees();
     let arrays = Panel::new("arrays [deg]")
         .with(vec![steps("offset", &deg(Control::Offset)), steps("windmill", &deg(Control::Windmill))]);
-    let windmill = Panel::new("windmill [deg]").with(vec![steps("windmill", &deg(Control::Windmill))]);
+    let turned_deg = around(&[Control::Windmill], 0.1);
+    let windmill = Panel::new("windmill [deg]")
+        .with(vec![steps("windmill", &deg(Control::Windmill))])
+        .range(-turned_deg, turned_deg);
+    let tilted_deg = around(&[Control::Azimuth, Control::Elevation], 0.1);
     let tilt = Panel::new("Sun off -Y [deg]")
-        .with(vec![steps("azimuth", &deg(Control::Azimuth)), steps("elevation", &deg(Control::Elevation))]);
+        .with(vec![steps("azimuth", &deg(Control::Azimuth)), steps("elevation", &deg(Control::Elevation))])
+        .range(-tilted_deg, tilted_deg);
     let contacts = task.layout.contacts_s.iter().flat_map(|[from_s, to_s]| {
         [(day(*from_s), 0.0), (day(*from_s), 1.0), (day(*to_s), 1.0), (day(*to_s), 0.0), (f64::NAN, f64::NAN)]
     });
