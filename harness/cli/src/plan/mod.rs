@@ -16,7 +16,7 @@ use crate::{home, kind::FileKind, outcome::Outcome, patience::Patience};
 pub(crate) enum Plan {
     /// The train of thruster pulses that turns a spinner with the least nutation
     #[command(mut_args = |argument| if argument.is_positional() { argument } else { argument.allow_hyphen_values(true) })]
-    Spin(SpinPlan),
+    Spin(Box<SpinPlan>),
     /// Arrays, places of the Sun and alternation that hold the momentum of a mission below its limit
     Momentum(momentum::MomentumOptions),
 }

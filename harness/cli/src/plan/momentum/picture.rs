@@ -41,9 +41,13 @@ pub(super) fn svg(name: &str, plan: &MomentumPlan, task: &PlanTask) -> Result<St
         }
         Series::steps(label, points)
     };
-    let deg = |control: Control| move |window: &Window| window.controls.get(control).to_degrees();
-    let arrays = Panel::new("arrays [deg]")
-        .with(vec![steps("offset", &deg(Control::Offset)), steps("windmill", &deg(Control::Windmill))]);
+    // As it is flown.
+    let deg = |control: Control| move |window: &Window| shown_deg(window.controls.get(control));
+    let around = |controls: &[Control], least_deg: f64| {
+        let of = |window: &Window| controls.iter().map(|it| deg(*it)(window).abs()).fold(0.0, f64::max);
+        1.08 * plan.windows.iter().map(of).fold(least_deg, f64::max)
+    };
+    let arrays = Panel::new("offset [deg]").with(vec![steps("offset", &deg(Control::Offset))]);
     let turned_deg = around(&[Control::Windmill], 0.1);
     let windmill = Panel::new("windmill [deg]")
         .with(vec![steps("windmill", &deg(Control::Windmill))])
