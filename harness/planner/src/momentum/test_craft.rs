@@ -63,6 +63,7 @@ pub(super) fn task(limit_n_m_s: f64, reach: Reach) -> PlanTask {
             reach,
             corridor: Articulation { min_suns: 0.0, max_suns: 1e3, target_suns: 1.0 },
             offset_sign: 1.0,
+            frozen_offset_rad: 0.0,
             sides: vec![1.0, -1.0],
         },
         limit: Limit { momentum_n_m_s: limit_n_m_s, margin: 0.0, covariance: None },

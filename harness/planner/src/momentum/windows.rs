@@ -160,6 +160,8 @@ pub struct Layout {
     pub corridor: Articulation,
     /// Sign of the offsets.
     pub offset_sign: f64,
+    /// Offset at the start of the mission as it is, in rad, which is told of the frozen time.
+    pub frozen_offset_rad: f64,
     /// Which ways a windmill angle turns the panels.
     pub sides: Vec<f64>,
 }
@@ -247,7 +249,10 @@ impl Layout {
             offsets_rad = [offsets_rad[0].max(allowed[0]), offsets_rad[1].min(allowed[1])];
         }
         let begun = steps.iter().rev().find(|step| step.at_s <= start_s + SAME_S);
-        let offset_rad = self.offset_sign * begun.map_or(0.0, |step| step.offset_rad);
+        let offset_rad = match kind {
+            WindowKind::Frozen => self.frozen_offset_rad,
+            _ => self.offset_sign * begun.map_or(0.0, |step| step.offset_rad),
+        };
         if self.offset_sign < 0.0 {
             offsets_rad = [-offsets_rad[1], -offsets_rad[0]];
         }

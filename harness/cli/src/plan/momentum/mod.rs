@@ -245,6 +245,7 @@ fn layout(
         },
         corridor: mission.corridor(),
         offset_sign: if offset_rad < 0.0 { -1.0 } else { 1.0 },
+        frozen_offset_rad: offset_rad,
         sides,
     })
 }

@@ -24,15 +24,18 @@ pub(super) fn svg(name: &str, plan: &MomentumPlan, task: &PlanTask) -> Result<St
     let end_d = plan.rows.last().map_or(0.0, |row| day(row.time_s));
     let limit = task.limit.momentum_n_m_s;
     let most = plan.greatest_n_m_s().into_iter().fold(limit, f64::max);
-    let momentum = Panel::new("|H| [N·m·s]")
-        .with(vec![
-            Series::curve("planned", of_rows(&|row| row.planned_n_m_s)),
-            Series::curve("flown", of_rows(&|row| row.simulated_n_m_s)),
-            Series::dashed("limit", vec![(0.0, limit), (end_d, limit)]),
-            Series::dashed("with margin", of_rows(&|row| row.allowed_n_m_s)),
-            Series::dots("dump", plan.dumps.iter().map(|dump| (day(dump.at_s), limit)).collect()),
-        ])
-        .range(0.0, 1.08 * most);
+    let mut lines = vec![
+        Series::curve("planned", of_rows(&|row| row.planned_n_m_s)),
+        Series::curve("flown", of_rows(&|row| row.simulated_n_m_s)),
+        Series::dashed("limit", vec![(0.0, limit), (end_d, limit)]),
+    ];
+    if plan.rows.iter().any(|row| row.allowed_n_m_s < limit) {
+        lines.push(Series::dashed("with margin", of_rows(&|row| row.allowed_n_m_s)));
+    }
+    if !plan.dumps.is_empty() {
+        lines.push(Series::dots("dump", plan.dumps.iter().map(|dump| (day(dump.at_s), limit)).collect()));
+    }
+    let momentum = Panel::new("|H| [N·m·s]").with(lines).range(0.0, 1.08 * most);
     let steps = |label: &str, value: &dyn Fn(&Window) -> f64| {
         let mut points: Vec<(f64, f64)> =
             plan.windows.iter().map(|window| (day(window.start_s), value(window))).collect();
