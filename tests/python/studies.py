@@ -7,10 +7,10 @@ import subprocess
 import numpy as np
 
 
-def study(heliotorque, dist, folder, name, threads):
+def study(heliotorque, dist, folder, name, threads, *options):
     """What the study prints and the content of the files it leaves, by name."""
     run = subprocess.run(
-        [heliotorque, "study", name, "--quiet", "--dist", dist, "--output", folder],
+        [heliotorque, "study", name, "--quiet", "--dist", dist, "--output", folder, *options],
         capture_output=True, text=True, encoding="utf-8", env=os.environ | {"RAYON_NUM_THREADS": str(threads)},
     )
     assert run.returncode == 0, run.stderr

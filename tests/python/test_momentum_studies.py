@@ -1,14 +1,17 @@
 """`heliotorque study momentum/*` runs what FMPy runs, and its verdicts follow from its numbers."""
 
 import itertools
+import pathlib
 import re
+import subprocess
+import tomllib
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
 
 from simulation import DAY_S, PAPER, PAPER_COUNTS, dump_times, simulate, vector
-from studies import table
+from studies import study, table, vector as columns
 
 # As the study writes its rows.
 PAPER_CELLS = {
@@ -280,3 +283,112 @@ def test_the_whole_messenger_off_the_sun(studied):
     assert {"off-sun-force.svg", "off-sun-torque.svg", "off-sun-momentum.svg"} < set(files)
     apart = float(re.search(r"apart (\S+) of it", text)[1])
     assert apart < 1e-3
+
+
+RESOURCES = pathlib.Path(__file__).parents[2] / "fmu-src" / "resources"
+LIGHT_M_S, AU_M = 299_792_458.0, 149_597_870_700.0
+FLUX_W_M2 = 1358.0
+
+
+class Plates:
+    """MESSENGER's shade and panels as flat plates: the torque of sunlight in closed form."""
+
+    def __init__(self, distance_au):
+        self.craft = tomllib.loads((RESOURCES / "messenger.toml").read_text(encoding="utf-8"))
+        self.pressure_n_m2 = FLUX_W_M2 / LIGHT_M_S / distance_au**2
+
+    def force(self, plate, normal, sun):
+        optics = self.craft["optics"][plate["optics"]]
+        normal = np.array(normal) / np.linalg.norm(normal)
+        cosine = max(normal @ sun, 0.0)
+        along_normal = 2.0 * (optics["specular"] * cosine + optics["diffuse"] / 3.0)
+        return -self.pressure_n_m2 * plate["area_m2"] * cosine * ((1.0 - optics["specular"]) * sun + along_normal * normal)
+
+    def torque(self, offset=0.0, windmill=0.0, elevation=0.0, azimuth=0.0, center=(0.0, 0.0, 0.0)):
+        sun = np.array([np.cos(elevation) * np.sin(azimuth), -np.cos(elevation) * np.cos(azimuth), -np.sin(elevation)])
+        loads = [(plate, plate["normal"]) for plate in self.craft["sunshade"]["plates"]]
+        for panel in self.craft["panels"]:
+            assert panel["axis"] == [1.0, 0.0, 0.0] and panel["zero_normal"] == [0.0, -1.0, 0.0]
+            angle = offset + windmill * np.sign(panel["center_m"][0])
+            if azimuth:  # a panel turns about X alone
+                angle = np.sign(angle) * np.arccos(min(np.cos(angle) / np.cos(azimuth), 1.0))
+            loads.append((panel, [0.0, -np.cos(elevation + angle), -np.sin(elevation + angle)]))
+        return sum(np.cross(np.array(plate["center_m"]) - center, self.force(plate, normal, sun)) for plate, normal in loads)
+
+
+def test_authority_is_that_of_flat_plates(heliotorque, dist, tmp_path):
+    """Every figure by the derivative of a closed form, and the figures that plans are made with."""
+    options = ("--set", f"solar.flux={FLUX_W_M2}")
+    text, files = study(heliotorque, dist, tmp_path, "momentum/authority", 4, *options)
+    rows = {(row["distance_au"], float(row["offset_deg"])): row for row in table(files, "authority.csv")}
+    assert len(rows) == 5 * 13 and "authority.svg" in files
+
+    def worth(row, control, per="d_deg"):
+        return columns(row, " ".join(f"{control}_{axis}_n_m_s_{per}" for axis in "xyz"))
+
+    turn = np.radians(0.01)
+    for (distance, offset_deg), row in rows.items():
+        plates, offset = Plates(float(distance)), np.radians(offset_deg)
+        scale = DAY_S * plates.pressure_n_m2
+        still = DAY_S * plates.torque(offset)
+
+        def by(turned=(0.0, 0.0, 0.0), **change):
+            both = [plates.torque(**({"offset": offset} | {name: sign * by for name, by in change.items()})) for sign in (1, -1)]
+            # Inertial momentum: the torque turns with the body.
+            return DAY_S * ((both[0] - both[1]) / 0.02) + np.radians(1.0) * np.cross(turned, still)
+
+        # -Y stays where it was, the body turns under the Sun: about X by an elevation, about Z by an azimuth.
+        expected = {
+            "windmill": by(windmill=turn),
+            "azimuth": by(azimuth=turn, turned=(0.0, 0.0, -1.0)),
+            "elevation": by(elevation=turn, turned=(-1.0, 0.0, 0.0)),
+        }
+        both = [plates.torque(offset + sign * turn) for sign in (1, -1)]
+        expected["offset"] = DAY_S * (both[0] - both[1]) / 0.02
+        for control, size in expected.items():
+            assert worth(row, control) == pytest.approx(size, abs=2e-6 * scale), (distance, offset_deg, control)
+        for axis, shift in zip("xyz", np.eye(3) * 0.01):
+            size = DAY_S * (plates.torque(offset, center=shift) - plates.torque(offset))
+            assert worth(row, f"center_{axis}", "d_cm") == pytest.approx(size, abs=1e-9 * scale)
+        assert worth(row, "alternation", "d") == pytest.approx(-2.0 * still * [1.0, 0.0, 1.0], abs=1e-9 * scale)
+        assert columns(row, "still_x_n_m_s_d still_y_n_m_s_d still_z_n_m_s_d") == pytest.approx(still, abs=1e-9 * scale)
+
+    at = {offset: rows["0.35", offset] for offset in (0.0, 30.0, 50.0, 60.0)}
+    windmill = [float(row["windmill_y_n_m_s_d_deg"]) for row in at.values()]
+    assert windmill == pytest.approx([-0.691, -0.158, 0.328, 0.428], rel=0.01)
+    assert np.linalg.norm(worth(at[0.0], "elevation")) == pytest.approx(0.176, rel=0.01)
+    assert np.linalg.norm(worth(at[0.0], "azimuth")) == pytest.approx(0.101, rel=0.01)
+    centimetre = [abs(float(at[offset]["center_z_x_n_m_s_d_cm"])) for offset in (0.0, 60.0)]
+    assert centimetre == pytest.approx([0.431, 0.241], rel=0.01)
+    zero_deg = float(re.search(r"worth nothing at ([0-9.]+) deg", text)[1])
+    assert zero_deg == pytest.approx(35.6, abs=0.06)
+
+
+def test_authority_of_other_spacecraft(heliotorque, dist, tmp_path):
+    """Panels without a side do not windmill, and what the study sets is not set."""
+    telescope = RESOURCES / "examples" / "sunshield-telescope.toml"
+    options = ("--spacecraft", telescope, "--only", "0.5 AU, 0 deg")
+    text, files = study(heliotorque, dist, tmp_path, "momentum/authority", 1, *options)
+    assert "No windmilling: none of its panels has a side" in text
+    (row,) = table(files, "authority.csv")
+    assert row["windmill_x_n_m_s_d_deg"] == "" and float(row["azimuth_z_n_m_s_d_deg"]) != 0.0
+    # Force and so the centre of mass goes by the inverse square of the distance.
+    options = ("--spacecraft", telescope, "--only", "0.7 AU, 0 deg")
+    (far,) = table(study(heliotorque, dist, tmp_path, "momentum/authority", 1, *options)[1], "authority.csv")
+    near, far = (float(it["center_z_x_n_m_s_d_cm"]) for it in (row, far))
+    assert far * 0.7**2 == pytest.approx(near * 0.5**2, rel=1e-6)
+
+
+@pytest.mark.parametrize("name, options, said", [
+    ("control/slew", ("--spacecraft", RESOURCES / "messenger.toml"), "control/slew does not take --spacecraft"),
+    ("control/slew", ("--set", "solar.flux=1358"), "control/slew does not take --set"),
+    ("momentum/authority", ("--set", "orbit.center=earth"), "found orbit.center, which momentum/authority sets itself"),
+    ("momentum/authority", ("--set", "solar.flux=bright"), "--set solar.flux=bright: solar.flux"),
+    ("momentum/authority", ("--only", "9 AU"), "no case of momentum/authority contains `9 AU`"),
+    ("momentum/authority", ("--spacecraft", RESOURCES / "examples" / "missions" / "messenger.toml"), "found a mission, allowed: a spacecraft"),
+    ("momentum/authority", ("--spacecraft", RESOURCES / "ace.toml"), "ace.toml:"),
+])
+def test_what_a_study_does_not_take_is_named(heliotorque, dist, tmp_path, name, options, said):
+    command = [heliotorque, "study", name, "--quiet", "--dist", dist, "--output", tmp_path, *options]
+    run = subprocess.run(command, capture_output=True, text=True, encoding="utf-8")
+    assert run.returncode == 1 and said in run.stderr, run.stderr

@@ -12,6 +12,7 @@ NAMES = [
     "control/slew", "control/safe-mode", "control/transition", "control/dump", "control/jitter",
     "momentum/tables", "momentum/table2", "momentum/table3", "momentum/table4", "momentum/table5", "momentum/figure4", "momentum/figure5",
     "momentum/assumptions", "momentum/dump-targets", "momentum/wheels", "momentum/sensitivity", "momentum/off-sun",
+    "momentum/authority",
     "pointing/limb", "pointing/mosaic", "pointing/transition", "pointing/burn",
     "spin/figure2", "spin/figure3", "spin/figure4", "spin/figure6", "spin/figure7", "spin/numbers",
     "thermal/table7", "thermal/table8", "thermal/figure12", "thermal/figure13",

@@ -13,7 +13,7 @@ use crate::{
     child::{self, Bounds, LARGE, Relayed, SMALL},
     completions, draw, ephemeris, home, info, interrupt, manual, map, new,
     outcome::Outcome,
-    pack, plan, run as simulation, schema, size, study, wire,
+    pack, plan, refit, run as simulation, schema, size, study, wire,
 };
 
 /// Spacecraft disturbance torque and momentum as FMUs: show, check and simulate them, pack your own.
@@ -56,6 +56,8 @@ enum Command {
     /// Find an optimal plan
     #[command(subcommand)]
     Plan(plan::Plan),
+    /// Fit centre of mass and solar.scale of a mission to a history of momentum, with their covariance
+    Refit(refit::Refit),
     /// Print what a shell needs to complete commands and options
     Completions(completions::Completions),
     /// Print the manual's page of the program or of a command
@@ -125,6 +127,7 @@ fn loading(command: &Command) -> Option<Relayed> {
         Command::Size(it) => (of_template(it.template.as_ref()), it.patience, LARGE),
         Command::Ephemeris(it) => (shown(&it.simulated()), it.patience, LARGE),
         Command::Plan(plan::Plan::Momentum(it)) => (of_template(it.template.as_ref()), it.patience, LARGE),
+        Command::Refit(it) => (of_template(it.template.as_ref()), it.patience, LARGE),
         Command::Plan(plan::Plan::Spin(it)) => (of_template(it.options.fmu.as_ref()), it.patience, LARGE),
         Command::Study(it) => (it.name.clone(), it.patience, LARGE),
         _ => return None,
@@ -157,6 +160,7 @@ fn carry_out(mut command: Command) -> Outcome {
         Command::Ephemeris(arguments) => ephemeris::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments, &Arguments::command()),
         Command::Plan(arguments) => plan::run(&arguments),
+        Command::Refit(arguments) => refit::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
         Command::Assemble(arguments) => simulation::assemble_into(&arguments),
         Command::InChild(_) => Err("in-child: found another one in it, allowed: a command".into()),

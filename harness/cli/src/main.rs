@@ -28,6 +28,7 @@ mod pack;
 mod patience;
 mod plan;
 mod pointing;
+mod refit;
 mod run;
 mod schema;
 mod size;

@@ -22,6 +22,9 @@ pub struct Options<'a> {
     pub step_s: Option<f64>,
     /// Record the point nearest to each multiple of this time, in s; otherwise every point.
     pub record_every_s: Option<f64>,
+    /// Record at these times instead, in s, which grow from the start on: a step that one of them cuts is taken in pieces,
+    /// inputs still change at communication points alone. For FMUs that take steps of any size.
+    pub record_at_s: Option<&'a [f64]>,
     /// Values set before the run, by name.
     pub sets: Vec<(String, Value)>,
     /// Inputs over time.
@@ -40,6 +43,9 @@ pub struct Options<'a> {
     /// Once true, the run ends after the step under way.
     pub cancel: Option<&'a AtomicBool>,
 }
+
+/// Times whose distance is a smaller part of a step than this are one.
+const SAME: f64 = 1e-9;
 
 /// Why a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -174,7 +180,11 @@ pub fn simulate(fmu: &Fmu, mut options: Options<'_>) -> Result<Simulation, Box<S
     let positions = options.record.take().unwrap_or_else(|| outputs(fmu.description()));
     let mut collector = Collector::new(fmu.description(), &positions);
     let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
-    collector.fits(RecordedPoints::new(&times, options.record_every_s)?.count())?;
+    let points = match options.record_at_s {
+        Some(record_at_s) => record_at_s.len() as u64,
+        None => RecordedPoints::new(&times, options.record_every_s)?.count(),
+    };
+    collector.fits(points)?;
     options.record = Some(positions);
     match simulate_into(fmu, options, &mut collector) {
         Ok((ended, messages)) => Ok(Simulation { recording: collector.into_recording(), ended, messages }),
@@ -254,7 +264,12 @@ fn run_steps(
         inputs.set(instance, times.start_s, true)?;
     }
     instance.exit_initialization_mode()?;
-    record(instance, times.start_s)?;
+    let mut cuts =
+        options.record_at_s.map(|times_s| Cuts { left_s: times_s, resolution_s: SAME * times.step_s });
+    match &mut cuts {
+        Some(cuts) => cuts.take_until(times.start_s, |time_s| record(instance, time_s))?,
+        None => record(instance, times.start_s)?,
+    }
 
     let counter = options.apart.map(|position| fmu.description().variables[position].value_reference);
     let steps = times.steps();
@@ -267,9 +282,10 @@ fn run_steps(
         }
         // Every step but the last has the step size itself: not each difference of two points is it to the bit.
         let step_s = if k + 1 == steps { end_s - time_s } else { times.step_s };
-        let stepped = match counter {
-            None => instance.do_step(time_s, step_s, true),
-            Some(counter) => step_apart(instance, counter, (time_s, step_s), MOST_HALVINGS, record),
+        let stepped = match (&mut cuts, counter) {
+            (Some(cuts), _) => cuts.step(instance, [time_s, end_s], record),
+            (None, None) => instance.do_step(time_s, step_s, true),
+            (None, Some(counter)) => step_apart(instance, counter, (time_s, step_s), MOST_HALVINGS, record),
         };
         if let Err(error) = stepped {
             if error.status() == Some(Status::Discard) && instance.terminated().unwrap_or(false) {
@@ -282,7 +298,7 @@ fn run_steps(
             return Err(error);
         }
         let cancelled = options.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
-        if recorded.contain(k + 1) || cancelled {
+        if cuts.is_none() && (recorded.contain(k + 1) || cancelled) {
             record(instance, end_s)?;
         }
         if let Some(progress) = options.progress.as_mut() {
@@ -294,6 +310,52 @@ fn run_steps(
     }
     instance.terminate()?;
     Ok(Ended::AtStop)
+}
+
+/// Times at which rows are recorded, wherever the communication points are.
+struct Cuts<'a> {
+    /// Those to come, in s.
+    left_s: &'a [f64],
+    /// A time this near to a communication point is that point.
+    resolution_s: f64,
+}
+
+impl Cuts<'_> {
+    /// Takes a step in pieces that end at the times in it.
+    fn step(
+        &mut self,
+        instance: &mut Instance,
+        [start_s, end_s]: [f64; 2],
+        record: &mut dyn FnMut(&mut Instance, f64) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let mut now_s = start_s;
+        while let Some(next_s) =
+            self.left_s.first().copied().filter(|next_s| end_s - next_s > self.resolution_s)
+        {
+            if next_s - now_s > self.resolution_s {
+                instance.do_step(now_s, next_s - now_s, true)?;
+                now_s = next_s;
+            }
+            self.take_until(next_s, |time_s| record(instance, time_s))?;
+        }
+        instance.do_step(now_s, end_s - now_s, true)?;
+        self.take_until(end_s, |time_s| record(instance, time_s))
+    }
+
+    /// Records those up to a time.
+    fn take_until(
+        &mut self,
+        end_s: f64,
+        mut record: impl FnMut(f64) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        while let [next_s, later_s @ ..] = self.left_s
+            && *next_s <= end_s + self.resolution_s
+        {
+            record(*next_s)?;
+            self.left_s = later_s;
+        }
+        Ok(())
+    }
 }
 
 /// Enters initialization mode with these values set, before it or in it.

@@ -12,8 +12,9 @@ use std::{
 };
 
 use comfy_table::{ContentArrangement, TableComponent, presets};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressStyle;
 
+pub use indicatif::ProgressBar;
 pub use relay::{Output, Relay, Screen, relay_to, screen, show_bar};
 
 /// Prints a text; a reader that went away (as `head` does) is no error.

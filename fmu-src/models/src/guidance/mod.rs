@@ -23,7 +23,7 @@ use physics::guidance::modes::system::{
     GuidanceSettings, GuidanceState, SAMPLE_WORK, SampleInputs, TimedEntries,
 };
 use physics::guidance::pointing::command::Scenario;
-use physics::guidance::timeline::TimelineDump;
+use physics::guidance::timeline::{TimelineDump, simulation_time_s};
 use physics::management::{DumpRequests, SampledManager};
 use physics::numerics::work::Work;
 
@@ -274,7 +274,7 @@ impl State {
     fn events_until(&self, context: &Plan<'_>, time_s: f64) -> usize {
         let Some(timeline) = context.setup.timeline.as_ref() else { return 0 };
         let clock_minus_time_s = timeline.clock_minus_time_s(self.epoch_minus_time_s);
-        timeline.events().partition_point(|event| event.at_s - clock_minus_time_s <= time_s)
+        timeline.events().partition_point(|event| simulation_time_s(event.at_s, clock_minus_time_s) <= time_s)
     }
 
     /// The momentum that a dump of the timeline leaves, body frame, in N m s, where one has come since the last sample.
@@ -300,7 +300,9 @@ impl State {
         let time_s = self.system.next_sample_s();
         let epoch_s = time::epoch_at_s(time_s, self.epoch_minus_time_s);
         let reader = Reader::new(context, values, inputs, time_s);
-        let entry = context.setup.timeline.as_ref().and_then(|timeline| timeline.entry_at(time_s, epoch_s));
+        let entry = context.setup.timeline.as_ref().and_then(|timeline| {
+            timeline.slot(time_s, timeline.clock_minus_time_s(self.epoch_minus_time_s)).entry
+        });
         let mut settings = *settings;
         let given = reader.command();
         let mut requested_sun = match management::is_managed(context, values) {
@@ -364,7 +366,9 @@ impl State {
                 context.log.warning(&warning);
             }
         }
-        let inputs = SampleInputs { command, requested_sun, entries, places, sensed, delta_v_body_m_s };
+        let sun_is_placed = entry.is_some_and(|entry| entry.downlink.sun.is_some());
+        let inputs =
+            SampleInputs { command, requested_sun, sun_is_placed, entries, places, sensed, delta_v_body_m_s };
         let is_chosen = self.system.sample(&settings, &inputs, |start| manager.choose(start));
         Ok(if is_chosen { manager.work(settings.orbit_phase.science.unloads()) } else { 0 })
     }

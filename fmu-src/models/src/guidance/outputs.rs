@@ -58,7 +58,7 @@ pub(super) fn write(
     values.set_boolean(v.constraint.hot_pole, status.hot_pole);
     values.set_boolean(v.constraint.clamped, status.clamped);
     values.set_boolean(v.downlink.active, status.downlink.active);
-    values.set_boolean(v.downlink.clamped, status.downlink.clamped || state.downlink_sun().is_clamped());
+    values.set_boolean(v.downlink.clamped, status.downlink.clamped);
     self::burn(context, values, state.burn(), burn);
     for panel in &v.panel {
         values.set_real(panel.sun_offset, values.real(panel.nominal_sun_offset));

@@ -87,7 +87,9 @@ struct Parameters {
 
 impl Parameters {
     fn of(choice: OpenChoices, v: &PlantVariables) -> Self {
-        let orbit = knowns![&v.start, &v.orbit, &v.planet, &v.ephemeris, v.sun.radius, &v.eclipse];
+        // A maneuver of the timeline at the start puts it on another orbit.
+        let maneuver = knowns![&v.timeline, &v.maneuver, &v.noise].only_if(choice.ideal);
+        let orbit = knowns![&v.start, &v.orbit, &v.planet, &v.ephemeris, v.sun.radius, &v.eclipse, maneuver];
         let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
         // Guidance balances torques against the momentum.
         let aimed = &knowns![&v.guided, &v.momentum, &v.solar, &v.spacecraft, wheels.collect::<Knowns>()];
@@ -170,7 +172,8 @@ fn momentum(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, param
     let moved = knowns![v.delta_v, v.accelerometer.delta_v];
     table.output(knowns![spent, moved], dumped, &parameters.actuators);
     table.output(&v.dump, target, &parameters.actuators);
-    table.output(&v.maneuver, knowns![&inputs.attitude, &v.maneuver], knowns![&v.maneuver, &v.noise]);
+    let executed = knowns![&v.maneuver, &v.noise, &v.timeline, &v.start];
+    table.output(&v.maneuver, knowns![&inputs.attitude, &v.maneuver], executed);
     table.calculated(v.dump.guaranteed_threshold, &v.wheel);
 }
 

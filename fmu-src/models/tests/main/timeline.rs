@@ -199,6 +199,101 @@ fn the_sun_stands_where_the_downlink_has_it_and_what_cannot_be_is_flagged() {
 }
 
 #[test]
+fn a_place_outside_the_keep_in_zone_is_its_boundary_however_it_is_requested() {
+    let timeline = "[[command]]\nat = 0\nscenario = \"downlink\"\nsun = { azimuth = \"3 deg\", elevation = \"20 deg\" }\n";
+    let (planned, plain) = (planned(timeline), NamedModel::<MomentumPlant>::shipped());
+    let input = [("downlink.sunAzimuth", 3_f64.to_radians()), ("downlink.sunElevation", 20_f64.to_radians())];
+    for (zone, expected_deg) in [
+        (&[][..], 13.0),
+        (&[("keepIn.elevation", 0.1)], 0.1_f64.to_degrees()),
+        (&[("keepIn.enabled", 0.0)], 20.0),
+        // Beyond its distance it does not count.
+        (&[("keepIn.distance", 0.3 * ASTRONOMICAL_UNIT_M)], 20.0),
+    ] {
+        // The Earth is far enough from the Sun line.
+        let place = [&cruise(0.4)[..], &[("orbit.trueAnomaly", 2.0)]].concat();
+        let mut by_timeline = planned.fly(0.0, &[&place[..], zone].concat()).unwrap();
+        let mut by_input = plain.fly(0.0, &[&place[..], zone, &input].concat()).unwrap();
+        for flight in [&mut by_timeline, &mut by_input] {
+            flight.step_to(HOUR_S).unwrap();
+            let [azimuth, elevation] =
+                ["sun.azimuth", "sun.elevation"].map(|it| flight.real(it).to_degrees());
+            assert!(
+                (azimuth - 3.0).abs() < 1e-9 && (elevation - expected_deg).abs() < 1e-9,
+                "{azimuth} {elevation}"
+            );
+            assert_eq!(flight.boolean("downlink.clamped"), expected_deg != 20.0);
+        }
+        let [a, b] = [&by_timeline, &by_input].map(|it| it.vector("momentum.inertial"));
+        assert!((a - b).norm() < 1e-9 * a.norm(), "{a} {b}");
+    }
+}
+
+#[test]
+fn an_input_goes_before_the_timeline_and_what_it_leaves_goes_by_guided() {
+    let timeline =
+        "[[command]]\nat = 0\nuntil = 3600\nscenario = \"downlink\"\nsun = { elevation = \"4 deg\" }\n";
+    let named = planned(timeline);
+    let mut flight = named.fly(0.0, &cruise(0.4)).unwrap();
+    let elevation_deg = |flight: &NamedInstance<'_, MomentumPlant>| flight.real("sun.elevation").to_degrees();
+    flight.step_to(1000.0).unwrap();
+    assert!((elevation_deg(&flight) - 4.0).abs() < 1e-9);
+    flight.set("downlink.sunElevation", -0.1);
+    flight.step_to(2000.0).unwrap();
+    assert!((flight.real("sun.elevation") + 0.1).abs() < 1e-9);
+    flight.set("downlink.sunElevation", 0.0);
+    // At its edge the command is over.
+    flight.step_to(3600.0).unwrap();
+    assert!((flight.integer("timeline.command"), elevation_deg(&flight).abs() < 1e-9) == (0, true));
+    flight.step_to(3600.0 + 1e-3).unwrap();
+    assert!(flight.boolean("downlink.active") && elevation_deg(&flight).abs() < 1e-9);
+}
+
+#[test]
+fn dates_are_times_of_the_simulation_wherever_it_begins() {
+    let date = |time: &str| format!("\"2008-03-20T{time} TDB\"");
+    let timeline = format!(
+        "[[command]]\nat = {}\nscenario = \"downlink\"\n[[command]]\nat = {}\nscenario = \"downlink\"\n\
+         sun = {{ elevation = \"4 deg\" }}\n[[panels]]\nat = {}\nsunOffset = \"20 deg\"\n\
+         [[event]]\nat = {}\nmaneuver = {{ deltaV = [1, 0, 0] }}\n[[event]]\nat = {}\ndump = [1, 0, 0]\n",
+        date("00:00:00"),
+        date("12:00:00.5"),
+        date("12:00:00.5"),
+        date("00:00:00"),
+        date("12:00:00.5"),
+    );
+    let named = planned(&timeline);
+    for start_s in [0.0, 0.1, 0.3, 1e5 + 0.7] {
+        // J2000 is at noon of the first day of 2000.
+        let epoch = [("start.epoch", 3_000.5 * DAY_S)];
+        let sets = [&cruise(0.4)[..], &by_timeline(), &epoch].concat();
+        let mut flight = named.fly(start_s, &sets).unwrap();
+        assert_eq!(flight.integer("maneuver.count"), 1, "{start_s}");
+        let edge_s = start_s + 43_200.5;
+        flight.step_to(edge_s - 1e-3).unwrap();
+        assert_eq!((flight.integer("timeline.command"), flight.integer("dump.count")), (1, 1));
+        let before_rad = flight.real("panel[1].angleActual");
+        flight.step_to(edge_s).unwrap();
+        assert_eq!((flight.integer("timeline.command"), flight.integer("dump.count")), (2, 2), "{start_s}");
+        assert!((flight.real("panel[1].angleActual") - before_rad).abs() > 0.1);
+        assert!((flight.real("dump.lastTime") - edge_s).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn without_the_timeline_neither_panels_nor_events_follow_it() {
+    let timeline = "[[panels]]\nat = 0\nsunOffset = \"20 deg\"\n[[event]]\nat = 10\ndump = true\n";
+    let named = planned(timeline);
+    let mut flight =
+        named.fly(0.0, &[&cruise(0.4)[..], &by_timeline(), &[("timeline.enabled", 0.0)]].concat()).unwrap();
+    flight.step_to(100.0).unwrap();
+    assert_eq!(flight.integer("dump.count"), 0);
+    let plain = NamedModel::<MomentumPlant>::shipped();
+    let plain = plain.fly(0.0, &cruise(0.4)).unwrap();
+    assert!((flight.real("panel[1].angleActual") - plain.real("panel[1].angleActual")).abs() < 1e-6);
+}
+
+#[test]
 fn the_alternate_attitude_is_half_a_turn_about_the_sun_line() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let [direct, alternate] = [0.0, 1.0].map(|alternate| {

@@ -17,6 +17,7 @@ pub struct Document<'t> {
     // Offsets of line ends, counted once: a file may have a fault on every line.
     line_ends: Vec<usize>,
     root: Spanned<DeValue<'t>>,
+    own_limits: &'static [(&'static str, usize)],
 }
 
 impl<'t> Document<'t> {
@@ -32,7 +33,7 @@ impl<'t> Document<'t> {
             Ok(root) => {
                 let root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
                 let line_ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at);
-                Ok(Self { file, line_ends: line_ends.collect(), root })
+                Ok(Self { file, line_ends: line_ends.collect(), root, own_limits: &[] })
             }
             Err(error) => {
                 let line = error.span().map(|span| line_of(text, span.start));
@@ -53,11 +54,17 @@ impl<'t> Document<'t> {
         }
     }
 
+    /// With limits of the length of lists that go before [`LIMITS`](super::LIMITS).
+    #[must_use]
+    pub fn limited(self, own_limits: &'static [(&'static str, usize)]) -> Self {
+        Self { own_limits, ..self }
+    }
+
     /// Reads the document into a type. Keys that are unknown, missing or of a wrong type are found all at once; the
     /// type then holds values that nobody wrote.
     pub fn read<T: DeserializeOwned>(&self) -> Result<(T, Findings), FileError> {
         let findings = RefCell::default();
-        match T::deserialize(Reader::new(self.root.get_ref(), &findings)) {
+        match T::deserialize(Reader::new(self.root.get_ref(), &findings, self.own_limits)) {
             Ok(value) => Ok((value, findings.into_inner())),
             Err(error) => {
                 let (found, allowed) = (error.to_string(), String::new());

@@ -40,11 +40,14 @@ pub const LIMITS: &[(&str, usize)] = &[
     ("command", 10_000),
 ];
 
+/// In a timeline these go before [`LIMITS`]: its panels are positions over time.
+pub const TIMELINE_LIMITS: &[(&str, usize)] = &[("panels", 10_000)];
+
 /// Most items of a list or names of a table that [`LIMITS`] does not name.
 pub const MOST_ITEMS: usize = 20_000;
 
-/// Most items of the list or names of the table at a place.
-pub(super) fn most_items(at: &Place) -> usize {
+/// Most items of the list or names of the table at a place, `own` limits of the kind of file going first.
+pub(super) fn most_items(at: &Place, own: &[(&str, usize)]) -> usize {
     let key = at.last_key().unwrap_or_default();
-    LIMITS.iter().find(|(name, _)| *name == key).map_or(MOST_ITEMS, |(_, most)| *most)
+    own.iter().chain(LIMITS).find(|(name, _)| *name == key).map_or(MOST_ITEMS, |(_, most)| *most)
 }

@@ -18,7 +18,9 @@ pub use checker::Checker;
 pub(crate) use checker::rounded;
 pub use document::Document;
 pub use error::{FileError, Problem};
-pub use limits::{LIMITS, MOST_ANTENNAS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUSTERS};
+pub use limits::{
+    LIMITS, MOST_ANTENNAS, MOST_ITEMS, MOST_PROBLEMS, MOST_TEXT_BYTES, MOST_THRUSTERS, TIMELINE_LIMITS,
+};
 pub use place::Place;
 pub use ranges::{
     AtLeastOne, BodyRadius, Copies, Corners, Deviation, Distance, Emissivity, FieldOfView, Finite, Fraction,

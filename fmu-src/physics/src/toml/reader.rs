@@ -36,12 +36,18 @@ pub(super) struct Reader<'r> {
     range: Option<&'static Range>,
     place: Place,
     findings: &'r RefCell<Findings>,
+    /// Of this kind of file.
+    own_limits: &'static [(&'static str, usize)],
 }
 
 impl<'r> Reader<'r> {
     /// Of a whole file.
-    pub(super) fn new(root: &'r DeValue<'r>, findings: &'r RefCell<Findings>) -> Self {
-        Self { value: Some(root), is_expected: true, range: None, place: Place::root(), findings }
+    pub(super) fn new(
+        root: &'r DeValue<'r>,
+        findings: &'r RefCell<Findings>,
+        own_limits: &'static [(&'static str, usize)],
+    ) -> Self {
+        Self { value: Some(root), is_expected: true, range: None, place: Place::root(), findings, own_limits }
     }
 
     /// The value if it is what is allowed; otherwise the problem is noted and something else will stand in.
@@ -76,7 +82,7 @@ impl<'r> Reader<'r> {
 
     /// Whether a list or table of this length may be read; notes a longer one.
     fn may_have(&self, length: usize) -> bool {
-        let most = most_items(&self.place);
+        let most = most_items(&self.place, self.own_limits);
         if length <= most {
             return true;
         }
@@ -90,7 +96,8 @@ impl<'r> Reader<'r> {
     }
 
     fn inside(&self, place: Place, value: Option<&'r DeValue<'r>>, is_expected: bool) -> Self {
-        Self { value, is_expected, range: None, place, findings: self.findings }
+        let Self { findings, own_limits, .. } = *self;
+        Self { value, is_expected, range: None, place, findings, own_limits }
     }
 
     /// The values of the known keys; unknown ones are noted, with the key that was meant standing in.

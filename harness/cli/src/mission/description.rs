@@ -19,7 +19,7 @@ pub(super) struct Description {
     pub model: Option<String>,
     /// An FMU, or a system (SSP), that is packed already; instead of spacecraft and model.
     pub fmu: Option<String>,
-    /// Commands over time, a TOML file, for models that take one.
+    /// Commands, positions of panels and events over time, a TOML file, for models that take one: MomentumPlant, Guidance.
     pub timeline: Option<String>,
     /// Positions over time, a TOML file, for models that take one.
     pub ephemeris: Option<String>,

@@ -97,6 +97,11 @@ impl Plant<'_> {
         }
     }
 
+    /// Whether it is in downlink throughout.
+    fn is_in_cruise(&self) -> bool {
+        self.item("guided.phase") == Some("cruise")
+    }
+
     /// Begin and end as shares of the period, where the file gives them so and nothing sets them.
     fn shares(&self) -> [Option<f64>; 2] {
         let Some(windows) = self.windows else { return [None; 2] };
@@ -135,7 +140,7 @@ impl Plant<'_> {
     fn window_warning(&self) -> Option<String> {
         let ([begin_s, end_s], every) = (self.window_s()?, self.every()?);
         let is_periodic = self.item("guided.downlinkReference") == Some("periapsis") && every > 0.0;
-        if !is_periodic || !self.guides_itself() {
+        if !is_periodic || !self.guides_itself() || self.is_in_cruise() {
             return None;
         }
         let cycle_s = every * self.period_s().filter(|period_s| period_s.is_finite())?;
@@ -165,6 +170,9 @@ impl Plant<'_> {
                 "free" => "as its wheels and thrusters turn it (attitude.source free)".to_owned(),
                 _ => format!("as the inputs command.* say (attitude.source {source})"),
             });
+        }
+        if self.is_in_cruise() {
+            return Some("downlink throughout (guided.phase cruise), the Sun on -Y".to_owned());
         }
         let limit_deg = self.real("keepIn.elevation")?.to_degrees();
         let is_limited = limit_deg < EVERYWHERE_DEG;

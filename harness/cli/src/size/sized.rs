@@ -21,6 +21,8 @@ pub(super) type Failure = Box<dyn std::error::Error>;
 
 /// The model that is simulated.
 const MODEL: &str = "MomentumPlant";
+/// What guided flight does.
+const PHASE: &str = "guided.phase";
 /// A year, in s.
 pub(super) const YEAR_S: f64 = 365.25 * DAY_S;
 
@@ -83,10 +85,15 @@ impl SizedSpacecraft {
         check_plant(&file, description, &sets)?;
         let mut started = instance::started(&fmu, "size", start_s, &sets)?;
         let period_s = period_s(item(description, &sets, "orbit.center") == Some("sun"), &mut started)?;
+        // As it acts: by default it follows the centre.
+        let phase = description.variables.iter().find(|it| it.name == PHASE);
+        let phase = phase.map(|it| started.get_variable(it)).transpose()?;
+        let phase: Vec<_> = phase.into_iter().map(|value| (PHASE.to_owned(), value)).collect();
+        let is_in_cruise = item(description, &phase, PHASE) == Some("cruise");
         drop(started);
         let spacecraft = spacecraft(&fmu)?;
         let has_fan = spacecraft.antennas.iter().any(|named| named.antenna.fan().is_some());
-        let strategies = strategies(description, &sets, period_s, has_fan);
+        let strategies = strategies(description, &sets, period_s, has_fan && !is_in_cruise);
         Ok(Self {
             spacecraft,
             sets,
@@ -136,18 +143,19 @@ fn period_s(is_about_sun: bool, instance: &mut Instance) -> Result<f64, loader::
     Ok(core::f64::consts::TAU * (instance.get_real("orbit.semiMajorAxis")?.powi(3) / gm_m3_s2).sqrt())
 }
 
-/// Dumps alone, and what sunlight can do where guided flight has downlinks with science between them, of an antenna that is steered.
+/// Dumps alone, and what sunlight can do where guided flight has downlinks with science between them, of an antenna that is steered
+/// (`can_choose`).
 fn strategies(
     description: &Description,
     sets: &[(String, Value)],
     period_s: f64,
-    has_fan: bool,
+    can_choose: bool,
 ) -> Vec<String> {
     let number = |name: &str| start(description, sets, name).map_or(0.0, |value| value.to_f64());
     let window_s = number("guided.downlinkEnd") - number("guided.downlinkStart");
     let has_science = (0.0..number("guided.downlinkEvery") * period_s).contains(&window_s);
     let is_guided = item(description, sets, "attitude.source") == Some("guided");
-    let names: &[&str] = if has_science && is_guided && has_fan {
+    let names: &[&str] = if has_science && is_guided && can_choose {
         &["dumpsOnly", "reactive", "predictive"]
     } else {
         &["dumpsOnly"]

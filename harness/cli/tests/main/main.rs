@@ -17,6 +17,7 @@ mod momentum_plans;
 mod new_files;
 mod packs;
 mod plans;
+mod refits;
 mod runs;
 mod sizes;
 mod timelines;

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{built, heliotorque, run, says, shown, text};
+use crate::{built, heliotorque, run, says, shown, template, text};
 
 const MESSENGER_FULL: &str = "../../fmu-src/resources/messenger-full.toml";
 
@@ -132,4 +132,16 @@ fn what_cannot_be_sized_is_refused_by_name() {
     );
     refused(MESSENGER_FULL, &["--margin", "-1"], "allowed is a share from 0 to 10");
     refused("../../fmu-src/resources/examples/timeline.toml", &[], "found a timeline, allowed: a spacecraft");
+}
+
+/// In downlink throughout no strategy chooses the Sun's place; the flight is as long as the mission's timeline.
+#[test]
+fn a_mission_in_cruise_is_sized_by_its_timeline() {
+    let Some((scratch, template)) = template() else { return };
+    let mission = "../../fmu-src/resources/examples/missions/messenger-cruise.toml";
+    let arguments = ["size", mission, "--template", shown(&template), "--output", shown(scratch.path())];
+    run(&[&arguments[..], &["--budget", "0s"]].concat(), 0);
+    let rows = table(&scratch.path().join("messenger-cruise-size.csv"));
+    let strategies: Vec<&str> = rows.iter().map(|row| row[0].as_str()).collect();
+    assert_eq!(strategies, ["dumpsOnly"]);
 }

@@ -78,6 +78,16 @@ fn the_timeline_in_an_fmu_is_reported_and_judged() {
     assert!(text.contains("did you mean \"MLA\"?"), "{text}");
 }
 
+#[test]
+fn a_spacecraft_with_antennas_about_the_sun_is_in_downlink_throughout() {
+    let Some((scratch, template)) = template() else { return };
+    let file = scratch.path().join("cruise.toml");
+    let spacecraft = include_str!("../../../../fmu-src/resources/messenger.toml");
+    fs::write(&file, spacecraft.replace("[start]", "[start]\n\"orbit.center\" = \"sun\"")).unwrap();
+    let said = run(&["check", shown(&file), "--template", shown(&template)], 0);
+    says(&said, &["points               downlink throughout (guided.phase cruise), the Sun on -Y"]);
+}
+
 /// Attitudes, panels, events; two lines are Guidance's alone.
 const BOTH: &str = "\
 [[command]]

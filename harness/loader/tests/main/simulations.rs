@@ -109,6 +109,27 @@ fn recording_less_often_keeps_the_last_point() {
 }
 
 #[test]
+fn rows_stand_at_the_times_that_are_given() {
+    let Some((_folder, fmu)) = probe("AllTypes") else { return };
+    // u = t, held over each step of 0.5 s.
+    let rows = [vec!["0", "0"], vec!["4", "4"]];
+    let table = InputTable::parse(fmu.description(), &["time", "input.real"], &rows).unwrap();
+    let record = Some(fmu.select("output.integral").unwrap());
+    // Within steps, several in one, at a communication point but for rounding, and at the stop.
+    let at_s = [0.0, 0.2, 0.3, 0.7, 1.5 - 1e-12, 1.5 + 0.1, 2.0];
+    let options = Options { inputs: Some(&table), record, record_at_s: Some(&at_s), ..over(2.0, 0.5) };
+    let recording = simulate(&fmu, options).unwrap().recording;
+    assert_eq!(recording.times_s, at_s);
+    let integral = |time_s: f64| {
+        let steps = (time_s / 0.5 + 1e-9).floor();
+        0.125 * steps * (steps - 1.0) + 0.5 * steps * (time_s - 0.5 * steps)
+    };
+    for (time_s, found) in at_s.iter().zip(recording.reals("output.integral").unwrap()) {
+        assert!((integral(*time_s) - found).abs() < 1e-11, "{time_s}: {found}");
+    }
+}
+
+#[test]
 fn cancelling_keeps_what_was_simulated() {
     let Some((_folder, fmu)) = probe("AllTypes") else { return };
     let cancel = AtomicBool::new(false);

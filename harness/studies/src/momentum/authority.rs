@@ -34,6 +34,8 @@ const STEP_S: f64 = 60.0;
 const TURN_RAD: f64 = 1e-3;
 /// Either way; momentum is linear in it.
 const SHIFT_M: f64 = 1e-3;
+/// Rounding of the momentum over that time, of the greatest that gathers: a component below it is none.
+const ROUNDING: f64 = 1e-12;
 /// No dump: above all that gathers.
 const NO_DUMP_N_M_S: f64 = 1e6;
 
@@ -403,17 +405,20 @@ impl Craft {
         // By the body axes, in N m s a day.
         let gathered =
             |pair: &[Vector]| upright().inverse_transform_vector(&(pair[1] - pair[0])) * (DAY_S / STEP_S);
-        let mut rates = momentum_n_m_s.windows(2).map(gathered);
+        let rates: Vec<Vector> = momentum_n_m_s.windows(2).map(gathered).collect();
+        let least = ROUNDING * rates.iter().map(Vector::amax).fold(0.0, f64::max);
+        let known = |rate: Vector| rate.map(|part| if part.abs() < least { 0.0 } else { part });
+        let mut rates = rates.into_iter();
         let mut take = || rates.next().unwrap_or(Vector::repeat(f64::NAN));
         let still = take();
         let worth = |control: &Control| {
             let (changes, per) = control.changes();
             let first = take();
             let other = if changes.len() > 1 { take() } else { still };
-            (*control, (first - other) / per)
+            (*control, known(first - other) / per)
         };
         let of = self.controls.iter().map(worth).collect();
-        Ok(Worth { distance_au, offset_deg: plant.offset_deg, still, of })
+        Ok(Worth { distance_au, offset_deg: plant.offset_deg, still: known(still), of })
     }
 }
 

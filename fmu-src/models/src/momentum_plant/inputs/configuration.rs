@@ -8,7 +8,7 @@ use physics::environment::CartesianState;
 use physics::environment::orbit::{Flattening, Gravity, TwoBodyOrbit};
 use physics::environment::time;
 use physics::guidance::constraints::keep_in::{KeepIn, KeepInMethod};
-use physics::guidance::downlink::sun_place::SunRequest;
+use physics::guidance::downlink::sun_place::{SunRequest, SunZone};
 use physics::guidance::pointing::boresight::Gimbal;
 use physics::guidance::timeline::TimelineSettings;
 use physics::guidance::{Guided, TargetPlanet};
@@ -268,6 +268,21 @@ pub(super) fn guidance_law(
     Ok(variables.guided.in_phase(context, values, &context.setup.windows, (law, !is_planet)))
 }
 
+/// The keep-in zone of commands.
+fn zone(variables: &PlantVariables, values: &Values) -> Result<KeepIn, Failure> {
+    let v = &variables.keep_in;
+    let axis_body = Vector3::from(values.vector(v.axis));
+    if axis_body == Vector3::zeros() {
+        return Err(Failure::new(ZERO_KEEP_IN_AXIS));
+    }
+    Ok(KeepIn {
+        axis_body,
+        azimuth_rad: values.real(v.azimuth).min(core::f64::consts::FRAC_PI_2),
+        elevation_rad: values.real(v.elevation),
+        method: values.choice(v.method).0,
+    })
+}
+
 /// What the timeline goes by.
 fn timeline(
     variables: &PlantVariables,
@@ -276,17 +291,8 @@ fn timeline(
     clock_minus_time_s: f64,
 ) -> Result<TimelineSettings, Failure> {
     let v = &variables.keep_in;
-    let axis_body = Vector3::from(values.vector(v.axis));
-    if axis_body == Vector3::zeros() {
-        return Err(Failure::new(ZERO_KEEP_IN_AXIS));
-    }
     Ok(TimelineSettings {
-        keep_in: KeepIn {
-            axis_body,
-            azimuth_rad: values.real(v.azimuth).min(core::f64::consts::FRAC_PI_2),
-            elevation_rad: values.real(v.elevation),
-            method: values.choice(v.method).0,
-        },
+        keep_in: zone(variables, values)?,
         keep_in_is_enabled: values.boolean(v.enabled),
         keep_in_distance_m: values.real(v.distance),
         planet: TargetPlanet::of(center),
@@ -315,7 +321,12 @@ fn attitude(
             check_windows(&law.schedule)?;
         }
         let law = law.with_sun_places(choice.place(), choice.in_science());
-        let inputs = variables.downlink.request(values);
+        let zone = SunZone {
+            keep_in: zone(variables, values)?,
+            distance_m: values.real(variables.keep_in.distance),
+        };
+        let zone = values.boolean(variables.keep_in.enabled).then_some(zone);
+        let inputs = SunRequest { zone, ..variables.downlink.request(values) };
         let requested = if managed { SunRequest::default() } else { inputs };
         Ok::<_, Failure>(Guided { managed, requested, ..law })
     };

@@ -288,9 +288,9 @@ fn start_motion(
     let given = context.given(values, &[start.q.into(), start.rate.into()]);
     let pointing = match configuration.attitude.guided() {
         _ if given.has(start.q) => None,
-        Some(law) => Some(StartPointing::Guidance(*law)),
+        Some(law) => Some(StartPointing::Guidance(Box::new(*law))),
         None if state.inputs.source.is_commanded => state.attitude_command().map(StartPointing::Command),
-        None => Some(StartPointing::Guidance(guidance_law(context, values, &configuration.orbit)?)),
+        None => Some(StartPointing::Guidance(Box::new(guidance_law(context, values, &configuration.orbit)?))),
     };
     Ok(StartMotion {
         attitude,

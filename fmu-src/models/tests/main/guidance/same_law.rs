@@ -66,6 +66,9 @@ fn compare_by(
         let difference = |sign: f64| a.iter().zip(b).map(|(a, b)| (a - sign * b).powi(2)).sum::<f64>().sqrt();
         let off = difference(1.0).min(difference(-1.0));
         assert!(off < 1e-12, "{off:e} at {time_s} s: {a:?} {b:?}");
+        for flag in ["downlink.active", "downlink.clamped"] {
+            assert_eq!(guidance.boolean(flag), plant.boolean(flag), "{flag} at {time_s} s");
+        }
         worst = worst.max(off);
         time_s += step_s;
         plant.step_to(time_s).unwrap();
@@ -106,5 +109,13 @@ fn a_timeline_is_one_law_in_both() {
         [&[("keepIn.enabled", 0.0)][..], &[("keepIn.axis[1]", 0.3), ("keepIn.axis[2]", -1.0)], &narrow]
     {
         compare_by(&example(), &with(&[&quiet, zone]), zone, (86_400.0, 90.0));
+    }
+    // Places of the Sun of its own, in the zone and beyond it, whatever the strategy.
+    let places = "[[command]]\nat = 0\nscenario = \"downlink\"\nsun = { azimuth = \"-4 deg\", elevation = \"5 deg\" }\n\
+                  [[command]]\nat = 7200\nscenario = \"downlink\"\nsun = { elevation = \"-25 deg\" }\nalternate = true\n\
+                  [[command]]\nat = 14400\nscenario = \"nadir\"\n";
+    for strategy in [1.0, 2.0, 3.0] {
+        let strategy = [("momentum.strategy", strategy), ("guided.downlinkEvery", 2.0)];
+        compare_by(places, &strategy, &strategy, (18_000.0, 90.0));
     }
 }

@@ -89,6 +89,11 @@ impl KeepIn {
         Some(-self.angles(sun_body)?.keep_in_margin_rad(self.azimuth_rad, self.elevation_rad))
     }
 
+    /// Azimuth and elevation in the body frame of the point that takes the place of a Sun outside; `None` inside.
+    pub fn boundary_angles(&self, sun_body: &Vector3<f64>) -> Option<SunAngles> {
+        Some(SunAngles::of(&value(&self.boundary_point(&fixed(*sun_body))??)))
+    }
+
     /// The boundary point for the unit vector `sun_body`, inner `None` inside the zone; outer `None` where the axis has no
     /// direction.
     fn boundary_point(&self, sun_body: &MovingVector) -> Option<Option<MovingVector>> {

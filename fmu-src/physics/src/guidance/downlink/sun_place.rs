@@ -21,6 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::attitude::{SunAngles, angle_between_rad, direction_from_angles};
 use crate::constants::DEG_RAD;
+use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{Moving, MovingVector, PARALLEL_RAD, direction, fixed, unit, value};
 use crate::guidance::pointing::antenna::{AntennaAzimuth, AntennaRow, Antennas, BOUND_RAD};
@@ -62,6 +63,33 @@ pub struct SunRequest {
     pub sun: SunAngles,
     /// Whether the attitude is turned by 180 deg about the Sun line: the Sun stays in its place, there is no link.
     pub alternate: bool,
+    /// What that place stays inside of.
+    pub zone: Option<SunZone>,
+}
+
+/// A keep-in zone of the Sun.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SunZone {
+    /// The zone.
+    pub keep_in: KeepIn,
+    /// Greatest distance from the Sun at which it counts, in m.
+    pub distance_m: f64,
+}
+
+impl SunRequest {
+    /// The same inside a zone, and whether that moved the Sun's place: to the point that the zone's method takes.
+    pub fn within(self, zone: Option<&KeepIn>) -> (Self, bool) {
+        if self.sun == SunAngles::default() {
+            return (self, false);
+        }
+        let moved = zone.and_then(|zone| zone.boundary_angles(&direction_from_angles(self.sun)));
+        (Self { sun: moved.unwrap_or(self.sun), ..self }, moved.is_some())
+    }
+
+    /// The same inside its own zone, this far from the Sun, in m.
+    pub fn at_distance(self, distance_m: f64) -> (Self, bool) {
+        self.within(self.zone.filter(|zone| distance_m <= zone.distance_m).map(|zone| zone.keep_in).as_ref())
+    }
 }
 
 /// A place of the Sun that was chosen for a downlink.
@@ -82,6 +110,9 @@ pub struct Downlink {
     pub antenna: AntennaAzimuth,
     /// Whether elevation or antenna stands at a bound, off what was requested.
     pub clamped: bool,
+    /// At roots of these the law takes another form; infinite where there is none: the Earth's azimuth is the other one of both;
+    /// elevation or antenna comes to a bound.
+    pub margins: [f64; 2],
 }
 
 /// Where the Earth can stand in the XY plane for one place of the Sun.
@@ -91,8 +122,8 @@ pub struct EarthAzimuths {
     pub azimuths: [Moving; 2],
     /// Direction of the Sun in the body frame, its elevation cut where it had to be.
     pub sun_body: MovingVector,
-    /// Whether it was cut.
-    pub clamped: bool,
+    /// How far it is from being cut, by sines; negative where it was.
+    pub margin: f64,
     /// Cosine of the angle between Sun and Earth.
     pub cosine: f64,
 }
@@ -116,7 +147,7 @@ pub fn downlink(
             (
                 requested.unwrap_or_else(|| solutions.preferred(antennas)),
                 solutions.sun_body,
-                solutions.clamped,
+                solutions.margin < 0.0,
             )
         }
     };
@@ -132,10 +163,26 @@ pub fn downlink(
                 external_roll: *to_sun,
             };
             let antenna = AntennaAzimuth::fixed(row, &axis_body);
-            return Some(Downlink { vectors, antenna, clamped: false });
+            let off_rad = (angle_between_rad(&place_body, &axis_body) - separation_rad).abs();
+            // Nobody requested the default place.
+            let clamped = request.sun_body != SunAngles::default() && off_rad > BOUND_RAD;
+            return Some(Downlink { vectors, antenna, clamped, margins: [f64::INFINITY; 2] });
         }
     }
     let at_bound = antenna.antenna.is_some() && !antenna.is_in_range();
+    let is_placed = request.antenna_azimuth_rad.is_none();
+    let margins = [
+        if is_placed && request.earth_ahead.is_none() {
+            solutions.margin_of_choice(antennas)
+        } else {
+            f64::INFINITY
+        },
+        if is_placed {
+            solutions.margin.min(antennas.fan_margin_rad(antenna.antenna, azimuth.re))
+        } else {
+            f64::INFINITY
+        },
+    ];
     let boresight_azimuth = if at_bound { Moving::constant(antenna.azimuth_rad) } else { azimuth };
     Some(Downlink {
         vectors: PointingVectors {
@@ -146,6 +193,7 @@ pub fn downlink(
         },
         antenna,
         clamped: cut || at_bound,
+        margins,
     })
 }
 
@@ -180,7 +228,7 @@ pub fn both_solutions(
     Some(EarthAzimuths {
         azimuths: [azimuth - delta, azimuth + delta],
         sun_body: direction(azimuth, elevation),
-        clamped: sine_elevation.abs() > sine.re,
+        margin: sine.re - sine_elevation.abs(),
         cosine: cosine.re,
     })
 }
@@ -193,14 +241,25 @@ impl EarthAzimuths {
     }
 }
 
+impl EarthAzimuths {
+    /// Changes its sign where the other azimuth is taken; positive with A - delta.
+    fn margin_of_choice(&self, antennas: &Antennas) -> f64 {
+        let [minus_rad, plus_rad] = self.azimuths.map(|azimuth| outside_rad(antennas, azimuth.re));
+        let apart_rad = plus_rad - minus_rad;
+        if apart_rad.abs() <= BOUND_RAD || apart_rad.is_nan() { self.cosine } else { apart_rad }
+    }
+}
+
+/// How far an azimuth is outside the range of the nearest fan, in rad.
+fn outside_rad(antennas: &Antennas, azimuth_rad: f64) -> f64 {
+    let nearest = antennas.nearest_fan(azimuth_rad);
+    if nearest.is_in_range() { 0.0 } else { nearest.outside_rad }
+}
+
 /// Whether of both azimuths of the Earth A + delta is taken, the cosine being that of the angle between Sun and Earth.
 pub(crate) fn is_ahead(antennas: &Antennas, [minus_rad, plus_rad]: [f64; 2], cosine: f64) -> bool {
-    let outside_rad = |azimuth_rad: f64| {
-        let nearest = antennas.nearest_fan(azimuth_rad);
-        if nearest.is_in_range() { 0.0 } else { nearest.outside_rad }
-    };
     // Symmetric ranges about the Sun line are equally far outside; rounding does not choose between them.
-    let (minus_rad, plus_rad) = (outside_rad(minus_rad), outside_rad(plus_rad));
+    let [minus_rad, plus_rad] = [minus_rad, plus_rad].map(|it| outside_rad(antennas, it));
     if cosine > 0.0 { plus_rad < minus_rad - BOUND_RAD } else { plus_rad <= minus_rad + BOUND_RAD }
 }
 

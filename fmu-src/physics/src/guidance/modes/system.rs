@@ -66,6 +66,8 @@ pub struct SampleInputs {
     pub command: PointingCommand,
     /// Where downlinks are to have the Sun where no strategy chooses it.
     pub requested_sun: SunRequest,
+    /// Whether the timeline says where the Sun stands, so that no strategy does.
+    pub sun_is_placed: bool,
     /// The timeline's entries that say scan, limb and mode, where they and no input do: each begins with its entry.
     pub entries: TimedEntries,
     /// Where everything is.
@@ -117,7 +119,8 @@ struct SampleContext<'a> {
     settings: &'a GuidanceSettings<'a>,
     constraints: Constraints,
     surroundings: &'a EphemerisAtTime,
-    requested_sun: SunRequest,
+    requested_sun: (SunRequest, bool),
+    sun_is_placed: bool,
     time_s: f64,
 }
 
@@ -243,9 +246,12 @@ impl GuidanceState {
                             constraints,
                             surroundings,
                             requested_sun: match self.modes.mode {
-                                Mode::Operational => inputs.requested_sun,
-                                _ => SunRequest::default(),
+                                Mode::Operational => {
+                                    inputs.requested_sun.within(constraints.keep_in.as_ref())
+                                }
+                                _ => (SunRequest::default(), false),
                             },
+                            sun_is_placed: inputs.sun_is_placed,
                             time_s,
                         },
                         &command,
@@ -415,7 +421,11 @@ impl GuidanceState {
             },
             degenerate: pointing.degenerate || !is_given,
             scan_active: aimed.scan_active,
-            downlink: aimed.downlink,
+            downlink: DownlinkStatus {
+                clamped: aimed.downlink.active
+                    && (aimed.downlink.clamped || now.requested_sun.1 || sun_keep_in),
+                ..aimed.downlink
+            },
             sun_keep_in,
             hot_pole,
             hot_pole_reached,
@@ -439,7 +449,7 @@ impl GuidanceState {
         if command.scenario == Some(Scenario::OrbitPhase) {
             let science = self.downlink_sun.in_science().filter(|_| self.modes.mode == Mode::Operational);
             let law = now.settings.orbit_phase.with_sun_places(self.sun_place(), science);
-            let law = Guided { requested: now.requested_sun, ..law };
+            let law = Guided { requested: now.requested_sun.0, ..law };
             return Some(self.orbit_phase(&law, now.surroundings, &now.settings.hardware));
         }
         let progress = PointingProgress {
@@ -448,8 +458,8 @@ impl GuidanceState {
                 tolerance_s: 4.0 * spacing(now.time_s),
             }),
             limb_elapsed_s: self.limb.map_or(0.0, |(_, since_s)| now.time_s - since_s),
-            downlink_sun: self.sun_place(),
-            requested: now.requested_sun,
+            downlink_sun: self.sun_place().filter(|_| !now.sun_is_placed),
+            requested: now.requested_sun.0,
             burn: self.burn.aim(&now.settings.burn),
         };
         aim(command, &now.settings.hardware, now.surroundings, &progress)
@@ -472,7 +482,8 @@ impl GuidanceState {
             antenna: (is_downlink && !law.requested.alternate)
                 .then(|| Beam::AtTheEarth(hardware.antennas.toward(&earth_body()))),
             downlink: DownlinkStatus::of(&attitude),
-            reachable: !attitude.slewing && attitude.margins.iter().all(|margin| *margin >= 0.0),
+            reachable: !attitude.slewing
+                && (is_downlink || attitude.margins.iter().all(|margin| *margin >= 0.0)),
             ..Aimed::at(pointing.vectors())
         }
     }

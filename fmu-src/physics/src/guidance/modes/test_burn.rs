@@ -126,6 +126,7 @@ pub(crate) fn sample_inputs(attitude: Attitude, delta_v_body_m_s: Vector3<f64>) 
     SampleInputs {
         command: PointingCommand { scenario: Some(Scenario::Burn), ..PointingCommand::default() },
         requested_sun: SunRequest::default(),
+        sun_is_placed: false,
         entries: TimedEntries::default(),
         places: BodyPositions::in_every_mode(Some(surroundings())),
         sensed: Sensed {

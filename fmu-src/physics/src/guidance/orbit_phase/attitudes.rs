@@ -228,7 +228,7 @@ pub fn downlink_with(lines: &LinesOfSight, sun: SunAngles, antennas: &Antennas) 
     let Some((found, pointing)) = found.and_then(|found| Some((found, found.vectors.pointing()?))) else {
         return sun_pointing(lines);
     };
-    AttitudeCommand { clamped: found.clamped, ..AttitudeCommand::new(pointing.frame(), NO_MARGINS) }
+    AttitudeCommand { clamped: found.clamped, ..AttitudeCommand::new(pointing.frame(), found.margins) }
 }
 
 /// Fallback with nothing but the Sun: -Y toward it, +Z toward the north of EME2000 as far as possible (toward the

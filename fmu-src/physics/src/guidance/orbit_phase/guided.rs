@@ -178,7 +178,7 @@ impl Guided {
         match activity {
             Activity::Science => science(lines, self.science, self.elevation_limit_rad),
             Activity::Downlink => {
-                let SunRequest { sun, alternate } = self.requested;
+                let SunRequest { sun, alternate, .. } = self.requested;
                 let command = match &self.sun_place {
                     Some(place) => downlink_toward(lines, place),
                     None if sun != SunAngles::default() => {

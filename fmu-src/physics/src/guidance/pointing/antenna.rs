@@ -77,6 +77,12 @@ impl Antennas {
         self.list.get(usize::from(row))
     }
 
+    /// How far an azimuth is inside the range of a fan, in rad, negative outside; infinite of what is no fan.
+    pub fn fan_margin_rad(&self, row: Option<AntennaRow>, azimuth_rad: f64) -> f64 {
+        let fan = row.and_then(|row| self.get(row)?.fan());
+        fan.map_or(f64::INFINITY, |fan| fan.half_rad - wrapped_rad(azimuth_rad - fan.middle_rad).abs())
+    }
+
     /// Of the fan nearest to an azimuth; midway between two bounds, and of two with one bound, that of the first.
     pub fn nearest_fan(&self, azimuth_rad: f64) -> AntennaAzimuth {
         let none = AntennaAzimuth { antenna: None, azimuth_rad, outside_rad: f64::INFINITY };
@@ -150,7 +156,7 @@ impl Antennas {
 
 /// The azimuth of a fan's range nearest to `azimuth_rad`.
 fn fan_at(row: AntennaRow, fan: &FanAzimuths, azimuth_rad: f64) -> AntennaAzimuth {
-    let off_rad = (azimuth_rad - fan.middle_rad + PI).rem_euclid(TAU) - PI;
+    let off_rad = wrapped_rad(azimuth_rad - fan.middle_rad);
     let nearest_rad = fan.middle_rad + off_rad.clamp(-fan.half_rad, fan.half_rad);
     AntennaAzimuth {
         antenna: Some(row),

@@ -72,6 +72,8 @@ pub struct Aimed {
     pub scan_active: bool,
     /// What is to be said of a downlink.
     pub downlink: DownlinkStatus,
+    /// Of a downlink, where its law takes another form; infinite otherwise.
+    pub margins: [f64; 2],
 }
 
 /// A limb point by its command and how long its scan lasts.
@@ -143,6 +145,7 @@ impl Aimed {
             clamped: false,
             scan_active: false,
             downlink: DownlinkStatus::default(),
+            margins: [f64::INFINITY; 2],
         }
     }
 
@@ -198,6 +201,7 @@ impl Reading<'_> {
                 || boresight.antenna.is_some_and(|antenna| !antenna.is_in_range()),
             scan_active: scan.is_some(),
             downlink: DownlinkStatus::default(),
+            margins: [f64::INFINITY; 2],
         }
     }
 
@@ -222,12 +226,14 @@ impl Reading<'_> {
         if self.progress.requested.alternate && !commanded {
             let aimpoint = half_turned(&found.vectors.aimpoint, &self.surroundings.to_sun());
             let vectors = PointingVectors { aimpoint, ..found.vectors };
-            return Some(Aimed { clamped: found.clamped, downlink, ..Aimed::at(vectors) });
+            let margins = found.margins;
+            return Some(Aimed { clamped: found.clamped, downlink, margins, ..Aimed::at(vectors) });
         }
         Some(Aimed {
             antenna: Some(Beam::AtTheEarth(found.antenna)),
             clamped: found.clamped,
             downlink,
+            margins: found.margins,
             ..Aimed::at(found.vectors)
         })
     }

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use super::burn::{Span, burn as burn_of};
 use super::commands::{Commands, Reader};
 use super::description::Description;
-use super::entry::{Slot, TimelineClock, TimelineEntry, TimelineEvent, TimelinePanels};
+use super::entry::{Slot, TimelineClock, TimelineEntry, TimelineEvent, TimelinePanels, simulation_time_s};
 use super::events::event;
 use super::panels::panels;
 use super::scans::scan;
 use super::times::Times;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
 use crate::spacecraft::Spacecraft;
-use crate::toml::{Checker, Document, FileError, Place};
+use crate::toml::{Checker, Document, FileError, Place, TIMELINE_LIMITS};
 
 /// Commands, panels and events one after the other; of each list the times grow, and one list at least is not empty.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +45,7 @@ impl Timeline {
     }
 
     fn read(file: &str, text: &str, spacecraft: &Spacecraft, reader: Reader) -> Result<Self, FileError> {
-        let document = Document::parse(file, text)?;
+        let document = Document::parse(file, text)?.limited(TIMELINE_LIMITS);
         let (description, findings) = document.read::<Description>()?;
         let mut commands = Commands::new(Checker::new(&document, findings), spacecraft, reader);
         let [place, panels_place, events_place] =
@@ -133,31 +133,21 @@ impl Timeline {
         self.entries.get(self.entries.binary_search_by_key(&line, |entry| entry.line).ok()?)
     }
 
-    /// The command in force at a time of the simulation, which is this epoch: the last one that began, unless it ended.
-    pub fn entry_at(&self, time_s: f64, epoch_s: f64) -> Option<&TimelineEntry> {
-        let now_s = match self.clock {
-            TimelineClock::Epoch => epoch_s,
-            TimelineClock::FmiTime => time_s,
-        };
-        let begun = self.entries.partition_point(|entry| entry.at_s <= now_s);
-        let last = self.entries.get(begun.checked_sub(1)?)?;
-        last.until_s.is_none_or(|until_s| now_s < until_s).then_some(last)
-    }
-
-    /// What is in force at a time of the clock, in s.
-    pub fn slot(&self, now_s: f64) -> Slot<'_> {
+    /// What is in force at a time of the simulation, in s, the clock being `clock_minus_time_s` ahead of it.
+    pub fn slot(&self, now_s: f64, clock_minus_time_s: f64) -> Slot<'_> {
         let entries = self.entries();
-        let begun = entries.partition_point(|entry| entry.at_s <= now_s);
-        let next_s = entries.get(begun).map_or(f64::INFINITY, |next| next.at_s);
+        let time_s = |at_s: f64| simulation_time_s(at_s, clock_minus_time_s);
+        let begun = entries.partition_point(|entry| time_s(entry.at_s) <= now_s);
+        let next_s = entries.get(begun).map_or(f64::INFINITY, |next| time_s(next.at_s));
         let Some(last) = begun.checked_sub(1).and_then(|index| entries.get(index)) else {
             return Slot { entry: None, row: 0, since_s: f64::NEG_INFINITY, until_s: next_s };
         };
-        match last.until_s {
+        match last.until_s.map(time_s) {
             Some(end_s) if end_s <= now_s => Slot { entry: None, row: 0, since_s: end_s, until_s: next_s },
             end_s => Slot {
                 entry: Some(last),
                 row: begun,
-                since_s: last.at_s,
+                since_s: time_s(last.at_s),
                 until_s: end_s.unwrap_or(f64::INFINITY).min(next_s),
             },
         }

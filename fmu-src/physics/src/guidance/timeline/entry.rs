@@ -23,6 +23,13 @@ pub enum TimelineClock {
     FmiTime,
 }
 
+/// The time of the simulation, in s, at `at_s` of a timeline's clock. Epochs are known to 6e-8 s: what counts in them is rounded to
+/// whole microseconds.
+pub fn simulation_time_s(at_s: f64, clock_minus_time_s: f64) -> f64 {
+    const PER_S: f64 = 1e6;
+    if clock_minus_time_s == 0.0 { at_s } else { ((at_s - clock_minus_time_s) * PER_S).round() / PER_S }
+}
+
 /// Whether a plan may change a command.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -60,7 +67,7 @@ pub struct TimelineEntry {
     pub status: PlanStatus,
 }
 
-/// What is in force over a span of the timeline's clock.
+/// What is in force over a span of the simulation's time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slot<'a> {
     /// The command; `None`: nothing is commanded.
@@ -187,6 +194,7 @@ impl DownlinkOverride {
         SunRequest {
             sun: self.sun.filter(|_| !is_set).unwrap_or(requested.sun),
             alternate: requested.alternate || self.alternate,
+            ..requested
         }
     }
 }

@@ -5,7 +5,7 @@
 //! root of the margin. Where nothing is commanded, or what is has no direction, the orbit phase's own law rules.
 
 use super::build::Timeline;
-use super::entry::TimelineEntry;
+use super::entry::{TimelineEntry, simulation_time_s};
 use crate::attitude::MovingFrame;
 use crate::bodies::Body;
 use crate::guidance::constraints::constrained::Constraints;
@@ -17,6 +17,9 @@ use crate::guidance::pointing::command::{AimpointOption, PointingCommand};
 use crate::guidance::pointing::scan::{ScanTime, next_corner_s};
 use crate::guidance::pointing::scenario::{GuidanceHardware, PointingProgress, aim};
 use crate::numerics::spacing::spacing;
+
+/// A Sun this little off the zone's boundary is on it, in rad.
+const ON_BOUNDARY_RAD: f64 = 1e-9;
 
 /// What parameters say.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,12 +50,12 @@ pub struct TimelineLaw<'a> {
 pub struct TimelineAttitude {
     /// Body frame and rate.
     pub frame: MovingFrame,
-    /// How far the Sun is inside the keep-in zone in the attitude without it, in rad; infinite where none is in force. The law has
-    /// another form beyond a root.
-    pub margin: f64,
+    /// At roots of these the law takes another form; infinite where there is none. The first is how far the Sun is inside the keep-in
+    /// zone in the attitude without it, in rad.
+    pub margins: [f64; 2],
     /// Whether the Sun's place in a downlink is not the one that was requested.
     pub clamped: bool,
-    /// When the next motion of a scan begins or ends, in s of the clock.
+    /// When the next motion of a scan begins or ends, in s.
     pub corner_s: f64,
 }
 
@@ -63,19 +66,24 @@ pub fn bodies_of(command: &PointingCommand) -> impl Iterator<Item = Body> + '_ {
 }
 
 impl TimelineLaw<'_> {
-    /// The attitude of a command at `now_s` of the clock, the Sun of its downlinks standing at `chosen` or as requested; `None` where
+    /// The attitude of a command at `time_s` of the simulation, the Sun of its downlinks standing at `chosen` or as requested; `None` where
     /// it has no scenario of its own, or boresight, aimpoint or Sun no direction.
     pub fn attitude(
         &self,
         settings: &TimelineSettings,
         entry: &TimelineEntry,
-        now_s: f64,
+        time_s: f64,
         surroundings: &EphemerisAtTime,
         (chosen, requested): (Option<SunPlace>, SunRequest),
     ) -> Option<TimelineAttitude> {
-        let elapsed_s = now_s - entry.at_s;
-        let time_s = now_s - settings.clock_minus_time_s;
-        let scan = ScanTime { elapsed_s, tolerance_s: 4.0 * (spacing(now_s) + spacing(time_s)) };
+        let begin_s = simulation_time_s(entry.at_s, settings.clock_minus_time_s);
+        let elapsed_s = time_s - begin_s;
+        let scan = ScanTime { elapsed_s, tolerance_s: 4.0 * (spacing(entry.at_s) + spacing(time_s)) };
+        let to_sun = surroundings.to_sun();
+        let counts = value(&to_sun).norm() <= settings.keep_in_distance_m;
+        let keep_in =
+            entry.keep_in.applied(&settings.keep_in, settings.keep_in_is_enabled).filter(|_| counts);
+        let (requested, cut) = requested.within(keep_in.as_ref());
         let progress = PointingProgress {
             scan: entry.command.scan.frame.map(|_| scan),
             limb_elapsed_s: elapsed_s,
@@ -84,20 +92,20 @@ impl TimelineLaw<'_> {
             burn: None,
         };
         let aimed = aim(&entry.command, &self.hardware, surroundings, &progress)?;
-        let to_sun = surroundings.to_sun();
-        let counts = value(&to_sun).norm() <= settings.keep_in_distance_m;
-        let keep_in =
-            entry.keep_in.applied(&settings.keep_in, settings.keep_in_is_enabled).filter(|_| counts);
         let unconstrained = aimed.vectors.pointing()?;
         let sun_body = || value(&unconstrained.to_body(&to_sun)).try_normalize(0.0);
         let margin = keep_in.and_then(|zone| Some(-zone.excess_rad(&sun_body()?)?));
+        let moves = margin.is_some_and(|margin| margin < -ON_BOUNDARY_RAD);
+        // A place on the boundary stays there, whatever rounding says.
+        let margin = margin.filter(|margin| !cut || margin.abs() > ON_BOUNDARY_RAD);
         let constraints = Constraints { keep_in, hot_pole: None };
         let constrained = constraints.applied(&aimed.vectors, surroundings, None)?;
-        let corner_s = next_corner_s(&entry.command.scan, scan).map_or(f64::INFINITY, |it| it + entry.at_s);
+        let corner_s = next_corner_s(&entry.command.scan, scan).map_or(f64::INFINITY, |it| it + begin_s);
+        let [form, bound] = aimed.margins;
         Some(TimelineAttitude {
             frame: constrained.pointing.frame(),
-            margin: margin.unwrap_or(f64::INFINITY),
-            clamped: aimed.downlink.clamped,
+            margins: [margin.unwrap_or(f64::INFINITY).min(bound), form],
+            clamped: aimed.downlink.clamped || cut || moves,
             corner_s,
         })
     }

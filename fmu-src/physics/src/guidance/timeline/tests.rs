@@ -48,7 +48,7 @@ fn the_example_is_a_day_at_mercury() {
     use Scenario::{Downlink, Generic, Gimbal, LimbTerminator, Nadir, PlusZ};
     assert_eq!(scenarios, [Nadir, LimbTerminator, Gimbal, Generic, Downlink, PlusZ, Nadir]);
     // Between the mosaic's end and the star nothing is commanded.
-    let at = |hours: f64| timeline.entry_at(0.0, start_s + hours * 3600.0);
+    let at = |hours: f64| timeline.slot(hours * 3600.0, start_s).entry;
     assert_eq!(at(4.3).and_then(|entry| entry.command.scan.frame), Some(ScanFrame::Body));
     assert_eq!(at(4.5), None);
     assert_eq!(at(10.0).and_then(|entry| entry.keep_in.elevation_rad), Some(10.0 * DEG_RAD));
@@ -311,9 +311,9 @@ fn times_are_dates_or_fmi_time() {
     let dates = two("\"2009-04-06T00:00:00 TDB\"", "\"2009-04-06T00:00:00 UTC\"");
     assert_eq!((dates.clock(), dates.entries()[0].at_s), (TimelineClock::Epoch, 292_248_000.0));
     assert!((dates.entries()[1].at_s - 292_248_066.184).abs() < 2e-3);
-    assert_eq!(dates.entry_at(f64::INFINITY, 292_248_001.0).unwrap().line, 1);
-    assert_eq!(fmi.entry_at(5400.0, f64::NEG_INFINITY).unwrap().line, 4);
-    assert_eq!(fmi.entry_at(f64::NAN, 0.0), None);
+    assert_eq!(dates.slot(1.0, 292_248_000.0).entry.unwrap().line, 1);
+    assert_eq!(fmi.slot(5400.0, 0.0).entry.unwrap().line, 4);
+    assert_eq!(fmi.slot(f64::NAN, 0.0).entry, None);
 }
 
 proptest! {
@@ -336,7 +336,7 @@ proptest! {
         for half_seconds in -110..110 {
             let now_s = f64::from(half_seconds) * 0.5;
             let expected = spans.iter().position(|(start, end)| (start..end).contains(&&now_s));
-            let found = timeline.entry_at(now_s, f64::NAN).map(|entry| entry.at_s);
+            let found = timeline.slot(now_s, 0.0).entry.map(|entry| entry.at_s);
             prop_assert_eq!(found, expected.map(|index| spans[index].0));
         }
     }
@@ -448,6 +448,26 @@ fn panels_and_events_stand_without_commands() {
     assert_eq!(maneuver.maneuver, Some(expected));
     let set = spacecraft().thruster_set("lva");
     assert_eq!(last.maneuver.map(|it| (it.thrusters, it.dumps)), Some((set, Some(false))));
+}
+
+#[test]
+fn no_panel_windmills_without_a_side() {
+    let mut spacecraft = spacecraft();
+    let text = "[[panels]]\nat = 0\nsunOffset = 0\nwindmill = \"2 deg\"";
+    assert!(Timeline::of_plant("t.toml", text, &spacecraft).is_ok());
+    spacecraft.panels.iter_mut().for_each(|panel| panel.windmill_side = 0.0);
+    let error = Timeline::of_plant("t.toml", text, &spacecraft).unwrap_err().to_string();
+    assert!(error.contains("t.toml:4: panels[1].windmill") && error.contains("windmill_side"), "{error}");
+}
+
+#[test]
+fn panels_over_time_are_as_many_as_commands() {
+    let rows = |count: usize| -> String {
+        (0..count).map(|at| format!("[[panels]]\nat = {at}\nsunOffset = 0\n")).collect()
+    };
+    assert_eq!(read(&rows(10_000)).panels().len(), 10_000);
+    let error = Timeline::from_toml("t.toml", &rows(10_001), &spacecraft()).unwrap_err().to_string();
+    assert!(error.contains("found 10001 entries, allowed: at most 10000"), "{error}");
 }
 
 #[test]

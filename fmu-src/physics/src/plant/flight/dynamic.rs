@@ -57,10 +57,10 @@ impl AttitudeDynamics {
         let events = &flight.world.configuration.thruster_events;
         let scheduled = events.before(time_s);
         events.check_for_dynamics(scheduled)?;
-        let StartMotion { mut attitude, mut rate_body_rad_s, pointing, rate_is_pointed, .. } = settings.start;
-        if let Some(pointing) = pointing {
+        let StartMotion { mut attitude, mut rate_body_rad_s, rate_is_pointed, .. } = settings.start;
+        if let Some(pointing) = &settings.start.pointing {
             let frame = match pointing {
-                StartPointing::Guidance(law) => flight.frame_by(&law, time_s)?,
+                StartPointing::Guidance(law) => flight.frame_by(law, time_s)?,
                 StartPointing::Command(command) => command.frame_at(time_s),
             };
             attitude = Attitude::from_rotation(&frame.inertial_from_body);

@@ -407,7 +407,7 @@ impl Flight {
             .prepared
             .timeline
             .zip(followed)
-            .map_or(0, |(law, settings)| law.timeline.slot(time_s + settings.clock_minus_time_s).row);
+            .map_or(0, |(law, settings)| law.timeline.slot(time_s, settings.clock_minus_time_s).row);
         let target_is_clamped = propagator.sun_choice.is_clamped();
         Ok(Report {
             time_s,

@@ -171,12 +171,15 @@ impl Kinematics<'_> {
 
     /// What the timeline commands at `time_s`, else the orbit phase's own guidance.
     fn guided(&mut self, guided: &Guided, time_s: f64, geometry: &Geometry) -> GuidedAttitude {
+        let distance_m = geometry.to_sun.position_m.norm();
         let Some((law, settings)) = self.timeline.zip(self.configuration.timeline) else {
-            return self.by_orbit_phase(guided, time_s, geometry);
+            let (requested, cut) = guided.requested.at_distance(distance_m);
+            let own = self.by_orbit_phase(&Guided { requested, ..*guided }, time_s, geometry);
+            return GuidedAttitude { clamped: own.clamped || cut, ..own };
         };
-        let slot = law.timeline.slot(time_s + settings.clock_minus_time_s);
-        let epoch_minus_clock_s = self.configuration.epoch_minus_time_s - settings.clock_minus_time_s;
-        let [since_s, until_s] = [slot.since_s, slot.until_s].map(|it| it + epoch_minus_clock_s);
+        let slot = law.timeline.slot(time_s, settings.clock_minus_time_s);
+        let epoch_minus_time_s = self.configuration.epoch_minus_time_s;
+        let [since_s, until_s] = [slot.since_s, slot.until_s].map(|it| it + epoch_minus_time_s);
         let requested = slot.sun_request(guided.requested);
         let commanded = slot.entry.filter(|_| slot.scenario().is_some());
         if let Some(entry) = commanded
@@ -191,23 +194,24 @@ impl Kinematics<'_> {
                 frame: found.frame,
                 window: Window { activity, since_s, until_s },
                 slewing: false,
-                margins: [found.margin, f64::INFINITY],
+                margins: found.margins,
                 clamped: found.clamped,
-                corner_s: found.corner_s + epoch_minus_clock_s,
-                until_s: until_s.min(found.corner_s + epoch_minus_clock_s),
+                corner_s: found.corner_s + epoch_minus_time_s,
+                until_s: until_s.min(found.corner_s + epoch_minus_time_s),
             };
         }
         let keep_in = match (slot.entry, guided.keep_in) {
             (Some(entry), Some(zone)) => entry.keep_in.applied(&zone, true),
             (_, zone) => zone,
         };
+        let (requested, cut) = requested.at_distance(distance_m);
         let own = self.by_orbit_phase(&Guided { requested, keep_in, ..*guided }, time_s, geometry);
         let window = Window {
             since_s: own.window.since_s.max(since_s),
             until_s: own.window.until_s.min(until_s),
             ..own.window
         };
-        GuidedAttitude { window, until_s: own.until_s.min(until_s), ..own }
+        GuidedAttitude { window, clamped: own.clamped || cut, until_s: own.until_s.min(until_s), ..own }
     }
 
     /// The attitude of a command of the timeline.
@@ -228,7 +232,7 @@ impl Kinematics<'_> {
             let place = geometry::body(self.configuration, self.ephemeris, body, epoch_s);
             surroundings.place_body(body, &place);
         }
-        law.attitude(settings, entry, time_s + settings.clock_minus_time_s, &surroundings, sun)
+        law.attitude(settings, entry, time_s, &surroundings, sun)
     }
 
     /// What the orbit phase's own guidance commands at `time_s`.

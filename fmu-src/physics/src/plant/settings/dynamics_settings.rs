@@ -54,10 +54,10 @@ pub struct StartMotion {
 }
 
 /// What a flight is pointed by where it begins.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum StartPointing {
     /// The orbit phase's own guidance.
-    Guidance(Guided),
+    Guidance(Box<Guided>),
     /// A command.
     Command(Command),
 }

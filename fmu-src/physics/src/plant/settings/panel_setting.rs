@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
-use crate::guidance::timeline::TimelinePanels;
+use crate::guidance::timeline::{TimelinePanels, simulation_time_s};
 use crate::numerics::scalar::{Dual64, Scalar};
 use crate::spacecraft::{Panel, offset_for_suns};
 
@@ -127,7 +127,7 @@ impl PanelSetting {
         match self {
             Self::Timeline { steps, clock_minus_time_s, .. } => {
                 let next = steps.get(begun(steps, *clock_minus_time_s, time_s));
-                next.map_or(f64::INFINITY, |next| next.at_s - clock_minus_time_s)
+                next.map_or(f64::INFINITY, |next| simulation_time_s(next.at_s, *clock_minus_time_s))
             }
             Self::Disabled | Self::SunOffset { .. } | Self::Angle(_) | Self::Distance { .. } => f64::INFINITY,
         }
@@ -151,7 +151,7 @@ impl PanelSetting {
 
 /// How many of the steps have begun at `time_s`.
 fn begun(steps: &[PanelStep], clock_minus_time_s: f64, time_s: f64) -> usize {
-    steps.partition_point(|step| step.at_s - clock_minus_time_s <= time_s)
+    steps.partition_point(|step| simulation_time_s(step.at_s, clock_minus_time_s) <= time_s)
 }
 
 #[cfg(test)]

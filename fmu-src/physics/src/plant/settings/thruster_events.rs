@@ -9,7 +9,7 @@ use std::sync::Arc;
 use nalgebra::{Rotation3, Vector3};
 
 use super::error::PlantError;
-use crate::guidance::timeline::{TimelineDump, TimelineEvent, TimelineManeuver};
+use crate::guidance::timeline::{TimelineDump, TimelineEvent, TimelineManeuver, simulation_time_s};
 use crate::momentum::DumpEvent;
 use crate::numerics::noise::{Channel, normal, normal_vector};
 use crate::spacecraft::ThrusterSet;
@@ -125,7 +125,7 @@ impl ThrusterEventSettings {
 
     /// When an event of the schedule comes, in s.
     pub(crate) fn time_s(&self, event: &TimelineEvent) -> f64 {
-        event.at_s - self.clock_minus_time_s
+        simulation_time_s(event.at_s, self.clock_minus_time_s)
     }
 
     /// The next event of the schedule, so many being over.

@@ -1,0 +1,200 @@
+//! Flights of the mission's FMU with any centre of mass and factor of sunlight, without dumps by threshold.
+
+use std::cell::Cell;
+
+use files::Scratch;
+use loader::{Ended, Fmu, InputTable, Options, Value};
+use model_description::Description;
+use nalgebra::Vector3;
+use physics::constants::DAY_S;
+use planner::refit::{FITTED, Failure, Flights, History, MOMENTUM, Parameters, Telemetry};
+use terminal::ProgressBar;
+
+use super::options::Refit;
+use crate::{
+    run::{Run, Settings, Simulated, Subject},
+    variables::{item, real, selected},
+};
+
+/// The model that is simulated.
+const MODEL: &str = "MomentumPlant";
+const DUMPS: &str = "dump.count";
+const SOURCE: &str = "attitude.source";
+const STRATEGY: &str = "momentum.strategy";
+const THRESHOLD: &str = "dump.threshold";
+/// Standard deviations that are drawn by a seed, of which a history knows nothing: its flights are without.
+const DRAWN: [&str; 5] = [
+    "spacecraft.centerOfMassShift[1]",
+    "spacecraft.centerOfMassShift[2]",
+    "spacecraft.centerOfMassShift[3]",
+    "maneuver.magnitudeError",
+    "maneuver.directionError",
+];
+/// A component that is never reached.
+const NEVER_N_M_S: f64 = 1e9;
+
+/// A mission ready to fly.
+pub(super) struct FlownMission {
+    fmu: Fmu,
+    sets: Vec<(String, Value)>,
+    inputs: Option<InputTable>,
+    start_s: f64,
+    stop_s: f64,
+    step_s: f64,
+    /// Time of flights that are over, in s, and the bar that it is shown by.
+    flown_s: Cell<f64>,
+    pub bar: ProgressBar,
+    // A mission's packed FMU, as long as it is in use.
+    _folder: Option<Scratch>,
+}
+
+impl FlownMission {
+    /// Reads the mission and packs its files.
+    pub(super) fn open(arguments: &Refit) -> Result<(Self, Simulated), Failure> {
+        let file = arguments.mission.display().to_string();
+        if arguments.mission.extension().is_none_or(|it| !it.eq_ignore_ascii_case("toml")) {
+            return Err(format!(
+                "{file}: found no TOML file, allowed: a mission: see `heliotorque new mission`"
+            )
+            .into());
+        }
+        let template = arguments.template.clone();
+        let run = Run { fmu: arguments.mission.clone(), template, ..Run::default() };
+        let simulated = Simulated::of(&run)?;
+        let (subject, folder) = simulated.open()?;
+        let Settings { times, mut sets, inputs, .. } = Settings::of(&subject, &simulated, None)?;
+        let Subject::Fmu(fmu) = subject else {
+            return Err(format!("{file}: found a system, allowed: a {MODEL}").into());
+        };
+        check_plant(&file, fmu.description(), &sets)?;
+        check_inputs(&file, fmu.description(), inputs.as_ref())?;
+        let is_drawn = |name: &str| fmu.variable(name).is_ok_and(|it| loader::set_early(it).is_ok());
+        sets.extend(
+            DRAWN.iter().filter(|name| is_drawn(name)).map(|name| ((*name).to_owned(), Value::Real(0.0))),
+        );
+        let flown = Self {
+            fmu,
+            sets,
+            start_s: times.start_s,
+            stop_s: times.stop_s,
+            // Inputs change at the mission's steps alone; without any, a flight does not depend on them.
+            step_s: if inputs.is_some() { times.step_s } else { times.step_s.max(DAY_S) },
+            inputs,
+            flown_s: Cell::new(0.0),
+            bar: ProgressBar::hidden(),
+            _folder: folder,
+        };
+        Ok((flown, simulated))
+    }
+
+    /// The values that the mission sets.
+    pub(super) fn prior(&self) -> Result<Parameters, Failure> {
+        let value = |name: &str| {
+            real(self.fmu.description(), &self.sets, name)
+                .ok_or_else(|| format!("{MODEL} has no value of {name}, allowed: one in the mission's [set]"))
+        };
+        let [x, y, z, scale] = FITTED.map(value);
+        Ok(Parameters { center_of_mass_body_m: Vector3::new(x?, y?, z?), solar_scale: scale? })
+    }
+
+    /// Refuses rows before and after the mission.
+    pub(super) fn check_times(&self, file: &str, telemetry: &Telemetry) -> Result<(), String> {
+        let outside = telemetry.times_s.iter().position(|at_s| !(self.start_s..=self.stop_s).contains(at_s));
+        let Some(row) = outside else { return Ok(()) };
+        let [at, start, stop] = [telemetry.times_s[row], self.start_s, self.stop_s].map(terminal::short);
+        let line = telemetry.lines[row];
+        Err(format!(
+            "{file}:{line}: time: found {at} s, allowed: times of the mission, from {start} s to {stop} s"
+        ))
+    }
+
+    /// Of one flight over the rows, in s.
+    pub(super) fn span_s(&self, telemetry: &Telemetry) -> f64 {
+        telemetry.times_s.last().map_or(0.0, |last_s| last_s - self.start_s)
+    }
+}
+
+impl Flights for FlownMission {
+    fn fly(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, Failure> {
+        let description = self.fmu.description();
+        let mut sets = self.sets.clone();
+        let values: [f64; 4] = parameters.values().into();
+        sets.extend(FITTED.iter().zip(values).map(|(name, value)| ((*name).to_owned(), Value::Real(value))));
+        sets.extend((1..=3).map(|axis| (format!("{THRESHOLD}[{axis}]"), Value::Real(NEVER_N_M_S))));
+        let names: Vec<String> = MOMENTUM.iter().chain(&[DUMPS]).map(|name| (*name).to_owned()).collect();
+        let last_s = times_s.last().copied().unwrap_or(self.stop_s);
+        let before_s = self.flown_s.get();
+        let mut reported = |time_s: f64| self.bar.set_position((before_s + time_s - self.start_s) as u64);
+        let options = Options {
+            start_s: Some(self.start_s),
+            stop_s: Some(last_s),
+            step_s: Some(self.step_s.min(last_s - self.start_s)),
+            sets,
+            inputs: self.inputs.as_ref(),
+            record: Some(selected(description, &names, loader::select_outputs)?),
+            record_at_s: Some(times_s),
+            progress: Some(&mut reported),
+            ..Options::default()
+        };
+        let simulation = loader::simulate(&self.fmu, options)?;
+        self.flown_s.set(before_s + last_s - self.start_s);
+        let recording = simulation.recording;
+        if simulation.ended != Ended::AtStop || recording.times_s.len() != times_s.len() {
+            let at = terminal::short(recording.times_s.last().copied().unwrap_or(self.start_s));
+            let last = terminal::short(last_s);
+            return Err(format!(
+                "the flight ended by itself after {at} s, allowed: one up to the last row, {last} s"
+            )
+            .into());
+        }
+        let column = |name: &str| -> Result<Vec<f64>, Failure> {
+            Ok(recording.column(name).ok_or_else(|| format!("the FMU has no output {name}"))?.numbers())
+        };
+        let [x, y, z] = MOMENTUM.map(column);
+        let (x, y, z) = (x?, y?, z?);
+        Ok(History {
+            momentum_inertial_n_m_s: (0..x.len()).map(|row| Vector3::new(x[row], y[row], z[row])).collect(),
+            dumps: column(DUMPS)?.into_iter().map(|count| count as i32).collect(),
+        })
+    }
+}
+
+/// A plant whose attitude is followed whatever the momentum is.
+fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) -> Result<(), String> {
+    let model = &description.model_name;
+    let variable = |name: &str| description.variables.iter().find(|it| it.name == name);
+    let names = [SOURCE, STRATEGY, DUMPS].into_iter().chain(FITTED).chain(MOMENTUM);
+    if let Some(name) = names.into_iter().find(|name| variable(name).is_none()) {
+        return Err(format!("{file}: {model} has no variable {name}, allowed: a {MODEL}"));
+    }
+    let is_fixed = |name: &str| variable(name).is_some_and(|it| loader::set_early(it).is_err());
+    if let Some(name) = FITTED.into_iter().find(|name| is_fixed(name)) {
+        return Err(format!(
+            "{file}: {name}: found a constant of {model} (`pack --fix`), allowed: a parameter"
+        ));
+    }
+    let source = item(description, sets, SOURCE);
+    if let Some(found @ ("controlled" | "free")) = source {
+        return Err(format!(
+            "{file}: {SOURCE}: found {found}, allowed: guided, commanded, in which momentum is linear in what is fitted"
+        ));
+    }
+    let strategy = item(description, sets, STRATEGY);
+    if let (Some("guided"), Some(found @ ("reactive" | "predictive"))) = (source, strategy) {
+        return Err(format!(
+            "{file}: {STRATEGY}: found {found}, allowed: dumpsOnly: the attitude as it was flown must not follow the \
+             momentum that is fitted; give the Sun's places as they were (timeline, downlink.*)"
+        ));
+    }
+    Ok(())
+}
+
+/// What is fitted has one value, and thresholds are off.
+fn check_inputs(file: &str, description: &Description, inputs: Option<&InputTable>) -> Result<(), String> {
+    let positions = inputs.into_iter().flat_map(InputTable::positions);
+    let names = positions.map(|position| &description.variables[position].name);
+    let mut over_time = names.filter(|name| FITTED.contains(&name.as_str()) || name.starts_with(THRESHOLD));
+    over_time.next().map_or(Ok(()), |name| {
+        Err(format!("{file}: inputs: found {name} over time, allowed: one value of it, in [set]"))
+    })
+}

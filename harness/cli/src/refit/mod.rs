@@ -1,0 +1,70 @@
+//! `heliotorque refit`: centre of mass and `solar.scale` from a history of momentum, by flights of the mission's FMU.
+
+mod flights;
+mod options;
+mod picture;
+mod table;
+
+use std::{
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+use files::Destination;
+use planner::refit::{Deviations, Requested, Telemetry, fit};
+
+use crate::outcome::Outcome;
+use flights::FlownMission;
+pub(crate) use options::Refit;
+use table::Found;
+
+/// Fits.
+pub(crate) fn run(arguments: &Refit) -> Outcome {
+    let telemetry = Telemetry::read(&arguments.telemetry)?;
+    let (mut mission, simulated) = FlownMission::open(arguments)?;
+    let [table_file, json_file, picture_file] = destinations(arguments, &simulated.reads())?;
+    let telemetry_file = arguments.telemetry.display().to_string();
+    mission.check_times(&telemetry_file, &telemetry)?;
+    let deviations = Deviations {
+        noise_n_m_s: arguments.noise,
+        center_of_mass_m: arguments.prior_center,
+        solar_scale: arguments.prior_scale,
+    };
+    let prior = mission.prior()?;
+    let span_s = mission.span_s(&telemetry);
+    mission.bar = terminal::progress(span_s as u64, "s of flights", arguments.quiet);
+    let requested = Requested { telemetry: &telemetry, prior, deviations };
+    let bar = mission.bar.clone();
+    let fitted = fit(&mission, &requested, &mut |_, ahead| bar.set_length((ahead as f64 * span_s) as u64));
+    bar.finish_and_clear();
+    let fitted = fitted.map_err(|error| format!("{}: {error}", arguments.mission.display()))?;
+    let found = Found {
+        mission: arguments.mission.display().to_string(),
+        telemetry: telemetry_file,
+        prior,
+        deviations,
+        fitted: &fitted,
+    };
+    let contents = [found.toml(), fitted.to_json()?, picture::svg(&found, &telemetry)?];
+    if !arguments.quiet {
+        terminal::print(&found.text())?;
+    }
+    for ((destination, path), content) in [table_file, json_file, picture_file].into_iter().zip(contents) {
+        destination.fill(|file| file.write_all(content.as_bytes()))?;
+        if !arguments.quiet {
+            terminal::note(&format!("wrote {}", path.display()));
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// TOML, JSON and picture, looked at before anything is simulated.
+fn destinations(arguments: &Refit, reads: &[&Path]) -> Result<[(Destination, PathBuf); 3], String> {
+    let output = &arguments.output;
+    if output.extension().is_none_or(|it| !it.eq_ignore_ascii_case("toml")) {
+        return Err(format!("{}: found another ending, allowed: .toml: see --output", output.display()));
+    }
+    let inputs = [reads, &[arguments.telemetry.as_path()]].concat();
+    let open = |path: PathBuf| Ok::<_, String>((Destination::open(&path, "--output", &inputs)?, path));
+    Ok([open(output.clone())?, open(output.with_extension("json"))?, open(output.with_extension("svg"))?])
+}

@@ -1,0 +1,74 @@
+//! Options of `heliotorque refit`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::patience::Patience;
+
+/// Shown with the help.
+const EXAMPLE: &str = "\
+The mission's own spacecraft.centerOfMass and solar.scale are the prior. Each arc between dumps has a start momentum of its own, which
+is fitted with them. A direction of which the history leaves more than half of the prior's deviation is not determined: it stays at the
+prior, and the answer names it.
+
+Telemetry has the columns time (s of simulation time, growing from row to row), momentum.inertial[1], [2], [3] (N.m.s, EME2000), and
+dump.count where dumps fall: a recording of `run` with --record momentum.inertial,dump.count is such a table.
+
+Example:
+  heliotorque refit mission.toml --telemetry momentum.csv --output refit.toml      writes refit.toml, refit.json, refit.svg
+  heliotorque refit mission.toml --telemetry momentum.csv --noise 0.02 --prior-center 0.1 --prior-scale 0.1 --output refit.toml";
+
+/// `heliotorque refit`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Refit {
+    /// The mission that was flown, as for `run`: MomentumPlant in guided or commanded attitude
+    pub mission: PathBuf,
+    /// The history of momentum
+    #[arg(long, value_name = "CSV")]
+    pub telemetry: PathBuf,
+    /// Standard deviation of each momentum component of each row, in N.m.s
+    #[arg(long, value_name = "N.m.s", value_parser = deviation, allow_hyphen_values = true, default_value = "0.01")]
+    pub noise: f64,
+    /// Standard deviation of each component of the mission's centre of mass, in m
+    #[arg(long, value_name = "M", value_parser = deviation, allow_hyphen_values = true, default_value = "0.05")]
+    pub prior_center: f64,
+    /// Standard deviation of the mission's solar.scale
+    #[arg(long, value_name = "S", value_parser = deviation, allow_hyphen_values = true, default_value = "0.05")]
+    pub prior_scale: f64,
+    /// The TOML file to write, a table [set] that missions take; JSON and picture stand beside it under the same name
+    #[arg(long, short, value_name = "FILE.toml")]
+    pub output: PathBuf,
+    /// The FMU whose library reads the mission's files, as for `run`; otherwise the installed program's, or
+    /// dist/MomentumPlant.fmu
+    #[arg(long, value_name = "FMU")]
+    pub template: Option<PathBuf>,
+    /// Print no table
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// How long it waits
+    #[command(flatten)]
+    pub patience: Patience,
+}
+
+/// A standard deviation: nothing is known for certain.
+fn deviation(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => Err("allowed is a number above 0".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_deviation_is_above_zero() {
+        assert_eq!(deviation(" 0.01"), Ok(0.01));
+        for bad in ["0", "-0.01", "nan", "inf", "1 cm", ""] {
+            assert!(deviation(bad).is_err(), "{bad}");
+        }
+    }
+}

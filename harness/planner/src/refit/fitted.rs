@@ -1,0 +1,181 @@
+//! The fit: expansions by flights until a flight with the result agrees, and what is written of it.
+
+use std::ops::Range;
+
+use nalgebra::{Matrix4, Vector3};
+use serde::Serialize;
+
+use super::{
+    Deviations, Direction, Failure, Flights, Parameters, Telemetry,
+    estimate::{Problem, residuals_n_m_s},
+    expansion::{Expansion, FLIGHTS},
+    telemetry::{LEAST_ROWS, arcs},
+};
+
+/// Expansions at most.
+const MOST_ROUNDS: u64 = 5;
+/// Part of the noise by which a flight may depart from the expansion that it is fitted by.
+const AGREES: f64 = 0.05;
+/// Flights of one round: an expansion, and one with its result.
+const FLIGHTS_OF_ROUND: u64 = FLIGHTS + 1;
+
+/// What is fitted to what.
+pub struct Requested<'a> {
+    /// The history.
+    pub telemetry: &'a Telemetry,
+    /// The mission's values.
+    pub prior: Parameters,
+    /// How sure history and prior are.
+    pub deviations: Deviations,
+}
+
+/// A result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fitted {
+    /// The values that fit best.
+    pub parameters: Parameters,
+    /// Of centre of mass X, Y, Z (m), and `solar.scale`.
+    pub covariance: Matrix4<f64>,
+    /// The best determined first.
+    pub directions: [Direction; 4],
+    /// Sum of the squares of the residuals by the noise.
+    pub chi_square: f64,
+    /// Numbers less start momenta and determined directions.
+    pub degrees_of_freedom: usize,
+    /// Rows of each arc.
+    pub arcs: Vec<Range<usize>>,
+    /// Telemetry less flight by row, EME2000, in N m s.
+    pub residuals_n_m_s: Vec<Vector3<f64>>,
+    /// Flights that were simulated.
+    pub flights: u64,
+}
+
+/// Fits; `progress` is told the flights so far and the most that the present round may come to.
+///
+/// # Errors
+/// A flight that fails, too few rows, a flight that no expansion describes.
+pub fn fit(
+    flights: &dyn Flights,
+    requested: &Requested<'_>,
+    progress: &mut dyn FnMut(u64, u64),
+) -> Result<Fitted, Failure> {
+    let Requested { telemetry, prior, deviations } = requested;
+    let mut center = *prior;
+    let (mut flown, mut round) = (0, 0);
+    loop {
+        round += 1;
+        let ahead = round * FLIGHTS_OF_ROUND;
+        progress(flown, ahead);
+        let mut counted = || {
+            flown += 1;
+            progress(flown, ahead);
+        };
+        let expansion = Expansion::about(flights, &center, &telemetry.times_s, &mut counted)?;
+        let arcs = arcs(&[&telemetry.dumps, &expansion.dumps]);
+        if telemetry.times_s.len() < arcs.len() + LEAST_ROWS {
+            return Err(format!(
+                "found {} rows in {} arcs between dumps, those of the mission's timeline and inputs among them, allowed: at \
+                 least {LEAST_ROWS} rows more than arcs",
+                telemetry.times_s.len(),
+                arcs.len()
+            )
+            .into());
+        }
+        let problem = Problem { telemetry, arcs: &arcs, prior, deviations };
+        let estimate = problem.solve(&expansion, &center)?;
+        let simulated = flights.fly(&estimate.parameters, &telemetry.times_s)?.momentum_inertial_n_m_s;
+        counted();
+        let residuals = residuals_n_m_s(telemetry, &arcs, &simulated);
+        let expanded: Vec<_> = expansion.at(&estimate.parameters).map(|(momentum, _)| momentum).collect();
+        let departures = residuals_n_m_s(telemetry, &arcs, &expanded)
+            .into_iter()
+            .zip(&residuals)
+            .map(|(a, b)| (a - b).amax());
+        let departure_n_m_s = departures.fold(0.0, f64::max);
+        let noise_n_m_s = deviations.noise_n_m_s;
+        if departure_n_m_s <= AGREES * noise_n_m_s {
+            let determined = estimate.directions.iter().filter(|it| it.observable).count();
+            return Ok(Fitted {
+                parameters: estimate.parameters,
+                covariance: covariance(&estimate.directions, deviations),
+                directions: estimate.directions,
+                chi_square: residuals.iter().map(|residual| (residual / noise_n_m_s).norm_squared()).sum(),
+                degrees_of_freedom: (3 * (telemetry.times_s.len() - arcs.len())).saturating_sub(determined),
+                arcs,
+                residuals_n_m_s: residuals,
+                flights: flown,
+            });
+        }
+        if round == MOST_ROUNDS {
+            return Err(format!(
+                "after {flown} flights one departs by {} N m s from what it was expanded to, allowed: {} of --noise, {}",
+                terminal::short(departure_n_m_s),
+                terminal::short(AGREES),
+                terminal::short(AGREES * noise_n_m_s)
+            )
+            .into());
+        }
+        center = estimate.parameters;
+    }
+}
+
+/// Of the parameters in their own units.
+fn covariance(directions: &[Direction; 4], deviations: &Deviations) -> Matrix4<f64> {
+    let scales = Matrix4::from_diagonal(&deviations.of_parameters());
+    let scaled: Matrix4<f64> =
+        directions.iter().map(|it| it.vector * it.vector.transpose() * it.sigma.powi(2)).sum();
+    scales * scaled * scales
+}
+
+/// The JSON file, in SI.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Written {
+    #[serde(rename = "centerOfMass_m")]
+    center_of_mass_m: [f64; 3],
+    scale: f64,
+    covariance: [[f64; 4]; 4],
+    directions: [WrittenDirection; 4],
+    chi_square: f64,
+    degrees_of_freedom: usize,
+}
+
+#[derive(Serialize)]
+struct WrittenDirection {
+    vector: [f64; 4],
+    sigma: f64,
+    observable: bool,
+}
+
+impl Fitted {
+    /// As JSON: covariance in the order centre of mass X, Y, Z (m), scale; directions in units of the priors.
+    ///
+    /// # Errors
+    /// What cannot be written.
+    pub fn to_json(&self) -> Result<String, serde_json::Error> {
+        let written = Written {
+            center_of_mass_m: self.parameters.center_of_mass_body_m.into(),
+            scale: self.parameters.solar_scale,
+            // Symmetric, so that rows are columns.
+            covariance: self.covariance.into(),
+            directions: self.directions.map(|it| WrittenDirection {
+                vector: it.vector.into(),
+                sigma: it.sigma,
+                observable: it.observable,
+            }),
+            chi_square: self.chi_square,
+            degrees_of_freedom: self.degrees_of_freedom,
+        };
+        serde_json::to_string_pretty(&written).map(|text| text + "\n")
+    }
+
+    /// Standard deviations of centre of mass X, Y, Z (m), and `solar.scale`.
+    pub fn deviations(&self) -> [f64; 4] {
+        self.covariance.diagonal().map(f64::sqrt).into()
+    }
+
+    /// Directions that the history does not determine.
+    pub fn undetermined(&self) -> impl Iterator<Item = &Direction> {
+        self.directions.iter().filter(|it| !it.observable)
+    }
+}
