@@ -209,6 +209,36 @@ fn contacts_are_kept_and_prices_told() {
     }
 }
 
+/// A refit's values fly, three sigma of its covariance are left; other seeds move the centre of mass at every dump.
+#[test]
+fn a_refit_flies_and_leaves_its_margin() {
+    let Some((scratch, template)) = template() else { return };
+    let folder = scratch.path();
+    cruise(folder, &[("stop = \"200 d\"", "stop = \"40 d\"")]);
+    let refit = "{\"centerOfMass_m\": [0.001, 0.0, -0.025], \"scale\": 1.01, \"covariance\": \
+                 [[1e-8,0,0,0],[0,1e-8,0,0],[0,0,1e-8,0],[0,0,0,1e-4]]}";
+    fs::write(folder.join("refit.json"), refit).unwrap();
+    let text = PLAN.replace("limit = 5.5", "limit = 5.5\nrefit = \"refit.json\"");
+    plan(folder, &template, &text, 0);
+    let mission = fs::read_to_string(folder.join("out/mission.toml")).unwrap();
+    assert!(mission.contains("\"spacecraft.centerOfMass\" = [0.001, 0.0, -0.025]"), "{mission}");
+    assert!(mission.contains("\"solar.scale\" = 1.01") && !mission.contains("centerOfMass[3]"), "{mission}");
+    // One per cent of the light for 14 d alone is 0.13 N m s at three sigma.
+    assert!(number(folder, "simulated") < 5.4);
+    let event = "\n[[event]]\nat = \"2008-04-10T00:00:00 UTC\"\ndump = true\n";
+    let timeline = folder.join("messenger-cruise-timeline.toml");
+    fs::write(&timeline, fs::read_to_string(&timeline).unwrap() + event).unwrap();
+    let shift = "[set]\n\"spacecraft.centerOfMassShift\" = [0.002, 0.002, 0.002]";
+    let cruise = folder.join("cruise.toml");
+    fs::write(&cruise, fs::read_to_string(&cruise).unwrap().replace("[set]", shift)).unwrap();
+    fs::write(folder.join("plan.toml"), PLAN).unwrap();
+    let (file, output) = (folder.join("plan.toml"), folder.join("out"));
+    let arguments = ["plan", "momentum", shown(&file), "--output", shown(&output), "--template"];
+    let said = run(&[&arguments[..], &[shown(&template), "--seeds", "5"]].concat(), 0);
+    assert!(said.contains("5 seeds: |H| "), "{said}");
+    assert!(number(folder, "99") > number(folder, "50"));
+}
+
 #[test]
 fn what_cannot_be_planned_is_refused_by_line() {
     let Some((scratch, template)) = template() else { return };

@@ -63,7 +63,21 @@ fn binding(plan: &MomentumPlan) -> Value {
     })
 }
 
-/// `plan.json`.
+/// The 50th, 90th and 99th percentile of the greatest |H| (N m s) and of the dumps of flights, each the least value that so many do not
+/// exceed.
+pub fn percentiles(flights: &[(f64, u32)]) -> [[f64; 3]; 2] {
+    let of = |mut values: Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        [0.5, 0.9, 0.99].map(|share| {
+            let rank = (share * values.len() as f64).ceil() as usize;
+            values.get(rank.saturating_sub(1)).copied().unwrap_or(f64::NAN)
+        })
+    };
+    let momentum = flights.iter().map(|(momentum, _)| *momentum).collect();
+    [of(momentum), of(flights.iter().map(|(_, dumps)| f64::from(*dumps)).collect())]
+}
+
+/// `plan.json`; `seeds` are greatest |H| and dumps of flights with other seeds.
 ///
 /// # Errors
 /// What JSON does not take.
@@ -71,7 +85,7 @@ pub fn json(
     plan: &MomentumPlan,
     task: &PlanTask,
     events: &[PlanEvent],
-    prices: &[Price],
+    (prices, seeds): (&[Price], &[(f64, u32)]),
 ) -> Result<String, serde_json::Error> {
     let [planned, simulated] = plan.greatest_n_m_s();
     let events: Vec<Value> = events
@@ -93,6 +107,14 @@ pub fn json(
             })
             .collect()
     };
+    let [momentum, dumps] = percentiles(seeds);
+    let by_percent = |of: [f64; 3]| json!({ "50": of[0], "90": of[1], "99": of[2] });
+    let percentiles = match seeds.len() {
+        0 => Value::Null,
+        count => {
+            json!({ "seeds": count, "momentum_n_m_s": by_percent(momentum), "dumps": by_percent(dumps) })
+        }
+    };
     serde_json::to_string_pretty(&json!({
         "status": status(plan, task),
         "limit_n_m_s": task.limit.momentum_n_m_s,
@@ -107,6 +129,7 @@ pub fn json(
         "events": events,
         "planned": priced(true),
         "activities": priced(false),
+        "percentiles": percentiles,
     }))
 }
 
@@ -178,4 +201,16 @@ pub fn windows_csv(plan: &MomentumPlan, shown_deg: &dyn Fn(f64) -> f64) -> Resul
         ])?;
     }
     writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentiles_are_values_that_so_many_do_not_exceed() {
+        let flights: Vec<(f64, u32)> = (1..=200).rev().map(|k| (f64::from(k), k / 100)).collect();
+        assert_eq!(percentiles(&flights), [[100.0, 180.0, 198.0], [1.0, 1.0, 1.0]]);
+        assert_eq!(percentiles(&[(2.0, 0)])[0], [2.0; 3]);
+    }
 }

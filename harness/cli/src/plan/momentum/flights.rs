@@ -48,6 +48,15 @@ const RECORDED: [&str; 9] = [
     "dump.count",
 ];
 
+/// By which thresholds a flight dumps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Thresholds {
+    /// The mission's.
+    Own,
+    /// None.
+    Never,
+}
+
 /// A mission that can be flown.
 pub(super) struct FlownMission {
     pub mission: Mission,
@@ -221,8 +230,8 @@ impl FlownMission {
         Ok(craft)
     }
 
-    /// Flies it without dumps by thresholds.
-    pub(super) fn fly(&self, progress: &mut dyn FnMut(f64)) -> Result<Flown, Failure> {
+    /// Flies it.
+    pub(super) fn fly(&self, thresholds: Thresholds, seed: Option<u32>) -> Result<Flown, Failure> {
         let description = self.fmu.description();
         let panels = (1..).map(|number| format!("panel[{number}].angleActual"));
         let panels = panels.take_while(|name| description.variables.iter().any(|it| it.name == *name));
@@ -230,13 +239,16 @@ impl FlownMission {
         let patterns: Vec<String> = RECORDED.iter().map(|name| (*name).to_owned()).collect();
         let patterns = [patterns, panels.clone()].concat();
         let mut sets = self.sets.clone();
-        for axis in 1..=3 {
-            sets.push((format!("dump.threshold[{axis}]"), Value::Real(NEVER_N_M_S)));
+        if thresholds == Thresholds::Never {
+            let axes = 1..=3;
+            sets.extend(axes.map(|axis| (format!("dump.threshold[{axis}]"), Value::Real(NEVER_N_M_S))));
+        }
+        if let Some(seed) = seed.and_then(|seed| i32::try_from(seed).ok()) {
+            sets.push(("noise.seed".to_owned(), Value::Integer(seed)));
         }
         let cancel = AtomicBool::new(false);
-        let mut reported = |time_s: f64| {
+        let mut reported = |_: f64| {
             cancel.store(interrupt::raised(), std::sync::atomic::Ordering::Relaxed);
-            progress(time_s);
         };
         let options = Options {
             start_s: Some(self.start_s),

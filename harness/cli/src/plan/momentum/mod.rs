@@ -32,7 +32,7 @@ use planner::momentum::{
 
 use self::{
     file::PlanFile,
-    flights::{Failure, FlownMission},
+    flights::{Failure, FlownMission, Thresholds},
     timeline::MissionTimeline,
 };
 use crate::{interrupt, outcome::Outcome, patience::Patience};
@@ -65,6 +65,9 @@ pub(crate) struct MomentumOptions {
     /// Longest time that is spent on counting changes of the arrays, in s or with a unit
     #[arg(long, value_name = "TIME", value_parser = crate::values::span, default_value_t = BUDGET_S)]
     pub budget: f64,
+    /// Fly the plan again with so many values of noise.seed, by the mission's own thresholds: dumps, and percentiles of the greatest |H|
+    #[arg(long, value_name = "COUNT", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=10_000))]
+    pub seeds: u32,
     /// Print no summary and no progress
     #[arg(long, short)]
     pub quiet: bool,
@@ -124,7 +127,29 @@ impl Planned<'_> {
         }
         let mission =
             FlownMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
-        mission.fly(&mut |_| {})
+        mission.fly(Thresholds::Never, None)
+    }
+
+    /// Flies a plan with other seeds: greatest |H| and dumps of each flight.
+    fn fly_seeds(&self, windows: &[Window], dumps: &[PlannedDump]) -> Result<Vec<(f64, u32)>, Failure> {
+        if self.options.seeds == 0 {
+            return Ok(Vec::new());
+        }
+        let folder = Scratch::new()?;
+        for (name, text) in self.write_into(folder.path(), (windows, dumps), None)? {
+            std::fs::write(folder.path().join(name), text)?;
+        }
+        let mission =
+            FlownMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
+        let bar = terminal::progress(self.options.seeds.into(), "seeds", self.options.quiet);
+        let flights = (1..=self.options.seeds).map(|seed| {
+            let flight = mission.fly(Thresholds::Own, Some(seed))?;
+            bar.inc(1);
+            Ok((flight.greatest_momentum().0, flight.rows.last().map_or(0, |row| row.dumps)))
+        });
+        let flights = flights.collect();
+        bar.finish_and_clear();
+        flights
     }
 
     fn say(&self, doing: &str) {
@@ -168,7 +193,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     let momentum_n_m_s = file.limit_n_m_s.unwrap_or_else(|| mission.least_threshold_n_m_s());
     let limit = Limit { momentum_n_m_s, margin: file.margin, covariance: refit.map(|it| it.covariance) };
     let task = PlanTask { layout, limit, dumps: file.dumps, budget_s: options.budget };
-    let flown = mission.fly(&mut |_| {})?;
+    let flown = mission.fly(Thresholds::Never, None)?;
     let last = RefCell::new(String::new());
     Ok(Planned { options, mission, timeline, craft, flown, task, sets, began, last })
 }
@@ -267,10 +292,13 @@ impl Refit {
 }
 
 fn refit(plan: &PlanFile, at: &file::At<PathBuf>) -> Result<Refit, Failure> {
-    let found = planner::momentum::refit_file::read(&::files::read_text(&at.it)?);
+    // Beside the values for missions stands what was found.
+    let is_toml = at.it.extension().is_some_and(|it| it.eq_ignore_ascii_case("toml"));
+    let path = if is_toml { at.it.with_extension("json") } else { at.it.clone() };
+    let found = ::files::read_text(&path).and_then(|text| planner::momentum::refit_file::read(&text));
     let found = found.map_err(|error| {
         let allowed = "allowed: the JSON that `heliotorque refit` writes";
-        plan.problem(at, &format!("found {}: {error}, {allowed}", at.it.display()))
+        plan.problem(at, &format!("found {}: {error}, {allowed}", path.display()))
     })?;
     Ok(Refit {
         center_of_mass_m: found.center_of_mass_m,
@@ -342,7 +370,8 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
     let table = written::inputs(&planned.mission, &planned.timeline, &found, &sides, &bodies);
     let windows = report::windows_csv(&found, &timeline::shown_deg)?;
     let picture = picture::svg(&planned.craft.spacecraft.name, &found, &planned.task)?;
-    let json = report::json(&found, &planned.task, &events, &prices)?;
+    let seeds = planned.fly_seeds(&found.windows, &found.dumps)?;
+    let json = report::json(&found, &planned.task, &events, (&prices, &seeds))?;
     let [timeline, mission] = planned.write_into(&options.output, (&found.windows, &found.dumps), None)?;
     let contents = [
         timeline,
@@ -354,7 +383,7 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
     ];
     write(&planned, &contents)?;
     if !options.quiet {
-        terminal::print(&summary(&planned, &found, &prices))?;
+        terminal::print(&summary(&planned, &found, (&prices, &seeds)))?;
         for (name, _) in &contents {
             terminal::note(&format!("wrote {}", options.output.join(name).display()));
         }
@@ -417,7 +446,11 @@ fn write(planned: &Planned<'_>, contents: &[(&'static str, String)]) -> Result<(
     Ok(())
 }
 
-fn summary(planned: &Planned<'_>, found: &MomentumPlan, prices: &[report::Price]) -> String {
+fn summary(
+    planned: &Planned<'_>,
+    found: &MomentumPlan,
+    (prices, seeds): (&[report::Price], &[(f64, u32)]),
+) -> String {
     let start_s = planned.mission.start_s;
     let day = |time_s: f64| (time_s - start_s) / 86_400.0;
     let [most_planned, most_simulated] = found.greatest_n_m_s();
@@ -467,6 +500,16 @@ fn summary(planned: &Planned<'_>, found: &MomentumPlan, prices: &[report::Price]
             Vector3::from(price.gathered_n_m_s).norm(),
             price.momentum_n_m_s,
             price.dumps,
+        ));
+    }
+    if !seeds.is_empty() {
+        let [momentum, dumps] = report::percentiles(seeds);
+        let all = |of: [f64; 3]| of.map(terminal::short).join(", ");
+        lines.push(format!(
+            "{} seeds: |H| {} N.m.s, dumps {} (50, 90, 99 %)",
+            seeds.len(),
+            all(momentum),
+            all(dumps)
         ));
     }
     lines.push(format!("{:.1} s", planned.began.elapsed().as_secs_f64()));

@@ -42,6 +42,15 @@ pub(super) fn mission(
             table.insert(&format!("panel[{number}].control"), value("timeline"));
         }
         for (name, values) in sets {
+            // Values of single elements would count behind that of the whole.
+            let elements: Vec<String> = table
+                .iter()
+                .map(|(key, _)| key.to_owned())
+                .filter(|key| key.strip_prefix(name.as_str()).is_some_and(|rest| rest.starts_with('[')))
+                .collect();
+            for key in elements {
+                table.remove(&key);
+            }
             let one = if let [number] = values[..] {
                 value(number)
             } else {
