@@ -18,6 +18,8 @@ pub(crate) enum FileKind {
     Timeline,
     /// Positions over time.
     Ephemeris,
+    /// How far arrays and attitude may go to hold a mission's momentum.
+    Plan,
 }
 
 /// The table that every spacecraft and spinner has.
@@ -41,6 +43,18 @@ const OF_PARTS: [&str; 12] = [
 const OF_TIMELINE: [&str; 2] = ["command", "event"];
 /// The list that timelines share with spacecraft, and the keys of its items that only timelines have.
 const PANELS: (&str, [&str; 3]) = ("panels", ["at", "sunOffset", "windmill"]);
+/// Keys that only plans have.
+const OF_PLAN: [&str; 9] = [
+    "mission",
+    "freeze",
+    "window",
+    "windmill",
+    "alternation",
+    "sunOffset",
+    "tilt",
+    "contactShare",
+    "activity",
+];
 /// Keys that only missions have.
 const OF_MISSION: [&str; 14] = [
     "spacecraft",
@@ -74,6 +88,8 @@ impl FileKind {
             Some(Self::Spacecraft)
         } else if ephemeris::is_meant(text) {
             Some(Self::Ephemeris)
+        } else if OF_PLAN.into_iter().any(has) {
+            Some(Self::Plan)
         } else if OF_MISSION.into_iter().any(has) {
             Some(Self::Mission)
         } else if OF_TIMELINE.into_iter().any(is_like) {
@@ -120,6 +136,7 @@ impl FileKind {
             Self::Mission => "mission",
             Self::Timeline => "timeline",
             Self::Ephemeris => "ephemeris",
+            Self::Plan => "plan",
         }
     }
 
@@ -130,6 +147,7 @@ impl FileKind {
                 "`heliotorque pack --spacecraft {file}` makes an FMU of it, a mission (`heliotorque new mission`) simulates it"
             ),
             Self::Mission => format!("run it: `heliotorque run {file}`"),
+            Self::Plan => format!("`heliotorque plan momentum {file} --output DIR` carries it out"),
             Self::Timeline | Self::Ephemeris => {
                 let word = self.word();
                 format!("`{word} = \"{file}\"` in a mission or `heliotorque pack --{word} {file}` takes it")
@@ -186,6 +204,7 @@ mod tests {
             (include_str!("new/spinner.toml"), Some(FileKind::Spacecraft)),
             (include_str!("new/mission.toml"), Some(FileKind::Mission)),
             (include_str!("new/timeline.toml"), Some(FileKind::Timeline)),
+            (include_str!("new/plan.toml"), Some(FileKind::Plan)),
             ("[[comand]]\nat = 0\n", Some(FileKind::Timeline)),
             ("[[panels]]\nat = 0\n", Some(FileKind::Timeline)),
             ("[[panels]]\nsun_offset_deg = 3\n[[command]]\n", Some(FileKind::Spacecraft)),

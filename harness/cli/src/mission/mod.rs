@@ -9,3 +9,4 @@ mod written;
 
 pub(crate) use file::{Inputs, Mission, Plot, SpacecraftSource};
 pub(crate) use resolved::Resolved;
+pub(crate) use written::Written;

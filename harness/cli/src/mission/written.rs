@@ -8,7 +8,7 @@ use serde::Deserialize;
 /// What stands behind a key.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged)]
-pub(super) enum Written {
+pub(crate) enum Written {
     /// A whole number, which may be an option's.
     Integer(i64),
     /// A number.
@@ -25,7 +25,7 @@ pub(super) enum Written {
 
 impl Written {
     /// What `--set name=` would take: a vector with commas; `None` for a table.
-    pub(super) fn setting(&self) -> Option<String> {
+    pub(crate) fn setting(&self) -> Option<String> {
         Some(match self {
             Self::Number(number) => number.to_string(),
             Self::Integer(number) => number.to_string(),

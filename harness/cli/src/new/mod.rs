@@ -34,6 +34,8 @@ pub(crate) enum NewKind {
     Mission,
     /// Commands, positions of panels and events over time, for `pack --timeline`
     Timeline,
+    /// How far arrays and attitude may go to hold a mission's momentum, for `plan momentum`
+    Plan,
 }
 
 impl NewKind {
@@ -44,6 +46,7 @@ impl NewKind {
             Self::Spinner => ("spinner.toml", include_str!("spinner.toml")),
             Self::Mission => ("mission.toml", include_str!("mission.toml")),
             Self::Timeline => ("timeline.toml", include_str!("timeline.toml")),
+            Self::Plan => ("plan.toml", include_str!("plan.toml")),
         }
     }
 }

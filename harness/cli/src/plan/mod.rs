@@ -1,6 +1,7 @@
 //! `heliotorque plan`: optimal plans.
 
 mod files;
+pub(crate) mod momentum;
 mod picture;
 
 use std::{path::Path, process::ExitCode};
@@ -15,7 +16,9 @@ use crate::{home, kind::FileKind, outcome::Outcome, patience::Patience};
 pub(crate) enum Plan {
     /// The train of thruster pulses that turns a spinner with the least nutation
     #[command(mut_args = |argument| if argument.is_positional() { argument } else { argument.allow_hyphen_values(true) })]
-    Spin(SpinPlan),
+    Spin(Box<SpinPlan>),
+    /// Arrays, places of the Sun and alternation that hold the momentum of a mission below its limit
+    Momentum(momentum::MomentumOptions),
 }
 
 /// `heliotorque plan spin`.
@@ -40,7 +43,10 @@ fn check_spinner(path: &Path) -> Result<(), String> {
 
 /// Prints the plan, and writes its files where a folder is given; a plan that breaks a limit ends with status 1.
 pub(crate) fn run(arguments: &Plan) -> Outcome {
-    let Plan::Spin(arguments) = arguments;
+    let arguments = match arguments {
+        Plan::Spin(arguments) => arguments,
+        Plan::Momentum(options) => return momentum::run(options),
+    };
     let mut options = arguments.options.clone();
     if let Some(path) = &options.spacecraft {
         check_spinner(path)?;

@@ -7,7 +7,7 @@ use crate::outcome::{self, Outcome};
 /// `heliotorque schema`.
 #[derive(Debug, Args)]
 pub(crate) struct Schema {
-    /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; mission, which `run` flies; timeline, which `pack --timeline` takes; or ephemeris, which `pack --ephemeris` takes
+    /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; mission, which `run` flies; timeline, which `pack --timeline` takes; ephemeris, which `pack --ephemeris` takes; or plan, which `plan momentum` takes
     #[arg(value_enum, default_value_t, hide_possible_values = true)]
     pub kind: SchemaKind,
 }
@@ -26,6 +26,8 @@ pub(crate) enum SchemaKind {
     Timeline,
     /// Positions over time.
     Ephemeris,
+    /// How far arrays and attitude may go.
+    Plan,
 }
 
 /// Prints the schema.
@@ -35,6 +37,7 @@ pub(crate) fn run(arguments: &Schema) -> Outcome {
         SchemaKind::Spinner => include_str!("../../../../fmu-src/resources/spinner.schema.json"),
         SchemaKind::Mission => include_str!("../../../../fmu-src/resources/mission.schema.json"),
         SchemaKind::Timeline => include_str!("../../../../fmu-src/resources/timeline.schema.json"),
+        SchemaKind::Plan => include_str!("../../../../fmu-src/resources/plan.schema.json"),
         SchemaKind::Ephemeris => include_str!("../../../../fmu-src/resources/ephemeris.schema.json"),
     };
     outcome::printed(schema.trim_end())

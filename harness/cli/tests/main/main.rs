@@ -13,6 +13,7 @@ mod limits;
 mod maps;
 mod missions;
 mod mistakes;
+mod momentum_plans;
 mod new_files;
 mod packs;
 mod plans;

@@ -4,7 +4,7 @@ use std::{fs, process::Command};
 
 use crate::{run, says, shown, template};
 
-const KINDS: [&str; 4] = ["spacecraft", "spinner", "mission", "timeline"];
+const KINDS: [&str; 5] = ["spacecraft", "spinner", "mission", "timeline", "plan"];
 
 #[test]
 fn a_file_that_is_there_is_kept() {
@@ -43,6 +43,8 @@ fn every_new_file_works_unchanged() {
         let spacecraft = ["--spacecraft", shown(&file)];
         let packs: &[&[&str]] = match kind {
             "mission" => &[&["--mission", shown(&file)]],
+            // It names the mission beside it, and is packed with nothing.
+            "plan" => &[],
             "timeline" => &[
                 &["--model", "Guidance", "--timeline", shown(&file)],
                 &["--timeline", shown(&file), "--set", "panel[1].control=timeline"],
@@ -91,7 +93,8 @@ fn every_command_has_a_page_that_man_reads() {
         .collect();
     let mut expected: Vec<String> =
         commands.iter().map(|command| format!("heliotorque-{command}.1")).collect();
-    expected.extend(["heliotorque.1".to_owned(), "heliotorque-plan-spin.1".to_owned()]);
+    let more = ["heliotorque.1", "heliotorque-plan-momentum.1", "heliotorque-plan-spin.1"];
+    expected.extend(more.map(str::to_owned));
     expected.sort();
     assert_eq!(pages, expected);
     assert!(commands.contains(&"run") && commands.contains(&"plan"), "{help}");

@@ -1,0 +1,517 @@
+//! `heliotorque plan momentum`: arrays, places of the Sun and alternation that hold the momentum of a mission.
+
+mod description;
+mod file;
+mod flights;
+mod picture;
+mod prices;
+#[cfg(feature = "schema")]
+mod schema;
+mod timeline;
+mod written;
+
+use std::{
+    cell::RefCell,
+    path::{Path, PathBuf},
+    process::ExitCode,
+    time::Instant,
+};
+
+use ::files::{Destination, Scratch};
+use clap::Args;
+use nalgebra::{Matrix4, Vector3};
+use physics::guidance::timeline::Timeline;
+use planner::momentum::{
+    Limit,
+    flown::Flown,
+    plan::{Flies, MomentumPlan, PlanError, PlanTask, PlannedDump, plan},
+    report::{self, PlanEvent},
+    torque::LitCraft,
+    windows::{Layout, Reach, Window, WindowKind},
+};
+
+use self::{
+    file::PlanFile,
+    flights::{Failure, FlownMission, Thresholds},
+    timeline::MissionTimeline,
+};
+use crate::{interrupt, outcome::Outcome, patience::Patience};
+
+/// Shown with the help.
+const EXAMPLE: &str = "\
+Status 0: a plan was found and flown within its limits. Status 1: it needs more dumps than it may have, or another limit is not kept;
+what there is of the plan is written all the same.
+
+Example:
+  heliotorque new plan plan.toml
+  heliotorque plan momentum plan.toml --output plan
+  heliotorque run plan/mission.toml";
+
+/// Time for counted changes of the arrays, in s.
+const BUDGET_S: f64 = 60.0;
+
+/// `heliotorque plan momentum`.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct MomentumOptions {
+    /// The plan file
+    pub plan: PathBuf,
+    /// The folder of timeline.toml, mission.toml, plan.csv, windows.csv, plan.svg and plan.json, created if missing
+    #[arg(long, short, value_name = "DIR")]
+    pub output: PathBuf,
+    /// The FMU whose library flies the mission; otherwise the installed program's, or dist/MomentumPlant.fmu
+    #[arg(long, value_name = "FMU")]
+    pub template: Option<PathBuf>,
+    /// Longest time that is spent on counting changes of the arrays, in s or with a unit
+    #[arg(long, value_name = "TIME", value_parser = crate::values::span, default_value_t = BUDGET_S)]
+    pub budget: f64,
+    /// Fly the plan again with so many values of noise.seed, by the mission's own thresholds: dumps, and percentiles of the greatest |H|
+    #[arg(long, value_name = "COUNT", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=10_000))]
+    pub seeds: u32,
+    /// Print no summary and no progress
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// How long it waits
+    #[command(flatten)]
+    pub patience: Patience,
+}
+
+/// Names of the files.
+const NAMES: [&str; 6] =
+    ["timeline.toml", "mission.toml", "plan.csv", "windows.csv", "plan.svg", "plan.json"];
+
+/// A mission with what a plan needs of it.
+struct Planned<'a> {
+    options: &'a MomentumOptions,
+    mission: FlownMission,
+    timeline: MissionTimeline,
+    craft: LitCraft,
+    flown: Flown,
+    task: PlanTask,
+    /// Values that a refit gives.
+    sets: Vec<(String, Vec<f64>)>,
+    began: Instant,
+    last: RefCell<String>,
+}
+
+impl Planned<'_> {
+    /// Momentum after a dump, body frame, in N m s.
+    fn body(&self, windows: &[Window], dump: &PlannedDump) -> Vector3<f64> {
+        planner::momentum::plan::body_momentum_n_m_s(&self.craft, &self.flown, windows, dump)
+    }
+
+    /// Writes timeline and mission of a plan into a folder.
+    fn write_into(
+        &self,
+        folder: &Path,
+        (windows, dumps): (&[Window], &[PlannedDump]),
+        activity: Option<(&file::Activity, [f64; 2])>,
+    ) -> Result<[(&'static str, String); 2], Failure> {
+        let frozen_s = self.task.layout.frozen_until_s;
+        let bodies = |dump: &PlannedDump| self.body(windows, dump);
+        let text = self.timeline.text(&self.mission, (windows, dumps, frozen_s), &bodies, activity);
+        let mission = written::mission(&self.mission, folder, self.craft.panels.len(), &self.sets)?;
+        Ok([(NAMES[0], text), (NAMES[1], mission)])
+    }
+
+    /// Flies a plan.
+    fn fly_plan(
+        &self,
+        windows: &[Window],
+        dumps: &[PlannedDump],
+        activity: Option<(&file::Activity, [f64; 2])>,
+    ) -> Result<Flown, Failure> {
+        let folder = Scratch::new()?;
+        for (name, text) in self.write_into(folder.path(), (windows, dumps), activity)? {
+            std::fs::write(folder.path().join(name), text)?;
+        }
+        let mission =
+            FlownMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
+        mission.fly(Thresholds::Never, None)
+    }
+
+    /// Flies a plan with other seeds: greatest |H| and dumps of each flight.
+    fn fly_seeds(&self, windows: &[Window], dumps: &[PlannedDump]) -> Result<Vec<(f64, u32)>, Failure> {
+        if self.options.seeds == 0 {
+            return Ok(Vec::new());
+        }
+        let folder = Scratch::new()?;
+        for (name, text) in self.write_into(folder.path(), (windows, dumps), None)? {
+            std::fs::write(folder.path().join(name), text)?;
+        }
+        let mission =
+            FlownMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
+        let bar = terminal::progress(self.options.seeds.into(), "seeds", self.options.quiet);
+        let flights = (1..=self.options.seeds).map(|seed| {
+            let flight = mission.fly(Thresholds::Own, Some(seed))?;
+            bar.inc(1);
+            Ok((flight.greatest_momentum().0, flight.rows.last().map_or(0, |row| row.dumps)))
+        });
+        let flights = flights.collect();
+        bar.finish_and_clear();
+        flights
+    }
+
+    fn say(&self, doing: &str) {
+        if self.options.quiet || *self.last.borrow() == doing {
+            return;
+        }
+        doing.clone_into(&mut self.last.borrow_mut());
+        terminal::note(&format!("{:.1} s: {doing}", self.began.elapsed().as_secs_f64()));
+    }
+}
+
+impl Flies for &Planned<'_> {
+    fn fly(&mut self, windows: &[Window], dumps: &[PlannedDump]) -> Result<Flown, Failure> {
+        self.fly_plan(windows, dumps, None)
+    }
+
+    fn progress(&mut self, doing: &str) {
+        self.say(doing);
+    }
+}
+
+/// Reads the plan file and what it names, and flies the mission as it is.
+fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> Result<Planned<'a>, Failure> {
+    let template = options.template.as_deref();
+    let refit = file.refit.as_ref().map(|at| refit(file, at)).transpose()?;
+    let sets: Vec<(String, Vec<f64>)> = refit.iter().flat_map(|it| it.sets()).collect();
+    let settings = sets.iter().map(|(name, values)| {
+        let values: Vec<String> = values.iter().map(f64::to_string).collect();
+        format!("{name}={}", values.join(","))
+    });
+    let settings: Vec<String> = settings.collect();
+    let mission = FlownMission::open(&file.mission.it, template, &settings)
+        .map_err(|error| file.problem(&file.mission, &error.to_string()))?;
+    check_spans(file, &mission)?;
+    let spacecraft = mission.spacecraft()?;
+    let found = mission.timeline(&spacecraft)?;
+    let timeline = MissionTimeline::of(&mission, found.as_ref())?;
+    let own: Option<&Timeline> = found.as_ref().map(|(_, timeline)| timeline);
+    let craft = mission.craft(own)?;
+    let layout = layout(file, &mission, &timeline, &craft)?;
+    let momentum_n_m_s = file.limit_n_m_s.unwrap_or_else(|| mission.least_threshold_n_m_s());
+    let limit = Limit { momentum_n_m_s, margin: file.margin, covariance: refit.map(|it| it.covariance) };
+    let task = PlanTask { layout, limit, dumps: file.dumps, budget_s: options.budget };
+    let flown = mission.fly(Thresholds::Never, None)?;
+    let last = RefCell::new(String::new());
+    Ok(Planned { options, mission, timeline, craft, flown, task, sets, began, last })
+}
+
+/// Most windows of a plan.
+const MOST_WINDOWS: f64 = 1000.0;
+
+/// Refuses a plan without free time, or with windows beyond count.
+fn check_spans(file: &PlanFile, mission: &FlownMission) -> Result<(), Failure> {
+    let length_s = mission.stop_s - mission.start_s;
+    let days = |time_s: f64| terminal::short(time_s / 86_400.0);
+    if file.freeze_s.it >= length_s {
+        let found =
+            format!("found {} d, no less than the mission's {} d", days(file.freeze_s.it), days(length_s));
+        let what = format!("{found}, allowed: less, so that there is something to plan");
+        return Err(file.problem(&file.freeze_s, &what).into());
+    }
+    let least_s = length_s / MOST_WINDOWS;
+    if file.window_s.it < least_s {
+        let found = format!("found {} d of the mission's {} d", days(file.window_s.it), days(length_s));
+        let what = format!("{found}, allowed: from {} d on", days(least_s));
+        return Err(file.problem(&file.window_s, &what).into());
+    }
+    Ok(())
+}
+
+fn layout(
+    file: &PlanFile,
+    mission: &FlownMission,
+    timeline: &MissionTimeline,
+    craft: &LitCraft,
+) -> Result<Layout, Failure> {
+    let sides: Vec<f64> = craft.windmill_sides().collect();
+    let has_side = sides.iter().any(|side| *side != 0.0);
+    if let (angle_rad, Some(at)) = &file.windmill_rad
+        && *angle_rad > 0.0
+        && !has_side
+    {
+        let what = "found panels without a side, allowed: 0, or windmill_side = 1 or -1 of [[panels]] in the spacecraft file";
+        return Err(file.problem(at, what).into());
+    }
+    let panels = 1..=craft.panels.len();
+    let controls = panels.map(|number| mission.item(&format!("panel[{number}].control")));
+    let arrays_are_frozen = controls.into_iter().all(|it| matches!(it, Some("sunOffset" | "timeline")));
+    let mut contacts_s = Vec::new();
+    for at in &file.contacts {
+        let span = at.it.map(|instant| mission.time_s(instant));
+        let [Some(from_s), Some(to_s)] = span else {
+            return Err(file
+                .problem(at, "found a date, allowed: simulation time: the mission does not start at a date")
+                .into());
+        };
+        contacts_s.push([from_s, to_s]);
+    }
+    let zone_rad = mission.zone_rad();
+    let offset_rad = timeline
+        .arrays_rad
+        .first()
+        .and_then(|(_, angles)| angles.first().copied())
+        .unwrap_or_else(|| if sides.is_empty() { 0.0 } else { mission.real("panel[1].sunOffset") });
+    Ok(Layout {
+        frozen_until_s: mission.start_s + file.freeze_s.it,
+        arrays_are_frozen,
+        window_s: file.window_s.it,
+        occupied: timeline.occupied(mission.stop_s),
+        contacts_s,
+        contact_share: file.contact_share,
+        reach: Reach {
+            offset_rad: file.offset_rad,
+            windmill_rad: file.windmill_rad.0,
+            azimuth_rad: file.azimuth_rad.min(zone_rad[0]),
+            elevation_rad: file.elevation_rad.min(zone_rad[1]),
+            alternate: file.alternation,
+        },
+        corridor: mission.corridor(),
+        offset_sign: if offset_rad < 0.0 { -1.0 } else { 1.0 },
+        frozen_offset_rad: offset_rad,
+        sides,
+    })
+}
+
+/// What a refit found.
+struct Refit {
+    center_of_mass_m: [f64; 3],
+    scale: f64,
+    covariance: Matrix4<f64>,
+}
+
+impl Refit {
+    fn sets(&self) -> Vec<(String, Vec<f64>)> {
+        vec![
+            ("spacecraft.centerOfMass".to_owned(), self.center_of_mass_m.to_vec()),
+            ("solar.scale".to_owned(), vec![self.scale]),
+        ]
+    }
+}
+
+fn refit(plan: &PlanFile, at: &file::At<PathBuf>) -> Result<Refit, Failure> {
+    // Beside the values for missions stands what was found.
+    let is_toml = at.it.extension().is_some_and(|it| it.eq_ignore_ascii_case("toml"));
+    let path = if is_toml { at.it.with_extension("json") } else { at.it.clone() };
+    let found = ::files::read_text(&path).and_then(|text| planner::momentum::refit_file::read(&text));
+    let found = found.map_err(|error| {
+        let allowed = "allowed: the JSON that `heliotorque refit` writes";
+        plan.problem(at, &format!("found {}: {error}, {allowed}", path.display()))
+    })?;
+    Ok(Refit {
+        center_of_mass_m: found.center_of_mass_m,
+        scale: found.scale,
+        covariance: Matrix4::from(found.covariance).transpose(),
+    })
+}
+
+/// What a plan file says, in a sentence, without flying anything.
+///
+/// # Errors
+/// Everything wrong in it.
+pub(crate) fn checked(file: &Path) -> Result<String, String> {
+    let found = PlanFile::read(file)?;
+    let days = |time_s: f64| terminal::short(time_s / 86_400.0);
+    let deg = |angle_rad: f64| terminal::short(angle_rad.to_degrees());
+    Ok(format!(
+        "plans {} behind day {} in windows of {} d: windmill {} deg, Sun {} and {} deg off -Y, alternation {}, offset {} deg off the \
+         baseline; {} contacts, {} activities",
+        found.mission.it.display(),
+        days(found.freeze_s.it),
+        days(found.window_s.it),
+        deg(found.windmill_rad.0),
+        deg(found.azimuth_rad),
+        deg(found.elevation_rad),
+        terminal::short(found.alternation),
+        deg(found.offset_rad),
+        found.contacts.len(),
+        found.activities.len(),
+    ))
+}
+
+/// Plans, writes the files and tells what came of it.
+pub(crate) fn run(options: &MomentumOptions) -> Outcome {
+    let began = Instant::now();
+    let file = PlanFile::read(&options.plan)?;
+    std::fs::create_dir_all(&options.output)
+        .map_err(|error| format!("{}: {error}: see --output", options.output.display()))?;
+    let planned = opened(options, &file, began)?;
+    let mut flies = &planned;
+    let outcome = plan(&planned.task, &planned.craft, &planned.flown, &mut flies);
+    if interrupt::raised() {
+        return Ok(ExitCode::from(interrupt::INTERRUPTED));
+    }
+    let found = match outcome {
+        Ok(found) => found,
+        Err(PlanError::Corridor(none)) => {
+            let text = report::corridor_json(&none, planned.mission.start_s)?;
+            write(&planned, &[(NAMES[5], text)])?;
+            let corridor = &planned.task.layout.corridor;
+            let day = (none.at_s - planned.mission.start_s) / 86_400.0;
+            return Err(format!(
+                "{}: articulation: found nothing between {} and {} suns on day {day:.1}, {:.4} AU from the Sun, where cells get {:.3} \
+                 at most, allowed: bounds that some offset keeps at every distance of the flight",
+                planned.mission.mission.file.display(),
+                corridor.min_suns,
+                corridor.max_suns,
+                none.distance_au,
+                none.suns,
+            )
+            .into());
+        }
+        Err(error) => return Err(error.to_string().into()),
+    };
+    let prices = prices::all(&file, &planned, &found)?;
+    let events = events(&planned, &found);
+    let sides: Vec<f64> = planned.craft.spacecraft.panels.iter().map(|panel| panel.windmill_side).collect();
+    let bodies = |dump: &PlannedDump| planned.body(&found.windows, dump);
+    let table = written::inputs(&planned.mission, &planned.timeline, &found, &sides, &bodies);
+    let windows = report::windows_csv(&found, &timeline::shown_deg)?;
+    let picture = picture::svg(&planned.craft.spacecraft.name, &found, &planned.task)?;
+    let seeds = planned.fly_seeds(&found.windows, &found.dumps)?;
+    let json = report::json(&found, &planned.task, &events, (&prices, &seeds))?;
+    let [timeline, mission] = planned.write_into(&options.output, (&found.windows, &found.dumps), None)?;
+    let contents = [
+        timeline,
+        mission,
+        (NAMES[2], table),
+        (NAMES[3], String::from_utf8(windows)?),
+        (NAMES[4], picture),
+        (NAMES[5], json),
+    ];
+    write(&planned, &contents)?;
+    if !options.quiet {
+        terminal::print(&summary(&planned, &found, (&prices, &seeds)))?;
+        for (name, _) in &contents {
+            terminal::note(&format!("wrote {}", options.output.join(name).display()));
+        }
+    }
+    if found.exceeded.is_some() {
+        check_contacts(&file, &planned, &found)?;
+    }
+    let is_planned = report::status(&found, &planned.task) == "planned";
+    Ok(if is_planned { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Refuses contacts that leave no time for an alternation without which there is no plan.
+fn check_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) -> Result<(), Failure> {
+    let full = |window: &&Window| window.kind == WindowKind::Free && window.free_of_contact.is_empty();
+    let Some(window) = found.windows.iter().find(full) else { return Ok(()) };
+    let mut task = planned.task.clone();
+    task.layout.contacts_s.clear();
+    let needs =
+        planner::momentum::plan::least_excess_n_m_s(&task, &planned.craft, &planned.flown, f64::NEG_INFINITY);
+    let (Ok(excess), Some(at)) = (
+        needs,
+        file.contacts.iter().find(|at| {
+            let span = at.it.map(|instant| planned.mission.time_s(instant));
+            matches!(span, [Some(from_s), Some(to_s)] if from_s < window.stop_s && to_s > window.start_s)
+        }),
+    ) else {
+        return Ok(());
+    };
+    if excess > 0.0 {
+        return Ok(());
+    }
+    let start_s = planned.mission.start_s;
+    let [from_d, to_d] = [window.start_s, window.stop_s].map(|time_s| (time_s - start_s) / 86_400.0);
+    let what = format!(
+        "found contacts that fill the window from day {from_d:.1} to {to_d:.1}, allowed: some time without contact: no plan holds without alternation there"
+    );
+    Err(file.problem(at, &what).into())
+}
+
+fn events(planned: &Planned<'_>, found: &MomentumPlan) -> Vec<PlanEvent> {
+    let mut events: Vec<PlanEvent> = planned.timeline.events_of_mission.clone();
+    let dumps = found.dumps.iter();
+    events.extend(dumps.map(|dump| PlanEvent { at_s: dump.at_s, kinds: vec!["dump"], planned: true }));
+    events.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));
+    events
+}
+
+fn write(planned: &Planned<'_>, contents: &[(&'static str, String)]) -> Result<(), Failure> {
+    const OPTION: &str = "--output";
+    let mut inputs = planned.mission.mission.reads();
+    inputs.push(&planned.options.plan);
+    let opened = contents.iter().map(|(name, text)| {
+        let path = planned.options.output.join(name);
+        Destination::open(&path, OPTION, &inputs).map(|destination| (destination, text))
+    });
+    // None is written unless all can be.
+    for (destination, text) in opened.collect::<Result<Vec<_>, _>>()? {
+        destination.fill(|file| file.write_all(text.as_bytes()))?;
+    }
+    Ok(())
+}
+
+fn summary(
+    planned: &Planned<'_>,
+    found: &MomentumPlan,
+    (prices, seeds): (&[report::Price], &[(f64, u32)]),
+) -> String {
+    let start_s = planned.mission.start_s;
+    let day = |time_s: f64| (time_s - start_s) / 86_400.0;
+    let [most_planned, most_simulated] = found.greatest_n_m_s();
+    let limit = planned.task.limit.momentum_n_m_s;
+    let (unmanaged, _) = planned.flown.greatest_momentum();
+    let mut lines = vec![
+        format!("|H| as the mission is: {unmanaged:.3} N.m.s"),
+        format!(
+            "|H| planned {most_planned:.3}, flown {most_simulated:.3}, limit {limit:.3} N.m.s; flight and plan differ by {:.4} at most, \
+             {:.2} % of the limit, after {} flight{}",
+            found.difference_n_m_s(),
+            100.0 * found.difference_n_m_s() / limit,
+            found.rounds,
+            if found.rounds == 1 { "" } else { "s" },
+        ),
+    ];
+    if let Some(exceeded) = &found.exceeded {
+        lines.push(format!(
+            "no plan holds without a dump: {} at least, the limit being exceeded by {:.3} N.m.s, first on day {:.1}; {} may be ([momentum] dumps)",
+            found.dumps_at_least,
+            exceeded.excess_n_m_s,
+            day(exceeded.first_s),
+            planned.task.dumps,
+        ));
+        let days: Vec<String> = found.dumps.iter().map(|dump| format!("{:.2}", day(dump.at_s))).collect();
+        lines.push(format!("dumps on days {}", days.join(", ")));
+    } else {
+        lines.push("dumps: 0".to_owned());
+    }
+    if !found.holds {
+        lines.push("the last flight does not agree with the plan, or exceeds the limit".to_owned());
+    }
+    let gap = match found.changes - found.changes_at_least {
+        0 => "no plan has fewer".to_owned(),
+        _ => format!("no plan has fewer than {}", found.changes_at_least),
+    };
+    lines.push(format!(
+        "{} steps of the baseline, {} changes of the arrays; {gap}",
+        found.baseline.len(),
+        found.changes
+    ));
+    for price in prices {
+        lines.push(format!(
+            "{} {}: {:.3} N.m.s gathered more, {:+.3} N.m.s at the limit, {:+} dumps",
+            if price.removed { "without" } else { "with" },
+            price.name,
+            Vector3::from(price.gathered_n_m_s).norm(),
+            price.momentum_n_m_s,
+            price.dumps,
+        ));
+    }
+    if !seeds.is_empty() {
+        let [momentum, dumps] = report::percentiles(seeds);
+        let all = |of: [f64; 3]| of.map(terminal::short).join(", ");
+        lines.push(format!(
+            "{} seeds: |H| {} N.m.s, dumps {} (50, 90, 99 %)",
+            seeds.len(),
+            all(momentum),
+            all(dumps)
+        ));
+    }
+    lines.push(format!("{:.1} s", planned.began.elapsed().as_secs_f64()));
+    lines.join("\n")
+}

@@ -1,0 +1,339 @@
+//! The timeline of a plan: what the mission commands and keeps, and the plan's own commands, panels and dumps.
+//!
+//! Angles are written in deg to a ten-thousandth, times of alternation to a minute, so that steps of a minute meet them; what is flown is
+//! what is written.
+
+use core::fmt::Write;
+
+use nalgebra::Vector3;
+use physics::{
+    environment::dates,
+    guidance::timeline::{PlanStatus, Timeline, TimelineClock, TimelineDump, TimelineEvent},
+};
+use planner::momentum::{
+    plan::PlannedDump,
+    report::PlanEvent,
+    torque::Control,
+    windows::{Occupied, Window, WindowKind},
+};
+use toml_edit::{DocumentMut, Item};
+
+use super::{
+    file::Activity,
+    flights::{Failure, FlownMission},
+};
+
+/// Angles are written so fine, as parts of a deg.
+const PARTS_OF_DEG: f64 = 1e4;
+
+/// A tolerance for clocks that are written to the millisecond, in s.
+const CLOCK_S: f64 = 2e-3;
+
+/// A table of the mission's timeline.
+#[derive(Clone, Debug)]
+struct Kept {
+    /// In s of the flight.
+    at_s: f64,
+    until_s: Option<f64>,
+    text: String,
+    status: PlanStatus,
+}
+
+/// What the mission's own timeline says.
+#[derive(Clone, Debug, Default)]
+pub(super) struct MissionTimeline {
+    commands: Vec<Kept>,
+    panels: Vec<Kept>,
+    events: Vec<Kept>,
+    /// Offset and windmill angle of the arrays over time, in rad, where the timeline says so: time in s, each panel's angle.
+    pub arrays_rad: Vec<(f64, Vec<f64>)>,
+    /// Its maneuvers: times in s and velocities to add, EME2000, in m/s.
+    pub maneuvers: Vec<(f64, Vector3<f64>)>,
+    /// Its dumps without a maneuver: times in s and the momentum after each, body frame, where it says so, in N m s.
+    pub dumps: Vec<(f64, Option<Vector3<f64>>)>,
+    /// Its events.
+    pub events_of_mission: Vec<PlanEvent>,
+    is_dated: bool,
+}
+
+/// In deg as it is written.
+pub(super) fn shown_deg(angle_rad: f64) -> f64 {
+    let deg = (angle_rad.to_degrees() * PARTS_OF_DEG).round() / PARTS_OF_DEG;
+    // No minus before zero.
+    deg + 0.0
+}
+
+const MINUTE_S: f64 = 60.0;
+
+/// One stretch of a window in one attitude.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stretch {
+    pub at_s: f64,
+    pub alternate: bool,
+}
+
+/// The stretches of a free window.
+pub(super) fn stretches(window: &Window) -> Vec<Stretch> {
+    let mut all = vec![Stretch { at_s: window.start_s, alternate: false }];
+    for [from_s, to_s] in window.alternate_spans_s() {
+        // Inward, for a contact may be at either end.
+        let [from_s, to_s] = [MINUTE_S * (from_s / MINUTE_S).ceil(), MINUTE_S * (to_s / MINUTE_S).floor()];
+        if to_s <= from_s {
+            continue;
+        }
+        if all.last().is_some_and(|last| (last.at_s - from_s).abs() < 0.5) {
+            all.pop();
+        }
+        all.push(Stretch { at_s: from_s, alternate: true });
+        if to_s < window.stop_s - 0.5 {
+            all.push(Stretch { at_s: to_s, alternate: false });
+        }
+    }
+    all
+}
+
+impl MissionTimeline {
+    /// Reads the mission's timeline.
+    ///
+    /// # Errors
+    /// A file that cannot be read again.
+    pub(super) fn of(mission: &FlownMission, found: Option<&(String, Timeline)>) -> Result<Self, Failure> {
+        let Some((text, timeline)) = found else {
+            return Ok(Self { is_dated: mission.zero_epoch_s.is_some(), ..Self::default() });
+        };
+        let document: DocumentMut = text.parse()?;
+        let clock_minus_time_s = mission.clock_minus_time_s(timeline);
+        let time = |at_s: f64| at_s - clock_minus_time_s;
+        let commands = timeline.entries().iter().map(|it| (it.at_s, it.until_s, it.status));
+        let panels = timeline.panels().iter().map(|it| (it.at_s, None, PlanStatus::Fixed));
+        let events = timeline.events().iter().map(|it| (it.at_s, None, PlanStatus::Fixed));
+        let kept = |name: &str, list: Vec<(f64, Option<f64>, PlanStatus)>| -> Vec<Kept> {
+            let texts = tables(&document, name);
+            let list = list.into_iter().zip(texts);
+            list.map(|((at_s, until_s, status), text)| Kept {
+                at_s: time(at_s),
+                until_s: until_s.map(time),
+                text,
+                status,
+            })
+            .collect()
+        };
+        let sides: Vec<f64> = mission.spacecraft()?.panels.iter().map(|panel| panel.windmill_side).collect();
+        let arrays = timeline.panels().iter().map(|step| {
+            let angles = step.sun_offsets_rad.iter().zip(&sides);
+            (
+                time(step.at_s),
+                angles.map(|(offset_rad, side)| offset_rad + step.windmill_rad * side).collect(),
+            )
+        });
+        Ok(Self {
+            arrays_rad: arrays.collect(),
+            events_of_mission: timeline
+                .events()
+                .iter()
+                .map(|event| plan_event(time(event.at_s), event))
+                .collect(),
+            maneuvers: timeline
+                .events()
+                .iter()
+                .filter_map(|event| Some((time(event.at_s), event.maneuver?.delta_v_inertial_m_s)))
+                .collect(),
+            dumps: timeline
+                .events()
+                .iter()
+                .filter(|event| event.maneuver.is_none())
+                .filter_map(|event| {
+                    let target = match event.dump? {
+                        TimelineDump::Requested => None,
+                        TimelineDump::To { momentum_body_n_m_s } => Some(momentum_body_n_m_s),
+                    };
+                    Some((time(event.at_s), target))
+                })
+                .collect(),
+            commands: kept("command", commands.collect()),
+            panels: kept("panels", panels.collect()),
+            events: kept("event", events.collect()),
+            is_dated: timeline.clock() == TimelineClock::Epoch,
+        })
+    }
+
+    /// Commands that a plan leaves as they are.
+    pub(super) fn occupied(&self, stop_s: f64) -> Vec<Occupied> {
+        let next = |index: usize| self.commands.get(index + 1).map_or(stop_s, |next| next.at_s);
+        let commands = self.commands.iter().enumerate();
+        commands
+            .filter(|(_, kept)| kept.status != PlanStatus::Free)
+            .map(|(index, kept)| Occupied {
+                start_s: kept.at_s,
+                stop_s: kept.until_s.unwrap_or(f64::INFINITY).min(next(index)),
+                planned: kept.status == PlanStatus::Planned,
+                command: index,
+            })
+            .collect()
+    }
+
+    /// The timeline of a plan, as text; with an activity where one is given.
+    pub(super) fn text(
+        &self,
+        mission: &FlownMission,
+        (windows, dumps, frozen_s): (&[Window], &[PlannedDump], f64),
+        bodies: &dyn Fn(&PlannedDump) -> Vector3<f64>,
+        activity: Option<(&Activity, [f64; 2])>,
+    ) -> String {
+        let clock = |time_s: f64| self.clock(mission, time_s);
+        let mut commands: Vec<(f64, String)> = Vec::new();
+        for kept in &self.commands {
+            let is_frozen = kept.at_s < frozen_s - CLOCK_S;
+            if kept.status == PlanStatus::Free && !is_frozen {
+                continue;
+            }
+            let ends = kept.until_s.filter(|until_s| kept.status == PlanStatus::Free && *until_s > frozen_s);
+            let text = if ends.is_some() { without(&kept.text, "until") } else { kept.text.clone() };
+            commands.push((kept.at_s, text));
+        }
+        let spans = activity.map(|(_, span)| span);
+        for window in windows.iter().filter(|window| window.kind == WindowKind::Free) {
+            let all = stretches(window);
+            for (index, stretch) in all.iter().enumerate() {
+                let until_s = all.get(index + 1).map_or(window.stop_s, |next| next.at_s);
+                let text = |at_s: f64| command(&clock(at_s), window, stretch.alternate);
+                match spans {
+                    Some([from_s, to_s]) if stretch.at_s < to_s && until_s > from_s => {
+                        if stretch.at_s < from_s {
+                            commands.push((stretch.at_s, text(stretch.at_s)));
+                        }
+                        if until_s > to_s {
+                            commands.push((to_s, text(to_s)));
+                        }
+                    }
+                    _ => commands.push((stretch.at_s, text(stretch.at_s))),
+                }
+            }
+        }
+        if let Some((activity, [from_s, to_s])) = activity {
+            let head = format!("[[command]]\nat = {}\nuntil = {}\n", clock(from_s), clock(to_s));
+            commands.push((from_s, format!("{head}{}", activity.command)));
+        }
+        let mut panels: Vec<(f64, String)> = Vec::new();
+        let arrays_are_frozen = windows.first().is_some_and(|window| window.kind == WindowKind::Frozen);
+        if arrays_are_frozen {
+            let frozen = self.panels.iter().filter(|kept| kept.at_s < frozen_s - CLOCK_S);
+            panels.extend(frozen.map(|kept| (kept.at_s, kept.text.clone())));
+        }
+        for step in array_steps(windows) {
+            let mut text =
+                format!("[[panels]]\nat = {}\nsunOffset = \"{} deg\"\n", clock(step.at_s), step.offset_deg);
+            if step.windmill_deg != 0.0 {
+                let _ = writeln!(text, "windmill = \"{} deg\"", step.windmill_deg);
+            }
+            panels.push((step.at_s, text));
+        }
+        let mut events: Vec<(f64, String)> =
+            self.events.iter().map(|kept| (kept.at_s, kept.text.clone())).collect();
+        for dump in dumps {
+            let after = bodies(dump);
+            let text = format!(
+                "[[event]]\nat = {}\ndump = [{:.6}, {:.6}, {:.6}]\n",
+                clock(dump.at_s),
+                after.x,
+                after.y,
+                after.z
+            );
+            events.push((dump.at_s, text));
+        }
+        let mut text = String::from("# Written by `heliotorque plan momentum`.\n");
+        for mut list in [commands, panels, events] {
+            list.sort_by(|a, b| a.0.total_cmp(&b.0));
+            for (_, table) in list {
+                text.push('\n');
+                text.push_str(&table);
+            }
+        }
+        text
+    }
+
+    fn clock(&self, mission: &FlownMission, time_s: f64) -> String {
+        match mission.zero_epoch_s.filter(|_| self.is_dated) {
+            Some(zero_s) => format!("{:?}", dates::utc(zero_s + time_s)),
+            None if self.is_dated => {
+                format!("{:?}", dates::utc(mission.real("start.epoch") - mission.start_s + time_s))
+            }
+            None => format!("{time_s:?}"),
+        }
+    }
+}
+
+fn plan_event(at_s: f64, event: &TimelineEvent) -> PlanEvent {
+    let kinds = [
+        ("maneuver", event.maneuver.is_some()),
+        ("dump", event.dump.is_some()),
+        ("centerOfMass", event.center_of_mass_body_m.is_some()),
+    ];
+    let kinds = kinds.into_iter().filter(|(_, is)| *is).map(|(name, _)| name);
+    PlanEvent { at_s, kinds: kinds.collect(), planned: false }
+}
+
+/// How the arrays stand from a time on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ArrayStep {
+    pub at_s: f64,
+    pub offset_deg: f64,
+    pub windmill_deg: f64,
+}
+
+/// The steps of the arrays over the windows of a plan.
+pub(super) fn array_steps(windows: &[Window]) -> Vec<ArrayStep> {
+    let mut steps: Vec<ArrayStep> = Vec::new();
+    for window in
+        windows.iter().filter(|window| window.kind != WindowKind::Frozen && !window.sides.is_empty())
+    {
+        let [offset_deg, windmill_deg] =
+            [Control::Offset, Control::Windmill].map(|it| shown_deg(window.controls.get(it)));
+        let stays = steps
+            .last()
+            .is_some_and(|last| last.offset_deg == offset_deg && last.windmill_deg == windmill_deg);
+        if !stays {
+            steps.push(ArrayStep { at_s: window.start_s, offset_deg, windmill_deg });
+        }
+    }
+    steps
+}
+
+/// A downlink of a window.
+fn command(at: &str, window: &Window, alternate: bool) -> String {
+    let [azimuth_deg, elevation_deg] =
+        [Control::Azimuth, Control::Elevation].map(|it| shown_deg(window.controls.get(it)));
+    let mut text = format!("[[command]]\nat = {at}\nscenario = \"downlink\"\n");
+    if azimuth_deg != 0.0 || elevation_deg != 0.0 {
+        let _ = writeln!(
+            text,
+            "sun = {{ azimuth = \"{azimuth_deg} deg\", elevation = \"{elevation_deg} deg\" }}"
+        );
+    }
+    if alternate {
+        text.push_str("alternate = true\n");
+    }
+    text.push_str("status = \"free\"\n");
+    text
+}
+
+/// The tables of a list as they are written, each with its header and its keys in one line each.
+fn tables(document: &DocumentMut, name: &str) -> Vec<String> {
+    let Some(list) = document.get(name).and_then(Item::as_array_of_tables) else { return Vec::new() };
+    list.iter()
+        .map(|table| {
+            let entries = table.iter().filter_map(|(key, item)| {
+                let value = item.clone().into_value().ok()?;
+                let value = value.decorated(" ", "");
+                Some(format!("{key} ={value}\n"))
+            });
+            format!("[[{name}]]\n{}", entries.collect::<String>())
+        })
+        .collect()
+}
+
+/// The table without a key.
+fn without(table: &str, key: &str) -> String {
+    let is_kept = |line: &&str| !line.starts_with(&format!("{key} ="));
+    table.lines().filter(is_kept).map(|line| format!("{line}\n")).collect()
+}

@@ -1,0 +1,244 @@
+//! The files of a plan: the mission that flies it, and its arrays and places of the Sun as an input table.
+
+use std::path::{Component, Path, PathBuf};
+
+use nalgebra::Vector3;
+use planner::momentum::{
+    plan::{MomentumPlan, PlannedDump},
+    torque::Control,
+    windows::{Window, WindowKind},
+};
+use toml_edit::{DocumentMut, Item, Table, value};
+
+use super::{
+    flights::{Failure, FlownMission},
+    timeline::{MissionTimeline, array_steps, shown_deg, stretches},
+};
+
+/// The mission's text with the plan's timeline, for a file in `folder`.
+///
+/// # Errors
+/// A mission that cannot be read again.
+pub(super) fn mission(
+    planned: &FlownMission,
+    folder: &Path,
+    panels: usize,
+    sets: &[(String, Vec<f64>)],
+) -> Result<String, Failure> {
+    let file = &planned.mission.file;
+    let mut document: DocumentMut = files::read_text(file)?.parse()?;
+    let home = file.parent().unwrap_or(Path::new(""));
+    let moved = |path: &str| relative(folder, &home.join(path)).to_string_lossy().replace('\\', "/");
+    for key in ["spacecraft", "ephemeris", "inputs"] {
+        let path = document.get(key).and_then(Item::as_str).map(str::to_owned);
+        if let Some(path) = path {
+            document[key] = value(moved(&path));
+        }
+    }
+    document["timeline"] = value("timeline.toml");
+    let table = document.entry("set").or_insert(Item::Table(Table::new()));
+    if let Some(table) = table.as_table_like_mut() {
+        for number in 1..=panels {
+            table.insert(&format!("panel[{number}].control"), value("timeline"));
+        }
+        for (name, values) in sets {
+            // Values of single elements would count behind that of the whole.
+            let elements: Vec<String> = table
+                .iter()
+                .map(|(key, _)| key.to_owned())
+                .filter(|key| key.strip_prefix(name.as_str()).is_some_and(|rest| rest.starts_with('[')))
+                .collect();
+            for key in elements {
+                table.remove(&key);
+            }
+            let one = if let [number] = values[..] {
+                value(number)
+            } else {
+                value(values.iter().copied().collect::<toml_edit::Array>())
+            };
+            table.insert(name, one);
+        }
+    }
+    Ok(document.to_string())
+}
+
+/// A path from a folder.
+fn relative(folder: &Path, path: &Path) -> PathBuf {
+    let whole = |path: &Path| std::fs::canonicalize(path).ok();
+    let (Some(from), Some(to)) = (whole(folder), whole(path)) else { return path.to_owned() };
+    let (from, to): (Vec<Component<'_>>, Vec<Component<'_>>) =
+        (from.components().collect(), to.components().collect());
+    let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    // On another drive.
+    if shared == 0 {
+        return to.iter().collect();
+    }
+    let up = from[shared..].iter().map(|_| Component::ParentDir);
+    up.chain(to[shared..].iter().copied()).collect()
+}
+
+/// How long a request of a dump is held, in s: seen by steps of a minute.
+const HELD_S: f64 = 60.0;
+
+/// Values of the inputs over a stretch.
+#[derive(Clone, Debug, PartialEq)]
+struct Inputs {
+    panels_rad: Vec<f64>,
+    azimuth_rad: f64,
+    elevation_rad: f64,
+    alternate: bool,
+    dump: bool,
+    target_n_m_s: Vector3<f64>,
+    maneuver: bool,
+    delta_v_m_s: Vector3<f64>,
+}
+
+/// Which groups of columns there are.
+#[derive(Clone, Copy)]
+struct Columns {
+    dumps: bool,
+    maneuvers: bool,
+}
+
+/// The input table: a row before and one behind every jump.
+pub(super) fn inputs(
+    planned: &FlownMission,
+    timeline: &MissionTimeline,
+    plan: &MomentumPlan,
+    sides: &[f64],
+    bodies: &dyn Fn(&PlannedDump) -> Vector3<f64>,
+) -> String {
+    let count = sides.len();
+    let mut now = Inputs {
+        panels_rad: (1..=count).map(|number| planned.real(&format!("panel[{number}].sunOffset"))).collect(),
+        azimuth_rad: 0.0,
+        elevation_rad: 0.0,
+        alternate: false,
+        dump: false,
+        target_n_m_s: Vector3::zeros(),
+        maneuver: false,
+        delta_v_m_s: Vector3::zeros(),
+    };
+    // What changes, by time.
+    let mut changes: Vec<(f64, Change<'_>)> = Vec::new();
+    let is_frozen = plan.windows.first().is_some_and(|window| window.kind == WindowKind::Frozen);
+    let frozen_s = plan.windows.first().filter(|_| is_frozen).map_or(planned.start_s, |window| window.stop_s);
+    for (at_s, angles_rad) in timeline.arrays_rad.iter().filter(|(at_s, _)| *at_s < frozen_s) {
+        changes.push((*at_s, Change::Arrays(angles_rad.clone())));
+    }
+    for step in array_steps(&plan.windows) {
+        let [offset_rad, windmill_rad] = [step.offset_deg, step.windmill_deg].map(f64::to_radians);
+        changes.push((
+            step.at_s,
+            Change::Arrays(sides.iter().map(|side| offset_rad + windmill_rad * side).collect()),
+        ));
+    }
+    for window in &plan.windows {
+        if window.kind != WindowKind::Free {
+            changes.push((window.start_s, Change::Sun(None, false)));
+            continue;
+        }
+        for stretch in stretches(window) {
+            changes.push((stretch.at_s, Change::Sun(Some(window), stretch.alternate)));
+        }
+    }
+    for dump in &plan.dumps {
+        changes.push((dump.at_s, Change::Dump(true, bodies(dump))));
+        changes.push((dump.at_s + HELD_S, Change::Dump(false, bodies(dump))));
+    }
+    let requested = Vector3::from([1, 2, 3].map(|axis| planned.real(&format!("dump.target[{axis}]"))));
+    for (at_s, target) in &timeline.dumps {
+        let target = target.unwrap_or(requested);
+        changes.push((*at_s, Change::Dump(true, target)));
+        changes.push((*at_s + HELD_S, Change::Dump(false, target)));
+    }
+    for (at_s, delta_v) in &timeline.maneuvers {
+        changes.push((*at_s, Change::Maneuver(true, *delta_v)));
+        changes.push((*at_s + HELD_S, Change::Maneuver(false, *delta_v)));
+    }
+    changes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut text = String::from("time");
+    for number in 1..=count {
+        text.push_str(&format!(",panel[{number}].sunOffsetCommand"));
+    }
+    text.push_str(",downlink.sunAzimuth,downlink.sunElevation,downlink.alternate");
+    let columns = Columns {
+        dumps: !plan.dumps.is_empty() || !timeline.dumps.is_empty(),
+        maneuvers: !timeline.maneuvers.is_empty(),
+    };
+    if columns.maneuvers {
+        text.push_str(",maneuver.request,maneuver.deltaV[1],maneuver.deltaV[2],maneuver.deltaV[3]");
+    }
+    if columns.dumps {
+        text.push_str(",dump.request,dump.target[1],dump.target[2],dump.target[3]");
+    }
+    text.push('\n');
+    let mut started = false;
+    let mut index = 0;
+    while index < changes.len() {
+        let at_s = changes[index].0;
+        if started || at_s > planned.start_s {
+            if !started {
+                text.push_str(&row(planned.start_s, &now, columns));
+            }
+            text.push_str(&row(at_s, &now, columns));
+        }
+        let before = now.clone();
+        while let Some((next_s, change)) = changes.get(index).filter(|(next_s, _)| *next_s == at_s) {
+            let _ = next_s;
+            change.apply(&mut now);
+            index += 1;
+        }
+        if started && now == before {
+            // Nothing jumps: the row before it is not needed either.
+            let last = text.trim_end().rfind('\n').map_or(0, |at| at + 1);
+            text.truncate(last);
+            continue;
+        }
+        text.push_str(&row(at_s.max(planned.start_s), &now, columns));
+        started = true;
+    }
+    text.push_str(&row(planned.stop_s, &now, columns));
+    text
+}
+
+enum Change<'w> {
+    Arrays(Vec<f64>),
+    Sun(Option<&'w Window>, bool),
+    Dump(bool, Vector3<f64>),
+    Maneuver(bool, Vector3<f64>),
+}
+
+impl Change<'_> {
+    fn apply(&self, inputs: &mut Inputs) {
+        match self {
+            Self::Arrays(angles_rad) => inputs.panels_rad.clone_from(angles_rad),
+            Self::Sun(window, alternate) => {
+                let angle = |control| {
+                    window.map_or(0.0, |window| shown_deg(window.controls.get(control)).to_radians())
+                };
+                (inputs.azimuth_rad, inputs.elevation_rad) =
+                    (angle(Control::Azimuth), angle(Control::Elevation));
+                inputs.alternate = *alternate;
+            }
+            Self::Maneuver(request, delta_v) => (inputs.maneuver, inputs.delta_v_m_s) = (*request, *delta_v),
+            Self::Dump(request, target) => (inputs.dump, inputs.target_n_m_s) = (*request, *target),
+        }
+    }
+}
+
+fn row(time_s: f64, inputs: &Inputs, columns: Columns) -> String {
+    let mut cells = vec![format!("{time_s:?}")];
+    cells.extend(inputs.panels_rad.iter().map(|angle| format!("{angle:?}")));
+    cells.extend([inputs.azimuth_rad, inputs.elevation_rad].map(|angle| format!("{angle:?}")));
+    cells.push(inputs.alternate.to_string());
+    if columns.maneuvers {
+        cells.push(inputs.maneuver.to_string());
+        cells.extend(inputs.delta_v_m_s.iter().map(|component| format!("{component:?}")));
+    }
+    if columns.dumps {
+        cells.push(inputs.dump.to_string());
+        cells.extend(inputs.target_n_m_s.iter().map(|component| format!("{component:.6}")));
+    }
+    format!("{}\n", cells.join(","))
+}

@@ -1,0 +1,329 @@
+//! `plan momentum`: a cruise planned and flown below its limit, what no plan holds, prices, and what is refused.
+
+use std::{fs, path::Path};
+
+use crate::{run, says, shown, template};
+
+const RESOURCES: &str = "../../fmu-src/resources";
+
+/// The cruise with its spacecraft and timeline in a folder of its own, edited.
+fn cruise(folder: &Path, edits: &[(&str, &str)]) {
+    let read = |name: &str| fs::read_to_string(Path::new(RESOURCES).join(name)).unwrap();
+    fs::write(folder.join("messenger.toml"), read("messenger.toml")).unwrap();
+    let timeline = read("examples/missions/messenger-cruise-timeline.toml");
+    let mut mission = read("examples/missions/messenger-cruise.toml");
+    mission = mission.replace("../../messenger.toml", "messenger.toml");
+    for (old, new) in edits {
+        assert!(mission.contains(old) || timeline.contains(old), "{old}");
+        mission = mission.replace(old, new);
+    }
+    let mut edited = timeline;
+    for (old, new) in edits {
+        edited = edited.replace(old, new);
+    }
+    fs::write(folder.join("messenger-cruise-timeline.toml"), edited).unwrap();
+    fs::write(folder.join("cruise.toml"), mission).unwrap();
+}
+
+/// Plans a text in the folder; what is said.
+fn plan(folder: &Path, template: &Path, text: &str, status: i32) -> String {
+    let file = folder.join("plan.toml");
+    fs::write(&file, text).unwrap();
+    let output = folder.join("out");
+    run(
+        &["plan", "momentum", shown(&file), "--output", shown(&output), "--template", shown(template)],
+        status,
+    )
+}
+
+/// A number behind a key of plan.json.
+fn number(folder: &Path, key: &str) -> f64 {
+    let text = fs::read_to_string(folder.join("out/plan.json")).unwrap();
+    let rest = text.split_once(&format!("\"{key}\": ")).unwrap_or_else(|| panic!("{key}: {text}")).1;
+    rest.split([',', '\n', '}']).next().unwrap().trim().parse().unwrap_or_else(|_| panic!("{key}: {text}"))
+}
+
+/// Columns of a CSV by name.
+fn columns(file: &Path, names: &[&str]) -> Vec<Vec<f64>> {
+    let text = fs::read_to_string(file).unwrap();
+    let mut lines = text.lines();
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let at: Vec<usize> = names.iter().map(|name| header.iter().position(|it| it == name).unwrap()).collect();
+    let value = |cell: &str| match cell {
+        "true" => 1.0,
+        "false" => 0.0,
+        number => number.parse().unwrap(),
+    };
+    lines
+        .map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            at.iter().map(|index| value(cells[*index])).collect()
+        })
+        .collect()
+}
+
+const PLAN: &str = "mission = \"cruise.toml\"\n[momentum]\nlimit = 5.5\n[tilt]\nazimuth = \"5 deg\"\nelevation = \"5 deg\"\n";
+const OFF: &str = "mission = \"cruise.toml\"\nwindmill = 0\nalternation = 0\n[momentum]\nlimit = 5.5\n";
+
+/// The mission left alone comes to 43 N m s; planned it stays below 5.5 at every hour, with arrays in their corridor.
+#[test]
+fn a_cruise_is_planned_and_flown_below_its_limit() {
+    let Some((scratch, template)) = template() else { return };
+    let folder = scratch.path();
+    cruise(folder, &[]);
+    let said = plan(folder, &template, PLAN, 0);
+    says(&said, &["|H| as the mission is: 42.9", "dumps: 0", "7 changes of the arrays; no plan has fewer"]);
+    assert!(number(folder, "planned") < 5.5 && number(folder, "simulated") < 5.5);
+    assert!(number(folder, "largestDifference_n_m_s") < 0.02 * 5.5);
+    assert_eq!([number(folder, "changes"), number(folder, "changesAtLeast")], [7.0, 7.0]);
+    // The mission that was written flies it.
+    let flown = folder.join("flown.csv");
+    let mission = folder.join("out/mission.toml");
+    let names = "momentum.inertial,panel*.corridorMargin,downlink.clamped,dump.count";
+    run(
+        &[
+            "run",
+            shown(&mission),
+            "--template",
+            shown(&template),
+            "--record",
+            names,
+            "--every",
+            "1h",
+            "--output",
+            shown(&flown),
+        ],
+        0,
+    );
+    let rows = columns(
+        &flown,
+        &[
+            "momentum.inertial[1]",
+            "momentum.inertial[2]",
+            "momentum.inertial[3]",
+            "panel[1].corridorMargin",
+            "panel[2].corridorMargin",
+            "downlink.clamped",
+            "dump.count",
+        ],
+    );
+    assert_eq!(rows.len(), 4801);
+    for row in &rows {
+        let momentum = (row[0] * row[0] + row[1] * row[1] + row[2] * row[2]).sqrt();
+        assert!(
+            momentum < 5.5 && row[3] >= 0.0 && row[4] >= 0.0 && row[5] == 0.0 && row[6] == 0.0,
+            "{row:?}"
+        );
+    }
+    // So does the input table, with steps that meet its times.
+    let text = fs::read_to_string(&mission).unwrap();
+    let table = text.replace("timeline = \"timeline.toml\"\n", "").replace("\"timeline\"", "\"command\"");
+    fs::write(folder.join("out/table.toml"), table).unwrap();
+    let twin = folder.join("twin.csv");
+    run(
+        &[
+            "run",
+            shown(&folder.join("out/table.toml")),
+            "--template",
+            shown(&template),
+            "--input",
+            shown(&folder.join("out/plan.csv")),
+            "--step",
+            "60s",
+            "--every",
+            "1h",
+            "--record",
+            "momentum.inertial",
+            "--output",
+            shown(&twin),
+        ],
+        0,
+    );
+    let twins = columns(&twin, &["momentum.inertial[1]", "momentum.inertial[2]", "momentum.inertial[3]"]);
+    for (row, twin) in rows.iter().zip(&twins) {
+        // Dates are read to a millisecond: a torque of 1e-5 N m for that long at each of some hundred jumps.
+        assert!((0..3).all(|axis| (row[axis] - twin[axis]).abs() < 1e-6), "{row:?} {twin:?}");
+    }
+    // What it wrote can be planned again.
+    let again = "mission = \"out/mission.toml\"\n[momentum]\nlimit = 6\n";
+    let output = folder.join("again");
+    fs::write(folder.join("again.toml"), again).unwrap();
+    let file = folder.join("again.toml");
+    let arguments = [
+        "plan",
+        "momentum",
+        shown(&file),
+        "--output",
+        shown(&output),
+        "--template",
+        shown(&template),
+        "--quiet",
+    ];
+    run(&arguments, 0);
+}
+
+#[test]
+fn without_controls_the_least_dumps_and_the_first_day_are_told() {
+    let Some((scratch, template)) = template() else { return };
+    let folder = scratch.path();
+    cruise(folder, &[]);
+    let said = plan(folder, &template, OFF, 1);
+    says(&said, &["no plan holds without a dump: 5 at least", "first on day 19."]);
+    assert_eq!([number(folder, "dumps"), number(folder, "dumpsAtLeast")], [5.0, 5.0]);
+    assert!((number(folder, "excess_n_m_s") - 37.5).abs() < 0.2);
+    assert!((19.0..20.0).contains(&number(folder, "firstDay")));
+    let text = fs::read_to_string(folder.join("out/plan.json")).unwrap();
+    assert!(
+        text.contains("\"status\": \"infeasible\"") && text.contains("\"limit\": \"momentum\""),
+        "{text}"
+    );
+    // With them allowed it is a plan, whose flight stays below the limit.
+    let said = plan(folder, &template, &OFF.replace("limit = 5.5", "limit = 5.5\ndumps = 5"), 0);
+    assert!(said.contains("dumps on days "), "{said}");
+    assert!(number(folder, "simulated") < 5.5);
+}
+
+/// Contacts hold no alternate attitude; a planned command and an activity have their price.
+#[test]
+fn contacts_are_kept_and_prices_told() {
+    let Some((scratch, template)) = template() else { return };
+    let folder = scratch.path();
+    cruise(folder, &[("stop = \"200 d\"", "stop = \"60 d\"")]);
+    let timeline = folder.join("messenger-cruise-timeline.toml");
+    let planned = "\n[[command]]\nat = \"2008-04-20T00:00:00 UTC\"\nuntil = \"2008-04-22T00:00:00 UTC\"\nscenario = \"downlink\"\n\
+                   sun = { azimuth = \"8 deg\" }\nstatus = \"planned\"\n";
+    fs::write(&timeline, fs::read_to_string(&timeline).unwrap() + planned).unwrap();
+    let contacts: String =
+        (14..60).map(|day| format!("[[contact]]\nstart = \"{day}.25 d\"\nstop = \"{day}.5 d\"\n")).collect();
+    let activity = "[[activity]]\nname = \"calibration\"\nstart = \"40 d\"\nstop = \"42 d\"\n\
+                    command = { scenario = \"downlink\", sun = { elevation = \"10 deg\" } }\n";
+    let said = plan(folder, &template, &format!("{PLAN}{contacts}{activity}"), 0);
+    says(&said, &["without planned command 1: ", "with calibration: ", "dumps: 0"]);
+    let text = fs::read_to_string(folder.join("out/timeline.toml")).unwrap();
+    assert!(text.contains("status = \"planned\"") && text.contains("alternate = true"), "{text}");
+    let rows = columns(&folder.join("out/plan.csv"), &["time", "downlink.alternate"]);
+    for pair in rows.windows(2) {
+        let [from_d, to_d] = [pair[0][0], pair[1][0]].map(|time_s| time_s / 86_400.0);
+        let meets = (14..60).map(f64::from).any(|day| from_d < day + 0.5 - 1e-9 && to_d > day + 0.25 + 1e-9);
+        assert!(pair[0][1] == 0.0 || to_d - from_d < 1e-9 || !meets, "{pair:?}");
+    }
+}
+
+/// A refit's values fly, three sigma of its covariance are left; other seeds move the centre of mass at every dump.
+#[test]
+fn a_refit_flies_and_leaves_its_margin() {
+    let Some((scratch, template)) = template() else { return };
+    let folder = scratch.path();
+    cruise(folder, &[("stop = \"200 d\"", "stop = \"40 d\"")]);
+    let refit = "{\"centerOfMass_m\": [0.001, 0.0, -0.025], \"scale\": 1.01, \"covariance\": \
+                 [[1e-8,0,0,0],[0,1e-8,0,0],[0,0,1e-8,0],[0,0,0,1e-4]]}";
+    fs::write(folder.join("refit.json"), refit).unwrap();
+    let text = PLAN.replace("limit = 5.5", "limit = 5.5\nrefit = \"refit.json\"");
+    plan(folder, &template, &text, 0);
+    let mission = fs::read_to_string(folder.join("out/mission.toml")).unwrap();
+    assert!(mission.contains("\"spacecraft.centerOfMass\" = [0.001, 0.0, -0.025]"), "{mission}");
+    assert!(mission.contains("\"solar.scale\" = 1.01") && !mission.contains("centerOfMass[3]"), "{mission}");
+    // One per cent of the light for 14 d alone is 0.13 N m s at three sigma.
+    assert!(number(folder, "simulated") < 5.4);
+    let event = "\n[[event]]\nat = \"2008-04-10T00:00:00 UTC\"\ndump = true\n";
+    let timeline = folder.join("messenger-cruise-timeline.toml");
+    fs::write(&timeline, fs::read_to_string(&timeline).unwrap() + event).unwrap();
+    let shift = "[set]\n\"spacecraft.centerOfMassShift\" = [0.002, 0.002, 0.002]";
+    let cruise = folder.join("cruise.toml");
+    fs::write(&cruise, fs::read_to_string(&cruise).unwrap().replace("[set]", shift)).unwrap();
+    fs::write(folder.join("plan.toml"), PLAN).unwrap();
+    let (file, output) = (folder.join("plan.toml"), folder.join("out"));
+    let arguments = ["plan", "momentum", shown(&file), "--output", shown(&output), "--template"];
+    let said = run(&[&arguments[..], &[shown(&template), "--seeds", "5"]].concat(), 0);
+    assert!(said.contains("5 seeds: |H| "), "{said}");
+    let text = fs::read_to_string(folder.join("out/plan.json")).unwrap();
+    let momentum = text.split_once("\"momentum_n_m_s\": {").unwrap().1;
+    let percentile = |key: &str| -> f64 {
+        let rest = momentum.split_once(&format!("\"{key}\": ")).unwrap().1;
+        rest.split([',', '\n']).next().unwrap().trim().parse().unwrap()
+    };
+    assert!(percentile("99") > percentile("50"), "{text}");
+}
+
+#[test]
+fn what_cannot_be_planned_is_refused_by_line() {
+    let Some((scratch, template)) = template() else { return };
+    let folder = scratch.path();
+    cruise(folder, &[("stop = \"200 d\"", "stop = \"40 d\"")]);
+    for (text, expected) in [
+        (PLAN.replace("cruise.toml", "none.toml"), "plan.toml:1: mission: found "),
+        (
+            format!("freeze = \"40 d\"\n{PLAN}"),
+            "plan.toml:1: freeze: found 40 d, no less than the mission's 40 d",
+        ),
+        (
+            format!("window = \"10 min\"\n{PLAN}"),
+            "plan.toml:1: window: found \"10 min\", allowed: a time from 1 h on",
+        ),
+        (
+            format!("windmill = 2\n{PLAN}"),
+            "plan.toml:1: windmill: found 2, allowed: an angle from 0 to 90 deg",
+        ),
+        (
+            format!("alternation = 1.5\n{PLAN}"),
+            "plan.toml:1: alternation: found 1.5, allowed: a share from 0 to 1",
+        ),
+        (
+            PLAN.replace("5.5", "\"5.5 N.m\""),
+            "plan.toml:3: momentum.limit: found \"5.5 N.m\", allowed: a number of N.m.s",
+        ),
+        (
+            format!("{PLAN}[[contact]]\nstart = \"20 d\"\nstop = \"20 d\"\n"),
+            "plan.toml:9: contact[1].stop: found \"20 d\", not after `start`",
+        ),
+        (
+            format!(
+                "{PLAN}[[contact]]\nstart = 0\nstop = \"20 d\"\n[[contact]]\nstart = \"19 d\"\nstop = \"21 d\"\n"
+            ),
+            "before the contact above ends",
+        ),
+        (
+            format!("contactShare = 0.5\n{PLAN}[[contact]]\nstart = 0\nstop = 1\n"),
+            "contactShare beside [[contact]]",
+        ),
+        (
+            format!(
+                "{PLAN}[[activity]]\nname = \"a\"\nstart = \"1 d\"\nstop = \"2 d\"\ncommand = {{ scenario = \"downlink\" }}\n"
+            ),
+            "found a time that the mission holds fixed",
+        ),
+        (
+            PLAN.replace("limit = 5.5", "limit = 5.5\nrefit = \"cruise.toml\""),
+            "plan.toml:4: momentum.refit: found ",
+        ),
+    ] {
+        let said = plan(folder, &template, &text, 1);
+        assert!(said.contains(expected), "{expected}: {said}");
+    }
+    // What the mission does not allow.
+    for (edit, expected) in [
+        (("\"cruise\"", "\"orbit\""), "guided.phase: found orbit, allowed: cruise"),
+        (
+            ("[set]", "[set]\n\"articulation.minimumSuns\" = 2.2"),
+            "articulation: found nothing between 2.2 and 4.2 suns",
+        ),
+    ] {
+        cruise(folder, &[("stop = \"200 d\"", "stop = \"40 d\""), edit]);
+        let said = plan(folder, &template, PLAN, 1);
+        assert!(said.contains(expected), "{expected}: {said}");
+    }
+    assert!(fs::read_to_string(folder.join("out/plan.json")).unwrap().contains("\"limit\": \"corridor\""));
+    // Panels that no windmill angle turns.
+    cruise(folder, &[("stop = \"200 d\"", "stop = \"40 d\"")]);
+    let craft = folder.join("messenger.toml");
+    let text = fs::read_to_string(&craft).unwrap();
+    fs::write(&craft, text.replace("[[panels]]", "[[panels]]\nwindmill_side = 0")).unwrap();
+    let said = plan(folder, &template, &format!("windmill = \"1 deg\"\n{PLAN}"), 1);
+    assert!(said.contains("plan.toml:1: windmill: found panels without a side"), "{said}");
+    // Contacts where alternation is needed.
+    cruise(folder, &[("stop = \"200 d\"", "stop = \"60 d\"")]);
+    let only = "mission = \"cruise.toml\"\nwindmill = 0\n[momentum]\nlimit = 5.5\n";
+    plan(folder, &template, only, 0);
+    let said = plan(folder, &template, &format!("{only}[[contact]]\nstart = \"15 d\"\nstop = \"45 d\"\n"), 1);
+    assert!(said.contains("plan.toml:5: contact[1]: found contacts that fill the window"), "{said}");
+}

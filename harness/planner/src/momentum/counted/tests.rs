@@ -1,0 +1,89 @@
+//! Counts against closed forms and against all choices.
+
+use nalgebra::Vector3;
+
+use super::*;
+use crate::momentum::{
+    flown::Flown,
+    test_craft::{DAY_S, craft, flown, task},
+    windows::Reach,
+};
+
+fn model(reach: Reach, limit: f64, flown: impl Fn(&crate::momentum::torque::LitCraft) -> Flown) -> Model {
+    let craft = craft([0.0; 3]);
+    let task = task(limit, reach);
+    let flown = flown(&craft);
+    let (windows, _) = task.layout.windows(&flown).unwrap();
+    Model::new(&craft, flown, windows, task.limit)
+}
+
+/// A torque along one direction through T t: the first dump after L, the others after 2 L each.
+#[test]
+fn dumps_of_a_constant_torque_are_counted_in_closed_form() {
+    let per_day = 1.0;
+    for (limit, days) in [(1.02, 12), (2.1, 12), (5.0, 12), (20.0, 12)] {
+        let model = model(Reach::default(), limit, |craft| {
+            let mut flown = flown(craft, days, 3000.0);
+            for row in &mut flown.rows {
+                row.other_torque_n_m = Vector3::x() * (per_day / DAY_S);
+            }
+            flown
+        });
+        let expected = ((per_day * f64::from(days) - limit) / (2.0 * limit)).ceil().max(0.0) as usize;
+        let found = fewest_dumps(&model, 0.0, &mut || {}).unwrap();
+        assert_eq!(found.at_least, expected, "{limit}");
+        assert_eq!(found.rows.len(), expected);
+        let first = first_exceeded_s(&model, 0.0);
+        assert_eq!(first.is_some(), expected > 0);
+        if let Some(first_s) = first {
+            let at_d = limit / per_day;
+            // Instants are a sixth of a day apart.
+            assert!((first_s / DAY_S - at_d).abs() <= 1.0 / 6.0 + 1e-9, "{first_s}");
+        }
+    }
+}
+
+/// A torque that turns round needs windmill angles that do; the fewest changes are those of all choices.
+#[test]
+fn changes_are_the_fewest_of_all_choices() {
+    let reach = Reach { windmill_rad: 0.05, ..Reach::default() };
+    for (pattern, limit) in [
+        ([1.0, 1.0, -1.0, -1.0, 1.0, 1.0, -1.0], 0.6),
+        ([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0], 0.6),
+        ([1.0, 1.0, 1.0, -1.0, 0.5, 0.5, -1.0], 0.9),
+        ([0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1], 0.9),
+    ] {
+        let model = model(reach, limit, |craft| {
+            let mut flown = flown(craft, 7, 0.4);
+            let sun = flown.rows[0].to_sun_m.normalize();
+            for row in &mut flown.rows {
+                let day = ((row.time_s / DAY_S) as usize).min(6);
+                row.other_torque_n_m = sun * (pattern[day] / DAY_S);
+            }
+            flown
+        });
+        let until = Instant::now() + std::time::Duration::from_secs(60);
+        let found = fewest_changes(&model, 0.0, until, &mut || {});
+        let mut fewest = None;
+        for places in 0_u32..1 << 6 {
+            let mut leader = 0;
+            let leaders: Vec<usize> = (0..7)
+                .map(|window| {
+                    if window > 0 && places >> (window - 1) & 1 == 1 {
+                        leader = window;
+                    }
+                    leader
+                })
+                .collect();
+            let part = Part { steps: [0, model.instants().len()], free: false };
+            if is_kept(&model, &leaders, part, 0.0, 1.0) {
+                let count = places.count_ones() as usize;
+                fewest = Some(fewest.map_or(count, |least: usize| least.min(count)));
+            }
+        }
+        assert_eq!(found.as_ref().map(|it| it.changes), fewest, "{pattern:?}");
+        if let Some(found) = found {
+            assert_eq!(found.at_least, found.changes);
+        }
+    }
+}

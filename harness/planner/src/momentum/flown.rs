@@ -1,0 +1,118 @@
+//! A flight as the FMU reports it: geometry, attitude, torque and momentum at its communication points.
+
+use nalgebra::{Rotation3, UnitQuaternion, Vector3};
+
+/// What is known at one time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlownRow {
+    /// In s of the flight.
+    pub time_s: f64,
+    /// To the Sun's centre, EME2000, in m.
+    pub to_sun_m: Vector3<f64>,
+    /// To the Earth's centre, EME2000, in m.
+    pub to_earth_m: Vector3<f64>,
+    /// Visible share of the Sun's disc.
+    pub lit_fraction: f64,
+    /// The attitude.
+    pub inertial_from_body: Rotation3<f64>,
+    /// How each panel stands about its axis, in rad.
+    pub panel_angles_rad: Vec<f64>,
+    /// Torque of everything but direct sunlight, EME2000, in N m.
+    pub other_torque_n_m: Vector3<f64>,
+    /// Angular momentum of the whole spacecraft, EME2000, in N m s.
+    pub momentum_n_m_s: Vector3<f64>,
+    /// Dumps so far.
+    pub dumps: u32,
+}
+
+impl FlownRow {
+    /// The row `share` of the way to `next`, with the dumps of this one.
+    fn toward(&self, next: &Self, share: f64) -> Self {
+        let mixed = |a: f64, b: f64| a + share * (b - a);
+        let [from, to] =
+            [self, next].map(|row| UnitQuaternion::from_rotation_matrix(&row.inertial_from_body));
+        let attitude = from.try_slerp(&to, share, 1e-12).unwrap_or(from);
+        let angles = self.panel_angles_rad.iter().zip(&next.panel_angles_rad);
+        Self {
+            time_s: mixed(self.time_s, next.time_s),
+            to_sun_m: self.to_sun_m.lerp(&next.to_sun_m, share),
+            to_earth_m: self.to_earth_m.lerp(&next.to_earth_m, share),
+            lit_fraction: mixed(self.lit_fraction, next.lit_fraction),
+            inertial_from_body: attitude.to_rotation_matrix(),
+            panel_angles_rad: angles.map(|(a, b)| mixed(*a, *b)).collect(),
+            other_torque_n_m: self.other_torque_n_m.lerp(&next.other_torque_n_m, share),
+            momentum_n_m_s: self.momentum_n_m_s.lerp(&next.momentum_n_m_s, share),
+            dumps: self.dumps,
+        }
+    }
+}
+
+/// A flight; its times grow.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Flown {
+    /// At least two.
+    pub rows: Vec<FlownRow>,
+}
+
+impl Flown {
+    /// The flight with a row at each of these times that lies within it, interpolated where it has none.
+    pub fn with_rows_at(&self, times_s: &[f64]) -> Self {
+        let mut rows = self.rows.clone();
+        for &time_s in times_s {
+            let after = rows.partition_point(|row| row.time_s < time_s);
+            let Some(next) = rows.get(after) else { continue };
+            if (next.time_s - time_s).abs() <= SAME_S || after == 0 {
+                continue;
+            }
+            let before = &rows[after - 1];
+            if time_s - before.time_s <= SAME_S {
+                continue;
+            }
+            let share = (time_s - before.time_s) / (next.time_s - before.time_s);
+            let row = before.toward(next, share);
+            rows.insert(after, row);
+        }
+        Self { rows }
+    }
+
+    /// The flight with what another one reports within a span.
+    pub fn with_part_of(&self, other: &Self, [from_s, to_s]: [f64; 2]) -> Self {
+        let is_inside = |row: &&FlownRow| row.time_s > from_s + SAME_S && row.time_s < to_s - SAME_S;
+        let mut rows: Vec<FlownRow> =
+            self.rows.iter().filter(|row| row.time_s <= from_s + SAME_S).cloned().collect();
+        rows.extend(other.rows.iter().filter(is_inside).cloned());
+        rows.extend(self.rows.iter().filter(|row| row.time_s >= to_s - SAME_S).cloned());
+        Self { rows }
+    }
+
+    /// What is known at a time within the flight, interpolated.
+    pub fn at(&self, time_s: f64) -> Option<FlownRow> {
+        let with = self.with_rows_at(&[time_s]);
+        with.rows.into_iter().find(|row| (row.time_s - time_s).abs() <= SAME_S)
+    }
+
+    /// Momentum at a time, in N m s, interpolated; behind a dump that which it leaves.
+    pub fn momentum_n_m_s(&self, time_s: f64) -> Vector3<f64> {
+        let after = self.rows.partition_point(|row| row.time_s < time_s - SAME_S);
+        match (after.checked_sub(1).and_then(|before| self.rows.get(before)), self.rows.get(after)) {
+            (_, Some(next)) if next.time_s <= time_s + SAME_S => next.momentum_n_m_s,
+            (Some(before), Some(next)) => {
+                let share = (time_s - before.time_s) / (next.time_s - before.time_s);
+                before.momentum_n_m_s.lerp(&next.momentum_n_m_s, share)
+            }
+            (None, Some(row)) | (Some(row), None) => row.momentum_n_m_s,
+            (None, None) => Vector3::zeros(),
+        }
+    }
+
+    /// Greatest |H|, in N m s, and when.
+    pub fn greatest_momentum(&self) -> (f64, f64) {
+        self.rows.iter().fold((0.0, f64::NAN), |(greatest, at_s), row| {
+            let momentum = row.momentum_n_m_s.norm();
+            if momentum > greatest { (momentum, row.time_s) } else { (greatest, at_s) }
+        })
+    }
+}
+
+/// Times nearer than this are one.
+pub const SAME_S: f64 = 1e-3;

@@ -1,0 +1,472 @@
+//! Linear model of a flight: momentum gained from row to row in windows, by unit of each control of each window.
+//!
+//! Between two rows of the flight the momentum gained is the mean of both torques times the time (trapezoid), about the present controls;
+//! what a flight through the FMU gained more with the same controls is added. So the model agrees with the last flight whatever effects
+//! that had, and its derivatives are those of sunlight.
+
+use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
+
+use super::{
+    flown::{Flown, FlownRow, SAME_S},
+    program::{Begin, Program, Step},
+    torque::{Attitude, CONTROLS, Control, LitCraft},
+    windows::{Window, WindowKind},
+};
+
+/// Instants of the programme in a window, at least.
+const INSTANTS: usize = 8;
+/// Deviations of the refit's errors that the margin holds.
+const SIGMAS: f64 = 3.0;
+
+/// What the momentum is kept below.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// Greatest |H|, in N m s.
+    pub momentum_n_m_s: f64,
+    /// Share of it that is left.
+    pub margin: f64,
+    /// Covariance of the centre of mass (body frame, m) and of the scale of sunlight, where a refit gave it.
+    pub covariance: Option<Matrix4<f64>>,
+}
+
+/// From one row to the next.
+#[derive(Clone, Debug, PartialEq)]
+struct Cell {
+    window: usize,
+    /// Gained at the present controls without the correction.
+    gain: Vector3<f64>,
+    by_control: [Vector3<f64>; CONTROLS],
+    by_error: Matrix3x4<f64>,
+    /// What it leaves where the mission dumps in it.
+    reset: Option<Vector3<f64>>,
+}
+
+/// A flight with windows, linear in their controls.
+#[derive(Clone, Debug)]
+pub(super) struct Model {
+    /// Geometry, with rows at all edges.
+    pub flown: Flown,
+    /// The windows.
+    pub windows: Vec<Window>,
+    /// The limit.
+    pub limit: Limit,
+    /// Before this time nothing is judged, in s.
+    pub judged_from_s: f64,
+    /// Rows at which planned dumps leave any momentum, with what they leave.
+    pub dumps: Vec<(usize, Vector3<f64>)>,
+    cells: Vec<Cell>,
+    /// What the last flight gained more, by cell.
+    corrections: Vec<Vector3<f64>>,
+    /// Last rows of the programme's steps.
+    instants: Vec<usize>,
+    /// By how much |H| between instants exceeds that at them, by step.
+    between: Vec<f64>,
+}
+
+/// Which part of the flight a programme covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Part {
+    /// Its first and its behind-last step.
+    pub steps: [usize; 2],
+    /// Whether it may begin with any momentum.
+    pub free: bool,
+}
+
+impl Model {
+    /// About the controls of the windows.
+    pub(super) fn new(craft: &LitCraft, flown: Flown, windows: Vec<Window>, limit: Limit) -> Self {
+        let edges: Vec<f64> = windows
+            .iter()
+            .flat_map(|window| {
+                window.free_of_contact.iter().flatten().copied().chain([window.start_s, window.stop_s])
+            })
+            .collect();
+        let flown = flown.with_rows_at(&edges);
+        let mut model = Self {
+            corrections: vec![Vector3::zeros(); flown.rows.len().saturating_sub(1)],
+            flown,
+            windows,
+            limit,
+            judged_from_s: f64::NEG_INFINITY,
+            dumps: Vec::new(),
+            cells: Vec::new(),
+            instants: Vec::new(),
+            between: Vec::new(),
+        };
+        model.linearise(craft);
+        model.set_instants();
+        model
+    }
+
+    /// Anew about the present controls.
+    pub(super) fn linearise(&mut self, craft: &LitCraft) {
+        let rows = &self.flown.rows;
+        let mut cells = Vec::with_capacity(rows.len());
+        let mut window = 0;
+        // The end of a cell is the beginning of the next one in the same window.
+        let mut last: Option<(usize, usize, At)> = None;
+        for index in 0..rows.len().saturating_sub(1) {
+            let middle_s = 0.5 * (rows[index].time_s + rows[index + 1].time_s);
+            while window + 1 < self.windows.len() && self.windows[window].stop_s < middle_s {
+                window += 1;
+            }
+            let of = &self.windows[window];
+            let share = of.alternate_at(middle_s);
+            let from = match last.take() {
+                Some((at_window, at, value)) if at_window == window && at == index => value,
+                _ => At::of(craft, &rows[index], of),
+            };
+            let to = At::of(craft, &rows[index + 1], of);
+            cells.push(cell(window, of, [&rows[index], &rows[index + 1]], [&from, &to], share));
+            last = Some((window, index + 1, to));
+        }
+        self.cells = cells;
+    }
+
+    fn set_instants(&mut self) {
+        let mut instants = Vec::new();
+        let mut since_s = self.flown.rows.first().map_or(0.0, |row| row.time_s);
+        for index in 0..self.cells.len() {
+            let cell = &self.cells[index];
+            let of = &self.windows[cell.window];
+            let end_s = self.flown.rows[index + 1].time_s;
+            let next = self.cells.get(index + 1);
+            let ends_window = next.is_none_or(|next| next.window != cell.window);
+            let meets_reset = cell.reset.is_some() || next.is_some_and(|next| next.reset.is_some());
+            let long_s = (of.stop_s - of.start_s).min(LONGEST_WINDOW_S) / INSTANTS as f64;
+            if ends_window || meets_reset || end_s - since_s >= long_s - SAME_S {
+                instants.push(index + 1);
+                since_s = end_s;
+            }
+        }
+        self.between = vec![0.0; instants.len()];
+        self.instants = instants;
+    }
+
+    /// The rows at which the programme's steps end.
+    pub(super) fn instants(&self) -> &[usize] {
+        &self.instants
+    }
+
+    /// Takes what a flight of the present controls gained; the greatest difference of |H| vectors from the plan before.
+    pub(super) fn take(&mut self, flight: &Flown) {
+        let momentum = |row: &FlownRow| flight.momentum_n_m_s(row.time_s);
+        let count_at = |time_s: f64| {
+            let after = flight.rows.partition_point(|row| row.time_s <= time_s + SAME_S);
+            after.checked_sub(1).and_then(|at| flight.rows.get(at)).map_or(0, |row| row.dumps)
+        };
+        for (index, cell) in self.cells.iter().enumerate() {
+            let [from, to] = [&self.flown.rows[index], &self.flown.rows[index + 1]];
+            if cell.reset.is_some() || count_at(from.time_s - 2.0 * SAME_S) != count_at(to.time_s) {
+                continue;
+            }
+            self.corrections[index] = momentum(to) - momentum(from) - cell.gain;
+        }
+    }
+
+    /// Whether the mission dumps in a cell that ends or begins there.
+    pub(super) fn is_reset_at(&self, time_s: f64) -> bool {
+        let is_at = |row: usize| (self.flown.rows[row].time_s - time_s).abs() <= SAME_S;
+        let cells = self.cells.iter().enumerate();
+        cells.filter(|(_, cell)| cell.reset.is_some()).any(|(index, _)| is_at(index) || is_at(index + 1))
+    }
+
+    /// Momentum at every row by the model at the present controls, in N m s.
+    pub(super) fn momentum_n_m_s(&self) -> Vec<Vector3<f64>> {
+        let mut at = self.flown.rows.first().map_or_else(Vector3::zeros, |row| row.momentum_n_m_s);
+        let mut all = vec![at];
+        for (index, cell) in self.cells.iter().enumerate() {
+            if let Some((_, after)) = self.dumps.iter().find(|(row, _)| *row == index) {
+                at = *after;
+            }
+            at = cell.reset.unwrap_or(at + cell.gain + self.corrections[index]);
+            all.push(at);
+        }
+        all
+    }
+
+    /// What |H| may come to at every row: the limit less its margin, in N m s.
+    pub(super) fn allowed_n_m_s(&self) -> Vec<f64> {
+        let limit = &self.limit;
+        let most = limit.momentum_n_m_s * (1.0 - limit.margin);
+        let judged = |row: usize, allowed: f64| {
+            let is_judged = self.flown.rows[row].time_s >= self.judged_from_s - SAME_S;
+            if is_judged { allowed } else { allowed + UNJUDGED * limit.momentum_n_m_s }
+        };
+        let rows = self.flown.rows.len();
+        let Some(covariance) = limit.covariance else {
+            return (0..rows).map(|row| judged(row, most)).collect();
+        };
+        let mut by_error = Matrix3x4::zeros();
+        let mut all = vec![most];
+        for (index, cell) in self.cells.iter().enumerate() {
+            if cell.reset.is_some() || self.dumps.iter().any(|(row, _)| *row == index) {
+                by_error = Matrix3x4::zeros();
+            }
+            by_error += cell.by_error;
+            let of_momentum = by_error * covariance * by_error.transpose();
+            let variance = SymmetricEigen::new(of_momentum).eigenvalues.max().max(0.0);
+            all.push(most - SIGMAS * variance.sqrt());
+        }
+        all.into_iter().enumerate().map(|(row, allowed)| judged(row, allowed)).collect()
+    }
+
+    /// By how much |H| exceeds what is allowed at the worst row, in N m s, and that row.
+    pub(super) fn excess_n_m_s(&self) -> (f64, usize) {
+        let momentum = self.momentum_n_m_s();
+        let over =
+            momentum.iter().zip(self.allowed_n_m_s()).map(|(momentum, allowed)| momentum.norm() - allowed);
+        over.enumerate().fold(
+            (f64::NEG_INFINITY, 0),
+            |(worst, at), (row, over)| {
+                if over > worst { (over, row) } else { (worst, at) }
+            },
+        )
+    }
+
+    /// Looks at how far |H| goes between the instants.
+    pub(super) fn look_between(&mut self) {
+        let momentum: Vec<f64> = self.momentum_n_m_s().iter().map(|it| it.norm()).collect();
+        let allowed = self.allowed_n_m_s();
+        let over = |row: usize| momentum[row] - allowed[row];
+        let mut from = 0;
+        for (step, &to) in self.instants.iter().enumerate() {
+            let inside = (from..=to).map(over).fold(f64::NEG_INFINITY, f64::max);
+            self.between[step] = (inside - over(from).max(over(to))).max(0.0);
+            from = to;
+        }
+        // What lies beyond an instant is held by it too.
+        for step in 1..self.between.len() {
+            self.between[step - 1] = self.between[step - 1].max(self.between[step]);
+        }
+    }
+
+    /// Index of a control in the programmes.
+    pub(super) fn index(leaders: &[usize], window: usize, control: Control) -> usize {
+        let of = match control {
+            Control::Offset | Control::Windmill => leaders[window],
+            Control::Azimuth | Control::Elevation | Control::Alternate => window,
+        };
+        CONTROLS * of + control as usize
+    }
+
+    /// Whether the arrays of every window stand as those of its leader.
+    pub(super) fn is_of(&self, leaders: &[usize]) -> bool {
+        let same = |window: usize, control: Control| {
+            let leader = &self.windows[leaders[window]].controls;
+            (self.windows[window].controls.get(control) - leader.get(control)).abs() < 1e-9
+        };
+        (0..self.windows.len()).all(|it| same(it, Control::Offset) && same(it, Control::Windmill))
+    }
+
+    /// Present controls by their indices.
+    pub(super) fn controls(&self, leaders: &[usize]) -> Vec<f64> {
+        let mut all = vec![0.0; CONTROLS * self.windows.len()];
+        for (index, window) in self.windows.iter().enumerate() {
+            for control in ALL {
+                all[Self::index(leaders, index, control)] = window.controls.get(control);
+            }
+        }
+        all
+    }
+
+    /// The programme of a part, the arrays of every window standing as those of its leader; `guard` is a share of the limit that is
+    /// left, `trust` the share of each control's range by which it may leave its present value.
+    pub(super) fn program(&self, leaders: &[usize], part: Part, [guard, trust]: [f64; 2]) -> Program {
+        let mut program =
+            Program { bounds: vec![[0.0, 0.0]; CONTROLS * self.windows.len()], ..Program::default() };
+        let mut is_set = vec![false; program.bounds.len()];
+        for (index, window) in self.windows.iter().enumerate() {
+            for control in ALL {
+                let at = Self::index(leaders, index, control);
+                let [low, high] = window.bounds[control as usize];
+                let present = window.controls.get(control);
+                let reach = trust * (high - low);
+                let own = [low.max(present - reach), high.min(present + reach)];
+                let bounds = &mut program.bounds[at];
+                *bounds = if is_set[at] { [bounds[0].max(own[0]), bounds[1].min(own[1])] } else { own };
+                is_set[at] = true;
+            }
+        }
+        self.add_steps(&mut program, leaders, part, guard);
+        self.add_corridor(&mut program, leaders);
+        for (index, window) in self.windows.iter().enumerate() {
+            if window.kind != WindowKind::Free {
+                continue;
+            }
+            let weight = (window.stop_s - window.start_s) / DAY_S;
+            let pair = [Control::Azimuth, Control::Elevation].map(|it| Self::index(leaders, index, it));
+            let has_tilt = pair.iter().any(|at| program.bounds[*at][0] < program.bounds[*at][1]);
+            if has_tilt {
+                program.lengths.push((pair, weight));
+            }
+            // Behind the tilt: a hundredth of a degree, not to alternate or windmill for nothing.
+            for control in [Control::Alternate, Control::Windmill] {
+                program.magnitudes.push((Self::index(leaders, index, control), SLIGHT * weight));
+            }
+        }
+        program
+    }
+
+    fn add_steps(&self, program: &mut Program, leaders: &[usize], part: Part, guard: f64) {
+        let allowed = self.allowed_n_m_s();
+        let start = self.flown.rows.first().map_or_else(Vector3::zeros, |row| row.momentum_n_m_s);
+        for step in part.steps[0]..part.steps[1] {
+            let from = step.checked_sub(1).map_or(0, |before| self.instants[before]);
+            let to = self.instants[step];
+            let mut begin = match step == part.steps[0] {
+                true if part.free => Begin::Free,
+                true if step == 0 => Begin::At(start),
+                // A part that does not begin freely is the flight's beginning.
+                true => Begin::At(self.flown.rows[from].momentum_n_m_s),
+                false => Begin::Follows,
+            };
+            if self.dumps.iter().any(|(row, _)| *row == from) {
+                begin = Begin::Free;
+            }
+            let mut drift = Vector3::zeros();
+            let mut terms: Vec<(usize, Vector3<f64>)> = Vec::new();
+            for index in from..to {
+                let cell = &self.cells[index];
+                if let Some(after) = cell.reset {
+                    begin = Begin::At(after);
+                    continue;
+                }
+                drift += cell.gain + self.corrections[index];
+                let controls = &self.windows[cell.window].controls;
+                for control in ALL {
+                    let gain = cell.by_control[control as usize];
+                    if gain == Vector3::zeros() {
+                        continue;
+                    }
+                    drift -= gain * controls.get(control);
+                    let at = Self::index(leaders, cell.window, control);
+                    match terms.iter_mut().find(|(index, _)| *index == at) {
+                        Some((_, sum)) => *sum += gain,
+                        None => terms.push((at, gain)),
+                    }
+                }
+            }
+            let limit = allowed[to] - guard * self.limit.momentum_n_m_s - self.between[step];
+            program.steps.push(Step { begin, drift, terms, limit });
+        }
+    }
+
+    /// The light on the cells of every panel within its corridor.
+    fn add_corridor(&self, program: &mut Program, leaders: &[usize]) {
+        for (index, window) in self.windows.iter().enumerate() {
+            let [offset, windmill] =
+                [Control::Offset, Control::Windmill].map(|it| Self::index(leaders, index, it));
+            if program.bounds[windmill][0] >= program.bounds[windmill][1]
+                && program.bounds[offset][0] >= program.bounds[offset][1]
+            {
+                continue;
+            }
+            for &side in &window.sides {
+                let [low, high] = window.offsets_rad;
+                program.sums.push((vec![(offset, 1.0), (windmill, side)], high));
+                program.sums.push((vec![(offset, -1.0), (windmill, -side)], -low));
+            }
+        }
+    }
+}
+
+/// Limits that nothing is judged by, where nothing is judged.
+const UNJUDGED: f64 = 1e3;
+/// Windows count as no longer than this where instants are chosen, in s.
+const LONGEST_WINDOW_S: f64 = 3.0 * DAY_S;
+const DAY_S: f64 = 86_400.0;
+/// Cost of a day in the alternate attitude or of a radian of windmilling, against a day with a radian of tilt.
+const SLIGHT: f64 = 1e-3;
+/// All controls.
+pub(super) const ALL: [Control; CONTROLS] =
+    [Control::Offset, Control::Windmill, Control::Azimuth, Control::Elevation, Control::Alternate];
+
+/// Torque and what it changes by, at a row in a window.
+struct At {
+    torque: Vector3<f64>,
+    by_angle: [Vector3<f64>; 4],
+    by_center: Matrix3<f64>,
+    half_turn: Matrix3<f64>,
+    scale: f64,
+    other: Vector3<f64>,
+}
+
+impl At {
+    fn of(craft: &LitCraft, row: &FlownRow, window: &Window) -> Self {
+        let (attitude, controls) = match window.kind {
+            WindowKind::Free => (Attitude::Downlink, window.controls),
+            _ => (Attitude::Flown, window.controls),
+        };
+        let mut found = craft.linearised(row, attitude, &controls);
+        if window.kind == WindowKind::Frozen {
+            found.torque = craft.flown_torque_n_m(row);
+            found.by_angle = [Vector3::zeros(); 4];
+        }
+        Self {
+            torque: found.torque,
+            by_angle: found.by_angle,
+            by_center: found.by_center,
+            half_turn: found.half_turn,
+            scale: craft.light.scale,
+            other: row.other_torque_n_m,
+        }
+    }
+
+    /// With a share in the alternate attitude: torque, its derivatives by the angles, the difference of the attitudes, and that by errors.
+    fn mean(&self, share: f64) -> (Vector3<f64>, [Vector3<f64>; 4], Vector3<f64>, Matrix3x4<f64>) {
+        let mix = Matrix3::identity() * (1.0 - share) + self.half_turn * share;
+        let solar = mix * self.torque;
+        let by_center = mix * self.by_center;
+        let by_scale = if self.scale > 0.0 { solar / self.scale } else { Vector3::zeros() };
+        let by_error = Matrix3x4::from_columns(&[
+            by_center.column(0).into_owned(),
+            by_center.column(1).into_owned(),
+            by_center.column(2).into_owned(),
+            by_scale,
+        ]);
+        (
+            solar + self.other,
+            self.by_angle.map(|it| mix * it),
+            self.half_turn * self.torque - self.torque,
+            by_error,
+        )
+    }
+}
+
+fn cell(
+    window: usize,
+    of: &Window,
+    rows: [&FlownRow; 2],
+    at: [&At; 2],
+    (share, share_by_control): (f64, f64),
+) -> Cell {
+    let duration_s = rows[1].time_s - rows[0].time_s;
+    let [from, to] = at.map(|at| at.mean(share));
+    let half_s = 0.5 * duration_s;
+    let mut by_control = [Vector3::zeros(); CONTROLS];
+    for (sum, (a, b)) in by_control.iter_mut().zip(from.1.iter().zip(&to.1)) {
+        *sum = (a + b) * half_s;
+    }
+    by_control[Control::Alternate as usize] = (from.2 + to.2) * (half_s * share_by_control);
+    for control in ALL {
+        let [low, high] = of.bounds[control as usize];
+        if low >= high {
+            by_control[control as usize] = Vector3::zeros();
+        }
+    }
+    let gain = match of.kind {
+        WindowKind::Frozen => rows[1].momentum_n_m_s - rows[0].momentum_n_m_s,
+        _ => (from.0 + to.0) * half_s,
+    };
+    Cell {
+        window,
+        gain,
+        by_control,
+        by_error: (from.3 + to.3) * half_s,
+        reset: (rows[1].dumps != rows[0].dumps).then_some(rows[1].momentum_n_m_s),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,476 @@
+//! The optimal plan: fewest dumps, then fewest changes of the arrays, then least tilt, flown and linearised again until both agree.
+//!
+//! Each round linearises the momentum about the present controls, solves, and flies the answer through the FMU; what the flight gained
+//! more than the model is added to the model of the next round. A round ends the search where flight and plan differ by no more than
+//! [`AGREED`] of the limit and the flight stays below the limit. Within a round the programme is solved again about its own answer
+//! (sequential convex programming) with the range of the controls around it narrowed, for tilt, windmilling and alternation multiply.
+
+use std::time::{Duration, Instant};
+
+use nalgebra::{Rotation3, Unit, Vector3};
+
+use super::{
+    baseline::{NoOffset, OffsetStep},
+    counted::{self, Groups},
+    flown::{Flown, FlownRow, SAME_S},
+    model::{ALL, Limit, Model, Part},
+    program::{Goal, Program, Solution},
+    torque::{Attitude, Control, Controls, LitCraft},
+    windows::{Layout, Window, WindowKind},
+};
+
+/// Flight and plan agree where they differ by less than this share of the limit.
+pub const AGREED: f64 = 0.02;
+/// Share of the limit that a plan leaves, for what it cannot know before the flight.
+const GUARD: f64 = 0.01;
+/// Rounds at most.
+const MOST_ROUNDS: usize = 8;
+/// Solutions within a round at most.
+const MOST_STEPS: usize = 24;
+/// By which the range about the present controls narrows where the model fails, and where that ends.
+const NARROWED: f64 = 0.4;
+const LEAST_TRUST: f64 = 2e-3;
+/// What a N m s over the limit costs, against a day with a radian of tilt.
+const PENALTY: f64 = 1e3;
+/// Share of the range at the beginning, and behind a flight, from which little is left to correct.
+const WHOLE: f64 = 1.0;
+const LITTLE: [f64; 3] = [0.05, 0.15, 0.5];
+/// A gain in merit below this share is none.
+const TAKEN: f64 = 1e-4;
+
+/// What is planned.
+#[derive(Clone, Debug)]
+pub struct PlanTask {
+    /// Windows, contacts, how far controls go.
+    pub layout: Layout,
+    /// What momentum is kept below.
+    pub limit: Limit,
+    /// Dumps that the plan may have.
+    pub dumps: usize,
+    /// Time for counted changes, in s.
+    pub budget_s: f64,
+}
+
+/// A dump of the plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlannedDump {
+    /// In s of the flight.
+    pub at_s: f64,
+    /// Momentum after it, EME2000, in N m s.
+    pub after_n_m_s: Vector3<f64>,
+}
+
+/// What a plan says at a row of its flight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlannedRow {
+    /// In s of the flight.
+    pub time_s: f64,
+    /// |H| as planned, in N m s.
+    pub planned_n_m_s: f64,
+    /// |H| as flown, in N m s.
+    pub simulated_n_m_s: f64,
+    /// What it may come to, in N m s.
+    pub allowed_n_m_s: f64,
+    /// Length of the difference of both, in N m s.
+    pub difference_n_m_s: f64,
+}
+
+/// What stands in the way of a plan without dumps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exceeded {
+    /// By which the limit is exceeded without dumps at best, in N m s.
+    pub excess_n_m_s: f64,
+    /// When it is first, in s of the flight: no choice of controls keeps the limit up to then.
+    pub first_s: f64,
+}
+
+/// A plan.
+#[derive(Clone, Debug)]
+pub struct MomentumPlan {
+    /// With their controls.
+    pub windows: Vec<Window>,
+    /// Steps of the baseline.
+    pub baseline: Vec<OffsetStep>,
+    /// Its dumps, in order.
+    pub dumps: Vec<PlannedDump>,
+    /// No plan has fewer.
+    pub dumps_at_least: usize,
+    /// Changes of the arrays.
+    pub changes: usize,
+    /// No plan has fewer.
+    pub changes_at_least: usize,
+    /// Row by row.
+    pub rows: Vec<PlannedRow>,
+    /// Flights that it took.
+    pub rounds: usize,
+    /// Whether the last flight agrees with it and stays below the limit.
+    pub holds: bool,
+    /// Where the limit is not kept without dumps.
+    pub exceeded: Option<Exceeded>,
+    /// The last flight.
+    pub flight: Flown,
+}
+
+impl MomentumPlan {
+    /// Greatest |H| as planned and as flown, in N m s.
+    pub fn greatest_n_m_s(&self) -> [f64; 2] {
+        let most = |of: fn(&PlannedRow) -> f64| self.rows.iter().map(of).fold(0.0, f64::max);
+        [most(|row| row.planned_n_m_s), most(|row| row.simulated_n_m_s)]
+    }
+
+    /// Greatest difference of flight and plan, in N m s.
+    pub fn difference_n_m_s(&self) -> f64 {
+        self.rows.iter().map(|row| row.difference_n_m_s).fold(0.0, f64::max)
+    }
+}
+
+/// Why there is no plan at all.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanError {
+    /// The corridor is empty somewhere.
+    #[error("no offset keeps the light on the cells in its corridor {distance_au:.3} AU from the Sun", distance_au = .0.distance_au)]
+    Corridor(NoOffset),
+    /// A flight failed.
+    #[error("{0}")]
+    Flight(Box<dyn std::error::Error>),
+    /// The solver found nothing.
+    #[error("no programme was solved: {0}")]
+    Programme(&'static str),
+}
+
+/// How a plan is flown.
+pub trait Flies {
+    /// Flies windows and dumps.
+    ///
+    /// # Errors
+    /// The flight fails.
+    fn fly(&mut self, windows: &[Window], dumps: &[PlannedDump])
+    -> Result<Flown, Box<dyn std::error::Error>>;
+
+    /// Told what goes on.
+    fn progress(&mut self, doing: &str);
+}
+
+/// The whole flight as a part.
+fn whole(model: &Model) -> Part {
+    Part { steps: [0, model.instants().len()], free: false }
+}
+
+/// Gives every window the controls of a solution, and every dump its momentum.
+fn give(model: &mut Model, leaders: &[usize], solution: &Solution) {
+    for index in 0..model.windows.len() {
+        let mut controls = Controls::default();
+        for control in ALL {
+            controls = controls.with(control, solution.controls[Model::index(leaders, index, control)]);
+        }
+        model.windows[index].controls = controls;
+    }
+    for ((_, after), begin) in model.dumps.iter_mut().zip(&solution.begins) {
+        *after = *begin;
+    }
+}
+
+/// What a solution is judged by: cost, and what the limits are exceeded by.
+fn merit(program: &Program, controls: &[f64], excess_n_m_s: f64, goal: Goal) -> f64 {
+    match goal {
+        Goal::LeastExcess => excess_n_m_s,
+        Goal::LeastCost => program.cost(controls) + PENALTY * excess_n_m_s.max(0.0),
+    }
+}
+
+/// Solves about its own answers, from `trust` of the range of every control on; whether the limits are kept.
+///
+/// A trust region: an answer is taken where the model about it is better by the merit, and the range narrows where it is not.
+fn refine(
+    model: &mut Model,
+    craft: &LitCraft,
+    leaders: &[usize],
+    (goal, mut trust): (Goal, f64),
+    flies: &mut dyn Flies,
+) -> Result<bool, PlanError> {
+    let limit = model.limit.momentum_n_m_s;
+    // What instants leave, rows between them may use in part.
+    let exceeded = |model: &Model| model.excess_n_m_s().0 + 0.5 * GUARD * limit;
+    model.look_between();
+    let mut merit_now = f64::INFINITY;
+    for step in 0..MOST_STEPS {
+        flies.progress("momentum");
+        let program = model.program(leaders, whole(model), [GUARD, trust]);
+        if step == 0 && model.is_of(leaders) {
+            merit_now = merit(&program, &model.controls(leaders), exceeded(model), goal);
+        }
+        let cheapest = (goal == Goal::LeastCost).then(|| program.solve(Goal::LeastCost)).flatten();
+        let Some(solution) = cheapest.or_else(|| program.solve(Goal::LeastExcess)) else {
+            if step == 0 {
+                return Err(PlanError::Programme("the bounds of the controls leave none"));
+            }
+            break;
+        };
+        let mut next = model.clone();
+        give(&mut next, leaders, &solution);
+        next.linearise(craft);
+        next.look_between();
+        let found = merit(&program, &solution.controls, exceeded(&next), goal);
+        let predicted = merit(&program, &solution.controls, solution.excess, goal);
+        if found < merit_now || (step == 0 && merit_now.is_infinite()) {
+            let gained = merit_now - found;
+            let promised = merit_now - predicted;
+            *model = next;
+            merit_now = found;
+            // What is gained no more is not sought.
+            if gained < TAKEN * found.abs().max(limit) && exceeded(model) <= 0.0 {
+                break;
+            }
+            match gained / promised {
+                ratio if ratio > 0.75 => trust = (2.0 * trust).min(WHOLE),
+                ratio if ratio < 0.25 => trust *= NARROWED,
+                _ => {}
+            }
+        } else {
+            trust *= NARROWED;
+            if trust < LEAST_TRUST {
+                break;
+            }
+        }
+    }
+    Ok(model.excess_n_m_s().0 <= 0.0)
+}
+
+/// What was counted in an earlier round.
+struct Structure {
+    groups: Groups,
+    dumps_at_least: usize,
+    exceeded: Option<Exceeded>,
+}
+
+/// Counts dumps and changes about the model.
+fn structure(
+    model: &mut Model,
+    craft: &LitCraft,
+    task: &PlanTask,
+    flies: &mut dyn Flies,
+) -> Result<Structure, PlanError> {
+    let single = counted::single(model);
+    let (mut dumps_at_least, mut exceeded) = (0, None);
+    let start = model.windows.clone();
+    if !refine(model, craft, &single, (Goal::LeastCost, WHOLE), flies)? {
+        // Another way: from the start again, as far below the limit as it goes.
+        let first = (model.excess_n_m_s().0, model.windows.clone());
+        model.windows = start;
+        model.linearise(craft);
+        if !refine(model, craft, &single, (Goal::LeastExcess, WHOLE), flies)? {
+            if first.0 < model.excess_n_m_s().0 {
+                model.windows = first.1;
+                model.linearise(craft);
+            }
+            let excess_n_m_s = model.excess_n_m_s().0;
+            flies.progress("dumps");
+            let found = counted::fewest_dumps(model, GUARD, &mut || flies.progress("dumps"));
+            let Some(found) = found else {
+                return Err(PlanError::Programme("the limit is exceeded between two instants"));
+            };
+            dumps_at_least = found.at_least;
+            if let Some(row) = found.rows.first() {
+                let first_s =
+                    counted::first_exceeded_s(model, GUARD).unwrap_or(model.flown.rows[*row].time_s);
+                exceeded = Some(Exceeded { excess_n_m_s, first_s });
+            }
+            model.dumps = found.rows.into_iter().map(|row| (row, Vector3::zeros())).collect();
+            refine(model, craft, &single, (Goal::LeastCost, WHOLE), flies)?;
+        }
+    }
+    flies.progress("changes");
+    let until = Instant::now() + Duration::from_secs_f64(task.budget_s.clamp(0.0, 1e6));
+    let groups = counted::fewest_changes(model, GUARD, until, &mut || flies.progress("changes"));
+    let groups = groups.unwrap_or_else(|| Groups { changes: single.len() - 1, at_least: 0, leaders: single });
+    Ok(Structure { groups, dumps_at_least, exceeded })
+}
+
+/// The optimal plan of a mission whose flight is given.
+///
+/// # Errors
+/// A corridor without an offset, a flight that fails, a programme without an answer.
+pub fn plan(
+    task: &PlanTask,
+    craft: &LitCraft,
+    flown: &Flown,
+    flies: &mut dyn Flies,
+) -> Result<MomentumPlan, PlanError> {
+    let (windows, baseline) = task.layout.windows(flown).map_err(PlanError::Corridor)?;
+    let mut model = Model::new(craft, flown.clone(), windows, task.limit.clone());
+    let mut counts: Option<Structure> = None;
+    let mut rounds = 0;
+    loop {
+        rounds += 1;
+        let is_counted_now = counts.is_none();
+        if is_counted_now {
+            counts = Some(structure(&mut model, craft, task, flies)?);
+        }
+        let Some(found) = &counts else { continue };
+        let leaders = found.groups.leaders.clone();
+        let mut kept = false;
+        let ranges: &[f64] = if is_counted_now { &[WHOLE] } else { &LITTLE };
+        for trust in ranges {
+            kept = kept || refine(&mut model, craft, &leaders, (Goal::LeastCost, *trust), flies)?;
+        }
+        let dumps = planned_dumps(&model);
+        flies.progress("flight");
+        let flight = flies.fly(&model.windows, &dumps).map_err(PlanError::Flight)?;
+        let rows = rows(&model, &flight);
+        let limit = task.limit.momentum_n_m_s;
+        let off = rows.iter().map(|row| row.difference_n_m_s).fold(0.0, f64::max);
+        let below = rows.iter().all(|row| row.simulated_n_m_s <= row.allowed_n_m_s)
+            && flight.greatest_momentum().0 <= limit * (1.0 - task.limit.margin);
+        let holds = off <= AGREED * limit && below;
+        if holds || rounds == MOST_ROUNDS {
+            return Ok(MomentumPlan {
+                windows: model.windows,
+                baseline,
+                dumps,
+                dumps_at_least: found.dumps_at_least,
+                changes: found.groups.changes,
+                changes_at_least: found.groups.at_least,
+                rows,
+                rounds,
+                holds,
+                exceeded: found.exceeded,
+                flight,
+            });
+        }
+        model.take(&flight);
+        model.look_between();
+        if !kept {
+            // What was counted does not do about the flight.
+            model.dumps.clear();
+            counts = None;
+        }
+    }
+}
+
+/// Momentum after a dump in the body frame as it stands then, in N m s.
+pub fn body_momentum_n_m_s(
+    craft: &LitCraft,
+    flown: &Flown,
+    windows: &[Window],
+    dump: &PlannedDump,
+) -> Vector3<f64> {
+    let Some(row) = flown.at(dump.at_s) else { return dump.after_n_m_s };
+    let holds = |window: &&Window| window.start_s <= dump.at_s && window.stop_s > dump.at_s;
+    let window = windows.iter().find(holds).filter(|window| window.kind == WindowKind::Free);
+    let mut inertial_from_body = row.inertial_from_body;
+    if let Some(window) = window {
+        let [azimuth_rad, elevation_rad] =
+            [Control::Azimuth, Control::Elevation].map(|it| window.controls.get(it));
+        if let Some(found) = craft.downlink_attitude(&row, azimuth_rad, elevation_rad) {
+            inertial_from_body = found;
+        }
+        let is_alternate = |[from_s, to_s]: &[f64; 2]| (*from_s..*to_s).contains(&dump.at_s);
+        if window.alternate_spans_s().iter().any(is_alternate) {
+            let axis = Unit::new_normalize(row.to_sun_m);
+            inertial_from_body =
+                Rotation3::from_axis_angle(&axis, core::f64::consts::PI) * inertial_from_body;
+        }
+    }
+    inertial_from_body.inverse() * dump.after_n_m_s
+}
+
+/// The model of a mission before any flight of a plan.
+fn bare(task: &PlanTask, craft: &LitCraft, flown: &Flown) -> Result<Model, PlanError> {
+    let (windows, _) = task.layout.windows(flown).map_err(PlanError::Corridor)?;
+    Ok(Model::new(craft, flown.clone(), windows, task.limit.clone()))
+}
+
+/// Tells nobody.
+struct Silent;
+
+impl Flies for Silent {
+    fn fly(&mut self, _: &[Window], _: &[PlannedDump]) -> Result<Flown, Box<dyn std::error::Error>> {
+        Err("nothing is flown here".into())
+    }
+
+    fn progress(&mut self, _: &str) {}
+}
+
+/// By how much the limit is exceeded from a time on without dumps at best, in N m s, by the model before any flight of a plan; negative
+/// below.
+///
+/// # Errors
+/// A corridor without an offset, a programme without an answer.
+pub fn least_excess_n_m_s(
+    task: &PlanTask,
+    craft: &LitCraft,
+    flown: &Flown,
+    from_s: f64,
+) -> Result<f64, PlanError> {
+    let mut model = bare(task, craft, flown)?;
+    model.judged_from_s = from_s;
+    let single = counted::single(&model);
+    refine(&mut model, craft, &single, (Goal::LeastExcess, WHOLE), &mut Silent)?;
+    Ok(model.excess_n_m_s().0)
+}
+
+/// The fewest dumps, by the same model; `None` where dumps do not help.
+///
+/// # Errors
+/// A corridor without an offset, a programme without an answer.
+pub fn fewest_dumps(task: &PlanTask, craft: &LitCraft, flown: &Flown) -> Result<Option<usize>, PlanError> {
+    let mut model = bare(task, craft, flown)?;
+    let single = counted::single(&model);
+    if refine(&mut model, craft, &single, (Goal::LeastExcess, WHOLE), &mut Silent)? {
+        return Ok(Some(0));
+    }
+    Ok(counted::fewest_dumps(&model, GUARD, &mut || {}).map(|found| found.at_least))
+}
+
+/// Momentum that a downlink with the Sun on -Y would gather over a span, the arrays standing as in the windows, EME2000, in N m s.
+pub fn downlink_momentum_n_m_s(
+    craft: &LitCraft,
+    flown: &Flown,
+    windows: &[Window],
+    [from_s, to_s]: [f64; 2],
+) -> Vector3<f64> {
+    let with = flown.with_rows_at(&[from_s, to_s]);
+    let inside: Vec<_> =
+        with.rows.iter().filter(|row| (from_s - SAME_S..=to_s + SAME_S).contains(&row.time_s)).collect();
+    let torque = |row: &FlownRow| {
+        let window = windows.iter().find(|window| window.stop_s >= row.time_s);
+        let controls = window.map(|window| window.controls).unwrap_or_default();
+        let controls = controls.with(Control::Azimuth, 0.0).with(Control::Elevation, 0.0);
+        craft.torque_n_m(row, Attitude::Downlink, &controls) + row.other_torque_n_m
+    };
+    let pairs = inside.windows(2);
+    pairs.map(|pair| (torque(pair[0]) + torque(pair[1])) * (0.5 * (pair[1].time_s - pair[0].time_s))).sum()
+}
+
+fn planned_dumps(model: &Model) -> Vec<PlannedDump> {
+    let dumps = model.dumps.iter();
+    dumps
+        .map(|(row, after)| PlannedDump { at_s: model.flown.rows[*row].time_s, after_n_m_s: *after })
+        .collect()
+}
+
+fn rows(model: &Model, flight: &Flown) -> Vec<PlannedRow> {
+    let (momentum, allowed) = (model.momentum_n_m_s(), model.allowed_n_m_s());
+    let is_at_dump = |time_s: f64| {
+        let of_model =
+            model.dumps.iter().any(|(row, _)| (model.flown.rows[*row].time_s - time_s).abs() <= SAME_S);
+        of_model || model.is_reset_at(time_s)
+    };
+    let all = model.flown.rows.iter().zip(&momentum).zip(&allowed);
+    all.map(|((row, planned), allowed)| {
+        let simulated = flight.momentum_n_m_s(row.time_s);
+        // At a dump the one is before it, the other behind.
+        let difference = if is_at_dump(row.time_s) { 0.0 } else { (simulated - planned).norm() };
+        PlannedRow {
+            time_s: row.time_s,
+            planned_n_m_s: planned.norm(),
+            simulated_n_m_s: simulated.norm(),
+            allowed_n_m_s: *allowed,
+            difference_n_m_s: difference,
+        }
+    })
+    .collect()
+}
+
+#[cfg(test)]
+mod tests;

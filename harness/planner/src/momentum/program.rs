@@ -1,0 +1,296 @@
+//! Convex programme: momentum over time, linear in bounded controls, within a ball at every instant.
+//!
+//! h_j = h_(j-1) + d_j + sum_i g_ji x_i with |h_j| <= L_j: second-order cones, one an instant, on sparse equations. Solved by the
+//! interior-point method of Clarabel (Goulart and Chen 2024) to a relative gap of 1e-8. Two questions are put:
+//!
+//! - the least excess, min t with |h_j| <= L_j + t: a negative one is what is left below every limit;
+//! - within the limits, the least sum of the lengths of pairs of controls and of a linear cost.
+
+use clarabel::{
+    algebra::CscMatrix,
+    solver::{
+        DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus,
+        SupportedConeT::{self, NonnegativeConeT, SecondOrderConeT, ZeroConeT},
+    },
+};
+use nalgebra::Vector3;
+
+/// How a step's momentum begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Begin {
+    /// Where the step before ended.
+    Follows,
+    /// At this momentum, in N m s.
+    At(Vector3<f64>),
+    /// Anywhere within the step's limit.
+    Free,
+}
+
+/// From one instant to the next.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Step {
+    /// How it begins.
+    pub begin: Begin,
+    /// Momentum gained with every control at 0, in N m s.
+    pub drift: Vector3<f64>,
+    /// Momentum gained by unit of a control, by its index.
+    pub terms: Vec<(usize, Vector3<f64>)>,
+    /// Greatest |h| at its end, in N m s.
+    pub limit: f64,
+}
+
+/// A programme.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Program {
+    /// Least and greatest value of each control.
+    pub bounds: Vec<[f64; 2]>,
+    /// In the order of time.
+    pub steps: Vec<Step>,
+    /// Pairs of controls and what a unit of their length costs.
+    pub lengths: Vec<([usize; 2], f64)>,
+    /// Controls and what a unit costs, up or down.
+    pub magnitudes: Vec<(usize, f64)>,
+    /// Sums of controls by their weights, and the most that they may come to.
+    pub sums: Vec<(Vec<(usize, f64)>, f64)>,
+}
+
+/// What is sought.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Goal {
+    /// The least excess.
+    LeastExcess,
+    /// Least cost within the limits.
+    LeastCost,
+}
+
+/// A solution.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Solution {
+    /// Of every control.
+    pub controls: Vec<f64>,
+    /// Momentum at the end of every step, in N m s.
+    pub momentum: Vec<Vector3<f64>>,
+    /// Momentum at the free beginnings, in their order, in N m s.
+    pub begins: Vec<Vector3<f64>>,
+    /// By which the worst instant exceeds its limit, in N m s; negative below.
+    pub excess: f64,
+}
+
+/// A bounded control that the solver moves, in units of its own range.
+struct Moved {
+    column: usize,
+    middle: f64,
+    half: f64,
+}
+
+/// Rows and columns of the solver's matrix, cone by cone.
+#[derive(Default)]
+struct Rows {
+    triplets: (Vec<usize>, Vec<usize>, Vec<f64>),
+    right: Vec<f64>,
+    cones: Vec<SupportedConeT<f64>>,
+}
+
+impl Rows {
+    /// A row a.x + s = b.
+    fn row(&mut self, entries: impl IntoIterator<Item = (usize, f64)>, right: f64) {
+        for (column, value) in entries {
+            self.triplets.0.push(self.right.len());
+            self.triplets.1.push(column);
+            self.triplets.2.push(value);
+        }
+        self.right.push(right);
+    }
+}
+
+impl Program {
+    /// What controls cost.
+    pub(super) fn cost(&self, controls: &[f64]) -> f64 {
+        let lengths = self.lengths.iter().map(|([a, b], weight)| weight * controls[*a].hypot(controls[*b]));
+        let magnitudes = self.magnitudes.iter().map(|(index, weight)| weight * controls[*index].abs());
+        lengths.sum::<f64>() + magnitudes.sum::<f64>()
+    }
+
+    /// The answer; `None` where no controls are within their bounds, where the limits cannot be kept, or where the method fails.
+    pub(super) fn solve(&self, goal: Goal) -> Option<Solution> {
+        if self.bounds.iter().any(|[low, high]| low > high || low.is_nan() || high.is_nan()) {
+            return None;
+        }
+        let mut columns = 0;
+        let moved: Vec<Option<Moved>> =
+            self.bounds.iter().map(|bounds| moved(*bounds, &mut columns)).collect();
+        let momentum_at = columns;
+        columns += 3 * self.steps.len();
+        let begin_at = columns;
+        columns += 3 * self.steps.iter().filter(|step| step.begin == Begin::Free).count();
+        let excess = (goal == Goal::LeastExcess).then_some(columns);
+        columns += usize::from(excess.is_some());
+        let lengths = if goal == Goal::LeastCost { self.lengths.as_slice() } else { &[] };
+        let length_at = columns;
+        columns += lengths.len();
+        let magnitudes: Vec<_> = match goal {
+            Goal::LeastCost => self.magnitudes.iter().filter(|(index, _)| moved[*index].is_some()).collect(),
+            Goal::LeastExcess => Vec::new(),
+        };
+        let magnitude_at = columns;
+        columns += magnitudes.len();
+        if columns == 0 {
+            return Some(Solution {
+                controls: Vec::new(),
+                momentum: Vec::new(),
+                begins: Vec::new(),
+                excess: f64::NEG_INFINITY,
+            });
+        }
+
+        let mut rows = Rows::default();
+        self.equations(&mut rows, &moved, momentum_at, begin_at);
+        let equations = rows.right.len();
+        rows.cones.push(ZeroConeT(equations));
+        for moved in moved.iter().flatten() {
+            rows.row([(moved.column, 1.0)], 1.0);
+            rows.row([(moved.column, -1.0)], 1.0);
+        }
+        for (terms, most) in &self.sums {
+            let constant: f64 = terms
+                .iter()
+                .map(|(index, weight)| {
+                    weight * moved[*index].as_ref().map_or(middle(self.bounds[*index]), |it| it.middle)
+                })
+                .sum();
+            let entries = terms
+                .iter()
+                .filter_map(|(index, weight)| moved[*index].as_ref().map(|it| (it.column, weight * it.half)));
+            rows.row(entries.collect::<Vec<_>>(), most - constant);
+        }
+        for (at, (index, _)) in magnitudes.iter().enumerate() {
+            let Some(moved) = &moved[*index] else { continue };
+            rows.row([(moved.column, moved.half), (magnitude_at + at, -1.0)], -moved.middle);
+            rows.row([(moved.column, -moved.half), (magnitude_at + at, -1.0)], moved.middle);
+        }
+        let greatest = self.steps.iter().map(|step| step.limit).fold(0.0, f64::max);
+        if let Some(excess) = excess {
+            rows.row([(excess, -1.0)], greatest);
+        }
+        let inequalities = rows.right.len() - equations;
+        if inequalities > 0 {
+            rows.cones.push(NonnegativeConeT(inequalities));
+        }
+        let ball = |rows: &mut Rows, first: usize, limit: f64| {
+            rows.row(excess.map(|column| (column, -1.0)), limit);
+            for axis in 0..3 {
+                rows.row([(first + axis, -1.0)], 0.0);
+            }
+            rows.cones.push(SecondOrderConeT(4));
+        };
+        let mut begins = begin_at;
+        for (index, step) in self.steps.iter().enumerate() {
+            if step.begin == Begin::Free {
+                ball(&mut rows, begins, step.limit);
+                begins += 3;
+            }
+            ball(&mut rows, momentum_at + 3 * index, step.limit);
+        }
+        for (at, (pair, _)) in lengths.iter().enumerate() {
+            rows.row([(length_at + at, -1.0)], 0.0);
+            for index in pair {
+                match &moved[*index] {
+                    Some(moved) => rows.row([(moved.column, -moved.half)], moved.middle),
+                    None => rows.row([], middle(self.bounds[*index])),
+                }
+            }
+            rows.cones.push(SecondOrderConeT(3));
+        }
+
+        let mut cost = vec![0.0; columns];
+        if let Some(excess) = excess {
+            cost[excess] = 1.0;
+        }
+        for (at, (_, weight)) in lengths.iter().enumerate() {
+            cost[length_at + at] = *weight;
+        }
+        for (at, (_, weight)) in magnitudes.iter().enumerate() {
+            cost[magnitude_at + at] = *weight;
+        }
+        let found = minimised(&cost, rows)?;
+        let vectors = |from: usize, count: usize| -> Vec<Vector3<f64>> {
+            found[from..from + 3 * count].chunks_exact(3).map(Vector3::from_column_slice).collect()
+        };
+        let momentum = vectors(momentum_at, self.steps.len());
+        let over = momentum.iter().zip(&self.steps).map(|(momentum, step)| momentum.norm() - step.limit);
+        Some(Solution {
+            excess: over.fold(f64::NEG_INFINITY, f64::max),
+            controls: self
+                .bounds
+                .iter()
+                .zip(&moved)
+                .map(|(bounds, moved)| value(*bounds, moved, &found))
+                .collect(),
+            begins: vectors(begin_at, (begins - begin_at) / 3),
+            momentum,
+        })
+    }
+
+    /// h_j - h_(j-1) - sum g x = d.
+    fn equations(&self, rows: &mut Rows, moved: &[Option<Moved>], momentum_at: usize, begin_at: usize) {
+        let mut begins = begin_at;
+        for (index, step) in self.steps.iter().enumerate() {
+            let mut known = step.drift;
+            let mut before = None;
+            match step.begin {
+                Begin::At(momentum) => known += momentum,
+                Begin::Follows => before = index.checked_sub(1).map(|it| momentum_at + 3 * it),
+                Begin::Free => {
+                    before = Some(begins);
+                    begins += 3;
+                }
+            }
+            for (control, gain) in &step.terms {
+                known +=
+                    gain * moved[*control].as_ref().map_or(middle(self.bounds[*control]), |it| it.middle);
+            }
+            for axis in 0..3 {
+                let of_before = before.map(|column| (column + axis, -1.0));
+                let of_controls = step.terms.iter().filter_map(|(control, gain)| {
+                    moved[*control].as_ref().map(|it| (it.column, -gain[axis] * it.half))
+                });
+                let own = [(momentum_at + 3 * index + axis, 1.0)];
+                rows.row(own.into_iter().chain(of_before).chain(of_controls), known[axis]);
+            }
+        }
+    }
+}
+
+fn middle([low, high]: [f64; 2]) -> f64 {
+    0.5 * (low + high)
+}
+
+/// A control whose bounds are apart.
+fn moved(bounds: [f64; 2], columns: &mut usize) -> Option<Moved> {
+    let half = 0.5 * (bounds[1] - bounds[0]);
+    (half > 1e-12).then(|| {
+        let column = *columns;
+        *columns += 1;
+        Moved { column, middle: middle(bounds), half }
+    })
+}
+
+fn value(bounds: [f64; 2], moved: &Option<Moved>, found: &[f64]) -> f64 {
+    let Some(moved) = moved else { return middle(bounds) };
+    (moved.middle + moved.half * found[moved.column]).clamp(bounds[0], bounds[1])
+}
+
+/// min cost.x within the cones.
+fn minimised(cost: &[f64], rows: Rows) -> Option<Vec<f64>> {
+    let Rows { triplets: (row, column, entry), right, cones } = rows;
+    let quadratic = CscMatrix::zeros((cost.len(), cost.len()));
+    let matrix = CscMatrix::new_from_triplets(right.len(), cost.len(), row, column, entry);
+    let settings = DefaultSettingsBuilder::default().verbose(false).build().ok()?;
+    let mut solver = DefaultSolver::new(&quadratic, cost, &matrix, &right, &cones, settings).ok()?;
+    solver.solve();
+    let is_found = matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved);
+    is_found.then_some(solver.solution.x)
+}
+
+#[cfg(test)]
+mod tests;

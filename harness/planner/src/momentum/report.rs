@@ -1,0 +1,216 @@
+//! What a plan came to, as `plan.json` and `windows.csv`.
+
+use serde_json::{Value, json};
+
+use super::{
+    baseline::NoOffset,
+    flown::SAME_S,
+    plan::{MomentumPlan, PlanTask},
+    torque::Control,
+    windows::Window,
+};
+
+const DAY_S: f64 = 86_400.0;
+
+/// An event of the mission or of the plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanEvent {
+    /// In s of the flight.
+    pub at_s: f64,
+    /// dump, maneuver, centerOfMass.
+    pub kinds: Vec<&'static str>,
+    /// Whether the plan put it there.
+    pub planned: bool,
+}
+
+/// What removing a planned command, or adding an activity, changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Price {
+    /// What it is.
+    pub name: String,
+    /// Removed from the plan, or added to it.
+    pub removed: bool,
+    /// In s of the flight.
+    pub span_s: [f64; 2],
+    /// Momentum that its span gathers more, the rest being as planned, EME2000, in N m s.
+    pub gathered_n_m_s: [f64; 3],
+    /// By how much the least greatest |H| that any choice of controls attains from its beginning on rises, in N m s; negative: falls.
+    pub momentum_n_m_s: f64,
+    /// Dumps more.
+    pub dumps: i64,
+}
+
+/// The name of a plan's state.
+pub fn status(plan: &MomentumPlan, task: &PlanTask) -> &'static str {
+    if plan.holds && plan.dumps.len() <= task.dumps { "planned" } else { "infeasible" }
+}
+
+/// What limits a plan, as JSON: what binds, when, by how much it is exceeded.
+fn binding(plan: &MomentumPlan) -> Value {
+    let start_s = plan.rows.first().map_or(0.0, |row| row.time_s);
+    if let Some(exceeded) = &plan.exceeded {
+        return json!({
+            "limit": "momentum",
+            "excess_n_m_s": exceeded.excess_n_m_s,
+            "firstDay": (exceeded.first_s - start_s) / DAY_S,
+            "at_s": exceeded.first_s,
+        });
+    }
+    let left = |row: &super::plan::PlannedRow| row.allowed_n_m_s - row.simulated_n_m_s;
+    let least = plan.rows.iter().min_by(|a, b| left(a).total_cmp(&left(b)));
+    least.map_or(Value::Null, |row| {
+        json!({ "limit": "momentum", "excess_n_m_s": -left(row), "at_s": row.time_s, "day": (row.time_s - start_s) / DAY_S })
+    })
+}
+
+/// The 50th, 90th and 99th percentile of the greatest |H| (N m s) and of the dumps of flights, each the least value that so many do not
+/// exceed.
+pub fn percentiles(flights: &[(f64, u32)]) -> [[f64; 3]; 2] {
+    let of = |mut values: Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        [0.5, 0.9, 0.99].map(|share| {
+            let rank = (share * values.len() as f64).ceil() as usize;
+            values.get(rank.saturating_sub(1)).copied().unwrap_or(f64::NAN)
+        })
+    };
+    let momentum = flights.iter().map(|(momentum, _)| *momentum).collect();
+    [of(momentum), of(flights.iter().map(|(_, dumps)| f64::from(*dumps)).collect())]
+}
+
+/// `plan.json`; `seeds` are greatest |H| and dumps of flights with other seeds.
+///
+/// # Errors
+/// What JSON does not take.
+pub fn json(
+    plan: &MomentumPlan,
+    task: &PlanTask,
+    events: &[PlanEvent],
+    (prices, seeds): (&[Price], &[(f64, u32)]),
+) -> Result<String, serde_json::Error> {
+    let [planned, simulated] = plan.greatest_n_m_s();
+    let events: Vec<Value> = events
+        .iter()
+        .map(|event| json!({ "at_s": event.at_s, "kinds": event.kinds, "planned": event.planned }))
+        .collect();
+    let priced = |removed: bool| -> Vec<Value> {
+        let prices = prices.iter().filter(|price| price.removed == removed);
+        prices
+            .map(|price| {
+                json!({
+                    "name": price.name,
+                    "start_s": price.span_s[0],
+                    "stop_s": price.span_s[1],
+                    "gathered_n_m_s": price.gathered_n_m_s,
+                    "momentum_n_m_s": price.momentum_n_m_s,
+                    "dumps": price.dumps,
+                })
+            })
+            .collect()
+    };
+    let [momentum, dumps] = percentiles(seeds);
+    let by_percent = |of: [f64; 3]| json!({ "50": of[0], "90": of[1], "99": of[2] });
+    let percentiles = match seeds.len() {
+        0 => Value::Null,
+        count => {
+            json!({ "seeds": count, "momentum_n_m_s": by_percent(momentum), "dumps": by_percent(dumps) })
+        }
+    };
+    serde_json::to_string_pretty(&json!({
+        "status": status(plan, task),
+        "limit_n_m_s": task.limit.momentum_n_m_s,
+        "dumps": plan.dumps.len(),
+        "dumpsAtLeast": plan.dumps_at_least,
+        "changes": plan.changes,
+        "changesAtLeast": plan.changes_at_least,
+        "largestMomentum": { "planned": planned, "simulated": simulated },
+        "largestDifference_n_m_s": plan.difference_n_m_s(),
+        "binding": binding(plan),
+        "rounds": plan.rounds,
+        "events": events,
+        "planned": priced(true),
+        "activities": priced(false),
+        "percentiles": percentiles,
+    }))
+}
+
+/// `plan.json` where the corridor is empty.
+///
+/// # Errors
+/// What JSON does not take.
+pub fn corridor_json(none: &NoOffset, start_s: f64) -> Result<String, serde_json::Error> {
+    serde_json::to_string_pretty(&json!({
+        "status": "infeasible",
+        "dumps": 0,
+        "changes": 0,
+        "binding": {
+            "limit": "corridor",
+            "suns": none.suns,
+            "distance_au": none.distance_au,
+            "firstDay": (none.at_s - start_s) / DAY_S,
+            "at_s": none.at_s,
+        },
+        "rounds": 0,
+        "events": [],
+    }))
+}
+
+/// Greatest |H| in a window as planned and as flown, in N m s.
+pub fn greatest_in(plan: &MomentumPlan, window: &Window) -> [f64; 2] {
+    let rows = || {
+        let inside = window.start_s - SAME_S..=window.stop_s + SAME_S;
+        plan.rows.iter().filter(move |row| inside.contains(&row.time_s))
+    };
+    [
+        rows().map(|row| row.planned_n_m_s).fold(0.0, f64::max),
+        rows().map(|row| row.simulated_n_m_s).fold(0.0, f64::max),
+    ]
+}
+
+/// `windows.csv`; `shown_deg` gives an angle in rad as it is flown.
+///
+/// # Errors
+/// What CSV does not take.
+pub fn windows_csv(plan: &MomentumPlan, shown_deg: &dyn Fn(f64) -> f64) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record([
+        "start_s",
+        "stop_s",
+        "status",
+        "offset_deg",
+        "windmill_deg",
+        "azimuth_deg",
+        "elevation_deg",
+        "alternate_share",
+        "momentum_planned_n_m_s",
+        "momentum_simulated_n_m_s",
+    ])?;
+    for window in &plan.windows {
+        let angle = |control| shown_deg(window.controls.get(control)).to_string();
+        let [planned, simulated] = greatest_in(plan, window).map(|momentum| format!("{momentum:.6}"));
+        writer.write_record([
+            window.start_s.to_string(),
+            window.stop_s.to_string(),
+            window.kind.name().to_owned(),
+            angle(Control::Offset),
+            angle(Control::Windmill),
+            angle(Control::Azimuth),
+            angle(Control::Elevation),
+            format!("{:.6}", window.controls.get(Control::Alternate)),
+            planned,
+            simulated,
+        ])?;
+    }
+    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentiles_are_values_that_so_many_do_not_exceed() {
+        let flights: Vec<(f64, u32)> = (1..=200).rev().map(|k| (f64::from(k), k / 100)).collect();
+        assert_eq!(percentiles(&flights), [[100.0, 180.0, 198.0], [1.0, 1.0, 1.0]]);
+        assert_eq!(percentiles(&[(2.0, 0)])[0], [2.0; 3]);
+    }
+}

@@ -1,0 +1,73 @@
+//! MESSENGER in cruise for the tests: the shipped spacecraft on a circle about the Sun, the Earth far off.
+
+use nalgebra::{Rotation3, Vector3};
+use physics::{
+    constants::ASTRONOMICAL_UNIT_M,
+    plant::{LightSource, SunLight},
+    spacecraft::{Articulation, MESSENGER_TOML, Spacecraft},
+};
+
+use super::{
+    Limit,
+    flown::{Flown, FlownRow},
+    plan::PlanTask,
+    torque::LitCraft,
+    windows::{Layout, Reach},
+};
+
+pub(super) const DAY_S: f64 = 86_400.0;
+
+/// With the centre of mass there, in m.
+pub(super) fn craft(center_of_mass_m: [f64; 3]) -> LitCraft {
+    let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
+    let light = SunLight { source: LightSource::Distance { flux_w_m2: 1358.0 }, scale: 1.0 };
+    let mut craft = LitCraft::new(spacecraft, light, None).unwrap();
+    craft.mass_at_zero.center_of_mass_body_m = Vector3::from(center_of_mass_m);
+    craft
+}
+
+/// A row at an angle along the circle.
+pub(super) fn row(craft: &LitCraft, time_s: f64, distance_au: f64, along_rad: f64) -> FlownRow {
+    let here_m = Vector3::new(along_rad.cos(), along_rad.sin(), 0.0) * (distance_au * ASTRONOMICAL_UNIT_M);
+    let mut row = FlownRow {
+        time_s,
+        to_sun_m: -here_m,
+        to_earth_m: Vector3::new(0.1, 0.2, 1.0) * ASTRONOMICAL_UNIT_M - here_m,
+        lit_fraction: 1.0,
+        inertial_from_body: Rotation3::identity(),
+        panel_angles_rad: vec![0.0; craft.panels.len()],
+        other_torque_n_m: Vector3::zeros(),
+        momentum_n_m_s: Vector3::zeros(),
+        dumps: 0,
+    };
+    row.inertial_from_body = craft.downlink_attitude(&row, 0.0, 0.0).unwrap();
+    row
+}
+
+/// So many days, a row each two hours, at this distance, the Sun's direction fixed.
+pub(super) fn flown(craft: &LitCraft, days: u32, distance_au: f64) -> Flown {
+    let times = (0..=12 * days).map(|k| f64::from(k) * 7200.0);
+    Flown { rows: times.map(|time_s| row(craft, time_s, distance_au, 0.3)).collect() }
+}
+
+/// Windows of a day from the start on, without controls; the corridor is wide.
+pub(super) fn task(limit_n_m_s: f64, reach: Reach) -> PlanTask {
+    PlanTask {
+        layout: Layout {
+            frozen_until_s: 0.0,
+            arrays_are_frozen: true,
+            window_s: DAY_S,
+            occupied: Vec::new(),
+            contacts_s: Vec::new(),
+            contact_share: 0.0,
+            reach,
+            corridor: Articulation { min_suns: 0.0, max_suns: 1e3, target_suns: 1.0 },
+            offset_sign: 1.0,
+            frozen_offset_rad: 0.0,
+            sides: vec![1.0, -1.0],
+        },
+        limit: Limit { momentum_n_m_s: limit_n_m_s, margin: 0.0, covariance: None },
+        dumps: 0,
+        budget_s: 20.0,
+    }
+}

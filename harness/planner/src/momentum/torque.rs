@@ -1,0 +1,267 @@
+//! Torque of sunlight by array offset, windmill angle, place of the Sun and alternation, and its derivatives.
+//!
+//! The downlink attitude puts the Sun at azimuth A and elevation E of the body frame, the Earth in the XY plane; the alternate one is the
+//! same turned by 180 deg about the Sun line s, so that its torque is T' = 2 s (s.T) - T: what lies across the Sun line changes sign.
+//! Of a share a of the time in the alternate attitude the mean torque is (1 - a) T + a T'. Derivatives by the angles are central
+//! differences of the physics with a step of [`STEP_RAD`] (error of its square, 1e-8 relative); that by the share is exact.
+
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use physics::{
+    attitude::SunAngles,
+    guidance::{
+        downlink::sun_place::{DownlinkRequest, downlink},
+        geometry::moving::fixed,
+        pointing::antenna::Antennas,
+    },
+    plant::{PanelSetting, Ramp, SunLight, SunlitCraft},
+    radiation::{Beam, SolarModel},
+    refusal::Refusal,
+    spacecraft::{MassProperties, Spacecraft, SunshadeModel},
+};
+
+use super::flown::FlownRow;
+
+/// Step of the central differences, in rad.
+const STEP_RAD: f64 = 1e-4;
+/// Number of controls of a window.
+pub const CONTROLS: usize = 5;
+
+/// What a plan chooses in a window, in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Control {
+    /// Offset of the arrays from the Sun, in rad.
+    Offset,
+    /// Windmill angle, in rad.
+    Windmill,
+    /// Azimuth of the Sun, in rad.
+    Azimuth,
+    /// Elevation of the Sun, in rad.
+    Elevation,
+    /// Share of the window in the alternate attitude.
+    Alternate,
+}
+
+/// How arrays and attitude stand in a window.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Controls(pub [f64; CONTROLS]);
+
+impl Controls {
+    /// One of them.
+    pub fn get(&self, control: Control) -> f64 {
+        self.0[control as usize]
+    }
+
+    /// The same with another value of one.
+    #[must_use]
+    pub fn with(mut self, control: Control, value: f64) -> Self {
+        self.0[control as usize] = value;
+        self
+    }
+
+    /// Angle between the Sun and -Y, in rad.
+    pub fn tilt_rad(&self) -> f64 {
+        self.get(Control::Azimuth).hypot(self.get(Control::Elevation))
+    }
+}
+
+/// Which attitude a window has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Attitude {
+    /// As it was flown.
+    Flown,
+    /// A downlink with the Sun where the controls put it.
+    Downlink,
+}
+
+/// A spacecraft in sunlight as its mission has it.
+#[derive(Clone, Debug)]
+pub struct LitCraft {
+    /// As its file has it.
+    pub spacecraft: Spacecraft,
+    /// Sunlight.
+    pub light: SunLight,
+    /// Mass, centre of mass and inertia with every panel at angle 0.
+    pub mass_at_zero: MassProperties,
+    /// Centres of mass by the time from which on they count, in s, body frame, in m; before the first that of `mass_at_zero`.
+    pub centers_of_mass: Vec<(f64, Vector3<f64>)>,
+    /// Whether each panel takes part, and the sense of its tilt.
+    pub panels: Vec<(bool, f64)>,
+    solar: SolarModel,
+    antennas: Antennas,
+}
+
+impl LitCraft {
+    /// Of a spacecraft with its panels tilted as its file says.
+    ///
+    /// # Errors
+    /// A sunshade that is not there in this form.
+    pub fn new(
+        spacecraft: Spacecraft,
+        light: SunLight,
+        sunshade: Option<SunshadeModel>,
+    ) -> Result<Self, Refusal> {
+        Ok(Self {
+            solar: SolarModel::new(&spacecraft, sunshade)?,
+            antennas: Antennas::of(&spacecraft.antennas),
+            mass_at_zero: spacecraft.mass_properties,
+            panels: spacecraft.panels.iter().map(|panel| (true, panel.tilt_sign)).collect(),
+            centers_of_mass: Vec::new(),
+            light,
+            spacecraft,
+        })
+    }
+
+    /// Which way a windmill angle turns each panel that takes part.
+    pub fn windmill_sides(&self) -> impl Iterator<Item = f64> + '_ {
+        let panels = self.spacecraft.panels.iter().zip(&self.panels);
+        panels.filter(|(_, (enabled, _))| *enabled).map(|(panel, _)| panel.windmill_side)
+    }
+
+    fn mass_at(&self, time_s: f64) -> MassProperties {
+        let begun = self.centers_of_mass.iter().rev().find(|(at_s, _)| *at_s <= time_s);
+        let center = begun.map_or(self.mass_at_zero.center_of_mass_body_m, |(_, center)| *center);
+        MassProperties { center_of_mass_body_m: center, ..self.mass_at_zero }
+    }
+
+    /// The attitude of a downlink with the Sun there; `None` where Sun or Earth has no direction.
+    pub fn downlink_attitude(
+        &self,
+        row: &FlownRow,
+        azimuth_rad: f64,
+        elevation_rad: f64,
+    ) -> Option<Rotation3<f64>> {
+        let request = DownlinkRequest {
+            sun_body: SunAngles { azimuth_rad, elevation_rad },
+            ..DownlinkRequest::default()
+        };
+        let found = downlink(&fixed(row.to_sun_m), &fixed(row.to_earth_m), &self.antennas, &request)?;
+        Some(found.vectors.pointing()?.frame().inertial_from_body)
+    }
+
+    fn settings(&self, controls: &Controls) -> Vec<PanelSetting> {
+        let panels = self.spacecraft.panels.iter().zip(&self.panels);
+        let setting = |side: f64, tilt_sign: f64| {
+            let offset_rad = controls.get(Control::Offset) + controls.get(Control::Windmill) * side;
+            PanelSetting::SunOffset { offset: Ramp::held(offset_rad), tilt_sign }
+        };
+        let one = |(panel, (enabled, tilt_sign)): (&physics::spacecraft::Panel, &(bool, f64))| match enabled {
+            true => setting(panel.windmill_side, *tilt_sign),
+            false => PanelSetting::Disabled,
+        };
+        panels.map(one).collect()
+    }
+
+    /// Force and torque about the centre of mass of direct sunlight, EME2000, in N and N m.
+    fn load(
+        &self,
+        row: &FlownRow,
+        inertial_from_body: &Rotation3<f64>,
+        settings: &[PanelSetting],
+    ) -> [Vector3<f64>; 2] {
+        let distance_m = row.to_sun_m.norm();
+        let sun_body = inertial_from_body.inverse() * (row.to_sun_m / distance_m);
+        let craft = SunlitCraft {
+            solar: &self.solar,
+            panels: &self.spacecraft.panels,
+            settings,
+            mass_at_zero: self.mass_at(row.time_s),
+            time_s: row.time_s,
+            sun_distance_m: distance_m,
+        };
+        let pressure_pa = self.light.pressure_pa(distance_m) * row.lit_fraction;
+        let center = craft.mass_properties(&sun_body).center_of_mass_body_m;
+        let load = craft.load(&Beam { source_body: sun_body, pressure_pa }, &center);
+        [load.force_body_n, load.torque_body_n_m].map(|it| inertial_from_body * it)
+    }
+
+    /// Torque of direct sunlight with arrays and attitude as they were flown, EME2000, in N m.
+    pub fn flown_torque_n_m(&self, row: &FlownRow) -> Vector3<f64> {
+        let enabled = self.panels.iter().map(|(enabled, _)| *enabled);
+        let angle = |(enabled, angle_rad): (bool, &f64)| match enabled {
+            true => PanelSetting::Angle(Ramp::held(*angle_rad)),
+            false => PanelSetting::Disabled,
+        };
+        let settings: Vec<_> = enabled.zip(&row.panel_angles_rad).map(angle).collect();
+        self.load(row, &row.inertial_from_body, &settings)[1]
+    }
+
+    /// Torque of direct sunlight in the attitude that is not alternate, EME2000, in N m.
+    pub fn torque_n_m(&self, row: &FlownRow, attitude: Attitude, controls: &Controls) -> Vector3<f64> {
+        self.loads(row, attitude, controls)[1]
+    }
+
+    fn loads(&self, row: &FlownRow, attitude: Attitude, controls: &Controls) -> [Vector3<f64>; 2] {
+        let [azimuth_rad, elevation_rad] = [Control::Azimuth, Control::Elevation].map(|it| controls.get(it));
+        let inertial_from_body = match attitude {
+            Attitude::Flown => row.inertial_from_body,
+            Attitude::Downlink => {
+                self.downlink_attitude(row, azimuth_rad, elevation_rad).unwrap_or(row.inertial_from_body)
+            }
+        };
+        self.load(row, &inertial_from_body, &self.settings(controls))
+    }
+
+    /// That torque and its derivatives by the angles, each with that of the alternate attitude behind it.
+    pub fn linearised(&self, row: &FlownRow, attitude: Attitude, controls: &Controls) -> LinearTorque {
+        let at = |controls: &Controls| self.torque_n_m(row, attitude, controls);
+        let by = |control: Control| {
+            let value = controls.get(control);
+            let [high, low] = [STEP_RAD, -STEP_RAD].map(|step| at(&controls.with(control, value + step)));
+            (high - low) / (2.0 * STEP_RAD)
+        };
+        let mut by_angle = [Vector3::zeros(); 4];
+        by_angle[0] = by(Control::Offset);
+        by_angle[1] = by(Control::Windmill);
+        if attitude == Attitude::Downlink {
+            by_angle[2] = by(Control::Azimuth);
+            by_angle[3] = by(Control::Elevation);
+        }
+        let [force, torque] = self.loads(row, attitude, controls);
+        let inertial_from_body = match attitude {
+            Attitude::Flown => row.inertial_from_body,
+            Attitude::Downlink => self
+                .downlink_attitude(row, controls.get(Control::Azimuth), controls.get(Control::Elevation))
+                .unwrap_or(row.inertial_from_body),
+        };
+        // T = sum (r - c) x F, so dT/dc_i = -e_i x F.
+        let by_center = force.cross_matrix() * inertial_from_body.matrix();
+        LinearTorque { torque, by_angle, by_center, half_turn: half_turn(&row.to_sun_m) }
+    }
+}
+
+/// Torque at a time, in N m, with its derivatives, EME2000.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearTorque {
+    /// In the attitude that is not alternate.
+    pub torque: Vector3<f64>,
+    /// By offset, windmill, azimuth, elevation, in N m/rad.
+    pub by_angle: [Vector3<f64>; 4],
+    /// By the centre of mass, body frame, in N.
+    pub by_center: Matrix3<f64>,
+    /// Takes a vector to that turned by 180 deg about the Sun line.
+    pub half_turn: Matrix3<f64>,
+}
+
+impl LinearTorque {
+    /// Mean torque of a share of the alternate attitude, and its derivatives by the controls.
+    pub fn mean(&self, alternate: f64) -> (Vector3<f64>, [Vector3<f64>; CONTROLS]) {
+        let mix = self.mix(alternate);
+        let [offset, windmill, azimuth, elevation] = self.by_angle.map(|it| mix * it);
+        let by_share = self.half_turn * self.torque - self.torque;
+        (mix * self.torque, [offset, windmill, azimuth, elevation, by_share])
+    }
+
+    /// (1 - a) 1 + a times the half turn.
+    pub fn mix(&self, alternate: f64) -> Matrix3<f64> {
+        Matrix3::identity() * (1.0 - alternate) + self.half_turn * alternate
+    }
+}
+
+/// 2 s sT - 1 about a direction of any length.
+fn half_turn(about: &Vector3<f64>) -> Matrix3<f64> {
+    let axis = about.normalize();
+    axis * axis.transpose() * 2.0 - Matrix3::identity()
+}
+
+#[cfg(test)]
+mod tests;

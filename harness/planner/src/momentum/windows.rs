@@ -1,0 +1,325 @@
+//! The windows of a flight: what its mission holds fixed, and the free time between in pieces of one length.
+
+use physics::spacecraft::Articulation;
+
+use super::{
+    baseline::{NoOffset, OffsetStep, allowed_rad, baseline},
+    flown::{Flown, SAME_S},
+    torque::{CONTROLS, Control, Controls},
+};
+
+/// What a window is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WindowKind {
+    /// As the mission has it, arrays included.
+    Frozen,
+    /// A command of the mission that stays.
+    Fixed,
+    /// A command of the mission that stays and whose price is told.
+    Planned,
+    /// A downlink whose controls are sought.
+    Free,
+}
+
+impl WindowKind {
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Frozen => "frozen",
+            Self::Fixed => "fixed",
+            Self::Planned => "planned",
+            Self::Free => "free",
+        }
+    }
+}
+
+/// A window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Window {
+    /// In s of the flight.
+    pub start_s: f64,
+    /// In s of the flight.
+    pub stop_s: f64,
+    /// What it is.
+    pub kind: WindowKind,
+    /// Row of the mission's command, from 0.
+    pub command: Option<usize>,
+    /// Its parts outside of contacts, where the alternate attitude may be.
+    pub free_of_contact: Vec<[f64; 2]>,
+    /// Least and greatest value of each control.
+    pub bounds: [[f64; 2]; CONTROLS],
+    /// Offsets that keep the corridor throughout, with their sign, in rad.
+    pub offsets_rad: [f64; 2],
+    /// Offset of the baseline, with its sign, in rad.
+    pub baseline_rad: f64,
+    /// Which ways a windmill angle turns panels.
+    pub sides: Vec<f64>,
+    /// Present controls.
+    pub controls: Controls,
+}
+
+impl Window {
+    /// In s.
+    pub fn length_s(&self) -> f64 {
+        self.stop_s - self.start_s
+    }
+
+    fn free_s(&self) -> f64 {
+        self.free_of_contact.iter().map(|[from, to]| to - from).sum()
+    }
+
+    /// Share of the alternate attitude around a time, and that by unit of the share of the window.
+    pub fn alternate_at(&self, time_s: f64) -> (f64, f64) {
+        let is_free = self.free_of_contact.iter().any(|[from, to]| (*from..=*to).contains(&time_s));
+        let free_s = self.free_s();
+        if !is_free || free_s <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let by_share = self.length_s() / free_s;
+        (self.controls.get(Control::Alternate) * by_share, by_share)
+    }
+
+    /// When the alternate attitude begins and ends: in the middle of every piece of a day at most, so that the drift of the Sun's
+    /// direction within it cancels to the first order (+--+ in halves of 6 h for a share of one half).
+    pub fn alternate_spans_s(&self) -> Vec<[f64; 2]> {
+        let share = self.controls.get(Control::Alternate);
+        let free_s = self.free_s();
+        if share * self.length_s() < SHORTEST_S || free_s <= 0.0 {
+            return Vec::new();
+        }
+        let part = (share * self.length_s() / free_s).min(1.0);
+        let mut spans: Vec<[f64; 2]> = Vec::new();
+        for [from_s, to_s] in &self.free_of_contact {
+            let pieces = ((to_s - from_s) / CYCLE_S - 1e-9).ceil().max(1.0);
+            let long_s = (to_s - from_s) / pieces;
+            for piece in 0..pieces as usize {
+                let middle_s = from_s + (piece as f64 + 0.5) * long_s;
+                let half_s = 0.5 * part * long_s;
+                let span = [middle_s - half_s, middle_s + half_s];
+                match spans.last_mut() {
+                    Some(last) if span[0] - last[1] < SAME_S => last[1] = span[1],
+                    _ => spans.push(span),
+                }
+            }
+        }
+        spans
+    }
+}
+
+/// Longest cycle of normal and alternate attitude, in s.
+const CYCLE_S: f64 = 86_400.0;
+/// Less of the alternate attitude in a window is none, in s.
+const SHORTEST_S: f64 = 60.0;
+
+/// How far controls go.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reach {
+    /// Largest change of the offset off the baseline, in rad; 0 where it is kept.
+    pub offset_rad: f64,
+    /// Largest windmill angle, in rad.
+    pub windmill_rad: f64,
+    /// Largest azimuth of the Sun, in rad.
+    pub azimuth_rad: f64,
+    /// Largest elevation of the Sun, in rad.
+    pub elevation_rad: f64,
+    /// Largest share of a window in the alternate attitude.
+    pub alternate: f64,
+}
+
+/// A command of the mission's timeline that the plan does not change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Occupied {
+    /// In s of the flight.
+    pub start_s: f64,
+    /// In s of the flight.
+    pub stop_s: f64,
+    /// Whether its price is told.
+    pub planned: bool,
+    /// Row in the timeline, from 0.
+    pub command: usize,
+}
+
+/// What windows are made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    /// Until when the mission stays as it is, in s.
+    pub frozen_until_s: f64,
+    /// Whether the arrays do too.
+    pub arrays_are_frozen: bool,
+    /// Length of a window, in s.
+    pub window_s: f64,
+    /// Commands that stay, in order.
+    pub occupied: Vec<Occupied>,
+    /// Ground contacts, in order; none overlap.
+    pub contacts_s: Vec<[f64; 2]>,
+    /// Share of each window that contacts take where none is listed.
+    pub contact_share: f64,
+    /// How far controls go.
+    pub reach: Reach,
+    /// Corridor of the light on the cells.
+    pub corridor: Articulation,
+    /// Sign of the offsets.
+    pub offset_sign: f64,
+    /// Offset at the start of the mission as it is, in rad, which is told of the frozen time.
+    pub frozen_offset_rad: f64,
+    /// Which ways a windmill angle turns the panels.
+    pub sides: Vec<f64>,
+}
+
+impl Layout {
+    /// The windows of a flight on the baseline, and that.
+    ///
+    /// # Errors
+    /// The first time at which no offset keeps the corridor.
+    pub fn windows(&self, flown: &Flown) -> Result<(Vec<Window>, Vec<OffsetStep>), NoOffset> {
+        let (Some(first), Some(last)) = (flown.rows.first(), flown.rows.last()) else {
+            return Ok((Vec::new(), Vec::new()));
+        };
+        let [begin_s, end_s] = [first.time_s, last.time_s];
+        let frozen_s = self.frozen_until_s.clamp(begin_s, end_s);
+        let mut spans = Vec::new();
+        if frozen_s > begin_s + SAME_S {
+            let kind = if self.arrays_are_frozen { WindowKind::Frozen } else { WindowKind::Fixed };
+            spans.push(([begin_s, frozen_s], kind, None));
+        }
+        let mut at_s = frozen_s;
+        for occupied in &self.occupied {
+            let [from_s, to_s] = [occupied.start_s.max(at_s), occupied.stop_s.min(end_s)];
+            if to_s <= from_s + SAME_S {
+                continue;
+            }
+            self.cut(&mut spans, [at_s, from_s]);
+            let kind = if occupied.planned { WindowKind::Planned } else { WindowKind::Fixed };
+            spans.push(([from_s, to_s], kind, Some(occupied.command)));
+            at_s = to_s;
+        }
+        self.cut(&mut spans, [at_s, end_s]);
+
+        let arrays_from_s = if self.arrays_are_frozen { frozen_s } else { begin_s };
+        let places: Vec<(f64, f64)> = flown
+            .rows
+            .iter()
+            .filter(|row| row.time_s >= arrays_from_s - SAME_S)
+            .map(|row| (row.time_s, row.to_sun_m.norm()))
+            .collect();
+        let edges: Vec<f64> = spans.iter().map(|([start_s, _], ..)| *start_s).collect();
+        let steps =
+            if self.sides.is_empty() { Vec::new() } else { baseline(&self.corridor, &places, &edges)? };
+        // A step inside a window splits it.
+        let mut windows = Vec::new();
+        for ([start_s, stop_s], kind, command) in spans {
+            let inside = steps.iter().map(|step| step.at_s);
+            let mut cuts: Vec<f64> =
+                inside.filter(|at_s| *at_s > start_s + SAME_S && *at_s < stop_s - SAME_S).collect();
+            cuts.push(stop_s);
+            let mut from_s = start_s;
+            for to_s in cuts {
+                windows.push(self.window([from_s, to_s], (kind, command), flown, &steps));
+                from_s = to_s;
+            }
+        }
+        Ok((windows, steps))
+    }
+
+    /// Free time in pieces; a last one of less than half a window joins the one before.
+    fn cut(&self, spans: &mut Vec<([f64; 2], WindowKind, Option<usize>)>, [from_s, to_s]: [f64; 2]) {
+        if to_s <= from_s + SAME_S {
+            return;
+        }
+        let pieces = ((to_s - from_s) / self.window_s + 0.5).floor().max(1.0) as usize;
+        for piece in 0..pieces {
+            let start_s = from_s + piece as f64 * self.window_s;
+            let stop_s = if piece + 1 == pieces { to_s } else { start_s + self.window_s };
+            spans.push(([start_s, stop_s], WindowKind::Free, None));
+        }
+    }
+
+    fn window(
+        &self,
+        [start_s, stop_s]: [f64; 2],
+        (kind, command): (WindowKind, Option<usize>),
+        flown: &Flown,
+        steps: &[OffsetStep],
+    ) -> Window {
+        let rows = || {
+            flown.rows.iter().filter(move |row| (start_s - SAME_S..=stop_s + SAME_S).contains(&row.time_s))
+        };
+        let mut offsets_rad = [0.0, core::f64::consts::PI];
+        for allowed in rows().filter_map(|row| allowed_rad(&self.corridor, row.to_sun_m.norm())) {
+            offsets_rad = [offsets_rad[0].max(allowed[0]), offsets_rad[1].min(allowed[1])];
+        }
+        let begun = steps.iter().rev().find(|step| step.at_s <= start_s + SAME_S);
+        let offset_rad = match kind {
+            WindowKind::Frozen => self.frozen_offset_rad,
+            _ => self.offset_sign * begun.map_or(0.0, |step| step.offset_rad),
+        };
+        if self.offset_sign < 0.0 {
+            offsets_rad = [-offsets_rad[1], -offsets_rad[0]];
+        }
+        let separation_rad = rows()
+            .map(|row| row.to_sun_m.angle(&row.to_earth_m))
+            .map(|angle_rad| angle_rad.min(core::f64::consts::PI - angle_rad))
+            .fold(f64::INFINITY, f64::min);
+        let free_of_contact = self.free_of_contact(start_s, stop_s);
+        let free_s: f64 = free_of_contact.iter().map(|[from, to]| to - from).sum();
+        let mut share = (free_s / (stop_s - start_s)).min(1.0);
+        if self.contacts_s.is_empty() {
+            share = share.min(1.0 - self.contact_share);
+        }
+        let mut bounds = [[0.0; 2]; CONTROLS];
+        bounds[Control::Offset as usize] = [offset_rad; 2];
+        if kind != WindowKind::Frozen && self.sides.iter().any(|side| *side != 0.0) {
+            bounds[Control::Windmill as usize] = [-self.reach.windmill_rad, self.reach.windmill_rad];
+        }
+        if kind == WindowKind::Free {
+            let change_rad = self.reach.offset_rad;
+            if !self.sides.is_empty() {
+                bounds[Control::Offset as usize] = [
+                    (offset_rad - change_rad).max(offsets_rad[0].min(offset_rad)),
+                    (offset_rad + change_rad).min(offsets_rad[1].max(offset_rad)),
+                ];
+            }
+            let azimuth_rad = self.reach.azimuth_rad;
+            let elevation_rad = self.reach.elevation_rad.min((separation_rad - LEFT_RAD).max(0.0));
+            bounds[Control::Azimuth as usize] = [-azimuth_rad, azimuth_rad];
+            bounds[Control::Elevation as usize] = [-elevation_rad, elevation_rad];
+            bounds[Control::Alternate as usize] = [0.0, self.reach.alternate.min(share)];
+        }
+        Window {
+            start_s,
+            stop_s,
+            kind,
+            command,
+            free_of_contact: if kind == WindowKind::Free { free_of_contact } else { Vec::new() },
+            bounds,
+            offsets_rad: [offsets_rad[0].min(offset_rad), offsets_rad[1].max(offset_rad)],
+            baseline_rad: offset_rad,
+            sides: self.sides.clone(),
+            controls: Controls::default().with(Control::Offset, offset_rad),
+        }
+    }
+
+    fn free_of_contact(&self, start_s: f64, stop_s: f64) -> Vec<[f64; 2]> {
+        let mut free = Vec::new();
+        let mut at_s = start_s;
+        for [from_s, to_s] in &self.contacts_s {
+            if *from_s >= stop_s || *to_s <= start_s {
+                continue;
+            }
+            if *from_s > at_s + SAME_S {
+                free.push([at_s, *from_s]);
+            }
+            at_s = at_s.max(*to_s);
+        }
+        if stop_s > at_s + SAME_S {
+            free.push([at_s, stop_s]);
+        }
+        free
+    }
+}
+
+/// The elevation stays so far within the angle between Sun and Earth, in rad: at it the attitude has no derivative.
+const LEFT_RAD: f64 = 1e-3;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,84 @@
+//! Windows cover the flight once; alternation has its share and no contact.
+
+use super::*;
+use crate::momentum::test_craft::{DAY_S, craft, flown, task};
+
+const REACH: Reach =
+    Reach { offset_rad: 0.0, windmill_rad: 0.03, azimuth_rad: 0.1, elevation_rad: 0.1, alternate: 0.5 };
+
+fn layout() -> Layout {
+    let mut layout = task(5.0, REACH).layout;
+    layout.frozen_until_s = 2.0 * DAY_S;
+    layout.window_s = 3.0 * DAY_S;
+    layout.occupied =
+        vec![Occupied { start_s: 7.25 * DAY_S, stop_s: 8.0 * DAY_S, planned: true, command: 4 }];
+    layout
+}
+
+#[test]
+fn windows_follow_one_another() {
+    let craft = craft([0.0; 3]);
+    let (windows, steps) = layout().windows(&flown(&craft, 20, 0.4)).unwrap();
+    assert_eq!(steps.len(), 1);
+    assert_eq!([windows[0].start_s, windows.last().unwrap().stop_s], [0.0, 20.0 * DAY_S]);
+    assert!(windows.windows(2).all(|pair| pair[0].stop_s == pair[1].start_s));
+    let kinds: Vec<_> = windows.iter().map(|window| window.kind).collect();
+    use WindowKind::{Free, Frozen, Planned};
+    assert_eq!(kinds, [Frozen, Free, Free, Planned, Free, Free, Free, Free]);
+    assert_eq!(windows[3].command, Some(4));
+    assert_eq!([windows[2].start_s, windows[2].stop_s], [5.0 * DAY_S, 7.25 * DAY_S]);
+}
+
+#[test]
+fn alternation_has_its_share_outside_of_contacts() {
+    let craft = craft([0.0; 3]);
+    let mut layout = layout();
+    layout.contacts_s =
+        (0..20).map(|day| [(f64::from(day) + 0.25) * DAY_S, (f64::from(day) + 0.5) * DAY_S]).collect();
+    let (windows, _) = layout.windows(&flown(&craft, 20, 0.4)).unwrap();
+    for mut window in windows.into_iter().filter(|window| window.kind == WindowKind::Free) {
+        for share in [0.0, 0.1, 0.37, 0.5] {
+            window.controls = window.controls.with(Control::Alternate, share);
+            let spans = window.alternate_spans_s();
+            let total_s: f64 = spans.iter().map(|[from, to]| to - from).sum();
+            assert!((total_s - share * window.length_s()).abs() < 1e-6);
+            let meets = |[from, to]: &[f64; 2]| {
+                layout.contacts_s.iter().any(|contact| contact[0] < to - 1e-6 && contact[1] > from + 1e-6)
+            };
+            assert!(!spans.iter().any(meets));
+            assert!(spans.iter().all(|[from, to]| *from >= window.start_s && *to <= window.stop_s));
+        }
+    }
+}
+
+/// Halves of 6 h in the order +--+.
+#[test]
+fn equal_parts_are_halves_about_the_middle_of_each_day() {
+    let craft = craft([0.0; 3]);
+    let (windows, _) = layout().windows(&flown(&craft, 20, 0.4)).unwrap();
+    let mut window = windows[1].clone();
+    window.controls = window.controls.with(Control::Alternate, 0.5);
+    let spans: Vec<[f64; 2]> = window
+        .alternate_spans_s()
+        .into_iter()
+        .map(|span| span.map(|it| (it - window.start_s) / 3600.0))
+        .collect();
+    for (index, span) in spans.iter().enumerate() {
+        let day_h = 24.0 * index as f64;
+        assert!((span[0] - day_h - 6.0).abs() < 1e-9 && (span[1] - day_h - 18.0).abs() < 1e-9, "{span:?}");
+    }
+    assert_eq!(spans.len(), 3);
+}
+
+#[test]
+fn a_window_full_of_contact_has_no_alternation() {
+    let craft = craft([0.0; 3]);
+    let mut layout = layout();
+    layout.contacts_s = vec![[1.9 * DAY_S, 5.1 * DAY_S]];
+    let (windows, _) = layout.windows(&flown(&craft, 20, 0.4)).unwrap();
+    assert_eq!(windows[1].bounds[Control::Alternate as usize], [0.0, 0.0]);
+    layout.contacts_s.clear();
+    layout.contact_share = 0.7;
+    let (windows, _) = layout.windows(&flown(&craft, 20, 0.4)).unwrap();
+    assert!((windows[1].bounds[Control::Alternate as usize][1] - 0.3).abs() < 1e-12);
+}
