@@ -1,9 +1,8 @@
 //! Where downlinks have the Sun, as inputs say, and what comes of it.
 
-use core::f64::consts::{FRAC_PI_2, PI};
-
 use fmi_export::{Boolean, Real, Values, Variables};
 use physics::attitude::SunAngles;
+use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD};
 use physics::guidance::downlink::sun_place::SunRequest;
 
 /// The file of commands over time in an FMU.
@@ -18,10 +17,10 @@ pub(crate) const ZERO_KEEP_IN_AXIS: &str =
 pub struct DownlinkVariables {
     /// Azimuth of the Sun in the body frame during downlinks, from -Y toward +X, with momentum.strategy dumpsOnly. Where both
     /// angles are 0 the timeline's count, else the Sun stands on -Y. As near as Sun, Earth and antennas allow.
-    #[input(unit = "rad", display = "deg", min = -PI, max = PI, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1], start = 0.0)]
     pub sun_azimuth: Real,
     /// Its elevation, positive toward -Z.
-    #[input(unit = "rad", display = "deg", min = -FRAC_PI_2, max = FRAC_PI_2, start = 0.0)]
+    #[input(unit = "rad", display = "deg", min = QUARTER_TURNS_RAD[0], max = QUARTER_TURNS_RAD[1], start = 0.0)]
     pub sun_elevation: Real,
     /// Whether downlinks are turned by 180 deg about the Sun line: the torque of sunlight across it changes its sign, and there is
     /// no link.

@@ -8,8 +8,8 @@ use physics::{
 };
 
 use super::{
-    Limit,
     flown::{Flown, FlownRow},
+    model::Limit,
     plan::PlanTask,
     torque::LitCraft,
     windows::{Layout, Reach},

@@ -10,9 +10,10 @@ use std::ops::Range;
 use nalgebra::{Matrix3x4, Matrix4, Vector3, Vector4};
 
 use super::{
-    Deviations, Parameters, Telemetry,
     directions::{Direction, principal},
     expansion::Expansion,
+    parameters::{Deviations, Parameters},
+    telemetry::Telemetry,
 };
 
 /// Steps at most; each squares the error, or divides it by twenty along a valley that bends.

@@ -7,7 +7,11 @@
 
 use nalgebra::{Matrix3x4, Vector3};
 
-use super::{Failure, Flights, History, Parameters};
+use super::{
+    failure::Failure,
+    flights::{Flights, History},
+    parameters::Parameters,
+};
 
 /// Steps from the centre, far above a flight's tolerance: of the centre of mass, in m, and of the factor, as a part of it.
 const CENTER_STEP_M: f64 = 0.02;

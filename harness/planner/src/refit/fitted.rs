@@ -6,10 +6,13 @@ use nalgebra::{Matrix4, Vector3};
 use serde::Serialize;
 
 use super::{
-    Deviations, Direction, Failure, Flights, Parameters, Telemetry,
+    directions::Direction,
     estimate::{Problem, residuals_n_m_s},
     expansion::{Expansion, FLIGHTS},
-    telemetry::{LEAST_ROWS, arcs},
+    failure::Failure,
+    flights::Flights,
+    parameters::{Deviations, Parameters},
+    telemetry::{LEAST_ROWS, Telemetry, arcs},
 };
 
 /// Expansions at most.

@@ -1,8 +1,7 @@
 //! Momentum management: what the Sun's place in downlink and dumps follow from, and what they are.
 
-use core::f64::consts::PI;
-
 use fmi_export::{Boolean, Choice, Real, RealVector, Variables};
+use physics::constants::HALF_TURNS_RAD;
 use physics::management::Strategy;
 use physics::momentum::Convention;
 
@@ -34,7 +33,7 @@ pub struct SunshadeVariables {
 #[variables(setup = GuidanceSetup)]
 pub struct PanelVariables {
     /// Angle between the panel's normal and the Sun direction that is commanded, and that targets count on; its sign is a sense of tilt.
-    #[parameter(tunable, unit = "rad", display = "deg", min = -PI, max = PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
+    #[parameter(tunable, unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1], start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub nominal_sun_offset: Real,
     /// Sense of tilt of a positive offset; the paper does not print it.
     #[parameter(start = PanelTilt::of(&setup.spacecraft.panels[index]))]

@@ -1,8 +1,7 @@
 //! The spacecraft itself: mass, shade, panels, wheels, faces.
 
-use core::f64::consts::PI;
-
 use fmi_export::{Boolean, Choice, Failure, Real, RealMatrix, RealVector, Values, Variables};
+use physics::constants::HALF_TURNS_RAD;
 use physics::spacecraft::Articulation;
 
 use physics::guidance::constraints::keep_in;
@@ -57,7 +56,7 @@ pub struct PanelVariables {
     #[parameter(start = PanelControl(setup.spacecraft.panels[index].control))]
     pub control: Choice<PanelControl>,
     /// Angle between the panel's normal and the Sun direction when it is held by Sun offset; its sign is a sense of tilt.
-    #[parameter(tunable, unit = "rad", display = "deg", min = -PI, max = PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
+    #[parameter(tunable, unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1], start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub sun_offset: Real,
     /// Sense of tilt of a positive offset; the paper does not print it.
     #[parameter(start = PanelTilt::of(&setup.spacecraft.panels[index]))]
@@ -69,7 +68,7 @@ pub struct PanelVariables {
     #[input(unit = "rad", display = "deg", start = setup.spacecraft.panels[index].angle_rad)]
     pub angle: Real,
     /// Angle between the panel's normal and the Sun direction when panel control is by command; its sign is a sense of tilt.
-    #[input(unit = "rad", display = "deg", min = -PI, max = PI, start = setup.spacecraft.panels[index].sun_offset_rad)]
+    #[input(unit = "rad", display = "deg", min = HALF_TURNS_RAD[0], max = HALF_TURNS_RAD[1], start = setup.spacecraft.panels[index].sun_offset_rad)]
     pub sun_offset_command: Real,
     /// Rotation angle in effect, about the panel's axis from its zero position.
     #[output(unit = "rad", display = "deg")]

@@ -1,0 +1,23 @@
+//! The mission as the fit flies it.
+
+use nalgebra::Vector3;
+
+use super::{failure::Failure, parameters::Parameters};
+
+/// What a flight gives at the requested times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct History {
+    /// EME2000, in N m s.
+    pub momentum_inertial_n_m_s: Vec<Vector3<f64>>,
+    /// Dumps so far.
+    pub dumps: Vec<i32>,
+}
+
+/// The mission, flown with any values of what is fitted.
+pub trait Flights {
+    /// Momentum at times in s, which grow, in a flight without dumps by threshold.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    fn fly(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, Failure>;
+}
