@@ -3,7 +3,9 @@
 mod description;
 mod file;
 mod flights;
+mod options;
 mod picture;
+mod planned;
 mod prices;
 #[cfg(feature = "schema")]
 mod schema;
@@ -17,159 +19,25 @@ use std::{
     time::Instant,
 };
 
-use ::files::{Destination, Scratch};
-use clap::Args;
+use ::files::Destination;
 use nalgebra::{Matrix4, Vector3};
 use physics::guidance::timeline::Timeline;
 use planner::momentum::{
     Limit,
-    flown::Flown,
-    plan::{Flies, MomentumPlan, PlanError, PlanTask, PlannedDump, plan},
+    plan::{MomentumPlan, PlanError, PlanTask, PlannedDump, plan},
     report::{self, PlanEvent},
     torque::LitCraft,
     windows::{Layout, Reach, Window, WindowKind},
 };
 
+pub(crate) use self::options::MomentumOptions;
 use self::{
     file::PlanFile,
     flights::{Failure, FlownMission, Thresholds},
+    planned::{NAMES, Planned},
     timeline::MissionTimeline,
 };
-use crate::{interrupt, outcome::Outcome, patience::Patience};
-
-/// Shown with the help.
-const EXAMPLE: &str = "\
-Status 0: a plan was found and flown within its limits. Status 1: it needs more dumps than it may have, or another limit is not kept;
-what there is of the plan is written all the same.
-
-Example:
-  heliotorque new plan plan.toml
-  heliotorque plan momentum plan.toml --output plan
-  heliotorque run plan/mission.toml";
-
-/// Time for counted changes of the arrays, in s.
-const BUDGET_S: f64 = 60.0;
-
-/// `heliotorque plan momentum`.
-#[derive(Clone, Debug, Args)]
-#[command(after_help = EXAMPLE)]
-pub(crate) struct MomentumOptions {
-    /// The plan file
-    pub plan: PathBuf,
-    /// The folder of timeline.toml, mission.toml, plan.csv, windows.csv, plan.svg and plan.json, created if missing
-    #[arg(long, short, value_name = "DIR")]
-    pub output: PathBuf,
-    /// The FMU whose library flies the mission; otherwise the installed program's, or dist/MomentumPlant.fmu
-    #[arg(long, value_name = "FMU")]
-    pub template: Option<PathBuf>,
-    /// Longest time that is spent on counting changes of the arrays, in s or with a unit
-    #[arg(long, value_name = "TIME", value_parser = crate::values::span, default_value_t = BUDGET_S)]
-    pub budget: f64,
-    /// Fly the plan again with so many values of noise.seed, by the mission's own thresholds: dumps, and percentiles of the greatest |H|
-    #[arg(long, value_name = "COUNT", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=10_000))]
-    pub seeds: u32,
-    /// Print no summary and no progress
-    #[arg(long, short)]
-    pub quiet: bool,
-    /// How long it waits
-    #[command(flatten)]
-    pub patience: Patience,
-}
-
-/// Names of the files.
-const NAMES: [&str; 6] =
-    ["timeline.toml", "mission.toml", "plan.csv", "windows.csv", "plan.svg", "plan.json"];
-
-/// A mission with what a plan needs of it.
-struct Planned<'a> {
-    options: &'a MomentumOptions,
-    mission: FlownMission,
-    timeline: MissionTimeline,
-    craft: LitCraft,
-    flown: Flown,
-    task: PlanTask,
-    /// Values that a refit gives.
-    sets: Vec<(String, Vec<f64>)>,
-    began: Instant,
-    last: RefCell<String>,
-}
-
-impl Planned<'_> {
-    /// Momentum after a dump, body frame, in N m s.
-    fn body(&self, windows: &[Window], dump: &PlannedDump) -> Vector3<f64> {
-        planner::momentum::plan::body_momentum_n_m_s(&self.craft, &self.flown, windows, dump)
-    }
-
-    /// Writes timeline and mission of a plan into a folder.
-    fn write_into(
-        &self,
-        folder: &Path,
-        (windows, dumps): (&[Window], &[PlannedDump]),
-        activity: Option<(&file::Activity, [f64; 2])>,
-    ) -> Result<[(&'static str, String); 2], Failure> {
-        let frozen_s = self.task.layout.frozen_until_s;
-        let bodies = |dump: &PlannedDump| self.body(windows, dump);
-        let text = self.timeline.text(&self.mission, (windows, dumps, frozen_s), &bodies, activity);
-        let mission = written::mission(&self.mission, folder, self.craft.panels.len(), &self.sets)?;
-        Ok([(NAMES[0], text), (NAMES[1], mission)])
-    }
-
-    /// Flies a plan.
-    fn fly_plan(
-        &self,
-        windows: &[Window],
-        dumps: &[PlannedDump],
-        activity: Option<(&file::Activity, [f64; 2])>,
-    ) -> Result<Flown, Failure> {
-        let folder = Scratch::new()?;
-        for (name, text) in self.write_into(folder.path(), (windows, dumps), activity)? {
-            std::fs::write(folder.path().join(name), text)?;
-        }
-        let mission =
-            FlownMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
-        mission.fly(Thresholds::Never, None)
-    }
-
-    /// Flies a plan with other seeds: greatest |H| and dumps of each flight.
-    fn fly_seeds(&self, windows: &[Window], dumps: &[PlannedDump]) -> Result<Vec<(f64, u32)>, Failure> {
-        if self.options.seeds == 0 {
-            return Ok(Vec::new());
-        }
-        let folder = Scratch::new()?;
-        for (name, text) in self.write_into(folder.path(), (windows, dumps), None)? {
-            std::fs::write(folder.path().join(name), text)?;
-        }
-        let mission =
-            FlownMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
-        let bar = terminal::progress(self.options.seeds.into(), "seeds", self.options.quiet);
-        let flights = (1..=self.options.seeds).map(|seed| {
-            let flight = mission.fly(Thresholds::Own, Some(seed))?;
-            bar.inc(1);
-            Ok((flight.greatest_momentum().0, flight.rows.last().map_or(0, |row| row.dumps)))
-        });
-        let flights = flights.collect();
-        bar.finish_and_clear();
-        flights
-    }
-
-    fn say(&self, doing: &str) {
-        if self.options.quiet || *self.last.borrow() == doing {
-            return;
-        }
-        doing.clone_into(&mut self.last.borrow_mut());
-        terminal::note(&format!("{:.1} s: {doing}", self.began.elapsed().as_secs_f64()));
-    }
-}
-
-impl Flies for &Planned<'_> {
-    fn fly(&mut self, windows: &[Window], dumps: &[PlannedDump]) -> Result<Flown, Failure> {
-        self.fly_plan(windows, dumps, None)
-    }
-
-    fn progress(&mut self, doing: &str) {
-        self.say(doing);
-    }
-}
+use crate::{interrupt, outcome::Outcome};
 
 /// Reads the plan file and what it names, and flies the mission as it is.
 fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> Result<Planned<'a>, Failure> {

@@ -8,7 +8,7 @@ use planner::momentum::{
     windows::{Occupied, Window, WindowKind},
 };
 
-use super::{Planned, file::PlanFile, flights::Failure};
+use super::{file::PlanFile, flights::Failure, planned::Planned};
 
 /// All of them.
 pub(super) fn all(

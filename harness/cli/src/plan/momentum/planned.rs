@@ -1,0 +1,119 @@
+//! A mission with what a plan needs of it, and its flights.
+
+use std::{cell::RefCell, path::Path, time::Instant};
+
+use ::files::Scratch;
+use nalgebra::Vector3;
+use planner::momentum::{
+    flown::Flown,
+    plan::{Flies, PlanTask, PlannedDump},
+    torque::LitCraft,
+    windows::Window,
+};
+
+use super::{
+    file::Activity,
+    flights::{Failure, FlownMission, Thresholds},
+    options::MomentumOptions,
+    timeline::MissionTimeline,
+    written,
+};
+
+/// Names of the files.
+pub(super) const NAMES: [&str; 6] =
+    ["timeline.toml", "mission.toml", "plan.csv", "windows.csv", "plan.svg", "plan.json"];
+
+/// A mission with what a plan needs of it.
+pub(super) struct Planned<'a> {
+    pub options: &'a MomentumOptions,
+    pub mission: FlownMission,
+    pub timeline: MissionTimeline,
+    pub craft: LitCraft,
+    pub flown: Flown,
+    pub task: PlanTask,
+    /// Values that a refit gives.
+    pub sets: Vec<(String, Vec<f64>)>,
+    pub began: Instant,
+    pub last: RefCell<String>,
+}
+
+impl Planned<'_> {
+    /// Momentum after a dump, body frame, in N m s.
+    pub(super) fn body(&self, windows: &[Window], dump: &PlannedDump) -> Vector3<f64> {
+        planner::momentum::plan::body_momentum_n_m_s(&self.craft, &self.flown, windows, dump)
+    }
+
+    /// Writes timeline and mission of a plan into a folder.
+    pub(super) fn write_into(
+        &self,
+        folder: &Path,
+        (windows, dumps): (&[Window], &[PlannedDump]),
+        activity: Option<(&Activity, [f64; 2])>,
+    ) -> Result<[(&'static str, String); 2], Failure> {
+        let frozen_s = self.task.layout.frozen_until_s;
+        let bodies = |dump: &PlannedDump| self.body(windows, dump);
+        let text = self.timeline.text(&self.mission, (windows, dumps, frozen_s), &bodies, activity);
+        let mission = written::mission(&self.mission, folder, self.craft.panels.len(), &self.sets)?;
+        Ok([(NAMES[0], text), (NAMES[1], mission)])
+    }
+
+    /// Flies a plan.
+    pub(super) fn fly_plan(
+        &self,
+        windows: &[Window],
+        dumps: &[PlannedDump],
+        activity: Option<(&Activity, [f64; 2])>,
+    ) -> Result<Flown, Failure> {
+        let folder = Scratch::new()?;
+        for (name, text) in self.write_into(folder.path(), (windows, dumps), activity)? {
+            std::fs::write(folder.path().join(name), text)?;
+        }
+        let mission =
+            FlownMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
+        mission.fly(Thresholds::Never, None)
+    }
+
+    /// Flies a plan with other seeds: greatest |H| and dumps of each flight.
+    pub(super) fn fly_seeds(
+        &self,
+        windows: &[Window],
+        dumps: &[PlannedDump],
+    ) -> Result<Vec<(f64, u32)>, Failure> {
+        if self.options.seeds == 0 {
+            return Ok(Vec::new());
+        }
+        let folder = Scratch::new()?;
+        for (name, text) in self.write_into(folder.path(), (windows, dumps), None)? {
+            std::fs::write(folder.path().join(name), text)?;
+        }
+        let mission =
+            FlownMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
+        let bar = terminal::progress(self.options.seeds.into(), "seeds", self.options.quiet);
+        let flights = (1..=self.options.seeds).map(|seed| {
+            let flight = mission.fly(Thresholds::Own, Some(seed))?;
+            bar.inc(1);
+            Ok((flight.greatest_momentum().0, flight.rows.last().map_or(0, |row| row.dumps)))
+        });
+        let flights = flights.collect();
+        bar.finish_and_clear();
+        flights
+    }
+
+    pub(super) fn say(&self, doing: &str) {
+        if self.options.quiet || *self.last.borrow() == doing {
+            return;
+        }
+        doing.clone_into(&mut self.last.borrow_mut());
+        terminal::note(&format!("{:.1} s: {doing}", self.began.elapsed().as_secs_f64()));
+    }
+}
+
+impl Flies for &Planned<'_> {
+    fn fly(&mut self, windows: &[Window], dumps: &[PlannedDump]) -> Result<Flown, Failure> {
+        self.fly_plan(windows, dumps, None)
+    }
+
+    fn progress(&mut self, doing: &str) {
+        self.say(doing);
+    }
+}
