@@ -33,7 +33,7 @@ const DRAWN: [&str; 5] = [
 /// A component that is never reached.
 const NEVER_N_M_S: f64 = 1e9;
 
-/// A mission ready to fly.
+/// A mission ready to be simulated.
 pub(super) struct FlownMission {
     fmu: Fmu,
     sets: Vec<(String, Value)>,
@@ -182,7 +182,7 @@ fn check_plant(file: &str, description: &Description, sets: &[(String, Value)]) 
     let strategy = item(description, sets, STRATEGY);
     if let (Some("guided"), Some(found @ ("reactive" | "predictive"))) = (source, strategy) {
         return Err(format!(
-            "{file}: {STRATEGY}: found {found}, allowed: dumpsOnly: the attitude as it was flown must not follow the \
+            "{file}: {STRATEGY}: found {found}, allowed: dumpsOnly: the attitude that the spacecraft had must not follow the \
              momentum that is fitted; give the Sun's places as they were (timeline, downlink.*)"
         ));
     }

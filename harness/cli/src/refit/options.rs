@@ -23,7 +23,7 @@ Example:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Refit {
-    /// The mission that was flown, as for `run`: MomentumPlant in guided or commanded attitude
+    /// The mission that the telemetry is of, as for `run`: MomentumPlant in guided or commanded attitude
     pub mission: PathBuf,
     /// The history of momentum
     #[arg(long, value_name = "CSV")]

@@ -8,14 +8,14 @@
 //! windows that cannot share a windmill angle whatever the momentum before them have a change among them; such spans that share no edge
 //! are counted. From above: each group goes on as long as a plan for the rest exists in which every later window is a group by itself.
 //! Where both differ, branch and bound over the places of the changes, depth first: a branch ends where even single windows
-//! behind it find no plan, or where the count from below exceeds what is left. It stops by the clock; the gap is told.
+//! behind it find no plan, or where the count from below exceeds what is left. It stops by the clock; the gap is reported.
 
 use std::{collections::HashMap, time::Instant};
 
 use super::{
-    flown::SAME_S,
     model::{Model, Part},
     program::Goal,
+    simulated::SAME_S,
     torque::Control,
     windows::WindowKind,
 };
@@ -127,7 +127,7 @@ pub(super) fn first_exceeded_s(model: &Model, guard: f64) -> Option<f64> {
     let count = model.instants().len();
     let kept =
         farthest(0, count, |to| is_kept(model, &leaders, Part { steps: [0, to], free: false }, guard, 1.0));
-    model.instants().get(kept).map(|row| model.flown.rows[*row].time_s)
+    model.instants().get(kept).map(|row| model.simulated.rows[*row].time_s)
 }
 
 /// Searches the places of the changes.
@@ -269,7 +269,7 @@ pub(super) fn fewest_changes(
     let mut steps = vec![0; windows.len() + 1];
     let mut window = 0;
     for (step, &row) in model.instants().iter().enumerate() {
-        let end_s = model.flown.rows[row].time_s;
+        let end_s = model.simulated.rows[row].time_s;
         while window < windows.len() && windows[window].stop_s <= end_s + SAME_S {
             window += 1;
             steps[window] = step + 1;

@@ -2,7 +2,6 @@
 
 pub mod baseline;
 mod counted;
-pub mod flown;
 mod mission;
 mod model;
 pub mod plan;
@@ -10,8 +9,9 @@ mod program;
 pub mod refit_file;
 mod region;
 pub mod report;
+pub mod simulated;
 #[cfg(test)]
-mod test_craft;
+mod test_spacecraft;
 pub mod torque;
 pub mod windows;
 

@@ -7,9 +7,9 @@
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
 
 use super::{
-    flown::{Flown, FlownRow, SAME_S},
     program::{Begin, Program, Step},
-    torque::{Attitude, CONTROLS, Control, LitCraft},
+    simulated::{FlightRow, SAME_S, SimulatedFlight},
+    torque::{Attitude, CONTROLS, Control, SunlitSpacecraft},
     windows::{Window, WindowKind},
 };
 
@@ -45,7 +45,7 @@ struct Cell {
 #[derive(Clone, Debug)]
 pub(super) struct Model {
     /// Geometry, with rows at all edges.
-    pub flown: Flown,
+    pub simulated: SimulatedFlight,
     /// The windows.
     pub windows: Vec<Window>,
     /// The limit.
@@ -74,17 +74,22 @@ pub(super) struct Part {
 
 impl Model {
     /// About the controls of the windows.
-    pub(super) fn new(craft: &LitCraft, flown: Flown, windows: Vec<Window>, limit: Limit) -> Self {
+    pub(super) fn new(
+        sunlit: &SunlitSpacecraft,
+        simulated: SimulatedFlight,
+        windows: Vec<Window>,
+        limit: Limit,
+    ) -> Self {
         let edges: Vec<f64> = windows
             .iter()
             .flat_map(|window| {
                 window.free_of_contact.iter().flatten().copied().chain([window.start_s, window.stop_s])
             })
             .collect();
-        let flown = flown.with_rows_at(&edges);
+        let simulated = simulated.with_rows_at(&edges);
         let mut model = Self {
-            corrections: vec![Vector3::zeros(); flown.rows.len().saturating_sub(1)],
-            flown,
+            corrections: vec![Vector3::zeros(); simulated.rows.len().saturating_sub(1)],
+            simulated,
             windows,
             limit,
             judged_from_s: f64::NEG_INFINITY,
@@ -93,14 +98,14 @@ impl Model {
             instants: Vec::new(),
             between: Vec::new(),
         };
-        model.linearise(craft);
+        model.linearise(sunlit);
         model.set_instants();
         model
     }
 
     /// Anew about the present controls.
-    pub(super) fn linearise(&mut self, craft: &LitCraft) {
-        let rows = &self.flown.rows;
+    pub(super) fn linearise(&mut self, sunlit: &SunlitSpacecraft) {
+        let rows = &self.simulated.rows;
         let mut cells = Vec::with_capacity(rows.len());
         let mut window = 0;
         // The end of a cell is the beginning of the next one in the same window.
@@ -114,9 +119,9 @@ impl Model {
             let share = of.alternate_at(middle_s);
             let from = match last.take() {
                 Some((at_window, at, value)) if at_window == window && at == index => value,
-                _ => At::of(craft, &rows[index], of),
+                _ => At::of(sunlit, &rows[index], of),
             };
-            let to = At::of(craft, &rows[index + 1], of);
+            let to = At::of(sunlit, &rows[index + 1], of);
             cells.push(cell(window, of, [&rows[index], &rows[index + 1]], [&from, &to], share));
             last = Some((window, index + 1, to));
         }
@@ -125,11 +130,11 @@ impl Model {
 
     fn set_instants(&mut self) {
         let mut instants = Vec::new();
-        let mut since_s = self.flown.rows.first().map_or(0.0, |row| row.time_s);
+        let mut since_s = self.simulated.rows.first().map_or(0.0, |row| row.time_s);
         for index in 0..self.cells.len() {
             let cell = &self.cells[index];
             let of = &self.windows[cell.window];
-            let end_s = self.flown.rows[index + 1].time_s;
+            let end_s = self.simulated.rows[index + 1].time_s;
             let next = self.cells.get(index + 1);
             let ends_window = next.is_none_or(|next| next.window != cell.window);
             let meets_reset = cell.reset.is_some() || next.is_some_and(|next| next.reset.is_some());
@@ -149,14 +154,14 @@ impl Model {
     }
 
     /// Takes what a flight of the present controls gained; the greatest difference of |H| vectors from the plan before.
-    pub(super) fn take(&mut self, flight: &Flown) {
-        let momentum = |row: &FlownRow| flight.momentum_n_m_s(row.time_s);
+    pub(super) fn take(&mut self, flight: &SimulatedFlight) {
+        let momentum = |row: &FlightRow| flight.momentum_n_m_s(row.time_s);
         let count_at = |time_s: f64| {
             let after = flight.rows.partition_point(|row| row.time_s <= time_s + SAME_S);
             after.checked_sub(1).and_then(|at| flight.rows.get(at)).map_or(0, |row| row.dumps)
         };
         for (index, cell) in self.cells.iter().enumerate() {
-            let [from, to] = [&self.flown.rows[index], &self.flown.rows[index + 1]];
+            let [from, to] = [&self.simulated.rows[index], &self.simulated.rows[index + 1]];
             if cell.reset.is_some() || count_at(from.time_s - 2.0 * SAME_S) != count_at(to.time_s) {
                 continue;
             }
@@ -166,14 +171,14 @@ impl Model {
 
     /// Whether the mission dumps in a cell that ends or begins there.
     pub(super) fn is_reset_at(&self, time_s: f64) -> bool {
-        let is_at = |row: usize| (self.flown.rows[row].time_s - time_s).abs() <= SAME_S;
+        let is_at = |row: usize| (self.simulated.rows[row].time_s - time_s).abs() <= SAME_S;
         let cells = self.cells.iter().enumerate();
         cells.filter(|(_, cell)| cell.reset.is_some()).any(|(index, _)| is_at(index) || is_at(index + 1))
     }
 
     /// Momentum at every row by the model at the present controls, in N m s.
     pub(super) fn momentum_n_m_s(&self) -> Vec<Vector3<f64>> {
-        let mut at = self.flown.rows.first().map_or_else(Vector3::zeros, |row| row.momentum_n_m_s);
+        let mut at = self.simulated.rows.first().map_or_else(Vector3::zeros, |row| row.momentum_n_m_s);
         let mut all = vec![at];
         for (index, cell) in self.cells.iter().enumerate() {
             if let Some((_, after)) = self.dumps.iter().find(|(row, _)| *row == index) {
@@ -190,10 +195,10 @@ impl Model {
         let limit = &self.limit;
         let most = limit.momentum_n_m_s * (1.0 - limit.margin);
         let judged = |row: usize, allowed: f64| {
-            let is_judged = self.flown.rows[row].time_s >= self.judged_from_s - SAME_S;
+            let is_judged = self.simulated.rows[row].time_s >= self.judged_from_s - SAME_S;
             if is_judged { allowed } else { allowed + UNJUDGED * limit.momentum_n_m_s }
         };
-        let rows = self.flown.rows.len();
+        let rows = self.simulated.rows.len();
         let Some(covariance) = limit.covariance else {
             return (0..rows).map(|row| judged(row, most)).collect();
         };
@@ -310,7 +315,7 @@ impl Model {
 
     fn add_steps(&self, program: &mut Program, leaders: &[usize], part: Part, guard: f64) {
         let allowed = self.allowed_n_m_s();
-        let start = self.flown.rows.first().map_or_else(Vector3::zeros, |row| row.momentum_n_m_s);
+        let start = self.simulated.rows.first().map_or_else(Vector3::zeros, |row| row.momentum_n_m_s);
         for step in part.steps[0]..part.steps[1] {
             let from = step.checked_sub(1).map_or(0, |before| self.instants[before]);
             let to = self.instants[step];
@@ -318,7 +323,7 @@ impl Model {
                 true if part.free => Begin::Free,
                 true if step == 0 => Begin::At(start),
                 // A part that does not begin freely is the flight's beginning.
-                true => Begin::At(self.flown.rows[from].momentum_n_m_s),
+                true => Begin::At(self.simulated.rows[from].momentum_n_m_s),
                 false => Begin::Follows,
             };
             if self.dumps.iter().any(|(row, _)| *row == from) {
@@ -393,14 +398,14 @@ struct At {
 }
 
 impl At {
-    fn of(craft: &LitCraft, row: &FlownRow, window: &Window) -> Self {
+    fn of(sunlit: &SunlitSpacecraft, row: &FlightRow, window: &Window) -> Self {
         let (attitude, controls) = match window.kind {
             WindowKind::Free => (Attitude::Downlink, window.controls),
-            _ => (Attitude::Flown, window.controls),
+            _ => (Attitude::SimulatedFlight, window.controls),
         };
-        let mut found = craft.linearised(row, attitude, &controls);
+        let mut found = sunlit.linearised(row, attitude, &controls);
         if window.kind == WindowKind::Frozen {
-            found.torque = craft.flown_torque_n_m(row);
+            found.torque = sunlit.simulated_torque_n_m(row);
             found.by_angle = [Vector3::zeros(); 4];
         }
         Self {
@@ -408,7 +413,7 @@ impl At {
             by_angle: found.by_angle,
             by_center: found.by_center,
             half_turn: found.half_turn,
-            scale: craft.light.scale,
+            scale: sunlit.light.scale,
             other: row.other_torque_n_m,
         }
     }
@@ -437,7 +442,7 @@ impl At {
 fn cell(
     window: usize,
     of: &Window,
-    rows: [&FlownRow; 2],
+    rows: [&FlightRow; 2],
     at: [&At; 2],
     (share, share_by_control): (f64, f64),
 ) -> Cell {

@@ -1,6 +1,6 @@
-//! The optimal plan: fewest dumps, then fewest changes of the arrays, then least tilt, flown and linearised again until both agree.
+//! The optimal plan: fewest dumps, then fewest changes of the arrays, then least tilt, simulated and linearised again until both agree.
 //!
-//! Each round linearises the momentum about the present controls, solves, and flies the answer through the FMU; what the flight gained
+//! Each round linearises the momentum about the present controls, solves, and simulates the answer through the FMU; what the flight gained
 //! more than the model is added to the model of the next round. A round ends the search where flight and plan differ by no more than
 //! [`AGREED`] of the limit and the flight stays below the limit. Within a round the programme is solved again about its own answer
 //! (sequential convex programming) with the range of the controls around it narrowed, for tilt, windmilling and alternation multiply.
@@ -12,10 +12,10 @@ use nalgebra::{Rotation3, Unit, Vector3};
 use super::{
     baseline::{NoOffset, OffsetStep},
     counted::{self, Groups},
-    flown::{Flown, FlownRow, SAME_S},
     model::{ALL, Limit, Model, Part},
     program::{Goal, Program, Solution},
-    torque::{Attitude, Control, Controls, LitCraft},
+    simulated::{FlightRow, SAME_S, SimulatedFlight},
+    torque::{Attitude, Control, Controls, SunlitSpacecraft},
     windows::{Layout, Window, WindowKind},
 };
 
@@ -67,7 +67,7 @@ pub struct PlannedRow {
     pub time_s: f64,
     /// |H| as planned, in N m s.
     pub planned_n_m_s: f64,
-    /// |H| as flown, in N m s.
+    /// |H| as simulated, in N m s.
     pub simulated_n_m_s: f64,
     /// What it may come to, in N m s.
     pub allowed_n_m_s: f64,
@@ -108,11 +108,11 @@ pub struct MomentumPlan {
     /// Where the limit is not kept without dumps.
     pub exceeded: Option<Exceeded>,
     /// The last flight.
-    pub flight: Flown,
+    pub flight: SimulatedFlight,
 }
 
 impl MomentumPlan {
-    /// Greatest |H| as planned and as flown, in N m s.
+    /// Greatest |H| as planned and as simulated, in N m s.
     pub fn greatest_n_m_s(&self) -> [f64; 2] {
         let most = |of: fn(&PlannedRow) -> f64| self.rows.iter().map(of).fold(0.0, f64::max);
         [most(|row| row.planned_n_m_s), most(|row| row.simulated_n_m_s)]
@@ -138,16 +138,19 @@ pub enum PlanError {
     Programme(&'static str),
 }
 
-/// How a plan is flown.
-pub trait Flies {
-    /// Flies windows and dumps.
+/// How a plan is simulated.
+pub trait Simulates {
+    /// Simulates windows and dumps.
     ///
     /// # Errors
     /// The flight fails.
-    fn fly(&mut self, windows: &[Window], dumps: &[PlannedDump])
-    -> Result<Flown, Box<dyn std::error::Error>>;
+    fn simulate(
+        &mut self,
+        windows: &[Window],
+        dumps: &[PlannedDump],
+    ) -> Result<SimulatedFlight, Box<dyn std::error::Error>>;
 
-    /// Told what goes on.
+    /// Receives what is being done.
     fn progress(&mut self, doing: &str);
 }
 
@@ -183,10 +186,10 @@ fn merit(program: &Program, controls: &[f64], excess_n_m_s: f64, goal: Goal) -> 
 /// A trust region: an answer is taken where the model about it is better by the merit, and the range narrows where it is not.
 fn refine(
     model: &mut Model,
-    craft: &LitCraft,
+    sunlit: &SunlitSpacecraft,
     leaders: &[usize],
     (goal, mut trust): (Goal, f64),
-    flies: &mut dyn Flies,
+    simulates: &mut dyn Simulates,
 ) -> Result<bool, PlanError> {
     let limit = model.limit.momentum_n_m_s;
     // What instants leave, rows between them may use in part.
@@ -194,7 +197,7 @@ fn refine(
     model.look_between();
     let mut merit_now = f64::INFINITY;
     for step in 0..MOST_STEPS {
-        flies.progress("momentum");
+        simulates.progress("momentum");
         let program = model.program(leaders, whole(model), [GUARD, trust]);
         if step == 0 && model.is_of(leaders) {
             merit_now = merit(&program, &model.controls(leaders), exceeded(model), goal);
@@ -208,7 +211,7 @@ fn refine(
         };
         let mut next = model.clone();
         give(&mut next, leaders, &solution);
-        next.linearise(craft);
+        next.linearise(sunlit);
         next.look_between();
         let found = merit(&program, &solution.controls, exceeded(&next), goal);
         let predicted = merit(&program, &solution.controls, solution.excess, goal);
@@ -246,42 +249,42 @@ struct Structure {
 /// Counts dumps and changes about the model.
 fn structure(
     model: &mut Model,
-    craft: &LitCraft,
+    sunlit: &SunlitSpacecraft,
     task: &PlanTask,
-    flies: &mut dyn Flies,
+    simulates: &mut dyn Simulates,
 ) -> Result<Structure, PlanError> {
     let single = counted::single(model);
     let (mut dumps_at_least, mut exceeded) = (0, None);
     let start = model.windows.clone();
-    if !refine(model, craft, &single, (Goal::LeastCost, WHOLE), flies)? {
+    if !refine(model, sunlit, &single, (Goal::LeastCost, WHOLE), simulates)? {
         // Another way: from the start again, as far below the limit as it goes.
         let first = (model.excess_n_m_s().0, model.windows.clone());
         model.windows = start;
-        model.linearise(craft);
-        if !refine(model, craft, &single, (Goal::LeastExcess, WHOLE), flies)? {
+        model.linearise(sunlit);
+        if !refine(model, sunlit, &single, (Goal::LeastExcess, WHOLE), simulates)? {
             if first.0 < model.excess_n_m_s().0 {
                 model.windows = first.1;
-                model.linearise(craft);
+                model.linearise(sunlit);
             }
             let excess_n_m_s = model.excess_n_m_s().0;
-            flies.progress("dumps");
-            let found = counted::fewest_dumps(model, GUARD, &mut || flies.progress("dumps"));
+            simulates.progress("dumps");
+            let found = counted::fewest_dumps(model, GUARD, &mut || simulates.progress("dumps"));
             let Some(found) = found else {
                 return Err(PlanError::Programme("the limit is exceeded between two instants"));
             };
             dumps_at_least = found.at_least;
             if let Some(row) = found.rows.first() {
                 let first_s =
-                    counted::first_exceeded_s(model, GUARD).unwrap_or(model.flown.rows[*row].time_s);
+                    counted::first_exceeded_s(model, GUARD).unwrap_or(model.simulated.rows[*row].time_s);
                 exceeded = Some(Exceeded { excess_n_m_s, first_s });
             }
             model.dumps = found.rows.into_iter().map(|row| (row, Vector3::zeros())).collect();
-            refine(model, craft, &single, (Goal::LeastCost, WHOLE), flies)?;
+            refine(model, sunlit, &single, (Goal::LeastCost, WHOLE), simulates)?;
         }
     }
-    flies.progress("changes");
+    simulates.progress("changes");
     let until = Instant::now() + Duration::from_secs_f64(task.budget_s.clamp(0.0, 1e6));
-    let groups = counted::fewest_changes(model, GUARD, until, &mut || flies.progress("changes"));
+    let groups = counted::fewest_changes(model, GUARD, until, &mut || simulates.progress("changes"));
     let groups = groups.unwrap_or_else(|| Groups { changes: single.len() - 1, at_least: 0, leaders: single });
     Ok(Structure { groups, dumps_at_least, exceeded })
 }
@@ -292,30 +295,30 @@ fn structure(
 /// A corridor without an offset, a flight that fails, a programme without an answer.
 pub fn plan(
     task: &PlanTask,
-    craft: &LitCraft,
-    flown: &Flown,
-    flies: &mut dyn Flies,
+    sunlit: &SunlitSpacecraft,
+    simulated: &SimulatedFlight,
+    simulates: &mut dyn Simulates,
 ) -> Result<MomentumPlan, PlanError> {
-    let (windows, baseline) = task.layout.windows(flown).map_err(PlanError::Corridor)?;
-    let mut model = Model::new(craft, flown.clone(), windows, task.limit.clone());
+    let (windows, baseline) = task.layout.windows(simulated).map_err(PlanError::Corridor)?;
+    let mut model = Model::new(sunlit, simulated.clone(), windows, task.limit.clone());
     let mut counts: Option<Structure> = None;
     let mut rounds = 0;
     loop {
         rounds += 1;
         let is_counted_now = counts.is_none();
         if is_counted_now {
-            counts = Some(structure(&mut model, craft, task, flies)?);
+            counts = Some(structure(&mut model, sunlit, task, simulates)?);
         }
         let Some(found) = &counts else { continue };
         let leaders = found.groups.leaders.clone();
         let mut kept = false;
         let ranges: &[f64] = if is_counted_now { &[WHOLE] } else { &LITTLE };
         for trust in ranges {
-            kept = kept || refine(&mut model, craft, &leaders, (Goal::LeastCost, *trust), flies)?;
+            kept = kept || refine(&mut model, sunlit, &leaders, (Goal::LeastCost, *trust), simulates)?;
         }
         let dumps = planned_dumps(&model);
-        flies.progress("flight");
-        let flight = flies.fly(&model.windows, &dumps).map_err(PlanError::Flight)?;
+        simulates.progress("flight");
+        let flight = simulates.simulate(&model.windows, &dumps).map_err(PlanError::Flight)?;
         let rows = rows(&model, &flight);
         let limit = task.limit.momentum_n_m_s;
         let off = rows.iter().map(|row| row.difference_n_m_s).fold(0.0, f64::max);
@@ -349,19 +352,19 @@ pub fn plan(
 
 /// Momentum after a dump in the body frame as it stands then, in N m s.
 pub fn body_momentum_n_m_s(
-    craft: &LitCraft,
-    flown: &Flown,
+    sunlit: &SunlitSpacecraft,
+    simulated: &SimulatedFlight,
     windows: &[Window],
     dump: &PlannedDump,
 ) -> Vector3<f64> {
-    let Some(row) = flown.at(dump.at_s) else { return dump.after_n_m_s };
+    let Some(row) = simulated.at(dump.at_s) else { return dump.after_n_m_s };
     let holds = |window: &&Window| window.start_s <= dump.at_s && window.stop_s > dump.at_s;
     let window = windows.iter().find(holds).filter(|window| window.kind == WindowKind::Free);
     let mut inertial_from_body = row.inertial_from_body;
     if let Some(window) = window {
         let [azimuth_rad, elevation_rad] =
             [Control::Azimuth, Control::Elevation].map(|it| window.controls.get(it));
-        if let Some(found) = craft.downlink_attitude(&row, azimuth_rad, elevation_rad) {
+        if let Some(found) = sunlit.downlink_attitude(&row, azimuth_rad, elevation_rad) {
             inertial_from_body = found;
         }
         let is_alternate = |[from_s, to_s]: &[f64; 2]| (*from_s..*to_s).contains(&dump.at_s);
@@ -375,17 +378,21 @@ pub fn body_momentum_n_m_s(
 }
 
 /// The model of a mission before any flight of a plan.
-fn bare(task: &PlanTask, craft: &LitCraft, flown: &Flown) -> Result<Model, PlanError> {
-    let (windows, _) = task.layout.windows(flown).map_err(PlanError::Corridor)?;
-    Ok(Model::new(craft, flown.clone(), windows, task.limit.clone()))
+fn bare(task: &PlanTask, sunlit: &SunlitSpacecraft, simulated: &SimulatedFlight) -> Result<Model, PlanError> {
+    let (windows, _) = task.layout.windows(simulated).map_err(PlanError::Corridor)?;
+    Ok(Model::new(sunlit, simulated.clone(), windows, task.limit.clone()))
 }
 
 /// Tells nobody.
 struct Silent;
 
-impl Flies for Silent {
-    fn fly(&mut self, _: &[Window], _: &[PlannedDump]) -> Result<Flown, Box<dyn std::error::Error>> {
-        Err("nothing is flown here".into())
+impl Simulates for Silent {
+    fn simulate(
+        &mut self,
+        _: &[Window],
+        _: &[PlannedDump],
+    ) -> Result<SimulatedFlight, Box<dyn std::error::Error>> {
+        Err("nothing is simulated here".into())
     }
 
     fn progress(&mut self, _: &str) {}
@@ -398,14 +405,14 @@ impl Flies for Silent {
 /// A corridor without an offset, a programme without an answer.
 pub fn least_excess_n_m_s(
     task: &PlanTask,
-    craft: &LitCraft,
-    flown: &Flown,
+    sunlit: &SunlitSpacecraft,
+    simulated: &SimulatedFlight,
     from_s: f64,
 ) -> Result<f64, PlanError> {
-    let mut model = bare(task, craft, flown)?;
+    let mut model = bare(task, sunlit, simulated)?;
     model.judged_from_s = from_s;
     let single = counted::single(&model);
-    refine(&mut model, craft, &single, (Goal::LeastExcess, WHOLE), &mut Silent)?;
+    refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), &mut Silent)?;
     Ok(model.excess_n_m_s().0)
 }
 
@@ -413,10 +420,14 @@ pub fn least_excess_n_m_s(
 ///
 /// # Errors
 /// A corridor without an offset, a programme without an answer.
-pub fn fewest_dumps(task: &PlanTask, craft: &LitCraft, flown: &Flown) -> Result<Option<usize>, PlanError> {
-    let mut model = bare(task, craft, flown)?;
+pub fn fewest_dumps(
+    task: &PlanTask,
+    sunlit: &SunlitSpacecraft,
+    simulated: &SimulatedFlight,
+) -> Result<Option<usize>, PlanError> {
+    let mut model = bare(task, sunlit, simulated)?;
     let single = counted::single(&model);
-    if refine(&mut model, craft, &single, (Goal::LeastExcess, WHOLE), &mut Silent)? {
+    if refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), &mut Silent)? {
         return Ok(Some(0));
     }
     Ok(counted::fewest_dumps(&model, GUARD, &mut || {}).map(|found| found.at_least))
@@ -424,19 +435,19 @@ pub fn fewest_dumps(task: &PlanTask, craft: &LitCraft, flown: &Flown) -> Result<
 
 /// Momentum that a downlink with the Sun on -Y would gather over a span, the arrays standing as in the windows, EME2000, in N m s.
 pub fn downlink_momentum_n_m_s(
-    craft: &LitCraft,
-    flown: &Flown,
+    sunlit: &SunlitSpacecraft,
+    simulated: &SimulatedFlight,
     windows: &[Window],
     [from_s, to_s]: [f64; 2],
 ) -> Vector3<f64> {
-    let with = flown.with_rows_at(&[from_s, to_s]);
+    let with = simulated.with_rows_at(&[from_s, to_s]);
     let inside: Vec<_> =
         with.rows.iter().filter(|row| (from_s - SAME_S..=to_s + SAME_S).contains(&row.time_s)).collect();
-    let torque = |row: &FlownRow| {
+    let torque = |row: &FlightRow| {
         let window = windows.iter().find(|window| window.stop_s >= row.time_s);
         let controls = window.map(|window| window.controls).unwrap_or_default();
         let controls = controls.with(Control::Azimuth, 0.0).with(Control::Elevation, 0.0);
-        craft.torque_n_m(row, Attitude::Downlink, &controls) + row.other_torque_n_m
+        sunlit.torque_n_m(row, Attitude::Downlink, &controls) + row.other_torque_n_m
     };
     let pairs = inside.windows(2);
     pairs.map(|pair| (torque(pair[0]) + torque(pair[1])) * (0.5 * (pair[1].time_s - pair[0].time_s))).sum()
@@ -445,18 +456,18 @@ pub fn downlink_momentum_n_m_s(
 fn planned_dumps(model: &Model) -> Vec<PlannedDump> {
     let dumps = model.dumps.iter();
     dumps
-        .map(|(row, after)| PlannedDump { at_s: model.flown.rows[*row].time_s, after_n_m_s: *after })
+        .map(|(row, after)| PlannedDump { at_s: model.simulated.rows[*row].time_s, after_n_m_s: *after })
         .collect()
 }
 
-fn rows(model: &Model, flight: &Flown) -> Vec<PlannedRow> {
+fn rows(model: &Model, flight: &SimulatedFlight) -> Vec<PlannedRow> {
     let (momentum, allowed) = (model.momentum_n_m_s(), model.allowed_n_m_s());
     let is_at_dump = |time_s: f64| {
         let of_model =
-            model.dumps.iter().any(|(row, _)| (model.flown.rows[*row].time_s - time_s).abs() <= SAME_S);
+            model.dumps.iter().any(|(row, _)| (model.simulated.rows[*row].time_s - time_s).abs() <= SAME_S);
         of_model || model.is_reset_at(time_s)
     };
-    let all = model.flown.rows.iter().zip(&momentum).zip(&allowed);
+    let all = model.simulated.rows.iter().zip(&momentum).zip(&allowed);
     all.map(|((row, planned), allowed)| {
         let simulated = flight.momentum_n_m_s(row.time_s);
         // At a dump the one is before it, the other behind.

@@ -4,8 +4,8 @@ use serde_json::{Value, json};
 
 use super::{
     baseline::NoOffset,
-    flown::SAME_S,
     plan::{MomentumPlan, PlanTask},
+    simulated::SAME_S,
     torque::Control,
     windows::Window,
 };
@@ -154,7 +154,7 @@ pub fn corridor_json(none: &NoOffset, start_s: f64) -> Result<String, serde_json
     }))
 }
 
-/// Greatest |H| in a window as planned and as flown, in N m s.
+/// Greatest |H| in a window as planned and as simulated, in N m s.
 pub fn greatest_in(plan: &MomentumPlan, window: &Window) -> [f64; 2] {
     let rows = || {
         let inside = window.start_s - SAME_S..=window.stop_s + SAME_S;
@@ -166,7 +166,7 @@ pub fn greatest_in(plan: &MomentumPlan, window: &Window) -> [f64; 2] {
     ]
 }
 
-/// `windows.csv`; `shown_deg` gives an angle in rad as it is flown.
+/// `windows.csv`; `shown_deg` gives an angle in rad as it is simulated.
 ///
 /// # Errors
 /// What CSV does not take.

@@ -19,7 +19,7 @@ use physics::{
     spacecraft::{MassProperties, Spacecraft, SunshadeModel},
 };
 
-use super::flown::FlownRow;
+use super::simulated::FlightRow;
 
 /// Step of the central differences, in rad.
 const STEP_RAD: f64 = 1e-4;
@@ -67,15 +67,15 @@ impl Controls {
 /// Which attitude a window has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Attitude {
-    /// As it was flown.
-    Flown,
+    /// As it was simulated.
+    SimulatedFlight,
     /// A downlink with the Sun where the controls put it.
     Downlink,
 }
 
 /// A spacecraft in sunlight as its mission has it.
 #[derive(Clone, Debug)]
-pub struct LitCraft {
+pub struct SunlitSpacecraft {
     /// As its file has it.
     pub spacecraft: Spacecraft,
     /// Sunlight.
@@ -90,7 +90,7 @@ pub struct LitCraft {
     antennas: Antennas,
 }
 
-impl LitCraft {
+impl SunlitSpacecraft {
     /// Of a spacecraft with its panels tilted as its file says.
     ///
     /// # Errors
@@ -126,7 +126,7 @@ impl LitCraft {
     /// The attitude of a downlink with the Sun there; `None` where Sun or Earth has no direction.
     pub fn downlink_attitude(
         &self,
-        row: &FlownRow,
+        row: &FlightRow,
         azimuth_rad: f64,
         elevation_rad: f64,
     ) -> Option<Rotation3<f64>> {
@@ -154,13 +154,13 @@ impl LitCraft {
     /// Force and torque about the centre of mass of direct sunlight, EME2000, in N and N m.
     fn load(
         &self,
-        row: &FlownRow,
+        row: &FlightRow,
         inertial_from_body: &Rotation3<f64>,
         settings: &[PanelSetting],
     ) -> [Vector3<f64>; 2] {
         let distance_m = row.to_sun_m.norm();
         let sun_body = inertial_from_body.inverse() * (row.to_sun_m / distance_m);
-        let craft = SunlitCraft {
+        let sunlit = SunlitCraft {
             solar: &self.solar,
             panels: &self.spacecraft.panels,
             settings,
@@ -169,13 +169,13 @@ impl LitCraft {
             sun_distance_m: distance_m,
         };
         let pressure_pa = self.light.pressure_pa(distance_m) * row.lit_fraction;
-        let center = craft.mass_properties(&sun_body).center_of_mass_body_m;
-        let load = craft.load(&Beam { source_body: sun_body, pressure_pa }, &center);
+        let center = sunlit.mass_properties(&sun_body).center_of_mass_body_m;
+        let load = sunlit.load(&Beam { source_body: sun_body, pressure_pa }, &center);
         [load.force_body_n, load.torque_body_n_m].map(|it| inertial_from_body * it)
     }
 
-    /// Torque of direct sunlight with arrays and attitude as they were flown, EME2000, in N m.
-    pub fn flown_torque_n_m(&self, row: &FlownRow) -> Vector3<f64> {
+    /// Torque of direct sunlight with arrays and attitude as they were simulated, EME2000, in N m.
+    pub fn simulated_torque_n_m(&self, row: &FlightRow) -> Vector3<f64> {
         let enabled = self.panels.iter().map(|(enabled, _)| *enabled);
         let angle = |(enabled, angle_rad): (bool, &f64)| match enabled {
             true => PanelSetting::Angle(Ramp::held(*angle_rad)),
@@ -186,14 +186,14 @@ impl LitCraft {
     }
 
     /// Torque of direct sunlight in the attitude that is not alternate, EME2000, in N m.
-    pub fn torque_n_m(&self, row: &FlownRow, attitude: Attitude, controls: &Controls) -> Vector3<f64> {
+    pub fn torque_n_m(&self, row: &FlightRow, attitude: Attitude, controls: &Controls) -> Vector3<f64> {
         self.loads(row, attitude, controls)[1]
     }
 
-    fn loads(&self, row: &FlownRow, attitude: Attitude, controls: &Controls) -> [Vector3<f64>; 2] {
+    fn loads(&self, row: &FlightRow, attitude: Attitude, controls: &Controls) -> [Vector3<f64>; 2] {
         let [azimuth_rad, elevation_rad] = [Control::Azimuth, Control::Elevation].map(|it| controls.get(it));
         let inertial_from_body = match attitude {
-            Attitude::Flown => row.inertial_from_body,
+            Attitude::SimulatedFlight => row.inertial_from_body,
             Attitude::Downlink => {
                 self.downlink_attitude(row, azimuth_rad, elevation_rad).unwrap_or(row.inertial_from_body)
             }
@@ -202,7 +202,7 @@ impl LitCraft {
     }
 
     /// That torque and its derivatives by the angles, each with that of the alternate attitude behind it.
-    pub fn linearised(&self, row: &FlownRow, attitude: Attitude, controls: &Controls) -> LinearTorque {
+    pub fn linearised(&self, row: &FlightRow, attitude: Attitude, controls: &Controls) -> LinearTorque {
         let at = |controls: &Controls| self.torque_n_m(row, attitude, controls);
         let by = |control: Control| {
             let value = controls.get(control);
@@ -218,7 +218,7 @@ impl LitCraft {
         }
         let [force, torque] = self.loads(row, attitude, controls);
         let inertial_from_body = match attitude {
-            Attitude::Flown => row.inertial_from_body,
+            Attitude::SimulatedFlight => row.inertial_from_body,
             Attitude::Downlink => self
                 .downlink_attitude(row, controls.get(Control::Azimuth), controls.get(Control::Elevation))
                 .unwrap_or(row.inertial_from_body),

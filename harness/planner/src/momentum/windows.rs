@@ -4,7 +4,7 @@ use physics::spacecraft::Articulation;
 
 use super::{
     baseline::{NoOffset, OffsetStep, allowed_rad, baseline},
-    flown::{Flown, SAME_S},
+    simulated::{SAME_S, SimulatedFlight},
     torque::{CONTROLS, Control, Controls},
 };
 
@@ -15,7 +15,7 @@ pub enum WindowKind {
     Frozen,
     /// A command of the mission that stays.
     Fixed,
-    /// A command of the mission that stays and whose price is told.
+    /// A command of the mission that stays and whose price is reported.
     Planned,
     /// A downlink whose controls are sought.
     Free,
@@ -133,7 +133,7 @@ pub struct Occupied {
     pub start_s: f64,
     /// In s of the flight.
     pub stop_s: f64,
-    /// Whether its price is told.
+    /// Whether its price is reported.
     pub planned: bool,
     /// Row in the timeline, from 0.
     pub command: usize,
@@ -160,7 +160,7 @@ pub struct Layout {
     pub corridor: Articulation,
     /// Sign of the offsets.
     pub offset_sign: f64,
-    /// Offset at the start of the mission as it is, in rad, which is told of the frozen time.
+    /// Offset at the start of the mission as it is, in rad, which is reported of the frozen time.
     pub frozen_offset_rad: f64,
     /// Which ways a windmill angle turns the panels.
     pub sides: Vec<f64>,
@@ -171,8 +171,8 @@ impl Layout {
     ///
     /// # Errors
     /// The first time at which no offset keeps the corridor.
-    pub fn windows(&self, flown: &Flown) -> Result<(Vec<Window>, Vec<OffsetStep>), NoOffset> {
-        let (Some(first), Some(last)) = (flown.rows.first(), flown.rows.last()) else {
+    pub fn windows(&self, simulated: &SimulatedFlight) -> Result<(Vec<Window>, Vec<OffsetStep>), NoOffset> {
+        let (Some(first), Some(last)) = (simulated.rows.first(), simulated.rows.last()) else {
             return Ok((Vec::new(), Vec::new()));
         };
         let [begin_s, end_s] = [first.time_s, last.time_s];
@@ -196,7 +196,7 @@ impl Layout {
         self.cut(&mut spans, [at_s, end_s]);
 
         let arrays_from_s = if self.arrays_are_frozen { frozen_s } else { begin_s };
-        let places: Vec<(f64, f64)> = flown
+        let places: Vec<(f64, f64)> = simulated
             .rows
             .iter()
             .filter(|row| row.time_s >= arrays_from_s - SAME_S)
@@ -214,7 +214,7 @@ impl Layout {
             cuts.push(stop_s);
             let mut from_s = start_s;
             for to_s in cuts {
-                windows.push(self.window([from_s, to_s], (kind, command), flown, &steps));
+                windows.push(self.window([from_s, to_s], (kind, command), simulated, &steps));
                 from_s = to_s;
             }
         }
@@ -238,11 +238,14 @@ impl Layout {
         &self,
         [start_s, stop_s]: [f64; 2],
         (kind, command): (WindowKind, Option<usize>),
-        flown: &Flown,
+        simulated: &SimulatedFlight,
         steps: &[OffsetStep],
     ) -> Window {
         let rows = || {
-            flown.rows.iter().filter(move |row| (start_s - SAME_S..=stop_s + SAME_S).contains(&row.time_s))
+            simulated
+                .rows
+                .iter()
+                .filter(move |row| (start_s - SAME_S..=stop_s + SAME_S).contains(&row.time_s))
         };
         let mut offsets_rad = [0.0, core::f64::consts::PI];
         for allowed in rows().filter_map(|row| allowed_rad(&self.corridor, row.to_sun_m.norm())) {

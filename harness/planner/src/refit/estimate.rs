@@ -19,7 +19,7 @@ use super::{
 /// Steps at most; each squares the error, or divides it by twenty along a valley that bends.
 const MOST_STEPS: u32 = 50;
 /// Parts of its deviation that a direction may still move by.
-const SETTLED: f64 = 1e-3;
+const CONVERGED: f64 = 1e-3;
 
 /// What rows and priors say.
 pub(super) struct Problem<'a> {
@@ -63,14 +63,14 @@ impl Problem<'_> {
                 determined.map(|it| it.vector * (it.vector.dot(&right) * it.sigma.powi(2))).sum();
             let step = next - y;
             y = next;
-            if directions.iter().all(|it| it.vector.dot(&step).abs() <= SETTLED * it.sigma) {
+            if directions.iter().all(|it| it.vector.dot(&step).abs() <= CONVERGED * it.sigma) {
                 let parameters = Parameters::of(&(prior + y.component_mul(&deviations)));
                 let directions = principal(&self.normal(expansion, &parameters).information);
                 return Ok(Estimate { parameters, directions });
             }
         }
         Err(format!(
-            "the fit did not settle in {MOST_STEPS} steps, allowed: a history that the mission's flight is near to: see \
+            "the fit did not converge in {MOST_STEPS} steps, allowed: a history that the mission's flight is near to: see \
              --prior-center and --prior-scale"
         ))
     }

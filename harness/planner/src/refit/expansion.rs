@@ -37,7 +37,7 @@ pub(super) struct Expansion {
 }
 
 impl Expansion {
-    /// By flights about `center`; `flown` is told of each.
+    /// By flights about `center`; `flown` is called after each.
     ///
     /// # Errors
     /// What ends a flight; dumps that depend on what is fitted.

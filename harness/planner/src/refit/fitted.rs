@@ -53,7 +53,7 @@ pub struct Fitted {
     pub flights: u64,
 }
 
-/// Fits; `progress` is told the flights so far and the most that the present round may come to.
+/// Fits; `progress` receives the flights so far and the most that the present round may come to.
 ///
 /// # Errors
 /// A flight that fails, too few rows, a flight that no expansion describes.

@@ -1,4 +1,4 @@
-//! The mission as the fit flies it.
+//! Simulations of the mission with values of what is fitted.
 
 use nalgebra::Vector3;
 
@@ -13,7 +13,7 @@ pub struct History {
     pub dumps: Vec<i32>,
 }
 
-/// The mission, flown with any values of what is fitted.
+/// The mission, simulated with any values of what is fitted.
 pub trait Flights {
     /// Momentum at times in s, which grow, in a flight without dumps by threshold.
     ///

@@ -60,7 +60,7 @@ impl Telemetry {
         let file = path.display().to_string();
         let failed = |error: &dyn std::fmt::Display| format!("{file}: {error}: see --telemetry");
         let opened = files::open_at_most(path, files::MOST_TABLE_BYTES).map_err(|error| failed(&error))?;
-        // A row with fewer cells than the header is a gap, told by its column.
+        // A row with fewer cells than the header is a gap, reported with its column.
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
             .flexible(true)

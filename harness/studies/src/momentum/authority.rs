@@ -79,7 +79,7 @@ impl Control {
         matches!(self, Self::Windmill | Self::Offset)
     }
 
-    /// The changes that it is flown with, and what their difference is divided by so that a degree, a centimetre or an alternation
+    /// The changes that it is simulated with, and what their difference is divided by so that a degree, a centimetre or an alternation
     /// is left.
     fn changes(self) -> (&'static [f64], f64) {
         match self {
@@ -149,8 +149,8 @@ impl Worth {
     }
 }
 
-/// What is flown.
-struct Craft {
+/// What is simulated.
+struct StudiedSpacecraft {
     plants: Vec<Plant>,
     /// Changed by the user.
     sets: Settings,
@@ -168,11 +168,12 @@ struct Plant {
 
 /// Study `momentum/authority`.
 pub(crate) fn authority(run: &mut Run<'_>) -> Outcome {
-    let craft = Craft::of(run)?;
-    let each =
-        DISTANCES_AU.into_iter().flat_map(|distance_au| craft.plants.iter().map(move |it| (distance_au, it)));
-    let cases = run.chosen(each, |(distance_au, plant)| craft.label(*distance_au, plant))?;
-    let worths = run.all(&cases, |(distance_au, plant)| craft.simulated(*distance_au, plant))?;
+    let studied = StudiedSpacecraft::of(run)?;
+    let each = DISTANCES_AU
+        .into_iter()
+        .flat_map(|distance_au| studied.plants.iter().map(move |it| (distance_au, it)));
+    let cases = run.chosen(each, |(distance_au, plant)| studied.label(*distance_au, plant))?;
+    let worths = run.all(&cases, |(distance_au, plant)| studied.simulated(*distance_au, plant))?;
     run.line(
         "What a change is worth in momentum, by distance from the Sun and offset of the panels [N.m.s/day]\n",
     );
@@ -183,7 +184,7 @@ pub(crate) fn authority(run: &mut Run<'_>) -> Outcome {
         let sizes = Control::ALL[1..].iter().map(|control| cell(size(*control)));
         let head = [
             worth.distance_au.to_string(),
-            if craft.panels == 0 { "-".to_owned() } else { worth.offset_deg.to_string() },
+            if studied.panels == 0 { "-".to_owned() } else { worth.offset_deg.to_string() },
             cell(windmill.map(Worth::along)),
             cell(windmill.map(Worth::across)),
         ];
@@ -194,10 +195,10 @@ pub(crate) fn authority(run: &mut Run<'_>) -> Outcome {
         centre of mass X, a cm | Y | Z | alternation";
     let rows: Vec<_> = worths.iter().map(row).collect();
     run.table(header, &rows);
-    balance(run, &craft, &worths);
+    balance(run, &studied, &worths);
     run.line(REMARK);
     csv(run, &worths)?;
-    run.picture("authority.svg", &chart(&craft, &worths))
+    run.picture("authority.svg", &chart(&studied, &worths))
 }
 
 const REMARK: &str = "\
@@ -207,9 +208,9 @@ which turns round what is across it. The CSV has all components, by the body axe
 a central difference of flights of MomentumPlant that is held and commanded, all its effects as its file has them.";
 
 /// Tells at which offsets windmilling leaves nothing along the light.
-fn balance(run: &mut Run<'_>, craft: &Craft, worths: &[Worth]) {
-    if !craft.controls.contains(&Control::Windmill) {
-        let why = if craft.panels == 0 {
+fn balance(run: &mut Run<'_>, studied: &StudiedSpacecraft, worths: &[Worth]) {
+    if !studied.controls.contains(&Control::Windmill) {
+        let why = if studied.panels == 0 {
             "it has no panels"
         } else {
             "none of its panels has a side (`windmill_side`)"
@@ -287,7 +288,7 @@ fn csv(run: &mut Run<'_>, worths: &[Worth]) -> Outcome {
 }
 
 /// Of every control the worth by offset, a line each distance; where there are no panels by distance.
-fn chart(craft: &Craft, worths: &[Worth]) -> Chart {
+fn chart(studied: &StudiedSpacecraft, worths: &[Worth]) -> Chart {
     type Of = fn(Vector) -> f64;
     let size: Of = |it| it.norm();
     let rows: [(&str, &str, Control, Of); 9] = [
@@ -301,9 +302,9 @@ fn chart(craft: &Craft, worths: &[Worth]) -> Chart {
         ("centre of mass along Z", "N.m.s/d/cm", Control::Center(2), size),
         ("alternation", "N.m.s/d", Control::Alternation, size),
     ];
-    let rows = rows.into_iter().filter(|(_, _, control, _)| craft.controls.contains(control));
+    let rows = rows.into_iter().filter(|(_, _, control, _)| studied.controls.contains(control));
     let title = "What a change is worth in momentum a day";
-    if craft.panels == 0 {
+    if studied.panels == 0 {
         let line = |control, of: Of| {
             Series::line(
                 "",
@@ -328,7 +329,7 @@ fn chart(craft: &Craft, worths: &[Worth]) -> Chart {
     Chart::new(title, "offset of the panels from the Sun [deg]").with(panels)
 }
 
-impl Craft {
+impl StudiedSpacecraft {
     /// The plant of the options' spacecraft with a timeline of all panels' places.
     fn of(run: &Run<'_>) -> Result<Self, StudyError> {
         let template = run.options.fmu("MomentumPlant.fmu")?;

@@ -343,11 +343,11 @@ pub(crate) fn log_event(context: &Plan<'_>, event: &ThrusterEvent) {
                 event.after_body_n_m_s.as_slice()
             ),
         ),
-        ThrusterEvent::Maneuver { time_s, asked_m_s, executed_m_s } => (
+        ThrusterEvent::Maneuver { time_s, requested_m_s, executed_m_s } => (
             *time_s,
             format!(
-                "maneuver: {:?} m/s asked, {:?} m/s executed (EME2000)",
-                asked_m_s.as_slice(),
+                "maneuver: {:?} m/s requested, {:?} m/s executed (EME2000)",
+                requested_m_s.as_slice(),
                 executed_m_s.as_slice()
             ),
         ),

@@ -38,7 +38,7 @@ pub enum PlanStatus {
     /// It stays as it is.
     #[default]
     Fixed,
-    /// It stays, and its cost is told.
+    /// It stays, and its cost is reported.
     Planned,
     /// The plan may change it.
     Free,

@@ -116,7 +116,7 @@ impl IdealFlight {
         self.integrator.push(&executed_m_s);
         self.maneuvers.count = self.maneuvers.count.saturating_add(1);
         self.maneuvers.last = Some((time_s, executed_m_s));
-        let event = ThrusterEvent::Maneuver { time_s, asked_m_s: found_m_s, executed_m_s };
+        let event = ThrusterEvent::Maneuver { time_s, requested_m_s: found_m_s, executed_m_s };
         self.move_center_of_mass(spacecraft, time_s);
         self.set_mass(spacecraft, time_s);
         (spacecraft.log)(&event);

@@ -34,8 +34,8 @@ pub enum ThrusterEvent {
     Maneuver {
         /// When, in s.
         time_s: f64,
-        /// The delta-v that was asked for, EME2000, in m/s.
-        asked_m_s: Vector3<f64>,
+        /// The delta-v that was requested, EME2000, in m/s.
+        requested_m_s: Vector3<f64>,
         /// The delta-v that was executed.
         executed_m_s: Vector3<f64>,
     },

@@ -36,7 +36,7 @@ pub(super) struct Description {
     /// Share of every window that contacts take, where none is listed; 0 unless given.
     #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
     pub contact_share: Option<Written>,
-    /// Activities whose price is told.
+    /// Activities whose price is reported.
     pub activity: Option<Vec<ActivityDescription>>,
 }
 
@@ -51,7 +51,7 @@ pub(super) struct MomentumDescription {
     /// Share of the limit that is left; 0 unless given.
     #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
     pub margin: Option<Written>,
-    /// The file of a refit (JSON): its centre of mass and scale of sunlight are flown, three sigma of its covariance are left.
+    /// The file of a refit (JSON): its centre of mass and scale of sunlight are simulated, three sigma of its covariance are left.
     pub refit: Option<String>,
     /// Dumps that the plan may have; 0 unless given. A plan that needs more ends with status 1.
     #[cfg_attr(feature = "schema", schemars(with = "Option<u32>"))]

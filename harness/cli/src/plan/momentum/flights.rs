@@ -13,8 +13,8 @@ use physics::{
     spacecraft::{Articulation, MassProperties, Spacecraft, SunshadeModel},
 };
 use planner::momentum::{
-    flown::{Flown, FlownRow},
-    torque::LitCraft,
+    simulated::{FlightRow, SimulatedFlight},
+    torque::SunlitSpacecraft,
 };
 
 use crate::{
@@ -31,7 +31,7 @@ pub(super) type Failure = Box<dyn Error>;
 
 /// The model that is planned.
 const MODEL: &str = "MomentumPlant";
-/// Communication step, in s; steps change nothing in what is flown.
+/// Communication step, in s; steps change nothing in what is simulated.
 const STEP_S: f64 = 3600.0;
 /// A component of momentum that is never reached.
 const NEVER_N_M_S: f64 = 1e9;
@@ -57,8 +57,8 @@ pub(super) enum Thresholds {
     Never,
 }
 
-/// A mission that can be flown.
-pub(super) struct FlownMission {
+/// A mission that can be simulated.
+pub(super) struct SimulatedMission {
     pub mission: Mission,
     pub fmu: Fmu,
     pub sets: Vec<(String, Value)>,
@@ -71,7 +71,7 @@ pub(super) struct FlownMission {
     _folder: Option<Scratch>,
 }
 
-impl FlownMission {
+impl SimulatedMission {
     /// Opens a mission; values that win over its own as for `--set`.
     pub(super) fn open(file: &Path, template: Option<&Path>, set: &[String]) -> Result<Self, Failure> {
         let run = Run {
@@ -190,7 +190,7 @@ impl FlownMission {
     }
 
     /// The spacecraft in sunlight with the mission's values, the centre of mass as it is at each time.
-    pub(super) fn craft(&self, timeline: Option<&Timeline>) -> Result<LitCraft, Failure> {
+    pub(super) fn sunlit(&self, timeline: Option<&Timeline>) -> Result<SunlitSpacecraft, Failure> {
         let spacecraft = self.spacecraft()?;
         let shape = match self.item("sunshade.shape") {
             Some("plates") => Some(SunshadeModel::Plates),
@@ -202,15 +202,15 @@ impl FlownMission {
             false => LightSource::Distance { flux_w_m2: self.real("solar.flux") },
         };
         let light = SunLight { source, scale: self.real("solar.scale") };
-        let mut craft = LitCraft::new(spacecraft, light, shape)?;
+        let mut sunlit = SunlitSpacecraft::new(spacecraft, light, shape)?;
         let inertia =
             |row: usize, column: usize| self.real(&format!("spacecraft.inertia[{},{}]", row + 1, column + 1));
-        craft.mass_at_zero = MassProperties {
+        sunlit.mass_at_zero = MassProperties {
             mass_kg: self.real("spacecraft.mass"),
             center_of_mass_body_m: self.vector("spacecraft.centerOfMass"),
             inertia_body_kg_m2: Matrix3::from_fn(inertia),
         };
-        for (index, (enabled, sign)) in craft.panels.iter_mut().enumerate() {
+        for (index, (enabled, sign)) in sunlit.panels.iter_mut().enumerate() {
             let name = |last: &str| format!("panel[{}].{last}", index + 1);
             *enabled = self.is_true(&name("enabled"));
             match self.item(&name("tilt")) {
@@ -225,13 +225,17 @@ impl FlownMission {
                 .events()
                 .iter()
                 .filter_map(|event| Some((event.at_s - clock_minus_time_s, event.center_of_mass_body_m?)));
-            craft.centers_of_mass = moved.collect();
+            sunlit.centers_of_mass = moved.collect();
         }
-        Ok(craft)
+        Ok(sunlit)
     }
 
-    /// Flies it.
-    pub(super) fn fly(&self, thresholds: Thresholds, seed: Option<u32>) -> Result<Flown, Failure> {
+    /// Simulates it.
+    pub(super) fn simulate(
+        &self,
+        thresholds: Thresholds,
+        seed: Option<u32>,
+    ) -> Result<SimulatedFlight, Failure> {
         let description = self.fmu.description();
         let panels = (1..).map(|number| format!("panel[{number}].angleActual"));
         let panels = panels.take_while(|name| description.variables.iter().any(|it| it.name == *name));
@@ -267,7 +271,7 @@ impl FlownMission {
         if interrupt::raised() {
             return Err("interrupted".into());
         }
-        flown(&recording, &panels)
+        simulated(&recording, &panels)
     }
 }
 
@@ -293,7 +297,7 @@ fn check(file: &Path, fmu: &Fmu, sets: &[(String, Value)]) -> Result<(), Failure
 }
 
 /// The columns of a recording as rows of a flight.
-fn flown(recording: &Recording, panels: &[String]) -> Result<Flown, Failure> {
+fn simulated(recording: &Recording, panels: &[String]) -> Result<SimulatedFlight, Failure> {
     let column = |name: &str| -> Result<Vec<f64>, Failure> {
         Ok(recording.column(name).ok_or_else(|| format!("the FMU has no output {name}"))?.numbers())
     };
@@ -318,10 +322,10 @@ fn flown(recording: &Recording, panels: &[String]) -> Result<Flown, Failure> {
     let attitude = |row: usize| -> Result<Rotation3<f64>, Failure> {
         Ok(Attitude::along_quaternion([0, 1, 2, 3].map(|part: usize| q[part][row]))?.inertial_from_body())
     };
-    let rows = (0..recording.times_s.len()).map(|row| -> Result<FlownRow, Failure> {
+    let rows = (0..recording.times_s.len()).map(|row| -> Result<FlightRow, Failure> {
         let inertial_from_body = attitude(row)?;
         let here = vector(&position, row);
-        Ok(FlownRow {
+        Ok(FlightRow {
             time_s: recording.times_s[row],
             to_sun_m: vector(&sun, row) - here,
             to_earth_m: vector(&earth, row) - here,
@@ -333,10 +337,10 @@ fn flown(recording: &Recording, panels: &[String]) -> Result<Flown, Failure> {
             dumps: dumps[row] as u32,
         })
     });
-    let mut rows: Vec<FlownRow> = rows.collect::<Result<_, _>>()?;
+    let mut rows: Vec<FlightRow> = rows.collect::<Result<_, _>>()?;
     // Of two rows at one time the later counts.
     rows.reverse();
     rows.dedup_by(|next, kept| next.time_s >= kept.time_s);
     rows.reverse();
-    Ok(Flown { rows })
+    Ok(SimulatedFlight { rows })
 }

@@ -26,20 +26,20 @@ use planner::momentum::{
     Limit,
     plan::{MomentumPlan, PlanError, PlanTask, PlannedDump, plan},
     report::{self, PlanEvent},
-    torque::LitCraft,
+    torque::SunlitSpacecraft,
     windows::{Layout, Reach, Window, WindowKind},
 };
 
 pub(crate) use self::options::MomentumOptions;
 use self::{
     file::PlanFile,
-    flights::{Failure, FlownMission, Thresholds},
+    flights::{Failure, SimulatedMission, Thresholds},
     planned::{NAMES, Planned},
     timeline::MissionTimeline,
 };
 use crate::{interrupt, outcome::Outcome};
 
-/// Reads the plan file and what it names, and flies the mission as it is.
+/// Reads the plan file and what it names, and simulates the mission as it is.
 fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> Result<Planned<'a>, Failure> {
     let template = options.template.as_deref();
     let refit = file.refit.as_ref().map(|at| refit(file, at)).transpose()?;
@@ -49,28 +49,28 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
         format!("{name}={}", values.join(","))
     });
     let settings: Vec<String> = settings.collect();
-    let mission = FlownMission::open(&file.mission.it, template, &settings)
+    let mission = SimulatedMission::open(&file.mission.it, template, &settings)
         .map_err(|error| file.problem(&file.mission, &error.to_string()))?;
     check_spans(file, &mission)?;
     let spacecraft = mission.spacecraft()?;
     let found = mission.timeline(&spacecraft)?;
     let timeline = MissionTimeline::of(&mission, found.as_ref())?;
     let own: Option<&Timeline> = found.as_ref().map(|(_, timeline)| timeline);
-    let craft = mission.craft(own)?;
-    let layout = layout(file, &mission, &timeline, &craft)?;
+    let sunlit = mission.sunlit(own)?;
+    let layout = layout(file, &mission, &timeline, &sunlit)?;
     let momentum_n_m_s = file.limit_n_m_s.unwrap_or_else(|| mission.least_threshold_n_m_s());
     let limit = Limit { momentum_n_m_s, margin: file.margin, covariance: refit.map(|it| it.covariance) };
     let task = PlanTask { layout, limit, dumps: file.dumps, budget_s: options.budget };
-    let flown = mission.fly(Thresholds::Never, None)?;
+    let simulated = mission.simulate(Thresholds::Never, None)?;
     let last = RefCell::new(String::new());
-    Ok(Planned { options, mission, timeline, craft, flown, task, sets, began, last })
+    Ok(Planned { options, mission, timeline, sunlit, simulated, task, sets, began, last })
 }
 
 /// Most windows of a plan.
 const MOST_WINDOWS: f64 = 1000.0;
 
 /// Refuses a plan without free time, or with windows beyond count.
-fn check_spans(file: &PlanFile, mission: &FlownMission) -> Result<(), Failure> {
+fn check_spans(file: &PlanFile, mission: &SimulatedMission) -> Result<(), Failure> {
     let length_s = mission.stop_s - mission.start_s;
     let days = |time_s: f64| terminal::short(time_s / 86_400.0);
     if file.freeze_s.it >= length_s {
@@ -90,11 +90,11 @@ fn check_spans(file: &PlanFile, mission: &FlownMission) -> Result<(), Failure> {
 
 fn layout(
     file: &PlanFile,
-    mission: &FlownMission,
+    mission: &SimulatedMission,
     timeline: &MissionTimeline,
-    craft: &LitCraft,
+    sunlit: &SunlitSpacecraft,
 ) -> Result<Layout, Failure> {
-    let sides: Vec<f64> = craft.windmill_sides().collect();
+    let sides: Vec<f64> = sunlit.windmill_sides().collect();
     let has_side = sides.iter().any(|side| *side != 0.0);
     if let (angle_rad, Some(at)) = &file.windmill_rad
         && *angle_rad > 0.0
@@ -103,7 +103,7 @@ fn layout(
         let what = "found panels without a side, allowed: 0, or windmill_side = 1 or -1 of [[panels]] in the spacecraft file";
         return Err(file.problem(at, what).into());
     }
-    let panels = 1..=craft.panels.len();
+    let panels = 1..=sunlit.panels.len();
     let controls = panels.map(|number| mission.item(&format!("panel[{number}].control")));
     let arrays_are_frozen = controls.into_iter().all(|it| matches!(it, Some("sunOffset" | "timeline")));
     let mut contacts_s = Vec::new();
@@ -206,8 +206,8 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
     std::fs::create_dir_all(&options.output)
         .map_err(|error| format!("{}: {error}: see --output", options.output.display()))?;
     let planned = opened(options, &file, began)?;
-    let mut flies = &planned;
-    let outcome = plan(&planned.task, &planned.craft, &planned.flown, &mut flies);
+    let mut simulates = &planned;
+    let outcome = plan(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
     if interrupt::raised() {
         return Ok(ExitCode::from(interrupt::INTERRUPTED));
     }
@@ -233,12 +233,12 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
     };
     let prices = prices::all(&file, &planned, &found)?;
     let events = events(&planned, &found);
-    let sides: Vec<f64> = planned.craft.spacecraft.panels.iter().map(|panel| panel.windmill_side).collect();
+    let sides: Vec<f64> = planned.sunlit.spacecraft.panels.iter().map(|panel| panel.windmill_side).collect();
     let bodies = |dump: &PlannedDump| planned.body(&found.windows, dump);
     let table = written::inputs(&planned.mission, &planned.timeline, &found, &sides, &bodies);
     let windows = report::windows_csv(&found, &timeline::shown_deg)?;
-    let picture = picture::svg(&planned.craft.spacecraft.name, &found, &planned.task)?;
-    let seeds = planned.fly_seeds(&found.windows, &found.dumps)?;
+    let picture = picture::svg(&planned.sunlit.spacecraft.name, &found, &planned.task)?;
+    let seeds = planned.simulate_seeds(&found.windows, &found.dumps)?;
     let json = report::json(&found, &planned.task, &events, (&prices, &seeds))?;
     let [timeline, mission] = planned.write_into(&options.output, (&found.windows, &found.dumps), None)?;
     let contents = [
@@ -269,8 +269,12 @@ fn check_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) 
     let Some(window) = found.windows.iter().find(full) else { return Ok(()) };
     let mut task = planned.task.clone();
     task.layout.contacts_s.clear();
-    let needs =
-        planner::momentum::plan::least_excess_n_m_s(&task, &planned.craft, &planned.flown, f64::NEG_INFINITY);
+    let needs = planner::momentum::plan::least_excess_n_m_s(
+        &task,
+        &planned.sunlit,
+        &planned.simulated,
+        f64::NEG_INFINITY,
+    );
     let (Ok(excess), Some(at)) = (
         needs,
         file.contacts.iter().find(|at| {
@@ -323,11 +327,11 @@ fn summary(
     let day = |time_s: f64| (time_s - start_s) / 86_400.0;
     let [most_planned, most_simulated] = found.greatest_n_m_s();
     let limit = planned.task.limit.momentum_n_m_s;
-    let (unmanaged, _) = planned.flown.greatest_momentum();
+    let (unmanaged, _) = planned.simulated.greatest_momentum();
     let mut lines = vec![
         format!("|H| as the mission is: {unmanaged:.3} N.m.s"),
         format!(
-            "|H| planned {most_planned:.3}, flown {most_simulated:.3}, limit {limit:.3} N.m.s; flight and plan differ by {:.4} at most, \
+            "|H| planned {most_planned:.3}, simulated {most_simulated:.3}, limit {limit:.3} N.m.s; flight and plan differ by {:.4} at most, \
              {:.2} % of the limit, after {} flight{}",
             found.difference_n_m_s(),
             100.0 * found.difference_n_m_s() / limit,

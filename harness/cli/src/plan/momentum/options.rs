@@ -8,7 +8,7 @@ use crate::patience::Patience;
 
 /// Shown with the help.
 const EXAMPLE: &str = "\
-Status 0: a plan was found and flown within its limits. Status 1: it needs more dumps than it may have, or another limit is not kept;
+Status 0: a plan was found and simulated within its limits. Status 1: it needs more dumps than it may have, or another limit is not kept;
 what there is of the plan is written all the same.
 
 Example:
@@ -28,13 +28,13 @@ pub(crate) struct MomentumOptions {
     /// The folder of timeline.toml, mission.toml, plan.csv, windows.csv, plan.svg and plan.json, created if missing
     #[arg(long, short, value_name = "DIR")]
     pub output: PathBuf,
-    /// The FMU whose library flies the mission; otherwise the installed program's, or dist/MomentumPlant.fmu
+    /// The FMU whose library simulates the mission; otherwise the installed program's, or dist/MomentumPlant.fmu
     #[arg(long, value_name = "FMU")]
     pub template: Option<PathBuf>,
     /// Longest time that is spent on counting changes of the arrays, in s or with a unit
     #[arg(long, value_name = "TIME", value_parser = crate::values::span, default_value_t = BUDGET_S)]
     pub budget: f64,
-    /// Fly the plan again with so many values of noise.seed, by the mission's own thresholds: dumps, and percentiles of the greatest |H|
+    /// Simulate the plan again with so many values of noise.seed, by the mission's own thresholds: dumps, and percentiles of the greatest |H|
     #[arg(long, value_name = "COUNT", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=10_000))]
     pub seeds: u32,
     /// Print no summary and no progress

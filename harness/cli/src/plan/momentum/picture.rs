@@ -1,4 +1,4 @@
-//! The picture of a plan over its days: |H| planned and flown under its limit, arrays, tilt, alternation, contacts.
+//! The picture of a plan over its days: |H| planned and simulated under its limit, arrays, tilt, alternation, contacts.
 
 use drawing::{Chart, DrawingError, Panel, Series};
 use planner::momentum::{
@@ -26,7 +26,7 @@ pub(super) fn svg(name: &str, plan: &MomentumPlan, task: &PlanTask) -> Result<St
     let most = plan.greatest_n_m_s().into_iter().fold(limit, f64::max);
     let mut lines = vec![
         Series::curve("planned", of_rows(&|row| row.planned_n_m_s)),
-        Series::curve("flown", of_rows(&|row| row.simulated_n_m_s)),
+        Series::curve("simulated", of_rows(&|row| row.simulated_n_m_s)),
         Series::dashed("limit", vec![(0.0, limit), (end_d, limit)]),
     ];
     if plan.rows.iter().any(|row| row.allowed_n_m_s < limit) {
@@ -44,7 +44,7 @@ pub(super) fn svg(name: &str, plan: &MomentumPlan, task: &PlanTask) -> Result<St
         }
         Series::steps(label, points)
     };
-    // As it is flown.
+    // As it is simulated.
     let deg = |control: Control| move |window: &Window| shown_deg(window.controls.get(control));
     let around = |controls: &[Control], least_deg: f64| {
         let of = |window: &Window| controls.iter().map(|it| deg(*it)(window).abs()).fold(0.0, f64::max);

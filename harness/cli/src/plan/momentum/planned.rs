@@ -5,15 +5,15 @@ use std::{cell::RefCell, path::Path, time::Instant};
 use ::files::Scratch;
 use nalgebra::Vector3;
 use planner::momentum::{
-    flown::Flown,
-    plan::{Flies, PlanTask, PlannedDump},
-    torque::LitCraft,
+    plan::{PlanTask, PlannedDump, Simulates},
+    simulated::SimulatedFlight,
+    torque::SunlitSpacecraft,
     windows::Window,
 };
 
 use super::{
     file::Activity,
-    flights::{Failure, FlownMission, Thresholds},
+    flights::{Failure, SimulatedMission, Thresholds},
     options::MomentumOptions,
     timeline::MissionTimeline,
     written,
@@ -26,10 +26,10 @@ pub(super) const NAMES: [&str; 6] =
 /// A mission with what a plan needs of it.
 pub(super) struct Planned<'a> {
     pub options: &'a MomentumOptions,
-    pub mission: FlownMission,
+    pub mission: SimulatedMission,
     pub timeline: MissionTimeline,
-    pub craft: LitCraft,
-    pub flown: Flown,
+    pub sunlit: SunlitSpacecraft,
+    pub simulated: SimulatedFlight,
     pub task: PlanTask,
     /// Values that a refit gives.
     pub sets: Vec<(String, Vec<f64>)>,
@@ -40,7 +40,7 @@ pub(super) struct Planned<'a> {
 impl Planned<'_> {
     /// Momentum after a dump, body frame, in N m s.
     pub(super) fn body(&self, windows: &[Window], dump: &PlannedDump) -> Vector3<f64> {
-        planner::momentum::plan::body_momentum_n_m_s(&self.craft, &self.flown, windows, dump)
+        planner::momentum::plan::body_momentum_n_m_s(&self.sunlit, &self.simulated, windows, dump)
     }
 
     /// Writes timeline and mission of a plan into a folder.
@@ -53,28 +53,28 @@ impl Planned<'_> {
         let frozen_s = self.task.layout.frozen_until_s;
         let bodies = |dump: &PlannedDump| self.body(windows, dump);
         let text = self.timeline.text(&self.mission, (windows, dumps, frozen_s), &bodies, activity);
-        let mission = written::mission(&self.mission, folder, self.craft.panels.len(), &self.sets)?;
+        let mission = written::mission(&self.mission, folder, self.sunlit.panels.len(), &self.sets)?;
         Ok([(NAMES[0], text), (NAMES[1], mission)])
     }
 
-    /// Flies a plan.
-    pub(super) fn fly_plan(
+    /// Simulates a plan.
+    pub(super) fn simulate_plan(
         &self,
         windows: &[Window],
         dumps: &[PlannedDump],
         activity: Option<(&Activity, [f64; 2])>,
-    ) -> Result<Flown, Failure> {
+    ) -> Result<SimulatedFlight, Failure> {
         let folder = Scratch::new()?;
         for (name, text) in self.write_into(folder.path(), (windows, dumps), activity)? {
             std::fs::write(folder.path().join(name), text)?;
         }
         let mission =
-            FlownMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
-        mission.fly(Thresholds::Never, None)
+            SimulatedMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
+        mission.simulate(Thresholds::Never, None)
     }
 
-    /// Flies a plan with other seeds: greatest |H| and dumps of each flight.
-    pub(super) fn fly_seeds(
+    /// Simulates a plan with other seeds: greatest |H| and dumps of each flight.
+    pub(super) fn simulate_seeds(
         &self,
         windows: &[Window],
         dumps: &[PlannedDump],
@@ -87,10 +87,10 @@ impl Planned<'_> {
             std::fs::write(folder.path().join(name), text)?;
         }
         let mission =
-            FlownMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
+            SimulatedMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
         let bar = terminal::progress(self.options.seeds.into(), "seeds", self.options.quiet);
         let flights = (1..=self.options.seeds).map(|seed| {
-            let flight = mission.fly(Thresholds::Own, Some(seed))?;
+            let flight = mission.simulate(Thresholds::Own, Some(seed))?;
             bar.inc(1);
             Ok((flight.greatest_momentum().0, flight.rows.last().map_or(0, |row| row.dumps)))
         });
@@ -108,9 +108,9 @@ impl Planned<'_> {
     }
 }
 
-impl Flies for &Planned<'_> {
-    fn fly(&mut self, windows: &[Window], dumps: &[PlannedDump]) -> Result<Flown, Failure> {
-        self.fly_plan(windows, dumps, None)
+impl Simulates for &Planned<'_> {
+    fn simulate(&mut self, windows: &[Window], dumps: &[PlannedDump]) -> Result<SimulatedFlight, Failure> {
+        self.simulate_plan(windows, dumps, None)
     }
 
     fn progress(&mut self, doing: &str) {

@@ -2,9 +2,9 @@
 
 use nalgebra::Vector3;
 use planner::momentum::{
-    flown::Flown,
     plan::{MomentumPlan, PlanTask, downlink_momentum_n_m_s, fewest_dumps, least_excess_n_m_s},
     report::Price,
+    simulated::SimulatedFlight,
     windows::{Occupied, Window, WindowKind},
 };
 
@@ -22,10 +22,11 @@ pub(super) fn all(
         return Ok(Vec::new());
     }
     planned.say("prices");
-    let (craft, flown) = (&planned.craft, &planned.flown);
-    let of = |task: &PlanTask, flown: &Flown, from_s: f64| -> Result<(f64, i64), Failure> {
-        let excess = least_excess_n_m_s(task, craft, flown, from_s).map_err(|error| error.to_string())?;
-        let dumps = fewest_dumps(task, craft, flown).map_err(|error| error.to_string())?;
+    let (sunlit, simulated) = (&planned.sunlit, &planned.simulated);
+    let of = |task: &PlanTask, simulated: &SimulatedFlight, from_s: f64| -> Result<(f64, i64), Failure> {
+        let excess =
+            least_excess_n_m_s(task, sunlit, simulated, from_s).map_err(|error| error.to_string())?;
+        let dumps = fewest_dumps(task, sunlit, simulated).map_err(|error| error.to_string())?;
         Ok((excess, dumps.map_or(-1, |count| count as i64)))
     };
     let mut prices = Vec::new();
@@ -34,8 +35,8 @@ pub(super) fn all(
         other.layout.occupied.retain(|it| it != removed);
         let span_s =
             [removed.start_s.max(planned.mission.start_s), removed.stop_s.min(planned.mission.stop_s)];
-        let [without, changed] = [of(task, flown, span_s[0])?, of(&other, flown, span_s[0])?];
-        let default = downlink_momentum_n_m_s(craft, flown, &found.windows, span_s);
+        let [without, changed] = [of(task, simulated, span_s[0])?, of(&other, simulated, span_s[0])?];
+        let default = downlink_momentum_n_m_s(sunlit, simulated, &found.windows, span_s);
         let flight = found.flight.momentum_n_m_s(span_s[1]) - found.flight.momentum_n_m_s(span_s[0]);
         prices.push(Price {
             name: format!("planned command {}", removed.command + 1),
@@ -64,11 +65,12 @@ pub(super) fn all(
             return Err(file.problem(at, what).into());
         }
         let flight = planned
-            .fly_plan(&found.windows, &found.dumps, Some((activity, [from_s, to_s])))
+            .simulate_plan(&found.windows, &found.dumps, Some((activity, [from_s, to_s])))
             .map_err(|error| file.problem(at, &error.to_string()))?;
-        let gathered =
-            |flight: &Flown| -> Vector3<f64> { flight.momentum_n_m_s(to_s) - flight.momentum_n_m_s(from_s) };
-        let with = planned.flown.with_part_of(&flight, [from_s, to_s]);
+        let gathered = |flight: &SimulatedFlight| -> Vector3<f64> {
+            flight.momentum_n_m_s(to_s) - flight.momentum_n_m_s(from_s)
+        };
+        let with = planned.simulated.with_part_of(&flight, [from_s, to_s]);
         let mut other = task.clone();
         other.layout.occupied.push(Occupied {
             start_s: from_s,
@@ -77,7 +79,7 @@ pub(super) fn all(
             command: usize::MAX,
         });
         other.layout.occupied.sort_by(|a, b| a.start_s.total_cmp(&b.start_s));
-        let [without, changed] = [of(task, flown, from_s)?, of(&other, &with, from_s)?];
+        let [without, changed] = [of(task, simulated, from_s)?, of(&other, &with, from_s)?];
         prices.push(Price {
             name: activity.name.clone(),
             removed: false,

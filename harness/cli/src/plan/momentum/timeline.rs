@@ -1,6 +1,6 @@
 //! The timeline of a plan: what the mission commands and keeps, and the plan's own commands, panels and dumps.
 //!
-//! Angles are written in deg to a ten-thousandth, times of alternation to a minute, so that steps of a minute meet them; what is flown is
+//! Angles are written in deg to a ten-thousandth, times of alternation to a minute, so that steps of a minute meet them; what is simulated is
 //! what is written.
 
 use core::fmt::Write;
@@ -20,7 +20,7 @@ use toml_edit::{DocumentMut, Item};
 
 use super::{
     file::Activity,
-    flights::{Failure, FlownMission},
+    flights::{Failure, SimulatedMission},
 };
 
 /// Angles are written so fine, as parts of a deg.
@@ -97,7 +97,10 @@ impl MissionTimeline {
     ///
     /// # Errors
     /// A file that cannot be read again.
-    pub(super) fn of(mission: &FlownMission, found: Option<&(String, Timeline)>) -> Result<Self, Failure> {
+    pub(super) fn of(
+        mission: &SimulatedMission,
+        found: Option<&(String, Timeline)>,
+    ) -> Result<Self, Failure> {
         let Some((text, timeline)) = found else {
             return Ok(Self { is_dated: mission.zero_epoch_s.is_some(), ..Self::default() });
         };
@@ -175,7 +178,7 @@ impl MissionTimeline {
     /// The timeline of a plan, as text; with an activity where one is given.
     pub(super) fn text(
         &self,
-        mission: &FlownMission,
+        mission: &SimulatedMission,
         (windows, dumps, frozen_s): (&[Window], &[PlannedDump], f64),
         bodies: &dyn Fn(&PlannedDump) -> Vector3<f64>,
         activity: Option<(&Activity, [f64; 2])>,
@@ -252,7 +255,7 @@ impl MissionTimeline {
         text
     }
 
-    fn clock(&self, mission: &FlownMission, time_s: f64) -> String {
+    fn clock(&self, mission: &SimulatedMission, time_s: f64) -> String {
         match mission.zero_epoch_s.filter(|_| self.is_dated) {
             Some(zero_s) => format!("{:?}", dates::utc(zero_s + time_s)),
             None if self.is_dated => {

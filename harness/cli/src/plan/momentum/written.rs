@@ -1,4 +1,4 @@
-//! The files of a plan: the mission that flies it, and its arrays and places of the Sun as an input table.
+//! The files of a plan: the mission that simulates it, and its arrays and places of the Sun as an input table.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -11,7 +11,7 @@ use planner::momentum::{
 use toml_edit::{DocumentMut, Item, Table, value};
 
 use super::{
-    flights::{Failure, FlownMission},
+    flights::{Failure, SimulatedMission},
     timeline::{MissionTimeline, array_steps, shown_deg, stretches},
 };
 
@@ -20,7 +20,7 @@ use super::{
 /// # Errors
 /// A mission that cannot be read again.
 pub(super) fn mission(
-    planned: &FlownMission,
+    planned: &SimulatedMission,
     folder: &Path,
     panels: usize,
     sets: &[(String, Vec<f64>)],
@@ -102,7 +102,7 @@ struct Columns {
 
 /// The input table: a row before and one behind every jump.
 pub(super) fn inputs(
-    planned: &FlownMission,
+    planned: &SimulatedMission,
     timeline: &MissionTimeline,
     plan: &MomentumPlan,
     sides: &[f64],

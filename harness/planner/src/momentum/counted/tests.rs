@@ -4,17 +4,21 @@ use nalgebra::Vector3;
 
 use super::*;
 use crate::momentum::{
-    flown::Flown,
-    test_craft::{DAY_S, craft, flown, task},
+    simulated::SimulatedFlight,
+    test_spacecraft::{DAY_S, simulated, sunlit, task},
     windows::Reach,
 };
 
-fn model(reach: Reach, limit: f64, flown: impl Fn(&crate::momentum::torque::LitCraft) -> Flown) -> Model {
-    let craft = craft([0.0; 3]);
+fn model(
+    reach: Reach,
+    limit: f64,
+    simulated: impl Fn(&crate::momentum::torque::SunlitSpacecraft) -> SimulatedFlight,
+) -> Model {
+    let sunlit = sunlit([0.0; 3]);
     let task = task(limit, reach);
-    let flown = flown(&craft);
-    let (windows, _) = task.layout.windows(&flown).unwrap();
-    Model::new(&craft, flown, windows, task.limit)
+    let simulated = simulated(&sunlit);
+    let (windows, _) = task.layout.windows(&simulated).unwrap();
+    Model::new(&sunlit, simulated, windows, task.limit)
 }
 
 /// A torque along one direction through T t: the first dump after L, the others after 2 L each.
@@ -22,12 +26,12 @@ fn model(reach: Reach, limit: f64, flown: impl Fn(&crate::momentum::torque::LitC
 fn dumps_of_a_constant_torque_are_counted_in_closed_form() {
     let per_day = 1.0;
     for (limit, days) in [(1.02, 12), (2.1, 12), (5.0, 12), (20.0, 12)] {
-        let model = model(Reach::default(), limit, |craft| {
-            let mut flown = flown(craft, days, 3000.0);
-            for row in &mut flown.rows {
+        let model = model(Reach::default(), limit, |sunlit| {
+            let mut simulated = simulated(sunlit, days, 3000.0);
+            for row in &mut simulated.rows {
                 row.other_torque_n_m = Vector3::x() * (per_day / DAY_S);
             }
-            flown
+            simulated
         });
         let expected = ((per_day * f64::from(days) - limit) / (2.0 * limit)).ceil().max(0.0) as usize;
         let found = fewest_dumps(&model, 0.0, &mut || {}).unwrap();
@@ -53,14 +57,14 @@ fn changes_are_the_fewest_of_all_choices() {
         ([1.0, 1.0, 1.0, -1.0, 0.5, 0.5, -1.0], 0.9),
         ([0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1], 0.9),
     ] {
-        let model = model(reach, limit, |craft| {
-            let mut flown = flown(craft, 7, 0.4);
-            let sun = flown.rows[0].to_sun_m.normalize();
-            for row in &mut flown.rows {
+        let model = model(reach, limit, |sunlit| {
+            let mut simulated = simulated(sunlit, 7, 0.4);
+            let sun = simulated.rows[0].to_sun_m.normalize();
+            for row in &mut simulated.rows {
                 let day = ((row.time_s / DAY_S) as usize).min(6);
                 row.other_torque_n_m = sun * (pattern[day] / DAY_S);
             }
-            flown
+            simulated
         });
         let until = Instant::now() + std::time::Duration::from_secs(60);
         let found = fewest_changes(&model, 0.0, until, &mut || {});

@@ -5,16 +5,16 @@ use nalgebra::Matrix4;
 
 use super::*;
 use crate::momentum::{
-    test_craft::{DAY_S, craft, flown, task},
+    test_spacecraft::{DAY_S, simulated, sunlit, task},
     windows::Reach,
 };
 
-fn model(reach: Reach, limit: Limit) -> (LitCraft, Model) {
-    let craft = craft([0.01, 0.02, 0.03]);
-    let flown = flown(&craft, 10, 0.4);
-    let (windows, _) = task(5.0, reach).layout.windows(&flown).unwrap();
-    let model = Model::new(&craft, flown, windows, limit);
-    (craft, model)
+fn model(reach: Reach, limit: Limit) -> (SunlitSpacecraft, Model) {
+    let sunlit = sunlit([0.01, 0.02, 0.03]);
+    let simulated = simulated(&sunlit, 10, 0.4);
+    let (windows, _) = task(5.0, reach).layout.windows(&simulated).unwrap();
+    let model = Model::new(&sunlit, simulated, windows, limit);
+    (sunlit, model)
 }
 
 fn limit() -> Limit {
@@ -23,8 +23,8 @@ fn limit() -> Limit {
 
 #[test]
 fn a_constant_torque_is_time_times_torque() {
-    let (craft, model) = model(Reach::default(), limit());
-    let torque = craft.torque_n_m(&model.flown.rows[0], Attitude::Downlink, &model.windows[0].controls);
+    let (sunlit, model) = model(Reach::default(), limit());
+    let torque = sunlit.torque_n_m(&model.simulated.rows[0], Attitude::Downlink, &model.windows[0].controls);
     let end = *model.momentum_n_m_s().last().unwrap();
     assert_relative_eq!(end, torque * (10.0 * DAY_S), max_relative = 1e-12);
     assert!(end.norm() > 0.1);
@@ -33,15 +33,15 @@ fn a_constant_torque_is_time_times_torque() {
 /// Equal parts of both attitudes leave what is along the Sun line.
 #[test]
 fn alternation_leaves_the_sun_line() {
-    let (craft, mut model) = model(Reach { alternate: 0.5, ..Reach::default() }, limit());
+    let (sunlit, mut model) = model(Reach { alternate: 0.5, ..Reach::default() }, limit());
     for window in &mut model.windows {
         window.controls = window.controls.with(Control::Alternate, 0.5);
     }
-    model.linearise(&craft);
+    model.linearise(&sunlit);
     let end = *model.momentum_n_m_s().last().unwrap();
-    let sun = model.flown.rows[0].to_sun_m.normalize();
+    let sun = model.simulated.rows[0].to_sun_m.normalize();
     assert!(end.cross(&sun).norm() < 1e-12);
-    let torque = craft.torque_n_m(&model.flown.rows[0], Attitude::Downlink, &model.windows[0].controls);
+    let torque = sunlit.torque_n_m(&model.simulated.rows[0], Attitude::Downlink, &model.windows[0].controls);
     assert_relative_eq!(end.dot(&sun), torque.dot(&sun) * 10.0 * DAY_S, epsilon = 1e-9);
 }
 
@@ -50,7 +50,7 @@ fn a_flight_that_gains_more_is_believed() {
     let (_, mut model) = model(Reach::default(), limit());
     let more = Vector3::new(1e-6, -2e-6, 3e-6);
     let planned = model.momentum_n_m_s();
-    let mut flight = model.flown.clone();
+    let mut flight = model.simulated.clone();
     for (row, planned) in flight.rows.iter_mut().zip(&planned) {
         row.momentum_n_m_s = planned + more * row.time_s;
     }
@@ -67,21 +67,25 @@ fn a_covariance_leaves_three_sigma() {
         let covariance = Some(Matrix4::from_diagonal(&nalgebra::Vector4::from(diagonal)));
         model(Reach::default(), Limit { covariance, ..limit() })
     };
-    let (craft, of_scale) = covariance([0.0, 0.0, 0.0, 0.1 * 0.1]);
-    let row = &of_scale.flown.rows[0];
-    let torque = craft.torque_n_m(row, Attitude::Downlink, &of_scale.windows[0].controls);
+    let (sunlit, of_scale) = covariance([0.0, 0.0, 0.0, 0.1 * 0.1]);
+    let row = &of_scale.simulated.rows[0];
+    let torque = sunlit.torque_n_m(row, Attitude::Downlink, &of_scale.windows[0].controls);
     let allowed = of_scale.allowed_n_m_s();
     assert_relative_eq!(allowed[0], 5.0);
     assert_relative_eq!(*allowed.last().unwrap(), 5.0 - 0.3 * torque.norm() * 10.0 * DAY_S, epsilon = 1e-9);
-    let (craft, of_center) = covariance([1e-6, 1e-6, 1e-6, 0.0]);
+    let (sunlit, of_center) = covariance([1e-6, 1e-6, 1e-6, 0.0]);
     // F by the torque of a centre of mass moved across it.
     let moved = |axis: usize| {
-        let mut other = craft.clone();
+        let mut other = sunlit.clone();
         other.mass_at_zero.center_of_mass_body_m[axis] += 1.0;
-        let at = |craft: &LitCraft| {
-            craft.torque_n_m(&of_center.flown.rows[0], Attitude::Downlink, &of_center.windows[0].controls)
+        let at = |sunlit: &SunlitSpacecraft| {
+            sunlit.torque_n_m(
+                &of_center.simulated.rows[0],
+                Attitude::Downlink,
+                &of_center.windows[0].controls,
+            )
         };
-        at(&other) - at(&craft)
+        at(&other) - at(&sunlit)
     };
     let columns = Matrix3::from_columns(&[moved(0), moved(1), moved(2)]);
     let force = columns.singular_values().max();

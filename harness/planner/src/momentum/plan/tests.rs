@@ -1,30 +1,30 @@
-//! Whole plans, flown by an integration of their own with a torque that the model does not know.
+//! Whole plans, simulated by an integration of their own with a torque that the model does not know.
 
 use nalgebra::Vector3;
 
 use super::*;
 use crate::momentum::{
-    test_craft::{DAY_S, craft, flown, task},
+    test_spacecraft::{DAY_S, simulated, sunlit, task},
     windows::Reach,
 };
 
-/// Flies windows with the alternate attitude as it is timed, in steps of ten minutes, and one more torque.
+/// Simulates windows with the alternate attitude as it is timed, in steps of ten minutes, and one more torque.
 struct Integrated {
-    craft: LitCraft,
-    flown: Flown,
+    sunlit: SunlitSpacecraft,
+    simulated: SimulatedFlight,
     more_n_m: Vector3<f64>,
     flights: usize,
 }
 
-impl Flies for Integrated {
-    fn fly(
+impl Simulates for Integrated {
+    fn simulate(
         &mut self,
         windows: &[Window],
         dumps: &[PlannedDump],
-    ) -> Result<Flown, Box<dyn std::error::Error>> {
+    ) -> Result<SimulatedFlight, Box<dyn std::error::Error>> {
         self.flights += 1;
         let mut momentum = Vector3::zeros();
-        let mut flight = self.flown.clone();
+        let mut flight = self.simulated.clone();
         let steps = 12_u32;
         let mut count = 0;
         for index in 1..flight.rows.len() {
@@ -37,7 +37,7 @@ impl Flies for Integrated {
             for step in 0..steps {
                 let time_s = from.time_s + duration_s * (f64::from(step) + 0.5) / f64::from(steps);
                 let window = windows.iter().find(|window| window.stop_s > time_s).unwrap();
-                let torque = self.craft.torque_n_m(&from, Attitude::Downlink, &window.controls);
+                let torque = self.sunlit.torque_n_m(&from, Attitude::Downlink, &window.controls);
                 let is_alternate = window.alternate_spans_s().iter().any(|[a, b]| (*a..*b).contains(&time_s));
                 let about = from.to_sun_m.normalize();
                 let turned = about * (2.0 * about.dot(&torque)) - torque;
@@ -54,10 +54,11 @@ impl Flies for Integrated {
 }
 
 fn planned(task: &PlanTask, more_n_m: Vector3<f64>) -> (MomentumPlan, Integrated) {
-    let craft = craft([0.01, 0.02, 0.03]);
-    let flown = flown(&craft, 20, 0.4);
-    let mut integrated = Integrated { craft: craft.clone(), flown: flown.clone(), more_n_m, flights: 0 };
-    let found = plan(task, &craft, &flown, &mut integrated).unwrap();
+    let sunlit = sunlit([0.01, 0.02, 0.03]);
+    let simulated = simulated(&sunlit, 20, 0.4);
+    let mut integrated =
+        Integrated { sunlit: sunlit.clone(), simulated: simulated.clone(), more_n_m, flights: 0 };
+    let found = plan(task, &sunlit, &simulated, &mut integrated).unwrap();
     (found, integrated)
 }
 
@@ -90,10 +91,10 @@ fn the_flight_agrees_with_the_plan_below_the_limit() {
 #[test]
 fn what_no_plan_holds_is_told_with_its_day() {
     let task = task(2.0, Reach::default());
-    let craft = craft([0.01, 0.02, 0.03]);
-    let flown = flown(&craft, 20, 0.4);
-    let (windows, _) = task.layout.windows(&flown).unwrap();
-    let torque = craft.torque_n_m(&flown.rows[0], Attitude::Downlink, &windows[0].controls).norm();
+    let sunlit = sunlit([0.01, 0.02, 0.03]);
+    let simulated = simulated(&sunlit, 20, 0.4);
+    let (windows, _) = task.layout.windows(&simulated).unwrap();
+    let torque = sunlit.torque_n_m(&simulated.rows[0], Attitude::Downlink, &windows[0].controls).norm();
     let (found, _) = planned(&task, Vector3::zeros());
     let exceeded = found.exceeded.unwrap();
     assert!((exceeded.excess_n_m_s - (torque * 20.0 * DAY_S - 2.0)).abs() < 1e-6);
@@ -120,9 +121,9 @@ fn no_plan_of_the_same_windows_has_less_tilt() {
             window.controls = window.controls.with(control, 0.9 * window.controls.get(control));
         }
     }
-    let craft = craft([0.01, 0.02, 0.03]);
-    let flown = flown(&craft, 20, 0.4);
-    let mut integrated = Integrated { craft, flown, more_n_m: Vector3::zeros(), flights: 0 };
-    let flight = integrated.fly(&less, &[]).unwrap();
+    let sunlit = sunlit([0.01, 0.02, 0.03]);
+    let simulated = simulated(&sunlit, 20, 0.4);
+    let mut integrated = Integrated { sunlit, simulated, more_n_m: Vector3::zeros(), flights: 0 };
+    let flight = integrated.simulate(&less, &[]).unwrap();
     assert!(flight.greatest_momentum().0 > found.greatest_n_m_s()[1]);
 }

@@ -3,16 +3,16 @@
 use approx::assert_relative_eq;
 
 use super::*;
-use crate::momentum::test_craft::{DAY_S, craft, row};
+use crate::momentum::test_spacecraft::{DAY_S, row, sunlit};
 
 const DEG: f64 = core::f64::consts::PI / 180.0;
 
 /// Torque by a control in the body frame, in N m s a day and deg, at 0.35 AU.
 fn worth(offset_deg: f64, control: Control) -> Vector3<f64> {
-    let craft = craft([0.0; 3]);
-    let row = row(&craft, 0.0, 0.35, 0.3);
+    let sunlit = sunlit([0.0; 3]);
+    let row = row(&sunlit, 0.0, 0.35, 0.3);
     let controls = Controls::default().with(Control::Offset, offset_deg * DEG);
-    let linear = craft.linearised(&row, Attitude::Downlink, &controls);
+    let linear = sunlit.linearised(&row, Attitude::Downlink, &controls);
     row.inertial_from_body.inverse() * linear.by_angle[control as usize] * (DAY_S * DEG)
 }
 
@@ -31,10 +31,10 @@ fn a_degree_is_worth_what_was_published() {
 #[test]
 fn a_centimetre_is_worth_its_torque() {
     let at = |center: [f64; 3]| {
-        let craft = craft(center);
-        let row = row(&craft, 0.0, 0.35, 0.3);
+        let sunlit = sunlit(center);
+        let row = row(&sunlit, 0.0, 0.35, 0.3);
         let controls = Controls::default().with(Control::Offset, 60.0 * DEG);
-        craft.linearised(&row, Attitude::Downlink, &controls)
+        sunlit.linearised(&row, Attitude::Downlink, &controls)
     };
     let here = at([0.01, 0.02, 0.03]);
     for axis in 0..3 {
@@ -48,14 +48,14 @@ fn a_centimetre_is_worth_its_torque() {
 /// Against the torque of the attitude that is really turned.
 #[test]
 fn the_alternate_attitude_is_a_half_turn() {
-    let craft = craft([0.01, 0.02, 0.03]);
-    let mut row = row(&craft, 0.0, 0.4, 0.3);
+    let sunlit = sunlit([0.01, 0.02, 0.03]);
+    let mut row = row(&sunlit, 0.0, 0.4, 0.3);
     let controls = Controls([60.0 * DEG, 1.0 * DEG, 2.0 * DEG, -3.0 * DEG, 0.0]);
-    let linear = craft.linearised(&row, Attitude::Downlink, &controls);
-    let attitude = craft.downlink_attitude(&row, 2.0 * DEG, -3.0 * DEG).unwrap();
+    let linear = sunlit.linearised(&row, Attitude::Downlink, &controls);
+    let attitude = sunlit.downlink_attitude(&row, 2.0 * DEG, -3.0 * DEG).unwrap();
     let about = nalgebra::Unit::new_normalize(row.to_sun_m);
     row.inertial_from_body = Rotation3::from_axis_angle(&about, core::f64::consts::PI) * attitude;
-    let turned = craft.torque_n_m(&row, Attitude::Flown, &controls);
+    let turned = sunlit.torque_n_m(&row, Attitude::SimulatedFlight, &controls);
     assert_relative_eq!(linear.half_turn * linear.torque, turned, epsilon = 1e-14);
     // In equal parts nothing is left across the Sun line.
     let (mean, _) = linear.mean(0.5);

@@ -1,7 +1,7 @@
 //! Windows cover the flight once; alternation has its share and no contact.
 
 use super::*;
-use crate::momentum::test_craft::{DAY_S, craft, flown, task};
+use crate::momentum::test_spacecraft::{DAY_S, simulated, sunlit, task};
 
 const REACH: Reach =
     Reach { offset_rad: 0.0, windmill_rad: 0.03, azimuth_rad: 0.1, elevation_rad: 0.1, alternate: 0.5 };
@@ -17,8 +17,8 @@ fn layout() -> Layout {
 
 #[test]
 fn windows_follow_one_another() {
-    let craft = craft([0.0; 3]);
-    let (windows, steps) = layout().windows(&flown(&craft, 20, 0.4)).unwrap();
+    let sunlit = sunlit([0.0; 3]);
+    let (windows, steps) = layout().windows(&simulated(&sunlit, 20, 0.4)).unwrap();
     assert_eq!(steps.len(), 1);
     assert_eq!([windows[0].start_s, windows.last().unwrap().stop_s], [0.0, 20.0 * DAY_S]);
     assert!(windows.windows(2).all(|pair| pair[0].stop_s == pair[1].start_s));
@@ -31,11 +31,11 @@ fn windows_follow_one_another() {
 
 #[test]
 fn alternation_has_its_share_outside_of_contacts() {
-    let craft = craft([0.0; 3]);
+    let sunlit = sunlit([0.0; 3]);
     let mut layout = layout();
     layout.contacts_s =
         (0..20).map(|day| [(f64::from(day) + 0.25) * DAY_S, (f64::from(day) + 0.5) * DAY_S]).collect();
-    let (windows, _) = layout.windows(&flown(&craft, 20, 0.4)).unwrap();
+    let (windows, _) = layout.windows(&simulated(&sunlit, 20, 0.4)).unwrap();
     for mut window in windows.into_iter().filter(|window| window.kind == WindowKind::Free) {
         for share in [0.0, 0.1, 0.37, 0.5] {
             window.controls = window.controls.with(Control::Alternate, share);
@@ -54,8 +54,8 @@ fn alternation_has_its_share_outside_of_contacts() {
 /// Halves of 6 h in the order +--+.
 #[test]
 fn equal_parts_are_halves_about_the_middle_of_each_day() {
-    let craft = craft([0.0; 3]);
-    let (windows, _) = layout().windows(&flown(&craft, 20, 0.4)).unwrap();
+    let sunlit = sunlit([0.0; 3]);
+    let (windows, _) = layout().windows(&simulated(&sunlit, 20, 0.4)).unwrap();
     let mut window = windows[1].clone();
     window.controls = window.controls.with(Control::Alternate, 0.5);
     let spans: Vec<[f64; 2]> = window
@@ -72,13 +72,13 @@ fn equal_parts_are_halves_about_the_middle_of_each_day() {
 
 #[test]
 fn a_window_full_of_contact_has_no_alternation() {
-    let craft = craft([0.0; 3]);
+    let sunlit = sunlit([0.0; 3]);
     let mut layout = layout();
     layout.contacts_s = vec![[1.9 * DAY_S, 5.1 * DAY_S]];
-    let (windows, _) = layout.windows(&flown(&craft, 20, 0.4)).unwrap();
+    let (windows, _) = layout.windows(&simulated(&sunlit, 20, 0.4)).unwrap();
     assert_eq!(windows[1].bounds[Control::Alternate as usize], [0.0, 0.0]);
     layout.contacts_s.clear();
     layout.contact_share = 0.7;
-    let (windows, _) = layout.windows(&flown(&craft, 20, 0.4)).unwrap();
+    let (windows, _) = layout.windows(&simulated(&sunlit, 20, 0.4)).unwrap();
     assert!((windows[1].bounds[Control::Alternate as usize][1] - 0.3).abs() < 1e-12);
 }

@@ -92,7 +92,7 @@ fn what_no_expansion_describes_is_refused() {
     assert!(refused.contains("after 45 flights one departs by"), "{refused}");
     let wilder = Pushed { square_n_m: -0.5, ..Pushed::default() };
     let refused = fitted(&wilder, &truth).unwrap_err().to_string();
-    assert!(refused.contains("the fit did not settle in 50 steps, allowed: a history"), "{refused}");
+    assert!(refused.contains("the fit did not converge in 50 steps, allowed: a history"), "{refused}");
     let dumping = Pushed { dumps_beyond_m: Some(0.01), ..Pushed::default() };
     let refused = fitted(&dumping, &PRIOR).unwrap_err().to_string();
     assert!(refused.contains("dumps fall at times that depend on what is fitted"), "{refused}");

@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 
 /// What is known at one time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FlownRow {
+pub struct FlightRow {
     /// In s of the flight.
     pub time_s: f64,
     /// To the Sun's centre, EME2000, in m.
@@ -25,7 +25,7 @@ pub struct FlownRow {
     pub dumps: u32,
 }
 
-impl FlownRow {
+impl FlightRow {
     /// The row `share` of the way to `next`, with the dumps of this one.
     fn toward(&self, next: &Self, share: f64) -> Self {
         let mixed = |a: f64, b: f64| a + share * (b - a);
@@ -49,12 +49,12 @@ impl FlownRow {
 
 /// A flight; its times grow.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Flown {
+pub struct SimulatedFlight {
     /// At least two.
-    pub rows: Vec<FlownRow>,
+    pub rows: Vec<FlightRow>,
 }
 
-impl Flown {
+impl SimulatedFlight {
     /// The flight with a row at each of these times that lies within it, interpolated where it has none.
     pub fn with_rows_at(&self, times_s: &[f64]) -> Self {
         let mut rows = self.rows.clone();
@@ -77,8 +77,8 @@ impl Flown {
 
     /// The flight with what another one reports within a span.
     pub fn with_part_of(&self, other: &Self, [from_s, to_s]: [f64; 2]) -> Self {
-        let is_inside = |row: &&FlownRow| row.time_s > from_s + SAME_S && row.time_s < to_s - SAME_S;
-        let mut rows: Vec<FlownRow> =
+        let is_inside = |row: &&FlightRow| row.time_s > from_s + SAME_S && row.time_s < to_s - SAME_S;
+        let mut rows: Vec<FlightRow> =
             self.rows.iter().filter(|row| row.time_s <= from_s + SAME_S).cloned().collect();
         rows.extend(other.rows.iter().filter(is_inside).cloned());
         rows.extend(self.rows.iter().filter(|row| row.time_s >= to_s - SAME_S).cloned());
@@ -86,7 +86,7 @@ impl Flown {
     }
 
     /// What is known at a time within the flight, interpolated.
-    pub fn at(&self, time_s: f64) -> Option<FlownRow> {
+    pub fn at(&self, time_s: f64) -> Option<FlightRow> {
         let with = self.with_rows_at(&[time_s]);
         with.rows.into_iter().find(|row| (row.time_s - time_s).abs() <= SAME_S)
     }

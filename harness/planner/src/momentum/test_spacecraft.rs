@@ -8,46 +8,46 @@ use physics::{
 };
 
 use super::{
-    flown::{Flown, FlownRow},
     model::Limit,
     plan::PlanTask,
-    torque::LitCraft,
+    simulated::{FlightRow, SimulatedFlight},
+    torque::SunlitSpacecraft,
     windows::{Layout, Reach},
 };
 
 pub(super) const DAY_S: f64 = 86_400.0;
 
 /// With the centre of mass there, in m.
-pub(super) fn craft(center_of_mass_m: [f64; 3]) -> LitCraft {
+pub(super) fn sunlit(center_of_mass_m: [f64; 3]) -> SunlitSpacecraft {
     let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
     let light = SunLight { source: LightSource::Distance { flux_w_m2: 1358.0 }, scale: 1.0 };
-    let mut craft = LitCraft::new(spacecraft, light, None).unwrap();
-    craft.mass_at_zero.center_of_mass_body_m = Vector3::from(center_of_mass_m);
-    craft
+    let mut sunlit = SunlitSpacecraft::new(spacecraft, light, None).unwrap();
+    sunlit.mass_at_zero.center_of_mass_body_m = Vector3::from(center_of_mass_m);
+    sunlit
 }
 
 /// A row at an angle along the circle.
-pub(super) fn row(craft: &LitCraft, time_s: f64, distance_au: f64, along_rad: f64) -> FlownRow {
+pub(super) fn row(sunlit: &SunlitSpacecraft, time_s: f64, distance_au: f64, along_rad: f64) -> FlightRow {
     let here_m = Vector3::new(along_rad.cos(), along_rad.sin(), 0.0) * (distance_au * ASTRONOMICAL_UNIT_M);
-    let mut row = FlownRow {
+    let mut row = FlightRow {
         time_s,
         to_sun_m: -here_m,
         to_earth_m: Vector3::new(0.1, 0.2, 1.0) * ASTRONOMICAL_UNIT_M - here_m,
         lit_fraction: 1.0,
         inertial_from_body: Rotation3::identity(),
-        panel_angles_rad: vec![0.0; craft.panels.len()],
+        panel_angles_rad: vec![0.0; sunlit.panels.len()],
         other_torque_n_m: Vector3::zeros(),
         momentum_n_m_s: Vector3::zeros(),
         dumps: 0,
     };
-    row.inertial_from_body = craft.downlink_attitude(&row, 0.0, 0.0).unwrap();
+    row.inertial_from_body = sunlit.downlink_attitude(&row, 0.0, 0.0).unwrap();
     row
 }
 
 /// So many days, a row each two hours, at this distance, the Sun's direction fixed.
-pub(super) fn flown(craft: &LitCraft, days: u32, distance_au: f64) -> Flown {
+pub(super) fn simulated(sunlit: &SunlitSpacecraft, days: u32, distance_au: f64) -> SimulatedFlight {
     let times = (0..=12 * days).map(|k| f64::from(k) * 7200.0);
-    Flown { rows: times.map(|time_s| row(craft, time_s, distance_au, 0.3)).collect() }
+    SimulatedFlight { rows: times.map(|time_s| row(sunlit, time_s, distance_au, 0.3)).collect() }
 }
 
 /// Windows of a day from the start on, without controls; the corridor is wide.
