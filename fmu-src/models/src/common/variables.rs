@@ -103,7 +103,7 @@ pub struct SolarFluxVariables {
     /// pressure, 1365 fits paper 004 (well-known simulators use 1349 to 1368).
     #[parameter(unit = "W/m2", min = 0.0, max = 1e6, start = SOLAR_FLUX_W_M2)]
     pub flux: Real,
-    /// Factor of force and torque of direct sunlight, as a fit to a flown momentum gives it; heat and light of the planet go by the
+    /// Factor of force and torque of direct sunlight, as a fit to measured momentum gives it; heat and light of the planet go by the
     /// flux alone.
     #[parameter(tunable, unit = "1", min = 0.0, max = 1e3, start = 1.0)]
     pub scale: Real,
