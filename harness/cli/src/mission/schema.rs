@@ -1,24 +1,6 @@
 //! JSON Schema of the mission file, made from the very types that read it.
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use std::borrow::Cow;
-
-macro_rules! written {
-    ($(#[$doc:meta])* $name:ident, $schema:tt) => {
-        $(#[$doc])*
-        pub(super) struct $name;
-
-        impl JsonSchema for $name {
-            fn schema_name() -> Cow<'static, str> {
-                stringify!($name).into()
-            }
-
-            fn json_schema(_: &mut SchemaGenerator) -> Schema {
-                json_schema!($schema)
-            }
-        }
-    };
-}
+use crate::schema::written::written;
 
 written!(
     /// A time.
@@ -38,20 +20,11 @@ written!(
 
 #[cfg(test)]
 mod tests {
-    //! The committed schema is the one that the types give; `cargo xtask bless schema` writes it anew.
-
-    use std::{fs, path::Path};
-
-    use crate::mission::description::Description;
+    //! The committed schema is the one that the types give.
+    use crate::{mission::description::Description, schema::written::assert_in_step};
 
     #[test]
     fn the_schema_of_the_mission_is_in_step() {
-        let requested = format!("{:#}", schemars::schema_for!(Description).as_value());
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fmu-src/resources/mission.schema.json");
-        if std::env::var_os("HELIOTORQUE_BLESS").is_some() {
-            fs::write(&path, &requested).unwrap();
-        }
-        let found = fs::read_to_string(&path).unwrap();
-        assert!(found == requested, "{} is out of step: cargo xtask bless schema", path.display());
+        assert_in_step("mission.schema.json", &schemars::schema_for!(Description));
     }
 }

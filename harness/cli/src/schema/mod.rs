@@ -1,5 +1,8 @@
 //! `heliotorque schema`: the JSON Schemas of files, kept in step with their readers by tests of `physics` and of the mission.
 
+#[cfg(feature = "schema")]
+pub(crate) mod written;
+
 use clap::{Args, ValueEnum};
 
 use crate::outcome::{self, Outcome};

@@ -110,6 +110,6 @@ pub(super) struct ActivityDescription {
     #[cfg_attr(feature = "schema", schemars(with = "super::schema::Number"))]
     pub stop: Written,
     /// Its command, with the keys of `[[command]]` in a timeline but at and until.
-    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Table"))]
+    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Command"))]
     pub command: Written,
 }
