@@ -9,7 +9,7 @@ use crate::{dist, guide, locale, python, shell};
 /// Seed of the property tests: the same draws in every run, so that what turns red was changed; set it for others.
 const DRAWS: &str = "PROPTEST_RNG_SEED";
 
-/// Runs everything; stops at the first that fails.
+/// Runs everything: formatting, lints or a build that fail end it, tests that fail are named at the end.
 pub(crate) fn all() -> Outcome {
     if need("rustfmt", "the format check")? {
         run(&mut cargo("fmt --all --check"))?;
@@ -31,15 +31,20 @@ pub(crate) fn all() -> Outcome {
     dist::pack_all(&built)?;
     let environment = environment(&built)?;
     let locale = locale::environment()?;
-    std::thread::scope(|scope| {
+    let rust = std::thread::scope(|scope| {
         // It waits for one core, as some of the tests do.
         let client = scope.spawn(|| c_client(&built, false));
-        run(cargo(&format!("test {TESTS}")).envs(environment.clone()).envs(locale))?;
-        client.join().map_err(|_| "the C client's thread panicked".to_owned())?
-    })?;
-    guide::test(environment.clone())?;
-    python(environment.clone(), "not long")?;
-    pytest(environment, &[INSTALLATION])
+        let tests =
+            run(cargo(&format!("test --no-fail-fast {TESTS}")).envs(environment.clone()).envs(locale));
+        [tests, client.join().unwrap_or_else(|_| Err("the C client's thread panicked".to_owned()))]
+    });
+    let others = [
+        guide::test(environment.clone()),
+        python(environment.clone(), "not long"),
+        pytest(environment, &[INSTALLATION]),
+    ];
+    let failures: Vec<String> = rust.into_iter().chain(others).filter_map(Outcome::err).collect();
+    if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }
 
 /// Where the tests find what was built, and the seed of their draws.
