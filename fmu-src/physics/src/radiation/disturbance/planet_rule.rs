@@ -65,8 +65,8 @@ impl PlanetRule {
         match self {
             Self::Rings(rings) => {
                 let nodes = rings.node_count() as u32;
-                // Measured from 4 to 64 nodes; few nodes cost what every face costs.
-                1 + faces.saturating_mul((3 * nodes).saturating_sub(4).max(nodes + 6)) / 32
+                // Measured from 4 to 64 nodes with terminator and horizon in view; few nodes cost what every face costs.
+                1 + faces.saturating_mul((3 * nodes).saturating_sub(4).max(nodes + 6)) / 20
             }
             Self::Cells(grid) => 1 + faces.saturating_mul(grid.cell_count() as u32) / 4,
         }
