@@ -1,5 +1,6 @@
 //! Sunlight on a body that spins: what it adds up to, however fast.
 
+use client::short_or_long;
 use models::MomentumPlant;
 use nalgebra::Vector3;
 
@@ -54,7 +55,8 @@ fn off_the_fine_answer(named: &NamedModel<MomentumPlant>, rate_rad_s: Vector3<f6
 #[test]
 fn a_vane_in_sunlight_gains_the_same_momentum_at_any_spin() {
     let named = NamedModel::<MomentumPlant>::with("vane.toml", VANE);
-    for rpm in [0.0, 0.3, 1.0, 3.0, 7.0, 20.0, 33.0, 60.0] {
+    let rates_rpm = [0.0, 1.0, 7.0, 33.0, 0.3, 3.0, 20.0, 60.0];
+    for rpm in &rates_rpm[..short_or_long(4, 8)] {
         let spin_rad_s = rpm * core::f64::consts::TAU / 60.0;
         for (body, rate_rad_s) in
             [("spins", Vector3::z() * spin_rad_s), ("tumbles", Vector3::new(0.6, 0.3, 0.742) * spin_rad_s)]
