@@ -250,6 +250,9 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
         (NAMES[5], json),
     ];
     write(&planned, &contents)?;
+    for warning in written::beyond_inputs(&planned.mission, &planned.timeline) {
+        terminal::note(&warning);
+    }
     if !options.quiet {
         terminal::print(&summary(&planned, &found, (&prices, &seeds)))?;
         for (name, _) in &contents {
@@ -296,7 +299,7 @@ fn check_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) 
 }
 
 fn events(planned: &Planned<'_>, found: &MomentumPlan) -> Vec<PlanEvent> {
-    let mut events: Vec<PlanEvent> = planned.timeline.events_of_mission.clone();
+    let mut events = planned.timeline.plan_events();
     let dumps = found.dumps.iter();
     events.extend(dumps.map(|dump| PlanEvent { at_s: dump.at_s, kinds: vec!["dump"], planned: true }));
     events.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));
