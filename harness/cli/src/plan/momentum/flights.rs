@@ -18,7 +18,7 @@ use planner::momentum::{
 };
 
 use crate::{
-    assembly::model_of,
+    assembly::spacecraft_of,
     interrupt,
     mission::{Inputs, Mission, SpacecraftSource},
     run::{Run, Settings, Simulated, Subject},
@@ -124,12 +124,7 @@ impl SimulatedMission {
 
     /// The spacecraft that its FMU holds.
     pub(super) fn spacecraft(&self) -> Result<Spacecraft, Failure> {
-        let binary = self.fmu.binary()?;
-        let model = model_of(&self.fmu, binary.as_ref())?;
-        let setup = binary.models()?.into_iter().find(|it| it.model == model).and_then(|it| it.setup_file);
-        let setup = setup.ok_or_else(|| format!("{model} holds no spacecraft"))?;
-        let text = files::read_text(&self.fmu.folder().join("resources").join(&setup))?;
-        Ok(Spacecraft::from_toml(&setup, &text).map_err(|error| error.to_string())?)
+        spacecraft_of(&self.fmu)
     }
 
     /// The text of its timeline and what it says; `None` without one.
