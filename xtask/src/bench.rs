@@ -33,7 +33,90 @@ pub(crate) fn all() -> Outcome {
         run(command(&program).arg(&built.library).current_dir(&scratch))?;
     }
     system(&built)?;
-    study(&built)
+    study(&built)?;
+    plans(&built)
+}
+
+/// A cruise of 200 days by its timeline, its plans, and a refit of ten days of a history; starts of the processes with them.
+fn plans(built: &Built) -> Outcome {
+    let scratch = build::scratch("bench-plans")?;
+    let resources = root().join("fmu-src").join("resources");
+    let missions = resources.join("examples").join("missions");
+    let heliotorque = |words: &str| {
+        let mut command = command(&built.heliotorque);
+        command.current_dir(&scratch).args(words.split_whitespace()).arg("--quiet");
+        command.arg("--template").arg(root().join("dist").join("MomentumPlant.fmu"));
+        command
+    };
+    let row = |name: &str, command: &mut Command| -> Outcome {
+        println!("bench {name} {:.2} s", median_s(command)?);
+        Ok(())
+    };
+    let write = |name: &str, text: &str| {
+        let path = scratch.join(name);
+        std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
+    };
+    let flight = "run cruise.toml --output cruise.csv";
+    for (from, to) in [(&resources, "messenger.toml"), (&missions, "messenger-cruise-timeline.toml")] {
+        let path = from.join(to);
+        std::fs::copy(&path, scratch.join(to)).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    let mission = missions.join("messenger-cruise.toml");
+    let text =
+        std::fs::read_to_string(&mission).map_err(|error| format!("{}: {error}", mission.display()))?;
+    let text = text.replace("../../messenger.toml", "messenger.toml");
+    write("cruise.toml", &text)?;
+    row("cruise_200_days_by_timeline", &mut heliotorque(flight))?;
+    if let Some(bytes) = peak_bytes(&mut heliotorque(flight))? {
+        println!("bench cruise_200_days_by_timeline_peak {:.1} MB", bytes as f64 / 1e6);
+    }
+    // Without angles of the arrays nothing is counted.
+    let plan = "mission = \"cruise.toml\"\n[momentum]\nlimit = 5.5\n[tilt]\nazimuth = \"5 deg\"\nelevation = \"5 deg\"\n";
+    write("convex.toml", &format!("windmill = 0\n{plan}"))?;
+    write("counted.toml", plan)?;
+    row("plan_cruise_200_days_convex", &mut heliotorque("plan momentum convex.toml --output plan"))?;
+    row(
+        "plan_cruise_200_days_counted_changes",
+        &mut heliotorque("plan momentum counted.toml --output plan"),
+    )?;
+    // A history has no other columns: what the mission records, draws and limits is left out.
+    let kept = |line: &&str| {
+        ["record", "every", "[[plot]]", "file", "names", "[limits]", "\"panel[1].cor", "\"panel[2].cor"]
+            .iter()
+            .all(|begin| !line.starts_with(begin))
+    };
+    let ten_days: String = text.lines().filter(kept).map(|line| format!("{line}\n")).collect();
+    write("ten-days.toml", &ten_days.replace("stop = \"200 d\"", "stop = \"10 d\""))?;
+    let history = "run ten-days.toml --step 600 --record momentum.inertial,dump.count --output history.csv";
+    output(&mut heliotorque(history))?;
+    row(
+        "refit_10_days_1441_rows",
+        &mut heliotorque("refit ten-days.toml --telemetry history.csv --output refit.toml"),
+    )
+}
+
+/// The greatest memory of a command and what it starts, each by itself; `None` where the system does not tell.
+fn peak_bytes(command: &mut Command) -> Result<Option<u64>, String> {
+    let mut child = command.spawn().map_err(|error| error.to_string())?;
+    let mut peak = None;
+    loop {
+        peak = peak.max(peak_of(child.id()));
+        if child.try_wait().map_err(|error| error.to_string())?.is_some() {
+            return Ok(peak);
+        }
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+}
+
+/// The most that a process and its children have held so far, each by itself, by what Linux tells.
+fn peak_of(process: u32) -> Option<u64> {
+    let folder = PathBuf::from(format!("/proc/{process}"));
+    let status = std::fs::read_to_string(folder.join("status")).ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let own = line.split_whitespace().next()?.parse::<u64>().ok()? * 1024;
+    let children =
+        std::fs::read_to_string(folder.join(format!("task/{process}/children"))).unwrap_or_default();
+    children.split_whitespace().filter_map(|child| peak_of(child.parse().ok()?)).chain([own]).max()
 }
 
 /// Guidance and plant in a loop of 20 ms: simulated over elapsed time, the start of the process with it.

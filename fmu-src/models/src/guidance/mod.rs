@@ -137,7 +137,16 @@ impl Model for Guidance {
         let settings = inputs::settings(context, values, &fixed)?;
         let limit = context.variables.solver.units(values);
         let mut work = Work::<1>::new(limit);
+        let mut requested_s = None;
         while state.system.due_before(step.end_s).is_some() {
+            if let Some(requested_s) = requested_s {
+                context.log.warning(&format!(
+                    "dump.request was true from {requested_s} to {} s, within a step to {} s, and no communication point saw it: \
+                     step by a second at most",
+                    state.system.next_sample_s(),
+                    step.end_s
+                ));
+            }
             work.spend(0, SAMPLE_WORK);
             if work.is_exhausted() {
                 let reached_s = state.system.next_sample_s();
@@ -150,6 +159,7 @@ impl Model for Guidance {
             let (burn, sampled_s) = (*state.system.burn(), state.system.next_sample_s());
             let before = (state.system.mode(), state.system.mode_reason());
             work.spend(0, state.sample(context, values, &fixed, &settings, step.inputs)?);
+            requested_s = Some(sampled_s).filter(|_| state.dumps.is_requested());
             warn_of_missed_burn(context, &burn, state.system.burn(), sampled_s);
             log_demotion(context, sampled_s, before, (state.system.mode(), state.system.mode_reason()));
         }

@@ -121,10 +121,8 @@ impl<M: Model> NamedModel<M> {
                 output: variable.causality == Causality::Output,
             }
         });
-        // Start values for another model are no names that this one alone knows.
-        let described = described::<M>(file, text);
-        let start =
-            described.map_or_else(|_| interface.start.clone(), |it| with_file_starts(&interface.start, &it));
+        let described = described::<M>(file, text).unwrap_or_else(|error| panic!("{error}"));
+        let start = with_file_starts(&interface.start, &described);
         let names: Vec<Named> = names.collect();
         let start = marked::<M>(&start, &setup, &names);
         let by_name = names.iter().enumerate().map(|(at, named)| (named.name.clone(), at)).collect();

@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods, reason = "what a test expects may come from the system's functions")]
 
 mod bus_and_space;
+mod forecast;
 mod module_order;
 mod planet_nodes;
 mod plant_flight;

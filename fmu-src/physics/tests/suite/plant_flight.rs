@@ -137,6 +137,17 @@ impl Rig {
         self.plant_now(&|_| [ForceTorque::zero(); 2])
     }
 
+    /// What flies.
+    pub(crate) fn prepared(&self) -> PreparedSpacecraft<'_> {
+        PreparedSpacecraft {
+            panels: &self.spacecraft.panels,
+            solar: &self.solar,
+            orbit_method: &self.method,
+            default_downlink: &self.default_downlink,
+            timeline: None,
+        }
+    }
+
     /// Goes on under this configuration.
     fn world_of(&mut self, configuration: &Configuration) -> &mut World {
         self.world.insert(World::new(configuration.clone(), Laws { gm_m3_s2: GM_MERCURY_M3_S2 }))

@@ -13,7 +13,7 @@ use files::{Entries, Scratch};
 use loader::Fmu;
 
 pub(crate) use assemble::{Assembled, Parts, assemble};
-pub(crate) use source::{Source, common_keys, description, model_of, open_template};
+pub(crate) use source::{Source, common_keys, description, model_of, open_template, spacecraft_of};
 pub(crate) use start::{START, with_values};
 pub(crate) use without_effect::{can_read_map, unused_map};
 

@@ -1,10 +1,11 @@
 //! Where a new FMU's libraries and licences come from.
 
-use std::{fs, path::Path, path::PathBuf, sync::Arc};
+use std::{error::Error, fs, path::Path, path::PathBuf, sync::Arc};
 
 use files::Entries;
 use loader::{Binary, Described, Fmu};
 use model_description::{Description, ReadError};
+use physics::spacecraft::Spacecraft;
 use toml::de::DeTable;
 
 use crate::home;
@@ -207,6 +208,19 @@ pub(crate) fn model_of(fmu: &Fmu, binary: &Binary) -> Result<String, String> {
         Some(model) => Ok(model.model.clone()),
         None => Err(which(&models)),
     }
+}
+
+/// The spacecraft that an FMU holds.
+///
+/// # Errors
+/// A library without descriptions, a model without a spacecraft, a file of it that cannot be read.
+pub(crate) fn spacecraft_of(fmu: &Fmu) -> Result<Spacecraft, Box<dyn Error>> {
+    let binary = fmu.binary()?;
+    let model = model_of(fmu, binary.as_ref())?;
+    let setup = binary.models()?.into_iter().find(|it| it.model == model).and_then(|it| it.setup_file);
+    let setup = setup.ok_or_else(|| format!("{model} holds no spacecraft"))?;
+    let text = files::read_text(&fmu.folder().join("resources").join(&setup))?;
+    Ok(Spacecraft::from_toml(&setup, &text).map_err(|error| error.to_string())?)
 }
 
 /// How many keys two files have in common, tables inside of tables left out.

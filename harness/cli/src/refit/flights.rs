@@ -12,6 +12,7 @@ use terminal::ProgressBar;
 
 use super::options::Refit;
 use crate::{
+    assembly::spacecraft_of,
     run::{Run, Settings, Simulated, Subject},
     variables::{item, real, selected},
 };
@@ -95,6 +96,11 @@ impl FlownMission {
         };
         let [x, y, z, scale] = FITTED.map(value);
         Ok(Parameters { center_of_mass_body_m: Vector3::new(x?, y?, z?), solar_scale: scale? })
+    }
+
+    /// Name of the spacecraft that is simulated.
+    pub(super) fn spacecraft_name(&self) -> Result<String, Failure> {
+        Ok(spacecraft_of(&self.fmu).map_err(|error| error.to_string())?.name)
     }
 
     /// Refuses rows before and after the mission.

@@ -31,6 +31,7 @@ pub(crate) fn run(arguments: &Refit) -> Outcome {
         solar_scale: arguments.prior_scale,
     };
     let prior = mission.prior()?;
+    let spacecraft = mission.spacecraft_name()?;
     let span_s = mission.span_s(&telemetry);
     mission.bar = terminal::progress(span_s as u64, "s of flights", arguments.quiet);
     let requested = Requested { telemetry: &telemetry, prior, deviations };
@@ -45,7 +46,7 @@ pub(crate) fn run(arguments: &Refit) -> Outcome {
         deviations,
         fitted: &fitted,
     };
-    let contents = [found.toml(), fitted.to_json()?, picture::svg(&found, &telemetry)?];
+    let contents = [found.toml(), fitted.to_json(&spacecraft)?, picture::svg(&found, &telemetry)?];
     if !arguments.quiet {
         terminal::print(&found.text())?;
     }

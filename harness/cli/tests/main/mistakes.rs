@@ -1,8 +1,8 @@
-//! Typical mistakes in files that people write: what `check` says of each is recorded, to be read.
+//! Typical mistakes in files that people write: what `check` says of each, or the command that finds it, is recorded, to be read.
 
 use std::{fs, path::Path};
 
-use crate::{heliotorque, run, shown, template, text};
+use crate::{heliotorque, momentum_plans::cruise, run, shown, template, text, words};
 
 const RECORDED: &str = "tests/main/mistakes.txt";
 /// What begins a line of what is said.
@@ -15,7 +15,13 @@ struct Mistake {
     /// Lines of the base, and what stands in their place.
     edits: Vec<(Vec<String>, Vec<String>)>,
     bytes: Option<String>,
+    /// What reads it, where `check` does not.
+    command: Option<String>,
 }
+
+/// Momentum that a refit is to fit.
+const TELEMETRY: &str = "time,momentum.inertial[1],momentum.inertial[2],momentum.inertial[3]\n0,0,0,0\n86400,0.1,0,0\n\
+                         172800,0.2,0,0.1\n259200,0.3,0.1,0.1\n";
 
 fn parse(block: &str) -> Mistake {
     let mut mistake = Mistake::default();
@@ -34,12 +40,31 @@ fn parse(block: &str) -> Mistake {
             }
         } else if let Some(bytes) = line.strip_prefix("@ ") {
             mistake.bytes = Some(bytes.to_owned());
+        } else if let Some(command) = line.strip_prefix("$ ") {
+            mistake.command = Some(command.to_owned());
         }
     }
     mistake
 }
 
 impl Mistake {
+    /// Name of the file, beside which stand those that its command needs, in a folder, and what stands in it.
+    fn base(&self, folder: &Path) -> (String, String) {
+        let toml = format!("{}.toml", self.kind);
+        if self.command.is_none() && self.kind != "plan" {
+            return (toml, run(&["new", &self.kind, "-"], 0));
+        }
+        cruise(folder, &[("stop = \"200 d\"", "stop = \"40 d\"")]);
+        let plan = run(&["new", "plan", "-"], 0)
+            .replace("mission = \"mission.toml\" ", "mission = \"cruise.toml\" ");
+        for (name, text) in [("plan.toml", plan.as_str()), ("telemetry.csv", TELEMETRY)] {
+            fs::write(folder.join(name), text).unwrap();
+        }
+        let name = if self.kind == "telemetry" { "telemetry.csv".to_owned() } else { toml };
+        let text = fs::read_to_string(folder.join(&name)).unwrap();
+        (name, text)
+    }
+
     /// The file with the mistake.
     fn text(&self, base: &str) -> String {
         let mut text = base.to_owned();
@@ -99,6 +124,9 @@ fn every_typical_mistake_is_reported_with_file_place_finding_and_remedy() {
     let Some((scratch, _)) = template() else { return };
     let wrong = run(&["new", "spacecraft", "-"], 0).replace("mass_kg = 400.0", "mass_kg = -4.0");
     fs::write(scratch.path().join("wrong.toml"), wrong).unwrap();
+    let refit = "{\"spacecraft\": \"Other\", \"centerOfMass_m\": [0, 0, 0], \"scale\": 1, \"covariance\": \
+                 [[1e-8,0,0,0],[0,1e-8,0,0],[0,0,1e-8,0],[0,0,0,1e-4]]}";
+    fs::write(scratch.path().join("other.json"), refit).unwrap();
 
     let recorded = fs::read_to_string(RECORDED).unwrap();
     let mut found = String::new();
@@ -110,15 +138,16 @@ fn every_typical_mistake_is_reported_with_file_place_finding_and_remedy() {
         }
         let block = format!("## {block}");
         let mistake = parse(&block);
-        let name = format!("{}.toml", mistake.kind);
-        mistake.write(&run(&["new", &mistake.kind, "-"], 0), &scratch.path().join(&name));
-        let check = ["check", &name, "--template", "template.fmu"];
-        let output = heliotorque(&check).current_dir(scratch.path()).output().unwrap();
+        let (name, base) = mistake.base(scratch.path());
+        mistake.write(&base, &scratch.path().join(&name));
+        let command = mistake.command.unwrap_or_else(|| format!("check {name}"));
+        let command = [words(&command), vec!["--template", "template.fmu"]].concat();
+        let output = heliotorque(&command).current_dir(scratch.path()).output().unwrap();
         let said = text(&output);
         let is_refused = output.status.code() == Some(1);
         if is_refused {
             reported += 1;
-            assert!(said.contains(".toml"), "{block}\n{said}");
+            assert!(said.contains(".toml") || said.contains(&name), "{block}\n{said}");
             assert!(!said.contains(shown(scratch.path())), "{said}");
         }
         let input = block.lines().filter(|line| !line.starts_with(SAID) && !line.is_empty());

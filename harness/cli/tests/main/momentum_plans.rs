@@ -7,7 +7,7 @@ use crate::{run, says, shown, template};
 const RESOURCES: &str = "../../fmu-src/resources";
 
 /// The cruise with its spacecraft and timeline in a folder of its own, edited.
-fn cruise(folder: &Path, edits: &[(&str, &str)]) {
+pub(crate) fn cruise(folder: &Path, edits: &[(&str, &str)]) {
     let read = |name: &str| fs::read_to_string(Path::new(RESOURCES).join(name)).unwrap();
     fs::write(folder.join("messenger.toml"), read("messenger.toml")).unwrap();
     let timeline = read("examples/missions/messenger-cruise-timeline.toml");
@@ -60,6 +60,55 @@ fn columns(file: &Path, names: &[&str]) -> Vec<Vec<f64>> {
             at.iter().map(|index| value(cells[*index])).collect()
         })
         .collect()
+}
+
+/// Simulates the mission that was written, and its input table with steps that meet its times: the same momentum at every hour. How many
+/// hours have an event, which a table requests where the next step begins.
+fn table_is_timeline(folder: &Path, template: &Path) -> usize {
+    let mission = folder.join("out/mission.toml");
+    let text = fs::read_to_string(&mission).unwrap();
+    let table = text.replace("timeline = \"timeline.toml\"\n", "").replace("\"timeline\"", "\"command\"");
+    fs::write(folder.join("out/table.toml"), table).unwrap();
+    let (inputs, table) = (folder.join("out/plan.csv"), folder.join("out/table.toml"));
+    let by_table = ["--input", shown(&inputs), "--step", "60s"];
+    let names = [
+        "momentum.inertial[1]",
+        "momentum.inertial[2]",
+        "momentum.inertial[3]",
+        "dump.count",
+        "maneuver.count",
+    ];
+    let [timeline, table] = [(&mission, &[][..]), (&table, &by_table)].map(|(mission, more)| {
+        let output = folder.join("twin.csv");
+        let arguments = [
+            "run",
+            shown(mission),
+            "--template",
+            shown(template),
+            "--every",
+            "1h",
+            "--record",
+            &names.join(","),
+        ];
+        run(&[&arguments[..], more, &["--output", shown(&output)]].concat(), 0);
+        columns(&output, &names)
+    });
+    assert_eq!(timeline.len(), table.len());
+    let mut events = 0;
+    let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+    for (row, twin) in timeline.iter().zip(&table) {
+        if row[3..] != twin[3..] {
+            events += 1;
+            continue;
+        }
+        let [apart, momentum] = [twin.as_slice(), &[0.0; 3]]
+            .map(|from| (0..3).map(|axis| (row[axis] - from[axis]).powi(2)).sum::<f64>().sqrt());
+        (worst, largest) = (worst.max(apart), largest.max(momentum));
+    }
+    println!("{worst:e} of {largest}");
+    assert!(worst <= 1e-9 * largest && largest > 1.0, "{worst:e} {largest}");
+    assert_eq!(timeline.last().unwrap()[3..], table.last().unwrap()[3..]);
+    events
 }
 
 const PLAN: &str = "mission = \"cruise.toml\"\n[momentum]\nlimit = 5.5\n[tilt]\nazimuth = \"5 deg\"\nelevation = \"5 deg\"\n";
@@ -115,35 +164,7 @@ fn a_cruise_is_planned_and_flown_below_its_limit() {
             "{row:?}"
         );
     }
-    // So does the input table, with steps that meet its times.
-    let text = fs::read_to_string(&mission).unwrap();
-    let table = text.replace("timeline = \"timeline.toml\"\n", "").replace("\"timeline\"", "\"command\"");
-    fs::write(folder.join("out/table.toml"), table).unwrap();
-    let twin = folder.join("twin.csv");
-    run(
-        &[
-            "run",
-            shown(&folder.join("out/table.toml")),
-            "--template",
-            shown(&template),
-            "--input",
-            shown(&folder.join("out/plan.csv")),
-            "--step",
-            "60s",
-            "--every",
-            "1h",
-            "--record",
-            "momentum.inertial",
-            "--output",
-            shown(&twin),
-        ],
-        0,
-    );
-    let twins = columns(&twin, &["momentum.inertial[1]", "momentum.inertial[2]", "momentum.inertial[3]"]);
-    for (row, twin) in rows.iter().zip(&twins) {
-        // Dates are read to a millisecond: a torque of 1e-5 N m for that long at each of some hundred jumps.
-        assert!((0..3).all(|axis| (row[axis] - twin[axis]).abs() < 1e-6), "{row:?} {twin:?}");
-    }
+    assert_eq!(table_is_timeline(folder, &template), 0);
     // What it wrote can be planned again.
     let again = "mission = \"out/mission.toml\"\n[momentum]\nlimit = 6\n";
     let output = folder.join("again");
@@ -181,6 +202,42 @@ fn without_controls_the_least_dumps_and_the_first_day_are_told() {
     let said = plan(folder, &template, &OFF.replace("limit = 5.5", "limit = 5.5\ndumps = 5"), 0);
     assert!(said.contains("dumps on days "), "{said}");
     assert!(number(folder, "simulated") < 5.5);
+    assert_eq!(table_is_timeline(folder, &template), 5);
+}
+
+/// Maneuvers, dumps, centres of mass and panels of the mission are in the input table of its plan, at dates that are its steps'.
+#[test]
+fn the_missions_events_are_in_the_input_table() {
+    let Some((scratch, template)) = template() else { return };
+    let folder = scratch.path();
+    cruise(folder, &[("stop = \"200 d\"", "stop = \"60 d\"")]);
+    let timeline = folder.join("messenger-cruise-timeline.toml");
+    let panels = "at = \"2008-03-20T00:00:00 UTC\"      # 0.70 AU\nsunOffset = \"5 deg\"\n";
+    let more = format!(
+        "{panels}\n[[panels]]\nat = \"2008-03-29T07:00:00 UTC\"\nsunOffset = \"4 deg\"\nwindmill = \"1 deg\"\n"
+    );
+    let text = fs::read_to_string(&timeline).unwrap();
+    assert!(text.contains(panels));
+    let events = "\n[[event]]\nat = \"2008-03-25T06:00:00 UTC\"\ndump = [0.123456789, -0.2, 0.3]\n\
+                  [[event]]\nat = \"2008-03-28T12:00:00 UTC\"\nmaneuver = { deltaV = [0.5, -1, 0.2] }\n\
+                  [[event]]\nat = \"2008-04-16T00:00:00 UTC\"\nmaneuver = { deltaV = [1, 0, 0] }\ndump = [0.1, 0.2, -0.3]\n\
+                  [[event]]\nat = \"2008-04-20T03:00:00 UTC\"\ncenterOfMass = [0.002, 0.001, -0.024]\n\
+                  [[event]]\nat = \"2008-05-01T00:00:00 UTC\"\ndump = true\n";
+    fs::write(&timeline, text.replace(panels, &more) + events).unwrap();
+    let said = plan(folder, &template, PLAN, 0);
+    assert!(!said.contains("warning"), "{said}");
+    let header = fs::read_to_string(folder.join("out/plan.csv")).unwrap();
+    let header = header.lines().next().unwrap();
+    says(
+        header,
+        &["maneuver.request,maneuver.deltaV[1]", "dump.request,dump.target[1]", "spacecraft.centerOfMass[3]"],
+    );
+    assert_eq!(table_is_timeline(folder, &template), 4);
+    // Parameters of the flight are no inputs.
+    let own = events.replace("0.2] }", "0.2], dump = false }");
+    fs::write(&timeline, fs::read_to_string(&timeline).unwrap().replace(events, &own)).unwrap();
+    let said = plan(folder, &template, PLAN, 0);
+    assert!(said.contains("warning: plan.csv: the maneuver of day 8.5 is without a dump"), "{said}");
 }
 
 /// Contacts hold no alternate attitude; a planned command and an activity have their price.

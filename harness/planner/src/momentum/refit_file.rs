@@ -3,8 +3,10 @@
 use serde::Deserialize;
 
 /// A refit.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct RefitValues {
+    /// Name of the spacecraft, where it is told.
+    pub spacecraft: Option<String>,
     /// Body frame, in m.
     #[serde(rename = "centerOfMass_m")]
     pub center_of_mass_m: [f64; 3],

@@ -133,7 +133,8 @@ fn covariance(directions: &[Direction; 4], deviations: &Deviations) -> Matrix4<f
 /// The JSON file, in SI.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Written {
+struct Written<'a> {
+    spacecraft: &'a str,
     #[serde(rename = "centerOfMass_m")]
     center_of_mass_m: [f64; 3],
     scale: f64,
@@ -151,12 +152,13 @@ struct WrittenDirection {
 }
 
 impl Fitted {
-    /// As JSON: covariance in the order centre of mass X, Y, Z (m), scale; directions in units of the priors.
+    /// As JSON, of the spacecraft of this name: covariance in the order centre of mass X, Y, Z (m), scale; directions in units of the priors.
     ///
     /// # Errors
     /// What cannot be written.
-    pub fn to_json(&self) -> Result<String, serde_json::Error> {
+    pub fn to_json(&self, spacecraft: &str) -> Result<String, serde_json::Error> {
         let written = Written {
+            spacecraft,
             center_of_mass_m: self.parameters.center_of_mass_body_m.into(),
             scale: self.parameters.solar_scale,
             // Symmetric, so that rows are columns.

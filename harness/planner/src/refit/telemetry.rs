@@ -34,18 +34,17 @@ struct Columns {
 }
 
 impl Columns {
-    fn of(file: &str, names: Vec<String>) -> Result<Self, String> {
+    fn of(names: Vec<String>) -> Result<Self, String> {
         let is_known = |name: &str| name == TIME || name == DUMPS || MOMENTUM.contains(&name);
         if let Some(other) = names.iter().find(|name| !is_known(name)) {
-            return Err(format!("{file}: found the column {other:?}, allowed: {ALLOWED}"));
+            return Err(format!("found the column {other:?}, allowed: {ALLOWED}"));
         }
         if let Some((_, twice)) = names.iter().enumerate().find(|(at, name)| names[..*at].contains(name)) {
-            return Err(format!("{file}: found the column {twice} twice, allowed: once"));
+            return Err(format!("found the column {twice} twice, allowed: once"));
         }
         let position = |name: &str| names.iter().position(|it| it == name);
-        let required = |name: &str| {
-            position(name).ok_or_else(|| format!("{file}: found no column {name}, allowed: {ALLOWED}"))
-        };
+        let required =
+            |name: &str| position(name).ok_or_else(|| format!("found no column {name}, allowed: {ALLOWED}"));
         let [x, y, z] = MOMENTUM.map(required);
         Ok(Self { time: required(TIME)?, momentum: [x?, y?, z?], dumps: position(DUMPS), names })
     }
@@ -67,7 +66,9 @@ impl Telemetry {
             .trim(csv::Trim::All)
             .from_reader(opened);
         let header = reader.headers().map_err(|error| failed(&error))?;
-        let columns = Columns::of(&file, header.iter().map(str::to_owned).collect())?;
+        let line = header.position().map_or(1, csv::Position::line);
+        let columns = Columns::of(header.iter().map(str::to_owned).collect())
+            .map_err(|what| format!("{file}:{line}: {what}"))?;
         let mut telemetry = Self::default();
         for record in reader.records() {
             let record = record.map_err(|error| failed(&error))?;

@@ -200,6 +200,25 @@ fn a_component_beyond_its_threshold_asks_once() {
     assert_eq!(flight.vector("dump.target"), Vector3::new(0.5, 0.0, 0.0));
 }
 
+/// A request lasts from its sample to the next one, however a master steps: what it cannot see is warned of.
+#[test]
+fn a_request_that_no_communication_point_sees_is_warned_of() {
+    let timeline = "[[event]]\nat = 9.5\ndump = true\n";
+    for (step_s, warned) in [(1.0, 0), (5.5, 0), (2.0, 1), (3.0, 1), (60.0, 1)] {
+        let named = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", timeline);
+        let mut flight = named.fly(0.0, &with(&[PLACED])).unwrap();
+        let mut seen = 0;
+        while flight.time_s() < 60.0 {
+            flight.step_to(flight.time_s() + step_s).unwrap();
+            seen += usize::from(flight.boolean("dump.request"));
+        }
+        let warnings = named.warnings();
+        let about: Vec<_> =
+            warnings.iter().filter(|it| it.contains("dump.request was true from 10 to 11 s")).collect();
+        assert_eq!((seen + about.len(), about.len()), (1, warned), "{step_s}: {warnings:?}");
+    }
+}
+
 #[test]
 fn a_dump_of_the_timeline_is_requested_at_the_sample_that_it_comes_to() {
     let timeline = "[[event]]\nat = 9.5\ndump = true\n[[event]]\nat = 12.25\ndump = [0.5, -1, 0.25]\n\

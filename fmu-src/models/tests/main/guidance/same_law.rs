@@ -26,13 +26,13 @@ fn compare(plant_sets: &[(&str, f64)], guidance_sets: &[(&str, f64)], length_s: 
     compare_by("[[event]]\nat = 0\ndump = true\n", plant_sets, guidance_sets, (length_s, step_s));
 }
 
-/// The same by a timeline, where it commands anything.
+/// The same by a timeline, where it commands anything; where the Sun stood at each of these samples, in rad.
 fn compare_by(
     timeline: &str,
     plant_sets: &[(&str, f64)],
     guidance_sets: &[(&str, f64)],
     (length_s, step_s): (f64, f64),
-) {
+) -> Vec<(f64, [f64; 2])> {
     let plants = NamedModel::<MomentumPlant>::shipped().with_schedule("timeline.toml", timeline);
     let guidances = NamedModel::<Guidance>::shipped().with_schedule("timeline.toml", timeline);
     let commands = timeline.contains("[[command]]");
@@ -41,7 +41,8 @@ fn compare_by(
     let mut plant = plants.fly(0.0, &plant_sets).unwrap();
     let quiet = [("hotPole.enabled", 0.0), ("monitor.enabled", 0.0)];
     let mut start = with(&[guidance_sets, &epoch, &quiet]);
-    let places = ["position", "velocity"].map(|name| [1, 2, 3].map(|i| format!("{name}[{i}]")));
+    let places =
+        ["position", "velocity", "momentum.body"].map(|name| [1, 2, 3].map(|i| format!("{name}[{i}]")));
     let seen =
         |plant: &NamedInstance<'_, MomentumPlant>| places.clone().map(|it| it.map(|name| plant.real(&name)));
     let at_start = seen(&plant);
@@ -49,11 +50,12 @@ fn compare_by(
         start.extend(names.iter().map(String::as_str).zip(values));
     }
     let mut guidance = guidances.fly(0.0, &start).unwrap();
-    let (mut worst, mut time_s) = (0.0_f64, 0.0);
+    let (mut worst, mut time_s, mut sun_rad) = (0.0_f64, 0.0, Vec::new());
     while time_s < length_s {
         for (names, values) in places.iter().zip(seen(&plant)) {
             names.iter().zip(values).for_each(|(name, value)| guidance.set(name, value));
         }
+        guidance.set_elements("estimate.q", &plant.quaternion("attitude.q"));
         // Just after the sample, which belongs to the step that begins here.
         guidance.step_to(time_s + 1e-9).unwrap();
         if commands && plant.integer("timeline.command") == 0 {
@@ -70,11 +72,13 @@ fn compare_by(
             assert_eq!(guidance.boolean(flag), plant.boolean(flag), "{flag} at {time_s} s");
         }
         worst = worst.max(off);
+        sun_rad.push((time_s, ["sun.azimuth", "sun.elevation"].map(|name| plant.real(name))));
         time_s += step_s;
         plant.step_to(time_s).unwrap();
         guidance.step_to(time_s).unwrap();
     }
     assert!(worst > 0.0);
+    sun_rad
 }
 
 #[test]
@@ -118,4 +122,30 @@ fn a_timeline_is_one_law_in_both() {
         let strategy = [("momentum.strategy", strategy), ("guided.downlinkEvery", 2.0)];
         compare_by(places, &strategy, &strategy, (18_000.0, 90.0));
     }
+}
+
+/// Each command of a downlink has a place of its own, chosen for a downlink as long as the windows', by the momentum where it begins.
+#[test]
+fn every_downlink_of_a_timeline_is_chosen_anew_in_both() {
+    let timeline = "[[command]]\nat = 0\nscenario = \"downlink\"\n[[command]]\nat = 1200\nscenario = \"downlink\"\n\
+                    [[command]]\nat = 2400\nscenario = \"nadir\"\n[[command]]\nat = 3000\nscenario = \"downlink\"\n\
+                    [[command]]\nat = 3600\nscenario = \"downlink\"\nalternate = true\n\
+                    [[command]]\nat = 4200\nscenario = \"downlink\"\nsun = { elevation = \"2 deg\" }\n\
+                    [[command]]\nat = 4800\nscenario = \"downlink\"\n";
+    let momentum = [("start.momentum[1]", 0.4), ("start.momentum[3]", -0.3)];
+    let both = [("momentum.strategy", 2.0), ("guided.downlinkEvery", 2.0), ("momentum.convention", 2.0)];
+    let sun_rad = compare_by(timeline, &with(&[&both, &momentum]), &both, (5_400.0, 60.0));
+    let place = |at_s: f64| sun_rad.iter().find(|(time_s, _)| *time_s == at_s).unwrap().1;
+    let apart_rad = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    for (first_s, second_s) in [(600.0, 1800.0), (3300.0, 3900.0), (4500.0, 5100.0)] {
+        assert!(apart_rad(place(first_s), place(second_s)) > 1e-4, "{first_s} {second_s}");
+    }
+    // What lies ahead is forecast anew too.
+    let plants = NamedModel::<MomentumPlant>::shipped().with_schedule("timeline.toml", timeline);
+    let mut plant = plants.fly(0.0, &with(&[&both, &momentum, &[("momentum.strategy", 3.0)]])).unwrap();
+    let places = [600.0, 1800.0, 3300.0, 3900.0].map(|at_s| {
+        plant.step_to(at_s).unwrap();
+        ["sun.azimuth", "sun.elevation"].map(|name| plant.real(name))
+    });
+    assert!(apart_rad(places[0], places[1]) > 1e-4 && apart_rad(places[2], places[3]) > 1e-4, "{places:?}");
 }

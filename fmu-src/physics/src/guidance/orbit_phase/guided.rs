@@ -41,6 +41,8 @@ pub struct GuidedAttitude {
     pub frame: MovingFrame,
     /// What the spacecraft is doing, and since when.
     pub window: Window,
+    /// The timeline's command, from 1, whose window it is; 0 of none.
+    pub row: usize,
     /// Whether it is turning from one attitude to the other.
     pub slewing: bool,
     /// See [`AttitudeCommand::margins`].
@@ -103,6 +105,7 @@ impl Guided {
         let held = GuidedAttitude {
             frame: target.frame,
             window,
+            row: 0,
             slewing: false,
             margins: target.margins,
             clamped: target.clamped,

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use super::burn::{Span, burn as burn_of};
 use super::commands::{Commands, Reader};
 use super::description::Description;
-use super::entry::{Slot, TimelineClock, TimelineEntry, TimelineEvent, TimelinePanels, simulation_time_s};
+use super::entry::{
+    Slot, TimelineClock, TimelineEntry, TimelineEvent, TimelinePanels, begun, simulation_time_s,
+};
 use super::events::event;
 use super::panels::panels;
 use super::scans::scan;
@@ -137,7 +139,7 @@ impl Timeline {
     pub fn slot(&self, now_s: f64, clock_minus_time_s: f64) -> Slot<'_> {
         let entries = self.entries();
         let time_s = |at_s: f64| simulation_time_s(at_s, clock_minus_time_s);
-        let begun = entries.partition_point(|entry| time_s(entry.at_s) <= now_s);
+        let begun = begun(entries, clock_minus_time_s, now_s, |entry| entry.at_s);
         let next_s = entries.get(begun).map_or(f64::INFINITY, |next| time_s(next.at_s));
         let Some(last) = begun.checked_sub(1).and_then(|index| entries.get(index)) else {
             return Slot { entry: None, row: 0, since_s: f64::NEG_INFINITY, until_s: next_s };

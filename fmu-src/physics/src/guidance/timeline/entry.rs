@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use serde::Deserialize;
 
 use crate::attitude::SunAngles;
+use crate::environment::dates;
 use crate::guidance::burn::delta_v::BurnSettings;
 use crate::guidance::burn::nominal_thrust::NominalThrust;
 use crate::guidance::burn::velocity_path::VelocityPath;
@@ -11,7 +12,6 @@ use crate::guidance::constraints::keep_in::KeepIn;
 use crate::guidance::downlink::sun_place::SunRequest;
 use crate::guidance::modes::mode::Mode;
 use crate::guidance::pointing::command::{PointingCommand, Scenario};
-use crate::numerics::spacing::spacing;
 use crate::spacecraft::ThrusterSet;
 
 /// By which clock a timeline counts.
@@ -24,10 +24,22 @@ pub enum TimelineClock {
 }
 
 /// The time of the simulation, in s, at `at_s` of a timeline's clock. Epochs are known to 6e-8 s: what counts in them is rounded to
-/// whole microseconds.
+/// whole microseconds, and whole seconds of UTC are whole seconds ([`dates::span_s`]), at which masters communicate.
 pub fn simulation_time_s(at_s: f64, clock_minus_time_s: f64) -> f64 {
     const PER_S: f64 = 1e6;
-    if clock_minus_time_s == 0.0 { at_s } else { ((at_s - clock_minus_time_s) * PER_S).round() / PER_S }
+    if clock_minus_time_s == 0.0 {
+        return at_s;
+    }
+    (dates::span_s(clock_minus_time_s, at_s) * PER_S).round() / PER_S
+}
+
+/// How many of these items have begun at a time of the simulation, in s; `at_s` is each one's, by the timeline's clock, and grows.
+pub fn begun<T>(items: &[T], clock_minus_time_s: f64, time_s: f64, at_s: impl Fn(&T) -> f64) -> usize {
+    /// Rounding moves none farther, in s.
+    const MOST_S: f64 = 0.01;
+    let near = items.partition_point(|item| at_s(item) - clock_minus_time_s <= time_s + MOST_S);
+    let is_begun = |item: &T| simulation_time_s(at_s(item), clock_minus_time_s) <= time_s;
+    items.get(..near).and_then(|near| near.iter().rposition(is_begun)).map_or(0, |last| last + 1)
 }
 
 /// Whether a plan may change a command.
@@ -170,8 +182,7 @@ pub struct TimelineBurn {
 impl TimelineBurn {
     /// As it acts where `parameters` say how to steer, its clock being `clock_minus_time_s` ahead of FMI time.
     pub fn settings(&self, parameters: &BurnSettings, clock_minus_time_s: f64) -> BurnSettings {
-        // Rounding of the epoch takes no second away.
-        let start_s = self.start_s.map(|it| it - clock_minus_time_s - 4.0 * spacing(it));
+        let start_s = self.start_s.map(|it| simulation_time_s(it, clock_minus_time_s));
         BurnSettings {
             path: self.path,
             thrusters: self.thrusters,

@@ -25,7 +25,7 @@ mod tests;
 pub use build::Timeline;
 pub use entry::{
     DownlinkOverride, KeepInOverride, PlanStatus, Slot, TimelineBurn, TimelineClock, TimelineDump,
-    TimelineEntry, TimelineEvent, TimelineManeuver, TimelinePanels, simulation_time_s,
+    TimelineEntry, TimelineEvent, TimelineManeuver, TimelinePanels, begun, simulation_time_s,
 };
 pub use law::{TimelineAttitude, TimelineLaw, TimelineSettings, bodies_of};
 #[cfg(feature = "schema")]

@@ -316,6 +316,26 @@ fn times_are_dates_or_fmi_time() {
     assert_eq!(fmi.slot(f64::NAN, 0.0).entry, None);
 }
 
+#[test]
+fn whole_seconds_of_utc_are_whole_seconds_of_the_simulation_all_year() {
+    let epoch_s = |date: &str| crate::environment::dates::epoch_s(date).unwrap();
+    let zero_s = epoch_s("2008-03-20T00:00:00 UTC");
+    // TDB gains 1.4 ms until October and loses them again.
+    let mut largest_s = 0.0_f64;
+    for (month, days) in [(4, 12), (6, 73), (8, 134), (10, 195), (12, 256)] {
+        let at_s = epoch_s(&format!("2008-{month:02}-01T12:00:00 UTC"));
+        let expected_s = f64::from(days) * 86_400.0 + 43_200.0;
+        largest_s = largest_s.max((at_s - zero_s - expected_s).abs());
+        assert_eq!(simulation_time_s(at_s, zero_s), expected_s, "{month}");
+        let later_s = epoch_s(&format!("2008-{month:02}-01T12:00:00.125 UTC"));
+        assert!((simulation_time_s(later_s, zero_s) - expected_s - 0.125).abs() < 4e-3);
+    }
+    assert!(largest_s > 1e-4, "{largest_s}");
+    // Dates of TDB are as far from whole seconds as the start is.
+    assert_eq!(simulation_time_s(1e8 + 0.184, 0.184), 1e8);
+    assert_eq!(simulation_time_s(1e8 + 0.5, 0.25), 1e8 + 0.25);
+}
+
 proptest! {
     #[test]
     fn the_entry_in_force_is_found(

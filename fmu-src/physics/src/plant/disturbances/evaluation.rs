@@ -369,7 +369,8 @@ impl TorqueModel for Plant<'_> {
     fn must_choose(&mut self, start_s: f64) -> bool {
         match &self.kinematics.configuration.attitude {
             AttitudeSource::Guided(guided) if guided.managed => {
-                self.sun_choice.is_due(self.kinematics.instant(start_s).regime.downlink)
+                let regime = self.kinematics.instant(start_s).regime;
+                self.sun_choice.is_due(regime.downlink, regime.row)
             }
             _ => false,
         }

@@ -67,7 +67,8 @@ impl ConfiguredFlight<'_> {
     }
 
     /// Chooses the Sun's place where a downlink has begun at `time_s`, or began right there and its momentum is another since;
-    /// where it is over, the next one may choose. Science that unloads is alike. At the `first` time of a flight nothing is
+    /// where it is over, the next one may choose. A downlink of the timeline is chosen as one as long as the windows'. Science that
+    /// unloads is alike. At the `first` time of a flight nothing is
     /// forecast, and a downlink that has begun before keeps its default attitude; science that has is chosen for what is left of it.
     pub(super) fn choose_sun_place(
         &mut self,
@@ -87,19 +88,29 @@ impl ConfiguredFlight<'_> {
         };
         let has_place = downlink || gimbal.is_some();
         let choice = &mut self.propagator.sun_choice;
+        let is_due = choice.is_due(downlink, guided.row);
         let is_anew = has_place && choice.in_force == downlink && choice.chosen_s == Some(time_s);
-        if !(choice.is_due(downlink) || is_anew || (first && gimbal.is_some())) {
+        if !(is_due || is_anew || (first && gimbal.is_some())) {
             return Ok(());
         }
         choice.in_force = downlink;
         if !has_place {
             return Ok(());
         }
+        if downlink {
+            choice.row = guided.row;
+        }
         // A dump at the very start changes nothing of it.
         choice.chosen_s = (!first).then_some(time_s);
         let epoch_minus_time_s = self.world.configuration.epoch_minus_time_s;
-        let until_s =
-            end_epoch_s(&law.schedule, &guided.window, time_s + epoch_minus_time_s) - epoch_minus_time_s;
+        let now_epoch_s = time_s + epoch_minus_time_s;
+        let (law, until_s) = match downlink && guided.row != 0 {
+            true => {
+                let schedule = law.schedule.begun_at(now_epoch_s);
+                (Guided { schedule, ..law }, time_s + schedule.downlink_s())
+            }
+            false => (law, end_epoch_s(&law.schedule, &guided.window, now_epoch_s) - epoch_minus_time_s),
+        };
         let since_s = guided.window.since_s - epoch_minus_time_s;
         let is_under_way = first && downlink && since_s < time_s - EPOCH_ROUNDING_S;
         let chosen = if until_s.is_finite() && until_s > time_s && !is_under_way {

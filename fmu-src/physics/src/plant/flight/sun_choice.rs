@@ -16,6 +16,8 @@ pub struct SunChoice {
     pub(crate) chosen_s: Option<f64>,
     /// Whether its downlink lasts.
     pub(crate) in_force: bool,
+    /// The timeline's command, from 1, that the last downlink was of; 0 where it was a window's.
+    pub(crate) row: usize,
 }
 
 impl SunChoice {
@@ -40,8 +42,8 @@ impl SunChoice {
         present.is_some_and(|chosen| chosen.clamped)
     }
 
-    /// Whether something is due in a window of downlink or of science.
-    pub(crate) fn is_due(&self, downlink: bool) -> bool {
-        downlink != self.in_force
+    /// Whether something is due in a window of downlink or of science; each command of a downlink is one of its own.
+    pub(crate) fn is_due(&self, downlink: bool, row: usize) -> bool {
+        downlink != self.in_force || (downlink && row != self.row)
     }
 }

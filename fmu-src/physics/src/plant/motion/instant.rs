@@ -57,6 +57,7 @@ impl Instant {
             regime: Regime {
                 window_since_s: f64::NEG_INFINITY,
                 downlink: false,
+                row: 0,
                 slewing: false,
                 corner_s: f64::INFINITY,
                 in_shadow: false,
@@ -112,6 +113,8 @@ pub struct Regime {
     pub window_since_s: f64,
     /// Whether the window is a downlink.
     pub downlink: bool,
+    /// The timeline's command, from 1, whose window it is; 0 of none.
+    pub row: usize,
     /// Whether the body turns from one attitude to the other.
     pub slewing: bool,
     /// When the next motion of a scan begins or ends, in s past J2000 TDB; infinite without one.

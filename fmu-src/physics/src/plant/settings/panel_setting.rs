@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
-use crate::guidance::timeline::{TimelinePanels, simulation_time_s};
+use crate::guidance::timeline::{TimelinePanels, begun, simulation_time_s};
 use crate::numerics::scalar::{Dual64, Scalar};
 use crate::spacecraft::{Panel, offset_for_suns};
 
@@ -108,7 +108,7 @@ impl PanelSetting {
             Self::Angle(angle) => return Some(angle.at_rad(sun.time_s)),
             Self::SunOffset { offset, tilt_sign } => (offset.at_rad(sun.time_s), tilt_sign),
             Self::Timeline { steps, clock_minus_time_s, before_rad, tilt_sign } => {
-                let begun = begun(steps, *clock_minus_time_s, sun.time_s.value());
+                let begun = begun_steps(steps, *clock_minus_time_s, sun.time_s.value());
                 let step = begun.checked_sub(1).and_then(|last| steps.get(last));
                 (T::constant(step.map_or(*before_rad, |step| step.offset_rad)), tilt_sign)
             }
@@ -126,7 +126,7 @@ impl PanelSetting {
     pub fn until_s(&self, time_s: f64) -> f64 {
         match self {
             Self::Timeline { steps, clock_minus_time_s, .. } => {
-                let next = steps.get(begun(steps, *clock_minus_time_s, time_s));
+                let next = steps.get(begun_steps(steps, *clock_minus_time_s, time_s));
                 next.map_or(f64::INFINITY, |next| simulation_time_s(next.at_s, *clock_minus_time_s))
             }
             Self::Disabled | Self::SunOffset { .. } | Self::Angle(_) | Self::Distance { .. } => f64::INFINITY,
@@ -150,8 +150,8 @@ impl PanelSetting {
 }
 
 /// How many of the steps have begun at `time_s`.
-fn begun(steps: &[PanelStep], clock_minus_time_s: f64, time_s: f64) -> usize {
-    steps.partition_point(|step| simulation_time_s(step.at_s, clock_minus_time_s) <= time_s)
+fn begun_steps(steps: &[PanelStep], clock_minus_time_s: f64, time_s: f64) -> usize {
+    begun(steps, clock_minus_time_s, time_s, |step| step.at_s)
 }
 
 #[cfg(test)]

@@ -105,7 +105,7 @@ impl ThrusterEventSettings {
     }
 
     /// The momentum that the dump of an event leaves, if it has one, body frame, in N m s.
-    pub(crate) fn dump_target_body_n_m_s(&self, event: &TimelineEvent) -> Option<Vector3<f64>> {
+    pub fn dump_target_body_n_m_s(&self, event: &TimelineEvent) -> Option<Vector3<f64>> {
         let dumps = |it: &TimelineManeuver| it.dumps.unwrap_or(self.dumps);
         match event.dump {
             Some(TimelineDump::To { momentum_body_n_m_s }) => Some(momentum_body_n_m_s),

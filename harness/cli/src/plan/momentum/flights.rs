@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use physics::{
     attitude::Attitude,
     environment::dates,
-    guidance::timeline::Timeline,
+    guidance::timeline::{Timeline, simulation_time_s},
     plant::{LightSource, SunLight},
     spacecraft::{Articulation, MassProperties, Spacecraft, SunshadeModel},
 };
@@ -18,7 +18,7 @@ use planner::momentum::{
 };
 
 use crate::{
-    assembly::model_of,
+    assembly::spacecraft_of,
     interrupt,
     mission::{Inputs, Mission, SpacecraftSource},
     run::{Run, Settings, Simulated, Subject},
@@ -124,12 +124,7 @@ impl SimulatedMission {
 
     /// The spacecraft that its FMU holds.
     pub(super) fn spacecraft(&self) -> Result<Spacecraft, Failure> {
-        let binary = self.fmu.binary()?;
-        let model = model_of(&self.fmu, binary.as_ref())?;
-        let setup = binary.models()?.into_iter().find(|it| it.model == model).and_then(|it| it.setup_file);
-        let setup = setup.ok_or_else(|| format!("{model} holds no spacecraft"))?;
-        let text = files::read_text(&self.fmu.folder().join("resources").join(&setup))?;
-        Ok(Spacecraft::from_toml(&setup, &text).map_err(|error| error.to_string())?)
+        spacecraft_of(&self.fmu)
     }
 
     /// The text of its timeline and what it says; `None` without one.
@@ -159,11 +154,11 @@ impl SimulatedMission {
         item(self.fmu.description(), &self.sets, name)
     }
 
-    fn is_true(&self, name: &str) -> bool {
+    pub(super) fn is_true(&self, name: &str) -> bool {
         start(self.fmu.description(), &self.sets, name) == Some(Value::Boolean(true))
     }
 
-    fn vector(&self, name: &str) -> Vector3<f64> {
+    pub(super) fn vector(&self, name: &str) -> Vector3<f64> {
         Vector3::from([1, 2, 3].map(|axis| self.real(&format!("{name}[{axis}]"))))
     }
 
@@ -221,10 +216,9 @@ impl SimulatedMission {
         }
         if let Some(timeline) = timeline {
             let clock_minus_time_s = self.clock_minus_time_s(timeline);
-            let moved = timeline
-                .events()
-                .iter()
-                .filter_map(|event| Some((event.at_s - clock_minus_time_s, event.center_of_mass_body_m?)));
+            let moved = timeline.events().iter().filter_map(|event| {
+                Some((simulation_time_s(event.at_s, clock_minus_time_s), event.center_of_mass_body_m?))
+            });
             sunlit.centers_of_mass = moved.collect();
         }
         Ok(sunlit)

@@ -53,6 +53,13 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
         .map_err(|error| file.problem(&file.mission, &error.to_string()))?;
     check_spans(file, &mission)?;
     let spacecraft = mission.spacecraft()?;
+    if let (Some(at), Some(refit)) = (&file.refit, &refit)
+        && let Some(other) = refit.spacecraft.as_ref().filter(|other| **other != spacecraft.name)
+    {
+        let what =
+            format!("found values of {other:?}, allowed: of {:?}, the mission's spacecraft", spacecraft.name);
+        return Err(file.problem(at, &what).into());
+    }
     let found = mission.timeline(&spacecraft)?;
     let timeline = MissionTimeline::of(&mission, found.as_ref())?;
     let own: Option<&Timeline> = found.as_ref().map(|(_, timeline)| timeline);
@@ -106,7 +113,7 @@ fn layout(
     let panels = 1..=sunlit.panels.len();
     let controls = panels.map(|number| mission.item(&format!("panel[{number}].control")));
     let arrays_are_frozen = controls.into_iter().all(|it| matches!(it, Some("sunOffset" | "timeline")));
-    let mut contacts_s = Vec::new();
+    let mut contacts_s: Vec<[f64; 2]> = Vec::new();
     for at in &file.contacts {
         let span = at.it.map(|instant| mission.time_s(instant));
         let [Some(from_s), Some(to_s)] = span else {
@@ -114,6 +121,11 @@ fn layout(
                 .problem(at, "found a date, allowed: simulation time: the mission does not start at a date")
                 .into());
         };
+        // Dates and simulation times compare here alone.
+        if contacts_s.last().is_some_and(|[_, before_s]| from_s < *before_s) {
+            let what = "found it before the contact above ends, allowed: contacts in the order of time, none overlapping";
+            return Err(file.problem(at, what).into());
+        }
         contacts_s.push([from_s, to_s]);
     }
     let zone_rad = mission.zone_rad();
@@ -145,6 +157,7 @@ fn layout(
 
 /// What a refit found.
 struct Refit {
+    spacecraft: Option<String>,
     center_of_mass_m: [f64; 3],
     scale: f64,
     covariance: Matrix4<f64>,
@@ -169,6 +182,7 @@ fn refit(plan: &PlanFile, at: &file::At<PathBuf>) -> Result<Refit, Failure> {
         plan.problem(at, &format!("found {}: {error}, {allowed}", path.display()))
     })?;
     Ok(Refit {
+        spacecraft: found.spacecraft,
         center_of_mass_m: found.center_of_mass_m,
         scale: found.scale,
         covariance: Matrix4::from(found.covariance).transpose(),
@@ -218,7 +232,7 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
             write(&planned, &[(NAMES[5], text)])?;
             let corridor = &planned.task.layout.corridor;
             let day = (none.at_s - planned.mission.start_s) / 86_400.0;
-            return Err(format!(
+            let what = format!(
                 "{}: articulation: found nothing between {} and {} suns on day {day:.1}, {:.4} AU from the Sun, where cells get {:.3} \
                  at most, allowed: bounds that some offset keeps at every distance of the flight",
                 planned.mission.mission.file.display(),
@@ -226,8 +240,8 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
                 corridor.max_suns,
                 none.distance_au,
                 none.suns,
-            )
-            .into());
+            );
+            return Err(file.problem(&file.mission, &what).into());
         }
         Err(error) => return Err(error.to_string().into()),
     };
@@ -250,6 +264,9 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
         (NAMES[5], json),
     ];
     write(&planned, &contents)?;
+    for warning in written::beyond_inputs(&planned.mission, &planned.timeline) {
+        terminal::note(&warning);
+    }
     if !options.quiet {
         terminal::print(&summary(&planned, &found, (&prices, &seeds)))?;
         for (name, _) in &contents {
@@ -296,7 +313,7 @@ fn check_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) 
 }
 
 fn events(planned: &Planned<'_>, found: &MomentumPlan) -> Vec<PlanEvent> {
-    let mut events: Vec<PlanEvent> = planned.timeline.events_of_mission.clone();
+    let mut events = planned.timeline.plan_events();
     let dumps = found.dumps.iter();
     events.extend(dumps.map(|dump| PlanEvent { at_s: dump.at_s, kinds: vec!["dump"], planned: true }));
     events.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));

@@ -1,14 +1,14 @@
 //! The timeline of a plan: what the mission commands and keeps, and the plan's own commands, panels and dumps.
 //!
-//! Angles are written in deg to a ten-thousandth, times of alternation to a minute, so that steps of a minute meet them; what is simulated is
-//! what is written.
+//! Angles are written in deg to a ten-thousandth, momenta in N m s to a millionth, times of alternation to a minute, so that steps of a minute
+//! meet them; what is simulated is what is written.
 
 use core::fmt::Write;
 
 use nalgebra::Vector3;
 use physics::{
     environment::dates,
-    guidance::timeline::{PlanStatus, Timeline, TimelineClock, TimelineDump, TimelineEvent},
+    guidance::timeline::{PlanStatus, Timeline, TimelineClock, TimelineEvent, simulation_time_s},
 };
 use planner::momentum::{
     plan::PlannedDump,
@@ -25,6 +25,8 @@ use super::{
 
 /// Angles are written so fine, as parts of a deg.
 const PARTS_OF_DEG: f64 = 1e4;
+/// And momenta, as parts of an N m s.
+const PARTS_OF_N_M_S: f64 = 1e6;
 
 /// A tolerance for clocks that are written to the millisecond, in s.
 const CLOCK_S: f64 = 2e-3;
@@ -47,12 +49,8 @@ pub(super) struct MissionTimeline {
     events: Vec<Kept>,
     /// Offset and windmill angle of the arrays over time, in rad, where the timeline says so: time in s, each panel's angle.
     pub arrays_rad: Vec<(f64, Vec<f64>)>,
-    /// Its maneuvers: times in s and velocities to add, EME2000, in m/s.
-    pub maneuvers: Vec<(f64, Vector3<f64>)>,
-    /// Its dumps without a maneuver: times in s and the momentum after each, body frame, where it says so, in N m s.
-    pub dumps: Vec<(f64, Option<Vector3<f64>>)>,
-    /// Its events.
-    pub events_of_mission: Vec<PlanEvent>,
+    /// Its events and their times, in s.
+    pub thruster_events: Vec<(f64, TimelineEvent)>,
     is_dated: bool,
 }
 
@@ -61,6 +59,11 @@ pub(super) fn shown_deg(angle_rad: f64) -> f64 {
     let deg = (angle_rad.to_degrees() * PARTS_OF_DEG).round() / PARTS_OF_DEG;
     // No minus before zero.
     deg + 0.0
+}
+
+/// In N m s as it is written.
+pub(super) fn shown_n_m_s(momentum_n_m_s: &Vector3<f64>) -> [f64; 3] {
+    momentum_n_m_s.map(|it| (it * PARTS_OF_N_M_S).round() / PARTS_OF_N_M_S + 0.0).into()
 }
 
 const MINUTE_S: f64 = 60.0;
@@ -106,7 +109,7 @@ impl MissionTimeline {
         };
         let document: DocumentMut = text.parse()?;
         let clock_minus_time_s = mission.clock_minus_time_s(timeline);
-        let time = |at_s: f64| at_s - clock_minus_time_s;
+        let time = |at_s: f64| simulation_time_s(at_s, clock_minus_time_s);
         let commands = timeline.entries().iter().map(|it| (it.at_s, it.until_s, it.status));
         let panels = timeline.panels().iter().map(|it| (it.at_s, None, PlanStatus::Fixed));
         let events = timeline.events().iter().map(|it| (it.at_s, None, PlanStatus::Fixed));
@@ -131,33 +134,26 @@ impl MissionTimeline {
         });
         Ok(Self {
             arrays_rad: arrays.collect(),
-            events_of_mission: timeline
-                .events()
-                .iter()
-                .map(|event| plan_event(time(event.at_s), event))
-                .collect(),
-            maneuvers: timeline
-                .events()
-                .iter()
-                .filter_map(|event| Some((time(event.at_s), event.maneuver?.delta_v_inertial_m_s)))
-                .collect(),
-            dumps: timeline
-                .events()
-                .iter()
-                .filter(|event| event.maneuver.is_none())
-                .filter_map(|event| {
-                    let target = match event.dump? {
-                        TimelineDump::Requested => None,
-                        TimelineDump::To { momentum_body_n_m_s } => Some(momentum_body_n_m_s),
-                    };
-                    Some((time(event.at_s), target))
-                })
-                .collect(),
+            thruster_events: timeline.events().iter().map(|event| (time(event.at_s), *event)).collect(),
             commands: kept("command", commands.collect()),
             panels: kept("panels", panels.collect()),
             events: kept("event", events.collect()),
             is_dated: timeline.clock() == TimelineClock::Epoch,
         })
+    }
+
+    /// Its events by their kinds.
+    pub(super) fn plan_events(&self) -> Vec<PlanEvent> {
+        let kinds = |event: &TimelineEvent| {
+            let kinds = [
+                ("maneuver", event.maneuver.is_some()),
+                ("dump", event.dump.is_some()),
+                ("centerOfMass", event.center_of_mass_body_m.is_some()),
+            ];
+            kinds.into_iter().filter(|(_, is)| *is).map(|(name, _)| name).collect()
+        };
+        let events = self.thruster_events.iter();
+        events.map(|(at_s, event)| PlanEvent { at_s: *at_s, kinds: kinds(event), planned: false }).collect()
     }
 
     /// Commands that a plan leaves as they are.
@@ -235,13 +231,7 @@ impl MissionTimeline {
             self.events.iter().map(|kept| (kept.at_s, kept.text.clone())).collect();
         for dump in dumps {
             let after = bodies(dump);
-            let text = format!(
-                "[[event]]\nat = {}\ndump = [{:.6}, {:.6}, {:.6}]\n",
-                clock(dump.at_s),
-                after.x,
-                after.y,
-                after.z
-            );
+            let text = format!("[[event]]\nat = {}\ndump = {:?}\n", clock(dump.at_s), shown_n_m_s(&after));
             events.push((dump.at_s, text));
         }
         let mut text = String::from("# Written by `heliotorque plan momentum`.\n");
@@ -264,16 +254,6 @@ impl MissionTimeline {
             None => format!("{time_s:?}"),
         }
     }
-}
-
-fn plan_event(at_s: f64, event: &TimelineEvent) -> PlanEvent {
-    let kinds = [
-        ("maneuver", event.maneuver.is_some()),
-        ("dump", event.dump.is_some()),
-        ("centerOfMass", event.center_of_mass_body_m.is_some()),
-    ];
-    let kinds = kinds.into_iter().filter(|(_, is)| *is).map(|(name, _)| name);
-    PlanEvent { at_s, kinds: kinds.collect(), planned: false }
 }
 
 /// How the arrays stand from a time on.

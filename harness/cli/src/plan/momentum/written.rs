@@ -3,6 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use nalgebra::Vector3;
+use physics::plant::ThrusterEventSettings;
 use planner::momentum::{
     plan::{MomentumPlan, PlannedDump},
     torque::Control,
@@ -12,7 +13,7 @@ use toml_edit::{DocumentMut, Item, Table, value};
 
 use super::{
     flights::{Failure, SimulatedMission},
-    timeline::{MissionTimeline, array_steps, shown_deg, stretches},
+    timeline::{MissionTimeline, array_steps, shown_deg, shown_n_m_s, stretches},
 };
 
 /// The mission's text with the plan's timeline, for a file in `folder`.
@@ -91,6 +92,7 @@ struct Inputs {
     target_n_m_s: Vector3<f64>,
     maneuver: bool,
     delta_v_m_s: Vector3<f64>,
+    center_of_mass_m: Vector3<f64>,
 }
 
 /// Which groups of columns there are.
@@ -98,6 +100,7 @@ struct Inputs {
 struct Columns {
     dumps: bool,
     maneuvers: bool,
+    centers_of_mass: bool,
 }
 
 /// The input table: a row before and one behind every jump.
@@ -118,6 +121,7 @@ pub(super) fn inputs(
         target_n_m_s: Vector3::zeros(),
         maneuver: false,
         delta_v_m_s: Vector3::zeros(),
+        center_of_mass_m: planned.vector("spacecraft.centerOfMass"),
     };
     // What changes, by time.
     let mut changes: Vec<(f64, Change<'_>)> = Vec::new();
@@ -142,19 +146,32 @@ pub(super) fn inputs(
             changes.push((stretch.at_s, Change::Sun(Some(window), stretch.alternate)));
         }
     }
-    for dump in &plan.dumps {
-        changes.push((dump.at_s, Change::Dump(true, bodies(dump))));
-        changes.push((dump.at_s + HELD_S, Change::Dump(false, bodies(dump))));
+    let mut dump = |at_s: f64, target_n_m_s: Vector3<f64>| {
+        changes.push((at_s, Change::Dump(true, target_n_m_s)));
+        changes.push((at_s + HELD_S, Change::Dump(false, target_n_m_s)));
+    };
+    for planned in &plan.dumps {
+        dump(planned.at_s, shown_n_m_s(&bodies(planned)).into());
     }
-    let requested = Vector3::from([1, 2, 3].map(|axis| planned.real(&format!("dump.target[{axis}]"))));
-    for (at_s, target) in &timeline.dumps {
-        let target = target.unwrap_or(requested);
-        changes.push((*at_s, Change::Dump(true, target)));
-        changes.push((*at_s + HELD_S, Change::Dump(false, target)));
+    let settings = ThrusterEventSettings {
+        dumps: planned.is_true("maneuver.dump"),
+        requested_body_n_m_s: planned.vector("dump.target"),
+        ..ThrusterEventSettings::default()
+    };
+    for (at_s, event) in &timeline.thruster_events {
+        if let Some(target_n_m_s) = settings.dump_target_body_n_m_s(event) {
+            dump(*at_s, target_n_m_s);
+        }
     }
-    for (at_s, delta_v) in &timeline.maneuvers {
-        changes.push((*at_s, Change::Maneuver(true, *delta_v)));
-        changes.push((*at_s + HELD_S, Change::Maneuver(false, *delta_v)));
+    for (at_s, event) in &timeline.thruster_events {
+        if let Some(maneuver) = event.maneuver {
+            let delta_v_m_s = maneuver.delta_v_inertial_m_s;
+            changes.push((*at_s, Change::Maneuver(true, delta_v_m_s)));
+            changes.push((*at_s + HELD_S, Change::Maneuver(false, delta_v_m_s)));
+        }
+        if let Some(center_of_mass_m) = event.center_of_mass_body_m {
+            changes.push((*at_s, Change::CenterOfMass(center_of_mass_m)));
+        }
     }
     changes.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut text = String::from("time");
@@ -162,15 +179,21 @@ pub(super) fn inputs(
         text.push_str(&format!(",panel[{number}].sunOffsetCommand"));
     }
     text.push_str(",downlink.sunAzimuth,downlink.sunElevation,downlink.alternate");
+    let has = |is: fn(&Change<'_>) -> bool| changes.iter().any(|(_, change)| is(change));
     let columns = Columns {
-        dumps: !plan.dumps.is_empty() || !timeline.dumps.is_empty(),
-        maneuvers: !timeline.maneuvers.is_empty(),
+        dumps: has(|it| matches!(it, Change::Dump(..))),
+        maneuvers: has(|it| matches!(it, Change::Maneuver(..))),
+        centers_of_mass: has(|it| matches!(it, Change::CenterOfMass(_))),
     };
     if columns.maneuvers {
         text.push_str(",maneuver.request,maneuver.deltaV[1],maneuver.deltaV[2],maneuver.deltaV[3]");
     }
     if columns.dumps {
         text.push_str(",dump.request,dump.target[1],dump.target[2],dump.target[3]");
+    }
+    if columns.centers_of_mass {
+        let axes = [1, 2, 3].map(|axis| format!(",spacecraft.centerOfMass[{axis}]"));
+        text.push_str(&axes.concat());
     }
     text.push('\n');
     let mut started = false;
@@ -202,11 +225,28 @@ pub(super) fn inputs(
     text
 }
 
+/// What the input table cannot say of the mission's maneuvers, whose dumps and thrusters are parameters there.
+pub(super) fn beyond_inputs(planned: &SimulatedMission, timeline: &MissionTimeline) -> Vec<String> {
+    let dumps = planned.is_true("maneuver.dump");
+    let maneuvers = timeline.thruster_events.iter().filter_map(|(at_s, event)| Some((at_s, event.maneuver?)));
+    let said = maneuvers.filter_map(|(at_s, maneuver)| {
+        let what = match (dumps, maneuver.dumps, maneuver.thrusters) {
+            (true, Some(false), _) => "is without a dump, the input table's has one (maneuver.dump)",
+            (_, _, Some(_)) => "names its thrusters, the input table's are those of maneuver.thrusters",
+            _ => return None,
+        };
+        let day = terminal::short((at_s - planned.start_s) / 86_400.0);
+        Some(format!("warning: plan.csv: the maneuver of day {day} {what}"))
+    });
+    said.collect()
+}
+
 enum Change<'w> {
     Arrays(Vec<f64>),
     Sun(Option<&'w Window>, bool),
     Dump(bool, Vector3<f64>),
     Maneuver(bool, Vector3<f64>),
+    CenterOfMass(Vector3<f64>),
 }
 
 impl Change<'_> {
@@ -222,6 +262,7 @@ impl Change<'_> {
                 inputs.alternate = *alternate;
             }
             Self::Maneuver(request, delta_v) => (inputs.maneuver, inputs.delta_v_m_s) = (*request, *delta_v),
+            Self::CenterOfMass(center_of_mass_m) => inputs.center_of_mass_m = *center_of_mass_m,
             Self::Dump(request, target) => (inputs.dump, inputs.target_n_m_s) = (*request, *target),
         }
     }
@@ -238,7 +279,10 @@ fn row(time_s: f64, inputs: &Inputs, columns: Columns) -> String {
     }
     if columns.dumps {
         cells.push(inputs.dump.to_string());
-        cells.extend(inputs.target_n_m_s.iter().map(|component| format!("{component:.6}")));
+        cells.extend(inputs.target_n_m_s.iter().map(|component| format!("{component:?}")));
+    }
+    if columns.centers_of_mass {
+        cells.extend(inputs.center_of_mass_m.iter().map(|component| format!("{component:?}")));
     }
     format!("{}\n", cells.join(","))
 }

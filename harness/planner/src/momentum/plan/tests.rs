@@ -34,6 +34,7 @@ impl Simulates for Integrated {
                 count += 1;
             }
             let duration_s = flight.rows[index].time_s - from.time_s;
+            let other = (from.other_torque_n_m + flight.rows[index].other_torque_n_m) * 0.5;
             for step in 0..steps {
                 let time_s = from.time_s + duration_s * (f64::from(step) + 0.5) / f64::from(steps);
                 let window = windows.iter().find(|window| window.stop_s > time_s).unwrap();
@@ -42,7 +43,7 @@ impl Simulates for Integrated {
                 let about = from.to_sun_m.normalize();
                 let turned = about * (2.0 * about.dot(&torque)) - torque;
                 let torque = if is_alternate { turned } else { torque };
-                momentum += (torque + self.more_n_m) * (duration_s / f64::from(steps));
+                momentum += (torque + other + self.more_n_m) * (duration_s / f64::from(steps));
             }
             flight.rows[index].momentum_n_m_s = momentum;
             flight.rows[index].dumps = count;
@@ -126,4 +127,66 @@ fn no_plan_of_the_same_windows_has_less_tilt() {
     let mut integrated = Integrated { sunlit, simulated, more_n_m: Vector3::zeros(), flights: 0 };
     let flight = integrated.simulate(&less, &[]).unwrap();
     assert!(flight.greatest_momentum().0 > found.greatest_n_m_s()[1]);
+}
+
+const DAYS: usize = 7;
+/// Torques about the axis of that by windmill angles, by day, where those give up to 0.75 a day and the limit is 0.5, and the fewest
+/// changes of the angle, by intervals of the momentum carried through all choices of the days. Going on as far as possible takes
+/// more changes of the first (3) and the second (2).
+const BY_DAY: [([f64; DAYS], usize); 4] = [
+    ([0.7, -0.4, -0.6, 0.5, 0.4, 0.7, -0.7], 2),
+    ([-0.7, 0.7, 0.2, 0.6, 0.7, -0.3, 0.1], 1),
+    ([0.7, -0.5, -0.5, 0.6, 0.6, -0.6, -0.7], 3),
+    ([0.5, -0.7, -0.5, 0.7, -0.1, -0.2, 0.6], 2),
+];
+
+/// Of all choices of the days at which the arrays move, a plan has one with the fewest.
+#[test]
+fn arrays_move_no_more_often_than_by_the_best_of_all_choices() {
+    const UNIT_N_M_S: f64 = 2.0;
+    let sunlit = sunlit([0.0; 3]);
+    let still = simulated(&sunlit, DAYS as u32, 0.4);
+    let row = &still.rows[0];
+    let layout = |windmill_rad| task(0.5 * UNIT_N_M_S, Reach { windmill_rad, ..Reach::default() });
+    let (windows, _) = layout(0.05).layout.windows(&still).unwrap();
+    let torque = |windmill_rad: f64| {
+        let controls = windows[0].controls.with(Control::Windmill, windmill_rad);
+        sunlit.torque_n_m(row, Attitude::Downlink, &controls)
+    };
+    let by_rad = (torque(1e-3) - torque(-1e-3)) / 2e-3;
+    let axis = by_rad.normalize();
+    let task = layout(0.75 * UNIT_N_M_S / DAY_S / by_rad.norm());
+    for (by_day, expected) in BY_DAY {
+        let mut simulated = still.clone();
+        for row in &mut simulated.rows {
+            let day = |time_s: f64| by_day[((time_s / DAY_S) as usize).min(DAYS - 1)];
+            // Where one follows another, their mean.
+            let mean = 0.5 * (day(row.time_s - 1.0) + day(row.time_s + 1.0));
+            row.other_torque_n_m = axis * (mean * UNIT_N_M_S / DAY_S) - torque(0.0);
+        }
+        let mut integrated = Integrated {
+            sunlit: sunlit.clone(),
+            simulated: simulated.clone(),
+            more_n_m: Vector3::zeros(),
+            flights: 0,
+        };
+        let found = plan(&task, &sunlit, &simulated, &mut integrated).unwrap();
+        let (windows, _) = task.layout.windows(&simulated).unwrap();
+        let start = Model::new(&sunlit, simulated, windows, task.limit.clone());
+        assert!(found.holds && found.dumps.is_empty(), "{by_day:?}: {:?}", found.greatest_n_m_s());
+        assert_eq!((found.changes, found.changes_at_least), (expected, expected), "{by_day:?}");
+        let mut fewer = (0_u32..1 << (DAYS - 1)).filter(|places| (places.count_ones() as usize) < expected);
+        let kept = fewer.find(|places| {
+            let mut leader = 0;
+            let leaders = (0..DAYS).map(|window| {
+                if window > 0 && places >> (window - 1) & 1 == 1 {
+                    leader = window;
+                }
+                leader
+            });
+            let (leaders, mut model): (Vec<usize>, _) = (leaders.collect(), start.clone());
+            refine(&mut model, &sunlit, &leaders, (Goal::LeastExcess, WHOLE), &mut integrated).unwrap()
+        });
+        assert_eq!(kept, None, "{by_day:?}");
+    }
 }
