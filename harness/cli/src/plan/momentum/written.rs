@@ -5,6 +5,7 @@ use std::path::{Component, Path, PathBuf};
 use nalgebra::Vector3;
 use planner::momentum::{
     plan::{MomentumPlan, PlannedDump},
+    plant::StartValues,
     torque::Control,
     windows::{Window, WindowKind},
 };
