@@ -121,6 +121,16 @@ def test_strategies_save_dumps_in_every_row_and_column(simulated, name):
                 assert count <= cells[strategy, threshold, far]
 
 
+@pytest.mark.parametrize("name", ["table2", "table4"])
+def test_no_strategy_has_fewer_dumps_than_the_optimum(simulated, name):
+    rows = table(simulated[name][1], f"{name}.csv")
+    optima = {(row["threshold"], row["momentum"], row["offset"]): int(row["ours"]) for row in rows if row["strategy"] == "optimum"}
+    strategies = [row for row in rows if row["strategy"] != "optimum"]
+    assert len(optima) == len(strategies) * 2 // 9
+    for row in strategies:
+        assert optima[row["threshold"], row["momentum"], row["offset"]] <= int(row["ours"]), row
+
+
 @pytest.mark.parametrize("threshold, offset_cm, rule", [(4, -5.08, 0.9), (7, -2.54, 0.9), (4, -2.54, 1.0)])
 def test_dumps_are_those_that_fmpy_simulates(simulated, momentum_plant, threshold, offset_cm, rule):
     start = PAPER | {"sunshade.shape": 2, "spacecraft.centerOfMass[3]": offset_cm / 100.0, "dump.reinitFraction": rule}

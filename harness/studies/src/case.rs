@@ -265,6 +265,11 @@ impl Case {
         self.with(value.of(name))
     }
 
+    /// What is set, in order.
+    pub(crate) fn sets(&self) -> &Settings {
+        &self.sets
+    }
+
     /// Simulates it and returns the columns of `names`, of variables and vectors.
     pub(crate) fn simulate<S: AsRef<str>>(
         &self,

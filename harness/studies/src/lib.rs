@@ -61,11 +61,11 @@ studies! {
     "momentum/tables" of "000" by momentum::tables:
         "Tables 2 to 5 from one set of simulations";
     "momentum/table2" of "000" by momentum::table2:
-        "number of thruster dumps in 90 days by strategy, cylinder, with a picture like Figure 4";
+        "number of thruster dumps in 90 days by strategy and at the optimum, cylinder, with a picture like Figure 4";
     "momentum/table3" of "000" by momentum::table3:
         "time between thruster dumps by strategy, cylinder";
     "momentum/table4" of "000" by momentum::table4:
-        "number of thruster dumps by strategy, plates and panels, centre of mass off in X, Y and Z";
+        "number of thruster dumps by strategy and at the optimum, plates and panels, centre of mass off in X, Y and Z";
     "momentum/table5" of "000" by momentum::table5:
         "time between those dumps";
     "momentum/figure4" of "000" by momentum::figure4:

@@ -133,6 +133,14 @@ pub enum StudyError {
     /// An FMU could not be loaded; the error names its file.
     #[error("{0}: see --dist")]
     Fmu(Box<loader::Error>),
+    /// No plan was found.
+    #[error("{case}: {why}")]
+    Plan {
+        /// The case.
+        case: String,
+        /// Why.
+        why: String,
+    },
     /// A system could not be opened; the error names its file.
     #[error("{0}: see --dist")]
     System(Box<systems::Error>),

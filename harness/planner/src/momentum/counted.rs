@@ -265,7 +265,8 @@ pub(super) fn fewest_changes(
             || windows[window].baseline_rad != windows[window - 1].baseline_rad
     };
     let forced: Vec<bool> = (0..windows.len()).map(is_forced).collect();
-    let base = forced.iter().filter(|it| **it).count().saturating_sub(1);
+    let has_arrays = windows.iter().any(|window| !window.sides.is_empty());
+    let base = if has_arrays { forced.iter().filter(|it| **it).count().saturating_sub(1) } else { 0 };
     let mut steps = vec![0; windows.len() + 1];
     let mut window = 0;
     for (step, &row) in model.instants().iter().enumerate() {

@@ -4,7 +4,9 @@ pub mod baseline;
 mod counted;
 mod mission;
 mod model;
+pub mod places;
 pub mod plan;
+pub mod plant;
 mod program;
 pub mod refit_file;
 mod region;
@@ -17,4 +19,5 @@ pub mod windows;
 
 pub use mission::{Held, Mission};
 pub use model::Limit;
+pub use physics::momentum::Convention;
 pub use region::{Point, Region};

@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
 
 use super::{
     program::{Begin, Program, Step},
-    simulated::{FlightRow, SAME_S, SimulatedFlight},
+    simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
     torque::{Attitude, CONTROLS, Control, SunlitSpacecraft},
     windows::{Window, WindowKind},
 };
@@ -23,6 +23,8 @@ const SIGMAS: f64 = 3.0;
 pub struct Limit {
     /// Greatest |H|, in N m s.
     pub momentum_n_m_s: f64,
+    /// What |H| is.
+    pub size: MomentumSize,
     /// Share of it that is left.
     pub margin: f64,
     /// Covariance of the centre of mass (body frame, m) and of the scale of sunlight, where a refit gave it.
@@ -116,6 +118,13 @@ impl Model {
                 window += 1;
             }
             let of = &self.windows[window];
+            // What stays is known from the first time on.
+            if of.kind == WindowKind::Frozen
+                && let Some(cell) = self.cells.get(index)
+            {
+                cells.push(cell.clone());
+                continue;
+            }
             let share = of.alternate_at(middle_s);
             let from = match last.take() {
                 Some((at_window, at, value)) if at_window == window && at == index => value,
@@ -138,7 +147,11 @@ impl Model {
             let next = self.cells.get(index + 1);
             let ends_window = next.is_none_or(|next| next.window != cell.window);
             let meets_reset = cell.reset.is_some() || next.is_some_and(|next| next.reset.is_some());
-            let long_s = (of.stop_s - of.start_s).min(LONGEST_WINDOW_S) / INSTANTS as f64;
+            let length_s = of.stop_s - of.start_s;
+            let mut long_s = length_s.min(LONGEST_WINDOW_S) / INSTANTS as f64;
+            if length_s < DAY_S {
+                long_s = long_s.max(CLOSEST_S);
+            }
             if ends_window || meets_reset || end_s - since_s >= long_s - SAME_S {
                 instants.push(index + 1);
                 since_s = end_s;
@@ -219,8 +232,10 @@ impl Model {
     /// By how much |H| exceeds what is allowed at the worst row, in N m s, and that row.
     pub(super) fn excess_n_m_s(&self) -> (f64, usize) {
         let momentum = self.momentum_n_m_s();
-        let over =
-            momentum.iter().zip(self.allowed_n_m_s()).map(|(momentum, allowed)| momentum.norm() - allowed);
+        let over = momentum
+            .iter()
+            .zip(self.allowed_n_m_s())
+            .map(|(momentum, allowed)| self.limit.size.of(momentum) - allowed);
         over.enumerate().fold(
             (f64::NEG_INFINITY, 0),
             |(worst, at), (row, over)| {
@@ -231,7 +246,7 @@ impl Model {
 
     /// Looks at how far |H| goes between the instants.
     pub(super) fn look_between(&mut self) {
-        let momentum: Vec<f64> = self.momentum_n_m_s().iter().map(|it| it.norm()).collect();
+        let momentum: Vec<f64> = self.momentum_n_m_s().iter().map(|it| self.limit.size.of(it)).collect();
         let allowed = self.allowed_n_m_s();
         let over = |row: usize| momentum[row] - allowed[row];
         let mut from = 0;
@@ -278,8 +293,8 @@ impl Model {
     /// The programme of a part, the arrays of every window standing as those of its leader; `guard` is a share of the limit that is
     /// left, `trust` the share of each control's range by which it may leave its present value.
     pub(super) fn program(&self, leaders: &[usize], part: Part, [guard, trust]: [f64; 2]) -> Program {
-        let mut program =
-            Program { bounds: vec![[0.0, 0.0]; CONTROLS * self.windows.len()], ..Program::default() };
+        let bounds = vec![[0.0, 0.0]; CONTROLS * self.windows.len()];
+        let mut program = Program { size: self.limit.size, bounds, ..Program::default() };
         let mut is_set = vec![false; program.bounds.len()];
         for (index, window) in self.windows.iter().enumerate() {
             for control in ALL {
@@ -304,6 +319,8 @@ impl Model {
             let has_tilt = pair.iter().any(|at| program.bounds[*at][0] < program.bounds[*at][1]);
             if has_tilt {
                 program.lengths.push((pair, weight));
+                let sides = window.places.iter();
+                program.sums.extend(sides.map(|side| (side.terms(pair), side.most)));
             }
             // Behind the tilt: a hundredth of a degree, not to alternate or windmill for nothing.
             for control in [Control::Alternate, Control::Windmill] {
@@ -380,6 +397,8 @@ impl Model {
 const UNJUDGED: f64 = 1e3;
 /// Windows count as no longer than this where instants are chosen, in s.
 const LONGEST_WINDOW_S: f64 = 3.0 * DAY_S;
+/// Instants within a window of less than a day are no closer, in s: what goes on between them is looked at all the same.
+const CLOSEST_S: f64 = 8.0 * 3600.0;
 const DAY_S: f64 = 86_400.0;
 /// Cost of a day in the alternate attitude or of a radian of windmilling, against a day with a radian of tilt.
 const SLIGHT: f64 = 1e-3;
@@ -399,15 +418,13 @@ struct At {
 
 impl At {
     fn of(sunlit: &SunlitSpacecraft, row: &FlightRow, window: &Window) -> Self {
-        let (attitude, controls) = match window.kind {
-            WindowKind::Free => (Attitude::Downlink, window.controls),
-            _ => (Attitude::SimulatedFlight, window.controls),
+        let found = match window.kind {
+            WindowKind::Free => sunlit.linearised(row, Attitude::Downlink, &window.controls),
+            WindowKind::Frozen => sunlit.simulated(row),
+            WindowKind::Fixed | WindowKind::Planned => {
+                sunlit.linearised(row, Attitude::SimulatedFlight, &window.controls)
+            }
         };
-        let mut found = sunlit.linearised(row, attitude, &controls);
-        if window.kind == WindowKind::Frozen {
-            found.torque = sunlit.simulated_torque_n_m(row);
-            found.by_angle = [Vector3::zeros(); 4];
-        }
         Self {
             torque: found.torque,
             by_angle: found.by_angle,

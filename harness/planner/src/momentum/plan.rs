@@ -8,13 +8,14 @@
 use std::time::{Duration, Instant};
 
 use nalgebra::{Rotation3, Unit, Vector3};
+use physics::momentum::Convention;
 
 use super::{
     baseline::{NoOffset, OffsetStep},
     counted::{self, Groups},
     model::{ALL, Limit, Model, Part},
     program::{Goal, Program, Solution},
-    simulated::{FlightRow, SAME_S, SimulatedFlight},
+    simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
     torque::{Attitude, Control, Controls, SunlitSpacecraft},
     windows::{Layout, Window, WindowKind},
 };
@@ -38,6 +39,24 @@ const LITTLE: [f64; 3] = [0.05, 0.15, 0.5];
 /// A gain in merit below this share is none.
 const TAKEN: f64 = 1e-4;
 
+/// What a plan has least of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Least {
+    /// Tilt of the Sun off -Y, by its time.
+    Tilt,
+    /// Greatest momentum.
+    Momentum,
+}
+
+impl Least {
+    fn goal(self) -> Goal {
+        match self {
+            Self::Tilt => Goal::LeastCost,
+            Self::Momentum => Goal::LeastExcess,
+        }
+    }
+}
+
 /// What is planned.
 #[derive(Clone, Debug)]
 pub struct PlanTask {
@@ -47,6 +66,8 @@ pub struct PlanTask {
     pub limit: Limit,
     /// Dumps that the plan may have.
     pub dumps: usize,
+    /// What is least of all plans with the fewest dumps and changes.
+    pub least: Least,
     /// Time for counted changes, in s.
     pub budget_s: f64,
 }
@@ -254,9 +275,10 @@ fn structure(
     simulates: &mut dyn Simulates,
 ) -> Result<Structure, PlanError> {
     let single = counted::single(model);
+    let goal = task.least.goal();
     let (mut dumps_at_least, mut exceeded) = (0, None);
     let start = model.windows.clone();
-    if !refine(model, sunlit, &single, (Goal::LeastCost, WHOLE), simulates)? {
+    if !refine(model, sunlit, &single, (goal, WHOLE), simulates)? {
         // Another way: from the start again, as far below the limit as it goes.
         let first = (model.excess_n_m_s().0, model.windows.clone());
         model.windows = start;
@@ -279,7 +301,7 @@ fn structure(
                 exceeded = Some(Exceeded { excess_n_m_s, first_s });
             }
             model.dumps = found.rows.into_iter().map(|row| (row, Vector3::zeros())).collect();
-            refine(model, sunlit, &single, (Goal::LeastCost, WHOLE), simulates)?;
+            refine(model, sunlit, &single, (goal, WHOLE), simulates)?;
         }
     }
     simulates.progress("changes");
@@ -299,7 +321,7 @@ pub fn plan(
     simulated: &SimulatedFlight,
     simulates: &mut dyn Simulates,
 ) -> Result<MomentumPlan, PlanError> {
-    let (windows, baseline) = task.layout.windows(simulated).map_err(PlanError::Corridor)?;
+    let (windows, baseline) = task.layout.windows(sunlit, simulated).map_err(PlanError::Corridor)?;
     let mut model = Model::new(sunlit, simulated.clone(), windows, task.limit.clone());
     let mut counts: Option<Structure> = None;
     let mut rounds = 0;
@@ -314,7 +336,7 @@ pub fn plan(
         let mut kept = false;
         let ranges: &[f64] = if is_counted_now { &[WHOLE] } else { &LITTLE };
         for trust in ranges {
-            kept = kept || refine(&mut model, sunlit, &leaders, (Goal::LeastCost, *trust), simulates)?;
+            kept = kept || refine(&mut model, sunlit, &leaders, (task.least.goal(), *trust), simulates)?;
         }
         let dumps = planned_dumps(&model);
         simulates.progress("flight");
@@ -323,7 +345,7 @@ pub fn plan(
         let limit = task.limit.momentum_n_m_s;
         let off = rows.iter().map(|row| row.difference_n_m_s).fold(0.0, f64::max);
         let below = rows.iter().all(|row| row.simulated_n_m_s <= row.allowed_n_m_s)
-            && flight.greatest_momentum().0 <= limit * (1.0 - task.limit.margin);
+            && flight.greatest(task.limit.size).0 <= limit * (1.0 - task.limit.margin);
         let holds = off <= AGREED * limit && below;
         if holds || rounds == MOST_ROUNDS {
             return Ok(MomentumPlan {
@@ -357,6 +379,9 @@ pub fn body_momentum_n_m_s(
     windows: &[Window],
     dump: &PlannedDump,
 ) -> Vector3<f64> {
+    if sunlit.convention == Convention::BodyIntegral {
+        return dump.after_n_m_s;
+    }
     let Some(row) = simulated.at(dump.at_s) else { return dump.after_n_m_s };
     let holds = |window: &&Window| window.start_s <= dump.at_s && window.stop_s > dump.at_s;
     let window = windows.iter().find(holds).filter(|window| window.kind == WindowKind::Free);
@@ -379,7 +404,7 @@ pub fn body_momentum_n_m_s(
 
 /// The model of a mission before any flight of a plan.
 fn bare(task: &PlanTask, sunlit: &SunlitSpacecraft, simulated: &SimulatedFlight) -> Result<Model, PlanError> {
-    let (windows, _) = task.layout.windows(simulated).map_err(PlanError::Corridor)?;
+    let (windows, _) = task.layout.windows(sunlit, simulated).map_err(PlanError::Corridor)?;
     Ok(Model::new(sunlit, simulated.clone(), windows, task.limit.clone()))
 }
 
@@ -462,6 +487,7 @@ fn planned_dumps(model: &Model) -> Vec<PlannedDump> {
 
 fn rows(model: &Model, flight: &SimulatedFlight) -> Vec<PlannedRow> {
     let (momentum, allowed) = (model.momentum_n_m_s(), model.allowed_n_m_s());
+    let size: MomentumSize = model.limit.size;
     let is_at_dump = |time_s: f64| {
         let of_model =
             model.dumps.iter().any(|(row, _)| (model.simulated.rows[*row].time_s - time_s).abs() <= SAME_S);
@@ -474,8 +500,8 @@ fn rows(model: &Model, flight: &SimulatedFlight) -> Vec<PlannedRow> {
         let difference = if is_at_dump(row.time_s) { 0.0 } else { (simulated - planned).norm() };
         PlannedRow {
             time_s: row.time_s,
-            planned_n_m_s: planned.norm(),
-            simulated_n_m_s: simulated.norm(),
+            planned_n_m_s: size.of(planned),
+            simulated_n_m_s: size.of(&simulated),
             allowed_n_m_s: *allowed,
             difference_n_m_s: difference,
         }

@@ -1,7 +1,7 @@
-//! Convex programme: momentum over time, linear in bounded controls, within a ball at every instant.
+//! Convex programme: momentum over time, linear in bounded controls, within a ball or a cube at every instant.
 //!
-//! h_j = h_(j-1) + d_j + sum_i g_ji x_i with |h_j| <= L_j: second-order cones, one an instant, on sparse equations. Solved by the
-//! interior-point method of Clarabel (Goulart and Chen 2024) to a relative gap of 1e-8. Two questions are put:
+//! h_j = h_(j-1) + d_j + sum_i g_ji x_i with |h_j| <= L_j, length or largest component: second-order cones, or six half-spaces, an
+//! instant on sparse equations. Solved by the interior-point method of Clarabel (Goulart and Chen 2024) to a relative gap of 1e-8. Two questions are put:
 //!
 //! - the least excess, min t with |h_j| <= L_j + t: a negative one is what is left below every limit;
 //! - within the limits, the least sum of the lengths of pairs of controls and of a linear cost.
@@ -14,6 +14,8 @@ use clarabel::{
     },
 };
 use nalgebra::Vector3;
+
+use super::simulated::MomentumSize;
 
 /// How a step's momentum begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +44,8 @@ pub(super) struct Step {
 /// A programme.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Program {
+    /// What |h| is.
+    pub size: MomentumSize,
     /// Least and greatest value of each control.
     pub bounds: Vec<[f64; 2]>,
     /// In the order of time.
@@ -177,11 +181,22 @@ impl Program {
             rows.cones.push(NonnegativeConeT(inequalities));
         }
         let ball = |rows: &mut Rows, first: usize, limit: f64| {
-            rows.row(excess.map(|column| (column, -1.0)), limit);
-            for axis in 0..3 {
-                rows.row([(first + axis, -1.0)], 0.0);
+            let excess = excess.map(|column| (column, -1.0));
+            match self.size {
+                MomentumSize::Length => {
+                    rows.row(excess, limit);
+                    for axis in 0..3 {
+                        rows.row([(first + axis, -1.0)], 0.0);
+                    }
+                    rows.cones.push(SecondOrderConeT(4));
+                }
+                MomentumSize::LargestComponent => {
+                    for (axis, sign) in [0, 1, 2].into_iter().flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
+                        rows.row([(first + axis, sign)].into_iter().chain(excess), limit);
+                    }
+                    rows.cones.push(NonnegativeConeT(6));
+                }
             }
-            rows.cones.push(SecondOrderConeT(4));
         };
         let mut begins = begin_at;
         for (index, step) in self.steps.iter().enumerate() {
@@ -217,7 +232,8 @@ impl Program {
             found[from..from + 3 * count].chunks_exact(3).map(Vector3::from_column_slice).collect()
         };
         let momentum = vectors(momentum_at, self.steps.len());
-        let over = momentum.iter().zip(&self.steps).map(|(momentum, step)| momentum.norm() - step.limit);
+        let over =
+            momentum.iter().zip(&self.steps).map(|(momentum, step)| self.size.of(momentum) - step.limit);
         Some(Solution {
             excess: over.fold(f64::NEG_INFINITY, f64::max),
             controls: self

@@ -2,6 +2,26 @@
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 
+/// What is meant by the size of a momentum.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MomentumSize {
+    /// Its length |H|.
+    #[default]
+    Length,
+    /// Its largest component, by which dumps are triggered.
+    LargestComponent,
+}
+
+impl MomentumSize {
+    /// Of this momentum, in its unit.
+    pub fn of(self, momentum: &Vector3<f64>) -> f64 {
+        match self {
+            Self::Length => momentum.norm(),
+            Self::LargestComponent => momentum.amax(),
+        }
+    }
+}
+
 /// What is known at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlightRow {
@@ -17,12 +37,14 @@ pub struct FlightRow {
     pub inertial_from_body: Rotation3<f64>,
     /// How each panel stands about its axis, in rad.
     pub panel_angles_rad: Vec<f64>,
-    /// Torque of everything but direct sunlight, EME2000, in N m.
+    /// Torque of everything but direct sunlight, EME2000 (where the body components are integrated: body frame), in N m.
     pub other_torque_n_m: Vector3<f64>,
-    /// Angular momentum of the whole spacecraft, EME2000, in N m s.
+    /// Angular momentum of the whole spacecraft, EME2000 (where the body components are integrated: body frame), in N m s.
     pub momentum_n_m_s: Vector3<f64>,
     /// Dumps so far.
     pub dumps: u32,
+    /// Whether a downlink lasts.
+    pub downlink: bool,
 }
 
 impl FlightRow {
@@ -43,6 +65,7 @@ impl FlightRow {
             other_torque_n_m: self.other_torque_n_m.lerp(&next.other_torque_n_m, share),
             momentum_n_m_s: self.momentum_n_m_s.lerp(&next.momentum_n_m_s, share),
             dumps: self.dumps,
+            downlink: self.downlink,
         }
     }
 }
@@ -105,10 +128,30 @@ impl SimulatedFlight {
         }
     }
 
+    /// Downlinks, from the first row in each to the first behind it, in s.
+    pub fn downlinks_s(&self) -> Vec<[f64; 2]> {
+        let mut found: Vec<[f64; 2]> = Vec::new();
+        let mut lasts = false;
+        for row in &self.rows {
+            match found.last_mut() {
+                Some(last) if lasts => last[1] = row.time_s,
+                _ if row.downlink => found.push([row.time_s; 2]),
+                _ => {}
+            }
+            lasts = row.downlink;
+        }
+        found
+    }
+
     /// Greatest |H|, in N m s, and when.
     pub fn greatest_momentum(&self) -> (f64, f64) {
+        self.greatest(MomentumSize::Length)
+    }
+
+    /// Greatest size of the momentum, in N m s, and when.
+    pub fn greatest(&self, size: MomentumSize) -> (f64, f64) {
         self.rows.iter().fold((0.0, f64::NAN), |(greatest, at_s), row| {
-            let momentum = row.momentum_n_m_s.norm();
+            let momentum = size.of(&row.momentum_n_m_s);
             if momentum > greatest { (momentum, row.time_s) } else { (greatest, at_s) }
         })
     }

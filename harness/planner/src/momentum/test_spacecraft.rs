@@ -9,8 +9,8 @@ use physics::{
 
 use super::{
     model::Limit,
-    plan::PlanTask,
-    simulated::{FlightRow, SimulatedFlight},
+    plan::{Least, PlanTask},
+    simulated::{FlightRow, MomentumSize, SimulatedFlight},
     torque::SunlitSpacecraft,
     windows::{Layout, Reach},
 };
@@ -39,6 +39,7 @@ pub(super) fn row(sunlit: &SunlitSpacecraft, time_s: f64, distance_au: f64, alon
         other_torque_n_m: Vector3::zeros(),
         momentum_n_m_s: Vector3::zeros(),
         dumps: 0,
+        downlink: true,
     };
     row.inertial_from_body = sunlit.downlink_attitude(&row, 0.0, 0.0).unwrap();
     row
@@ -58,6 +59,7 @@ pub(super) fn task(limit_n_m_s: f64, reach: Reach) -> PlanTask {
             arrays_are_frozen: true,
             window_s: DAY_S,
             occupied: Vec::new(),
+            downlinks_s: None,
             contacts_s: Vec::new(),
             contact_share: 0.0,
             reach,
@@ -66,8 +68,14 @@ pub(super) fn task(limit_n_m_s: f64, reach: Reach) -> PlanTask {
             frozen_offset_rad: 0.0,
             sides: vec![1.0, -1.0],
         },
-        limit: Limit { momentum_n_m_s: limit_n_m_s, margin: 0.0, covariance: None },
+        limit: Limit {
+            momentum_n_m_s: limit_n_m_s,
+            size: MomentumSize::Length,
+            margin: 0.0,
+            covariance: None,
+        },
         dumps: 0,
+        least: Least::Tilt,
         budget_s: 20.0,
     }
 }

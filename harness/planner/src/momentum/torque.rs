@@ -9,10 +9,11 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use physics::{
     attitude::SunAngles,
     guidance::{
-        downlink::sun_place::{DownlinkRequest, downlink},
+        downlink::sun_place::{Downlink, DownlinkRequest, downlink},
         geometry::moving::fixed,
         pointing::antenna::Antennas,
     },
+    momentum::Convention,
     plant::{PanelSetting, Ramp, SunLight, SunlitCraft},
     radiation::{Beam, SolarModel},
     refusal::Refusal,
@@ -86,6 +87,8 @@ pub struct SunlitSpacecraft {
     pub centers_of_mass: Vec<(f64, Vector3<f64>)>,
     /// Whether each panel takes part, and the sense of its tilt.
     pub panels: Vec<(bool, f64)>,
+    /// What torques are given in: EME2000, or, where the body components are integrated, the body frame.
+    pub convention: Convention,
     solar: SolarModel,
     antennas: Antennas,
 }
@@ -106,6 +109,7 @@ impl SunlitSpacecraft {
             mass_at_zero: spacecraft.mass_properties,
             panels: spacecraft.panels.iter().map(|panel| (true, panel.tilt_sign)).collect(),
             centers_of_mass: Vec::new(),
+            convention: Convention::Inertial,
             light,
             spacecraft,
         })
@@ -130,12 +134,27 @@ impl SunlitSpacecraft {
         azimuth_rad: f64,
         elevation_rad: f64,
     ) -> Option<Rotation3<f64>> {
-        let request = DownlinkRequest {
-            sun_body: SunAngles { azimuth_rad, elevation_rad },
-            ..DownlinkRequest::default()
-        };
-        let found = downlink(&fixed(row.to_sun_m), &fixed(row.to_earth_m), &self.antennas, &request)?;
+        let found = self.downlink(row, SunAngles { azimuth_rad, elevation_rad })?;
         Some(found.vectors.pointing()?.frame().inertial_from_body)
+    }
+
+    /// Whether Sun, Earth and antennas allow a downlink with the Sun there.
+    pub fn allows(&self, row: &FlightRow, azimuth_rad: f64, elevation_rad: f64) -> bool {
+        let found = self.downlink(row, SunAngles { azimuth_rad, elevation_rad });
+        found.is_some_and(|found| !found.clamped)
+    }
+
+    fn downlink(&self, row: &FlightRow, sun_body: SunAngles) -> Option<Downlink> {
+        let request = DownlinkRequest { sun_body, ..DownlinkRequest::default() };
+        downlink(&fixed(row.to_sun_m), &fixed(row.to_earth_m), &self.antennas, &request)
+    }
+
+    /// Takes vectors of the body frame to that in which torques are given.
+    fn given_from_body(&self, inertial_from_body: &Rotation3<f64>) -> Rotation3<f64> {
+        match self.convention {
+            Convention::Inertial => *inertial_from_body,
+            Convention::BodyIntegral => Rotation3::identity(),
+        }
     }
 
     fn settings(&self, controls: &Controls) -> Vec<PanelSetting> {
@@ -151,7 +170,7 @@ impl SunlitSpacecraft {
         panels.map(one).collect()
     }
 
-    /// Force and torque about the centre of mass of direct sunlight, EME2000, in N and N m.
+    /// Force and torque about the centre of mass of direct sunlight, in N and N m.
     fn load(
         &self,
         row: &FlightRow,
@@ -171,21 +190,23 @@ impl SunlitSpacecraft {
         let pressure_pa = self.light.pressure_pa(distance_m) * row.lit_fraction;
         let center = sunlit.mass_properties(&sun_body).center_of_mass_body_m;
         let load = sunlit.load(&Beam { source_body: sun_body, pressure_pa }, &center);
-        [load.force_body_n, load.torque_body_n_m].map(|it| inertial_from_body * it)
+        let given_from_body = self.given_from_body(inertial_from_body);
+        [load.force_body_n, load.torque_body_n_m].map(|it| given_from_body * it)
     }
 
-    /// Torque of direct sunlight with arrays and attitude as they were simulated, EME2000, in N m.
-    pub fn simulated_torque_n_m(&self, row: &FlightRow) -> Vector3<f64> {
+    /// Torque of direct sunlight with arrays and attitude as they were simulated; no angle is a control.
+    pub fn simulated(&self, row: &FlightRow) -> LinearTorque {
         let enabled = self.panels.iter().map(|(enabled, _)| *enabled);
         let angle = |(enabled, angle_rad): (bool, &f64)| match enabled {
             true => PanelSetting::Angle(Ramp::held(*angle_rad)),
             false => PanelSetting::Disabled,
         };
         let settings: Vec<_> = enabled.zip(&row.panel_angles_rad).map(angle).collect();
-        self.load(row, &row.inertial_from_body, &settings)[1]
+        let loads = self.load(row, &row.inertial_from_body, &settings);
+        self.linear(row, &row.inertial_from_body, loads, [Vector3::zeros(); 4])
     }
 
-    /// Torque of direct sunlight in the attitude that is not alternate, EME2000, in N m.
+    /// Torque of direct sunlight in the attitude that is not alternate, in N m.
     pub fn torque_n_m(&self, row: &FlightRow, attitude: Attitude, controls: &Controls) -> Vector3<f64> {
         self.loads(row, attitude, controls)[1]
     }
@@ -216,20 +237,29 @@ impl SunlitSpacecraft {
             by_angle[2] = by(Control::Azimuth);
             by_angle[3] = by(Control::Elevation);
         }
-        let [force, torque] = self.loads(row, attitude, controls);
         let inertial_from_body = match attitude {
             Attitude::SimulatedFlight => row.inertial_from_body,
             Attitude::Downlink => self
                 .downlink_attitude(row, controls.get(Control::Azimuth), controls.get(Control::Elevation))
                 .unwrap_or(row.inertial_from_body),
         };
+        self.linear(row, &inertial_from_body, self.loads(row, attitude, controls), by_angle)
+    }
+
+    fn linear(
+        &self,
+        row: &FlightRow,
+        inertial_from_body: &Rotation3<f64>,
+        [force, torque]: [Vector3<f64>; 2],
+        by_angle: [Vector3<f64>; 4],
+    ) -> LinearTorque {
         // T = sum (r - c) x F, so dT/dc_i = -e_i x F.
-        let by_center = force.cross_matrix() * inertial_from_body.matrix();
+        let by_center = force.cross_matrix() * self.given_from_body(inertial_from_body).matrix();
         LinearTorque { torque, by_angle, by_center, half_turn: half_turn(&row.to_sun_m) }
     }
 }
 
-/// Torque at a time, in N m, with its derivatives, EME2000.
+/// Torque at a time, in N m, with its derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearTorque {
     /// In the attitude that is not alternate.

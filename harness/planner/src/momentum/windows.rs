@@ -4,8 +4,9 @@ use physics::spacecraft::Articulation;
 
 use super::{
     baseline::{NoOffset, OffsetStep, allowed_rad, baseline},
-    simulated::{SAME_S, SimulatedFlight},
-    torque::{CONTROLS, Control, Controls},
+    places::{PlaceSide, places},
+    simulated::{FlightRow, SAME_S, SimulatedFlight},
+    torque::{CONTROLS, Control, Controls, SunlitSpacecraft},
 };
 
 /// What a window is.
@@ -48,6 +49,8 @@ pub struct Window {
     pub free_of_contact: Vec<[f64; 2]>,
     /// Least and greatest value of each control.
     pub bounds: [[f64; 2]; CONTROLS],
+    /// Places of the Sun that antennas and Earth allow throughout, within those bounds; all of them where there is none.
+    pub places: Vec<PlaceSide>,
     /// Offsets that keep the corridor throughout, with their sign, in rad.
     pub offsets_rad: [f64; 2],
     /// Offset of the baseline, with its sign, in rad.
@@ -150,6 +153,8 @@ pub struct Layout {
     pub window_s: f64,
     /// Commands that stay, in order.
     pub occupied: Vec<Occupied>,
+    /// Downlinks of an orbit phase, in order: they alone are free, everything else stays as it is; `None`: all time is.
+    pub downlinks_s: Option<Vec<[f64; 2]>>,
     /// Ground contacts, in order; none overlap.
     pub contacts_s: Vec<[f64; 2]>,
     /// Share of each window that contacts take where none is listed.
@@ -167,11 +172,33 @@ pub struct Layout {
 }
 
 impl Layout {
+    /// Of an orbit phase: downlinks are free as far as `reach` lets the Sun off -Y, everything else stays, the arrays so far off the Sun.
+    pub fn of_downlinks(downlinks_s: Vec<[f64; 2]>, reach: Reach, sun_offset_rad: f64) -> Self {
+        Self {
+            frozen_until_s: f64::NEG_INFINITY,
+            arrays_are_frozen: true,
+            window_s: f64::INFINITY,
+            occupied: Vec::new(),
+            downlinks_s: Some(downlinks_s),
+            contacts_s: Vec::new(),
+            contact_share: 0.0,
+            reach,
+            corridor: Articulation { min_suns: 0.0, max_suns: f64::INFINITY, target_suns: 1.0 },
+            offset_sign: 1.0,
+            frozen_offset_rad: sun_offset_rad,
+            sides: Vec::new(),
+        }
+    }
+
     /// The windows of a flight on the baseline, and that.
     ///
     /// # Errors
     /// The first time at which no offset keeps the corridor.
-    pub fn windows(&self, simulated: &SimulatedFlight) -> Result<(Vec<Window>, Vec<OffsetStep>), NoOffset> {
+    pub fn windows(
+        &self,
+        sunlit: &SunlitSpacecraft,
+        simulated: &SimulatedFlight,
+    ) -> Result<(Vec<Window>, Vec<OffsetStep>), NoOffset> {
         let (Some(first), Some(last)) = (simulated.rows.first(), simulated.rows.last()) else {
             return Ok((Vec::new(), Vec::new()));
         };
@@ -214,16 +241,34 @@ impl Layout {
             cuts.push(stop_s);
             let mut from_s = start_s;
             for to_s in cuts {
-                windows.push(self.window([from_s, to_s], (kind, command), simulated, &steps));
+                windows.push(self.window([from_s, to_s], (kind, command), (sunlit, simulated), &steps));
                 from_s = to_s;
             }
         }
         Ok((windows, steps))
     }
 
-    /// Free time in pieces; a last one of less than half a window joins the one before.
+    /// Free time in pieces; a last one of less than half a window joins the one before. In an orbit phase each downlink is one.
     fn cut(&self, spans: &mut Vec<([f64; 2], WindowKind, Option<usize>)>, [from_s, to_s]: [f64; 2]) {
         if to_s <= from_s + SAME_S {
+            return;
+        }
+        if let Some(downlinks_s) = &self.downlinks_s {
+            let mut at_s = from_s;
+            for [start_s, stop_s] in downlinks_s {
+                let [start_s, stop_s] = [start_s.max(at_s), stop_s.min(to_s)];
+                if stop_s <= start_s + SAME_S {
+                    continue;
+                }
+                if start_s > at_s + SAME_S {
+                    spans.push(([at_s, start_s], WindowKind::Frozen, None));
+                }
+                spans.push(([start_s, stop_s], WindowKind::Free, None));
+                at_s = stop_s;
+            }
+            if to_s > at_s + SAME_S {
+                spans.push(([at_s, to_s], WindowKind::Frozen, None));
+            }
             return;
         }
         let pieces = ((to_s - from_s) / self.window_s + 0.5).floor().max(1.0) as usize;
@@ -238,7 +283,7 @@ impl Layout {
         &self,
         [start_s, stop_s]: [f64; 2],
         (kind, command): (WindowKind, Option<usize>),
-        simulated: &SimulatedFlight,
+        (sunlit, simulated): (&SunlitSpacecraft, &SimulatedFlight),
         steps: &[OffsetStep],
     ) -> Window {
         let rows = || {
@@ -254,7 +299,7 @@ impl Layout {
         let begun = steps.iter().rev().find(|step| step.at_s <= start_s + SAME_S);
         let offset_rad = match kind {
             WindowKind::Frozen => self.frozen_offset_rad,
-            _ => self.offset_sign * begun.map_or(0.0, |step| step.offset_rad),
+            _ => begun.map_or(self.frozen_offset_rad, |step| self.offset_sign * step.offset_rad),
         };
         if self.offset_sign < 0.0 {
             offsets_rad = [-offsets_rad[1], -offsets_rad[0]];
@@ -288,6 +333,14 @@ impl Layout {
             bounds[Control::Elevation as usize] = [-elevation_rad, elevation_rad];
             bounds[Control::Alternate as usize] = [0.0, self.reach.alternate.min(share)];
         }
+        let mut allowed = Vec::new();
+        if kind == WindowKind::Free && self.downlinks_s.is_some() {
+            let all: Vec<&FlightRow> = rows().collect();
+            let reach = [self.reach.azimuth_rad, self.reach.elevation_rad];
+            allowed = places(sunlit, &all, reach);
+            bounds[Control::Azimuth as usize] = [-reach[0], reach[0]];
+            bounds[Control::Elevation as usize] = [-reach[1], reach[1]];
+        }
         Window {
             start_s,
             stop_s,
@@ -295,6 +348,7 @@ impl Layout {
             command,
             free_of_contact: if kind == WindowKind::Free { free_of_contact } else { Vec::new() },
             bounds,
+            places: allowed,
             offsets_rad: [offsets_rad[0].min(offset_rad), offsets_rad[1].max(offset_rad)],
             baseline_rad: offset_rad,
             sides: self.sides.clone(),

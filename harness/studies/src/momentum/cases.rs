@@ -7,6 +7,7 @@ use crate::StudyError;
 use crate::attitude::Vector;
 use crate::case;
 use crate::report::Run;
+use crate::settings::Settings;
 
 const DAY_S: f64 = 86_400.0;
 const STEP_S: f64 = 600.0;
@@ -68,10 +69,12 @@ pub(super) enum Strategy {
     Reactive,
     /// To bring it where the coming cycles keep it below the thresholds.
     Predictive,
+    /// What a plan with all the days in view makes of it.
+    Optimum,
 }
 
 impl Strategy {
-    /// From the one that saves no dump to the one that saves most.
+    /// Those that the spacecraft follows, from the one that saves no dump to the one that saves most.
     pub(super) const ALL: [Self; 3] = [Self::DumpsOnly, Self::Reactive, Self::Predictive];
 
     /// For tables.
@@ -80,12 +83,16 @@ impl Strategy {
             Self::DumpsOnly => "dumps only",
             Self::Reactive => "reactive",
             Self::Predictive => "predictive",
+            Self::Optimum => "optimum",
         }
     }
 
     /// Of `momentum.strategy`.
     fn item(self) -> &'static str {
-        if self == Self::DumpsOnly { "dumpsOnly" } else { self.label() }
+        match self {
+            Self::DumpsOnly | Self::Optimum => "dumpsOnly",
+            Self::Reactive | Self::Predictive => self.label(),
+        }
     }
 }
 
@@ -96,6 +103,8 @@ pub(super) enum DumpsTo {
     Opposite(f64),
     /// At this share of the threshold along +X, whichever side it was on; the other components at zero.
     AlongX(f64),
+    /// Where the plan has it.
+    Planned,
 }
 
 impl DumpsTo {
@@ -111,6 +120,7 @@ impl DumpsTo {
         match self {
             Self::Opposite(fraction) => format!("{fraction:.1}"),
             Self::AlongX(fraction) => format!("X {fraction:+.1}"),
+            Self::Planned => "planned".to_owned(),
         }
     }
 
@@ -120,6 +130,8 @@ impl DumpsTo {
             Self::AlongX(fraction) => {
                 case.set("dump.reinitTo", "target").set("dump.target[1]", fraction * threshold_n_m_s)
             }
+            // One that the plan does not have is the FMU's own.
+            Self::Planned => case,
         }
     }
 }
@@ -237,8 +249,13 @@ impl Case {
         self.choice.set(self.dumps_to.set(case, self.threshold_n_m_s))
     }
 
-    fn simulate(&self, fmu: &Fmu) -> Result<Simulated, StudyError> {
-        let recorded = self.settings().apart("dump.count").simulate(fmu, &NAMES)?;
+    /// Simulates it, what `steer` answers to a recorded point being set there.
+    pub(super) fn simulate(
+        &self,
+        fmu: &Fmu,
+        steer: &mut dyn FnMut(case::Row<'_>) -> Settings,
+    ) -> Result<Simulated, StudyError> {
+        let recorded = self.settings().apart("dump.count").steer(fmu, &NAMES, steer)?;
         Ok(Simulated {
             case: *self,
             times_d: recorded.times_s.iter().map(|time_s| time_s / DAY_S).collect(),
@@ -296,5 +313,5 @@ impl Simulated {
 pub(super) fn simulate_all(run: &Run<'_>, cases: Vec<Case>) -> Result<Vec<Simulated>, StudyError> {
     let cases = run.chosen(cases, Case::label)?;
     let fmu = run.options.fmu("MomentumPlant.fmu")?;
-    run.all(&cases, |case| case.simulate(&fmu))
+    run.all(&cases, |case| case.simulate(&fmu, &mut |_| Settings::new()))
 }

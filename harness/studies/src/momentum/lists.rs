@@ -17,18 +17,29 @@ const RULES: [(DumpsTo, Convention); 3] = [
 /// Table 2: the paper's own dumps first, then the FMU's default ones, then these under the physical momentum.
 pub(super) fn cylinder() -> Vec<Case> {
     let groups = RULES.map(|(dumps_to, convention)| (dumps_to, Shade::Cylinder, convention));
-    with_every_strategy(&groups, &[4.0, 7.0], &ALONG_Z)
+    let mut cases = with_every_strategy(&groups, &[4.0, 7.0], &ALONG_Z);
+    cases.extend(optima(Shade::Cylinder, &[4.0, 7.0], &ALONG_Z));
+    cases
 }
 
 /// Table 4, in the same order.
 pub(super) fn panels() -> Vec<Case> {
     let groups = RULES.map(|(dumps_to, convention)| (dumps_to, Shade::PlatesAndPanels, convention));
-    with_every_strategy(&groups, &[5.5], &ALL_OFFSETS)
+    let mut cases = with_every_strategy(&groups, &[5.5], &ALL_OFFSETS);
+    cases.extend(optima(Shade::PlatesAndPanels, &[5.5], &ALL_OFFSETS));
+    cases
+}
+
+/// The optimum of each threshold and offset under both momenta.
+fn optima(shade: Shade, thresholds_n_m_s: &[f64], offsets_in: &[[i8; 3]]) -> Vec<Case> {
+    let groups = [Convention::BodyIntegral, Convention::Inertial];
+    let groups = groups.map(|convention| (DumpsTo::Planned, shade, convention));
+    with_strategies(&[Strategy::Optimum], &groups, thresholds_n_m_s, offsets_in)
 }
 
 /// Tables 3 and 5: what the paper's momentum gives of Tables 2 and 4.
 pub(super) fn in_papers_convention(mut cases: Vec<Case>) -> Vec<Case> {
-    cases.retain(|case| case.convention == Convention::BodyIntegral);
+    cases.retain(|case| case.convention == Convention::BodyIntegral && case.strategy != Strategy::Optimum);
     cases
 }
 
@@ -85,10 +96,19 @@ pub(super) fn with_every_strategy(
     thresholds_n_m_s: &[f64],
     offsets_in: &[[i8; 3]],
 ) -> Vec<Case> {
+    with_strategies(&Strategy::ALL, groups, thresholds_n_m_s, offsets_in)
+}
+
+fn with_strategies(
+    strategies: &[Strategy],
+    groups: &[(DumpsTo, Shade, Convention)],
+    thresholds_n_m_s: &[f64],
+    offsets_in: &[[i8; 3]],
+) -> Vec<Case> {
     let mut cases = Vec::new();
     for &(dumps_to, shade, convention) in groups {
         for &threshold_n_m_s in thresholds_n_m_s {
-            for strategy in Strategy::ALL {
+            for &strategy in strategies {
                 cases.extend(offsets_in.iter().map(|&offset_in| Case {
                     strategy,
                     threshold_n_m_s,

@@ -5,6 +5,7 @@ mod cases;
 mod figures;
 mod lists;
 mod off_sun;
+mod optimum;
 mod paper;
 mod sensitivity;
 mod spacing;

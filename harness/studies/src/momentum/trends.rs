@@ -1,6 +1,6 @@
 //! What must hold whatever the paper leaves open: looking ahead saves dumps, so do large wheels and small offsets.
 
-use super::cases::{Case, Simulated, Strategy};
+use super::cases::{Case, DumpsTo, Simulated, Strategy};
 
 /// Comparisons of two simulations that differ in one thing.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -15,8 +15,9 @@ pub(super) struct Trends {
 type Orders = fn(&Case, &Case) -> bool;
 
 /// What a comparison is about.
-const KINDS: [(&str, Orders); 3] = [
+const KINDS: [(&str, Orders); 4] = [
     ("strategy", has_next_strategy),
+    ("optimum", is_the_optimum_of),
     ("threshold", |more, fewer| {
         more.threshold_n_m_s < fewer.threshold_n_m_s
             && *fewer == Case { threshold_n_m_s: fewer.threshold_n_m_s, ..*more }
@@ -27,6 +28,11 @@ const KINDS: [(&str, Orders); 3] = [
 fn has_next_strategy(more: &Case, fewer: &Case) -> bool {
     let next = Strategy::ALL.windows(2).any(|pair| pair == [more.strategy, fewer.strategy]);
     next && *fewer == Case { strategy: fewer.strategy, ..*more }
+}
+
+fn is_the_optimum_of(more: &Case, fewer: &Case) -> bool {
+    let optimum = Case { strategy: Strategy::Optimum, dumps_to: DumpsTo::Planned, ..*more };
+    more.strategy != Strategy::Optimum && *fewer == optimum
 }
 
 fn is_an_inch_closer(more: &Case, fewer: &Case) -> bool {
@@ -61,7 +67,7 @@ impl Trends {
     /// For a report.
     pub(super) fn text(&self) -> String {
         let mut text = format!(
-            "Trends (dumps only >= reactive >= predictive, fewer with the threshold, more with the offset along Z): {} of {} comparisons hold.",
+            "Trends (dumps only >= reactive >= predictive, each >= optimum, fewer with the threshold, more with the offset along Z): {} of {} comparisons hold.",
             self.compared - self.exceptions.len(),
             self.compared
         );

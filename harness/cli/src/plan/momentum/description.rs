@@ -4,7 +4,8 @@ use serde::Deserialize;
 
 use crate::mission::Written;
 
-/// What is planned: a mission, how far arrays and attitude may go in its free windows, and what its momentum is kept below. Times,
+/// What is planned: a mission, how far arrays and attitude may go in its free windows (in an orbit phase: the Sun's place in its
+/// downlinks), and what its momentum is kept below. Times,
 /// angles and momenta are SI numbers or strings with a unit.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -26,7 +27,7 @@ pub(super) struct Description {
     /// Largest windmill angle of the arrays, either way; "2 deg" unless given, 0 for none.
     #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
     pub windmill: Option<Written>,
-    /// Largest tilt of the Sun off -Y in downlinks; none unless given.
+    /// Largest tilt of the Sun off -Y in downlinks; none unless given, in an orbit phase that of the keep-in zone.
     pub tilt: Option<TiltDescription>,
     /// Largest share of a window in the attitude turned by 180 deg about the Sun line; 0.5 unless given, 0 for none.
     #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]

@@ -47,12 +47,15 @@ pub(super) struct PlanFile {
     pub offset_rad: f64,
     /// With its place where it is written.
     pub windmill_rad: (f64, Option<At<()>>),
-    pub azimuth_rad: f64,
-    pub elevation_rad: f64,
+    /// Largest tilt, where it is written.
+    pub azimuth_rad: Option<f64>,
+    pub elevation_rad: Option<f64>,
     pub alternation: f64,
     pub contacts: Vec<At<[values::Instant; 2]>>,
     pub contact_share: f64,
     pub activities: Vec<At<Activity>>,
+    /// Keys that stand there and count in cruise alone.
+    pub of_cruise: Vec<At<()>>,
 }
 
 impl PlanFile {
@@ -88,6 +91,16 @@ struct Builder<'d> {
 impl Builder<'_> {
     fn plan(&mut self, file: &Path, description: Description) -> PlanFile {
         let root = Place::root();
+        let written = [
+            ("window", description.window.is_some()),
+            ("windmill", description.windmill.is_some()),
+            ("alternation", description.alternation.is_some()),
+            ("sunOffset", description.sun_offset.is_some()),
+            ("contact", description.contact.is_some()),
+            ("contactShare", description.contact_share.is_some()),
+        ];
+        let of_cruise = written.into_iter().filter(|(_, is)| *is).map(|(key, _)| self.at(&root.key(key), ()));
+        let of_cruise = of_cruise.collect();
         let momentum = description.momentum.unwrap_or_default();
         let sun_offset = description.sun_offset.unwrap_or_default();
         let tilt = description.tilt.unwrap_or_default();
@@ -128,14 +141,15 @@ impl Builder<'_> {
                 windmill_rad.unwrap_or(WINDMILL_RAD),
                 windmill_rad.map(|_| self.at(&windmill, ())),
             ),
-            azimuth_rad: self.angle(&of_tilt.key("azimuth"), tilt.azimuth.as_ref()).unwrap_or(0.0),
-            elevation_rad: self.angle(&of_tilt.key("elevation"), tilt.elevation.as_ref()).unwrap_or(0.0),
+            azimuth_rad: self.angle(&of_tilt.key("azimuth"), tilt.azimuth.as_ref()),
+            elevation_rad: self.angle(&of_tilt.key("elevation"), tilt.elevation.as_ref()),
             alternation: self.share(&root.key("alternation"), description.alternation.as_ref(), 0.5, 1.0),
             contacts,
             contact_share: self.share(&share, description.contact_share.as_ref(), 0.0, 1.0),
             activities: activities
                 .filter_map(|(index, it)| self.activity(&root.key("activity").item(index), it))
                 .collect(),
+            of_cruise,
         }
     }
 

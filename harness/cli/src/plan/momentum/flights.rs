@@ -3,17 +3,16 @@
 use std::{error::Error, path::Path, sync::atomic::AtomicBool};
 
 use files::Scratch;
-use loader::{Fmu, InputTable, Options, Recording, Value};
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use loader::{Fmu, InputTable, Options, Value};
 use physics::{
-    attitude::Attitude,
     environment::dates,
     guidance::timeline::{Timeline, simulation_time_s},
-    plant::{LightSource, SunLight},
-    spacecraft::{Articulation, MassProperties, Spacecraft, SunshadeModel},
+    momentum::Convention,
+    spacecraft::{Articulation, Spacecraft},
 };
 use planner::momentum::{
-    simulated::{FlightRow, SimulatedFlight},
+    plant::{self, StartValues},
+    simulated::SimulatedFlight,
     torque::SunlitSpacecraft,
 };
 
@@ -33,21 +32,12 @@ pub(super) type Failure = Box<dyn Error>;
 const MODEL: &str = "MomentumPlant";
 /// Communication step, in s; steps change nothing in what is simulated.
 const STEP_S: f64 = 3600.0;
+/// The same in an orbit phase, whose downlinks begin and end at such points.
+const ORBIT_STEP_S: f64 = 600.0;
 /// A component of momentum that is never reached.
 const NEVER_N_M_S: f64 = 1e9;
-/// What a plan reads of a flight.
-const RECORDED: [&str; 9] = [
-    "position",
-    "sun.positionInertial",
-    "earth.positionInertial",
-    "sun.litFraction",
-    "attitude.q",
-    "torque.total",
-    "torque.solar",
-    "momentum.inertial",
-    "dump.count",
-];
-
+/// A mission's momentum is the physical one.
+const CONVENTION: Convention = Convention::Inertial;
 /// By which thresholds a flight dumps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Thresholds {
@@ -144,27 +134,14 @@ impl SimulatedMission {
         timeline.clock_minus_time_s(zero_s)
     }
 
-    /// A Real as it is set.
-    pub(super) fn real(&self, name: &str) -> f64 {
-        start(self.fmu.description(), &self.sets, name).map_or(f64::NAN, |value| value.to_f64())
-    }
-
-    /// An option as it is set.
-    pub(super) fn item(&self, name: &str) -> Option<&str> {
-        item(self.fmu.description(), &self.sets, name)
-    }
-
-    pub(super) fn is_true(&self, name: &str) -> bool {
-        start(self.fmu.description(), &self.sets, name) == Some(Value::Boolean(true))
-    }
-
-    pub(super) fn vector(&self, name: &str) -> Vector3<f64> {
-        Vector3::from([1, 2, 3].map(|axis| self.real(&format!("{name}[{axis}]"))))
-    }
-
     /// The least `dump.threshold`, in N m s.
     pub(super) fn least_threshold_n_m_s(&self) -> f64 {
         self.vector("dump.threshold").min()
+    }
+
+    /// Whether downlinks alternate with science; else it is in cruise, downlink throughout.
+    pub(super) fn is_in_orbit(&self) -> bool {
+        self.item("guided.phase") == Some("orbit")
     }
 
     /// The corridor of the light on the cells.
@@ -176,44 +153,9 @@ impl SimulatedMission {
         }
     }
 
-    /// Greatest azimuth and elevation that the keep-in zone allows, in rad.
-    pub(super) fn zone_rad(&self) -> [f64; 2] {
-        match self.is_true("keepIn.enabled") {
-            true => [self.real("keepIn.azimuth"), self.real("keepIn.elevation")],
-            false => [f64::INFINITY; 2],
-        }
-    }
-
     /// The spacecraft in sunlight with the mission's values, the centre of mass as it is at each time.
     pub(super) fn sunlit(&self, timeline: Option<&Timeline>) -> Result<SunlitSpacecraft, Failure> {
-        let spacecraft = self.spacecraft()?;
-        let shape = match self.item("sunshade.shape") {
-            Some("plates") => Some(SunshadeModel::Plates),
-            Some("cylinder") => Some(SunshadeModel::Cylinder),
-            _ => None,
-        };
-        let source = match self.is_true("solar.fixedPressure") {
-            true => LightSource::Fixed { pressure_pa: self.real("solar.pressure") },
-            false => LightSource::Distance { flux_w_m2: self.real("solar.flux") },
-        };
-        let light = SunLight { source, scale: self.real("solar.scale") };
-        let mut sunlit = SunlitSpacecraft::new(spacecraft, light, shape)?;
-        let inertia =
-            |row: usize, column: usize| self.real(&format!("spacecraft.inertia[{},{}]", row + 1, column + 1));
-        sunlit.mass_at_zero = MassProperties {
-            mass_kg: self.real("spacecraft.mass"),
-            center_of_mass_body_m: self.vector("spacecraft.centerOfMass"),
-            inertia_body_kg_m2: Matrix3::from_fn(inertia),
-        };
-        for (index, (enabled, sign)) in sunlit.panels.iter_mut().enumerate() {
-            let name = |last: &str| format!("panel[{}].{last}", index + 1);
-            *enabled = self.is_true(&name("enabled"));
-            match self.item(&name("tilt")) {
-                Some("positive") => *sign = 1.0,
-                Some("negative") => *sign = -1.0,
-                _ => {}
-            }
-        }
+        let mut sunlit = plant::sunlit(self.spacecraft()?, self, CONVENTION)?;
         if let Some(timeline) = timeline {
             let clock_minus_time_s = self.clock_minus_time_s(timeline);
             let moved = timeline.events().iter().filter_map(|event| {
@@ -231,11 +173,11 @@ impl SimulatedMission {
         seed: Option<u32>,
     ) -> Result<SimulatedFlight, Failure> {
         let description = self.fmu.description();
-        let panels = (1..).map(|number| format!("panel[{number}].angleActual"));
+        let panels = (0..).map(plant::panel);
         let panels = panels.take_while(|name| description.variables.iter().any(|it| it.name == *name));
         let panels: Vec<String> = panels.collect();
-        let patterns: Vec<String> = RECORDED.iter().map(|name| (*name).to_owned()).collect();
-        let patterns = [patterns, panels.clone()].concat();
+        let mut patterns = panels.clone();
+        patterns.extend(plant::recorded(CONVENTION).map(str::to_owned));
         let mut sets = self.sets.clone();
         if thresholds == Thresholds::Never {
             let axes = 1..=3;
@@ -244,6 +186,7 @@ impl SimulatedMission {
         if let Some(seed) = seed.and_then(|seed| i32::try_from(seed).ok()) {
             sets.push(("noise.seed".to_owned(), Value::Integer(seed)));
         }
+        let step_s = if self.is_in_orbit() { ORBIT_STEP_S } else { STEP_S };
         let cancel = AtomicBool::new(false);
         let mut reported = |_: f64| {
             cancel.store(interrupt::raised(), std::sync::atomic::Ordering::Relaxed);
@@ -251,7 +194,7 @@ impl SimulatedMission {
         let options = Options {
             start_s: Some(self.start_s),
             stop_s: Some(self.stop_s),
-            step_s: Some(STEP_S.min((self.stop_s - self.start_s) / 8.0)),
+            step_s: Some(step_s.min((self.stop_s - self.start_s) / 8.0)),
             sets,
             inputs: self.inputs.as_ref(),
             record: Some(selected(description, &patterns, loader::select_outputs)?),
@@ -265,7 +208,22 @@ impl SimulatedMission {
         if interrupt::raised() {
             return Err("interrupted".into());
         }
-        simulated(&recording, &panels)
+        let column = |name: &str| recording.column(name).map(|column| column.numbers());
+        Ok(plant::flight(&recording.times_s, &column, (panels.len(), CONVENTION))?)
+    }
+}
+
+impl StartValues for SimulatedMission {
+    fn real(&self, name: &str) -> f64 {
+        start(self.fmu.description(), &self.sets, name).map_or(f64::NAN, |value| value.to_f64())
+    }
+
+    fn item(&self, name: &str) -> Option<&str> {
+        item(self.fmu.description(), &self.sets, name)
+    }
+
+    fn is_true(&self, name: &str) -> bool {
+        start(self.fmu.description(), &self.sets, name) == Some(Value::Boolean(true))
     }
 }
 
@@ -279,62 +237,11 @@ fn check(file: &Path, fmu: &Fmu, sets: &[(String, Value)]) -> Result<(), Failure
             format!("{shown}: model: found {found}, allowed: {MODEL}: a plan is for its missions").into()
         );
     }
-    for (name, allowed) in
-        [("attitude.source", "guided"), ("guided.phase", "cruise"), ("momentum.strategy", "dumpsOnly")]
-    {
+    for (name, allowed) in [("attitude.source", "guided"), ("momentum.strategy", "dumpsOnly")] {
         let found = item(description, sets, name).unwrap_or("none");
         if found != allowed {
             return Err(format!("{shown}: {name}: found {found}, allowed: {allowed}, for a plan").into());
         }
     }
     Ok(())
-}
-
-/// The columns of a recording as rows of a flight.
-fn simulated(recording: &Recording, panels: &[String]) -> Result<SimulatedFlight, Failure> {
-    let column = |name: &str| -> Result<Vec<f64>, Failure> {
-        Ok(recording.column(name).ok_or_else(|| format!("the FMU has no output {name}"))?.numbers())
-    };
-    let columns = |name: &str, count: usize| -> Result<Vec<Vec<f64>>, Failure> {
-        (1..=count).map(|axis| column(&format!("{name}[{axis}]"))).collect()
-    };
-    let vector =
-        |columns: &[Vec<f64>], row: usize| Vector3::new(columns[0][row], columns[1][row], columns[2][row]);
-    let [position, sun, earth, total, solar, momentum] = [
-        "position",
-        "sun.positionInertial",
-        "earth.positionInertial",
-        "torque.total",
-        "torque.solar",
-        "momentum.inertial",
-    ]
-    .map(|name| columns(name, 3));
-    let (position, sun, earth, total, solar, momentum) = (position?, sun?, earth?, total?, solar?, momentum?);
-    let q = columns("attitude.q", 4)?;
-    let (lit, dumps) = (column("sun.litFraction")?, column("dump.count")?);
-    let angles = panels.iter().map(|name| column(name)).collect::<Result<Vec<_>, _>>()?;
-    let attitude = |row: usize| -> Result<Rotation3<f64>, Failure> {
-        Ok(Attitude::along_quaternion([0, 1, 2, 3].map(|part: usize| q[part][row]))?.inertial_from_body())
-    };
-    let rows = (0..recording.times_s.len()).map(|row| -> Result<FlightRow, Failure> {
-        let inertial_from_body = attitude(row)?;
-        let here = vector(&position, row);
-        Ok(FlightRow {
-            time_s: recording.times_s[row],
-            to_sun_m: vector(&sun, row) - here,
-            to_earth_m: vector(&earth, row) - here,
-            lit_fraction: lit[row],
-            inertial_from_body,
-            panel_angles_rad: angles.iter().map(|column| column[row]).collect(),
-            other_torque_n_m: inertial_from_body * (vector(&total, row) - vector(&solar, row)),
-            momentum_n_m_s: vector(&momentum, row),
-            dumps: dumps[row] as u32,
-        })
-    });
-    let mut rows: Vec<FlightRow> = rows.collect::<Result<_, _>>()?;
-    // Of two rows at one time the later counts.
-    rows.reverse();
-    rows.dedup_by(|next, kept| next.time_s >= kept.time_s);
-    rows.reverse();
-    Ok(SimulatedFlight { rows })
 }

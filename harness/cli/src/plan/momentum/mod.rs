@@ -24,8 +24,10 @@ use nalgebra::{Matrix4, Vector3};
 use physics::guidance::timeline::Timeline;
 use planner::momentum::{
     Limit,
-    plan::{MomentumPlan, PlanError, PlanTask, PlannedDump, plan},
+    plan::{Least, MomentumPlan, PlanError, PlanTask, PlannedDump, plan},
+    plant::StartValues,
     report::{self, PlanEvent},
+    simulated::{MomentumSize, SimulatedFlight},
     torque::SunlitSpacecraft,
     windows::{Layout, Reach, Window, WindowKind},
 };
@@ -52,6 +54,12 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     let mission = SimulatedMission::open(&file.mission.it, template, &settings)
         .map_err(|error| file.problem(&file.mission, &error.to_string()))?;
     check_spans(file, &mission)?;
+    let is_in_orbit = mission.is_in_orbit();
+    if let Some(at) = file.of_cruise.first().filter(|_| is_in_orbit) {
+        let what =
+            "found it, allowed: none in an orbit phase, whose downlinks' places of the Sun alone are planned";
+        return Err(file.problem(at, what).into());
+    }
     let spacecraft = mission.spacecraft()?;
     if let (Some(at), Some(refit)) = (&file.refit, &refit)
         && let Some(other) = refit.spacecraft.as_ref().filter(|other| **other != spacecraft.name)
@@ -64,11 +72,20 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     let timeline = MissionTimeline::of(&mission, found.as_ref())?;
     let own: Option<&Timeline> = found.as_ref().map(|(_, timeline)| timeline);
     let sunlit = mission.sunlit(own)?;
-    let layout = layout(file, &mission, &timeline, &sunlit)?;
-    let momentum_n_m_s = file.limit_n_m_s.unwrap_or_else(|| mission.least_threshold_n_m_s());
-    let limit = Limit { momentum_n_m_s, margin: file.margin, covariance: refit.map(|it| it.covariance) };
-    let task = PlanTask { layout, limit, dumps: file.dumps, budget_s: options.budget };
     let simulated = mission.simulate(Thresholds::Never, None)?;
+    let layout = match is_in_orbit {
+        true => orbit_layout(file, &mission, &timeline, &simulated)?,
+        false => layout(file, &mission, &timeline, &sunlit)?,
+    };
+    let momentum_n_m_s = file.limit_n_m_s.unwrap_or_else(|| mission.least_threshold_n_m_s());
+    let limit = Limit {
+        momentum_n_m_s,
+        size: MomentumSize::Length,
+        margin: file.margin,
+        covariance: refit.map(|it| it.covariance),
+    };
+    let least = if is_in_orbit { Least::Momentum } else { Least::Tilt };
+    let task = PlanTask { layout, limit, dumps: file.dumps, least, budget_s: options.budget };
     let last = RefCell::new(String::new());
     Ok(Planned { options, mission, timeline, sunlit, simulated, task, sets, began, last })
 }
@@ -93,6 +110,47 @@ fn check_spans(file: &PlanFile, mission: &SimulatedMission) -> Result<(), Failur
         return Err(file.problem(&file.window_s, &what).into());
     }
     Ok(())
+}
+
+/// Angle that no downlink's Sun is off -Y by, in rad: where neither plan nor keep-in zone bounds it.
+const MOST_TILT_RAD: f64 = 1.5;
+/// Places stay so far within the keep-in zone, in rad: angles are rounded where they are written.
+const WITHIN_ZONE_RAD: f64 = 1e-4;
+
+/// The downlinks of a mission's orbit phase.
+fn orbit_layout(
+    file: &PlanFile,
+    mission: &SimulatedMission,
+    timeline: &MissionTimeline,
+    simulated: &SimulatedFlight,
+) -> Result<Layout, Failure> {
+    let rows = &simulated.rows;
+    // A command ends within its downlink: the spacecraft's own turn to science follows.
+    let last_in =
+        |stop_s: f64| rows[rows.partition_point(|row| row.time_s < stop_s).saturating_sub(1)].time_s;
+    let downlinks = simulated.downlinks_s().into_iter().map(|[start_s, stop_s]| [start_s, last_in(stop_s)]);
+    let downlinks_s: Vec<[f64; 2]> = downlinks.filter(|[start_s, stop_s]| stop_s > start_s).collect();
+    if downlinks_s.is_empty() {
+        return Err(file
+            .problem(&file.mission, "found no downlink, allowed: a mission with downlinks to plan")
+            .into());
+    }
+    let zone_rad = mission.zone_rad();
+    let tilt = |angle_rad: Option<f64>, zone_rad: f64| {
+        angle_rad.unwrap_or(MOST_TILT_RAD).min(zone_rad - WITHIN_ZONE_RAD).max(0.0)
+    };
+    let reach = Reach {
+        azimuth_rad: tilt(file.azimuth_rad, zone_rad[0]),
+        elevation_rad: tilt(file.elevation_rad, zone_rad[1]),
+        ..Reach::default()
+    };
+    let sun_offset_rad = mission.real("panel[1].sunOffset");
+    let sun_offset_rad = if sun_offset_rad.is_finite() { sun_offset_rad } else { 0.0 };
+    Ok(Layout {
+        frozen_until_s: mission.start_s + file.freeze_s.it,
+        occupied: timeline.occupied(mission.stop_s),
+        ..Layout::of_downlinks(downlinks_s, reach, sun_offset_rad)
+    })
 }
 
 fn layout(
@@ -139,13 +197,14 @@ fn layout(
         arrays_are_frozen,
         window_s: file.window_s.it,
         occupied: timeline.occupied(mission.stop_s),
+        downlinks_s: None,
         contacts_s,
         contact_share: file.contact_share,
         reach: Reach {
             offset_rad: file.offset_rad,
             windmill_rad: file.windmill_rad.0,
-            azimuth_rad: file.azimuth_rad.min(zone_rad[0]),
-            elevation_rad: file.elevation_rad.min(zone_rad[1]),
+            azimuth_rad: file.azimuth_rad.unwrap_or(0.0).min(zone_rad[0]),
+            elevation_rad: file.elevation_rad.unwrap_or(0.0).min(zone_rad[1]),
             alternate: file.alternation,
         },
         corridor: mission.corridor(),
@@ -197,6 +256,7 @@ pub(crate) fn checked(file: &Path) -> Result<String, String> {
     let found = PlanFile::read(file)?;
     let days = |time_s: f64| terminal::short(time_s / 86_400.0);
     let deg = |angle_rad: f64| terminal::short(angle_rad.to_degrees());
+    let tilt = |angle_rad: Option<f64>| deg(angle_rad.unwrap_or(0.0));
     Ok(format!(
         "plans {} behind day {} in windows of {} d: windmill {} deg, Sun {} and {} deg off -Y, alternation {}, offset {} deg off the \
          baseline; {} contacts, {} activities",
@@ -204,8 +264,8 @@ pub(crate) fn checked(file: &Path) -> Result<String, String> {
         days(found.freeze_s.it),
         days(found.window_s.it),
         deg(found.windmill_rad.0),
-        deg(found.azimuth_rad),
-        deg(found.elevation_rad),
+        tilt(found.azimuth_rad),
+        tilt(found.elevation_rad),
         terminal::short(found.alternation),
         deg(found.offset_rad),
         found.contacts.len(),
@@ -247,7 +307,8 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
     };
     let prices = prices::all(&file, &planned, &found)?;
     let events = events(&planned, &found);
-    let sides: Vec<f64> = planned.sunlit.spacecraft.panels.iter().map(|panel| panel.windmill_side).collect();
+    let panels = planned.sunlit.spacecraft.panels.iter().map(|panel| panel.windmill_side);
+    let sides: Vec<f64> = panels.filter(|_| !planned.mission.is_in_orbit()).collect();
     let bodies = |dump: &PlannedDump| planned.body(&found.windows, dump);
     let table = written::inputs(&planned.mission, &planned.timeline, &found, &sides, &bodies);
     let windows = report::windows_csv(&found, &timeline::shown_deg)?;
@@ -376,11 +437,15 @@ fn summary(
         0 => "no plan has fewer".to_owned(),
         _ => format!("no plan has fewer than {}", found.changes_at_least),
     };
-    lines.push(format!(
-        "{} steps of the baseline, {} changes of the arrays; {gap}",
-        found.baseline.len(),
-        found.changes
-    ));
+    let free = found.windows.iter().filter(|window| window.kind == WindowKind::Free);
+    lines.push(match planned.mission.is_in_orbit() {
+        true => format!("places of the Sun in {} downlinks", free.count()),
+        false => format!(
+            "{} steps of the baseline, {} changes of the arrays; {gap}",
+            found.baseline.len(),
+            found.changes
+        ),
+    });
     for price in prices {
         lines.push(format!(
             "{} {}: {:.3} N.m.s gathered more, {:+.3} N.m.s at the limit, {:+} dumps",

@@ -53,7 +53,9 @@ impl Planned<'_> {
         let frozen_s = self.task.layout.frozen_until_s;
         let bodies = |dump: &PlannedDump| self.body(windows, dump);
         let text = self.timeline.text(&self.mission, (windows, dumps, frozen_s), &bodies, activity);
-        let mission = written::mission(&self.mission, folder, self.sunlit.panels.len(), &self.sets)?;
+        // In an orbit phase the arrays stay as they are.
+        let panels = if self.mission.is_in_orbit() { 0 } else { self.sunlit.panels.len() };
+        let mission = written::mission(&self.mission, folder, panels, &self.sets)?;
         Ok([(NAMES[0], text), (NAMES[1], mission)])
     }
 

@@ -12,6 +12,7 @@ use physics::{
 };
 use planner::momentum::{
     plan::PlannedDump,
+    plant::StartValues,
     report::PlanEvent,
     torque::Control,
     windows::{Occupied, Window, WindowKind},
@@ -52,6 +53,7 @@ pub(super) struct MissionTimeline {
     /// Its events and their times, in s.
     pub thruster_events: Vec<(f64, TimelineEvent)>,
     is_dated: bool,
+    is_in_orbit: bool,
 }
 
 /// In deg as it is written.
@@ -105,7 +107,8 @@ impl MissionTimeline {
         found: Option<&(String, Timeline)>,
     ) -> Result<Self, Failure> {
         let Some((text, timeline)) = found else {
-            return Ok(Self { is_dated: mission.zero_epoch_s.is_some(), ..Self::default() });
+            let is_dated = mission.zero_epoch_s.is_some();
+            return Ok(Self { is_dated, is_in_orbit: mission.is_in_orbit(), ..Self::default() });
         };
         let document: DocumentMut = text.parse()?;
         let clock_minus_time_s = mission.clock_minus_time_s(timeline);
@@ -139,6 +142,7 @@ impl MissionTimeline {
             panels: kept("panels", panels.collect()),
             events: kept("event", events.collect()),
             is_dated: timeline.clock() == TimelineClock::Epoch,
+            is_in_orbit: mission.is_in_orbit(),
         })
     }
 
@@ -195,17 +199,20 @@ impl MissionTimeline {
             let all = stretches(window);
             for (index, stretch) in all.iter().enumerate() {
                 let until_s = all.get(index + 1).map_or(window.stop_s, |next| next.at_s);
-                let text = |at_s: f64| command(&clock(at_s), window, stretch.alternate);
+                // In an orbit phase science follows.
+                let ends = |to_s: f64| self.is_in_orbit.then(|| clock(to_s));
+                let text =
+                    |at_s: f64, to_s: f64| command(&clock(at_s), ends(to_s), window, stretch.alternate);
                 match spans {
                     Some([from_s, to_s]) if stretch.at_s < to_s && until_s > from_s => {
                         if stretch.at_s < from_s {
-                            commands.push((stretch.at_s, text(stretch.at_s)));
+                            commands.push((stretch.at_s, text(stretch.at_s, from_s)));
                         }
                         if until_s > to_s {
-                            commands.push((to_s, text(to_s)));
+                            commands.push((to_s, text(to_s, until_s)));
                         }
                     }
-                    _ => commands.push((stretch.at_s, text(stretch.at_s))),
+                    _ => commands.push((stretch.at_s, text(stretch.at_s, until_s))),
                 }
             }
         }
@@ -215,8 +222,9 @@ impl MissionTimeline {
         }
         let mut panels: Vec<(f64, String)> = Vec::new();
         let arrays_are_frozen = windows.first().is_some_and(|window| window.kind == WindowKind::Frozen);
-        if arrays_are_frozen {
-            let frozen = self.panels.iter().filter(|kept| kept.at_s < frozen_s - CLOCK_S);
+        if arrays_are_frozen || self.is_in_orbit {
+            let is_kept = |kept: &&Kept| self.is_in_orbit || kept.at_s < frozen_s - CLOCK_S;
+            let frozen = self.panels.iter().filter(is_kept);
             panels.extend(frozen.map(|kept| (kept.at_s, kept.text.clone())));
         }
         for step in array_steps(windows) {
@@ -283,10 +291,11 @@ pub(super) fn array_steps(windows: &[Window]) -> Vec<ArrayStep> {
 }
 
 /// A downlink of a window.
-fn command(at: &str, window: &Window, alternate: bool) -> String {
+fn command(at: &str, until: Option<String>, window: &Window, alternate: bool) -> String {
     let [azimuth_deg, elevation_deg] =
         [Control::Azimuth, Control::Elevation].map(|it| shown_deg(window.controls.get(it)));
-    let mut text = format!("[[command]]\nat = {at}\nscenario = \"downlink\"\n");
+    let until = until.map_or(String::new(), |until| format!("until = {until}\n"));
+    let mut text = format!("[[command]]\nat = {at}\n{until}scenario = \"downlink\"\n");
     if azimuth_deg != 0.0 || elevation_deg != 0.0 {
         let _ = writeln!(
             text,

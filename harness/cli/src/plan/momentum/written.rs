@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use physics::plant::ThrusterEventSettings;
 use planner::momentum::{
     plan::{MomentumPlan, PlannedDump},
+    plant::StartValues,
     torque::Control,
     windows::{Window, WindowKind},
 };

@@ -17,7 +17,7 @@ fn model(
     let sunlit = sunlit([0.0; 3]);
     let task = task(limit, reach);
     let simulated = simulated(&sunlit);
-    let (windows, _) = task.layout.windows(&simulated).unwrap();
+    let (windows, _) = task.layout.windows(&sunlit, &simulated).unwrap();
     Model::new(&sunlit, simulated, windows, task.limit)
 }
 

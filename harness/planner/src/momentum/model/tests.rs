@@ -12,7 +12,7 @@ use crate::momentum::{
 fn model(reach: Reach, limit: Limit) -> (SunlitSpacecraft, Model) {
     let sunlit = sunlit([0.01, 0.02, 0.03]);
     let simulated = simulated(&sunlit, 10, 0.4);
-    let (windows, _) = task(5.0, reach).layout.windows(&simulated).unwrap();
+    let (windows, _) = task(5.0, reach).layout.windows(&sunlit, &simulated).unwrap();
     let model = Model::new(&sunlit, simulated, windows, limit);
     (sunlit, model)
 }

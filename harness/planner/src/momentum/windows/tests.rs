@@ -18,7 +18,7 @@ fn layout() -> Layout {
 #[test]
 fn windows_follow_one_another() {
     let sunlit = sunlit([0.0; 3]);
-    let (windows, steps) = layout().windows(&simulated(&sunlit, 20, 0.4)).unwrap();
+    let (windows, steps) = layout().windows(&sunlit, &simulated(&sunlit, 20, 0.4)).unwrap();
     assert_eq!(steps.len(), 1);
     assert_eq!([windows[0].start_s, windows.last().unwrap().stop_s], [0.0, 20.0 * DAY_S]);
     assert!(windows.windows(2).all(|pair| pair[0].stop_s == pair[1].start_s));
@@ -35,7 +35,7 @@ fn alternation_has_its_share_outside_of_contacts() {
     let mut layout = layout();
     layout.contacts_s =
         (0..20).map(|day| [(f64::from(day) + 0.25) * DAY_S, (f64::from(day) + 0.5) * DAY_S]).collect();
-    let (windows, _) = layout.windows(&simulated(&sunlit, 20, 0.4)).unwrap();
+    let (windows, _) = layout.windows(&sunlit, &simulated(&sunlit, 20, 0.4)).unwrap();
     for mut window in windows.into_iter().filter(|window| window.kind == WindowKind::Free) {
         for share in [0.0, 0.1, 0.37, 0.5] {
             window.controls = window.controls.with(Control::Alternate, share);
@@ -55,7 +55,7 @@ fn alternation_has_its_share_outside_of_contacts() {
 #[test]
 fn equal_parts_are_halves_about_the_middle_of_each_day() {
     let sunlit = sunlit([0.0; 3]);
-    let (windows, _) = layout().windows(&simulated(&sunlit, 20, 0.4)).unwrap();
+    let (windows, _) = layout().windows(&sunlit, &simulated(&sunlit, 20, 0.4)).unwrap();
     let mut window = windows[1].clone();
     window.controls = window.controls.with(Control::Alternate, 0.5);
     let spans: Vec<[f64; 2]> = window
@@ -75,10 +75,10 @@ fn a_window_full_of_contact_has_no_alternation() {
     let sunlit = sunlit([0.0; 3]);
     let mut layout = layout();
     layout.contacts_s = vec![[1.9 * DAY_S, 5.1 * DAY_S]];
-    let (windows, _) = layout.windows(&simulated(&sunlit, 20, 0.4)).unwrap();
+    let (windows, _) = layout.windows(&sunlit, &simulated(&sunlit, 20, 0.4)).unwrap();
     assert_eq!(windows[1].bounds[Control::Alternate as usize], [0.0, 0.0]);
     layout.contacts_s.clear();
     layout.contact_share = 0.7;
-    let (windows, _) = layout.windows(&simulated(&sunlit, 20, 0.4)).unwrap();
+    let (windows, _) = layout.windows(&sunlit, &simulated(&sunlit, 20, 0.4)).unwrap();
     assert!((windows[1].bounds[Control::Alternate as usize][1] - 0.3).abs() < 1e-12);
 }

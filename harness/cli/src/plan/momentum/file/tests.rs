@@ -13,7 +13,8 @@ fn the_least_file_has_defaults() {
     let plan = parsed("mission = \"mission.toml\"\n").unwrap();
     assert_eq!([plan.freeze_s.it, plan.window_s.it], [14.0 * DAY_S, 3.0 * DAY_S]);
     assert_eq!([plan.margin, plan.alternation, plan.contact_share, plan.offset_rad], [0.0, 0.5, 0.0, 0.0]);
-    assert_eq!([plan.azimuth_rad, plan.elevation_rad], [0.0, 0.0]);
+    assert_eq!([plan.azimuth_rad, plan.elevation_rad], [None, None]);
+    assert!(plan.of_cruise.is_empty());
     assert!((plan.windmill_rad.0 - 2.0_f64.to_radians()).abs() < 1e-15 && plan.windmill_rad.1.is_none());
     assert!(plan.limit_n_m_s.is_none() && plan.refit.is_none() && plan.dumps == 0);
 }
@@ -29,6 +30,8 @@ fn units_are_read() {
     )
     .unwrap();
     assert_eq!([plan.freeze_s.it, plan.window_s.it], [43_200.0, DAY_S]);
+    let of_cruise: Vec<_> = plan.of_cruise.iter().map(|at| (at.key.as_str(), at.line)).collect();
+    assert_eq!(of_cruise, [("window", 3), ("windmill", 4), ("sunOffset", 8), ("contact", 11)]);
     assert_eq!((plan.windmill_rad.0, plan.limit_n_m_s, plan.dumps), (0.01, Some(4.0), 2));
     assert!((plan.offset_rad - 3.0_f64.to_radians()).abs() < 1e-15);
     assert_eq!(plan.contacts[0].it, [values::Instant::Time(DAY_S), values::Instant::Time(108_000.0)]);

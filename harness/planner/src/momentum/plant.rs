@@ -1,0 +1,167 @@
+//! MomentumPlant as a plan needs it: its spacecraft in sunlight by the values that are set, and a recording as a flight.
+
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use physics::{
+    attitude::Attitude,
+    momentum::Convention,
+    plant::{LightSource, SunLight},
+    refusal::Refusal,
+    spacecraft::{MassProperties, Spacecraft, SunshadeModel},
+};
+
+use super::{
+    simulated::{FlightRow, SimulatedFlight},
+    torque::SunlitSpacecraft,
+};
+
+/// Values of variables at the start of a flight.
+pub trait StartValues {
+    /// Of a Real; not a number where there is none.
+    fn real(&self, name: &str) -> f64;
+
+    /// The name of an option's item.
+    fn item(&self, name: &str) -> Option<&str>;
+
+    /// Whether a Boolean is true.
+    fn is_true(&self, name: &str) -> bool;
+
+    /// Of a vector.
+    fn vector(&self, name: &str) -> Vector3<f64> {
+        Vector3::from([1, 2, 3].map(|axis| self.real(&format!("{name}[{axis}]"))))
+    }
+
+    /// Greatest azimuth and elevation of the Sun that the keep-in zone allows, in rad.
+    fn zone_rad(&self) -> [f64; 2] {
+        match self.is_true("keepIn.enabled") {
+            true => [self.real("keepIn.azimuth"), self.real("keepIn.elevation")],
+            false => [f64::INFINITY; 2],
+        }
+    }
+}
+
+/// The spacecraft of a file's text.
+///
+/// # Errors
+/// What is wrong in it.
+pub fn spacecraft(file: &str, text: &str) -> Result<Spacecraft, String> {
+    Spacecraft::from_toml(file, text).map_err(|error| error.to_string())
+}
+
+/// The spacecraft in sunlight with these values.
+///
+/// # Errors
+/// A sunshade that is not there in this form.
+pub fn sunlit(
+    spacecraft: Spacecraft,
+    values: &dyn StartValues,
+    convention: Convention,
+) -> Result<SunlitSpacecraft, Refusal> {
+    let shape = match values.item("sunshade.shape") {
+        Some("plates") => Some(SunshadeModel::Plates),
+        Some("cylinder") => Some(SunshadeModel::Cylinder),
+        _ => None,
+    };
+    let source = match values.is_true("solar.fixedPressure") {
+        true => LightSource::Fixed { pressure_pa: values.real("solar.pressure") },
+        false => LightSource::Distance { flux_w_m2: values.real("solar.flux") },
+    };
+    let light = SunLight { source, scale: values.real("solar.scale") };
+    let mut sunlit = SunlitSpacecraft::new(spacecraft, light, shape)?;
+    sunlit.convention = convention;
+    let inertia =
+        |row: usize, column: usize| values.real(&format!("spacecraft.inertia[{},{}]", row + 1, column + 1));
+    sunlit.mass_at_zero = MassProperties {
+        mass_kg: values.real("spacecraft.mass"),
+        center_of_mass_body_m: values.vector("spacecraft.centerOfMass"),
+        inertia_body_kg_m2: Matrix3::from_fn(inertia),
+    };
+    for (index, (enabled, sign)) in sunlit.panels.iter_mut().enumerate() {
+        let name = |last: &str| format!("panel[{}].{last}", index + 1);
+        *enabled = values.is_true(&name("enabled"));
+        match values.item(&name("tilt")) {
+            Some("positive") => *sign = 1.0,
+            Some("negative") => *sign = -1.0,
+            _ => {}
+        }
+    }
+    Ok(sunlit)
+}
+
+/// What a flight is read from, beside the angle of every panel ([`panel`]); the momentum is the last.
+pub fn recorded(convention: Convention) -> [&'static str; 10] {
+    let momentum = match convention {
+        Convention::Inertial => "momentum.inertial",
+        Convention::BodyIntegral => "momentum.body",
+    };
+    [
+        "position",
+        "sun.positionInertial",
+        "earth.positionInertial",
+        "sun.litFraction",
+        "attitude.q",
+        "torque.total",
+        "torque.solar",
+        "dump.count",
+        "downlink.active",
+        momentum,
+    ]
+}
+
+/// The variable with the angle of a panel, from 0.
+pub fn panel(number: usize) -> String {
+    format!("panel[{}].angleActual", number + 1)
+}
+
+/// A recording as a flight; `column` gives the values of a variable, a flag as 1 or 0.
+///
+/// # Errors
+/// A column that is not there, a quaternion that is none.
+pub fn flight(
+    times_s: &[f64],
+    column: &dyn Fn(&str) -> Option<Vec<f64>>,
+    (panels, convention): (usize, Convention),
+) -> Result<SimulatedFlight, String> {
+    let column = |name: &str| column(name).ok_or_else(|| format!("the FMU has no output {name}"));
+    let columns = |name: &str, count: usize| -> Result<Vec<Vec<f64>>, String> {
+        (1..=count).map(|axis| column(&format!("{name}[{axis}]"))).collect()
+    };
+    let vector =
+        |columns: &[Vec<f64>], row: usize| Vector3::new(columns[0][row], columns[1][row], columns[2][row]);
+    let [position, sun, earth, lit, q, total, solar, dumps, downlink, momentum] = recorded(convention);
+    let [position, sun, earth, total, solar, momentum] =
+        [position, sun, earth, total, solar, momentum].map(|name| columns(name, 3));
+    let (position, sun, earth, total, solar, momentum) = (position?, sun?, earth?, total?, solar?, momentum?);
+    let q = columns(q, 4)?;
+    let (lit, dumps, downlink) = (column(lit)?, column(dumps)?, column(downlink)?);
+    let angles = (0..panels).map(|number| column(&panel(number))).collect::<Result<Vec<_>, _>>()?;
+    let attitude = |row: usize| -> Result<Rotation3<f64>, String> {
+        let q = [0, 1, 2, 3].map(|part: usize| q[part][row]);
+        Ok(Attitude::along_quaternion(q).map_err(|error| error.to_string())?.inertial_from_body())
+    };
+    let rows = (0..times_s.len()).map(|row| -> Result<FlightRow, String> {
+        let inertial_from_body = attitude(row)?;
+        let here = vector(&position, row);
+        let other_body_n_m = vector(&total, row) - vector(&solar, row);
+        Ok(FlightRow {
+            time_s: times_s[row],
+            to_sun_m: vector(&sun, row) - here,
+            to_earth_m: vector(&earth, row) - here,
+            lit_fraction: lit[row],
+            inertial_from_body,
+            panel_angles_rad: angles.iter().map(|column| column[row]).collect(),
+            other_torque_n_m: match convention {
+                Convention::Inertial => inertial_from_body * other_body_n_m,
+                Convention::BodyIntegral => other_body_n_m,
+            },
+            momentum_n_m_s: vector(&momentum, row),
+            dumps: dumps[row] as u32,
+            downlink: downlink[row] != 0.0,
+        })
+    });
+    let mut rows: Vec<FlightRow> = rows.collect::<Result<_, _>>()?;
+    // Of two rows at one time the later counts.
+    rows.reverse();
+    rows.dedup_by(|next, kept| next.time_s >= kept.time_s);
+    rows.reverse();
+    Ok(SimulatedFlight { rows })
+}

@@ -1,0 +1,193 @@
+//! The optimum of paper 000's tables: the Sun's place in every downlink, planned with all 90 days in view.
+//!
+//! The planner's search of the fewest dumps, then the least momentum, with science as the rule has it and downlinks when they are; a dump
+//! may leave any momentum. A plan is simulated through the FMU by its inputs `downlink.*` and `dump.*`, without thresholds while it is
+//! sought, by the case's own thresholds in the end: a dump that the plan does not have would be counted. In the paper's momentum, whose
+//! body components are integrated, each stays below the threshold, the physical one by its length.
+
+use std::error::Error;
+
+use loader::{Fmu, Value};
+use model_description::{Description, value};
+use planner::momentum::{
+    self, Limit,
+    plan::{Least, PlanTask, PlannedDump, Simulates, body_momentum_n_m_s, plan},
+    plant::{self, StartValues},
+    simulated::{MomentumSize, SAME_S, SimulatedFlight},
+    torque::{Control, SunlitSpacecraft},
+    windows::{Layout, Reach, Window, WindowKind},
+};
+
+use super::cases::{Case, Convention, Simulated, Strategy};
+use super::variant::Variant;
+use crate::StudyError;
+use crate::attitude::Vector;
+use crate::case::{self, Row};
+use crate::report::Run;
+use crate::settings::{Setting, Settings, set};
+
+/// A component of momentum that is never reached.
+const NEVER_N_M_S: f64 = 1e9;
+/// Points at which a plan looks at the momentum, in s: downlinks begin and end at them.
+const EVERY_S: f64 = 1800.0;
+
+/// Simulates those of `cases` that the options leave, optima by their plans.
+pub(super) fn simulate_all(run: &Run<'_>, cases: Vec<Case>) -> Result<Vec<Simulated>, StudyError> {
+    let cases = run.chosen(cases, Case::label)?;
+    let fmu = run.options.fmu("MomentumPlant.fmu")?;
+    run.all(&cases, |case| match case.strategy {
+        Strategy::Optimum => optimum(case, &fmu),
+        _ => case.simulate(&fmu, &mut |_| Settings::new()),
+    })
+}
+
+fn optimum(case: &Case, fmu: &Fmu) -> Result<Simulated, StudyError> {
+    let failed = |why: String| StudyError::Plan { case: case.label(), why };
+    let mut sought = Sought::of(case, fmu).map_err(|error| failed(error.to_string()))?;
+    let task = sought.task(case);
+    let (sunlit, simulated) = (sought.sunlit.clone(), sought.simulated.clone());
+    let found = plan(&task, &sunlit, &simulated, &mut sought).map_err(|error| failed(error.to_string()))?;
+    case.simulate(fmu, &mut sought.steer(&found.windows, &found.dumps))
+}
+
+/// Values of a case.
+struct Values<'a> {
+    description: &'a Description,
+    sets: &'a Settings,
+}
+
+impl Values<'_> {
+    fn start(&self, name: &str) -> Option<Value> {
+        if let Some((_, value)) = self.sets.iter().find(|(set, _)| set == name) {
+            return Some(value.clone());
+        }
+        value::start(self.description.variables.iter().find(|it| it.name == name)?)
+    }
+}
+
+impl StartValues for Values<'_> {
+    fn real(&self, name: &str) -> f64 {
+        self.start(name).map_or(f64::NAN, |value| value.to_f64())
+    }
+
+    fn item(&self, name: &str) -> Option<&str> {
+        if let Some((_, Value::Text(item))) = self.sets.iter().find(|(set, _)| set == name) {
+            return Some(item);
+        }
+        let Value::Integer(number) = self.start(name)? else { return None };
+        let variable = self.description.variables.iter().find(|it| it.name == name)?;
+        let items = value::items(self.description, variable).iter();
+        items.into_iter().find(|it| it.value == number).map(|it| it.name.as_str())
+    }
+
+    fn is_true(&self, name: &str) -> bool {
+        self.start(name) == Some(Value::Boolean(true))
+    }
+}
+
+/// A case whose plan is sought.
+struct Sought<'a> {
+    fmu: &'a Fmu,
+    /// Without thresholds.
+    case: case::Case,
+    convention: momentum::Convention,
+    panels: usize,
+    sunlit: SunlitSpacecraft,
+    /// As it is without a plan.
+    simulated: SimulatedFlight,
+    reach: Reach,
+    sun_offset_rad: f64,
+}
+
+impl<'a> Sought<'a> {
+    fn of(case: &Case, fmu: &'a Fmu) -> Result<Self, Box<dyn Error>> {
+        let convention = match case.convention {
+            Convention::BodyIntegral => momentum::Convention::BodyIntegral,
+            Convention::Inertial => momentum::Convention::Inertial,
+        };
+        let settings = case.settings();
+        let description = fmu.description();
+        let values = Values { description, sets: settings.sets() };
+        let text = Variant::text_of(fmu).map_err(|error| error.to_string())?;
+        let spacecraft = plant::spacecraft("spacecraft.toml", &text)?;
+        let sunlit = plant::sunlit(spacecraft, &values, convention)?;
+        let [azimuth_rad, elevation_rad] = values.zone_rad();
+        let reach = Reach { azimuth_rad, elevation_rad, ..Reach::default() };
+        let mut sought = Self {
+            fmu,
+            panels: sunlit.panels.len(),
+            sun_offset_rad: if sunlit.panels.is_empty() { 0.0 } else { values.real("panel[1].sunOffset") },
+            case: settings.set("dump.threshold", [NEVER_N_M_S; 3]).every(EVERY_S),
+            convention,
+            sunlit,
+            simulated: SimulatedFlight::default(),
+            reach,
+        };
+        sought.simulated = sought.simulate(&[], &[])?;
+        Ok(sought)
+    }
+
+    fn task(&self, case: &Case) -> PlanTask {
+        PlanTask {
+            layout: Layout::of_downlinks(self.simulated.downlinks_s(), self.reach, self.sun_offset_rad),
+            limit: Limit {
+                momentum_n_m_s: case.threshold_n_m_s,
+                size: match case.convention {
+                    Convention::BodyIntegral => MomentumSize::LargestComponent,
+                    Convention::Inertial => MomentumSize::Length,
+                },
+                margin: 0.0,
+                covariance: None,
+            },
+            dumps: usize::MAX,
+            least: Least::Momentum,
+            budget_s: 0.0,
+        }
+    }
+
+    /// The inputs at every point: the place of the present downlink or the next one, and dumps.
+    fn steer(&self, windows: &[Window], dumps: &[PlannedDump]) -> impl FnMut(Row<'_>) -> Settings {
+        let downlinks = windows.iter().filter(|window| window.kind == WindowKind::Free);
+        let places: Vec<(f64, [f64; 2])> = downlinks
+            .map(|window| {
+                let place = [Control::Azimuth, Control::Elevation].map(|it| window.controls.get(it));
+                (window.stop_s, place)
+            })
+            .collect();
+        let dumps: Vec<(f64, Vector)> = dumps
+            .iter()
+            .map(|dump| (dump.at_s, body_momentum_n_m_s(&self.sunlit, &self.simulated, windows, dump)))
+            .collect();
+        move |row| {
+            let place = places.iter().find(|(stop_s, _)| *stop_s > row.time_s + SAME_S);
+            let [azimuth_rad, elevation_rad] = place.map_or([0.0; 2], |(_, place)| *place);
+            let dump = dumps.iter().find(|(at_s, _)| (at_s - row.time_s).abs() <= SAME_S);
+            let mut sets = set("downlink.sunAzimuth", azimuth_rad);
+            sets.extend(set("downlink.sunElevation", elevation_rad));
+            sets.extend(set("dump.request", dump.is_some()));
+            sets.extend(dump.iter().flat_map(|(_, after)| after.of("dump.target")));
+            sets
+        }
+    }
+}
+
+impl Simulates for Sought<'_> {
+    fn simulate(
+        &mut self,
+        windows: &[Window],
+        dumps: &[PlannedDump],
+    ) -> Result<SimulatedFlight, Box<dyn Error>> {
+        let panels: Vec<String> = (0..self.panels).map(plant::panel).collect();
+        let mut names: Vec<&str> = plant::recorded(self.convention).to_vec();
+        names.extend(panels.iter().map(String::as_str));
+        let recorded = self.case.steer(self.fmu, &names, &mut self.steer(windows, dumps))?;
+        let variables = &self.fmu.description().variables;
+        let elements =
+            names.iter().map(|name| self.fmu.select(name)).collect::<Result<Vec<_>, _>>()?.concat();
+        let known: Vec<&str> = elements.iter().map(|position| variables[*position].name.as_str()).collect();
+        let column = |name: &str| Some(recorded.columns[known.iter().position(|it| *it == name)?].clone());
+        Ok(plant::flight(&recorded.times_s, &column, (self.panels, self.convention))?)
+    }
+
+    fn progress(&mut self, _: &str) {}
+}
