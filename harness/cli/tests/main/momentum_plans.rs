@@ -359,7 +359,14 @@ fn what_cannot_be_planned_is_refused_by_line() {
     }
     // What the mission does not allow.
     for (edit, expected) in [
-        (("\"cruise\"", "\"orbit\""), "guided.phase: found orbit, allowed: cruise"),
+        (
+            ("\"cruise\"", "\"orbit\""),
+            "plan.toml:1: mission: found no downlink, allowed: a mission with downlinks",
+        ),
+        (
+            ("[set]", "[set]\n\"momentum.strategy\" = \"reactive\""),
+            "momentum.strategy: found reactive, allowed: dumpsOnly",
+        ),
         (
             ("[set]", "[set]\n\"articulation.minimumSuns\" = 2.2"),
             "articulation: found nothing between 2.2 and 4.2 suns",
@@ -383,4 +390,53 @@ fn what_cannot_be_planned_is_refused_by_line() {
     plan(folder, &template, only, 0);
     let said = plan(folder, &template, &format!("{only}[[contact]]\nstart = \"15 d\"\nstop = \"45 d\"\n"), 1);
     assert!(said.contains("plan.toml:5: contact[1]: found contacts that fill the window"), "{said}");
+}
+
+/// About Mercury the mission left alone dumps; with the Sun's places of a plan it does not, whether they are commanded or put in, none of
+/// them clamped, and science is as it was.
+#[test]
+fn downlinks_of_an_orbit_phase_hold_the_momentum() {
+    let Some((scratch, template)) = template() else { return };
+    let folder = scratch.path();
+    fs::copy(Path::new(RESOURCES).join("messenger.toml"), folder.join("messenger.toml")).unwrap();
+    let mission = "spacecraft = \"messenger.toml\"\nmodel = \"MomentumPlant\"\nstart = \"2011-04-06T00:00:00 UTC\"\n\
+                   stop = \"20 d\"\nstep = \"10 min\"\n\
+                   record = [\"momentum.inertial\", \"attitude.q\", \"dump.count\", \"downlink.active\", \"downlink.clamped\"]\n\
+                   [set]\n\"orbit.center\" = \"mercury\"\n\"spacecraft.centerOfMass[3]\" = \"-2.54 cm\"\n\"dump.threshold\" = [4, 4, 4]\n";
+    fs::write(folder.join("orbit.toml"), mission).unwrap();
+    let said = plan(folder, &template, "mission = \"orbit.toml\"\nfreeze = 0\n", 0);
+    says(&said, &["dumps: 0", "places of the Sun in 20 downlinks"]);
+    assert!(number(folder, "simulated") < 0.6 * 4.0);
+    assert!(number(folder, "largestDifference_n_m_s") < 0.02 * 4.0);
+    let by_input = fs::read_to_string(folder.join("out/mission.toml")).unwrap();
+    let by_input = by_input.replace("timeline = \"timeline.toml\"", "inputs = \"plan.csv\"");
+    fs::write(folder.join("out/by-input.toml"), by_input).unwrap();
+    let names = [
+        "momentum.inertial[1]",
+        "momentum.inertial[2]",
+        "momentum.inertial[3]",
+        "dump.count",
+        "downlink.active",
+        "downlink.clamped",
+        "attitude.q[1]",
+    ];
+    let [alone, commanded, put_in] = ["orbit.toml", "out/mission.toml", "out/by-input.toml"].map(|mission| {
+        let flown = folder.join("flown.csv");
+        let mission = folder.join(mission);
+        run(&["run", shown(&mission), "--output", shown(&flown), "--template", shown(&template)], 0);
+        columns(&flown, &names)
+    });
+    let length = |row: &Vec<f64>| row[..3].iter().map(|it| it * it).sum::<f64>().sqrt();
+    assert!(alone.last().unwrap()[3] > 0.0);
+    let greatest = commanded.iter().map(length).fold(0.0, f64::max);
+    assert!((greatest - number(folder, "simulated")).abs() < 1e-6);
+    for ((was, row), other) in alone.iter().zip(&commanded).zip(&put_in) {
+        assert_eq!([row[3], row[5], other[3], other[5]], [0.0; 4]);
+        assert!((0..3).all(|axis| (row[axis] - other[axis]).abs() < 1e-6));
+        assert_eq!(was[4], row[4], "a downlink elsewhere");
+        assert!(row[4] != 0.0 || (was[6] - row[6]).abs() < 1e-9, "science in another attitude");
+    }
+    // What does not count there is refused with its line.
+    let said = plan(folder, &template, "mission = \"orbit.toml\"\nfreeze = 0\nwindmill = \"2 deg\"\n", 1);
+    says(&said, &["plan.toml:3: windmill: found it, allowed: none in an orbit phase"]);
 }
