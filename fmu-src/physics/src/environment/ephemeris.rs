@@ -149,6 +149,11 @@ impl Ephemeris {
         }
     }
 
+    /// The first end of a segment after an epoch; within a microsecond of one, the one behind it.
+    pub fn smooth_until_s(epoch_s: f64) -> f64 {
+        (((epoch_s + 1e-6) / SHORT_S).floor() + 1.0) * SHORT_S
+    }
+
     /// Position and velocity of the Moon from the Earth in EME2000 at `epoch_s`, geometric; see [`Ephemeris::state`].
     pub fn moon_from_earth(&mut self, epoch_s: f64) -> CartesianState {
         self.moon_entered.enter((epoch_s / MIDDLE_S).floor() as i64);
