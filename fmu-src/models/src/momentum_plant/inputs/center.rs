@@ -7,7 +7,6 @@ use physics::enumeration::Enumerated;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements as KeplerElements;
 
-use super::n_body::encounter_body;
 use crate::common::elements::ElementHandles;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
@@ -44,7 +43,7 @@ impl Center {
     pub(super) fn read(context: &Plan<'_>, values: &Values) -> Self {
         let (planet, orbit) = (&context.variables.planet, &context.variables.orbit);
         let body = context.setup.bodies.body(values.choice(orbit.center).0);
-        let encounter = encounter_body(context.variables, values);
+        let encounter = context.variables.encounter.body(orbit, values);
         let near = encounter.map_or(body, |encounter| context.setup.bodies.body(encounter));
         let (own, own_surface) = (near.data, near.surface());
         let numbers = [

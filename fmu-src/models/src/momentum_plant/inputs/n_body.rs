@@ -10,20 +10,11 @@ use super::center::Center;
 use crate::common::ephemeris::{EPHEMERIS_FILE, check_epoch};
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
-use crate::momentum_plant::variables::choices::{EphemerisSource, OrbitDynamics};
-
-fn is_n_body(variables: &PlantVariables, values: &Values) -> bool {
-    matches!(values.choice(variables.orbit.dynamics), OrbitDynamics::NBody)
-}
-
-/// The body of the encounter, which other dynamics do not have.
-pub(super) fn encounter_body(variables: &PlantVariables, values: &Values) -> Option<Body> {
-    values.choice(variables.encounter.body).0.filter(|_| is_n_body(variables, values))
-}
+use crate::momentum_plant::variables::choices::EphemerisSource;
 
 /// What to say of an encounter that has no effect.
 pub(super) fn unused_encounter(variables: &PlantVariables, values: &Values) -> Option<String> {
-    let body = values.choice(variables.encounter.body).0.filter(|_| !is_n_body(variables, values))?;
+    let body = values.choice(variables.encounter.body).0.filter(|_| !variables.orbit.is_n_body(values))?;
     Some(format!(
         "encounter.body is {} and has no effect: orbit.dynamics nBody (3) has encounters",
         OnboardTarget::from(body)
@@ -66,8 +57,8 @@ pub(super) fn check(
     center: &Center,
 ) -> Result<Option<Encounter>, Failure> {
     let variables = context.variables;
-    let encounter = encounter_body(variables, values);
-    if !is_n_body(variables, values) {
+    let encounter = variables.encounter.body(&variables.orbit, values);
+    if !variables.orbit.is_n_body(values) {
         return Ok(None);
     }
     let source = match values.choice(variables.ephemeris.source) {
@@ -102,11 +93,11 @@ pub(super) fn check_onboard(
     what: &str,
     epoch_s: f64,
 ) -> Result<(), Failure> {
-    if !is_n_body(variables, values) {
+    if !variables.orbit.is_n_body(values) {
         return Ok(());
     }
     let planets = attracting(variables, values).map(|body| (OnboardTarget::from(body), Body::Sun));
-    let encounter = encounter_body(variables, values).map(|body| (body.into(), Body::Sun));
+    let encounter = variables.encounter.body(&variables.orbit, values).map(|body| (body.into(), Body::Sun));
     let has_moon = values.boolean(variables.orbit.attraction.moon);
     let moon = has_moon.then_some((OnboardTarget::Moon, Body::Earth));
     for (target, from) in planets.chain(encounter).chain(moon) {

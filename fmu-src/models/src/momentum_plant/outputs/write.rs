@@ -107,7 +107,10 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
 
 /// The encounter's planet and closest approaches to it.
 fn write_encounter(v: &EncounterVariables, values: &mut Values, report: &Report<'_>) {
-    let Some(encounter) = report.encounter() else { return };
+    let Some(encounter) = report.encounter() else {
+        values.set_real(v.last_time, -1.0);
+        return;
+    };
     values.set_vector(v.position, encounter.body.position_m.into());
     values.set_vector(v.velocity, encounter.body.velocity_m_s.into());
     values.set_real(v.distance, encounter.distance_m);

@@ -1,6 +1,6 @@
 //! Attitude and orbit: where they come from and what they are.
 
-use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Values, Variables};
 
 use super::super::setup::PlantSetup;
 use physics::bodies::Body;
@@ -173,6 +173,20 @@ pub struct AttractionVariables {
     pub jupiter: Boolean,
 }
 
+impl OrbitVariables {
+    /// Whether the spacecraft flies between planets.
+    pub fn is_n_body(&self, values: &Values) -> bool {
+        matches!(values.choice(self.dynamics), OrbitDynamics::NBody)
+    }
+}
+
+impl EncounterVariables {
+    /// The planet of the encounter, which other dynamics do not have.
+    pub fn body(&self, orbit: &OrbitVariables, values: &Values) -> Option<Body> {
+        values.choice(self.body).0.filter(|_| orbit.is_n_body(values))
+    }
+}
+
 impl AttractionVariables {
     /// The planets with what says whether they attract.
     pub fn planets(&self) -> [(Body, Boolean); 5] {
@@ -194,7 +208,7 @@ pub struct EncounterVariables {
     /// that planet's.
     #[parameter(start = EncounterBody(None))]
     pub body: Choice<EncounterBody>,
-    /// Its position from orbit.center in EME2000; 0 without an encounter, as all of these.
+    /// Its position from orbit.center in EME2000; 0 without an encounter, as its velocity and distance.
     #[output(unit = "m", display = "AU", nominal = 1e11)]
     pub position: RealVector<3>,
     /// Its velocity from orbit.center in EME2000.
