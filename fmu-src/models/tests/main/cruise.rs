@@ -25,7 +25,7 @@ const BODIES: [Body; 5] = [Body::Mercury, Body::Venus, Body::Earth, Body::Mars, 
 struct Backward(Ephemeris);
 
 impl BodyPlaces for Backward {
-    fn from_sun(&mut self, body: Body, at_s: f64) -> CartesianState {
+    fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         let state = self.0.state(body, FLYBY_S - at_s);
         CartesianState { velocity_m_s: -state.velocity_m_s, ..state }
     }

@@ -34,7 +34,8 @@ impl BPlane {
         let normal = momentum / momentum_m2_s;
         let excess_speed_m_s = excess_squared.sqrt();
         // Through the semi-latus rectum: the difference of nearly equal vectors is not exact far from the body.
-        let eccentricity = (1.0 + excess_squared * (momentum_m2_s / mu_m3_s2).powi(2)).sqrt();
+        let ratio_s_m = momentum_m2_s / mu_m3_s2;
+        let eccentricity = (1.0 + excess_squared * ratio_s_m * ratio_s_m).sqrt();
         let toward = (v.cross(&momentum) / mu_m3_s2 - r.normalize()).normalize();
         let cosine = 1.0 / eccentricity;
         let asymptote = toward * cosine + normal.cross(&toward) * (1.0 - cosine * cosine).sqrt();

@@ -243,7 +243,7 @@ impl DisturbedOrbit {
         let mut center = self.center.unwrap_or(IntegrationCenter::new(gravity.center));
         let body = center.next_body(gravity, &state, start_s, places)?;
         if body != center.body {
-            let [before, after] = [center.body, body].map(|body| places.from_sun(body, start_s));
+            let [before, after] = [center.body, body].map(|body| places.heliocentric(body, start_s));
             state = state + (before - after);
             center.body = body;
         }

@@ -30,7 +30,7 @@ const PIECES: usize = 8;
 /// Where bodies are, EME2000, by the flight's clock.
 pub trait BodyPlaces {
     /// Position and velocity from the Sun.
-    fn from_sun(&mut self, body: Body, at_s: f64) -> CartesianState;
+    fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState;
 
     /// The second derivative of that position, in m/s2.
     fn acceleration_m_s2(&mut self, body: Body, at_s: f64) -> Vector3<f64>;
@@ -147,14 +147,15 @@ impl NBodyGravity {
         state: &CartesianState,
         places: &mut impl BodyPlaces,
     ) -> Vector3<f64> {
-        let center = if about.is_planet() { places.from_sun(about, at_s) } else { CartesianState::default() };
+        let center =
+            if about.is_planet() { places.heliocentric(about, at_s) } else { CartesianState::default() };
         let from_sun = *state + center;
         let mut sum = fall_m_s2(&from_sun.position_m, self.bodies[Body::Sun as usize][0]);
         let mut earth_m = None;
         for body in self.planets() {
             let gm_m3_s2 = self.bodies[body as usize][0];
             let is_center = body == about;
-            let place_m = if is_center { center } else { places.from_sun(body, at_s) }.position_m;
+            let place_m = if is_center { center } else { places.heliocentric(body, at_s) }.position_m;
             let from_body_m = if is_center { state.position_m } else { from_sun.position_m - place_m };
             sum += fall_m_s2(&from_body_m, gm_m3_s2) + fall_m_s2(&place_m, gm_m3_s2);
             if body == Body::Earth {
@@ -166,7 +167,7 @@ impl NBodyGravity {
             }
         }
         if self.settings.moon {
-            let earth_m = earth_m.unwrap_or_else(|| places.from_sun(Body::Earth, at_s).position_m);
+            let earth_m = earth_m.unwrap_or_else(|| places.heliocentric(Body::Earth, at_s).position_m);
             let moon_from_earth_m = places.moon_from_earth_m(at_s);
             let moon_m = earth_m + moon_from_earth_m;
             let from_moon_m = match about {
@@ -259,7 +260,7 @@ impl NBodyGravity {
                 let of_body = if body == about {
                     CartesianState::default()
                 } else {
-                    places.from_sun(body, at_s) - places.from_sun(about, at_s)
+                    places.heliocentric(body, at_s) - places.heliocentric(about, at_s)
                 };
                 let speed_m_s = (path(at_s) - of_body).velocity_m_s.norm();
                 return Err(Collision::Impact { at_s, name: body.data().name, radius_m, speed_m_s });
@@ -279,8 +280,7 @@ impl NBodyGravity {
         for body in self.planets().chain([Body::Sun]) {
             let radius_m = self.bodies[body as usize][1];
             let distance_m = distance_m(body, about, &state.position_m, at_s, places);
-            // Written so that a NaN is inside.
-            if !(distance_m >= radius_m) {
+            if distance_m < radius_m || distance_m.is_nan() {
                 return Err(Collision::Inside { at_s, name: body.data().name, distance_m, radius_m });
             }
         }
@@ -313,7 +313,7 @@ fn distance_m(
     if body == about {
         return position_m.norm();
     }
-    let [body_m, about_m] = [body, about].map(|body| places.from_sun(body, at_s).position_m);
+    let [body_m, about_m] = [body, about].map(|body| places.heliocentric(body, at_s).position_m);
     (position_m - (body_m - about_m)).norm()
 }
 
@@ -435,7 +435,7 @@ impl IntegrationCenter {
         self.is_begun = true;
         self.offset = (self.body != from).then(|| {
             Segment::fit(start_s, end_s, |at_s| {
-                let [body, from] = [self.body, from].map(|body| places.from_sun(body, at_s));
+                let [body, from] = [self.body, from].map(|body| places.heliocentric(body, at_s));
                 pack(&(body - from))
             })
         });

@@ -25,7 +25,7 @@ impl Sky {
 }
 
 impl BodyPlaces for Sky {
-    fn from_sun(&mut self, body: Body, at_s: f64) -> CartesianState {
+    fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         self.ephemeris.state(body, self.epoch_s + at_s)
     }
 
@@ -172,7 +172,7 @@ fn two_hundred_days_are_those_of_an_independent_integrator() {
 fn before_flyby(sky: &mut Sky, bodies: &[Body], radius_m: f64) -> CartesianState {
     let periapsis_s = 10.0 * DAY_S;
     let speed_m_s = (5.2e3_f64.powi(2) + 2.0 * GM_MERCURY_M3_S2 / radius_m).sqrt();
-    let mercury = sky.from_sun(Body::Mercury, periapsis_s);
+    let mercury = sky.heliocentric(Body::Mercury, periapsis_s);
     let normal = mercury.position_m.cross(&mercury.velocity_m_s).normalize();
     let across = mercury.velocity_m_s.normalize();
     let toward = across.cross(&normal);
@@ -201,7 +201,7 @@ fn a_flyby_is_the_same_about_the_sun_and_about_the_planet() {
     while time_s < end_s {
         time_s += 120.0;
         let state = fly(&mut orbit, &changing, &mut sky, time_s);
-        let mercury = sky.from_sun(Body::Mercury, time_s);
+        let mercury = sky.heliocentric(Body::Mercury, time_s);
         lowest_m = lowest_m.min((state - mercury).position_m.norm() - RADIUS_MERCURY_M);
         let center = orbit.integration_center().unwrap();
         if centers.last().is_none_or(|(last, _)| *last != center) {
@@ -235,11 +235,11 @@ fn positions_count_from_the_given_body_whatever_the_path_is_integrated_about() {
     let from_sun = gravity(settings(), Body::Sun, &bodies);
     let from_mercury = gravity(settings(), Body::Mercury, &bodies);
     let mut one = DisturbedOrbit::between_bodies(&start, 0.0, &from_sun).unwrap();
-    let from = start - sky.from_sun(Body::Mercury, 0.0);
+    let from = start - sky.heliocentric(Body::Mercury, 0.0);
     let mut other = DisturbedOrbit::between_bodies(&from, 0.0, &from_mercury).unwrap();
     for hour in 1..300 {
         let time_s = f64::from(hour) * 3600.0;
-        let expected = fly(&mut one, &from_sun, &mut sky, time_s) - sky.from_sun(Body::Mercury, time_s);
+        let expected = fly(&mut one, &from_sun, &mut sky, time_s) - sky.heliocentric(Body::Mercury, time_s);
         let found = fly(&mut other, &from_mercury, &mut sky, time_s);
         assert_eq!(one.integration_center(), other.integration_center());
         // An epoch resolves 6e-8 s, in which Mercury moves by 3 mm. Once the planet has turned it, what the start is rounded by
@@ -295,7 +295,7 @@ fn bodies_in_the_way_are_named() {
         assert!((0.0..600.0).contains(&(10.0 * DAY_S - at_s)), "{at_s}");
     }
     let gravity = gravity(settings(), Body::Sun, &bodies);
-    let mercury = sky.from_sun(Body::Mercury, 0.0);
+    let mercury = sky.heliocentric(Body::Mercury, 0.0);
     let inside = CartesianState { position_m: mercury.position_m + Vector3::x() * 1e6, ..mercury };
     let mut orbit = DisturbedOrbit::between_bodies(&inside, 0.0, &gravity).unwrap();
     let error = orbit

@@ -135,7 +135,7 @@ impl PlacesInFlight<'_> {
 }
 
 impl BodyPlaces for PlacesInFlight<'_> {
-    fn from_sun(&mut self, body: Body, at_s: f64) -> CartesianState {
+    fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         let epoch_s = self.epoch_s(at_s);
         match &self.configuration.ephemeris {
             _ if body == Body::Sun => CartesianState::default(),

@@ -378,7 +378,7 @@ impl Trajectory {
                     let sizes_m = [radius_m, gravity.sphere_m(body)];
                     self.approaches.detect([orbit.start_s(), orbit.end_s()], sizes_m, |at_s| {
                         let [center, body] =
-                            [configuration.center, body].map(|body| places.from_sun(body, at_s));
+                            [configuration.center, body].map(|body| places.heliocentric(body, at_s));
                         orbit.state_at(at_s) + (center - body)
                     });
                 }
