@@ -23,6 +23,10 @@ pub const GM_MERCURY_M3_S2: f64 = 2.203_186_855_1e13;
 pub const GM_VENUS_M3_S2: f64 = 3.248_585_920_0e14;
 /// Gravitational parameter of the Earth without the Moon, m3/s2 (JPL DE440).
 pub const GM_EARTH_M3_S2: f64 = 3.986_004_355_07e14;
+/// Gravitational parameter of the Moon, m3/s2 (DE440).
+pub const GM_MOON_M3_S2: f64 = 4.902_800_118e12;
+/// Mass of the Earth in masses of the Moon (DE440).
+pub const EARTH_TO_MOON_MASS: f64 = 81.300_568_221_497_2;
 /// Gravitational parameter of Mars without its moons, m3/s2 (JPL DE440).
 pub const GM_MARS_M3_S2: f64 = 4.282_837_362_07e13;
 /// Gravitational parameter of Jupiter without its moons, m3/s2 (JPL DE440).

@@ -170,6 +170,12 @@ pub(crate) const KNOWN_BODIES: &[EnumeratedItem<Body>] = match Body::ITEMS.split
     None => &[],
 };
 
+/// The known bodies but for the Sun, which is the first of them.
+pub(crate) const KNOWN_PLANETS: &[EnumeratedItem<Body>] = match KNOWN_BODIES.split_first() {
+    Some((_sun, planets)) => planets,
+    None => &[],
+};
+
 choices! {
     /// Central body. 5 is kept free for the Moon, which cannot be one yet.
     OrbitCenter(Body) of KNOWN_BODIES;

@@ -58,19 +58,31 @@ pub(crate) fn check_onboard(
     epoch_s: f64,
 ) -> Result<(), Failure> {
     let from = OnboardTarget::from(center);
-    for target in [OnboardTarget::Sun, OnboardTarget::Earth].into_iter().filter(|target| *target != from) {
-        let [start_s, end_s] = carried.span_s(target, center).ok_or_else(|| {
+    let targets = [OnboardTarget::Sun, OnboardTarget::Earth].into_iter().filter(|target| *target != from);
+    for target in targets {
+        let found = carried.span_s(target, center).ok_or_else(|| {
             Failure::new(format!(
                 "{EPHEMERIS_FILE}: found no [[body]] that joins {target} with {from}, allowed: positions of sun and earth \
                  that lead to {from}, from whose centre this model counts"
             ))
         })?;
-        if !(start_s..=end_s).contains(&epoch_s) {
-            return Err(Failure::new(format!(
-                "{what}: found {epoch_s:?} s, allowed: from {start_s:?} to {end_s:?} s past J2000, where {EPHEMERIS_FILE} \
-                 places {target}"
-            )));
-        }
+        check_epoch(target, found, what, epoch_s)?;
     }
     Ok(())
+}
+
+/// Refuses an epoch, which `what` gives, outside the span over which the onboard ephemerides place a target.
+pub(crate) fn check_epoch(
+    target: OnboardTarget,
+    [start_s, end_s]: [f64; 2],
+    what: &str,
+    epoch_s: f64,
+) -> Result<(), Failure> {
+    if (start_s..=end_s).contains(&epoch_s) {
+        return Ok(());
+    }
+    Err(Failure::new(format!(
+        "{what}: found {epoch_s:?} s, allowed: from {start_s:?} to {end_s:?} s past J2000, where {EPHEMERIS_FILE} \
+         places {target}"
+    )))
 }

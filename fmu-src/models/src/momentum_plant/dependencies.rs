@@ -89,7 +89,8 @@ impl Parameters {
     fn of(choice: OpenChoices, v: &PlantVariables) -> Self {
         // A maneuver of the timeline at the start puts it on another orbit.
         let maneuver = knowns![&v.timeline, &v.maneuver, &v.noise].only_if(choice.ideal);
-        let orbit = knowns![&v.start, &v.orbit, &v.planet, &v.ephemeris, v.sun.radius, &v.eclipse, maneuver];
+        let between = knowns![&v.encounter, maneuver];
+        let orbit = knowns![&v.start, &v.orbit, &v.planet, &v.ephemeris, v.sun.radius, &v.eclipse, between];
         let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
         // Guidance balances torques against the momentum.
         let aimed = &knowns![&v.guided, &v.momentum, &v.solar, &v.spacecraft, wheels.collect::<Knowns>()];
@@ -131,7 +132,8 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramet
     let sun = knowns![v.sun.position_inertial, v.sun.velocity_inertial, v.sun.distance, v.sun.lit_fraction];
     let earth = knowns![v.earth.position_inertial, v.earth.velocity_inertial];
     let orbit = knowns![v.position, v.velocity, v.heliocentric.position, v.orbit.time_since_periapsis];
-    table.output(knowns![sun, earth, orbit], &inputs.places, &parameters.orbit);
+    let between = knowns![v.orbit.current_center, &v.encounter];
+    table.output(knowns![sun, earth, orbit, between], &inputs.places, &parameters.orbit);
     let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
     let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
     let seen = knowns![v.attitude.q, v.attitude.rate, sun, others, v.sunshade.polynomial_valid];

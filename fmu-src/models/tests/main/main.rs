@@ -4,6 +4,7 @@
 
 mod articulation;
 mod center_defaults;
+mod cruise;
 mod custom_body;
 mod dependencies;
 mod disturbance_degenerate;

@@ -273,8 +273,8 @@ const REFUSALS: &[(&str, &str)] = &[
         "my.toml:+2: start.\"orbit.eccentricity\": found NaN, allowed: a number from 0 to 0.99",
     ),
     (
-        "[start]\n\"orbit.step\" = \"1 h\"",
-        "my.toml:+2: start.\"orbit.step\": found \"1 h\", allowed: a number from 1 to 1800 s",
+        "[start]\n\"orbit.step\" = \"2 d\"",
+        "my.toml:+2: start.\"orbit.step\": found \"2 d\", allowed: a number from 1 to 86400 s",
     ),
     (
         "[start]\n\"orbit.step\" = \"1 week\"",

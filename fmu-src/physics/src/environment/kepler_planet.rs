@@ -5,7 +5,7 @@
 
 use core::f64::consts::PI;
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::{
     CartesianState,
@@ -99,6 +99,13 @@ impl KeplerPlanet {
     /// Its elements about the Sun, in HCI.
     pub fn elements(&self) -> &Elements {
         self.orbit_hci.elements()
+    }
+
+    /// Acceleration by the Sun in EME2000, in m/s2.
+    pub fn acceleration_m_s2(&self, epoch_s: f64) -> Vector3<f64> {
+        let position_m = self.state(epoch_s).position_m;
+        let distance_m = position_m.norm();
+        position_m * (-GM_SUN_M3_S2 / (distance_m * distance_m * distance_m))
     }
 
     /// Heliocentric position and velocity in EME2000.

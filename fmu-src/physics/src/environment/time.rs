@@ -30,6 +30,11 @@ pub fn julian_date(epoch_s: f64) -> f64 {
     J2000_JULIAN_DATE + epoch_s / DAY_S
 }
 
+/// How much later `epoch_s` is than its [`julian_date`], in s: what that is rounded by.
+pub fn julian_date_rounding_s(epoch_s: f64) -> f64 {
+    epoch_s - (julian_date(epoch_s) - J2000_JULIAN_DATE) * DAY_S
+}
+
 /// Days from 2000-01-01. Years begin in March, so that the leap day comes last; 400 years have 146097 days.
 const fn days_from_civil(year: i64, month: u32, day: u32) -> i64 {
     let year = if month <= 2 { year - 1 } else { year };

@@ -78,6 +78,46 @@ impl<const D: usize, const N: usize> Segment<D, N> {
         Self { center, half_length, coefficients }
     }
 
+    /// The polynomial of four degrees more that equals this one at its `N` nodes and has `[value, derivative]` at start and end
+    /// (Hermite): segments with ends in common go on smoothly. `M` must be `N + 4`.
+    pub fn with_ends<const M: usize>(&self, ends: &[[SVector<f64, D>; 2]; 2]) -> Segment<D, M> {
+        const { assert!(M == N + 4 && N > 3, "two conditions more at each end") }
+        // This one plus T_N, which is zero at the nodes, times a cubic, whose values and slopes at -1 and 1 follow.
+        let parity = if N.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let slope_of_last = (N * N) as f64;
+        let [at_start, at_end] =
+            [(0, -1.0, parity), (1, 1.0, 1.0)].map(|(end, x, last): (usize, f64, f64)| {
+                let [value, derivative] = &ends[end];
+                let (own, slope) = series_at(&self.coefficients.data.0, x);
+                let missing = (value - SVector::from(own)) * last;
+                let missing_slope = derivative * self.half_length - SVector::from(slope);
+                [missing, missing_slope * last - missing * (x * slope_of_last)]
+            });
+        let even = (at_end[0] + at_start[0]) * 0.5;
+        let odd = (at_end[0] - at_start[0]) * 0.5;
+        let odd_slope = (at_end[1] + at_start[1]) * 0.5;
+        let even_slope = (at_end[1] - at_start[1]) * 0.5;
+        // a0 + a2 = even, 2 a2 = even slope, a1 + a3 = odd, a1 + 3 a3 = odd slope; in T_0 to T_3.
+        let (square, cube) = (even_slope * 0.5, (odd_slope - odd) * 0.5);
+        let cubic = [even - square * 0.5, odd - cube * 0.25, square * 0.5, cube * 0.25];
+        let mut coefficients = SMatrix::<f64, D, M>::zeros();
+        coefficients.fixed_columns_mut::<N>(0).copy_from(&self.coefficients);
+        for (k, term) in cubic.iter().enumerate() {
+            for index in [N + k, N - k] {
+                let mut column = coefficients.column_mut(index);
+                column += term * 0.5;
+            }
+        }
+        Segment { center: self.center, half_length: self.half_length, coefficients }
+    }
+
+    /// The second derivative at `at`.
+    pub fn second_derivative(&self, at: f64) -> SVector<f64, D> {
+        let per_half_length = 1.0 / self.half_length;
+        let curve = curvature_at(&self.coefficients.data.0, (at - self.center) * per_half_length);
+        SVector::from(curve) * (per_half_length * per_half_length)
+    }
+
     /// Where the segment starts.
     pub fn start(&self) -> f64 {
         self.center - self.half_length
@@ -179,6 +219,20 @@ pub fn series_at<const D: usize>(coefficients: &[[f64; D]], x: f64) -> ([f64; D]
     let value = core::array::from_fn(|i| x * b1[i] + (first[i] - b2[i]));
     let derivative = core::array::from_fn(|i| x * d1[i] + (b1[i] - d2[i]));
     (value, derivative)
+}
+
+/// The second derivative of the series with these coefficients at `x` in -1 to 1 (Clenshaw's recurrence, differentiated twice).
+pub fn curvature_at<const D: usize>(coefficients: &[[f64; D]], x: f64) -> [f64; D] {
+    let (mut b1, mut b2, mut d1, mut d2) = ([0.0; D], [0.0; D], [0.0; D], [0.0; D]);
+    let (mut c1, mut c2) = ([0.0; D], [0.0; D]);
+    for column in coefficients.iter().skip(1).rev() {
+        for i in 0..D {
+            (c1[i], c2[i]) = (2.0 * x * c1[i] + (4.0 * d1[i] - c2[i]), c1[i]);
+            (d1[i], d2[i]) = (2.0 * x * d1[i] + (2.0 * b1[i] - d2[i]), d1[i]);
+            (b1[i], b2[i]) = (2.0 * x * b1[i] + (column[i] - b2[i]), b1[i]);
+        }
+    }
+    core::array::from_fn(|i| x * c1[i] + (2.0 * d1[i] - c2[i]))
 }
 
 /// The Bernstein coefficients on `[0, 1]` of a Chebyshev series on `[-1, 1]`, both of degree `N - 1`.

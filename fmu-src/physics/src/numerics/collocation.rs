@@ -273,11 +273,7 @@ impl<const D: usize, const M: usize> SegmentChain<D, M> {
         rhs: impl FnMut(f64, &SVector<f64, D>) -> SVector<f64, D>,
     ) -> Result<(), IntegrationError> {
         // Counted from where the segments end, not from the number kept: restored bytes may hold any number.
-        let mut edge = ((self.end_s / self.length_s).floor() as i64).saturating_add(1);
-        // A start within rounding of an edge is that edge.
-        if edge as f64 * self.length_s - self.end_s <= 1e-12 * self.end_s.abs().max(self.length_s) {
-            edge = edge.saturating_add(1);
-        }
+        let mut edge = edge_after(self.end_s, self.length_s);
         let mut end_s = edge as f64 * self.length_s;
         if limit_s < end_s {
             (edge, end_s) = (edge.saturating_sub(1), limit_s);
@@ -295,6 +291,18 @@ impl<const D: usize, const M: usize> SegmentChain<D, M> {
     pub fn cut(&mut self, at_s: f64, value: SVector<f64, D>) {
         *self = Self::new(self.length_s, at_s, value);
     }
+}
+
+/// The number of the first edge `k * length_s` after `at_s`; within rounding of one, of the one behind it.
+fn edge_after(at_s: f64, length_s: f64) -> i64 {
+    let edge = ((at_s / length_s).floor() as i64).saturating_add(1);
+    let is_there = edge as f64 * length_s - at_s <= 1e-12 * at_s.abs().max(length_s);
+    if is_there { edge.saturating_add(1) } else { edge }
+}
+
+/// That edge; see [`SegmentChain::advance_to`].
+pub fn edge_after_s(at_s: f64, length_s: f64) -> f64 {
+    edge_after(at_s, length_s) as f64 * length_s
 }
 
 #[cfg(test)]

@@ -28,20 +28,21 @@ pub use disturbances::laws::{Laws, NearPlanet};
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 pub use flight::ideal::Maneuvers;
 pub use flight::propagator_state::PropagatorState;
-pub use flight::report::{ControlReport, Report, Shown, WheelReport};
+pub use flight::report::{ControlReport, EncounterReport, Report, Shown, WheelReport};
 pub use flight::sun_choice::SunChoice;
 pub use flight::wheel_control::{WheelControl, WheelControlSettings};
 pub use flight::{Changes, Flight, ForecastMomentum, ModeSettings, StepContext, Undo};
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;
 pub use light::sunlit::SunlitCraft;
+pub use motion::approaches::Approach;
 pub use motion::geometry::Geometry;
 pub use motion::instant::{Instant, Regime};
 pub use motion::panel_motion::PanelMotion;
 pub use motion::trajectory::Trajectory;
 pub use settings::configuration::{
-    AttitudeSource, Command, Configuration, DynamicAttitude, EphemerisSource, LightSource, Motion, SunLight,
-    orbit_from_elements,
+    AttitudeSource, Command, Configuration, DynamicAttitude, Encounter, EphemerisSource, LightSource, Motion,
+    SunLight, orbit_from_elements,
 };
 pub use settings::control_defaults::ControlDefaults;
 pub use settings::dynamics_settings::{

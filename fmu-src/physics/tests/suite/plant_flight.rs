@@ -45,6 +45,7 @@ fn elements() -> Elements {
 
 pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Configuration {
     Configuration {
+        encounter: None,
         epoch_minus_time_s: EPOCH_S,
         center: Body::Mercury,
         orbit,

@@ -18,6 +18,15 @@ const START_EPOCH: &str = "start.epoch";
 /// Parameter that says from where positions count.
 const CENTER: &str = "orbit.center";
 
+/// Parameter that names another planet that positions are shown of.
+const ENCOUNTER: &str = "encounter.body";
+
+/// Whether a target is placed as the body of an encounter.
+fn is_encounter(target: OnboardTarget) -> bool {
+    use OnboardTarget::{Jupiter, Mars, Mercury, Venus};
+    matches!(target, Mercury | Venus | Mars | Jupiter)
+}
+
 /// A flight that can be repeated.
 pub(super) struct Flight {
     fmu: Fmu,
@@ -62,7 +71,24 @@ impl Flight {
     }
 
     fn started(&self) -> Result<Instance, Failure> {
-        instance::started(&self.fmu, "ephemeris", 0.0, &self.sets).map_err(|error| self.in_fmu(&error).into())
+        self.started_with(&self.sets)
+    }
+
+    fn started_with(&self, sets: &[(String, Value)]) -> Result<Instance, Failure> {
+        instance::started(&self.fmu, "ephemeris", 0.0, sets).map_err(|error| self.in_fmu(&error).into())
+    }
+
+    /// The settings of a flight that places these targets: a planet other than the Earth as the body of an encounter, the
+    /// spacecraft being held somewhere.
+    fn sets_for(&self, targets: &[OnboardTarget]) -> Result<Vec<(String, Value)>, Failure> {
+        let mut sets = self.sets.clone();
+        if let Some(planet) = targets.iter().find(|target| is_encounter(**target)) {
+            let planet = format!("{ENCOUNTER}={planet}");
+            for set in ["orbit.dynamics=nBody", "orbit.source=held", "orbit.position[1]=1e10", &planet] {
+                sets.extend(loader::parse_assignment(self.fmu.description(), set)?);
+            }
+        }
+        Ok(sets)
     }
 
     fn in_fmu(&self, error: &Error) -> String {
@@ -89,11 +115,15 @@ impl Source for Flight {
         epochs_s: &[f64],
         reported: &mut dyn FnMut() -> Result<(), Failure>,
     ) -> Result<Vec<Vec<CartesianState>>, Failure> {
+        if targets.contains(&OnboardTarget::Moon) {
+            return Err("--bodies moon: allowed with --kernel, as no output places the Moon".into());
+        }
         let mut outputs: Vec<Outputs> = Vec::with_capacity(targets.len());
         for target in targets {
             let (position, velocity) = match target {
                 OnboardTarget::Sun => ("sun.positionInertial", "sun.velocityInertial"),
                 OnboardTarget::Earth => ("earth.positionInertial", "earth.velocityInertial"),
+                target if is_encounter(*target) => ("encounter.position", "encounter.velocity"),
                 _ => ("position", "velocity"),
             };
             let names = [position, velocity].into_iter().flat_map(|name| (1..=3).map(move |i| (name, i)));
@@ -103,7 +133,7 @@ impl Source for Flight {
             }
             outputs.push(references);
         }
-        let mut instance = self.started()?;
+        let mut instance = self.started_with(&self.sets_for(targets)?)?;
         let mut time_s = 0.0;
         let mut states = vec![Vec::with_capacity(epochs_s.len()); targets.len()];
         for epoch_s in epochs_s {

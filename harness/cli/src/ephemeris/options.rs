@@ -36,7 +36,7 @@ pub(crate) struct Ephemeris {
     /// Last epoch, likewise
     #[arg(long, value_name = "DATE")]
     pub stop: String,
-    /// What is fitted: sun, earth, spacecraft
+    /// What is fitted: sun, mercury, venus, earth, mars, jupiter, spacecraft, and with --kernel moon
     #[arg(
         long,
         value_enum,
@@ -82,9 +82,24 @@ pub(crate) enum BodyKind {
     /// The Sun
     #[cfg_attr(feature = "spk", value(alias = "10"))]
     Sun,
+    /// Mercury
+    #[cfg_attr(feature = "spk", value(alias = "199"))]
+    Mercury,
+    /// Venus
+    #[cfg_attr(feature = "spk", value(alias = "299"))]
+    Venus,
     /// The Earth
     #[cfg_attr(feature = "spk", value(alias = "399"))]
     Earth,
+    /// The Moon
+    #[cfg_attr(feature = "spk", value(alias = "301"))]
+    Moon,
+    /// Mars
+    #[cfg_attr(feature = "spk", value(alias = "499"))]
+    Mars,
+    /// Jupiter
+    #[cfg_attr(feature = "spk", value(alias = "599"))]
+    Jupiter,
     /// The spacecraft
     Spacecraft,
 }
@@ -136,7 +151,12 @@ impl Ephemeris {
         for kind in &self.bodies {
             let target = match kind {
                 BodyKind::Sun => OnboardTarget::Sun,
+                BodyKind::Mercury => OnboardTarget::Mercury,
+                BodyKind::Venus => OnboardTarget::Venus,
                 BodyKind::Earth => OnboardTarget::Earth,
+                BodyKind::Moon => OnboardTarget::Moon,
+                BodyKind::Mars => OnboardTarget::Mars,
+                BodyKind::Jupiter => OnboardTarget::Jupiter,
                 BodyKind::Spacecraft => OnboardTarget::Spacecraft,
             };
             if !targets.contains(&target) {

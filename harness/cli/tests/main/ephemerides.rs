@@ -71,6 +71,15 @@ fn a_flight_is_fitted_to_the_tolerance_and_simulated_by_another_fmu() {
     assert_eq!(text.lines().skip(1).collect::<Vec<_>>(), again.lines().skip(1).collect::<Vec<_>>());
     let impossible = run(&[&make[..], &["--tolerance", "1e-9", "--segment", "5d"]].concat(), 1);
     assert!(impossible.contains("--tolerance: no fit of sun up to degree 16 keeps"), "{impossible}");
+    // Any planet, the Moon from kernels alone.
+    let make = ["ephemeris", shown(&plant), "--start", START, "--stop", STOP, "--output", "-", "--bodies"];
+    let planets = run(&[&make[..], &["venus,jupiter", "--tolerance", "500"]].concat(), 0);
+    assert!(
+        ["venus", "jupiter"].iter().all(|body| planets.contains(&format!("body = \"{body}\""))),
+        "{planets}"
+    );
+    let moon = run(&[&make[..], &["moon"]].concat(), 1);
+    assert!(moon.contains("--bodies moon: allowed with --kernel"), "{moon}");
     // Another FMU flies by it within its span and nowhere else.
     let set = ["--set", "ephemeris.source=chebyshev", "--ephemeris", shown(&file)];
     let refusal = run(&[&pack[..], &[shown(&fitted)], &set].concat(), 1);

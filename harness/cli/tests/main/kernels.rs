@@ -124,6 +124,13 @@ fn bodies_go_by_name_and_by_naif_id() {
         let other = fitted(&both[1..], "2011-04-02T12:00 TDB", &other);
         assert!(worst_m(&other, OnboardTarget::Spacecraft, 0.5) <= 1.05, "{spacecraft}");
     }
+    // A planet as well as the Sun: Mercury from the Sun stands opposite to the Sun from Mercury.
+    let from_sun = fitted(&both, "2011-04-03 TDB", &["--bodies", "mercury", "--center", "sun"]);
+    let epoch_s = START_S + 0.37 * DAY_S;
+    let found = from_sun.precise[0].motion.state(epoch_s).unwrap().position_m;
+    let sun = truth_m(OnboardTarget::Sun, epoch_s);
+    let off_m = (0..3).map(|i| (found[i] + sun[i]).powi(2)).sum::<f64>().sqrt();
+    assert!(off_m <= 100.0 && from_sun.precise[0].target == OnboardTarget::Mercury, "{off_m} m");
     // From another center the same places.
     let from_sun = fitted(&both, "2011-04-03 TDB", &["--bodies", "earth", "--center", "sun"]);
     let model = &from_sun.precise[0];
@@ -173,6 +180,10 @@ fn a_body_that_no_kernel_holds_is_reported_with_those_that_are() {
     assert!(text.contains("found no Sun (10) in craft.bsp, allowed: MESSENGER (-236)"), "{text}");
     let text = fit(&[&planets], "2011-04-03 TDB", &["--center", "jupiter"], 1);
     assert!(text.contains("found no Jupiter (599) in planets.bsp"), "{text}");
+    let text = fit(&[&planets], "2011-04-03 TDB", &["--bodies", "moon"], 1);
+    assert!(text.contains("found no Moon (301) in planets.bsp"), "{text}");
+    let text = fit(&[&planets], "2011-04-03 TDB", &["--bodies", "venus"], 1);
+    assert!(text.contains("found no Venus (299) in planets.bsp"), "{text}");
     let text = fit(&[&planets], "2011-04-03 TDB", &["--center", "saturn"], 2);
     assert!(text.contains("--center <BODY>") && text.contains("or its NAIF id"), "{text}");
     let text = fit(&[&planets], "2011-04-03 TDB", &["--center", "sun"], 1);

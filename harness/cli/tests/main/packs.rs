@@ -299,8 +299,8 @@ fn start_values_that_nothing_takes_are_refused() {
     };
     let text = pack("MomentumPlant", &["--set", "orbit.center=pluto"]);
     assert!(text.contains("--set orbit.center=pluto: ") && text.contains("mercury (1), sun (2)"), "{text}");
-    let text = pack("MomentumPlant", &["--set", "orbit.step=1h"]);
-    assert!(text.contains("orbit.step: found 1h, allowed: a number from 1 to 1800 s"), "{text}");
+    let text = pack("MomentumPlant", &["--set", "orbit.step=2d"]);
+    assert!(text.contains("orbit.step: found 2d, allowed: a number from 1 to 86400 s"), "{text}");
     let text = pack("MomentumPlant", &["--set", "orbit.centre=sun"]);
     assert!(text.contains("near it: orbit.center"), "{text}");
     let text = pack("MomentumPlant", &["--set", "torque.total=1,2,3"]);

@@ -16,6 +16,8 @@ use crate::momentum_plant::variables::choices::OrbitFrame;
 pub(super) struct Center {
     /// The body in the centre.
     pub data: BodyData,
+    /// The body that planet.* describe: that of the encounter, else the one in the centre.
+    pub planet: BodyData,
     /// Its surface; Mercury's where it has none.
     pub surface: PlanetSurface,
     /// Elements of the spacecraft's orbit, which count unless position and velocity are inputs.
@@ -41,7 +43,9 @@ impl Center {
     pub(super) fn read(context: &Plan<'_>, values: &Values) -> Self {
         let (planet, orbit) = (&context.variables.planet, &context.variables.orbit);
         let body = context.setup.bodies.body(values.choice(orbit.center).0);
-        let (own, own_surface) = (body.data, body.surface());
+        let encounter = context.variables.encounter.body(orbit, values);
+        let near = encounter.map_or(body, |encounter| context.setup.bodies.body(encounter));
+        let (own, own_surface) = (near.data, near.surface());
         let numbers = [
             planet.gravitational_parameter,
             planet.radius,
@@ -55,7 +59,7 @@ impl Center {
         let given = context.given(values, &[a, b, c, d, e, f, g, h, i, j, k]);
         let radius_m = given.real_or(planet.radius, own_surface.radius_m);
         let surface = planet.surface.read_or(values, given, radius_m, &own_surface);
-        let data = BodyData {
+        let planet = BodyData {
             gm_m3_s2: given.real_or(planet.gravitational_parameter, own.gm_m3_s2),
             radius_m: given.real_or(planet.radius, own.radius_m),
             j2: given.real_or(planet.j2, own.j2),
@@ -74,7 +78,8 @@ impl Center {
         let true_anomaly_rad = values.real(orbit.true_anomaly);
         let own = KeplerElements { true_anomaly_rad, ..body.elements() };
         Self {
-            data,
+            data: if encounter.is_some() { body.data } else { planet },
+            planet,
             surface,
             elements: handles.read_or(given, &own),
             frame: if has_frame { values.choice(orbit.frame).0 } else { body.frame() },
@@ -83,7 +88,7 @@ impl Center {
 
     /// Writes the parameters as they act.
     pub(super) fn write(&self, variables: &PlantVariables, values: &mut Values) {
-        let (planet, data) = (&variables.planet, &self.data);
+        let (planet, data) = (&variables.planet, &self.planet);
         values.set_real(planet.gravitational_parameter, data.gm_m3_s2);
         values.set_real(planet.radius, data.radius_m);
         values.set_real(planet.j2, data.j2);

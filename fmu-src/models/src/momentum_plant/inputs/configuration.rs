@@ -21,6 +21,7 @@ use physics::plant::{
 use physics::spacecraft::PanelControl;
 
 use super::center::Center;
+use super::n_body;
 use crate::common::center::CenterBody;
 use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::ephemeris;
@@ -45,6 +46,7 @@ pub(super) fn read(
     let variables = context.variables;
     let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
     let data = &center.data;
+    let encounter = n_body::check(context, values, center)?;
     let switches = [variables.planet_light.enabled, variables.thermal.recoil.enabled];
     let inertia_body_kg_m2 = inertia_body_kg_m2(values, variables.spacecraft.inertia)?;
     let orbit = orbit(center, variables, values, state, epoch_minus_time_s)?;
@@ -92,15 +94,21 @@ pub(super) fn read(
     Ok(Configuration {
         epoch_minus_time_s,
         center: data.body,
+        encounter,
         attitude: attitude(context, values, state, &orbit)?,
         timeline: followed
             .map(|_| timeline(context.variables, values, data, clock_minus_time_s))
             .transpose()?,
         orbit,
-        motion: motion(variables, values, data, time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s)),
+        motion: motion(
+            variables,
+            values,
+            center,
+            time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s),
+        ),
         ephemeris: ephemeris_source(&context.setup.bodies.body(data.body), context, values, state.waiting)?,
         light: variables.solar.read(values),
-        shadow: variables.eclipse.read(values, data.radius_m, values.real(variables.sun.radius))?,
+        shadow: variables.eclipse.read(values, center.planet.radius_m, values.real(variables.sun.radius))?,
         light_and_heat: RadiationSettings {
             storage: values.boolean(variables.thermal.storage),
             shadowing: values.boolean(variables.shadowing.enabled),
@@ -173,14 +181,20 @@ fn circle(radius_m: f64, gm_m3_s2: f64, epoch_s: f64) -> Result<TwoBodyOrbit, Fa
         .map_err(|error| Failure::new(format!("planet.gravitationalParameter, orbit.position: {error}")))
 }
 
-fn motion(variables: &PlantVariables, values: &Values, center: &BodyData, given_epoch_s: f64) -> Motion {
+fn motion(variables: &PlantVariables, values: &Values, center: &Center, given_epoch_s: f64) -> Motion {
     let orbit = &variables.orbit;
     if matches!(values.choice(orbit.source), OrbitSource::Held) {
         return Motion::Held { state: given_state(variables, values), since_epoch_s: given_epoch_s };
     }
-    if !matches!(values.choice(orbit.dynamics), OrbitDynamics::Disturbed) {
-        return Motion::TwoBody;
+    let feedback = values.boolean(orbit.radiation_feedback);
+    match values.choice(orbit.dynamics) {
+        OrbitDynamics::TwoBody => return Motion::TwoBody,
+        OrbitDynamics::NBody => {
+            return Motion::NBody { gravity: n_body::gravity(variables, values, center), feedback };
+        }
+        OrbitDynamics::Disturbed => {}
     }
+    let center = &center.data;
     let flattening = Flattening::of(center);
     let tide = center.body.is_planet() && values.boolean(orbit.sun_tide);
     let gravity = Gravity {
@@ -188,7 +202,6 @@ fn motion(variables: &PlantVariables, values: &Values, center: &BodyData, given_
         flattening: (flattening.j2 != 0.0).then_some(flattening),
         tide_mu_m3_s2: tide.then_some(constants::GM_SUN_M3_S2),
     };
-    let feedback = values.boolean(orbit.radiation_feedback);
     Motion::Disturbed {
         gravity,
         segment_length_s: values.real(orbit.step),
@@ -231,6 +244,7 @@ fn ephemeris_source(
         EphemerisSource::Chebyshev => match ephemeris::precise(context.setup.ephemeris.as_ref()) {
             Some(carried) => {
                 ephemeris::check_onboard(carried, center.data.body, "start.epoch", epoch_s)?;
+                n_body::check_onboard(variables, values, carried, "start.epoch", epoch_s)?;
                 plant::EphemerisSource::Simulated(carried.clone())
             }
             None => without_table(center, "chebyshev")?,

@@ -3,6 +3,7 @@
 mod center;
 mod configuration;
 mod dynamics;
+mod n_body;
 pub(super) mod propulsion;
 pub(super) mod step_inputs;
 
@@ -145,7 +146,7 @@ fn configured(
         None
     };
     let gm = context.variables.planet.gravitational_parameter;
-    let about_center = |real| if real == gm { center.data.gm_m3_s2 } else { values.real(real) };
+    let about_center = |real| if real == gm { center.planet.gm_m3_s2 } else { values.real(real) };
     let fixed = if is_anew {
         Some(FixedParameters {
             laws: context.variables.laws.read(gm, about_center),
@@ -179,7 +180,8 @@ pub(super) fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), F
     let (variables, spacecraft) = (context.variables, &context.setup.spacecraft);
     let shape = values.choice(variables.sunshade.shape).0;
     let shadows = variables.shadowing.check(values, spacecraft, shape)?;
-    for warning in [shadows, unused_map(spacecraft)].into_iter().flatten() {
+    let encounter = n_body::unused_encounter(variables, values);
+    for warning in [shadows, unused_map(spacecraft), encounter].into_iter().flatten() {
         context.log.warning(&warning);
     }
     center::say_followed(context, values);
@@ -213,7 +215,9 @@ pub(super) fn check_span(
     let epoch_minus_time_s = time::epoch_minus_time_s(values.real(variables.start.epoch), state.start_s);
     let end_epoch_s = time::epoch_at_s(end_s, epoch_minus_time_s);
     let center = values.choice(variables.orbit.center).0;
-    ephemeris::check_onboard(carried, center, "the epoch at the end of the step", end_epoch_s)
+    let end = "the epoch at the end of the step";
+    ephemeris::check_onboard(carried, center, end, end_epoch_s)?;
+    n_body::check_onboard(variables, values, carried, end, end_epoch_s)
 }
 
 /// What light and heat need beyond the configuration; `None` where direct sunlight is all there is.

@@ -14,7 +14,9 @@ use physics::radiation::{TorquePolynomial, polynomial_valid};
 use super::super::inputs::wheel_array;
 use super::super::setup::Plan;
 use super::super::state::PlantState;
+use crate::common::choices::OrbitCenter;
 use crate::common::loads;
+use crate::momentum_plant::variables::motion::EncounterVariables;
 
 /// Writes every output but those of single faces, and what follows from parameters where these are others.
 pub(crate) fn write(context: &Plan<'_>, values: &mut Values, report: &Report<'_>, is_reconfigured: bool) {
@@ -77,6 +79,8 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     values.set_vector(variables.earth.velocity_inertial, earth.velocity_m_s.into());
     values.set_vector(variables.heliocentric.position, instant.geometry.heliocentric_position_m().into());
     values.set_real(variables.orbit.time_since_periapsis, report.since_periapsis_s);
+    values.set_choice(variables.orbit.current_center, OrbitCenter(report.integration_center));
+    write_encounter(&variables.encounter, values, report);
     values.set_real(variables.mass, mass.mass_kg);
     values.set_vector(variables.center_of_mass, mass.center_of_mass_body_m.into());
 
@@ -99,6 +103,25 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
         values.set_real(panel.suns, suns.unwrap_or(0.0));
         values.set_real(panel.corridor_margin, suns.map_or(0.0, |suns| corridor.margin_suns(suns)));
     }
+}
+
+/// The encounter's planet and closest approaches to it.
+fn write_encounter(v: &EncounterVariables, values: &mut Values, report: &Report<'_>) {
+    let Some(encounter) = report.encounter() else {
+        values.set_real(v.last_time, -1.0);
+        return;
+    };
+    values.set_vector(v.position, encounter.body.position_m.into());
+    values.set_vector(v.velocity, encounter.body.velocity_m_s.into());
+    values.set_real(v.distance, encounter.distance_m);
+    let (b_plane, (count, last)) = (encounter.b_plane, report.approaches);
+    values.set_boolean(v.hyperbolic, b_plane.is_some());
+    values.set_real(v.b_t, b_plane.map_or(0.0, |it| it.b_t_m));
+    values.set_real(v.b_r, b_plane.map_or(0.0, |it| it.b_r_m));
+    values.set_real(v.excess_speed, b_plane.map_or(0.0, |it| it.excess_speed_m_s));
+    values.set_integer(v.count, count);
+    values.set_real(v.last_time, last.map_or(-1.0, |it| it.at_s));
+    values.set_real(v.last_altitude, last.map_or(0.0, |it| it.altitude_m));
 }
 
 /// System momentum, wheels, dumps, what swings.

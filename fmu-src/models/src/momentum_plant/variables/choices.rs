@@ -2,10 +2,11 @@
 
 use fmi_export::Enumeration;
 use physics::attitude::control::Allocation;
+use physics::bodies::Body;
 use physics::environment::frames::Frame;
 use physics::spacecraft;
 
-use crate::common::choices::choices;
+use crate::common::choices::{KNOWN_PLANETS, choices, optional_choices};
 
 /// Where the attitude comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
@@ -59,6 +60,13 @@ pub enum OrbitDynamics {
     TwoBody = 1,
     /// Integrated with the planet's flattening, the Sun's tide, and light and heat.
     Disturbed = 2,
+    /// Integrated between the Sun and the planets of orbit.attraction, with light and heat: flight between planets.
+    NBody = 3,
+}
+
+optional_choices! {
+    /// The body of an encounter.
+    EncounterBody(Body) of KNOWN_PLANETS or "None.";
 }
 
 choices! {

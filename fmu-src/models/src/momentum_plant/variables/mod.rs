@@ -6,7 +6,7 @@ mod control;
 pub(super) mod defaults;
 mod effects;
 mod flexibility;
-mod motion;
+pub(super) mod motion;
 mod propulsion;
 mod surroundings;
 
@@ -24,7 +24,10 @@ use effects::{
     DumpVariables, ForceVariables, MomentumVariables, SolverVariables, ThermalVariables, TorqueVariables,
 };
 use flexibility::{FlexibleModeVariables, SloshVariables};
-use motion::{AttitudeVariables, CommandVariables, OrbitVariables, StartVariables, TimelineVariables};
+use motion::{
+    AttitudeVariables, CommandVariables, EncounterVariables, OrbitVariables, StartVariables,
+    TimelineVariables,
+};
 use propulsion::{
     AccelerometerVariables, ManeuverVariables, PropellantVariables, TankVariables, ThrustVariables,
     ThrusterVariables,
@@ -57,6 +60,8 @@ pub struct PlantVariables {
     pub start: StartVariables,
     #[group]
     pub orbit: OrbitVariables,
+    #[group]
+    pub encounter: EncounterVariables,
     #[group]
     pub planet: PlanetVariables,
     #[group]

@@ -1,11 +1,12 @@
 //! Attitude and orbit: where they come from and what they are.
 
-use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Variables};
+use fmi_export::{Boolean, Choice, Integer, Real, RealVector, Values, Variables};
 
 use super::super::setup::PlantSetup;
+use physics::bodies::Body;
 use physics::guidance::modes::guidance_command;
 
-use super::choices::{AttitudeSource, CommandSource, OrbitDynamics, OrbitFrame, OrbitSource};
+use super::choices::{AttitudeSource, CommandSource, EncounterBody, OrbitDynamics, OrbitFrame, OrbitSource};
 use super::defaults;
 use crate::common::choices::custom_body;
 use crate::common::choices::{CommandKind, OrbitCenter};
@@ -96,8 +97,23 @@ pub struct OrbitVariables {
     #[parameter(start = true)]
     pub radiation_feedback: Boolean,
     /// Longest integration step of a disturbed orbit; 300 s keep a revolution of the default orbit to 0.1 mm.
-    #[parameter(unit = "s", min = 1.0, max = 1_800.0, start = 300.0)]
+    #[parameter(unit = "s", min = 1.0, max = 86_400.0, start = 300.0)]
     pub step: Real,
+    #[group]
+    pub attraction: AttractionVariables,
+    /// Whether the Sun's relativity acts with orbit.dynamics nBody: some 100 m in 200 days at 0.5 AU.
+    #[parameter(start = false)]
+    pub relativity: Boolean,
+    /// Whether the path of orbit.dynamics nBody is integrated about the planet within whose sphere of influence it is, else about the
+    /// Sun; otherwise about orbit.center throughout. Positions count from orbit.center either way.
+    #[parameter(start = true)]
+    pub change_center: Boolean,
+    /// Longest integration step of orbit.dynamics nBody; it is halved until orbit.nBodyTolerance holds.
+    #[parameter(unit = "s", display = "h", min = 1.0, max = 864_000.0, start = 86_400.0)]
+    pub n_body_step: Real,
+    /// Error of position that a step of orbit.dynamics nBody may have, by its last Chebyshev term.
+    #[parameter(unit = "m", display = "mm", min = 1e-5, max = 1e6, start = 1e-3)]
+    pub n_body_tolerance: Real,
     /// Frame of the elements; by default the equator of a planet, about the Sun the ecliptic.
     #[parameter(start = OrbitFrame(setup.center.frame()))]
     pub frame: Choice<OrbitFrame>,
@@ -129,6 +145,101 @@ pub struct OrbitVariables {
     /// Time since the last periapsis.
     #[output(unit = "s", display = "h", nominal = 1e4)]
     pub time_since_periapsis: Real,
+    /// The body that the path is integrated about at present; orbit.center but with orbit.dynamics nBody.
+    #[output(items = custom_body(&setup.spacecraft))]
+    pub current_center: Choice<OrbitCenter>,
+}
+
+/// Which bodies attract the spacecraft with orbit.dynamics nBody, beside the Sun and orbit.center.
+#[derive(Variables)]
+pub struct AttractionVariables {
+    /// Whether Mercury does.
+    #[parameter(start = true)]
+    pub mercury: Boolean,
+    /// Whether Venus does.
+    #[parameter(start = true)]
+    pub venus: Boolean,
+    /// Whether the Earth does.
+    #[parameter(start = true)]
+    pub earth: Boolean,
+    /// Whether the Moon does; by VSOP87's Earth and barycentre, or by the FMU's ephemeris.toml.
+    #[parameter(start = true)]
+    pub moon: Boolean,
+    /// Whether Mars does.
+    #[parameter(start = true)]
+    pub mars: Boolean,
+    /// Whether Jupiter does.
+    #[parameter(start = true)]
+    pub jupiter: Boolean,
+}
+
+impl OrbitVariables {
+    /// Whether the spacecraft flies between planets.
+    pub fn is_n_body(&self, values: &Values) -> bool {
+        matches!(values.choice(self.dynamics), OrbitDynamics::NBody)
+    }
+}
+
+impl EncounterVariables {
+    /// The planet of the encounter, which other dynamics do not have.
+    pub fn body(&self, orbit: &OrbitVariables, values: &Values) -> Option<Body> {
+        values.choice(self.body).0.filter(|_| orbit.is_n_body(values))
+    }
+}
+
+impl AttractionVariables {
+    /// The planets with what says whether they attract.
+    pub fn planets(&self) -> [(Body, Boolean); 5] {
+        [
+            (Body::Mercury, self.mercury),
+            (Body::Venus, self.venus),
+            (Body::Earth, self.earth),
+            (Body::Mars, self.mars),
+            (Body::Jupiter, self.jupiter),
+        ]
+    }
+}
+
+/// The planet that the spacecraft is on its way to, with orbit.dynamics nBody.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct EncounterVariables {
+    /// The planet of the encounter, another than orbit.center. Where it is given, planet.*, shadow, light, heat and gravity gradient are
+    /// that planet's.
+    #[parameter(start = EncounterBody(None))]
+    pub body: Choice<EncounterBody>,
+    /// Its position from orbit.center in EME2000; 0 without an encounter, as its velocity and distance.
+    #[output(unit = "m", display = "AU", nominal = 1e11)]
+    pub position: RealVector<3>,
+    /// Its velocity from orbit.center in EME2000.
+    #[output(unit = "m/s", display = "km/s", nominal = 1e4)]
+    pub velocity: RealVector<3>,
+    /// Distance of the spacecraft from its centre.
+    #[output(unit = "m", display = "km", nominal = 1e10)]
+    pub distance: Real,
+    /// Whether the present osculating orbit about it is a hyperbola, of which the next three are.
+    #[output]
+    pub hyperbolic: Boolean,
+    /// Component of B along T: B is where the incoming asymptote meets the plane through the planet's centre across it, T = unit(S x
+    /// N), S along the asymptote, N north of the ecliptic of J2000. Of the hyperbola osculating now: six hours before periapsis and
+    /// there it differs by tens of kilometres.
+    #[output(unit = "m", display = "km", nominal = 1e7)]
+    pub b_t: Real,
+    /// Component of B along R = S x T.
+    #[output(unit = "m", display = "km", nominal = 1e7)]
+    pub b_r: Real,
+    /// Speed far from the planet.
+    #[output(unit = "m/s", display = "km/s", nominal = 1e3)]
+    pub excess_speed: Real,
+    /// How many closest approaches within the planet's sphere of influence are over.
+    #[output]
+    pub count: Integer,
+    /// Time of the last one; -1 before any.
+    #[output(unit = "s", display = "d", nominal = 1e6)]
+    pub last_time: Real,
+    /// Its altitude above planet.radius; 0 before any.
+    #[output(unit = "m", display = "km", nominal = 1e6)]
+    pub last_altitude: Real,
 }
 
 /// Commands over time.

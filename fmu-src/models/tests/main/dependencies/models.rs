@@ -207,9 +207,21 @@ impl<M: Model> Search<M> {
     }
 }
 
-/// Downlinks of a strategy end before the next begins; no rotor out of balance, which makes for short segments.
+/// Downlinks of a strategy end before the next begins; no rotor out of balance, which makes for short segments. Flight between
+/// planets has planets, and none in the centre that it is on its way to.
 fn prepare_plant(bench: &Bench<MomentumPlant>, values: &mut Tables) {
     bench.put(values, "guided.downlinkEnd", 12_000.0);
+    let at = |name: &str| bench.variables.iter().position(|it| it.name == name).unwrap();
+    let [dynamics, encounter, center] = ["orbit.dynamics", "encounter.body", "orbit.center"].map(at);
+    if bench.read(values, dynamics) == 3.0 {
+        bench.put(values, "ephemeris.source", 1.0);
+        if bench.read(values, at("ephemeris.source")) != 1.0 {
+            bench.write(values, dynamics, 2.0);
+        }
+        if bench.read(values, encounter) == bench.read(values, center) {
+            bench.write(values, encounter, 0.0);
+        }
+    }
     if !bench.variables.iter().any(|it| it.name == "wheel[3].capacity") {
         let at = bench.variables.iter().position(|it| it.name == "attitude.source").unwrap();
         if bench.read(values, at) == 3.0 {

@@ -1,6 +1,6 @@
 //! The onboard ephemeris, from its file; every problem is reported by file, line, key, what was found and what is allowed.
 
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, Vector3};
 
 use super::coarse::{COARSE_TERMS, CoarseElements};
 use super::description::{BodyDescription, CoarseDescription, Description, Frame, SegmentDescription};
@@ -125,6 +125,13 @@ impl OnboardEphemeris {
         Some(span_s)
     }
 
+    /// The first end of a segment of a precise model after an epoch, in s past J2000 TDB; within a microsecond of one, the one behind
+    /// it; infinite where none is.
+    pub fn smooth_until_s(&self, epoch_s: f64) -> f64 {
+        let ends = self.precise.iter().map(|body| body.motion.smooth_until_s(epoch_s + 1e-6));
+        ends.fold(f64::INFINITY, f64::min)
+    }
+
     /// Position and velocity of `target` from `center` by the precise models, in EME2000; `None` outside their span and
     /// where nothing joins them.
     pub fn state(&self, target: OnboardTarget, center: Body, epoch_s: f64) -> Option<CartesianState> {
@@ -152,6 +159,29 @@ impl OnboardEphemeris {
         let state = self.state(target, center, inside_s)?;
         let position_m = state.position_m + state.velocity_m_s * (epoch_s - inside_s);
         Some(CartesianState { position_m, ..state })
+    }
+
+    /// The second derivative of the position of `target` from `center` by the precise models, in m/s2, EME2000: 0 beyond their
+    /// span, as [`OnboardEphemeris::state_carried_on`] goes on; `None` where nothing joins them.
+    pub fn acceleration_m_s2(
+        &self,
+        target: OnboardTarget,
+        center: Body,
+        epoch_s: f64,
+    ) -> Option<Vector3<f64>> {
+        let [start_s, end_s] = self.span_s(target, center)?;
+        if !(start_s..=end_s).contains(&epoch_s) {
+            return Some(Vector3::zeros());
+        }
+        let [mut up, mut down] = [Vector3::zeros(); 2];
+        let center = center.into();
+        for (from, other, sum) in [(target, center, &mut up), (center, target, &mut down)] {
+            self.climb(from, other, |body| {
+                *sum += body.motion.acceleration_m_s2(epoch_s)?;
+                Some(())
+            })?;
+        }
+        Some(up - down)
     }
 
     /// Position and velocity by the coarse model of a target about its own centre; `None` without one or outside its span.

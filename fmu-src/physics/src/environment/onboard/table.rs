@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use crate::environment::CartesianState;
-use crate::numerics::chebyshev::series_at;
+use crate::numerics::chebyshev::{curvature_at, series_at};
 
 /// A polynomial of position.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +29,13 @@ impl EphemerisSegment {
             position_m: Vector3::from(position_m),
             velocity_m_s: Vector3::from(slope_m) * (2.0 / length_s),
         }
+    }
+
+    /// The second derivative of the position at an epoch inside, in m/s2.
+    fn acceleration_m_s2(&self, epoch_s: f64) -> Vector3<f64> {
+        let length_s = self.end_s - self.start_s;
+        let x = ((epoch_s - self.start_s) - (self.end_s - epoch_s)) / length_s;
+        Vector3::from(curvature_at(&self.coefficients_m, x)) * (4.0 / (length_s * length_s))
     }
 }
 
@@ -64,8 +71,23 @@ impl SegmentTable {
 
     /// Position and velocity; `None` outside the span.
     pub fn state(&self, epoch_s: f64) -> Option<CartesianState> {
+        self.segment(epoch_s).map(|segment| segment.state(epoch_s))
+    }
+
+    /// The second derivative of the position, in m/s2; `None` outside the span.
+    pub fn acceleration_m_s2(&self, epoch_s: f64) -> Option<Vector3<f64>> {
+        self.segment(epoch_s).map(|segment| segment.acceleration_m_s2(epoch_s))
+    }
+
+    /// The first end of a segment after an epoch; infinite behind the last one.
+    pub fn smooth_until_s(&self, epoch_s: f64) -> f64 {
+        let ended = self.segments.partition_point(|segment| segment.end_s <= epoch_s);
+        self.segments.get(ended).map_or(f64::INFINITY, |segment| segment.end_s)
+    }
+
+    fn segment(&self, epoch_s: f64) -> Option<&EphemerisSegment> {
         let begun = self.segments.partition_point(|segment| segment.start_s <= epoch_s);
         let segment = self.segments.get(begun.checked_sub(1)?)?;
-        (epoch_s <= segment.end_s).then(|| segment.state(epoch_s))
+        (epoch_s <= segment.end_s).then_some(segment)
     }
 }

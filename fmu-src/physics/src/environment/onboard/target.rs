@@ -27,6 +27,8 @@ pub enum OnboardTarget {
     Custom,
     /// The spacecraft.
     Spacecraft,
+    /// The Moon.
+    Moon,
 }
 
 impl OnboardTarget {
@@ -34,10 +36,10 @@ impl OnboardTarget {
     const BODIES: [Self; Body::COUNT] =
         [Self::Sun, Self::Mercury, Self::Venus, Self::Earth, Self::Mars, Self::Jupiter, Self::Custom];
     /// As they are written in the file.
-    const NAMES: [&str; Body::COUNT + 1] =
-        ["sun", "mercury", "venus", "earth", "mars", "jupiter", "custom", "spacecraft"];
+    const NAMES: [&str; Body::COUNT + 2] =
+        ["sun", "mercury", "venus", "earth", "mars", "jupiter", "custom", "spacecraft", "moon"];
 
-    /// The body; `None` for the spacecraft.
+    /// The body; `None` for the spacecraft and for the Moon, about which nothing flies.
     pub fn body(self) -> Option<Body> {
         let all = Body::ALL.into_iter().chain([Body::Custom]);
         all.into_iter().find(|body| Self::from(*body) == self)

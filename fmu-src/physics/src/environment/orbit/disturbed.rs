@@ -7,92 +7,16 @@ use thiserror::Error;
 
 use super::deviation::{Deviation, NODES, TERMS};
 use super::elements::{OrbitError, check, check_mu};
+use super::gravity::Gravity;
+use super::n_body::{BodyPlaces, Collision, IntegrationCenter, NBodyGravity, Reached, pack, unpack};
 use crate::{
-    bodies::BodyData,
-    constants::GM_SUN_M3_S2,
+    bodies::Body,
     environment::CartesianState,
     numerics::{
         chebyshev::Segment,
-        collocation::{Collocation, IntegrationError, SegmentChain},
+        collocation::{Collocation, IntegrationError, SegmentChain, edge_after_s},
     },
 };
-
-/// Flattening of the central body.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Flattening {
-    /// Second zonal harmonic J2, unnormalised.
-    pub j2: f64,
-    /// Radius to which J2 refers, m.
-    pub reference_radius_m: f64,
-    /// North pole, unit vector in EME2000.
-    pub pole: Vector3<f64>,
-}
-
-impl Flattening {
-    /// That of a body.
-    pub fn of(body: &BodyData) -> Self {
-        Self { j2: body.j2, reference_radius_m: body.j2_radius_m, pole: body.pole() }
-    }
-}
-
-/// What pulls on a spacecraft about a body.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Gravity {
-    /// Gravitational parameter of the central body, m3/s2.
-    pub mu_m3_s2: f64,
-    /// Its flattening, if that counts.
-    pub flattening: Option<Flattening>,
-    /// Gravitational parameter of a distant body (the Sun) whose tide counts, m3/s2.
-    pub tide_mu_m3_s2: Option<f64>,
-}
-
-impl Gravity {
-    /// A point mass and nothing else.
-    pub fn point_mass(mu_m3_s2: f64) -> Self {
-        Self { mu_m3_s2, flattening: None, tide_mu_m3_s2: None }
-    }
-
-    /// A planet with its flattening and the Sun's tide.
-    pub fn of(planet: &BodyData) -> Self {
-        Self {
-            mu_m3_s2: planet.gm_m3_s2,
-            flattening: Some(Flattening::of(planet)),
-            tide_mu_m3_s2: Some(GM_SUN_M3_S2),
-        }
-    }
-
-    /// Acceleration in EME2000, m/s2, at a position relative to the central body; `tide_body_m` is the position of the
-    /// distant body relative to the central one.
-    pub fn acceleration_m_s2(&self, position_m: &Vector3<f64>, tide_body_m: &Vector3<f64>) -> Vector3<f64> {
-        let distance_squared = position_m.norm_squared();
-        let inverse = 1.0 / distance_squared.sqrt();
-        let point = self.mu_m3_s2 * inverse * inverse * inverse;
-        let mut sum = position_m * -point;
-        if let Some(Flattening { j2, reference_radius_m, pole }) = self.flattening {
-            // Gradient of -(mu / r) J2 (R / r)^2 (3 sin^2(latitude) - 1) / 2.
-            let sin_latitude = position_m.dot(&pole) * inverse;
-            let ratio = reference_radius_m * inverse;
-            let factor = 1.5 * j2 * ratio * ratio * point;
-            sum += position_m * (factor * (5.0 * sin_latitude * sin_latitude - 1.0));
-            sum -= pole * (2.0 * factor * sin_latitude / inverse);
-        }
-        if let Some(mu) = self.tide_mu_m3_s2 {
-            sum += tide_m_s2(position_m, tide_body_m, mu);
-        }
-        sum
-    }
-}
-
-/// Acceleration by a distant body relative to the centre's own fall toward it, m/s2:
-/// `mu (d / |d|^3 - s / |s|^3)` with `d = s - r`, in Battin's form that does not cancel.
-pub fn tide_m_s2(position_m: &Vector3<f64>, tide_body_m: &Vector3<f64>, mu_m3_s2: f64) -> Vector3<f64> {
-    let to_body = tide_body_m - position_m;
-    let distance = to_body.norm();
-    let q = position_m.dot(&(position_m - tide_body_m * 2.0)) / tide_body_m.norm_squared();
-    // (1 + q)^(3/2) - 1
-    let f = q * (3.0 + q * (3.0 + q)) / (1.0 + (1.0 + q) * (1.0 + q).sqrt());
-    (position_m + tide_body_m * f) * (-mu_m3_s2 / (distance * distance * distance))
-}
 
 /// Why an integrated orbit ends.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -103,6 +27,9 @@ pub enum OrbitIntegrationError {
     /// A segment could not be integrated.
     #[error(transparent)]
     Integration(#[from] IntegrationError),
+    /// The spacecraft is inside a body, or hits one.
+    #[error(transparent)]
+    Collision(#[from] Collision),
     /// The spacecraft reached the surface.
     #[error(
         "at {at_s} s the spacecraft is {distance_m} m from the planet's centre, inside the planet of radius {radius_m} m"
@@ -132,6 +59,8 @@ pub struct DisturbedOrbit {
     radius_m: f64,
     /// By thrust within the present segment; absent without.
     deviation: Option<Deviation>,
+    /// The body that the segments count from, between several of them; absent where that never changes.
+    center: Option<IntegrationCenter>,
 }
 
 impl DisturbedOrbit {
@@ -161,7 +90,26 @@ impl DisturbedOrbit {
         let start = pack(state);
         start.iter().try_for_each(|x| check("position or velocity", *x, x.is_finite(), "finite numbers"))?;
         check_above(state.position_m.norm(), start_s, radius_m)?;
-        Ok(Self { chain: SegmentChain::new(segment_length_s, start_s, start), radius_m, deviation: None })
+        let chain = SegmentChain::new(segment_length_s, start_s, start);
+        Ok(Self { chain, radius_m, deviation: None, center: None })
+    }
+
+    /// A spacecraft at `state` at `start_s` from the body that positions count from, between all bodies of `gravity`.
+    ///
+    /// # Errors
+    /// A length or time that cannot be; a start inside a body shows where the orbit is advanced.
+    pub fn between_bodies(
+        state: &CartesianState,
+        start_s: f64,
+        gravity: &NBodyGravity,
+    ) -> Result<Self, OrbitIntegrationError> {
+        let center = Some(IntegrationCenter::new(gravity.center));
+        Ok(Self { center, ..Self::new(state, start_s, gravity.cell_s, 0.0)? })
+    }
+
+    /// The body that the present segment counts from, where that may change.
+    pub fn integration_center(&self) -> Option<Body> {
+        self.center.as_ref().map(|center| center.body)
     }
 
     /// Rejects decoded states that no simulation can produce.
@@ -169,6 +117,7 @@ impl DisturbedOrbit {
         self.chain.is_valid()
             && self.radius_m >= 0.0
             && self.deviation.as_ref().is_none_or(Deviation::is_valid)
+            && self.center.as_ref().is_none_or(IntegrationCenter::is_valid)
     }
 
     /// How far the integration has come, s.
@@ -188,6 +137,13 @@ impl DisturbedOrbit {
 
     /// Position and velocity at a time of the present segment.
     pub fn state_at(&self, at_s: f64) -> CartesianState {
+        let own = self.own_state_at(at_s);
+        let away = self.center.as_ref().and_then(|center| center.offset_at(at_s));
+        away.map_or(own, |away| own + away)
+    }
+
+    /// The same from the body that the present segment counts from.
+    fn own_state_at(&self, at_s: f64) -> CartesianState {
         let reference = self.chain.value(at_s);
         unpack(&self.deviation.map_or(reference, |deviation| reference + deviation.value(at_s)))
     }
@@ -246,7 +202,7 @@ impl DisturbedOrbit {
         check_mu(gravity.mu_m3_s2)?;
         let mut next = self.chain;
         if self.deviation.is_some() {
-            next.cut(next.end_s(), pack(&self.state_at(next.end_s())));
+            next.cut(next.end_s(), pack(&self.own_state_at(next.end_s())));
         }
         next.advance_to(&method.0, limit_s, |at_s, y| {
             let state = unpack(y);
@@ -265,13 +221,86 @@ impl DisturbedOrbit {
         Ok(())
     }
 
+    /// Integrates one more segment between several bodies, to `limit_s` if that comes first, or to where the spacecraft comes
+    /// into a sphere of influence or leaves it: there the next one counts from another body. The segment's length is halved until
+    /// its position is as good as `gravity` says, so that it ends at a multiple of that. `extra_m_s2(t)` is any further
+    /// acceleration, EME2000. Gives how often a segment was integrated.
+    ///
+    /// # Errors
+    /// [`OrbitIntegrationError`]; the orbit stays as it was.
+    pub fn advance_between_bodies(
+        &mut self,
+        limit_s: f64,
+        method: &OrbitMethod,
+        gravity: &NBodyGravity,
+        places: &mut impl BodyPlaces,
+        mut extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
+    ) -> Result<u32, OrbitIntegrationError> {
+        let mut chain = self.chain;
+        let start_s = chain.end_s();
+        let limit_s = limit_s.min(places.smooth_until_s(start_s));
+        let mut state = self.own_state_at(start_s);
+        let mut center = self.center.unwrap_or(IntegrationCenter::new(gravity.center));
+        let body = center.next_body(gravity, &state, start_s, places)?;
+        if body != center.body {
+            let [before, after] = [center.body, body].map(|body| places.heliocentric(body, start_s));
+            state = state + (before - after);
+            center.body = body;
+        }
+        if self.deviation.is_some() || self.center.is_none_or(|before| before.body != body) {
+            chain.cut(start_s, pack(&state));
+        }
+        let mut integrate = |to_s: f64, places: &mut _| {
+            let mut next = chain;
+            next.advance_to(&method.0, to_s, |at_s, y| {
+                let state = unpack(y);
+                let acceleration_m_s2 =
+                    gravity.acceleration_m_s2(body, at_s, &state, places) + extra_m_s2(at_s);
+                pack(&CartesianState { position_m: state.velocity_m_s, velocity_m_s: acceleration_m_s2 })
+            })?;
+            Ok::<_, IntegrationError>(next)
+        };
+        center.level = center.level.saturating_sub(1);
+        let mut count = 0;
+        let mut next = loop {
+            let length_s = gravity.cell_s / f64::from(1_u32 << center.level);
+            let to_s = edge_after_s(start_s, length_s).min(limit_s);
+            count += 1;
+            let may_halve = center.level < IntegrationCenter::FINEST;
+            match integrate(to_s, places) {
+                Ok(next) if !may_halve || gravity.is_resolved(next.segment()) => break next,
+                Err(error) if !may_halve => return Err(error.into()),
+                Ok(_) | Err(IntegrationError::NotConverged { .. }) => center.level += 1,
+                Err(error) => return Err(error.into()),
+            }
+        };
+        center.reaches = None;
+        let path = |next: &SegmentChain<6, TERMS>, at_s: f64| unpack(&next.value(at_s));
+        let span_s = [start_s, next.end_s()];
+        if let Some(reached) = gravity.sphere_reached(body, span_s, |at_s| path(&next, at_s), places)
+            && reached.at_s > start_s
+        {
+            count += 1;
+            next = integrate(reached.at_s, places)?;
+            center.reaches = Some(Reached { at_s: next.end_s(), ..reached });
+        }
+        let span_s = [start_s, next.end_s()];
+        gravity.check_above(body, span_s, |at_s| path(&next, at_s), places)?;
+        center.set_offset(gravity.center, span_s, places);
+        (self.chain, self.deviation, self.center) = (next, None, Some(center));
+        Ok(count)
+    }
+
     /// Ends the present segment at `at_s`, within it: what was computed beyond is void, because an acceleration changes
     /// there, or the velocity jumps by `delta_v_m_s`.
     pub fn cut(&mut self, at_s: f64, delta_v_m_s: &Vector3<f64>) {
-        let mut state = self.state_at(at_s);
+        let mut state = self.own_state_at(at_s);
         state.velocity_m_s += delta_v_m_s;
         self.chain.cut(at_s, pack(&state));
         self.deviation = None;
+        if let Some(center) = &mut self.center {
+            center.cut(at_s);
+        }
     }
 }
 
@@ -280,17 +309,5 @@ fn check_above(distance_m: f64, at_s: f64, radius_m: f64) -> Result<(), OrbitInt
         Err(OrbitIntegrationError::Impact { at_s, distance_m, radius_m })
     } else {
         Ok(())
-    }
-}
-
-fn pack(state: &CartesianState) -> SVector<f64, 6> {
-    let (r, v) = (state.position_m, state.velocity_m_s);
-    SVector::from([r.x, r.y, r.z, v.x, v.y, v.z])
-}
-
-fn unpack(y: &SVector<f64, 6>) -> CartesianState {
-    CartesianState {
-        position_m: Vector3::new(y[0], y[1], y[2]),
-        velocity_m_s: Vector3::new(y[3], y[4], y[5]),
     }
 }

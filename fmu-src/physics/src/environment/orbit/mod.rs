@@ -1,13 +1,22 @@
-//! Spacecraft orbits: Kepler's equation, elements and state, two-body motion in closed form, disturbed motion integrated.
+//! Spacecraft orbits: Kepler's equation, elements and state, two-body motion in closed form, disturbed motion integrated, about one
+//! body or between several.
 
+mod b_plane;
 mod deviation;
 mod disturbed;
 #[cfg(test)]
 mod disturbed_tests;
 mod elements;
+mod gravity;
 pub mod kepler;
+mod n_body;
+#[cfg(test)]
+mod n_body_tests;
 mod two_body;
 
-pub use disturbed::{DisturbedOrbit, Flattening, Gravity, OrbitIntegrationError, OrbitMethod, tide_m_s2};
+pub use b_plane::BPlane;
+pub use disturbed::{DisturbedOrbit, OrbitIntegrationError, OrbitMethod};
 pub use elements::{Elements, OrbitError, period_s, semi_major_axis_m};
+pub use gravity::{Flattening, Gravity, tide_m_s2};
+pub use n_body::{BodyPlaces, Collision, NBodyGravity, NBodySettings};
 pub use two_body::TwoBodyOrbit;

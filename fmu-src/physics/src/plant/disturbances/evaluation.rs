@@ -29,7 +29,7 @@ use crate::plant::light::sunlit::SunlitCraft;
 use crate::plant::motion::instant::Instant;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::motion::panel_motion::Hinged;
-use crate::plant::settings::configuration::{AttitudeSource, Configuration, Motion};
+use crate::plant::settings::configuration::{AttitudeSource, Configuration};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::work::{Cost, Work};
 
@@ -67,8 +67,8 @@ impl Evaluation {
     /// A place inside one of them.
     pub fn check(&self, time_s: f64) -> Result<(), PlantError> {
         let geometry = &self.instant.geometry;
-        let planet_is_outside =
-            geometry.to_planet.is_none() || geometry.sun_from_center().position_m.norm() > RADIUS_SUN_M;
+        let is_outside = |planet| (geometry.to_sun - planet).position_m.norm() > RADIUS_SUN_M;
+        let planet_is_outside = geometry.to_planet.is_none_or(is_outside);
         let is_somewhere = self.instant.sun_distance_m > RADIUS_SUN_M
             && planet_is_outside
             && self.instant.lit_fraction.is_finite()
@@ -330,7 +330,7 @@ impl<'a> Plant<'a> {
         self.kinematics.trajectory.leave(self.kinematics.configuration, start_s);
         let before = *self.kinematics.trajectory;
         self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
-        if let Motion::Disturbed { feedback: true, .. } = self.kinematics.configuration.motion {
+        if self.kinematics.configuration.motion.is_pushed() {
             let lit_s = self.extend_radiation(start_s, self.kinematics.trajectory.end_s())?;
             let end_s = self.kinematics.smooth_until(start_s, lit_s);
             let acceleration_m_s2 =
@@ -354,7 +354,14 @@ impl<'a> Plant<'a> {
         extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
     ) -> Result<(), PlantError> {
         let Kinematics { configuration, trajectory, ephemeris, .. } = &mut self.kinematics;
-        Ok(trajectory.advance(configuration, ephemeris, self.prepared.orbit_method, limit_s, extra_m_s2)?)
+        let method = self.prepared.orbit_method;
+        let shortened = trajectory.advance(configuration, ephemeris, method, limit_s, extra_m_s2)?;
+        if shortened > 0 {
+            // Between bodies a segment is tried until it is short enough: some 40 times the gravity of all of them a trial.
+            let end_s = self.kinematics.trajectory.end_s();
+            self.kinematics.spend_units(Cost::Orbit, 60 * shortened, end_s)?;
+        }
+        Ok(())
     }
 }
 

@@ -30,7 +30,7 @@ use crate::momentum::Totals;
 use crate::loads::ForceTorque;
 use crate::plant::disturbances::evaluation::{Evaluation, Plant, PreparedSpacecraft, World};
 use crate::plant::motion::instant::Instant;
-use crate::plant::settings::configuration::{Command, Configuration, Motion};
+use crate::plant::settings::configuration::{Command, Configuration};
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::ideal_settings::IdealSettings;
@@ -209,7 +209,7 @@ impl Flight {
         let Some(setup) = self.setup.as_deref_mut() else { return Err(PlantError::OtherMode) };
         let so_far = &setup.world.configuration;
         // On a disturbed orbit the mass tells where the spacecraft goes.
-        let pushed = changes.force && matches!(so_far.motion, Motion::Disturbed { feedback: true, .. });
+        let pushed = changes.force && so_far.motion.is_pushed();
         match &mut self.mode {
             Mode::Waiting => {}
             Mode::Ideal(ideal) => {
@@ -418,6 +418,8 @@ impl Flight {
             timeline_row,
             target_is_clamped,
             evaluation,
+            integration_center: propagator.trajectory.integration_center(configuration),
+            approaches: propagator.trajectory.approaches_until(time_s),
             shown,
         })
     }

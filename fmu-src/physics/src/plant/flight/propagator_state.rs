@@ -8,7 +8,7 @@ use super::sun_choice::SunChoice;
 use crate::environment::orbit::OrbitError;
 use crate::plant::light::radiation_segment::RadiationSegment;
 use crate::plant::motion::trajectory::Trajectory;
-use crate::plant::settings::configuration::{Configuration, Motion};
+use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::error::PlantError;
 
 /// State of the propagator, beside the totals of the momentum integrator. Serialisable and complete: together with the
@@ -69,7 +69,7 @@ impl PropagatorState {
         jump_m_s: &Vector3<f64>,
     ) {
         // An orbit that light and forces act on goes elsewhere from here.
-        let orbit_changes = matches!(configuration.motion, Motion::Disturbed { feedback: true, .. });
+        let orbit_changes = configuration.motion.is_pushed();
         let taken_m_s = if orbit_changes { *jump_m_s } else { Vector3::zeros() };
         self.trajectory.cut(configuration, time_s, &taken_m_s);
         if let Some(light) = self.light.as_mut().filter(|_| light_changes || orbit_changes) {

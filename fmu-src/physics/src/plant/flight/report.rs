@@ -4,9 +4,13 @@ use nalgebra::Vector3;
 
 use crate::attitude::control::Estimate;
 use crate::attitude::{Appendages, Attitude, BodyMotion, motor_power_w, wheel_speed_rad_s};
+use crate::bodies::Body;
+use crate::environment::CartesianState;
+use crate::environment::orbit::BPlane;
 use crate::guidance::DownlinkStatus;
 use crate::momentum::{DumpSpacing, Dumps, SourceMomenta, Totals};
 use crate::plant::disturbances::evaluation::Evaluation;
+use crate::plant::motion::approaches::Approach;
 use crate::plant::settings::configuration::Configuration;
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
 use crate::plant::settings::ideal_settings::IdealSettings;
@@ -33,8 +37,38 @@ pub struct Report<'a> {
     pub target_is_clamped: bool,
     /// Where everything is and what acts.
     pub evaluation: &'a Evaluation,
+    /// The body that the path is integrated about.
+    pub integration_center: Body,
+    /// Closest approaches to the encounter's body so far, and the last of them.
+    pub approaches: (i32, Option<Approach>),
     /// Momentum, dumps, sensors and control.
     pub shown: Shown<'a>,
+}
+
+/// The encounter's body at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EncounterReport {
+    /// From the orbit's centre, EME2000.
+    pub body: CartesianState,
+    /// Distance of the spacecraft from its centre, in m.
+    pub distance_m: f64,
+    /// The osculating hyperbola about it; `None` where it is none.
+    pub b_plane: Option<BPlane>,
+}
+
+impl Report<'_> {
+    /// The encounter's body; `None` without one, or while the flight waits.
+    pub fn encounter(&self) -> Option<EncounterReport> {
+        let encounter = self.configuration.encounter?;
+        let geometry = &self.evaluation.instant.geometry;
+        let body = geometry.to_planet? + geometry.spacecraft;
+        let from_body = geometry.spacecraft - body;
+        Some(EncounterReport {
+            body,
+            distance_m: from_body.position_m.norm(),
+            b_plane: BPlane::of(&from_body, encounter.gm_m3_s2),
+        })
+    }
 }
 
 /// What depends on how the attitude comes about.

@@ -39,7 +39,7 @@ impl RadiationSolver {
         let mut simulated = spacecraft.clone();
         simulated.panels = panels.iter().map(|&index| spacecraft.panels[index].clone()).collect();
         let effects = &configuration.light_and_heat;
-        let over_planet = configuration.effects.has(Effect::Albedo) && configuration.center.is_planet();
+        let over_planet = configuration.effects.has(Effect::Albedo) && configuration.planet().is_some();
         let options = Options {
             planet: over_planet.then_some(*planet),
             planet_light: PlanetLightMethod::Rings(quadrature_nodes),

@@ -7,6 +7,8 @@ use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::bodies_from_center::{BodiesFromCenter, fixed};
 use crate::environment::ephemeris::Ephemeris;
+use crate::environment::onboard::OnboardTarget;
+use crate::environment::orbit::BodyPlaces;
 use crate::guidance::LinesOfSight;
 
 use crate::plant::settings::configuration::{Configuration, EphemerisSource};
@@ -18,7 +20,7 @@ pub struct Geometry {
     pub spacecraft: CartesianState,
     /// From the spacecraft to the Sun.
     pub to_sun: CartesianState,
-    /// From the spacecraft to the planet, if it orbits one.
+    /// From the spacecraft to the planet, if it orbits or meets one.
     pub to_planet: Option<CartesianState>,
     /// From the spacecraft to the Earth.
     pub to_earth: CartesianState,
@@ -34,11 +36,14 @@ impl Geometry {
     ) -> Self {
         let epoch_s = time_s + configuration.epoch_minus_time_s;
         let (sun, earth) = sun_and_earth(configuration, ephemeris, epoch_s);
-        let planet = configuration.center.is_planet();
+        let planet = configuration.planet().map(|planet| match planet == configuration.center {
+            true => CartesianState::default(),
+            false => body(configuration, ephemeris, planet, epoch_s),
+        });
         Self {
             spacecraft,
             to_sun: sun - spacecraft,
-            to_planet: planet.then(|| CartesianState::default() - spacecraft),
+            to_planet: planet.map(|planet| planet - spacecraft),
             to_earth: earth - spacecraft,
         }
     }
@@ -115,4 +120,63 @@ pub(crate) fn sun_and_earth(
         EphemerisSource::Kepler(planet) => Some(*planet),
     };
     BodiesFromCenter { center: configuration.center, ellipse, custom: None }.sun_and_earth(ephemeris, epoch_s)
+}
+
+/// Sun, planets and Moon by the flight's ephemeris and clock.
+pub(crate) struct PlacesInFlight<'a> {
+    pub configuration: &'a Configuration,
+    pub ephemeris: &'a mut Ephemeris,
+}
+
+impl PlacesInFlight<'_> {
+    fn epoch_s(&self, at_s: f64) -> f64 {
+        at_s + self.configuration.epoch_minus_time_s
+    }
+}
+
+impl BodyPlaces for PlacesInFlight<'_> {
+    fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
+        let epoch_s = self.epoch_s(at_s);
+        match &self.configuration.ephemeris {
+            _ if body == Body::Sun => CartesianState::default(),
+            EphemerisSource::Simulated(carried) => carried
+                .state_carried_on(body.into(), Body::Sun, epoch_s)
+                .unwrap_or_else(|| fixed(Vector3::repeat(f64::NAN))),
+            EphemerisSource::Kepler(planet) if body == Body::Custom => planet.state(epoch_s),
+            _ => self.ephemeris.state(body, epoch_s),
+        }
+    }
+
+    fn acceleration_m_s2(&mut self, body: Body, at_s: f64) -> Vector3<f64> {
+        let epoch_s = self.epoch_s(at_s);
+        match &self.configuration.ephemeris {
+            _ if body == Body::Sun => Vector3::zeros(),
+            EphemerisSource::Simulated(carried) => {
+                let found = carried.acceleration_m_s2(body.into(), Body::Sun, epoch_s);
+                found.unwrap_or_else(|| Vector3::repeat(f64::NAN))
+            }
+            EphemerisSource::Kepler(planet) if body == Body::Custom => planet.acceleration_m_s2(epoch_s),
+            _ => self.ephemeris.acceleration_m_s2(body, epoch_s),
+        }
+    }
+
+    fn smooth_until_s(&self, at_s: f64) -> f64 {
+        let epoch_s = self.epoch_s(at_s);
+        let until_epoch_s = match &self.configuration.ephemeris {
+            EphemerisSource::Simulated(carried) => carried.smooth_until_s(epoch_s),
+            _ => Ephemeris::smooth_until_s(epoch_s),
+        };
+        until_epoch_s - self.configuration.epoch_minus_time_s
+    }
+
+    fn moon_from_earth_m(&mut self, at_s: f64) -> Vector3<f64> {
+        let epoch_s = self.epoch_s(at_s);
+        match &self.configuration.ephemeris {
+            EphemerisSource::Simulated(carried) => {
+                let found = carried.state_carried_on(OnboardTarget::Moon, Body::Earth, epoch_s);
+                found.map_or_else(|| Vector3::repeat(f64::NAN), |moon| moon.position_m)
+            }
+            _ => self.ephemeris.moon_from_earth(epoch_s).position_m,
+        }
+    }
 }

@@ -126,10 +126,8 @@ impl Kinematics<'_> {
 
     /// Visible part of the Sun's disc and the gaps of the shadow.
     fn light_fraction(&self, geometry: &Geometry) -> (f64, [f64; 2]) {
-        if geometry.to_planet.is_none() {
-            return (1.0, [f64::INFINITY; 2]);
-        }
-        let spacecraft_m = geometry.spacecraft.position_m;
+        let Some(to_planet) = geometry.to_planet else { return (1.0, [f64::INFINITY; 2]) };
+        let spacecraft_m = -to_planet.position_m;
         let sun_m = spacecraft_m + geometry.to_sun.position_m;
         self.configuration.shadow.fraction_and_gaps(&spacecraft_m, &sun_m)
     }
@@ -303,6 +301,10 @@ impl Kinematics<'_> {
             Motion::TwoBody => Some(*self.trajectory.two_body(configuration)),
             Motion::Disturbed { gravity, .. } => {
                 TwoBodyOrbit::from_state(&now, gravity.mu_m3_s2, from_epoch_s).ok()
+            }
+            Motion::NBody { .. } => {
+                let gm_m3_s2 = configuration.orbit.mu_m3_s2();
+                TwoBodyOrbit::from_state(&now, gm_m3_s2, from_epoch_s).ok()
             }
             Motion::Held { .. } => None,
         };

@@ -1,5 +1,6 @@
 //! Where the spacecraft is and how it moves: orbit, geometry, attitude, turning panels.
 
+pub(super) mod approaches;
 pub(super) mod geometry;
 pub(super) mod instant;
 pub(super) mod kinematics;

@@ -3,17 +3,19 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::bodies::Body;
 use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::{
-    DisturbedOrbit, OrbitError, OrbitIntegrationError, OrbitMethod, TwoBodyOrbit,
+    BodyPlaces, DisturbedOrbit, OrbitError, OrbitIntegrationError, OrbitMethod, TwoBodyOrbit,
 };
 use crate::guidance::Window;
 use crate::numerics::roots;
 use crate::numerics::spacing::spacing;
 
-use super::geometry;
-use crate::plant::settings::configuration::{Configuration, Motion};
+use super::approaches::{Approach, Approaches};
+use super::geometry::{self, PlacesInFlight};
+use crate::plant::settings::configuration::{Configuration, Encounter, Motion};
 
 /// Two passages closer together than this part of a revolution are one, found twice.
 const SAME_PASSAGE: f64 = 1e-3;
@@ -35,6 +37,8 @@ pub struct Trajectory {
     /// The two-body orbit after the last maneuver; its periapses up to there are in `periapses`.
     coast: Option<Coast>,
     periapses: Periapses,
+    /// Closest approaches to the encounter's body.
+    approaches: Approaches,
     /// Where the spacecraft was when the present science or downlink window began, once that time is behind the
     /// current segment: a slew starts from the attitude there.
     window_start: Option<(f64, CartesianState)>,
@@ -86,13 +90,17 @@ impl Trajectory {
     /// # Errors
     /// A start below the surface.
     pub fn new(configuration: &Configuration, time_s: f64) -> Result<Self, OrbitIntegrationError> {
-        let Motion::Disturbed { segment_length_s, radius_m, .. } = configuration.motion else {
-            return Ok(Self::default());
-        };
         let epoch_s = time_s + configuration.epoch_minus_time_s;
-        let start = configuration.orbit.state_at(epoch_s);
+        let start = || configuration.orbit.state_at(epoch_s);
+        let orbit = match &configuration.motion {
+            Motion::Disturbed { segment_length_s, radius_m, .. } => {
+                DisturbedOrbit::new(&start(), time_s, *segment_length_s, *radius_m)?
+            }
+            Motion::NBody { gravity, .. } => DisturbedOrbit::between_bodies(&start(), time_s, gravity)?,
+            Motion::TwoBody | Motion::Held { .. } => return Ok(Self::default()),
+        };
         Ok(Self {
-            orbit: Some(DisturbedOrbit::new(&start, time_s, segment_length_s, radius_m)?),
+            orbit: Some(orbit),
             periapses: Periapses::before(configuration, epoch_s),
             ..Self::default()
         })
@@ -103,6 +111,7 @@ impl Trajectory {
         self.orbit.as_ref().is_none_or(DisturbedOrbit::is_valid)
             && self.coast.as_ref().is_none_or(|coast| coast.is_valid())
             && self.periapses.number.unsigned_abs() < 1 << 60
+            && self.approaches.is_valid()
     }
 
     /// Whether it has come to `time_s` and no segment further; so in every flight, not in every sequence of bytes.
@@ -152,6 +161,16 @@ impl Trajectory {
         }
         let [last_s, before_s] = self.periapses.last_s;
         time_s - if last_s <= time_s { last_s } else { before_s }
+    }
+
+    /// The body that the path is integrated about at present; the centre where that never changes.
+    pub(crate) fn integration_center(&self, configuration: &Configuration) -> Body {
+        self.orbit.as_ref().and_then(DisturbedOrbit::integration_center).unwrap_or(configuration.center)
+    }
+
+    /// How many closest approaches there were until `time_s`, and the last of them.
+    pub(crate) fn approaches_until(&self, time_s: f64) -> (i32, Option<Approach>) {
+        self.approaches.until(time_s)
     }
 
     /// Up to where the orbit is known; infinite in closed form.
@@ -236,10 +255,11 @@ impl Trajectory {
         span_s: [f64; 2],
         thrust_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
     ) -> Result<(), OrbitIntegrationError> {
-        let (Some(mut orbit), Motion::Disturbed { gravity, feedback: true, .. }) =
-            (self.orbit, &configuration.motion)
-        else {
-            return Ok(());
+        let Some(mut orbit) = self.orbit.filter(|_| configuration.motion.is_pushed()) else { return Ok(()) };
+        let gravity = match &configuration.motion {
+            Motion::Disturbed { gravity, .. } => *gravity,
+            Motion::NBody { gravity, .. } => gravity.near(orbit.integration_center()),
+            Motion::TwoBody | Motion::Held { .. } => return Ok(()),
         };
         if thrust_m_s2.is_none() && !orbit.is_deviated() {
             return Ok(());
@@ -247,7 +267,7 @@ impl Trajectory {
         if !orbit.is_deviated() {
             self.remember_window(configuration, [orbit.start_s(), span_s[0]]);
         }
-        orbit.accelerate(method, gravity, span_s, thrust_m_s2)?;
+        orbit.accelerate(method, &gravity, span_s, thrust_m_s2)?;
         self.orbit = Some(orbit);
         self.remember_window(configuration, span_s);
         Ok(())
@@ -258,6 +278,7 @@ impl Trajectory {
         self.leave(configuration, time_s);
         let Some(orbit) = &mut self.orbit else { return };
         orbit.cut(time_s, jump_m_s);
+        self.approaches.forget_after(time_s);
         self.periapses.forget_after(time_s, radial(&orbit.state_at(time_s)));
     }
 
@@ -327,7 +348,8 @@ impl Trajectory {
         Periapses { last_s: [passage_s(count), passage_s(count - 1)], number, scheduled_s }
     }
 
-    /// Integrates one more segment, at most to `limit_s`, under gravity and `extra_m_s2(t)`, an acceleration in EME2000.
+    /// Integrates one more segment, at most to `limit_s`, under gravity and `extra_m_s2(t)`, an acceleration in EME2000. Gives
+    /// how often a segment between bodies was tried, 0 of others.
     ///
     /// # Errors
     /// See [`OrbitIntegrationError`].
@@ -338,18 +360,35 @@ impl Trajectory {
         method: &OrbitMethod,
         limit_s: f64,
         mut extra_m_s2: impl FnMut(f64) -> Vector3<f64>,
-    ) -> Result<(), OrbitIntegrationError> {
-        let (Some(mut orbit), Motion::Disturbed { gravity, .. }) = (self.orbit, &configuration.motion) else {
-            return Ok(());
+    ) -> Result<u32, OrbitIntegrationError> {
+        let Some(mut orbit) = self.orbit else { return Ok(0) };
+        let shortened = match &configuration.motion {
+            Motion::Disturbed { gravity, .. } => {
+                let sun_m = |at_s: f64| {
+                    let epoch_s = at_s + configuration.epoch_minus_time_s;
+                    geometry::sun_and_earth(configuration, ephemeris, epoch_s).0.position_m
+                };
+                orbit.advance_to(limit_s, method, gravity, sun_m, |at_s, _| extra_m_s2(at_s))?;
+                0
+            }
+            Motion::NBody { gravity, .. } => {
+                let places = &mut PlacesInFlight { configuration, ephemeris };
+                let count = orbit.advance_between_bodies(limit_s, method, gravity, places, extra_m_s2)?;
+                if let Some(Encounter { body, radius_m, .. }) = configuration.encounter {
+                    let sizes_m = [radius_m, gravity.sphere_m(body)];
+                    self.approaches.detect([orbit.start_s(), orbit.end_s()], sizes_m, |at_s| {
+                        let [center, body] =
+                            [configuration.center, body].map(|body| places.heliocentric(body, at_s));
+                        orbit.state_at(at_s) + (center - body)
+                    });
+                }
+                count
+            }
+            Motion::TwoBody | Motion::Held { .. } => return Ok(0),
         };
-        let sun_m = |at_s: f64| {
-            let epoch_s = at_s + configuration.epoch_minus_time_s;
-            geometry::sun_and_earth(configuration, ephemeris, epoch_s).0.position_m
-        };
-        orbit.advance_to(limit_s, method, gravity, sun_m, |at_s, _| extra_m_s2(at_s))?;
         self.periapses.detect_periapsis(&orbit, configuration);
         self.orbit = Some(orbit);
-        Ok(())
+        Ok(shortened)
     }
 }
 

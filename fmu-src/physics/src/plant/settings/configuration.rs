@@ -12,7 +12,7 @@ use crate::environment::eclipse::Shadow;
 use crate::environment::frames::Frame;
 use crate::environment::kepler_planet::KeplerPlanet;
 use crate::environment::onboard::OnboardEphemeris;
-use crate::environment::orbit::{Elements, Gravity, OrbitError, TwoBodyOrbit};
+use crate::environment::orbit::{Elements, Gravity, NBodyGravity, OrbitError, TwoBodyOrbit};
 use crate::environment::sun::pressure_n_m2;
 use crate::guidance::timeline::TimelineSettings;
 use crate::guidance::{Guided, SunPlace};
@@ -140,6 +140,18 @@ pub enum EphemerisSource {
     },
 }
 
+/// The body that a spacecraft is on its way to, which counts as the planet instead of the centre: its light, heat, shadow and
+/// gravity gradient act.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Encounter {
+    /// The body.
+    pub body: Body,
+    /// Its gravitational parameter, in m3/s2.
+    pub gm_m3_s2: f64,
+    /// Its radius, in m.
+    pub radius_m: f64,
+}
+
 /// What moves the spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
@@ -156,6 +168,13 @@ pub enum Motion {
         /// Whether light, heat and external forces accelerate the spacecraft.
         feedback: bool,
     },
+    /// The same, integrated between Sun, planets and Moon.
+    NBody {
+        /// Their gravity.
+        gravity: NBodyGravity,
+        /// Whether light, heat and external forces accelerate the spacecraft.
+        feedback: bool,
+    },
     /// None: position and velocity about the centre are these, EME2000.
     Held {
         /// Position and velocity.
@@ -163,6 +182,13 @@ pub enum Motion {
         /// When they were given, in s past J2000 TDB.
         since_epoch_s: f64,
     },
+}
+
+impl Motion {
+    /// Whether light, heat and external forces accelerate the spacecraft.
+    pub fn is_pushed(&self) -> bool {
+        matches!(self, Self::Disturbed { feedback: true, .. } | Self::NBody { feedback: true, .. })
+    }
 }
 
 /// Sunlight: its pressure, and what of it acts as force.
@@ -227,6 +253,12 @@ pub fn orbit_from_elements(
 }
 
 impl Configuration {
+    /// The planet, if there is one: the encounter's body, else the centre.
+    pub fn planet(&self) -> Option<Body> {
+        let center = Some(self.center).filter(|body| body.is_planet());
+        self.encounter.map(|encounter| encounter.body).or(center)
+    }
+
     /// Whether there is more of light and heat than sunlight that nothing shadows.
     pub fn has_light_and_heat(&self) -> bool {
         self.light_and_heat.shadowing || self.effects.light().any(|effect| effect != Effect::Solar)
@@ -287,6 +319,8 @@ pub struct Configuration {
     pub epoch_minus_time_s: f64,
     /// Central body.
     pub center: Body,
+    /// Another body that counts as the planet, if one does.
+    pub encounter: Option<Encounter>,
     /// Orbit about it, in EME2000, by epoch; of an integrated orbit the one it starts on.
     pub orbit: TwoBodyOrbit,
     /// What moves the spacecraft along or off that orbit.

@@ -61,6 +61,7 @@ impl Kernels {
         match target.body() {
             Some(body) if body == self.center.body => self.center.id,
             Some(body) => naif::id(body),
+            None if target == OnboardTarget::Moon => naif::MOON,
             None => self.spacecraft,
         }
     }

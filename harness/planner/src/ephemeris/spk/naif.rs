@@ -6,6 +6,9 @@ use physics::{bodies::Body, environment::onboard::OnboardTarget};
 /// MESSENGER.
 pub(super) const MESSENGER: i32 = -236;
 
+/// The Moon.
+pub(super) const MOON: i32 = 301;
+
 /// The id of a body itself, not of the barycentre of its system.
 pub(super) const fn id(body: Body) -> i32 {
     match body {

@@ -72,6 +72,7 @@ impl Cruise {
             tilt_sign: 1.0,
         };
         Configuration {
+            encounter: None,
             epoch_minus_time_s: EPOCH_S,
             center: Body::Sun,
             motion: Motion::TwoBody,

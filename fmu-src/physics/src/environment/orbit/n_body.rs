@@ -1,0 +1,460 @@
+//! Gravity of Sun, planets and Moon on a spacecraft between them, and the body that its path is integrated about.
+//!
+//! Equation: r from the Sun, r'' = sum of mu (p - r) / |p - r|^3 over all bodies, less the Sun's own fall, the sum of
+//! mu p / |p|^3 over planets and Moon. About a planet at p it is (r - p)'' = r'' - p'': p'' is the second derivative of the
+//! ephemeris, so that going over to another body changes nothing of the path. One body may be flattened; the Sun's relativity is
+//! Schwarzschild's in harmonic coordinates, mu / (c^2 r^3) ((4 mu / r - v^2) r + 4 (r . v) v).
+//! Method: the path is integrated about the planet within whose sphere of influence it is, of radius a (m / M)^(2/5), else about
+//! the Sun: near a planet positions from it are as exact as their size says. Edges of spheres are roots on the dense output.
+//! Error measure: the last Chebyshev term of a segment's position.
+//! Reference: Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 8.4 and 8.5; Petit and Luzum, IERS
+//! Conventions 2010, 10.12.
+
+use nalgebra::{SVector, Vector3};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::deviation::TERMS;
+use super::gravity::{Flattening, Gravity};
+use crate::{
+    bodies::{Body, BodyData},
+    constants::{GM_MOON_M3_S2, GM_SUN_M3_S2, SPEED_OF_LIGHT_M_S},
+    environment::CartesianState,
+    math,
+    numerics::{chebyshev::Segment, roots},
+};
+
+/// Pieces of a segment at whose ends distances are looked at.
+const PIECES: usize = 8;
+
+/// Where bodies are, EME2000, by the flight's clock.
+pub trait BodyPlaces {
+    /// Position and velocity from the Sun.
+    fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState;
+
+    /// The second derivative of that position, in m/s2.
+    fn acceleration_m_s2(&mut self, body: Body, at_s: f64) -> Vector3<f64>;
+
+    /// When the first segment of an ephemeris ends after `at_s`: until there places are smooth.
+    fn smooth_until_s(&self, at_s: f64) -> f64;
+
+    /// Position of the Moon from the Earth, in m.
+    fn moon_from_earth_m(&mut self, at_s: f64) -> Vector3<f64>;
+}
+
+/// A spacecraft inside a body.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum Collision {
+    /// Where its path begins or is cut.
+    #[error(
+        "at {at_s} s the spacecraft is {distance_m} m from the centre of {name}, allowed is more than its radius of {radius_m} m"
+    )]
+    Inside {
+        /// When, s.
+        at_s: f64,
+        /// The body.
+        name: &'static str,
+        /// Distance from its centre, m.
+        distance_m: f64,
+        /// Its radius, m.
+        radius_m: f64,
+    },
+    /// On its path.
+    #[error("at {at_s} s the spacecraft hits {name}, radius {radius_m} m, at {speed_m_s} m/s")]
+    Impact {
+        /// When, s.
+        at_s: f64,
+        /// The body.
+        name: &'static str,
+        /// Its radius, m.
+        radius_m: f64,
+        /// Speed relative to its centre, m/s.
+        speed_m_s: f64,
+    },
+}
+
+/// How a path between bodies is integrated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NBodySettings {
+    /// Whether the Sun's relativity counts.
+    pub relativity: bool,
+    /// Whether the path is integrated about the body whose sphere of influence it is in.
+    pub changes_center: bool,
+    /// Whether the Moon attracts.
+    pub moon: bool,
+    /// Longest segment, s.
+    pub cell_s: f64,
+    /// Greatest last term of a segment's position, m.
+    pub tolerance_m: f64,
+}
+
+/// What pulls on a spacecraft between several bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NBodyGravity {
+    /// From where positions are given.
+    pub center: Body,
+    /// Longest segment, s.
+    pub cell_s: f64,
+    settings: NBodySettings,
+    /// Of each body: gravitational parameter in m3/s2 (0: attracts nothing), radius in m, radius of the sphere of influence in m.
+    bodies: [[f64; 3]; Body::COUNT],
+    flattened: Option<(Body, Flattening)>,
+}
+
+impl NBodyGravity {
+    /// That of the Sun, of `center`, from which positions are given, and of other `attracting` bodies; one of them may be
+    /// `flattened`.
+    pub fn new(
+        settings: NBodySettings,
+        center: &BodyData,
+        attracting: impl Iterator<Item = BodyData>,
+        flattened: Option<&BodyData>,
+    ) -> Self {
+        let mut bodies = [[0.0; 3]; Body::COUNT];
+        for data in [*Body::Sun.data()].into_iter().chain(attracting).chain([*center]) {
+            let ratio = data.gm_m3_s2 / GM_SUN_M3_S2;
+            let sphere_m = data.orbit_semi_major_axis_m * math::powf(ratio, 0.4);
+            bodies[data.body as usize] = [data.gm_m3_s2, data.radius_m, sphere_m];
+        }
+        let flattened = flattened.filter(|data| data.j2 != 0.0).map(|data| (data.body, Flattening::of(data)));
+        Self { center: center.body, cell_s: settings.cell_s, settings, bodies, flattened }
+    }
+
+    /// Radius of a body's sphere of influence, m; 0 of one that does not attract.
+    pub fn sphere_m(&self, body: Body) -> f64 {
+        self.bodies[body as usize][2]
+    }
+
+    /// Those that attract, but for the Sun and the Moon.
+    fn planets(&self) -> impl Iterator<Item = Body> + use<> {
+        let bodies = self.bodies;
+        let all = Body::ALL.into_iter().chain([Body::Custom]);
+        all.filter(move |body| body.is_planet() && bodies[*body as usize][0] > 0.0)
+    }
+
+    /// The gravity of a body alone, with its flattening; of none that of the one that positions count from.
+    pub fn near(&self, body: Option<Body>) -> Gravity {
+        let body = body.unwrap_or(self.center);
+        let flattening = self.flattened.filter(|(of, _)| *of == body).map(|(_, flattening)| flattening);
+        Gravity { flattening, ..Gravity::point_mass(self.bodies[body as usize][0]) }
+    }
+
+    /// Acceleration in EME2000, m/s2, of a spacecraft at `state` from `about`, relative to that.
+    pub(super) fn acceleration_m_s2(
+        &self,
+        about: Body,
+        at_s: f64,
+        state: &CartesianState,
+        places: &mut impl BodyPlaces,
+    ) -> Vector3<f64> {
+        let center =
+            if about.is_planet() { places.heliocentric(about, at_s) } else { CartesianState::default() };
+        let from_sun = *state + center;
+        let mut sum = fall_m_s2(&from_sun.position_m, self.bodies[Body::Sun as usize][0]);
+        let mut earth_m = None;
+        for body in self.planets() {
+            let gm_m3_s2 = self.bodies[body as usize][0];
+            let is_center = body == about;
+            let place_m = if is_center { center } else { places.heliocentric(body, at_s) }.position_m;
+            let from_body_m = if is_center { state.position_m } else { from_sun.position_m - place_m };
+            sum += fall_m_s2(&from_body_m, gm_m3_s2) + fall_m_s2(&place_m, gm_m3_s2);
+            if body == Body::Earth {
+                earth_m = Some(place_m);
+            }
+            if let Some((_, flattening)) = self.flattened.filter(|(of, _)| *of == body) {
+                let inverse = 1.0 / from_body_m.norm();
+                flattening.add_to(&mut sum, &from_body_m, inverse, gm_m3_s2 * inverse * inverse * inverse);
+            }
+        }
+        if self.settings.moon {
+            let earth_m = earth_m.unwrap_or_else(|| places.heliocentric(Body::Earth, at_s).position_m);
+            let moon_from_earth_m = places.moon_from_earth_m(at_s);
+            let moon_m = earth_m + moon_from_earth_m;
+            let from_moon_m = match about {
+                Body::Earth => state.position_m - moon_from_earth_m,
+                _ => from_sun.position_m - moon_m,
+            };
+            sum += fall_m_s2(&from_moon_m, GM_MOON_M3_S2) + fall_m_s2(&moon_m, GM_MOON_M3_S2);
+        }
+        if self.settings.relativity {
+            sum += relativity_m_s2(&from_sun, self.bodies[Body::Sun as usize][0]);
+        }
+        if about.is_planet() { sum - places.acceleration_m_s2(about, at_s) } else { sum }
+    }
+
+    /// Whether a segment's position is as good as the settings say, or as its rounding allows.
+    pub(super) fn is_resolved(&self, segment: &Segment<6, TERMS>) -> bool {
+        let rows = segment.coefficients().fixed_rows::<3>(0);
+        let rounding_m = 8.0 * f64::EPSILON * rows.column(0).norm();
+        rows.column(TERMS - 1).norm() <= self.settings.tolerance_m.max(rounding_m)
+    }
+
+    /// The body within whose sphere of influence a place is, else the Sun.
+    fn body_about(
+        &self,
+        about: Body,
+        state: &CartesianState,
+        at_s: f64,
+        places: &mut impl BodyPlaces,
+    ) -> Body {
+        let share = |body: Body, places: &mut _| {
+            let sphere_m = self.sphere_m(body);
+            (distance_m(body, about, &state.position_m, at_s, places) / sphere_m, body)
+        };
+        let spheres = self.planets().filter(|body| self.sphere_m(*body) > 0.0);
+        let nearest = spheres.map(|body| share(body, places)).min_by(|one, other| one.0.total_cmp(&other.0));
+        nearest.filter(|(share, _)| *share < 1.0).map_or(Body::Sun, |(_, body)| body)
+    }
+
+    /// Where a path from `about` first comes into the sphere of influence of another body or leaves its own, and the body whose
+    /// sphere it is in from there on.
+    pub(super) fn sphere_reached(
+        &self,
+        about: Body,
+        span_s: [f64; 2],
+        path: impl Fn(f64) -> CartesianState,
+        places: &mut impl BodyPlaces,
+    ) -> Option<Reached> {
+        if !self.settings.changes_center {
+            return None;
+        }
+        let mut first: Option<Reached> = None;
+        for body in self.planets().filter(|body| about == Body::Sun || *body == about) {
+            let sphere_m = self.sphere_m(body);
+            // Positive outside; a path about a planet is within its sphere.
+            let sense = if body == about { -1.0 } else { 1.0 };
+            let mut gap_m = |at_s: f64| {
+                sense * (distance_m(body, about, &path(at_s).position_m, at_s, places) - sphere_m)
+            };
+            let reach_m = farthest_m(&path(span_s[0]), span_s);
+            if body != about && gap_m(span_s[0]) > reach_m {
+                continue;
+            }
+            let at_s = first_fall(span_s, reach_m / PIECES as f64, &mut gap_m);
+            if let Some(at_s) = at_s.filter(|at_s| first.is_none_or(|first| *at_s < first.at_s)) {
+                let into = if body == about { Body::Sun } else { body };
+                first = Some(Reached { at_s, body: into });
+            }
+        }
+        first
+    }
+
+    /// Refuses a path from `about` that goes through a body.
+    pub(super) fn check_above(
+        &self,
+        about: Body,
+        span_s: [f64; 2],
+        path: impl Fn(f64) -> CartesianState,
+        places: &mut impl BodyPlaces,
+    ) -> Result<(), Collision> {
+        let bodies = self.planets().chain([Body::Sun]);
+        for body in bodies.filter(|body| *body == about || !self.settings.changes_center) {
+            let radius_m = self.bodies[body as usize][1];
+            let mut height_m =
+                |at_s: f64| distance_m(body, about, &path(at_s).position_m, at_s, places) - radius_m;
+            let reach_m = farthest_m(&path(span_s[0]), span_s);
+            if height_m(span_s[0]) > reach_m {
+                continue;
+            }
+            if let Some(at_s) = first_fall(span_s, reach_m / PIECES as f64, &mut height_m) {
+                let of_body = if body == about {
+                    CartesianState::default()
+                } else {
+                    places.heliocentric(body, at_s) - places.heliocentric(about, at_s)
+                };
+                let speed_m_s = (path(at_s) - of_body).velocity_m_s.norm();
+                return Err(Collision::Impact { at_s, name: body.data().name, radius_m, speed_m_s });
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses a place inside a body.
+    fn check_outside(
+        &self,
+        about: Body,
+        state: &CartesianState,
+        at_s: f64,
+        places: &mut impl BodyPlaces,
+    ) -> Result<(), Collision> {
+        for body in self.planets().chain([Body::Sun]) {
+            let radius_m = self.bodies[body as usize][1];
+            let distance_m = distance_m(body, about, &state.position_m, at_s, places);
+            if distance_m < radius_m || distance_m.is_nan() {
+                return Err(Collision::Inside { at_s, name: body.data().name, distance_m, radius_m });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Acceleration toward a point mass, m/s2, at this position from it.
+fn fall_m_s2(position_m: &Vector3<f64>, gm_m3_s2: f64) -> Vector3<f64> {
+    let inverse = 1.0 / position_m.norm();
+    position_m * (-gm_m3_s2 * inverse * inverse * inverse)
+}
+
+/// What relativity adds near a body, m/s2.
+fn relativity_m_s2(state: &CartesianState, gm_m3_s2: f64) -> Vector3<f64> {
+    let (r, v) = (state.position_m, state.velocity_m_s);
+    let distance_m = r.norm();
+    let factor = gm_m3_s2 / (SPEED_OF_LIGHT_M_S * SPEED_OF_LIGHT_M_S * distance_m * distance_m * distance_m);
+    (r * (4.0 * gm_m3_s2 / distance_m - v.norm_squared()) + v * (4.0 * r.dot(&v))) * factor
+}
+
+/// Distance of a body from a place that counts from `about`.
+fn distance_m(
+    body: Body,
+    about: Body,
+    position_m: &Vector3<f64>,
+    at_s: f64,
+    places: &mut impl BodyPlaces,
+) -> f64 {
+    if body == about {
+        return position_m.norm();
+    }
+    let [body_m, about_m] = [body, about].map(|body| places.heliocentric(body, at_s).position_m);
+    (position_m - (body_m - about_m)).norm()
+}
+
+/// How far spacecraft and body come toward each other at most, m: both fall, and no planet is faster than 100 km/s.
+fn farthest_m(state: &CartesianState, [start_s, end_s]: [f64; 2]) -> f64 {
+    2.0 * (state.velocity_m_s.norm() + 1e5) * (end_s - start_s)
+}
+
+/// The first time at which a height falls below zero, by its lowest points between pieces of the span too; it falls by no more than
+/// `reach_m` over a piece.
+fn first_fall(
+    [start_s, end_s]: [f64; 2],
+    reach_m: f64,
+    height_m: &mut impl FnMut(f64) -> f64,
+) -> Option<f64> {
+    let at = |piece: usize| start_s + (end_s - start_s) * piece as f64 / PIECES as f64;
+    let heights: [f64; PIECES + 1] = core::array::from_fn(|piece| height_m(at(piece)));
+    for piece in 0..=PIECES {
+        let now = heights[piece];
+        let [before, after] = [piece.checked_sub(1), Some(piece + 1)]
+            .map(|index| index.and_then(|index| heights.get(index)).copied().unwrap_or(f64::INFINITY));
+        let from_s = at(piece.saturating_sub(1));
+        if piece > 0 && before > 0.0 && now < 0.0 {
+            return roots::bracketed(from_s, at(piece), 0.0, height_m).ok();
+        }
+        // A distance is convex where it is least: it may dip below what is seen by no more than both slopes.
+        let slopes = (before - now) + (after - now);
+        let dips = now < slopes.min(reach_m) && now <= before && now <= after;
+        if dips && now > 0.0 && before > 0.0 {
+            let lowest_s = lowest(from_s, at((piece + 1).min(PIECES)), height_m);
+            if height_m(lowest_s) < 0.0 {
+                return roots::bracketed(from_s, lowest_s, 0.0, height_m).ok();
+            }
+        }
+    }
+    None
+}
+
+/// Where a function with one lowest point is lowest, by golden sections.
+fn lowest(mut from_s: f64, mut to_s: f64, function: &mut impl FnMut(f64) -> f64) -> f64 {
+    const SHARE: f64 = 0.618_033_988_749_894_9;
+    for _ in 0..40 {
+        let [left_s, right_s] = [to_s - SHARE * (to_s - from_s), from_s + SHARE * (to_s - from_s)];
+        if function(left_s) < function(right_s) {
+            to_s = right_s;
+        } else {
+            from_s = left_s;
+        }
+    }
+    0.5 * (from_s + to_s)
+}
+
+/// Where a path comes into a sphere of influence or leaves it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Reached {
+    /// When, s.
+    pub at_s: f64,
+    /// The body that the path counts from after it.
+    pub body: Body,
+}
+
+/// The body that a path is integrated about, a part of its state.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct IntegrationCenter {
+    /// That of the present segment.
+    pub body: Body,
+    /// How often the longest segment was halved for the present one.
+    pub level: u32,
+    /// The edge of a sphere of influence at which the present segment ends.
+    pub reaches: Option<Reached>,
+    /// The body over the present segment, from where positions are given; absent while that is itself.
+    offset: Option<Segment<6, TERMS>>,
+    /// Whether a segment was integrated.
+    is_begun: bool,
+}
+
+impl IntegrationCenter {
+    /// How often a segment is halved at most.
+    pub(super) const FINEST: u32 = 24;
+
+    /// Before the first segment of a path that is given from `body`.
+    pub(super) fn new(body: Body) -> Self {
+        Self { body, level: 0, reaches: None, offset: None, is_begun: false }
+    }
+
+    /// Rejects decoded states that no simulation can produce.
+    pub(super) fn is_valid(&self) -> bool {
+        self.level <= Self::FINEST && self.offset.as_ref().is_none_or(Segment::is_valid)
+    }
+
+    /// Position and velocity of the body at a time of the present segment, from where positions are given.
+    pub(super) fn offset_at(&self, at_s: f64) -> Option<CartesianState> {
+        self.offset.as_ref().map(|offset| unpack(&offset.value(at_s)))
+    }
+
+    /// The body that the next segment counts from, the spacecraft being at `state` from that of the present one.
+    pub(super) fn next_body(
+        &self,
+        gravity: &NBodyGravity,
+        state: &CartesianState,
+        at_s: f64,
+        places: &mut impl BodyPlaces,
+    ) -> Result<Body, Collision> {
+        if !self.is_begun {
+            gravity.check_outside(self.body, state, at_s, places)?;
+            let changes = gravity.settings.changes_center;
+            return Ok(if changes { gravity.body_about(self.body, state, at_s, places) } else { self.body });
+        }
+        Ok(self.reaches.map_or(self.body, |reached| reached.body))
+    }
+
+    /// The present segment, from where positions are given.
+    pub(super) fn set_offset(
+        &mut self,
+        from: Body,
+        [start_s, end_s]: [f64; 2],
+        places: &mut impl BodyPlaces,
+    ) {
+        self.is_begun = true;
+        self.offset = (self.body != from).then(|| {
+            Segment::fit(start_s, end_s, |at_s| {
+                let [body, from] = [self.body, from].map(|body| places.heliocentric(body, at_s));
+                pack(&(body - from))
+            })
+        });
+    }
+
+    /// The present segment ends at `at_s`, before the sphere's edge that it would come to.
+    pub(super) fn cut(&mut self, at_s: f64) {
+        self.reaches = self.reaches.filter(|reached| reached.at_s <= at_s);
+    }
+}
+
+pub(super) fn pack(state: &CartesianState) -> SVector<f64, 6> {
+    let (r, v) = (state.position_m, state.velocity_m_s);
+    SVector::from([r.x, r.y, r.z, v.x, v.y, v.z])
+}
+
+pub(super) fn unpack(y: &SVector<f64, 6>) -> CartesianState {
+    CartesianState {
+        position_m: Vector3::new(y[0], y[1], y[2]),
+        velocity_m_s: Vector3::new(y[3], y[4], y[5]),
+    }
+}
