@@ -229,6 +229,19 @@ fn a_place_outside_the_keep_in_zone_is_its_boundary_however_it_is_requested() {
     }
 }
 
+/// Within rounding of its boundary the keep-in zone neither begins nor ends to act: a step takes no more work than elsewhere.
+#[test]
+fn a_place_on_the_keep_in_zones_boundary_is_simulated_in_one_step() {
+    for [azimuth_deg, elevation_deg] in [[-15.0, -5.0], [-15.0, -13.0], [4.0, 13.0], [-14.94, -12.94]] {
+        let named = planned(&format!(
+            "[[command]]\nat = 0\nscenario = \"downlink\"\n\
+             sun = {{ azimuth = \"{azimuth_deg} deg\", elevation = \"{elevation_deg} deg\" }}\n"
+        ));
+        let mut flight = named.fly(0.0, &[("solver.workLimit", 2e4)]).unwrap();
+        flight.step_to(14.0 * HOUR_S).unwrap();
+    }
+}
+
 #[test]
 fn an_input_goes_before_the_timeline_and_what_it_leaves_goes_by_guided() {
     let timeline =

@@ -96,8 +96,8 @@ impl TimelineLaw<'_> {
         let sun_body = || value(&unconstrained.to_body(&to_sun)).try_normalize(0.0);
         let margin = keep_in.and_then(|zone| Some(-zone.excess_rad(&sun_body()?)?));
         let moves = margin.is_some_and(|margin| margin < -ON_BOUNDARY_RAD);
-        // A place on the boundary stays there, whatever rounding says: one that is cut, and one that a strategy clamped.
-        let is_held = cut || (aimed.downlink.active && progress.downlink_sun.is_some());
+        // A place of the Sun on the boundary stays there, whatever rounding says.
+        let is_held = cut || aimed.downlink.active;
         let margin = margin.filter(|margin| !is_held || margin.abs() > ON_BOUNDARY_RAD);
         let constraints = Constraints { keep_in, hot_pole: None };
         let constrained = constraints.applied(&aimed.vectors, surroundings, None)?;
