@@ -34,8 +34,9 @@ def pytest_configure(config):
     config.addinivalue_line("markers", "long: runs in `cargo xtask test --long` alone")
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """A worker has all tests of a file, and one all that share the studies."""
+    """A worker has all tests of a file, and one all that share the studies; xdist's own hook, which reads the groups, comes after."""
     for item in items:
         group = "studies" if "studied" in item.fixturenames else item.path.name
         item.add_marker(pytest.mark.xdist_group(group))
