@@ -408,6 +408,13 @@ BENCHMARKS = {
     "recoil with conducting panels and sunlight on 12 faces": ["solar_and_recoil_with_newton_12_faces"],
     "all light and heat on 12 faces, with exact derivatives": ["all_effects_12_faces", "all_effects_12_faces_dual"],
     "self-shadowing scene of 50 polygons (10 pairs), 180 polygons": ["shadow_drum_50_scenes_per_second", "shadow_drum_180_scenes_per_second"],
+    "200 days of cruise by a timeline in steps of 1 h, `heliotorque run` of the mission": [
+        "cruise_200_days_by_timeline", "cruise_200_days_by_timeline_peak",
+    ],
+    "`plan momentum` of these 200 days: tilt and alternation alone, with the fewest changes of the arrays too": [
+        "plan_cruise_200_days_convex", "plan_cruise_200_days_counted_changes",
+    ],
+    "`refit` of ten days, 1,441 rows, nine flights": ["refit_10_days_1441_rows"],
     "MessengerLoop.ssp at 50 Hz, `heliotorque run` with all of its exchange": ["messenger_loop_50_hz_over_real_time"],
     "paper 000's study, 30 simulations of 90 days with the default dumps, both cores": ["study_momentum_table2_30_simulations"],
 }
