@@ -95,7 +95,7 @@ fn plans(built: &Built) -> Outcome {
     )
 }
 
-/// The greatest memory of a command and what it starts, each by itself; `None` where the system does not tell.
+/// The greatest memory of a command and what it starts, each by itself; `None` where the system does not report it.
 fn peak_bytes(command: &mut Command) -> Result<Option<u64>, String> {
     let mut child = command.spawn().map_err(|error| error.to_string())?;
     let mut peak = None;
@@ -108,7 +108,7 @@ fn peak_bytes(command: &mut Command) -> Result<Option<u64>, String> {
     }
 }
 
-/// The most that a process and its children have held so far, each by itself, by what Linux tells.
+/// The most that a process and its children have held so far, each by itself, as Linux reports it.
 fn peak_of(process: u32) -> Option<u64> {
     let folder = PathBuf::from(format!("/proc/{process}"));
     let status = std::fs::read_to_string(folder.join("status")).ok()?;

@@ -285,7 +285,7 @@ fn fit_elements(
     within.with_ends(&ends)
 }
 
-/// A fit of rectangular coordinates by Julian date, in m; what the date is rounded by is made up for by the velocity.
+/// A fit of rectangular coordinates by Julian date, in m; the rounding of the date is corrected by the velocity.
 fn fit_rectangular<const N: usize>(
     start_s: f64,
     end_s: f64,

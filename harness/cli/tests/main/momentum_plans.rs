@@ -1,4 +1,4 @@
-//! `plan momentum`: a cruise planned and flown below its limit, what no plan holds, prices, and what is refused.
+//! `plan momentum`: a cruise planned and simulated below its limit, what no plan holds, prices, and what is refused.
 
 use std::{fs, path::Path};
 
@@ -126,7 +126,7 @@ fn a_cruise_is_planned_and_flown_below_its_limit() {
     assert!(number(folder, "largestDifference_n_m_s") < 0.02 * 5.5);
     assert_eq!([number(folder, "changes"), number(folder, "changesAtLeast")], [7.0, 7.0]);
     // The mission that was written flies it.
-    let flown = folder.join("flown.csv");
+    let simulated = folder.join("simulated.csv");
     let mission = folder.join("out/mission.toml");
     let names = "momentum.inertial,panel*.corridorMargin,downlink.clamped,dump.count";
     run(
@@ -140,12 +140,12 @@ fn a_cruise_is_planned_and_flown_below_its_limit() {
             "--every",
             "1h",
             "--output",
-            shown(&flown),
+            shown(&simulated),
         ],
         0,
     );
     let rows = columns(
-        &flown,
+        &simulated,
         &[
             "momentum.inertial[1]",
             "momentum.inertial[2]",
@@ -421,10 +421,10 @@ fn downlinks_of_an_orbit_phase_hold_the_momentum() {
         "attitude.q[1]",
     ];
     let [alone, commanded, put_in] = ["orbit.toml", "out/mission.toml", "out/by-input.toml"].map(|mission| {
-        let flown = folder.join("flown.csv");
+        let simulated = folder.join("simulated.csv");
         let mission = folder.join(mission);
-        run(&["run", shown(&mission), "--output", shown(&flown), "--template", shown(&template)], 0);
-        columns(&flown, &names)
+        run(&["run", shown(&mission), "--output", shown(&simulated), "--template", shown(&template)], 0);
+        columns(&simulated, &names)
     });
     let length = |row: &Vec<f64>| row[..3].iter().map(|it| it * it).sum::<f64>().sqrt();
     assert!(alone.last().unwrap()[3] > 0.0);

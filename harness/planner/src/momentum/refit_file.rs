@@ -5,7 +5,7 @@ use serde::Deserialize;
 /// A refit.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct RefitValues {
-    /// Name of the spacecraft, where it is told.
+    /// Name of the spacecraft, where the file gives it.
     pub spacecraft: Option<String>,
     /// Body frame, in m.
     #[serde(rename = "centerOfMass_m")]

@@ -37,7 +37,7 @@ pub(super) struct Expansion {
 }
 
 impl Expansion {
-    /// By flights about `center`; `flown` is called after each.
+    /// By flights about `center`; `simulated` is called after each.
     ///
     /// # Errors
     /// What ends a flight; dumps that depend on what is fitted.
@@ -45,13 +45,13 @@ impl Expansion {
         flights: &dyn Flights,
         center: &Parameters,
         times_s: &[f64],
-        flown: &mut dyn FnMut(),
+        simulated: &mut dyn FnMut(),
     ) -> Result<Self, Failure> {
         let scale_step = SCALE_STEP * center.solar_scale.abs().max(SCALE_STEP);
         let mut dumps: Option<Vec<i32>> = None;
         let mut fly = |parameters: &Parameters| -> Result<Vec<Vector3<f64>>, Failure> {
             let History { momentum_inertial_n_m_s, dumps: seen } = flights.fly(parameters, times_s)?;
-            flown();
+            simulated();
             if dumps.get_or_insert_with(|| seen.clone()) != &seen {
                 return Err(
                     "dumps fall at times that depend on what is fitted, allowed: scheduled ones".into()

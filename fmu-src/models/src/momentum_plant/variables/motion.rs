@@ -174,7 +174,7 @@ pub struct AttractionVariables {
 }
 
 impl OrbitVariables {
-    /// Whether the spacecraft flies between planets.
+    /// Whether the orbit is propagated between planets.
     pub fn is_n_body(&self, values: &Values) -> bool {
         matches!(values.choice(self.dynamics), OrbitDynamics::NBody)
     }

@@ -1,5 +1,7 @@
 //! The onboard ephemeris, from its file; every problem is reported by file, line, key, what was found and what is allowed.
 
+use core::ops::{Add, Sub};
+
 use nalgebra::{SMatrix, Vector3};
 
 use super::coarse::{COARSE_TERMS, CoarseElements};
@@ -135,15 +137,7 @@ impl OnboardEphemeris {
     /// Position and velocity of `target` from `center` by the precise models, in EME2000; `None` outside their span and
     /// where nothing joins them.
     pub fn state(&self, target: OnboardTarget, center: Body, epoch_s: f64) -> Option<CartesianState> {
-        let [mut up, mut down] = [CartesianState::default(); 2];
-        let center = center.into();
-        for (from, other, sum) in [(target, center, &mut up), (center, target, &mut down)] {
-            self.climb(from, other, |body| {
-                *sum = *sum + body.motion.state(epoch_s)?;
-                Some(())
-            })?;
-        }
-        Some(up - down)
+        self.difference(target, center, |motion| motion.state(epoch_s))
     }
 
     /// The same, beyond the span of the models as their last state would move on evenly: for integrators, which look
@@ -173,11 +167,21 @@ impl OnboardEphemeris {
         if !(start_s..=end_s).contains(&epoch_s) {
             return Some(Vector3::zeros());
         }
-        let [mut up, mut down] = [Vector3::zeros(); 2];
+        self.difference(target, center, |motion| motion.acceleration_m_s2(epoch_s))
+    }
+
+    /// What the models give of `target` from `center`; `None` where one gives nothing, or nothing joins them.
+    fn difference<V: Copy + Default + Add<Output = V> + Sub<Output = V>>(
+        &self,
+        target: OnboardTarget,
+        center: Body,
+        of: impl Fn(&SegmentTable) -> Option<V>,
+    ) -> Option<V> {
+        let [mut up, mut down] = [V::default(); 2];
         let center = center.into();
         for (from, other, sum) in [(target, center, &mut up), (center, target, &mut down)] {
             self.climb(from, other, |body| {
-                *sum += body.motion.acceleration_m_s2(epoch_s)?;
+                *sum = *sum + of(&body.motion)?;
                 Some(())
             })?;
         }

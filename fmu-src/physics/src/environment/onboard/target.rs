@@ -39,7 +39,7 @@ impl OnboardTarget {
     const NAMES: [&str; Body::COUNT + 2] =
         ["sun", "mercury", "venus", "earth", "mars", "jupiter", "custom", "spacecraft", "moon"];
 
-    /// The body; `None` for the spacecraft and for the Moon, about which nothing flies.
+    /// The body; `None` for the spacecraft and for the Moon, about which there are no orbits.
     pub fn body(self) -> Option<Body> {
         let all = Body::ALL.into_iter().chain([Body::Custom]);
         all.into_iter().find(|body| Self::from(*body) == self)

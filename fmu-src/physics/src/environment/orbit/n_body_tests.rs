@@ -51,8 +51,13 @@ fn gravity(settings: NBodySettings, center: Body, attracting: &[Body]) -> NBodyG
     NBodyGravity::new(settings, center.data(), attracting, None)
 }
 
-/// Flies to a time, and gives the state there.
-fn fly(orbit: &mut DisturbedOrbit, gravity: &NBodyGravity, sky: &mut Sky, to_s: f64) -> CartesianState {
+/// Propagates to a time and gives the state there.
+fn propagated(
+    orbit: &mut DisturbedOrbit,
+    gravity: &NBodyGravity,
+    sky: &mut Sky,
+    to_s: f64,
+) -> CartesianState {
     let method = OrbitMethod::default();
     while orbit.end_s() < to_s {
         orbit.advance_between_bodies(f64::INFINITY, &method, gravity, sky, |_| Vector3::zeros()).unwrap();
@@ -60,7 +65,7 @@ fn fly(orbit: &mut DisturbedOrbit, gravity: &NBodyGravity, sky: &mut Sky, to_s: 
     orbit.state_at(to_s)
 }
 
-/// Modified midpoint with extrapolation (Gragg, Bulirsch, Stoer) over steps as short as their own error asks: another
+/// Modified midpoint with extrapolation (Gragg, Bulirsch, Stoer) over steps as short as their own error requires: another
 /// method than collocation, with equations from the Sun alone, in which planets are read and nothing else.
 fn independent(
     mut y: SVector<f64, 6>,
@@ -141,7 +146,7 @@ fn two_bodies_keep_energy_and_angular_momentum() {
         |s: &CartesianState| s.velocity_m_s.norm_squared() / 2.0 - GM_SUN_M3_S2 / s.position_m.norm();
     let momentum = |s: &CartesianState| s.position_m.cross(&s.velocity_m_s);
     for day in 1..=200 {
-        let state = fly(&mut orbit, &gravity, &mut sky, f64::from(day) * DAY_S);
+        let state = propagated(&mut orbit, &gravity, &mut sky, f64::from(day) * DAY_S);
         assert!((energy(&state) / energy(&start) - 1.0).abs() < 1e-12, "{day}");
         let moved = (momentum(&state) - momentum(&start)).norm() / momentum(&start).norm();
         assert!(moved < 1e-12, "{day}: {moved}");
@@ -155,7 +160,7 @@ fn two_hundred_days_are_those_of_an_independent_integrator() {
         let gravity = gravity(settings(), Body::Sun, attracting);
         let mut sky = Sky::at(FLYBY_S - 200.0 * DAY_S);
         let mut orbit = DisturbedOrbit::between_bodies(&cruise(), 0.0, &gravity).unwrap();
-        let found = fly(&mut orbit, &gravity, &mut sky, 200.0 * DAY_S);
+        let found = propagated(&mut orbit, &gravity, &mut sky, 200.0 * DAY_S);
         let expected = independent(packed(&cruise()), [0.0, 200.0 * DAY_S], |at_s, y| {
             newton(&mut sky, attracting, at_s, y)
         });
@@ -200,7 +205,7 @@ fn a_flyby_is_the_same_about_the_sun_and_about_the_planet() {
     let end_s = 13.0 * DAY_S;
     while time_s < end_s {
         time_s += 120.0;
-        let state = fly(&mut orbit, &changing, &mut sky, time_s);
+        let state = propagated(&mut orbit, &changing, &mut sky, time_s);
         let mercury = sky.heliocentric(Body::Mercury, time_s);
         lowest_m = lowest_m.min((state - mercury).position_m.norm() - RADIUS_MERCURY_M);
         let center = orbit.integration_center().unwrap();
@@ -216,7 +221,7 @@ fn a_flyby_is_the_same_about_the_sun_and_about_the_planet() {
         assert!((distance_m - 1.124e8).abs() < 1e6, "{distance_m}");
     }
     let mut alone = DisturbedOrbit::between_bodies(&start, 0.0, &staying).unwrap();
-    let other = fly(&mut alone, &staying, &mut sky, end_s);
+    let other = propagated(&mut alone, &staying, &mut sky, end_s);
     assert_eq!(alone.integration_center(), Some(Body::Sun));
     let found = orbit.state_at(end_s);
     let apart_m = (found - other).position_m.norm();
@@ -239,8 +244,9 @@ fn positions_count_from_the_given_body_whatever_the_path_is_integrated_about() {
     let mut other = DisturbedOrbit::between_bodies(&from, 0.0, &from_mercury).unwrap();
     for hour in 1..300 {
         let time_s = f64::from(hour) * 3600.0;
-        let expected = fly(&mut one, &from_sun, &mut sky, time_s) - sky.heliocentric(Body::Mercury, time_s);
-        let found = fly(&mut other, &from_mercury, &mut sky, time_s);
+        let expected =
+            propagated(&mut one, &from_sun, &mut sky, time_s) - sky.heliocentric(Body::Mercury, time_s);
+        let found = propagated(&mut other, &from_mercury, &mut sky, time_s);
         assert_eq!(one.integration_center(), other.integration_center());
         // An epoch resolves 6e-8 s, in which Mercury moves by 3 mm. Once the planet has turned it, what the start is rounded by
         // grows.
@@ -260,7 +266,7 @@ fn relativity_turns_an_ellipse_as_einstein_says() {
     let gravity = gravity(NBodySettings { relativity: true, ..settings() }, Body::Sun, &[]);
     let (mut sky, days) = (Sky::at(0.0), 880.0);
     let mut orbit = DisturbedOrbit::between_bodies(&start, 0.0, &gravity).unwrap();
-    let state = fly(&mut orbit, &gravity, &mut sky, days * DAY_S);
+    let state = propagated(&mut orbit, &gravity, &mut sky, days * DAY_S);
     let (r, v) = (state.position_m, state.velocity_m_s);
     let toward = v.cross(&r.cross(&v)) / GM_SUN_M3_S2 - r.normalize();
     let turned_arcsec = toward.y.atan2(toward.x).to_degrees() * 3600.0;
@@ -312,12 +318,12 @@ fn a_restored_path_goes_on_to_the_bit() {
     let gravity = gravity(settings(), Body::Sun, &bodies);
     let mut orbit = DisturbedOrbit::between_bodies(&start, 0.0, &gravity).unwrap();
     // Within Mercury's sphere, before periapsis.
-    fly(&mut orbit, &gravity, &mut sky, 9.9 * DAY_S);
+    propagated(&mut orbit, &gravity, &mut sky, 9.9 * DAY_S);
     assert_eq!(orbit.integration_center(), Some(Body::Mercury));
     let text = toml::to_string(&orbit).unwrap();
     let mut restored: DisturbedOrbit = toml::from_str(&text).unwrap();
     assert!(restored.is_valid());
     let mut other_sky = Sky::at(FLYBY_S - 10.0 * DAY_S);
-    let found = fly(&mut restored, &gravity, &mut other_sky, 12.0 * DAY_S);
-    assert_eq!(found, fly(&mut orbit, &gravity, &mut sky, 12.0 * DAY_S));
+    let found = propagated(&mut restored, &gravity, &mut other_sky, 12.0 * DAY_S);
+    assert_eq!(found, propagated(&mut orbit, &gravity, &mut sky, 12.0 * DAY_S));
 }
