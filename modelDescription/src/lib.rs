@@ -16,6 +16,7 @@ pub mod names;
 #[cfg(feature = "reader")]
 mod reader;
 pub mod rules;
+pub mod start_values;
 mod status;
 pub mod units;
 pub mod validate;

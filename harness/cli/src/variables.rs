@@ -1,37 +1,10 @@
 //! Variables by what people write of them: start values, settings, selections.
 
 use loader::{Error, Value};
-use model_description::{Description, ScalarVariable, VariableKind, value};
+pub(crate) use model_description::start_values::{item, real, start};
+use model_description::{Description, ScalarVariable, VariableKind};
 
 use crate::epoch::Dates;
-
-/// The value of a variable at the start, the last one that was set or the description's.
-pub(crate) fn start(description: &Description, sets: &[(String, Value)], name: &str) -> Option<Value> {
-    if let Some((_, value)) = sets.iter().rev().find(|(set, _)| set == name) {
-        return Some(value.clone());
-    }
-    let variable = description.variables.iter().find(|it| it.name == name)?;
-    value::start(variable)
-}
-
-/// The value of a Real.
-pub(crate) fn real(description: &Description, sets: &[(String, Value)], name: &str) -> Option<f64> {
-    match start(description, sets, name)? {
-        Value::Real(value) => Some(value),
-        _ => None,
-    }
-}
-
-/// The name of an option's item.
-pub(crate) fn item<'a>(
-    description: &'a Description,
-    sets: &[(String, Value)],
-    name: &str,
-) -> Option<&'a str> {
-    let variable = description.variables.iter().find(|it| it.name == name)?;
-    let Value::Integer(number) = start(description, sets, name)? else { return None };
-    value::items(description, variable).iter().find(|it| it.value == number).map(|it| it.name.as_str())
-}
 
 /// The values of settings, written as for `--set`.
 ///
@@ -154,6 +127,8 @@ pub(crate) fn vector(name: &str) -> Option<&str> {
 
 #[cfg(test)]
 mod tests {
+    use model_description::value;
+
     use super::*;
 
     #[test]

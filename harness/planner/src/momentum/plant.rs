@@ -1,5 +1,6 @@
 //! MomentumPlant as a plan needs it: its spacecraft in sunlight by the values that are set, and a recording as a flight.
 
+use model_description::{Description, start_values, value::Value};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use physics::{
     attitude::Attitude,
@@ -15,23 +16,37 @@ use super::{
 };
 
 /// Values of variables at the start of a flight.
-pub trait StartValues {
+#[derive(Clone, Copy, Debug)]
+pub struct StartValues<'a> {
+    /// Of the plant.
+    pub description: &'a Description,
+    /// What is set.
+    pub sets: &'a [(String, Value)],
+}
+
+impl<'a> StartValues<'a> {
     /// Of a Real; not a number where there is none.
-    fn real(&self, name: &str) -> f64;
+    pub fn real(&self, name: &str) -> f64 {
+        start_values::start(self.description, self.sets, name).map_or(f64::NAN, |value| value.to_f64())
+    }
 
     /// The name of an option's item.
-    fn item(&self, name: &str) -> Option<&str>;
+    pub fn item(&self, name: &str) -> Option<&'a str> {
+        start_values::item(self.description, self.sets, name)
+    }
 
     /// Whether a Boolean is true.
-    fn is_true(&self, name: &str) -> bool;
+    pub fn is_true(&self, name: &str) -> bool {
+        start_values::start(self.description, self.sets, name) == Some(Value::Boolean(true))
+    }
 
     /// Of a vector.
-    fn vector(&self, name: &str) -> Vector3<f64> {
+    pub fn vector(&self, name: &str) -> Vector3<f64> {
         Vector3::from([1, 2, 3].map(|axis| self.real(&format!("{name}[{axis}]"))))
     }
 
     /// Greatest azimuth and elevation of the Sun that the keep-in zone allows, in rad.
-    fn zone_rad(&self) -> [f64; 2] {
+    pub fn zone_rad(&self) -> [f64; 2] {
         match self.is_true("keepIn.enabled") {
             true => [self.real("keepIn.azimuth"), self.real("keepIn.elevation")],
             false => [f64::INFINITY; 2],
@@ -53,7 +68,7 @@ pub fn spacecraft(file: &str, text: &str) -> Result<Spacecraft, String> {
 /// A sunshade that is not there in this form.
 pub fn sunlit(
     spacecraft: Spacecraft,
-    values: &dyn StartValues,
+    values: &StartValues<'_>,
     convention: Convention,
 ) -> Result<SunlitSpacecraft, Refusal> {
     let shape = match values.item("sunshade.shape") {

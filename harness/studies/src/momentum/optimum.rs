@@ -7,8 +7,7 @@
 
 use std::error::Error;
 
-use loader::{Fmu, Value};
-use model_description::{Description, value};
+use loader::Fmu;
 use planner::momentum::{
     self, Limit,
     plan::{Least, PlanTask, PlannedDump, Simulates, body_momentum_n_m_s, plan},
@@ -50,41 +49,6 @@ fn optimum(case: &Case, fmu: &Fmu) -> Result<Simulated, StudyError> {
     case.simulate(fmu, &mut sought.steer(&found.windows, &found.dumps))
 }
 
-/// Values of a case.
-struct Values<'a> {
-    description: &'a Description,
-    sets: &'a Settings,
-}
-
-impl Values<'_> {
-    fn start(&self, name: &str) -> Option<Value> {
-        if let Some((_, value)) = self.sets.iter().find(|(set, _)| set == name) {
-            return Some(value.clone());
-        }
-        value::start(self.description.variables.iter().find(|it| it.name == name)?)
-    }
-}
-
-impl StartValues for Values<'_> {
-    fn real(&self, name: &str) -> f64 {
-        self.start(name).map_or(f64::NAN, |value| value.to_f64())
-    }
-
-    fn item(&self, name: &str) -> Option<&str> {
-        if let Some((_, Value::Text(item))) = self.sets.iter().find(|(set, _)| set == name) {
-            return Some(item);
-        }
-        let Value::Integer(number) = self.start(name)? else { return None };
-        let variable = self.description.variables.iter().find(|it| it.name == name)?;
-        let items = value::items(self.description, variable).iter();
-        items.into_iter().find(|it| it.value == number).map(|it| it.name.as_str())
-    }
-
-    fn is_true(&self, name: &str) -> bool {
-        self.start(name) == Some(Value::Boolean(true))
-    }
-}
-
 /// A case whose plan is sought.
 struct Sought<'a> {
     fmu: &'a Fmu,
@@ -107,7 +71,7 @@ impl<'a> Sought<'a> {
         };
         let settings = case.settings();
         let description = fmu.description();
-        let values = Values { description, sets: settings.sets() };
+        let values = StartValues { description, sets: settings.sets() };
         let text = Variant::text_of(fmu).map_err(|error| error.to_string())?;
         let spacecraft = plant::spacecraft("spacecraft.toml", &text)?;
         let sunlit = plant::sunlit(spacecraft, &values, convention)?;

@@ -22,7 +22,7 @@ use crate::{
     mission::{Inputs, Mission, SpacecraftSource},
     run::{Run, Settings, Simulated, Subject},
     values,
-    variables::{item, selected, start},
+    variables::{item, selected},
 };
 
 /// Why something could not be done.
@@ -130,32 +130,37 @@ impl SimulatedMission {
 
     /// What turns the clock of a timeline into times of the flight, in s to be subtracted.
     pub(super) fn clock_minus_time_s(&self, timeline: &Timeline) -> f64 {
-        let zero_s = self.zero_epoch_s.unwrap_or_else(|| self.real("start.epoch") - self.start_s);
+        let zero_s = self.zero_epoch_s.unwrap_or_else(|| self.values().real("start.epoch") - self.start_s);
         timeline.clock_minus_time_s(zero_s)
+    }
+
+    /// Its values at the start.
+    pub(super) fn values(&self) -> StartValues<'_> {
+        StartValues { description: self.fmu.description(), sets: &self.sets }
     }
 
     /// The least `dump.threshold`, in N m s.
     pub(super) fn least_threshold_n_m_s(&self) -> f64 {
-        self.vector("dump.threshold").min()
+        self.values().vector("dump.threshold").min()
     }
 
     /// Whether downlinks alternate with science; else it is in cruise, downlink throughout.
     pub(super) fn is_in_orbit(&self) -> bool {
-        self.item("guided.phase") == Some("orbit")
+        self.values().item("guided.phase") == Some("orbit")
     }
 
     /// The corridor of the light on the cells.
     pub(super) fn corridor(&self) -> Articulation {
         Articulation {
-            min_suns: self.real("articulation.minimumSuns"),
-            max_suns: self.real("articulation.maximumSuns"),
-            target_suns: self.real("articulation.targetSuns"),
+            min_suns: self.values().real("articulation.minimumSuns"),
+            max_suns: self.values().real("articulation.maximumSuns"),
+            target_suns: self.values().real("articulation.targetSuns"),
         }
     }
 
     /// The spacecraft in sunlight with the mission's values, the centre of mass as it is at each time.
     pub(super) fn sunlit(&self, timeline: Option<&Timeline>) -> Result<SunlitSpacecraft, Failure> {
-        let mut sunlit = plant::sunlit(self.spacecraft()?, self, CONVENTION)?;
+        let mut sunlit = plant::sunlit(self.spacecraft()?, &self.values(), CONVENTION)?;
         if let Some(timeline) = timeline {
             let clock_minus_time_s = self.clock_minus_time_s(timeline);
             let moved = timeline.events().iter().filter_map(|event| {
@@ -210,20 +215,6 @@ impl SimulatedMission {
         }
         let column = |name: &str| recording.column(name).map(|column| column.numbers());
         Ok(plant::flight(&recording.times_s, &column, (panels.len(), CONVENTION))?)
-    }
-}
-
-impl StartValues for SimulatedMission {
-    fn real(&self, name: &str) -> f64 {
-        start(self.fmu.description(), &self.sets, name).map_or(f64::NAN, |value| value.to_f64())
-    }
-
-    fn item(&self, name: &str) -> Option<&str> {
-        item(self.fmu.description(), &self.sets, name)
-    }
-
-    fn is_true(&self, name: &str) -> bool {
-        start(self.fmu.description(), &self.sets, name) == Some(Value::Boolean(true))
     }
 }
 

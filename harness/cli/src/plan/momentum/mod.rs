@@ -25,7 +25,6 @@ use physics::guidance::timeline::Timeline;
 use planner::momentum::{
     Limit,
     plan::{Least, MomentumPlan, PlanError, PlanTask, PlannedDump, plan},
-    plant::StartValues,
     report::{self, PlanEvent},
     simulated::{MomentumSize, SimulatedFlight},
     torque::SunlitSpacecraft,
@@ -135,7 +134,7 @@ fn orbit_layout(
             .problem(&file.mission, "found no downlink, allowed: a mission with downlinks to plan")
             .into());
     }
-    let zone_rad = mission.zone_rad();
+    let zone_rad = mission.values().zone_rad();
     let tilt = |angle_rad: Option<f64>, zone_rad: f64| {
         angle_rad.unwrap_or(MOST_TILT_RAD).min(zone_rad - WITHIN_ZONE_RAD).max(0.0)
     };
@@ -144,7 +143,7 @@ fn orbit_layout(
         elevation_rad: tilt(file.elevation_rad, zone_rad[1]),
         ..Reach::default()
     };
-    let sun_offset_rad = mission.real("panel[1].sunOffset");
+    let sun_offset_rad = mission.values().real("panel[1].sunOffset");
     let sun_offset_rad = if sun_offset_rad.is_finite() { sun_offset_rad } else { 0.0 };
     Ok(Layout {
         frozen_until_s: mission.start_s + file.freeze_s.it,
@@ -169,7 +168,7 @@ fn layout(
         return Err(file.problem(at, what).into());
     }
     let panels = 1..=sunlit.panels.len();
-    let controls = panels.map(|number| mission.item(&format!("panel[{number}].control")));
+    let controls = panels.map(|number| mission.values().item(&format!("panel[{number}].control")));
     let arrays_are_frozen = controls.into_iter().all(|it| matches!(it, Some("sunOffset" | "timeline")));
     let mut contacts_s: Vec<[f64; 2]> = Vec::new();
     for at in &file.contacts {
@@ -186,12 +185,11 @@ fn layout(
         }
         contacts_s.push([from_s, to_s]);
     }
-    let zone_rad = mission.zone_rad();
-    let offset_rad = timeline
-        .arrays_rad
-        .first()
-        .and_then(|(_, angles)| angles.first().copied())
-        .unwrap_or_else(|| if sides.is_empty() { 0.0 } else { mission.real("panel[1].sunOffset") });
+    let zone_rad = mission.values().zone_rad();
+    let offset_rad =
+        timeline.arrays_rad.first().and_then(|(_, angles)| angles.first().copied()).unwrap_or_else(|| {
+            if sides.is_empty() { 0.0 } else { mission.values().real("panel[1].sunOffset") }
+        });
     Ok(Layout {
         frozen_until_s: mission.start_s + file.freeze_s.it,
         arrays_are_frozen,

@@ -12,7 +12,6 @@ use physics::{
 };
 use planner::momentum::{
     plan::PlannedDump,
-    plant::StartValues,
     report::PlanEvent,
     torque::Control,
     windows::{Occupied, Window, WindowKind},
@@ -257,7 +256,7 @@ impl MissionTimeline {
         match mission.zero_epoch_s.filter(|_| self.is_dated) {
             Some(zero_s) => format!("{:?}", dates::utc(zero_s + time_s)),
             None if self.is_dated => {
-                format!("{:?}", dates::utc(mission.real("start.epoch") - mission.start_s + time_s))
+                format!("{:?}", dates::utc(mission.values().real("start.epoch") - mission.start_s + time_s))
             }
             None => format!("{time_s:?}"),
         }

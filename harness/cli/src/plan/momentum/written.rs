@@ -6,7 +6,6 @@ use nalgebra::Vector3;
 use physics::plant::ThrusterEventSettings;
 use planner::momentum::{
     plan::{MomentumPlan, PlannedDump},
-    plant::StartValues,
     torque::Control,
     windows::{Window, WindowKind},
 };
@@ -114,7 +113,9 @@ pub(super) fn inputs(
 ) -> String {
     let count = sides.len();
     let mut now = Inputs {
-        panels_rad: (1..=count).map(|number| planned.real(&format!("panel[{number}].sunOffset"))).collect(),
+        panels_rad: (1..=count)
+            .map(|number| planned.values().real(&format!("panel[{number}].sunOffset")))
+            .collect(),
         azimuth_rad: 0.0,
         elevation_rad: 0.0,
         alternate: false,
@@ -122,7 +123,7 @@ pub(super) fn inputs(
         target_n_m_s: Vector3::zeros(),
         maneuver: false,
         delta_v_m_s: Vector3::zeros(),
-        center_of_mass_m: planned.vector("spacecraft.centerOfMass"),
+        center_of_mass_m: planned.values().vector("spacecraft.centerOfMass"),
     };
     // What changes, by time.
     let mut changes: Vec<(f64, Change<'_>)> = Vec::new();
@@ -155,8 +156,8 @@ pub(super) fn inputs(
         dump(planned.at_s, shown_n_m_s(&bodies(planned)).into());
     }
     let settings = ThrusterEventSettings {
-        dumps: planned.is_true("maneuver.dump"),
-        requested_body_n_m_s: planned.vector("dump.target"),
+        dumps: planned.values().is_true("maneuver.dump"),
+        requested_body_n_m_s: planned.values().vector("dump.target"),
         ..ThrusterEventSettings::default()
     };
     for (at_s, event) in &timeline.thruster_events {
@@ -228,7 +229,7 @@ pub(super) fn inputs(
 
 /// What the input table cannot say of the mission's maneuvers, whose dumps and thrusters are parameters there.
 pub(super) fn beyond_inputs(planned: &SimulatedMission, timeline: &MissionTimeline) -> Vec<String> {
-    let dumps = planned.is_true("maneuver.dump");
+    let dumps = planned.values().is_true("maneuver.dump");
     let maneuvers = timeline.thruster_events.iter().filter_map(|(at_s, event)| Some((at_s, event.maneuver?)));
     let said = maneuvers.filter_map(|(at_s, maneuver)| {
         let what = match (dumps, maneuver.dumps, maneuver.thrusters) {
