@@ -1,6 +1,8 @@
 //! Momentum that sunlight's torque can hold: what downlinks of a recorded mission attain, and optimal plans of arrays and attitudes.
 
+pub mod attainable;
 pub mod baseline;
+mod cell;
 mod counted;
 mod mission;
 mod model;
@@ -12,6 +14,7 @@ pub mod refit_file;
 mod region;
 pub mod report;
 pub mod simulated;
+pub mod target;
 #[cfg(test)]
 mod test_spacecraft;
 pub mod torque;

@@ -4,12 +4,14 @@
 //! what a flight through the FMU gained more with the same controls is added. So the model agrees with the last flight whatever effects
 //! that had, and its derivatives are those of sunlight.
 
-use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
+use nalgebra::{Matrix3x4, Matrix4, SymmetricEigen, Vector3};
 
 use super::{
+    cell::{ALL, At, Cell, cell},
     program::{Begin, Program, Step},
     simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
-    torque::{Attitude, CONTROLS, Control, SunlitSpacecraft},
+    target::{Aimed, Target},
+    torque::{CONTROLS, Control, SunlitSpacecraft},
     windows::{Window, WindowKind},
 };
 
@@ -31,18 +33,6 @@ pub struct Limit {
     pub covariance: Option<Matrix4<f64>>,
 }
 
-/// From one row to the next.
-#[derive(Clone, Debug, PartialEq)]
-struct Cell {
-    window: usize,
-    /// Gained at the present controls without the correction.
-    gain: Vector3<f64>,
-    by_control: [Vector3<f64>; CONTROLS],
-    by_error: Matrix3x4<f64>,
-    /// What it leaves where the mission dumps in it.
-    reset: Option<Vector3<f64>>,
-}
-
 /// A flight with windows, linear in their controls.
 #[derive(Clone, Debug)]
 pub(super) struct Model {
@@ -56,6 +46,7 @@ pub(super) struct Model {
     pub judged_from_s: f64,
     /// Rows at which planned dumps leave any momentum, with what they leave.
     pub dumps: Vec<(usize, Vector3<f64>)>,
+    aimed: Option<Aimed>,
     cells: Vec<Cell>,
     /// What the last flight gained more, by cell.
     corrections: Vec<Vector3<f64>>,
@@ -96,6 +87,7 @@ impl Model {
             limit,
             judged_from_s: f64::NEG_INFINITY,
             dumps: Vec::new(),
+            aimed: None,
             cells: Vec::new(),
             instants: Vec::new(),
             between: Vec::new(),
@@ -103,6 +95,37 @@ impl Model {
         model.linearise(sunlit);
         model.set_instants();
         model
+    }
+
+    /// With a target of the plan, where the flight had an encounter.
+    pub(super) fn aim(&mut self, sunlit: &SunlitSpacecraft, target: Option<Target>) {
+        let encountered = self.simulated.encountered.clone();
+        self.aimed = target.zip(encountered).map(|(target, encountered)| Aimed {
+            target,
+            encountered,
+            simulated: Vector3::zeros(),
+        });
+        // From their own first time on.
+        self.cells.clear();
+        self.linearise(sunlit);
+        self.set_simulated();
+    }
+
+    fn set_simulated(&mut self) {
+        let sum = self.moves();
+        if let Some(aimed) = &mut self.aimed {
+            aimed.simulated = sum;
+        }
+    }
+
+    fn moves(&self) -> Vector3<f64> {
+        self.cells.iter().map(|cell| cell.moves.at).sum()
+    }
+
+    /// Miss of the target at the present controls; `None` without one.
+    pub(super) fn miss(&self) -> Option<Vector3<f64>> {
+        let aimed = self.aimed.as_ref()?;
+        Some(aimed.encountered.miss + self.moves() - aimed.simulated)
     }
 
     /// Anew about the present controls.
@@ -128,9 +151,9 @@ impl Model {
             let share = of.alternate_at(middle_s);
             let from = match last.take() {
                 Some((at_window, at, value)) if at_window == window && at == index => value,
-                _ => At::of(sunlit, &rows[index], of),
+                _ => At::of(sunlit, &rows[index], of, self.aimed.as_ref()),
             };
-            let to = At::of(sunlit, &rows[index + 1], of);
+            let to = At::of(sunlit, &rows[index + 1], of, self.aimed.as_ref());
             cells.push(cell(window, of, [&rows[index], &rows[index + 1]], [&from, &to], share));
             last = Some((window, index + 1, to));
         }
@@ -166,8 +189,8 @@ impl Model {
         &self.instants
     }
 
-    /// Takes what a flight of the present controls gained; the greatest difference of |H| vectors from the plan before.
-    pub(super) fn take(&mut self, flight: &SimulatedFlight) {
+    /// Takes what a flight of the present controls gained, and how it missed the target.
+    pub(super) fn take(&mut self, sunlit: &SunlitSpacecraft, flight: &SimulatedFlight) {
         let momentum = |row: &FlightRow| flight.momentum_n_m_s(row.time_s);
         let count_at = |time_s: f64| {
             let after = flight.rows.partition_point(|row| row.time_s <= time_s + SAME_S);
@@ -179,6 +202,11 @@ impl Model {
                 continue;
             }
             self.corrections[index] = momentum(to) - momentum(from) - cell.gain;
+        }
+        if let (Some(aimed), Some(encountered)) = (&mut self.aimed, &flight.encountered) {
+            aimed.encountered = encountered.clone();
+            self.linearise(sunlit);
+            self.set_simulated();
         }
     }
 
@@ -229,8 +257,22 @@ impl Model {
         all.into_iter().enumerate().map(|(row, allowed)| judged(row, allowed)).collect()
     }
 
-    /// By how much |H| exceeds what is allowed at the worst row, in N m s, and that row.
+    /// By how much |H| exceeds what is allowed at the worst row, in N m s, and that row; the target's excess counts as at the last.
     pub(super) fn excess_n_m_s(&self) -> (f64, usize) {
+        let of_momentum = self.momentum_excess_n_m_s();
+        let limit_n_m_s = self.limit.momentum_n_m_s;
+        let of_target = self
+            .aimed
+            .as_ref()
+            .zip(self.miss())
+            .map(|(aimed, miss)| aimed.target.excess_n_m_s(&miss, limit_n_m_s));
+        match of_target {
+            Some(excess) if excess > of_momentum.0 => (excess, self.cells.len()),
+            _ => of_momentum,
+        }
+    }
+
+    fn momentum_excess_n_m_s(&self) -> (f64, usize) {
         let momentum = self.momentum_n_m_s();
         let over = momentum
             .iter()
@@ -309,6 +351,9 @@ impl Model {
             }
         }
         self.add_steps(&mut program, leaders, part, guard);
+        if !part.free && part.steps == [0, self.instants.len()] {
+            self.add_target(&mut program, leaders);
+        }
         self.add_corridor(&mut program, leaders);
         for (index, window) in self.windows.iter().enumerate() {
             if window.kind != WindowKind::Free {
@@ -374,6 +419,30 @@ impl Model {
         }
     }
 
+    /// Miss of the target as linear in the controls: constant, and by unit of each.
+    pub(super) fn linear_miss(
+        &self,
+        leaders: &[usize],
+    ) -> Option<(Vector3<f64>, Vec<(usize, Vector3<f64>)>)> {
+        let mut constant = self.miss()?;
+        let mut by = vec![Vector3::zeros(); CONTROLS * self.windows.len()];
+        for cell in &self.cells {
+            let controls = &self.windows[cell.window].controls;
+            for control in ALL {
+                let moves = cell.moves.by_control[control as usize];
+                constant -= moves * controls.get(control);
+                by[Self::index(leaders, cell.window, control)] += moves;
+            }
+        }
+        let moved = by.into_iter().enumerate().filter(|(_, by)| *by != Vector3::zeros());
+        Some((constant, moved.collect()))
+    }
+
+    fn add_target(&self, program: &mut Program, leaders: &[usize]) {
+        let (Some(aimed), Some((constant, terms))) = (&self.aimed, self.linear_miss(leaders)) else { return };
+        program.targets = aimed.target.rows(&constant, &terms, self.limit.momentum_n_m_s);
+    }
+
     /// The light on the cells of every panel within its corridor.
     fn add_corridor(&self, program: &mut Program, leaders: &[usize]) {
         for (index, window) in self.windows.iter().enumerate() {
@@ -402,93 +471,6 @@ const CLOSEST_S: f64 = 8.0 * 3600.0;
 const DAY_S: f64 = 86_400.0;
 /// Cost of a day in the alternate attitude or of a radian of windmilling, against a day with a radian of tilt.
 const SLIGHT: f64 = 1e-3;
-/// All controls.
-pub(super) const ALL: [Control; CONTROLS] =
-    [Control::Offset, Control::Windmill, Control::Azimuth, Control::Elevation, Control::Alternate];
-
-/// Torque and what it changes by, at a row in a window.
-struct At {
-    torque: Vector3<f64>,
-    by_angle: [Vector3<f64>; 4],
-    by_center: Matrix3<f64>,
-    half_turn: Matrix3<f64>,
-    scale: f64,
-    other: Vector3<f64>,
-}
-
-impl At {
-    fn of(sunlit: &SunlitSpacecraft, row: &FlightRow, window: &Window) -> Self {
-        let found = match window.kind {
-            WindowKind::Free => sunlit.linearised(row, Attitude::Downlink, &window.controls),
-            WindowKind::Frozen => sunlit.simulated(row),
-            WindowKind::Fixed | WindowKind::Planned => {
-                sunlit.linearised(row, Attitude::SimulatedFlight, &window.controls)
-            }
-        };
-        Self {
-            torque: found.torque,
-            by_angle: found.by_angle,
-            by_center: found.by_center,
-            half_turn: found.half_turn,
-            scale: sunlit.light.scale,
-            other: row.other_torque_n_m,
-        }
-    }
-
-    /// With a share in the alternate attitude: torque, its derivatives by the angles, the difference of the attitudes, and that by errors.
-    fn mean(&self, share: f64) -> (Vector3<f64>, [Vector3<f64>; 4], Vector3<f64>, Matrix3x4<f64>) {
-        let mix = Matrix3::identity() * (1.0 - share) + self.half_turn * share;
-        let solar = mix * self.torque;
-        let by_center = mix * self.by_center;
-        let by_scale = if self.scale > 0.0 { solar / self.scale } else { Vector3::zeros() };
-        let by_error = Matrix3x4::from_columns(&[
-            by_center.column(0).into_owned(),
-            by_center.column(1).into_owned(),
-            by_center.column(2).into_owned(),
-            by_scale,
-        ]);
-        (
-            solar + self.other,
-            self.by_angle.map(|it| mix * it),
-            self.half_turn * self.torque - self.torque,
-            by_error,
-        )
-    }
-}
-
-fn cell(
-    window: usize,
-    of: &Window,
-    rows: [&FlightRow; 2],
-    at: [&At; 2],
-    (share, share_by_control): (f64, f64),
-) -> Cell {
-    let duration_s = rows[1].time_s - rows[0].time_s;
-    let [from, to] = at.map(|at| at.mean(share));
-    let half_s = 0.5 * duration_s;
-    let mut by_control = [Vector3::zeros(); CONTROLS];
-    for (sum, (a, b)) in by_control.iter_mut().zip(from.1.iter().zip(&to.1)) {
-        *sum = (a + b) * half_s;
-    }
-    by_control[Control::Alternate as usize] = (from.2 + to.2) * (half_s * share_by_control);
-    for control in ALL {
-        let [low, high] = of.bounds[control as usize];
-        if low >= high {
-            by_control[control as usize] = Vector3::zeros();
-        }
-    }
-    let gain = match of.kind {
-        WindowKind::Frozen => rows[1].momentum_n_m_s - rows[0].momentum_n_m_s,
-        _ => (from.0 + to.0) * half_s,
-    };
-    Cell {
-        window,
-        gain,
-        by_control,
-        by_error: (from.3 + to.3) * half_s,
-        reset: (rows[1].dumps != rows[0].dumps).then_some(rows[1].momentum_n_m_s),
-    }
-}
 
 #[cfg(test)]
 mod tests;

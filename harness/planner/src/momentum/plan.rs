@@ -12,10 +12,12 @@ use physics::momentum::Convention;
 
 use super::{
     baseline::{NoOffset, OffsetStep},
+    cell::ALL,
     counted::{self, Groups},
-    model::{ALL, Limit, Model, Part},
+    model::{Limit, Model, Part},
     program::{Goal, Program, Solution},
     simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
+    target::Target,
     torque::{Attitude, Control, Controls, SunlitSpacecraft},
     windows::{Layout, Window, WindowKind},
 };
@@ -23,7 +25,7 @@ use super::{
 /// Flight and plan agree where they differ by less than this share of the limit.
 pub const AGREED: f64 = 0.02;
 /// Share of the limit that a plan leaves, for what it cannot know before the flight.
-const GUARD: f64 = 0.01;
+pub(super) const GUARD: f64 = 0.01;
 /// Rounds at most.
 const MOST_ROUNDS: usize = 8;
 /// Solutions within a round at most.
@@ -34,7 +36,7 @@ const LEAST_TRUST: f64 = 2e-3;
 /// What a N m s over the limit costs, against a day with a radian of tilt.
 const PENALTY: f64 = 1e3;
 /// Share of the range at the beginning, and behind a flight, from which little is left to correct.
-const WHOLE: f64 = 1.0;
+pub(super) const WHOLE: f64 = 1.0;
 const LITTLE: [f64; 3] = [0.05, 0.15, 0.5];
 /// A gain in merit below this share is none.
 const TAKEN: f64 = 1e-4;
@@ -70,6 +72,8 @@ pub struct PlanTask {
     pub least: Least,
     /// Time for counted changes, in s.
     pub budget_s: f64,
+    /// What the flight is aimed at; without effect where it has no encounter.
+    pub target: Option<Target>,
 }
 
 /// A dump of the plan.
@@ -176,12 +180,12 @@ pub trait Simulates {
 }
 
 /// The whole flight as a part.
-fn whole(model: &Model) -> Part {
+pub(super) fn whole(model: &Model) -> Part {
     Part { steps: [0, model.instants().len()], free: false }
 }
 
 /// Gives every window the controls of a solution, and every dump its momentum.
-fn give(model: &mut Model, leaders: &[usize], solution: &Solution) {
+pub(super) fn give(model: &mut Model, leaders: &[usize], solution: &Solution) {
     for index in 0..model.windows.len() {
         let mut controls = Controls::default();
         for control in ALL {
@@ -197,7 +201,7 @@ fn give(model: &mut Model, leaders: &[usize], solution: &Solution) {
 /// What a solution is judged by: cost, and what the limits are exceeded by.
 fn merit(program: &Program, controls: &[f64], excess_n_m_s: f64, goal: Goal) -> f64 {
     match goal {
-        Goal::LeastExcess => excess_n_m_s,
+        Goal::LeastExcess | Goal::Farthest => excess_n_m_s,
         Goal::LeastCost => program.cost(controls) + PENALTY * excess_n_m_s.max(0.0),
     }
 }
@@ -205,7 +209,7 @@ fn merit(program: &Program, controls: &[f64], excess_n_m_s: f64, goal: Goal) -> 
 /// Solves about its own answers, from `trust` of the range of every control on; whether the limits are kept.
 ///
 /// A trust region: an answer is taken where the model about it is better by the merit, and the range narrows where it is not.
-fn refine(
+pub(super) fn refine(
     model: &mut Model,
     sunlit: &SunlitSpacecraft,
     leaders: &[usize],
@@ -323,6 +327,7 @@ pub fn plan(
 ) -> Result<MomentumPlan, PlanError> {
     let (windows, baseline) = task.layout.windows(sunlit, simulated).map_err(PlanError::Corridor)?;
     let mut model = Model::new(sunlit, simulated.clone(), windows, task.limit.clone());
+    model.aim(sunlit, task.target);
     let mut counts: Option<Structure> = None;
     let mut rounds = 0;
     loop {
@@ -346,7 +351,9 @@ pub fn plan(
         let off = rows.iter().map(|row| row.difference_n_m_s).fold(0.0, f64::max);
         let below = rows.iter().all(|row| row.simulated_n_m_s <= row.allowed_n_m_s)
             && flight.greatest(task.limit.size).0 <= limit * (1.0 - task.limit.margin);
-        let holds = off <= AGREED * limit && below;
+        let miss = flight.encountered.as_ref().map(|it| it.miss);
+        let meets = task.target.zip(miss).is_none_or(|(target, miss)| target.is_met(&miss));
+        let holds = off <= AGREED * limit && below && meets;
         if holds || rounds == MOST_ROUNDS {
             return Ok(MomentumPlan {
                 windows: model.windows,
@@ -362,7 +369,7 @@ pub fn plan(
                 flight,
             });
         }
-        model.take(&flight);
+        model.take(sunlit, &flight);
         model.look_between();
         if !kept {
             // What was counted does not do about the flight.
@@ -400,82 +407,6 @@ pub fn body_momentum_n_m_s(
         }
     }
     inertial_from_body.inverse() * dump.after_n_m_s
-}
-
-/// The model of a mission before any flight of a plan.
-fn bare(task: &PlanTask, sunlit: &SunlitSpacecraft, simulated: &SimulatedFlight) -> Result<Model, PlanError> {
-    let (windows, _) = task.layout.windows(sunlit, simulated).map_err(PlanError::Corridor)?;
-    Ok(Model::new(sunlit, simulated.clone(), windows, task.limit.clone()))
-}
-
-/// Tells nobody.
-struct Silent;
-
-impl Simulates for Silent {
-    fn simulate(
-        &mut self,
-        _: &[Window],
-        _: &[PlannedDump],
-    ) -> Result<SimulatedFlight, Box<dyn std::error::Error>> {
-        Err("nothing is simulated here".into())
-    }
-
-    fn progress(&mut self, _: &str) {}
-}
-
-/// By how much the limit is exceeded from a time on without dumps at best, in N m s, by the model before any flight of a plan; negative
-/// below.
-///
-/// # Errors
-/// A corridor without an offset, a programme without an answer.
-pub fn least_excess_n_m_s(
-    task: &PlanTask,
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
-    from_s: f64,
-) -> Result<f64, PlanError> {
-    let mut model = bare(task, sunlit, simulated)?;
-    model.judged_from_s = from_s;
-    let single = counted::single(&model);
-    refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), &mut Silent)?;
-    Ok(model.excess_n_m_s().0)
-}
-
-/// The fewest dumps, by the same model; `None` where dumps do not help.
-///
-/// # Errors
-/// A corridor without an offset, a programme without an answer.
-pub fn fewest_dumps(
-    task: &PlanTask,
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
-) -> Result<Option<usize>, PlanError> {
-    let mut model = bare(task, sunlit, simulated)?;
-    let single = counted::single(&model);
-    if refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), &mut Silent)? {
-        return Ok(Some(0));
-    }
-    Ok(counted::fewest_dumps(&model, GUARD, &mut || {}).map(|found| found.at_least))
-}
-
-/// Momentum that a downlink with the Sun on -Y would gather over a span, the arrays standing as in the windows, EME2000, in N m s.
-pub fn downlink_momentum_n_m_s(
-    sunlit: &SunlitSpacecraft,
-    simulated: &SimulatedFlight,
-    windows: &[Window],
-    [from_s, to_s]: [f64; 2],
-) -> Vector3<f64> {
-    let with = simulated.with_rows_at(&[from_s, to_s]);
-    let inside: Vec<_> =
-        with.rows.iter().filter(|row| (from_s - SAME_S..=to_s + SAME_S).contains(&row.time_s)).collect();
-    let torque = |row: &FlightRow| {
-        let window = windows.iter().find(|window| window.stop_s >= row.time_s);
-        let controls = window.map(|window| window.controls).unwrap_or_default();
-        let controls = controls.with(Control::Azimuth, 0.0).with(Control::Elevation, 0.0);
-        sunlit.torque_n_m(row, Attitude::Downlink, &controls) + row.other_torque_n_m
-    };
-    let pairs = inside.windows(2);
-    pairs.map(|pair| (torque(pair[0]) + torque(pair[1])) * (0.5 * (pair[1].time_s - pair[0].time_s))).sum()
 }
 
 fn planned_dumps(model: &Model) -> Vec<PlannedDump> {

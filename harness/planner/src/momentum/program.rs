@@ -1,10 +1,12 @@
 //! Convex programme: momentum over time, linear in bounded controls, within a ball or a cube at every instant.
 //!
 //! h_j = h_(j-1) + d_j + sum_i g_ji x_i with |h_j| <= L_j, length or largest component: second-order cones, or six half-spaces, an
-//! instant on sparse equations. Solved by the interior-point method of Clarabel (Goulart and Chen 2024) to a relative gap of 1e-8. Two questions are put:
+//! instant on sparse equations. Solved by the interior-point method of Clarabel (Goulart and Chen 2024) to a relative gap of 1e-8. Three questions are put:
+//! Targets are sums of controls within bounds that excess widens, each by its own measure.
 //!
 //! - the least excess, min t with |h_j| <= L_j + t: a negative one is what is left below every limit;
-//! - within the limits, the least sum of the lengths of pairs of controls and of a linear cost.
+//! - within the limits, the least sum of the lengths of pairs of controls and of a linear cost;
+//! - within the limits, the greatest linear gain.
 
 use clarabel::{
     algebra::CscMatrix,
@@ -41,6 +43,27 @@ pub(super) struct Step {
     pub limit: f64,
 }
 
+/// A sum of controls that is kept near zero.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct TargetRow {
+    /// With every control at 0.
+    pub constant: f64,
+    /// By unit of a control, by its index.
+    pub terms: Vec<(usize, f64)>,
+    /// How far it may be off zero.
+    pub within: f64,
+    /// By how much farther for each N m s of excess.
+    pub per_excess: f64,
+}
+
+impl TargetRow {
+    /// By which controls exceed it, in N m s; negative within.
+    pub(super) fn excess(&self, controls: &[f64]) -> f64 {
+        let terms = self.terms.iter().map(|(index, by)| by * controls[*index]);
+        ((self.constant + terms.sum::<f64>()).abs() - self.within) / self.per_excess
+    }
+}
+
 /// A programme.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Program {
@@ -56,6 +79,10 @@ pub(super) struct Program {
     pub magnitudes: Vec<(usize, f64)>,
     /// Sums of controls by their weights, and the most that they may come to.
     pub sums: Vec<(Vec<(usize, f64)>, f64)>,
+    /// Sums of controls near zero.
+    pub targets: Vec<TargetRow>,
+    /// Controls and what a unit of each gains.
+    pub gains: Vec<(usize, f64)>,
 }
 
 /// What is sought.
@@ -65,6 +92,8 @@ pub(super) enum Goal {
     LeastExcess,
     /// Least cost within the limits.
     LeastCost,
+    /// Greatest gain within the limits.
+    Farthest,
 }
 
 /// A solution.
@@ -134,7 +163,7 @@ impl Program {
         columns += lengths.len();
         let magnitudes: Vec<_> = match goal {
             Goal::LeastCost => self.magnitudes.iter().filter(|(index, _)| moved[*index].is_some()).collect(),
-            Goal::LeastExcess => Vec::new(),
+            Goal::LeastExcess | Goal::Farthest => Vec::new(),
         };
         let magnitude_at = columns;
         columns += magnitudes.len();
@@ -175,6 +204,24 @@ impl Program {
         let greatest = self.steps.iter().map(|step| step.limit).fold(0.0, f64::max);
         if let Some(excess) = excess {
             rows.row([(excess, -1.0)], greatest);
+        }
+        for target in &self.targets {
+            let at = |index: usize| moved[index].as_ref();
+            let middles = target
+                .terms
+                .iter()
+                .map(|(index, by)| by * at(*index).map_or(middle(self.bounds[*index]), |it| it.middle));
+            let constant = target.constant + middles.sum::<f64>();
+            // In units of its bound: rows of one size.
+            let unit = 1.0 / target.within;
+            for sign in [1.0, -1.0] {
+                let terms = target
+                    .terms
+                    .iter()
+                    .filter_map(|(index, by)| at(*index).map(|it| (it.column, sign * by * it.half * unit)));
+                let wider = excess.map(|column| (column, -target.per_excess * unit));
+                rows.row(terms.chain(wider), 1.0 - sign * constant * unit);
+            }
         }
         let inequalities = rows.right.len() - equations;
         if inequalities > 0 {
@@ -227,6 +274,13 @@ impl Program {
         for (at, (_, weight)) in magnitudes.iter().enumerate() {
             cost[magnitude_at + at] = *weight;
         }
+        if goal == Goal::Farthest {
+            for (index, gain) in &self.gains {
+                if let Some(moved) = &moved[*index] {
+                    cost[moved.column] -= gain * moved.half;
+                }
+            }
+        }
         let found = minimised(&cost, rows)?;
         let vectors = |from: usize, count: usize| -> Vec<Vector3<f64>> {
             found[from..from + 3 * count].chunks_exact(3).map(Vector3::from_column_slice).collect()
@@ -234,14 +288,12 @@ impl Program {
         let momentum = vectors(momentum_at, self.steps.len());
         let over =
             momentum.iter().zip(&self.steps).map(|(momentum, step)| self.size.of(momentum) - step.limit);
+        let controls: Vec<f64> =
+            self.bounds.iter().zip(&moved).map(|(bounds, moved)| value(*bounds, moved, &found)).collect();
+        let missed = self.targets.iter().map(|target| target.excess(&controls));
         Some(Solution {
-            excess: over.fold(f64::NEG_INFINITY, f64::max),
-            controls: self
-                .bounds
-                .iter()
-                .zip(&moved)
-                .map(|(bounds, moved)| value(*bounds, moved, &found))
-                .collect(),
+            excess: over.chain(missed).fold(f64::NEG_INFINITY, f64::max),
+            controls,
             begins: vectors(begin_at, (begins - begin_at) / 3),
             momentum,
         })

@@ -2,6 +2,8 @@
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 
+use super::target::Encountered;
+
 /// What is meant by the size of a momentum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MomentumSize {
@@ -75,6 +77,8 @@ impl FlightRow {
 pub struct SimulatedFlight {
     /// At least two.
     pub rows: Vec<FlightRow>,
+    /// How it missed what it was aimed at; `None` where there is nothing.
+    pub encountered: Option<Encountered>,
 }
 
 impl SimulatedFlight {
@@ -95,7 +99,7 @@ impl SimulatedFlight {
             let row = before.toward(next, share);
             rows.insert(after, row);
         }
-        Self { rows }
+        Self { rows, encountered: self.encountered.clone() }
     }
 
     /// The flight with what another one reports within a span.
@@ -105,7 +109,7 @@ impl SimulatedFlight {
             self.rows.iter().filter(|row| row.time_s <= from_s + SAME_S).cloned().collect();
         rows.extend(other.rows.iter().filter(is_inside).cloned());
         rows.extend(self.rows.iter().filter(|row| row.time_s >= to_s - SAME_S).cloned());
-        Self { rows }
+        Self { rows, encountered: self.encountered.clone() }
     }
 
     /// What is known at a time within the flight, interpolated.

@@ -48,7 +48,10 @@ pub(super) fn row(sunlit: &SunlitSpacecraft, time_s: f64, distance_au: f64, alon
 /// So many days, a row each two hours, at this distance, the Sun's direction fixed.
 pub(super) fn simulated(sunlit: &SunlitSpacecraft, days: u32, distance_au: f64) -> SimulatedFlight {
     let times = (0..=12 * days).map(|k| f64::from(k) * 7200.0);
-    SimulatedFlight { rows: times.map(|time_s| row(sunlit, time_s, distance_au, 0.3)).collect() }
+    SimulatedFlight {
+        rows: times.map(|time_s| row(sunlit, time_s, distance_au, 0.3)).collect(),
+        encountered: None,
+    }
 }
 
 /// Windows of a day from the start on, without controls; the corridor is wide.
@@ -75,6 +78,7 @@ pub(super) fn task(limit_n_m_s: f64, reach: Reach) -> PlanTask {
             covariance: None,
         },
         dumps: 0,
+        target: None,
         least: Least::Tilt,
         budget_s: 20.0,
     }

@@ -1,7 +1,8 @@
-//! Torque of sunlight by array offset, windmill angle, place of the Sun and alternation, and its derivatives.
+//! Force and torque of sunlight by array offset, windmill angle, place of the Sun and alternation, and their derivatives.
 //!
 //! The downlink attitude puts the Sun at azimuth A and elevation E of the body frame, the Earth in the XY plane; the alternate one is the
-//! same turned by 180 deg about the Sun line s, so that its torque is T' = 2 s (s.T) - T: what lies across the Sun line changes sign.
+//! same turned by 180 deg about the Sun line s, so that its torque is T' = 2 s (s.T) - T: what lies across the Sun line changes sign, and so
+//! of the force.
 //! Of a share a of the time in the alternate attitude the mean torque is (1 - a) T + a T'. Derivatives by the angles are central
 //! differences of the physics with a step of [`STEP_RAD`] (error of its square, 1e-8 relative); that by the share is exact.
 
@@ -127,6 +128,11 @@ impl SunlitSpacecraft {
         MassProperties { center_of_mass_body_m: center, ..self.mass_at_zero }
     }
 
+    /// Mass at a time, in kg.
+    pub fn mass_kg(&self, time_s: f64) -> f64 {
+        self.mass_at(time_s).mass_kg
+    }
+
     /// The attitude of a downlink with the Sun there; `None` where Sun or Earth has no direction.
     pub fn downlink_attitude(
         &self,
@@ -195,7 +201,7 @@ impl SunlitSpacecraft {
     }
 
     /// Torque of direct sunlight with arrays and attitude as they were simulated; no angle is a control.
-    pub fn simulated(&self, row: &FlightRow) -> LinearTorque {
+    pub fn simulated(&self, row: &FlightRow) -> LinearLoad {
         let enabled = self.panels.iter().map(|(enabled, _)| *enabled);
         let angle = |(enabled, angle_rad): (bool, &f64)| match enabled {
             true => PanelSetting::Angle(Ramp::held(*angle_rad)),
@@ -203,7 +209,7 @@ impl SunlitSpacecraft {
         };
         let settings: Vec<_> = enabled.zip(&row.panel_angles_rad).map(angle).collect();
         let loads = self.load(row, &row.inertial_from_body, &settings);
-        self.linear(row, &row.inertial_from_body, loads, [Vector3::zeros(); 4])
+        self.linear(row, &row.inertial_from_body, loads, [[Vector3::zeros(); 2]; 4])
     }
 
     /// Torque of direct sunlight in the attitude that is not alternate, in N m.
@@ -222,15 +228,15 @@ impl SunlitSpacecraft {
         self.load(row, &inertial_from_body, &self.settings(controls))
     }
 
-    /// That torque and its derivatives by the angles, each with that of the alternate attitude behind it.
-    pub fn linearised(&self, row: &FlightRow, attitude: Attitude, controls: &Controls) -> LinearTorque {
-        let at = |controls: &Controls| self.torque_n_m(row, attitude, controls);
+    /// Force and torque and their derivatives by the angles.
+    pub fn linearised(&self, row: &FlightRow, attitude: Attitude, controls: &Controls) -> LinearLoad {
+        let at = |controls: &Controls| self.loads(row, attitude, controls);
         let by = |control: Control| {
             let value = controls.get(control);
             let [high, low] = [STEP_RAD, -STEP_RAD].map(|step| at(&controls.with(control, value + step)));
-            (high - low) / (2.0 * STEP_RAD)
+            [0, 1].map(|of| (high[of] - low[of]) / (2.0 * STEP_RAD))
         };
-        let mut by_angle = [Vector3::zeros(); 4];
+        let mut by_angle = [[Vector3::zeros(); 2]; 4];
         by_angle[0] = by(Control::Offset);
         by_angle[1] = by(Control::Windmill);
         if attitude == Attitude::Downlink {
@@ -243,7 +249,7 @@ impl SunlitSpacecraft {
                 .downlink_attitude(row, controls.get(Control::Azimuth), controls.get(Control::Elevation))
                 .unwrap_or(row.inertial_from_body),
         };
-        self.linear(row, &inertial_from_body, self.loads(row, attitude, controls), by_angle)
+        self.linear(row, &inertial_from_body, at(controls), by_angle)
     }
 
     fn linear(
@@ -251,34 +257,53 @@ impl SunlitSpacecraft {
         row: &FlightRow,
         inertial_from_body: &Rotation3<f64>,
         [force, torque]: [Vector3<f64>; 2],
-        by_angle: [Vector3<f64>; 4],
-    ) -> LinearTorque {
+        by_angle: [[Vector3<f64>; 2]; 4],
+    ) -> LinearLoad {
         // T = sum (r - c) x F, so dT/dc_i = -e_i x F.
         let by_center = force.cross_matrix() * self.given_from_body(inertial_from_body).matrix();
-        LinearTorque { torque, by_angle, by_center, half_turn: half_turn(&row.to_sun_m) }
+        let [force_by_angle, torque_by_angle] = [0, 1].map(|of| by_angle.map(|both| both[of]));
+        let half_turn = half_turn(&row.to_sun_m);
+        LinearLoad { force, torque, force_by_angle, torque_by_angle, by_center, half_turn }
     }
 }
 
-/// Torque at a time, in N m, with its derivatives.
+/// Force (N) and torque (N m) of direct sunlight at a time, with their derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinearTorque {
-    /// In the attitude that is not alternate.
+pub struct LinearLoad {
+    /// Force in the attitude that is not alternate.
+    pub force: Vector3<f64>,
+    /// Torque in it.
     pub torque: Vector3<f64>,
-    /// By offset, windmill, azimuth, elevation, in N m/rad.
-    pub by_angle: [Vector3<f64>; 4],
-    /// By the centre of mass, body frame, in N.
+    /// Force by offset, windmill, azimuth, elevation, in N/rad.
+    pub force_by_angle: [Vector3<f64>; 4],
+    /// Torque by them, in N m/rad.
+    pub torque_by_angle: [Vector3<f64>; 4],
+    /// Torque by the centre of mass, body frame, in N.
     pub by_center: Matrix3<f64>,
     /// Takes a vector to that turned by 180 deg about the Sun line.
     pub half_turn: Matrix3<f64>,
 }
 
-impl LinearTorque {
+impl LinearLoad {
     /// Mean torque of a share of the alternate attitude, and its derivatives by the controls.
     pub fn mean(&self, alternate: f64) -> (Vector3<f64>, [Vector3<f64>; CONTROLS]) {
+        self.mixed(alternate, &self.torque, &self.torque_by_angle)
+    }
+
+    /// Mean force of a share of the alternate attitude, and its derivatives by the controls.
+    pub fn mean_force(&self, alternate: f64) -> (Vector3<f64>, [Vector3<f64>; CONTROLS]) {
+        self.mixed(alternate, &self.force, &self.force_by_angle)
+    }
+
+    fn mixed(
+        &self,
+        alternate: f64,
+        vector: &Vector3<f64>,
+        by_angle: &[Vector3<f64>; 4],
+    ) -> (Vector3<f64>, [Vector3<f64>; CONTROLS]) {
         let mix = self.mix(alternate);
-        let [offset, windmill, azimuth, elevation] = self.by_angle.map(|it| mix * it);
-        let by_share = self.half_turn * self.torque - self.torque;
-        (mix * self.torque, [offset, windmill, azimuth, elevation, by_share])
+        let [offset, windmill, azimuth, elevation] = by_angle.map(|it| mix * it);
+        (mix * vector, [offset, windmill, azimuth, elevation, self.half_turn * vector - vector])
     }
 
     /// (1 - a) 1 + a times the half turn.

@@ -106,6 +106,7 @@ impl<'a> Sought<'a> {
             dumps: usize::MAX,
             least: Least::Momentum,
             budget_s: 0.0,
+            target: None,
         }
     }
 

@@ -84,7 +84,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
         covariance: refit.map(|it| it.covariance),
     };
     let least = if is_in_orbit { Least::Momentum } else { Least::Tilt };
-    let task = PlanTask { layout, limit, dumps: file.dumps, least, budget_s: options.budget };
+    let task = PlanTask { layout, limit, dumps: file.dumps, least, budget_s: options.budget, target: None };
     let last = RefCell::new(String::new());
     Ok(Planned { options, mission, timeline, sunlit, simulated, task, sets, began, last })
 }
@@ -345,7 +345,7 @@ fn check_contacts(file: &PlanFile, planned: &Planned<'_>, found: &MomentumPlan) 
     let Some(window) = found.windows.iter().find(full) else { return Ok(()) };
     let mut task = planned.task.clone();
     task.layout.contacts_s.clear();
-    let needs = planner::momentum::plan::least_excess_n_m_s(
+    let needs = planner::momentum::attainable::least_excess_n_m_s(
         &task,
         &planned.sunlit,
         &planned.simulated,

@@ -2,7 +2,8 @@
 
 use nalgebra::Vector3;
 use planner::momentum::{
-    plan::{MomentumPlan, PlanTask, downlink_momentum_n_m_s, fewest_dumps, least_excess_n_m_s},
+    attainable::{downlink_momentum_n_m_s, fewest_dumps, least_excess_n_m_s},
+    plan::{MomentumPlan, PlanTask},
     report::Price,
     simulated::SimulatedFlight,
     windows::{Occupied, Window, WindowKind},

@@ -1,11 +1,12 @@
 //! Momentum of constant torques in closed form, what a flight corrects, what a covariance leaves.
 
 use approx::assert_relative_eq;
-use nalgebra::Matrix4;
+use nalgebra::{Matrix3, Matrix4};
 
 use super::*;
 use crate::momentum::{
     test_spacecraft::{DAY_S, simulated, sunlit, task},
+    torque::Attitude,
     windows::Reach,
 };
 
@@ -47,14 +48,14 @@ fn alternation_leaves_the_sun_line() {
 
 #[test]
 fn a_flight_that_gains_more_is_believed() {
-    let (_, mut model) = model(Reach::default(), limit());
+    let (sunlit, mut model) = model(Reach::default(), limit());
     let more = Vector3::new(1e-6, -2e-6, 3e-6);
     let planned = model.momentum_n_m_s();
     let mut flight = model.simulated.clone();
     for (row, planned) in flight.rows.iter_mut().zip(&planned) {
         row.momentum_n_m_s = planned + more * row.time_s;
     }
-    model.take(&flight);
+    model.take(&sunlit, &flight);
     for (row, found) in flight.rows.iter().zip(model.momentum_n_m_s()) {
         assert_relative_eq!(row.momentum_n_m_s, found, epsilon = 1e-12);
     }

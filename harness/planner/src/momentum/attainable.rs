@@ -1,0 +1,189 @@
+//! What any choice of controls attains, by the linear model before any flight of a plan: excess, dumps, places in the B-plane.
+//!
+//! The places that the target can be moved to are convex as far as it is linear in the controls. Each of their corners is the farthest in
+//! one direction, solved again about its own answer, for tilt, windmilling and alternation multiply.
+
+use nalgebra::{Vector2, Vector3};
+
+use super::{
+    counted,
+    model::Model,
+    plan::{GUARD, PlanError, PlanTask, PlannedDump, Simulates, WHOLE, give, refine, whole},
+    program::{Goal, TargetRow},
+    region::Region,
+    simulated::{FlightRow, SAME_S, SimulatedFlight},
+    torque::{Attitude, Control, Controls, SunlitSpacecraft},
+    windows::Window,
+};
+
+/// Directions in which the farthest places are sought.
+const DIRECTIONS: usize = 32;
+/// Range of the controls about each answer, as shares.
+const RANGES: [f64; 4] = [WHOLE, 0.3, 0.1, 0.03];
+/// Along one axis the other one is kept within this share of what the first is moved by at most, and within so many m.
+const ASIDE_M: f64 = 10.0;
+
+/// The model of a mission before any flight of a plan.
+fn bare(task: &PlanTask, sunlit: &SunlitSpacecraft, simulated: &SimulatedFlight) -> Result<Model, PlanError> {
+    let (windows, _) = task.layout.windows(sunlit, simulated).map_err(PlanError::Corridor)?;
+    Ok(Model::new(sunlit, simulated.clone(), windows, task.limit.clone()))
+}
+
+/// Tells nobody.
+struct Silent;
+
+impl Simulates for Silent {
+    fn simulate(
+        &mut self,
+        _: &[Window],
+        _: &[PlannedDump],
+    ) -> Result<SimulatedFlight, Box<dyn std::error::Error>> {
+        Err("nothing is simulated here".into())
+    }
+
+    fn progress(&mut self, _: &str) {}
+}
+
+/// By how much the limit is exceeded from a time on without dumps at best, in N m s, by the model before any flight of a plan; negative
+/// below.
+///
+/// # Errors
+/// A corridor without an offset, a programme without an answer.
+pub fn least_excess_n_m_s(
+    task: &PlanTask,
+    sunlit: &SunlitSpacecraft,
+    simulated: &SimulatedFlight,
+    from_s: f64,
+) -> Result<f64, PlanError> {
+    let mut model = bare(task, sunlit, simulated)?;
+    model.judged_from_s = from_s;
+    let single = counted::single(&model);
+    refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), &mut Silent)?;
+    Ok(model.excess_n_m_s().0)
+}
+
+/// The fewest dumps, by the same model; `None` where dumps do not help.
+///
+/// # Errors
+/// A corridor without an offset, a programme without an answer.
+pub fn fewest_dumps(
+    task: &PlanTask,
+    sunlit: &SunlitSpacecraft,
+    simulated: &SimulatedFlight,
+) -> Result<Option<usize>, PlanError> {
+    let mut model = bare(task, sunlit, simulated)?;
+    let single = counted::single(&model);
+    if refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), &mut Silent)? {
+        return Ok(Some(0));
+    }
+    Ok(counted::fewest_dumps(&model, GUARD, &mut || {}).map(|found| found.at_least))
+}
+
+/// Momentum that a downlink with the Sun on -Y would gather over a span, the arrays standing as in the windows, EME2000, in N m s.
+pub fn downlink_momentum_n_m_s(
+    sunlit: &SunlitSpacecraft,
+    simulated: &SimulatedFlight,
+    windows: &[Window],
+    [from_s, to_s]: [f64; 2],
+) -> Vector3<f64> {
+    let with = simulated.with_rows_at(&[from_s, to_s]);
+    let inside: Vec<_> =
+        with.rows.iter().filter(|row| (from_s - SAME_S..=to_s + SAME_S).contains(&row.time_s)).collect();
+    let torque = |row: &FlightRow| {
+        let window = windows.iter().find(|window| window.stop_s >= row.time_s);
+        let controls = window.map(|window| window.controls).unwrap_or_default();
+        let controls = controls.with(Control::Azimuth, 0.0).with(Control::Elevation, 0.0);
+        sunlit.torque_n_m(row, Attitude::Downlink, &controls) + row.other_torque_n_m
+    };
+    let pairs = inside.windows(2);
+    pairs.map(|pair| (torque(pair[0]) + torque(pair[1])) * (0.5 * (pair[1].time_s - pair[0].time_s))).sum()
+}
+
+/// Places in the B-plane that the controls can move an encounter to, from where it is, in m along T and R.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reachable {
+    /// Farthest along +T, -T, +R, -R, the other one unchanged; `None` where that keeps no limit.
+    pub along_m: [Option<f64>; 4],
+    /// Corners of all places, counterclockwise from T to R.
+    pub polygon_m: Vec<[f64; 2]>,
+}
+
+/// The places that the target of a flight can be moved to within the limits.
+///
+/// # Errors
+/// A corridor without an offset, a programme without an answer.
+pub fn reachable(
+    task: &PlanTask,
+    sunlit: &SunlitSpacecraft,
+    simulated: &SimulatedFlight,
+    simulates: &mut dyn Simulates,
+) -> Result<Reachable, PlanError> {
+    let mut model = bare(task, sunlit, simulated)?;
+    // The target itself is no limit here.
+    model.aim(sunlit, task.target.map(|_| super::target::Target { tolerance: [None; 3] }));
+    let Some(here) = model.miss() else { return Ok(Reachable::default()) };
+    let here = here.xy();
+    let single = counted::single(&model);
+    if model.excess_n_m_s().0 > 0.0 {
+        refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), simulates)?;
+    }
+    let mut farthest = |direction: Vector2<f64>, is_straight: bool| {
+        simulates.progress("reach");
+        farthest(&model, sunlit, (here, direction), is_straight)
+    };
+    let axes = [Vector2::x(), -Vector2::x(), Vector2::y(), -Vector2::y()];
+    let widest = axes.map(|axis| farthest(axis, false).map_or(0.0, |place| place.dot(&axis)));
+    let along_m = axes.map(|axis| farthest(axis, true).map(|place| place.dot(&axis)));
+    let scale = Vector2::new(widest[0].max(widest[1]), widest[2].max(widest[3])).add_scalar(1.0);
+    let directions = (0..DIRECTIONS).map(|k| core::f64::consts::TAU * k as f64 / DIRECTIONS as f64);
+    // Normals of an ellipse of that size.
+    let corners = directions.filter_map(|angle| {
+        let normal = Vector2::new(angle.cos() / scale.x, angle.sin() / scale.y);
+        farthest(normal.normalize(), false)
+    });
+    Ok(Reachable { along_m, polygon_m: hull(corners.collect()) })
+}
+
+/// The place farthest in a direction from where the encounter was; straight: nowhere aside.
+fn farthest(
+    model: &Model,
+    sunlit: &SunlitSpacecraft,
+    (here, direction): (Vector2<f64>, Vector2<f64>),
+    is_straight: bool,
+) -> Option<Vector2<f64>> {
+    let mut model = model.clone();
+    let leaders = counted::single(&model);
+    let aside = Vector2::new(-direction.y, direction.x);
+    let mut place = None;
+    for trust in RANGES {
+        let (constant, terms) = model.linear_miss(&leaders)?;
+        let mut program = model.program(&leaders, whole(&model), [GUARD, trust]);
+        let by = |axis: Vector2<f64>| terms.iter().map(move |(index, by)| (*index, axis.dot(&by.xy())));
+        let size = by(direction).map(|(_, by)| by.abs()).fold(0.0, f64::max);
+        if size == 0.0 {
+            return Some(Vector2::zeros());
+        }
+        program.gains = by(direction).map(|(index, by)| (index, by / size)).collect();
+        if is_straight {
+            program.targets.push(TargetRow {
+                constant: aside.dot(&(constant.xy() - here)),
+                terms: by(aside).collect(),
+                within: ASIDE_M,
+                per_excess: ASIDE_M,
+            });
+        }
+        let Some(solution) = program.solve(Goal::Farthest) else { break };
+        give(&mut model, &leaders, &solution);
+        model.linearise(sunlit);
+        place = Some(model.miss()?.xy() - here);
+    }
+    place
+}
+
+/// Corners of the least convex region with all of these places, counterclockwise.
+fn hull(places: Vec<Vector2<f64>>) -> Vec<[f64; 2]> {
+    Region::hull(places.into_iter().map(|place| [place.x, place.y])).corners
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,152 @@
+//! Places of an encounter whose partials are constant: reach in closed form, plans that meet a target.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::*;
+use crate::momentum::{
+    plan::{MomentumPlan, plan},
+    target::{Encountered, Target},
+    test_spacecraft::{DAY_S, row, simulated, sunlit, task},
+    windows::Reach,
+};
+
+const DAYS: f64 = 20.0;
+/// What a m/s does, in s.
+const BY_VELOCITY_S: f64 = 2e6;
+
+/// T along Y, R along Z of EME2000.
+fn by_velocity() -> Matrix3<f64> {
+    let (y, z) = (Vector3::y().transpose(), Vector3::z().transpose());
+    Matrix3::from_rows(&[y * BY_VELOCITY_S, z * BY_VELOCITY_S, y * 0.0])
+}
+
+fn force(sunlit: &SunlitSpacecraft, row: &FlightRow, window: &Window, time_s: f64) -> Vector3<f64> {
+    let load = sunlit.linearised(row, Attitude::Downlink, &window.controls);
+    let is_alternate = window.alternate_spans_s().iter().any(|[a, b]| (*a..*b).contains(&time_s));
+    load.mean_force(f64::from(u8::from(is_alternate))).0
+}
+
+/// Simulates windows in steps of half an hour, the alternate attitude as it is timed.
+struct Encounters {
+    sunlit: SunlitSpacecraft,
+    simulated: SimulatedFlight,
+    miss_m: Vector3<f64>,
+}
+
+impl Encounters {
+    /// Misses by `miss_m` without any control.
+    fn new(miss_m: Vector3<f64>) -> Self {
+        let sunlit = sunlit([0.01, 0.02, 0.03]);
+        let mut simulated = simulated(&sunlit, DAYS as u32, 0.4);
+        let by_velocity = [0.0, DAYS * DAY_S].map(|at_s| (at_s, by_velocity()));
+        simulated.encountered = Some(Encountered { miss: miss_m, by_velocity: by_velocity.to_vec() });
+        Self { sunlit, simulated, miss_m }
+    }
+}
+
+impl Simulates for Encounters {
+    fn simulate(
+        &mut self,
+        windows: &[Window],
+        _: &[PlannedDump],
+    ) -> Result<SimulatedFlight, Box<dyn std::error::Error>> {
+        let mut flight = self.simulated.clone();
+        let (mut momentum, mut miss) = (Vector3::zeros(), self.miss_m);
+        let mass_kg = self.sunlit.mass_at_zero.mass_kg;
+        for index in 1..flight.rows.len() {
+            let from = flight.rows[index - 1].clone();
+            let step_s = (flight.rows[index].time_s - from.time_s) / 4.0;
+            for step in 0..4 {
+                let time_s = from.time_s + step_s * (f64::from(step) + 0.5);
+                let window = windows.iter().find(|window| window.stop_s > time_s).unwrap();
+                let load = self.sunlit.linearised(&from, Attitude::Downlink, &window.controls);
+                let is_alternate = window.alternate_spans_s().iter().any(|[a, b]| (*a..*b).contains(&time_s));
+                momentum += load.mean(f64::from(u8::from(is_alternate))).0 * step_s;
+                let controls = Controls::default().with(Control::Offset, window.baseline_rad);
+                let bare = Window { controls, ..window.clone() };
+                let more =
+                    force(&self.sunlit, &from, window, time_s) - force(&self.sunlit, &from, &bare, time_s);
+                miss += by_velocity() * more * (step_s / mass_kg);
+            }
+            flight.rows[index].momentum_n_m_s = momentum;
+        }
+        if let Some(encountered) = &mut flight.encountered {
+            encountered.miss = miss;
+        }
+        Ok(flight)
+    }
+
+    fn progress(&mut self, _: &str) {}
+}
+
+fn tilts() -> Reach {
+    Reach { azimuth_rad: 0.1, elevation_rad: 0.1, alternate: 0.5, windmill_rad: 0.05, ..Reach::default() }
+}
+
+fn aimed(limit_n_m_s: f64, reach: Reach) -> PlanTask {
+    PlanTask {
+        target: Some(Target { tolerance: [Some(100.0), Some(100.0), None] }),
+        ..task(limit_n_m_s, reach)
+    }
+}
+
+fn planned(task: &PlanTask, miss_m: Vector3<f64>) -> MomentumPlan {
+    let mut encounters = Encounters::new(miss_m);
+    let (sunlit, simulated) = (encounters.sunlit.clone(), encounters.simulated.clone());
+    plan(task, &sunlit, &simulated, &mut encounters).unwrap()
+}
+
+fn reached(task: &PlanTask) -> Reachable {
+    let encounters = Encounters::new(Vector3::zeros());
+    reachable(task, &encounters.sunlit, &encounters.simulated, &mut Silent).unwrap()
+}
+
+/// One control alone: the force at its bounds, times the time, is the reach.
+#[test]
+fn the_reach_of_one_control_is_what_its_bounds_do() {
+    let one = Reach { elevation_rad: 0.1, ..Reach::default() };
+    let task = aimed(1e3, one);
+    let found = reached(&task);
+    let encounters = Encounters::new(Vector3::zeros());
+    let (windows, _) = task.layout.windows(&encounters.sunlit, &encounters.simulated).unwrap();
+    let row = row(&encounters.sunlit, 0.0, 0.4, 0.3);
+    let at = |elevation_rad: f64| {
+        let controls = windows[0].controls.with(Control::Elevation, elevation_rad);
+        let force = encounters.sunlit.linearised(&row, Attitude::Downlink, &controls).force;
+        by_velocity() * force * (DAYS * DAY_S / encounters.sunlit.mass_at_zero.mass_kg)
+    };
+    let places = [0.1, -0.1].map(|elevation_rad| (at(elevation_rad) - at(0.0)).xy());
+    assert!(places[0].norm() > 1e4, "{places:?}");
+    for place in places {
+        let nearest = found.polygon_m.iter().map(|corner| (Vector2::from(*corner) - place).norm());
+        assert!(nearest.fold(f64::INFINITY, f64::min) < 1e-3 * place.norm(), "{:?} {place}", found.polygon_m);
+    }
+    // A segment, but for what is not linear.
+    let area = |corners: &[[f64; 2]]| {
+        let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
+        0.5 * pairs.map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
+    };
+    assert!(area(&found.polygon_m) < 0.05 * (places[0] - places[1]).norm_squared());
+}
+
+/// What lies inside of the polygon is met within all limits, what lies outside is not.
+#[test]
+fn a_target_in_reach_is_met_and_one_beyond_is_not() {
+    let task = aimed(3.0, tilts());
+    let reach = reached(&task);
+    for (axis, sign, along) in [(0, 1.0, 0), (0, -1.0, 1), (1, 1.0, 2), (1, -1.0, 3)] {
+        let farthest_m: f64 = reach.along_m[along].unwrap();
+        assert!(farthest_m > 1e4);
+        let corners = reach.polygon_m.iter().map(|corner| sign * corner[axis]);
+        assert!(corners.fold(0.0, f64::max) >= farthest_m * (1.0 - 1e-3));
+        for (share, is_met) in [(0.85, true), (1.2, false)] {
+            let mut miss_m = Vector3::zeros();
+            miss_m[axis] = -sign * share * farthest_m;
+            let found = planned(&task, miss_m);
+            assert_eq!(found.holds, is_met, "{axis} {sign} {share}: {:?}", found.flight.encountered);
+            let left = found.flight.encountered.as_ref().unwrap().miss;
+            assert_eq!(left.xy().amax() <= 100.0, is_met);
+            assert!(!is_met || found.greatest_n_m_s()[1] <= 3.0);
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Cell of a linear model: momentum gained between two rows of a flight, and what the encounter moves by, by unit of each control.
+//!
+//! Both are the mean of the rows' values times the time between (trapezoid).
+
+use nalgebra::{Matrix3, Matrix3x4, Vector3};
+
+use super::{
+    simulated::FlightRow,
+    target::{Aimed, Moves},
+    torque::{Attitude, CONTROLS, Control, LinearLoad, SunlitSpacecraft},
+    windows::{Window, WindowKind},
+};
+
+/// All controls.
+pub(super) const ALL: [Control; CONTROLS] =
+    [Control::Offset, Control::Windmill, Control::Azimuth, Control::Elevation, Control::Alternate];
+
+/// From one row to the next.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Cell {
+    /// The window that it is in.
+    pub window: usize,
+    /// Gained at the present controls without the correction.
+    pub gain: Vector3<f64>,
+    /// Momentum gained by unit of each control.
+    pub by_control: [Vector3<f64>; CONTROLS],
+    /// Momentum gained by the centre of mass and the scale of sunlight.
+    pub by_error: Matrix3x4<f64>,
+    /// What it does about the target.
+    pub moves: Moves,
+    /// What it leaves where the mission dumps in it.
+    pub reset: Option<Vector3<f64>>,
+}
+
+/// Force and torque and what they change by, at a row in a window.
+pub(super) struct At {
+    load: LinearLoad,
+    scale: f64,
+    other: Vector3<f64>,
+    /// What the encounter moves by, by force times time.
+    by_impulse: Matrix3<f64>,
+}
+
+/// Mean over a share in the alternate attitude.
+struct Mean {
+    torque: Vector3<f64>,
+    by_control: [Vector3<f64>; CONTROLS],
+    by_error: Matrix3x4<f64>,
+    moves: Moves,
+}
+
+impl At {
+    /// At the window's present controls.
+    pub(super) fn of(
+        sunlit: &SunlitSpacecraft,
+        row: &FlightRow,
+        window: &Window,
+        aimed: Option<&Aimed>,
+    ) -> Self {
+        let load = match window.kind {
+            WindowKind::Free => sunlit.linearised(row, Attitude::Downlink, &window.controls),
+            WindowKind::Frozen => sunlit.simulated(row),
+            WindowKind::Fixed | WindowKind::Planned => {
+                sunlit.linearised(row, Attitude::SimulatedFlight, &window.controls)
+            }
+        };
+        // What stays moves nothing.
+        let aimed = aimed.filter(|_| window.kind != WindowKind::Frozen);
+        let by_impulse = aimed.map_or_else(Matrix3::zeros, |aimed| {
+            aimed.encountered.by_velocity_at(row.time_s) / sunlit.mass_kg(row.time_s)
+        });
+        Self { load, scale: sunlit.light.scale, other: row.other_torque_n_m, by_impulse }
+    }
+
+    fn mean(&self, share: f64) -> Mean {
+        let (solar, by_control) = self.load.mean(share);
+        let (force, force_by_control) = self.load.mean_force(share);
+        let by_center = self.load.mix(share) * self.load.by_center;
+        let by_scale = if self.scale > 0.0 { solar / self.scale } else { Vector3::zeros() };
+        let by_error = Matrix3x4::from_columns(&[
+            by_center.column(0).into_owned(),
+            by_center.column(1).into_owned(),
+            by_center.column(2).into_owned(),
+            by_scale,
+        ]);
+        let moves = Moves {
+            at: self.by_impulse * force,
+            by_control: force_by_control.map(|force| self.by_impulse * force),
+        };
+        Mean { torque: solar + self.other, by_control, by_error, moves }
+    }
+}
+
+/// From one row to the next, with the share in the alternate attitude and that by unit of its control.
+pub(super) fn cell(
+    window: usize,
+    of: &Window,
+    rows: [&FlightRow; 2],
+    at: [&At; 2],
+    (share, share_by_control): (f64, f64),
+) -> Cell {
+    let half_s = 0.5 * (rows[1].time_s - rows[0].time_s);
+    let [from, to] = at.map(|at| at.mean(share));
+    let sums = |from: &[Vector3<f64>; CONTROLS], to: &[Vector3<f64>; CONTROLS]| {
+        let mut sums: [Vector3<f64>; CONTROLS] = core::array::from_fn(|k| (from[k] + to[k]) * half_s);
+        sums[Control::Alternate as usize] *= share_by_control;
+        for control in ALL {
+            let [low, high] = of.bounds[control as usize];
+            if low >= high {
+                sums[control as usize] = Vector3::zeros();
+            }
+        }
+        sums
+    };
+    let gain = match of.kind {
+        WindowKind::Frozen => rows[1].momentum_n_m_s - rows[0].momentum_n_m_s,
+        _ => (from.torque + to.torque) * half_s,
+    };
+    Cell {
+        window,
+        gain,
+        by_control: sums(&from.by_control, &to.by_control),
+        by_error: (from.by_error + to.by_error) * half_s,
+        moves: Moves {
+            at: (from.moves.at + to.moves.at) * half_s,
+            by_control: sums(&from.moves.by_control, &to.moves.by_control),
+        },
+        reset: (rows[1].dumps != rows[0].dumps).then_some(rows[1].momentum_n_m_s),
+    }
+}

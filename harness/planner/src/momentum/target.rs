@@ -1,0 +1,100 @@
+//! Target of a plan beside its momentum: B-plane and time of arrival, linear in the force of sunlight.
+//!
+//! Equation: a change of velocity dv at t moves the encounter by L(t) dv, so that a change of the force by dF moves it by the integral
+//! of L dF / m dt. Rows are B.T (m), B.R (m), arrival (s). The miss of the last flight is known; that of other controls is it, plus
+//! the difference of both integrals.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::program::TargetRow;
+use super::torque::CONTROLS;
+
+/// B.T in m, B.R in m, arrival in s.
+pub const QUANTITIES: usize = 3;
+/// Share of a tolerance that programmes allow; the rest is for what is not linear.
+const ALLOWED: f64 = 0.5;
+/// Excess of a programme, as a share of the momentum's limit, that a miss of twice what is allowed counts as.
+const WORTH: f64 = 1e-4;
+
+/// How a flight misses its aim, and what moves that.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Encountered {
+    /// Reached less aimed at.
+    pub miss: Vector3<f64>,
+    /// By a change of velocity in m/s, EME2000, at times in s of the flight, which grow; nothing moves it behind the last.
+    pub by_velocity: Vec<(f64, Matrix3<f64>)>,
+}
+
+impl Encountered {
+    /// By a change of velocity at a time, interpolated.
+    pub fn by_velocity_at(&self, time_s: f64) -> Matrix3<f64> {
+        let after = self.by_velocity.partition_point(|(at_s, _)| *at_s <= time_s);
+        let before = after.checked_sub(1).and_then(|at| self.by_velocity.get(at));
+        match (before, self.by_velocity.get(after)) {
+            (Some((from_s, from)), Some((to_s, to))) => {
+                from + (to - from) * ((time_s - from_s) / (to_s - from_s))
+            }
+            (None, Some((_, first))) => *first,
+            (Some((at_s, last)), None) if *at_s == time_s => *last,
+            _ => Matrix3::zeros(),
+        }
+    }
+}
+
+/// How near a plan comes to its aim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target {
+    /// Greatest miss either way; `None`: it is free.
+    pub tolerance: [Option<f64>; QUANTITIES],
+}
+
+impl Target {
+    /// Whether a miss is within the tolerances.
+    pub fn is_met(&self, miss: &Vector3<f64>) -> bool {
+        let all = self.tolerance.iter().zip(miss.iter());
+        all.clone().all(|(tolerance, miss)| tolerance.is_none_or(|tolerance| miss.abs() <= tolerance))
+    }
+
+    /// Rows of a programme for a miss that is linear in the controls; `limit_n_m_s` is that of the momentum.
+    pub(super) fn rows(
+        &self,
+        constant: &Vector3<f64>,
+        terms: &[(usize, Vector3<f64>)],
+        limit_n_m_s: f64,
+    ) -> Vec<TargetRow> {
+        let bounded = (0..QUANTITIES).filter_map(|row| Some((row, self.tolerance[row]?)));
+        bounded
+            .map(|(row, tolerance)| TargetRow {
+                constant: constant[row],
+                terms: terms.iter().map(|(index, by)| (*index, by[row])).collect(),
+                within: ALLOWED * tolerance,
+                per_excess: ALLOWED * tolerance / (WORTH * limit_n_m_s),
+            })
+            .collect()
+    }
+
+    /// By how much a miss exceeds what programmes allow, as their excess, in N m s.
+    pub(super) fn excess_n_m_s(&self, miss: &Vector3<f64>, limit_n_m_s: f64) -> f64 {
+        self.rows(miss, &[], limit_n_m_s).iter().map(|row| row.excess(&[])).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+/// What the windows of a flight do about its target.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Aimed {
+    /// The target.
+    pub target: Target,
+    /// The last flight.
+    pub encountered: Encountered,
+    /// What the model's cells gave with that flight's controls.
+    pub simulated: Vector3<f64>,
+}
+
+/// What a cell moves the encounter by at the present controls, and by unit of each.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Moves {
+    /// At the present controls.
+    pub at: Vector3<f64>,
+    /// By unit of each control.
+    pub by_control: [Vector3<f64>; CONTROLS],
+}
