@@ -133,7 +133,10 @@ pub fn reachable(
     };
     let axes = [Vector2::x(), -Vector2::x(), Vector2::y(), -Vector2::y()];
     let widest = axes.map(|axis| farthest(axis, false).map_or(0.0, |place| place.dot(&axis)));
-    let along_m = axes.map(|axis| farthest(axis, true).map(|place| place.dot(&axis)));
+    let along_m = axes.map(|axis| {
+        // Behind where it is: the limits do not let it stay there.
+        farthest(axis, true).map(|place| place.dot(&axis)).filter(|along_m| *along_m >= 0.0)
+    });
     let scale = Vector2::new(widest[0].max(widest[1]), widest[2].max(widest[3])).add_scalar(1.0);
     let directions = (0..DIRECTIONS).map(|k| core::f64::consts::TAU * k as f64 / DIRECTIONS as f64);
     // Normals of an ellipse of that size.

@@ -39,6 +39,14 @@ pub(super) struct Description {
     pub contact_share: Option<Written>,
     /// Activities whose price is reported.
     pub activity: Option<Vec<ActivityDescription>>,
+    /// Where the mission is to pass a planet; for `plan flyby` alone.
+    pub flyby: Option<FlybyDescription>,
+    /// State from orbit determination that the plan begins with, instead of the mission's.
+    pub update: Option<UpdateDescription>,
+    /// Manoeuvres that would do the same.
+    pub compare: Option<CompareDescription>,
+    /// Flights of the plan with errors.
+    pub montecarlo: Option<MonteCarloDescription>,
 }
 
 /// What the momentum is kept below.
@@ -113,4 +121,94 @@ pub(super) struct ActivityDescription {
     /// Its command, with the keys of `[[command]]` in a timeline but at and until.
     #[cfg_attr(feature = "schema", schemars(with = "super::schema::Command"))]
     pub command: Written,
+}
+
+/// Where the mission is to pass a planet: `bT` and `bR`, or `altitude` and `angle`, of the hyperbola that osculates
+/// `encounter.leadTime` before the closest approach.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct FlybyDescription {
+    /// The planet: the mission's `encounter.body`.
+    pub body: String,
+    /// Component of B along T.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub b_t: Option<Written>,
+    /// Component of B along R.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub b_r: Option<Written>,
+    /// Altitude of that hyperbola's periapsis.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub altitude: Option<Written>,
+    /// Angle of B from T toward R.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub angle: Option<Written>,
+    /// When the spacecraft arrives: a date or simulation time; for a fixed arrival.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub time: Option<Written>,
+    /// Whether the time of arrival is a goal too: free (the default) or fixed.
+    pub arrival: Option<String>,
+    /// From when on the plan may change the mission: a date or simulation time; `freeze` where it is not given.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub from: Option<Written>,
+    /// Greatest miss; "1 km" unless given.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub tolerance: Option<Written>,
+}
+
+/// State from orbit determination, EME2000 from `orbit.center`.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct UpdateDescription {
+    /// When it holds: a date or simulation time; the mission of the plan starts there.
+    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Number"))]
+    pub at: Written,
+    /// Position in m; that of the mission unless given.
+    pub position: Option<[f64; 3]>,
+    /// Velocity in m/s; that of the mission unless given.
+    pub velocity: Option<[f64; 3]>,
+    /// Covariance of position (m) and velocity (m/s): six rows of six numbers, as CSV. The path is relative to this file.
+    pub covariance: Option<String>,
+}
+
+/// Manoeuvres that would do the same: approach manoeuvres before the flyby, and one behind it that makes up for what is left.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct CompareDescription {
+    /// Standard deviation of their direction about each axis across; "0.2 deg" unless given.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub direction_error: Option<Written>,
+    /// Standard deviation of their size, as a share; 0.001 unless given.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub magnitude_error: Option<Written>,
+    /// When approach manoeuvres are, before the arrival; ["-42 d"] unless given.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<super::schema::Number>>"))]
+    pub approach: Option<Vec<Written>>,
+    /// When the departure manoeuvre is, behind the arrival; "30 d" unless given.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub departure: Option<Written>,
+    /// When that leads back to where the flight through the aim is: a date or simulation time.
+    #[cfg_attr(feature = "schema", schemars(with = "super::schema::Number"))]
+    pub next: Written,
+}
+
+/// Flights of the plan with errors.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct MonteCarloDescription {
+    /// How many; 200 unless given.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<u32>"))]
+    pub runs: Option<Written>,
+    /// Seed of the draws; 1 unless given. Manoeuvres of run n have `noise.seed` n.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<u32>"))]
+    pub seed: Option<Written>,
+    /// Standard deviation of each coordinate of the centre of mass; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub center_of_mass: Option<Written>,
+    /// Standard deviation of `solar.scale`; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub scale: Option<Written>,
 }

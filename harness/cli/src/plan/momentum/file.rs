@@ -1,5 +1,7 @@
 //! A plan, from its file: what stands there, in SI, by the line that it stands in.
 
+pub(in crate::plan) mod encounter;
+
 use std::path::{Path, PathBuf};
 
 use physics::{
@@ -7,6 +9,7 @@ use physics::{
     toml::{Checker, Document, Place},
 };
 
+use self::encounter::{Compare, Flyby, MonteCarlo, Update};
 use super::description::{ActivityDescription, ContactDescription, Description};
 use crate::{kind::FileKind, mission::Written, values};
 
@@ -56,6 +59,11 @@ pub(super) struct PlanFile {
     pub activities: Vec<At<Activity>>,
     /// Keys that stand there and count in cruise alone.
     pub of_cruise: Vec<At<()>>,
+    /// Tables of a flyby, with their places.
+    pub flyby: Option<At<Flyby>>,
+    pub update: Option<At<Update>>,
+    pub compare: Option<At<Compare>>,
+    pub monte_carlo: Option<At<MonteCarlo>>,
 }
 
 impl PlanFile {
@@ -123,7 +131,17 @@ impl Builder<'_> {
         let contacts = description.contact.unwrap_or_default();
         let contacts = self.contacts(&root.key("contact"), &contacts);
         let activities = description.activity.unwrap_or_default().into_iter().enumerate();
+        let [flyby, update, compare, monte_carlo] =
+            ["flyby", "update", "compare", "montecarlo"].map(|key| root.key(key));
+        let of_flyby = description.flyby.and_then(|it| self.flyby(&flyby, it));
+        let of_update = description.update.and_then(|it| self.update(&update, it));
+        let of_compare = description.compare.and_then(|it| self.compare(&compare, it));
+        let of_monte_carlo = description.montecarlo.map(|it| self.monte_carlo(&monte_carlo, it));
         PlanFile {
+            flyby: of_flyby.map(|it| self.at(&flyby, it)),
+            update: of_update.map(|it| self.at(&update, it)),
+            compare: of_compare.map(|it| self.at(&compare, it)),
+            monte_carlo: of_monte_carlo.map(|it| self.at(&monte_carlo, it)),
             file: file.to_owned(),
             mission: self.at(&root.key("mission"), mission),
             freeze_s: self.at(&root.key("freeze"), freeze_s),
