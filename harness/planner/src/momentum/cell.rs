@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Matrix3x4, Vector3};
 use super::{
     simulated::FlightRow,
     target::{Aimed, Moves},
-    torque::{Attitude, CONTROLS, Control, LinearLoad, SunlitSpacecraft},
+    torque::{CONTROLS, Control, LinearTorque, SunlitSpacecraft},
     windows::{Window, WindowKind},
 };
 
@@ -34,7 +34,7 @@ pub(super) struct Cell {
 
 /// Force and torque and what they change by, at a row in a window.
 pub(super) struct At {
-    load: LinearLoad,
+    load: LinearTorque,
     scale: f64,
     other: Vector3<f64>,
     /// What the encounter moves by, by force times time.
@@ -57,24 +57,19 @@ impl At {
         window: &Window,
         aimed: Option<&Aimed>,
     ) -> Self {
-        let load = match window.kind {
-            WindowKind::Free => sunlit.linearised(row, Attitude::Downlink, &window.controls),
-            WindowKind::Frozen => sunlit.simulated(row),
-            WindowKind::Fixed | WindowKind::Planned => {
-                sunlit.linearised(row, Attitude::SimulatedFlight, &window.controls)
-            }
-        };
+        let load = window.linearised(sunlit, row);
         // What stays moves nothing.
         let aimed = aimed.filter(|_| window.kind != WindowKind::Frozen);
         let by_impulse = aimed.map_or_else(Matrix3::zeros, |aimed| {
-            aimed.encountered.by_velocity_at(row.time_s) / sunlit.mass_kg(row.time_s)
+            let mass_kg = row.motion.map_or(sunlit.mass_at_zero.mass_kg, |motion| motion.mass_kg);
+            aimed.encountered.by_velocity_at(row.time_s) / mass_kg
         });
         Self { load, scale: sunlit.light.scale, other: row.other_torque_n_m, by_impulse }
     }
 
     fn mean(&self, share: f64) -> Mean {
         let (solar, by_control) = self.load.mean(share);
-        let (force, force_by_control) = self.load.mean_force(share);
+        let (force, force_by_control) = self.load.mean_force_n(share);
         let by_center = self.load.mix(share) * self.load.by_center;
         let by_scale = if self.scale > 0.0 { solar / self.scale } else { Vector3::zeros() };
         let by_error = Matrix3x4::from_columns(&[

@@ -16,7 +16,7 @@ use super::{
     counted::{self, Groups},
     model::{Limit, Model, Part},
     program::{Goal, Program, Solution},
-    simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
+    simulated::{MomentumSize, SAME_S, SimulatedFlight},
     target::Target,
     torque::{Attitude, Control, Controls, SunlitSpacecraft},
     windows::{Layout, Window, WindowKind},

@@ -24,7 +24,7 @@ fn by_velocity() -> Matrix3<f64> {
 fn force(sunlit: &SunlitSpacecraft, row: &FlightRow, window: &Window, time_s: f64) -> Vector3<f64> {
     let load = sunlit.linearised(row, Attitude::Downlink, &window.controls);
     let is_alternate = window.alternate_spans_s().iter().any(|[a, b]| (*a..*b).contains(&time_s));
-    load.mean_force(f64::from(u8::from(is_alternate))).0
+    load.mean_force_n(f64::from(u8::from(is_alternate))).0
 }
 
 /// Simulates windows in steps of half an hour, the alternate attitude as it is timed.
@@ -113,7 +113,7 @@ fn the_reach_of_one_control_is_what_its_bounds_do() {
     let row = row(&encounters.sunlit, 0.0, 0.4, 0.3);
     let at = |elevation_rad: f64| {
         let controls = windows[0].controls.with(Control::Elevation, elevation_rad);
-        let force = encounters.sunlit.linearised(&row, Attitude::Downlink, &controls).force;
+        let force = encounters.sunlit.linearised(&row, Attitude::Downlink, &controls).force_n;
         by_velocity() * force * (DAYS * DAY_S / encounters.sunlit.mass_at_zero.mass_kg)
     };
     let places = [0.1, -0.1].map(|elevation_rad| (at(elevation_rad) - at(0.0)).xy());

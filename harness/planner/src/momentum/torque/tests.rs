@@ -13,7 +13,7 @@ fn worth(offset_deg: f64, control: Control) -> Vector3<f64> {
     let row = row(&sunlit, 0.0, 0.35, 0.3);
     let controls = Controls::default().with(Control::Offset, offset_deg * DEG);
     let linear = sunlit.linearised(&row, Attitude::Downlink, &controls);
-    row.inertial_from_body.inverse() * linear.torque_by_angle[control as usize] * (DAY_S * DEG)
+    row.inertial_from_body.inverse() * linear.by_angle[control as usize] * (DAY_S * DEG)
 }
 
 /// Paper 003's authority at 0.35 AU and 1358 W/m2.
