@@ -45,6 +45,8 @@ pub enum Channel {
     ManeuverDirection,
     /// Centre of mass after a thruster event, by body axis.
     CenterOfMass,
+    /// A dispersed value of a run, with its number.
+    Dispersion(u16),
 }
 
 impl Channel {
@@ -67,6 +69,7 @@ impl Channel {
             Self::ManeuverMagnitude => (14, 0),
             Self::ManeuverDirection => (15, 0),
             Self::CenterOfMass => (16, 0),
+            Self::Dispersion(number) => (17, u64::from(number)),
         };
         (code << 56) ^ (number << 40) ^ event
     }

@@ -25,6 +25,8 @@ pub(super) struct Planned<'a> {
     pub timeline: MissionTimeline,
     pub sunlit: SunlitSpacecraft,
     pub simulated: SimulatedFlight,
+    /// Of a plan with a flyby.
+    pub aimed: Option<Aimed>,
     pub task: PlanTask,
     /// Values that a refit gives.
     pub sets: Vec<(String, Vec<f64>)>,

@@ -1,0 +1,102 @@
+//! Where a plan's flights are to meet a planet, and how each of them misses that.
+
+use nalgebra::Vector3;
+use physics::bodies::Body;
+use planner::{
+    flyby::{
+        Aim, Sensitivity, Surroundings,
+        aim::{b_of_periapsis_m, periapsis_of_b_m},
+    },
+    momentum::{simulated::SimulatedFlight, target::Target, torque::SunlitSpacecraft},
+};
+
+use super::file::{
+    PlanFile,
+    encounter::{Aim as AimOfFile, Flyby},
+};
+use crate::plan::flights::{Failure, SimulatedMission};
+
+/// Where a plan's flights are to meet a planet.
+#[derive(Clone, Debug)]
+pub(in crate::plan) struct Aimed {
+    pub surroundings: Surroundings,
+    pub aim: Aim,
+    pub tolerance_m: f64,
+    /// Radius of the planet, in m.
+    pub radius_m: f64,
+    /// Of the mission as it is.
+    pub first: Sensitivity,
+}
+
+impl Aimed {
+    /// By the flight of the mission as it is.
+    pub(super) fn of(
+        file: &PlanFile,
+        flyby: &Flyby,
+        (mission, sunlit): (&SimulatedMission, &SunlitSpacecraft),
+        simulated: &SimulatedFlight,
+    ) -> Result<Self, Failure> {
+        let values = mission.values();
+        let shown = mission.mission.file.display();
+        let surroundings = Surroundings::of(&values, mission.start_s).map_err(|error| format!("{shown}: {error}"))?;
+        let name = |body: Body| body.data().name;
+        if !name(surroundings.body).eq_ignore_ascii_case(&flyby.body.it) {
+            let what = format!(
+                "found {:?}, allowed: {:?}, the mission's encounter.body",
+                flyby.body.it,
+                name(surroundings.body).to_lowercase()
+            );
+            return Err(file.problem(&flyby.body, &what).into());
+        }
+        let first = Sensitivity::new(simulated, &surroundings, sunlit).map_err(|error| format!("{shown}: {error}"))?;
+        let radius_m = values.real("planet.radius");
+        let excess_m_s = first.encounter.plane.excess_speed_m_s;
+        let gm_m3_s2 = surroundings.gm_m3_s2;
+        let b_m = match flyby.aim.it {
+            AimOfFile::BPlane(b_m) => b_m,
+            AimOfFile::Altitude([altitude_m, angle_rad]) => {
+                let b_m = b_of_periapsis_m(radius_m + altitude_m, gm_m3_s2, excess_m_s);
+                [b_m * angle_rad.cos(), b_m * angle_rad.sin()]
+            }
+        };
+        let periapsis_m = periapsis_of_b_m(b_m[0].hypot(b_m[1]), gm_m3_s2, excess_m_s);
+        if periapsis_m < radius_m {
+            let what = format!(
+                "found B of {:.1} and {:.1} km along T and R, whose periapsis lies {:.1} km inside of {}, allowed: from {:.1} km on",
+                b_m[0] / 1e3,
+                b_m[1] / 1e3,
+                (radius_m - periapsis_m) / 1e3,
+                name(surroundings.body),
+                b_of_periapsis_m(radius_m, gm_m3_s2, excess_m_s) / 1e3,
+            );
+            return Err(file.problem(&flyby.aim, &what).into());
+        }
+        let arrival_s = flyby.time.as_ref().map(|at| {
+            mission.time_s(at.it).ok_or_else(|| {
+                file.problem(at, "found a date, allowed: simulation time: the mission does not start at a date")
+            })
+        });
+        let aim = Aim { b_m, arrival_s: arrival_s.transpose()? };
+        Ok(Self { surroundings, aim, tolerance_m: flyby.tolerance_m, radius_m, first })
+    }
+
+    /// A square within the circle of the tolerance; the time that the spacecraft takes for it, where the arrival is fixed.
+    pub(super) fn target(&self) -> Target {
+        let side_m = self.tolerance_m * core::f64::consts::FRAC_1_SQRT_2;
+        let excess_m_s = self.first.encounter.plane.excess_speed_m_s;
+        let in_time = self.aim.arrival_s.map(|_| self.tolerance_m / excess_m_s);
+        Target { tolerance: [Some(side_m), Some(side_m), in_time] }
+    }
+
+    /// Tells a flight how it missed.
+    pub(super) fn judge(&self, flight: &mut SimulatedFlight, sunlit: &SunlitSpacecraft) -> Result<Sensitivity, Failure> {
+        let found = Sensitivity::new(flight, &self.surroundings, sunlit)?;
+        flight.encountered = Some(self.aim.encountered(&found, &flight.rows));
+        Ok(found)
+    }
+
+    /// The miss of the mission as it is: along T and R in m, of the arrival in s.
+    pub(in crate::plan) fn first_miss(&self) -> Vector3<f64> {
+        self.aim.miss(&self.first.encounter)
+    }
+}

@@ -1,0 +1,112 @@
+//! A mission from the state that orbit determination found, at the date of it.
+//!
+//! Momentum there is that of the mission's flight; so are position or velocity, where the plan gives one alone.
+
+use ::files::Scratch;
+use loader::{Recording, Value};
+use nalgebra::Vector3;
+use physics::environment::dates;
+use toml_edit::{DocumentMut, Item, Table, value};
+
+use crate::{
+    plan::{
+        flights::{Failure, Requested, SimulatedMission},
+        momentum::{
+            file::{At, PlanFile, encounter::Update},
+            written,
+        },
+    },
+    values,
+};
+
+/// What is recorded up to the date.
+const STATE: [&str; 3] = ["position", "velocity", "momentum.body"];
+const NEVER_N_M_S: f64 = 1e9;
+
+/// A plan whose mission begins with the state of `[update]`, in a folder that lasts as long as it is in use.
+pub(in crate::plan::momentum) fn updated(
+    file: &PlanFile,
+    at: &At<Update>,
+    mission: &SimulatedMission,
+) -> Result<(PlanFile, Scratch), Failure> {
+    let update = &at.it;
+    let Some(at_s) = mission.time_s(update.at.it) else {
+        let what = "found a date, allowed: simulation time: the mission does not start at a date";
+        return Err(file.problem(&update.at, what).into());
+    };
+    if !(at_s >= mission.start_s && at_s < mission.stop_s) {
+        let what = "found a time outside of the mission, allowed: from its start to its stop";
+        return Err(file.problem(&update.at, what).into());
+    }
+    let [position_m, velocity_m_s, momentum_n_m_s] = state_at(mission, at_s)?;
+    let position_m = update.position_m.unwrap_or(position_m);
+    let velocity_m_s = update.velocity_m_s.unwrap_or(velocity_m_s);
+    let folder = Scratch::new()?;
+    let vectors =
+        [("orbit.position", position_m), ("orbit.velocity", velocity_m_s), ("start.momentum", momentum_n_m_s)];
+    let sets: Vec<(String, Vec<f64>)> =
+        vectors.iter().map(|(name, vector)| ((*name).to_owned(), vector.iter().copied().collect())).collect();
+    let text = written::with_values(mission, folder.path(), &sets)?;
+    let mut document: DocumentMut = text.parse()?;
+    document.entry("set").or_insert(Item::Table(Table::new()))["orbit.source"] = value("inputs");
+    let instant = |time_s: f64| match mission.zero_epoch_s {
+        Some(zero_s) => value(dates::date_utc(dates::later_s(zero_s, time_s))),
+        None => value(time_s),
+    };
+    document["start"] = instant(at_s);
+    document["stop"] = value(mission.stop_s - at_s);
+    let path = folder.path().join("updated.toml");
+    std::fs::write(&path, document.to_string())?;
+    let mut updated = file.clone();
+    updated.mission.it = path;
+    // The date of the mission's start moves, that up to which it is frozen does not.
+    updated.freeze_s.it = match &file.flyby {
+        Some(flyby) if flyby.it.from.is_some() => file.freeze_s.it,
+        _ => (file.freeze_s.it - (at_s - mission.start_s)).max(0.0),
+    };
+    Ok((updated, folder))
+}
+
+/// Position, velocity and momentum (body frame) of the mission's flight at a time.
+fn state_at(mission: &SimulatedMission, at_s: f64) -> Result<[Vector3<f64>; 3], Failure> {
+    let start = |name: &str| mission.values().vector(name);
+    if at_s <= mission.start_s && mission.values().item("orbit.source") == Some("inputs") {
+        return Ok([start("orbit.position"), start("orbit.velocity"), start("start.momentum")]);
+    }
+    let sets: Vec<(String, Value)> =
+        (1..=3).map(|axis| (format!("dump.threshold[{axis}]"), Value::Real(NEVER_N_M_S))).collect();
+    let outputs = STATE.map(str::to_owned);
+    let stop_s = at_s.max(mission.start_s + 1.0);
+    let recording = mission.record(&Requested {
+        sets: &sets,
+        outputs: &outputs,
+        stop_s: Some(stop_s),
+        ..Requested::default()
+    })?;
+    // The first row where the mission starts there, else the last.
+    let row = if at_s <= mission.start_s { 0 } else { recording.times_s.len().saturating_sub(1) };
+    let vector = |name: &str| -> Result<Vector3<f64>, Failure> {
+        let of = |axis: usize| number(&recording, &format!("{name}[{axis}]"), row);
+        Ok(Vector3::new(of(1)?, of(2)?, of(3)?))
+    };
+    Ok([vector(STATE[0])?, vector(STATE[1])?, vector(STATE[2])?])
+}
+
+fn number(recording: &Recording, name: &str, row: usize) -> Result<f64, Failure> {
+    let column = recording.column(name).map(|column| column.numbers());
+    let found = column.and_then(|numbers| numbers.get(row).copied());
+    found.ok_or_else(|| format!("the FMU has no output {name}").into())
+}
+
+/// A time of the mission that a table of the plan gives.
+pub(super) fn time_s<T>(
+    file: &PlanFile,
+    at: &At<T>,
+    instant: values::Instant,
+    mission: &SimulatedMission,
+) -> Result<f64, Failure> {
+    mission.time_s(instant).ok_or_else(|| {
+        let what = "found a date, allowed: simulation time: the mission does not start at a date";
+        file.problem(at, what).into()
+    })
+}
