@@ -16,7 +16,7 @@ pub mod report;
 pub mod simulated;
 pub mod target;
 #[cfg(test)]
-mod test_spacecraft;
+pub(crate) mod test_spacecraft;
 pub mod torque;
 pub mod windows;
 

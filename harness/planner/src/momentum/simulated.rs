@@ -100,7 +100,7 @@ pub struct FlightRow {
 
 impl FlightRow {
     /// The row `share` of the way to `next`, with the dumps of this one.
-    fn toward(&self, next: &Self, share: f64) -> Self {
+    pub(crate) fn toward(&self, next: &Self, share: f64) -> Self {
         let mixed = |a: f64, b: f64| a + share * (b - a);
         let span_s = next.time_s - self.time_s;
         let [from, to] =
