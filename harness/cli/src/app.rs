@@ -126,7 +126,9 @@ fn loading(command: &Command) -> Option<Relayed> {
         Command::Map(it) => (shown(it.template.as_ref().unwrap_or(&it.spacecraft)), it.patience, SMALL),
         Command::Size(it) => (of_template(it.template.as_ref()), it.patience, LARGE),
         Command::Ephemeris(it) => (shown(&it.simulated()), it.patience, LARGE),
-        Command::Plan(plan::Plan::Momentum(it)) => (of_template(it.template.as_ref()), it.patience, LARGE),
+        Command::Plan(plan::Plan::Momentum(it) | plan::Plan::Flyby(it)) => {
+            (of_template(it.template.as_ref()), it.patience, LARGE)
+        }
         Command::Refit(it) => (of_template(it.template.as_ref()), it.patience, LARGE),
         Command::Plan(plan::Plan::Spin(it)) => (of_template(it.options.fmu.as_ref()), it.patience, LARGE),
         Command::Study(it) => (it.name.clone(), it.patience, LARGE),

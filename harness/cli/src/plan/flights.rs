@@ -185,6 +185,12 @@ impl SimulatedMission {
         self.values().item("guided.phase") == Some("orbit")
     }
 
+    /// Whether it flies to a planet.
+    fn has_encounter(&self) -> bool {
+        let body = self.values().item("encounter.body");
+        self.values().item("orbit.dynamics") == Some("nBody") && body.is_some_and(|body| body != "none")
+    }
+
     /// The corridor of the light on the cells.
     pub(super) fn corridor(&self) -> Articulation {
         Articulation {
@@ -219,6 +225,9 @@ impl SimulatedMission {
         let panels: Vec<String> = panels.collect();
         let mut patterns = panels.clone();
         patterns.extend(plant::recorded(CONVENTION).map(str::to_owned));
+        if self.has_encounter() {
+            patterns.extend(plant::RECORDED_MOTION.map(str::to_owned));
+        }
         let mut sets = Vec::new();
         if thresholds == Thresholds::Never {
             let axes = 1..=3;

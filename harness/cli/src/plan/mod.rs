@@ -20,7 +20,20 @@ pub(crate) enum Plan {
     Spin(Box<SpinPlan>),
     /// Arrays, places of the Sun and alternation that hold the momentum of a mission below its limit
     Momentum(momentum::MomentumOptions),
+    /// The same with an aim in the B-plane of an encounter, reached by sunlight
+    #[command(after_help = FLYBY)]
+    Flyby(momentum::MomentumOptions),
 }
+
+/// Shown with the help of `plan flyby`.
+const FLYBY: &str = "\
+Beside the files of `plan momentum`: desired.csv, the least velocity changes that would do the same; sensitivity.csv, what every window
+changes. Status 0: a plan was found and simulated within its limits. Status 1: none, or the aim is out of reach: plan.json and plan.svg
+say how far it is.
+
+Example:
+  heliotorque plan flyby flyby.toml --output flyby
+  heliotorque run flyby/mission.toml";
 
 /// `heliotorque plan spin`.
 #[derive(Clone, Debug, Args)]
@@ -46,7 +59,8 @@ fn check_spinner(path: &Path) -> Result<(), String> {
 pub(crate) fn run(arguments: &Plan) -> Outcome {
     let arguments = match arguments {
         Plan::Spin(arguments) => arguments,
-        Plan::Momentum(options) => return momentum::run(options),
+        Plan::Momentum(options) => return momentum::run(options, momentum::PlanKind::Momentum),
+        Plan::Flyby(options) => return momentum::run(options, momentum::PlanKind::Flyby),
     };
     let mut options = arguments.options.clone();
     if let Some(path) = &options.spacecraft {

@@ -97,10 +97,8 @@ mod tests {
     /// 20,000 manoeuvres with a direction turned about both axes across: deviations of samples are 0.5 %.
     #[test]
     fn what_is_left_is_that_of_drawn_errors() {
-        let miss = Miss {
-            mean_m: Vector2::new(1.7e5, -4e4),
-            covariance_m2: Matrix2::new(4e8, 1e8, 1e8, 9e8),
-        };
+        let miss =
+            Miss { mean_m: Vector2::new(1.7e5, -4e4), covariance_m2: Matrix2::new(4e8, 1e8, 1e8, 9e8) };
         let found = approach(&miss, &by_velocity(), &ERRORS).unwrap();
         let root = miss.covariance_m2.cholesky().unwrap().l();
         let removes = -by_velocity().pseudo_inverse(1e-15).unwrap();
@@ -120,7 +118,11 @@ mod tests {
             left += after * after.transpose() / count as f64;
         }
         assert!((found.rms_m_s / square.sqrt() - 1.0).abs() < 5e-3);
-        assert!((found.left.covariance_m2 - left).norm() < 0.03 * left.norm(), "{} {left}", found.left.covariance_m2);
+        assert!(
+            (found.left.covariance_m2 - left).norm() < 0.03 * left.norm(),
+            "{} {left}",
+            found.left.covariance_m2
+        );
         assert!((by_velocity() * found.mean_m_s + miss.mean_m).norm() < 1e-6);
     }
 
@@ -130,6 +132,8 @@ mod tests {
         let turn = Matrix2::new(cosine, -sine, sine, cosine);
         let covariance = turn * Matrix2::from_diagonal(&Vector2::new(9.0, 4.0)) * turn.transpose();
         let (axes, angle_rad) = ellipse(&covariance);
-        assert!((axes[0] - 3.0).abs() < 1e-12 && (axes[1] - 2.0).abs() < 1e-12 && (angle_rad - 0.4).abs() < 1e-12);
+        assert!(
+            (axes[0] - 3.0).abs() < 1e-12 && (axes[1] - 2.0).abs() < 1e-12 && (angle_rad - 0.4).abs() < 1e-12
+        );
     }
 }

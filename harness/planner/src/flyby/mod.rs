@@ -1,14 +1,19 @@
 //! Encounters of a recorded flight: what its B-plane depends on, at any time before, and what a miss costs behind it.
 
+pub mod aim;
 pub mod controls;
+pub mod dispersion;
 pub mod encounter;
 pub mod flight;
 mod light;
+pub mod maneuvers;
 pub mod miss;
+pub mod report;
 pub mod sensitivity;
 #[cfg(test)]
 mod test_flight;
 
+pub use aim::Aim;
 pub use encounter::Encounter;
 pub use flight::Surroundings;
 pub use sensitivity::Sensitivity;

@@ -12,7 +12,7 @@ use super::{
     program::{Goal, TargetRow},
     region::Region,
     simulated::{FlightRow, SAME_S, SimulatedFlight},
-    torque::{Attitude, Control, Controls, SunlitSpacecraft},
+    torque::{Attitude, Control, SunlitSpacecraft},
     windows::Window,
 };
 

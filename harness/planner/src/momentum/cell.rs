@@ -60,10 +60,7 @@ impl At {
         let load = window.linearised(sunlit, row);
         // What stays moves nothing.
         let aimed = aimed.filter(|_| window.kind != WindowKind::Frozen);
-        let by_impulse = aimed.map_or_else(Matrix3::zeros, |aimed| {
-            let mass_kg = row.motion.map_or(sunlit.mass_at_zero.mass_kg, |motion| motion.mass_kg);
-            aimed.encountered.by_velocity_at(row.time_s) / mass_kg
-        });
+        let by_impulse = aimed.map_or_else(Matrix3::zeros, |aimed| aimed.by_impulse(sunlit, row));
         Self { load, scale: sunlit.light.scale, other: row.other_torque_n_m, by_impulse }
     }
 

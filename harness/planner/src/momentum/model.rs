@@ -108,14 +108,26 @@ impl Model {
         // From their own first time on.
         self.cells.clear();
         self.linearise(sunlit);
-        self.set_simulated();
+        // The flight of the mission had its own arrays and attitudes.
+        let simulated = self.recorded_moves(sunlit);
+        if let Some(aimed) = &mut self.aimed {
+            aimed.simulated = simulated;
+        }
     }
 
-    fn set_simulated(&mut self) {
-        let sum = self.moves();
-        if let Some(aimed) = &mut self.aimed {
-            aimed.simulated = sum;
-        }
+    /// What sunlight as it was recorded did about the target, where windows are not frozen.
+    fn recorded_moves(&self, sunlit: &SunlitSpacecraft) -> Vector3<f64> {
+        let Some(aimed) = &self.aimed else { return Vector3::zeros() };
+        let rows = self.simulated.rows.iter();
+        let rates: Vec<_> =
+            rows.map(|row| aimed.by_impulse(sunlit, row) * sunlit.simulated(row).force_n).collect();
+        let cells = self.cells.iter().enumerate();
+        let free = cells.filter(|(_, cell)| self.windows[cell.window].kind != WindowKind::Frozen);
+        free.map(|(index, _)| {
+            let duration_s = self.simulated.rows[index + 1].time_s - self.simulated.rows[index].time_s;
+            (rates[index] + rates[index + 1]) * (0.5 * duration_s)
+        })
+        .sum()
     }
 
     fn moves(&self) -> Vector3<f64> {
@@ -206,7 +218,10 @@ impl Model {
         if let (Some(aimed), Some(encountered)) = (&mut self.aimed, &flight.encountered) {
             aimed.encountered = encountered.clone();
             self.linearise(sunlit);
-            self.set_simulated();
+            let simulated = self.moves();
+            if let Some(aimed) = &mut self.aimed {
+                aimed.simulated = simulated;
+            }
         }
     }
 

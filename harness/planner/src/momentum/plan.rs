@@ -18,7 +18,7 @@ use super::{
     program::{Goal, Program, Solution},
     simulated::{MomentumSize, SAME_S, SimulatedFlight},
     target::Target,
-    torque::{Attitude, Control, Controls, SunlitSpacecraft},
+    torque::{Control, Controls, SunlitSpacecraft},
     windows::{Layout, Window, WindowKind},
 };
 

@@ -1,6 +1,6 @@
 //! What a plan came to, as `plan.json` and `windows.csv`.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::{
     baseline::NoOffset,
@@ -63,21 +63,22 @@ fn binding(plan: &MomentumPlan) -> Value {
     })
 }
 
-/// The 50th, 90th and 99th percentile of the greatest |H| (N m s) and of the dumps of flights, each the least value that so many do not
-/// exceed.
-pub fn percentiles(flights: &[(f64, u32)]) -> [[f64; 3]; 2] {
-    let of = |mut values: Vec<f64>| {
-        values.sort_by(f64::total_cmp);
-        [0.5, 0.9, 0.99].map(|share| {
-            let rank = (share * values.len() as f64).ceil() as usize;
-            values.get(rank.saturating_sub(1)).copied().unwrap_or(f64::NAN)
-        })
-    };
-    let momentum = flights.iter().map(|(momentum, _)| *momentum).collect();
-    [of(momentum), of(flights.iter().map(|(_, dumps)| f64::from(*dumps)).collect())]
+/// The 50th, 90th and 99th percentile, each the least value that so many do not exceed.
+pub fn percentiles(mut values: Vec<f64>) -> [f64; 3] {
+    values.sort_by(f64::total_cmp);
+    [0.5, 0.9, 0.99].map(|share| {
+        let rank = (share * values.len() as f64).ceil() as usize;
+        values.get(rank.saturating_sub(1)).copied().unwrap_or(f64::NAN)
+    })
 }
 
-/// `plan.json`; `seeds` are greatest |H| and dumps of flights with other seeds.
+/// Those of the greatest |H| (N m s) and of the dumps of flights.
+pub fn of_seeds(flights: &[(f64, u32)]) -> [[f64; 3]; 2] {
+    let momentum = flights.iter().map(|(momentum, _)| *momentum).collect();
+    [percentiles(momentum), percentiles(flights.iter().map(|(_, dumps)| f64::from(*dumps)).collect())]
+}
+
+/// `plan.json`; `seeds` are greatest |H| and dumps of flights with other seeds, `more` are members of a flyby.
 ///
 /// # Errors
 /// What JSON does not take.
@@ -86,6 +87,7 @@ pub fn json(
     task: &PlanTask,
     events: &[PlanEvent],
     (prices, seeds): (&[Price], &[(f64, u32)]),
+    more: Map<String, Value>,
 ) -> Result<String, serde_json::Error> {
     let [planned, simulated] = plan.greatest_n_m_s();
     let events: Vec<Value> = events
@@ -107,7 +109,7 @@ pub fn json(
             })
             .collect()
     };
-    let [momentum, dumps] = percentiles(seeds);
+    let [momentum, dumps] = of_seeds(seeds);
     let by_percent = |of: [f64; 3]| json!({ "50": of[0], "90": of[1], "99": of[2] });
     let percentiles = match seeds.len() {
         0 => Value::Null,
@@ -115,7 +117,7 @@ pub fn json(
             json!({ "seeds": count, "momentum_n_m_s": by_percent(momentum), "dumps": by_percent(dumps) })
         }
     };
-    serde_json::to_string_pretty(&json!({
+    let mut all = json!({
         "status": status(plan, task),
         "limit_n_m_s": task.limit.momentum_n_m_s,
         "dumps": plan.dumps.len(),
@@ -130,7 +132,20 @@ pub fn json(
         "planned": priced(true),
         "activities": priced(false),
         "percentiles": percentiles,
-    }))
+    });
+    if let Value::Object(members) = &mut all {
+        members.extend(more);
+    }
+    serde_json::to_string_pretty(&all)
+}
+
+/// `plan.json` of a flyby whose aim is out of reach; `more` are its members.
+///
+/// # Errors
+/// What JSON does not take.
+pub fn out_of_reach_json(mut more: Map<String, Value>) -> Result<String, serde_json::Error> {
+    more.insert("status".to_owned(), json!("outOfReach"));
+    serde_json::to_string_pretty(&more)
 }
 
 /// `plan.json` where the corridor is empty.
@@ -210,7 +225,7 @@ mod tests {
     #[test]
     fn percentiles_are_values_that_so_many_do_not_exceed() {
         let flights: Vec<(f64, u32)> = (1..=200).rev().map(|k| (f64::from(k), k / 100)).collect();
-        assert_eq!(percentiles(&flights), [[100.0, 180.0, 198.0], [1.0, 1.0, 1.0]]);
-        assert_eq!(percentiles(&[(2.0, 0)])[0], [2.0; 3]);
+        assert_eq!(of_seeds(&flights), [[100.0, 180.0, 198.0], [1.0, 1.0, 1.0]]);
+        assert_eq!(percentiles(vec![2.0]), [2.0; 3]);
     }
 }

@@ -6,8 +6,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::program::TargetRow;
-use super::torque::CONTROLS;
+use super::{
+    program::TargetRow,
+    simulated::FlightRow,
+    torque::{CONTROLS, SunlitSpacecraft},
+};
 
 /// B.T in m, B.R in m, arrival in s.
 pub const QUANTITIES: usize = 3;
@@ -88,6 +91,14 @@ pub(super) struct Aimed {
     pub encountered: Encountered,
     /// What the model's cells gave with that flight's controls.
     pub simulated: Vector3<f64>,
+}
+
+impl Aimed {
+    /// What the encounter moves by, by force times time at a row.
+    pub(super) fn by_impulse(&self, sunlit: &SunlitSpacecraft, row: &FlightRow) -> Matrix3<f64> {
+        let mass_kg = row.motion.map_or(sunlit.mass_at_zero.mass_kg, |motion| motion.mass_kg);
+        self.encountered.by_velocity_at(row.time_s) / mass_kg
+    }
 }
 
 /// What a cell moves the encounter by at the present controls, and by unit of each.

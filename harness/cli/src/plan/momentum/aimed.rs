@@ -38,7 +38,8 @@ impl Aimed {
     ) -> Result<Self, Failure> {
         let values = mission.values();
         let shown = mission.mission.file.display();
-        let surroundings = Surroundings::of(&values, mission.start_s).map_err(|error| format!("{shown}: {error}"))?;
+        let surroundings =
+            Surroundings::of(&values, mission.start_s).map_err(|error| format!("{shown}: {error}"))?;
         let name = |body: Body| body.data().name;
         if !name(surroundings.body).eq_ignore_ascii_case(&flyby.body.it) {
             let what = format!(
@@ -48,7 +49,8 @@ impl Aimed {
             );
             return Err(file.problem(&flyby.body, &what).into());
         }
-        let first = Sensitivity::new(simulated, &surroundings, sunlit).map_err(|error| format!("{shown}: {error}"))?;
+        let first = Sensitivity::new(simulated, &surroundings, sunlit)
+            .map_err(|error| format!("{shown}: {error}"))?;
         let radius_m = values.real("planet.radius");
         let excess_m_s = first.encounter.plane.excess_speed_m_s;
         let gm_m3_s2 = surroundings.gm_m3_s2;
@@ -73,7 +75,10 @@ impl Aimed {
         }
         let arrival_s = flyby.time.as_ref().map(|at| {
             mission.time_s(at.it).ok_or_else(|| {
-                file.problem(at, "found a date, allowed: simulation time: the mission does not start at a date")
+                file.problem(
+                    at,
+                    "found a date, allowed: simulation time: the mission does not start at a date",
+                )
             })
         });
         let aim = Aim { b_m, arrival_s: arrival_s.transpose()? };
@@ -89,7 +94,11 @@ impl Aimed {
     }
 
     /// Tells a flight how it missed.
-    pub(super) fn judge(&self, flight: &mut SimulatedFlight, sunlit: &SunlitSpacecraft) -> Result<Sensitivity, Failure> {
+    pub(super) fn judge(
+        &self,
+        flight: &mut SimulatedFlight,
+        sunlit: &SunlitSpacecraft,
+    ) -> Result<Sensitivity, Failure> {
         let found = Sensitivity::new(flight, &self.surroundings, sunlit)?;
         flight.encountered = Some(self.aim.encountered(&found, &flight.rows));
         Ok(found)

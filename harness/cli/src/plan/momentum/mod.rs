@@ -17,14 +17,16 @@ mod written;
 use std::{cell::RefCell, path::Path, process::ExitCode, time::Instant};
 
 use ::files::Destination;
+use drawing::{Chart, DrawingError, Picture};
 use nalgebra::Vector3;
 use physics::guidance::timeline::Timeline;
+use planner::flyby::report::FlybyReport;
 use planner::momentum::{
     Limit,
     plan::{Least, MomentumPlan, PlanError, PlanTask, PlannedDump, plan},
     report::{self, PlanEvent},
     simulated::MomentumSize,
-    windows::WindowKind,
+    windows::{Window, WindowKind},
 };
 
 pub(crate) use self::options::MomentumOptions;
@@ -37,6 +39,49 @@ use self::{
 };
 use super::flights::{Failure, SimulatedMission, Thresholds};
 use crate::{interrupt, outcome::Outcome};
+
+/// What is planned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PlanKind {
+    /// Momentum alone.
+    Momentum,
+    /// Momentum and an encounter.
+    Flyby,
+}
+
+impl PlanKind {
+    /// Refuses a plan file that is for the other one.
+    fn check(self, file: &PlanFile) -> Result<(), String> {
+        let at = &file.mission;
+        let place = |key: &str, line: usize| format!("{}:{line}: {key}", file.file.display());
+        match (self, &file.flyby) {
+            (Self::Flyby, None) => Err(format!(
+                "{}: flyby: found none, allowed: [flyby] with the aim, for `plan flyby`; `plan momentum` plans without",
+                place(&at.key, at.line)
+            )),
+            (Self::Momentum, Some(flyby)) => Err(format!(
+                "{}: found it, allowed with `plan flyby {}`",
+                place(&flyby.key, flyby.line),
+                file.file.display()
+            )),
+            (Self::Momentum, None) => {
+                let others = [
+                    file.update.as_ref().map(|at| (&at.key, at.line)),
+                    file.compare.as_ref().map(|at| (&at.key, at.line)),
+                    file.monte_carlo.as_ref().map(|at| (&at.key, at.line)),
+                ];
+                let other = others.into_iter().flatten().next();
+                other.map_or(Ok(()), |(key, line)| {
+                    Err(format!(
+                        "{}: found it without [flyby], allowed with it, for `plan flyby`",
+                        place(key, line)
+                    ))
+                })
+            }
+            (Self::Flyby, Some(_)) => Ok(()),
+        }
+    }
+}
 
 /// Reads the plan file and what it names, and simulates the mission as it is.
 fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> Result<Planned<'a>, Failure> {
@@ -51,6 +96,14 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     let in_mission = |error: Failure| file.problem(&file.mission, &error.to_string());
     let mission = SimulatedMission::open(&file.mission.it, template, &settings).map_err(in_mission)?;
     mission.check_downlinks().map_err(in_mission)?;
+    if let Some(at) = &file.update {
+        let (updated, folder) = flyby::updated(file, at, &mission)?;
+        let begun = PlanFile { update: None, ..updated };
+        let mut planned = opened(options, &begun, began)?;
+        planned.keeps = Some(folder);
+        return Ok(planned);
+    }
+    let file = &frozen_until_from(file, &mission)?;
     check_spans(file, &mission)?;
     let is_in_orbit = mission.is_in_orbit();
     if let Some(at) = file.of_cruise.first().filter(|_| is_in_orbit) {
@@ -70,7 +123,15 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     let timeline = MissionTimeline::of(&mission, found.as_ref())?;
     let own: Option<&Timeline> = found.as_ref().map(|(_, timeline)| timeline);
     let sunlit = mission.sunlit(own)?;
-    let simulated = mission.simulate(Thresholds::Never, None)?;
+    let mut simulated = mission.simulate(Thresholds::Never, None)?;
+    let aimed = match &file.flyby {
+        Some(at) => {
+            let aimed = Aimed::of(file, &at.it, (&mission, &sunlit), &simulated)?;
+            simulated.encountered = Some(aimed.aim.encountered(&aimed.first, &simulated.rows));
+            Some(aimed)
+        }
+        None => None,
+    };
     let layout = match is_in_orbit {
         true => orbit_layout(file, &mission, &timeline, &simulated)?,
         false => layout(file, &mission, &timeline, &sunlit)?,
@@ -83,9 +144,27 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
         covariance: refit.map(|it| it.covariance),
     };
     let least = if is_in_orbit { Least::Momentum } else { Least::Tilt };
-    let task = PlanTask { layout, limit, dumps: file.dumps, least, budget_s: options.budget, target: None };
+    let target = aimed.as_ref().map(Aimed::target);
+    let task = PlanTask { layout, limit, dumps: file.dumps, least, budget_s: options.budget, target };
     let last = RefCell::new(String::new());
-    Ok(Planned { options, mission, timeline, sunlit, simulated, task, sets, began, last })
+    Ok(Planned { options, mission, timeline, sunlit, simulated, aimed, task, sets, began, last, keeps: None })
+}
+
+/// A plan whose `[flyby] from` says until when the mission stays as it is.
+fn frozen_until_from(file: &PlanFile, mission: &SimulatedMission) -> Result<PlanFile, Failure> {
+    let mut file = file.clone();
+    let Some(from) = file.flyby.as_ref().and_then(|flyby| flyby.it.from.clone()) else { return Ok(file) };
+    let Some(from_s) = mission.time_s(from.it) else {
+        let what = "found a date, allowed: simulation time: the mission does not start at a date";
+        return Err(file.problem(&from, what).into());
+    };
+    let frozen_s = from_s - mission.start_s;
+    if !(frozen_s >= 0.0 && from_s < mission.stop_s) {
+        let what = "found a time outside of the mission, allowed: from its start to its stop";
+        return Err(file.problem(&from, what).into());
+    }
+    file.freeze_s = file::At { it: frozen_s, key: from.key, line: from.line };
+    Ok(file)
 }
 
 /// What a plan file says, in a sentence, without flying anything.
@@ -114,12 +193,22 @@ pub(crate) fn checked(file: &Path) -> Result<String, String> {
 }
 
 /// Plans, writes the files and tells what came of it.
-pub(crate) fn run(options: &MomentumOptions) -> Outcome {
+pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     let began = Instant::now();
     let file = PlanFile::read(&options.plan)?;
+    kind.check(&file)?;
     std::fs::create_dir_all(&options.output)
         .map_err(|error| format!("{}: {error}: see --output", options.output.display()))?;
     let planned = opened(options, &file, began)?;
+    let mut encounter = match &planned.aimed {
+        Some(aimed) => Some(flyby::before(&planned, aimed)?),
+        None => None,
+    };
+    if let (Some(report), Some(aimed)) = (&encounter, &planned.aimed)
+        && report.is_out_of_reach
+    {
+        return refuse(&planned, (report, aimed));
+    }
     let mut simulates = &planned;
     let outcome = plan(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
     if interrupt::raised() {
@@ -152,11 +241,21 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
     let bodies = |dump: &PlannedDump| planned.body(&found.windows, dump);
     let table = written::inputs(&planned.mission, &planned.timeline, &found, &sides, &bodies);
     let windows = report::windows_csv(&found, &timeline::shown_deg)?;
-    let picture = picture::svg(&planned.sunlit.spacecraft.name, &found, &planned.task)?;
     let seeds = planned.simulate_seeds(&found.windows, &found.dumps)?;
-    let json = report::json(&found, &planned.task, &events, (&prices, &seeds))?;
+    let mut of_flyby = Vec::new();
+    if let (Some(report), Some(aimed)) = (&mut encounter, &planned.aimed) {
+        let sensitivity = flyby::complete(report, &file, (&planned, aimed), &found)?;
+        of_flyby = vec![
+            (flyby::NAMES[0], String::from_utf8(report.desired_csv()?)?),
+            (flyby::NAMES[1], sensitivity),
+        ];
+    }
+    let chart = picture::chart(&planned.sunlit.spacecraft.name, &found, &planned.task);
+    let picture = drawn(Some(&chart), encounter.as_ref().zip(planned.aimed.as_ref()))?;
+    let more = encounter.as_ref().map(FlybyReport::members).unwrap_or_default();
+    let json = report::json(&found, &planned.task, &events, (&prices, &seeds), more)?;
     let [timeline, mission] = planned.write_into(&options.output, (&found.windows, &found.dumps), None)?;
-    let contents = [
+    let mut contents = vec![
         timeline,
         mission,
         (NAMES[2], table),
@@ -164,12 +263,16 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
         (NAMES[4], picture),
         (NAMES[5], json),
     ];
+    contents.extend(of_flyby);
     write(&planned, &contents)?;
     for warning in written::beyond_inputs(&planned.mission, &planned.timeline) {
         terminal::note(&warning);
     }
     if !options.quiet {
         terminal::print(&summary(&planned, &found, (&prices, &seeds)))?;
+        if let (Some(report), Some(aimed)) = (&encounter, &planned.aimed) {
+            terminal::print(&flyby::summary(report, aimed).join("\n"))?;
+        }
         for (name, _) in &contents {
             terminal::note(&format!("wrote {}", options.output.join(name).display()));
         }
@@ -179,6 +282,29 @@ pub(crate) fn run(options: &MomentumOptions) -> Outcome {
     }
     let is_planned = report::status(&found, &planned.task) == "planned";
     Ok(if is_planned { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Writes what there is of a plan whose aim is out of reach.
+fn refuse(planned: &Planned<'_>, (report, aimed): (&FlybyReport, &Aimed)) -> Outcome {
+    let picture = drawn(None, Some((report, aimed)))?;
+    let json = report::out_of_reach_json(report.members())?;
+    let desired = String::from_utf8(report.desired_csv()?)?;
+    write(planned, &[(NAMES[4], picture), (NAMES[5], json), (flyby::NAMES[0], desired)])?;
+    if !planned.options.quiet {
+        terminal::print(&flyby::summary(report, aimed).join("\n"))?;
+    }
+    Ok(ExitCode::FAILURE)
+}
+
+/// `plan.svg`.
+fn drawn(chart: Option<&Chart>, flyby: Option<(&FlybyReport, &Aimed)>) -> Result<String, DrawingError> {
+    let of_flyby = flyby.map(|(report, aimed)| flyby::charts(report, aimed));
+    let mut all: Vec<&dyn Picture> = chart.iter().map(|chart| *chart as &dyn Picture).collect();
+    if let Some((plane, desired)) = &of_flyby {
+        all.push(plane);
+        all.extend(desired.iter().map(|chart| chart as &dyn Picture));
+    }
+    drawing::svg(&all)
 }
 
 /// Refuses contacts that leave no time for an alternation without which there is no plan.
@@ -297,7 +423,7 @@ fn summary(
         ));
     }
     if !seeds.is_empty() {
-        let [momentum, dumps] = report::percentiles(seeds);
+        let [momentum, dumps] = report::of_seeds(seeds);
         let all = |of: [f64; 3]| of.map(terminal::short).join(", ");
         lines.push(format!(
             "{} seeds: |H| {} N.m.s, dumps {} (50, 90, 99 %)",

@@ -1,6 +1,6 @@
 //! The picture of a plan over its days: |H| planned and simulated under its limit, arrays, tilt, alternation, contacts.
 
-use drawing::{Chart, DrawingError, Panel, Series};
+use drawing::{Chart, Panel, Series};
 use planner::momentum::{
     plan::{MomentumPlan, PlanTask},
     torque::Control,
@@ -11,11 +11,8 @@ use super::timeline::shown_deg;
 
 const DAY_S: f64 = 86_400.0;
 
-/// As SVG text.
-///
-/// # Errors
-/// Nothing to draw.
-pub(super) fn svg(name: &str, plan: &MomentumPlan, task: &PlanTask) -> Result<String, DrawingError> {
+/// All of it, one below the other.
+pub(super) fn chart(name: &str, plan: &MomentumPlan, task: &PlanTask) -> Chart {
     let start_s = plan.rows.first().map_or(0.0, |row| row.time_s);
     let day = |time_s: f64| (time_s - start_s) / DAY_S;
     let of_rows = |value: &dyn Fn(&planner::momentum::plan::PlannedRow) -> f64| {
@@ -69,5 +66,5 @@ pub(super) fn svg(name: &str, plan: &MomentumPlan, task: &PlanTask) -> Result<St
     }
     let shares = Panel::new("share").with(shares).range(0.0, 1.05);
     let title = format!("{name}: momentum plan");
-    drawing::svg(&[&Chart::new(title, "day").with([momentum, arrays, windmill, tilt, shares])])
+    Chart::new(title, "day").with([momentum, arrays, windmill, tilt, shares])
 }

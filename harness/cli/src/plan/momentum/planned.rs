@@ -12,7 +12,7 @@ use planner::momentum::{
 };
 
 use super::super::flights::{Failure, SimulatedMission, Thresholds};
-use super::{file::Activity, options::MomentumOptions, timeline::MissionTimeline, written};
+use super::{aimed::Aimed, file::Activity, options::MomentumOptions, timeline::MissionTimeline, written};
 
 /// Names of the files.
 pub(super) const NAMES: [&str; 6] =
@@ -32,6 +32,8 @@ pub(super) struct Planned<'a> {
     pub sets: Vec<(String, Vec<f64>)>,
     pub began: Instant,
     pub last: RefCell<String>,
+    /// The folder of an updated mission, as long as it is in use.
+    pub keeps: Option<Scratch>,
 }
 
 impl Planned<'_> {
@@ -69,7 +71,11 @@ impl Planned<'_> {
         }
         let mission =
             SimulatedMission::open(&folder.path().join(NAMES[1]), self.options.template.as_deref(), &[])?;
-        mission.simulate(Thresholds::Never, None)
+        let mut flight = mission.simulate(Thresholds::Never, None)?;
+        if let Some(aimed) = &self.aimed {
+            aimed.judge(&mut flight, &self.sunlit)?;
+        }
+        Ok(flight)
     }
 
     /// Simulates a plan with other seeds: greatest |H| and dumps of each flight.

@@ -14,32 +14,27 @@ use toml_edit::{DocumentMut, Item, Table, value};
 use super::super::flights::{Failure, SimulatedMission};
 use super::timeline::{MissionTimeline, array_steps, shown_deg, shown_n_m_s, stretches};
 
-/// The mission's text with the plan's timeline, for a file in `folder`.
+/// The mission's text with other values, for a file in `folder`.
 ///
 /// # Errors
 /// A mission that cannot be read again.
-pub(super) fn mission(
+pub(super) fn with_values(
     planned: &SimulatedMission,
     folder: &Path,
-    panels: usize,
     sets: &[(String, Vec<f64>)],
 ) -> Result<String, Failure> {
     let file = &planned.mission.file;
     let mut document: DocumentMut = files::read_text(file)?.parse()?;
     let home = file.parent().unwrap_or(Path::new(""));
     let moved = |path: &str| relative(folder, &home.join(path)).to_string_lossy().replace('\\', "/");
-    for key in ["spacecraft", "ephemeris", "inputs"] {
+    for key in ["spacecraft", "ephemeris", "inputs", "timeline"] {
         let path = document.get(key).and_then(Item::as_str).map(str::to_owned);
         if let Some(path) = path {
             document[key] = value(moved(&path));
         }
     }
-    document["timeline"] = value("timeline.toml");
     let table = document.entry("set").or_insert(Item::Table(Table::new()));
     if let Some(table) = table.as_table_like_mut() {
-        for number in 1..=panels {
-            table.insert(&format!("panel[{number}].control"), value("timeline"));
-        }
         for (name, values) in sets {
             // Values of single elements would count behind that of the whole.
             let elements: Vec<String> = table
@@ -57,6 +52,24 @@ pub(super) fn mission(
             };
             table.insert(name, one);
         }
+    }
+    Ok(document.to_string())
+}
+
+/// The mission's text with the plan's timeline, for a file in `folder`.
+///
+/// # Errors
+/// A mission that cannot be read again.
+pub(super) fn mission(
+    planned: &SimulatedMission,
+    folder: &Path,
+    panels: usize,
+    sets: &[(String, Vec<f64>)],
+) -> Result<String, Failure> {
+    let mut document: DocumentMut = with_values(planned, folder, sets)?.parse()?;
+    document["timeline"] = value("timeline.toml");
+    for number in 1..=panels {
+        document["set"][&format!("panel[{number}].control")] = value("timeline");
     }
     Ok(document.to_string())
 }

@@ -7,6 +7,7 @@ use crate::momentum::{
     plan::{MomentumPlan, plan},
     target::{Encountered, Target},
     test_spacecraft::{DAY_S, row, simulated, sunlit, task},
+    torque::Controls,
     windows::Reach,
 };
 

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::*;
 use crate::momentum::{
     test_spacecraft::{DAY_S, simulated, sunlit, task},
+    torque::Attitude,
     windows::Reach,
 };
 

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix6, SymmetricEigen, Vector3};
 use physics::toml::Place;
 
-use super::{ALLOWED_ANGLE, ALLOWED_SPAN, At, Builder, DAY_S};
+use super::{ALLOWED_ANGLE, At, Builder, DAY_S};
 use crate::{
     mission::Written,
     plan::momentum::description::{

@@ -1,7 +1,10 @@
 //! Flights of a plan with dispersed state, centre of mass, sunlight and manoeuvres, on all cores.
 
-use nalgebra::{Matrix2, Matrix6, Vector2};
-use planner::flyby::dispersion::{Dispersions, Outcome, miss_of};
+use nalgebra::{Matrix6, Vector3};
+use planner::flyby::{
+    dispersion::{Dispersions, Draw, Outcome, miss_of},
+    report::Campaign,
+};
 use rayon::prelude::*;
 
 use loader::{Recording, Value};
@@ -29,68 +32,55 @@ const AROUND_S: f64 = 6.0 * 3600.0;
 /// And of the momentum otherwise.
 const COARSE_S: f64 = 6.0 * 3600.0;
 
-/// Dispersed flights.
-pub(in crate::plan::momentum) struct Campaign {
-    pub outcomes: Vec<Outcome>,
-    /// Runs that failed, with why: a flight into the planet, one that misses it.
-    pub failed: Vec<(u64, String)>,
-    /// Mean and covariance of the miss along T and R, in m and m2.
-    pub mean_m: Vector2<f64>,
-    pub covariance_m2: Matrix2<f64>,
-}
-
-impl Campaign {
-    /// Simulates all runs of a plan's mission.
-    pub(super) fn simulate(
-        mission: &SimulatedMission,
-        (table, covariance): (MonteCarlo, Option<Matrix6<f64>>),
-        (aimed, arrival_s): (&Aimed, f64),
-        planned: &Planned<'_>,
-    ) -> Result<Self, Failure> {
-        let spread = Dispersions {
-            state_root: None,
-            center_of_mass_m: table.center_of_mass_m,
-            scale: table.scale,
-        };
-        let spread = match covariance {
-            Some(covariance) => spread.with_state(&covariance).ok_or("covariance: found none that is positive")?,
-            None => spread,
-        };
-        let lead_s = aimed.surroundings.lead_s;
-        let times_s = rows_s([mission.start_s, mission.stop_s], arrival_s - lead_s);
-        let starts = Starts::of(mission)?;
-        let bar = terminal::progress(table.runs as u64, "runs", planned.options.quiet);
-        let of = |run: u64| {
-            let draw = spread.draw(table.seed, run);
-            let sets = starts.dispersed(&draw, run);
-            let outputs = OUTPUTS.map(str::to_owned);
-            let recording = mission.record(&Requested {
-                sets: &sets,
-                outputs: &outputs,
-                at_s: Some(&times_s),
-                ..Requested::default()
-            });
-            bar.inc(1);
-            let found = recording.map_err(|error| error.to_string());
-            (run, found.and_then(|it| outcome(&it, lead_s, aimed.aim.b_m)))
-        };
-        let found: Vec<(u64, Result<Outcome, String>)> =
-            (1..=table.runs as u64).into_par_iter().map(of).collect();
-        bar.finish_and_clear();
-        if interrupt::raised() {
-            return Err("interrupted".into());
+/// Simulates all runs of a plan's mission.
+pub(super) fn simulated(
+    mission: &SimulatedMission,
+    (table, covariance): (MonteCarlo, Option<Matrix6<f64>>),
+    (aimed, arrival_s): (&Aimed, f64),
+    planned: &Planned<'_>,
+) -> Result<Campaign, Failure> {
+    let spread =
+        Dispersions { state_root: None, center_of_mass_m: table.center_of_mass_m, scale: table.scale };
+    let spread = match covariance {
+        Some(covariance) => {
+            spread.with_state(&covariance).ok_or("covariance: found none that is positive")?
         }
-        let mut outcomes = Vec::with_capacity(found.len());
-        let mut failed = Vec::new();
-        for (run, found) in found {
-            match found {
-                Ok(outcome) => outcomes.push(outcome),
-                Err(why) => failed.push((run, why)),
-            }
-        }
-        let (mean_m, covariance_m2) = miss_of(&outcomes);
-        Ok(Self { outcomes, failed, mean_m, covariance_m2 })
+        None => spread,
+    };
+    let lead_s = aimed.surroundings.lead_s;
+    let times_s = rows_s([mission.start_s, mission.stop_s], arrival_s - lead_s);
+    let starts = Starts::of(mission)?;
+    let bar = terminal::progress(table.runs as u64, "runs", planned.options.quiet);
+    let of = |run: u64| {
+        let draw = spread.draw(table.seed, run);
+        let sets = starts.dispersed(&draw, run);
+        let outputs = OUTPUTS.map(str::to_owned);
+        let recording = mission.record(&Requested {
+            sets: &sets,
+            outputs: &outputs,
+            at_s: Some(&times_s),
+            ..Requested::default()
+        });
+        bar.inc(1);
+        let found = recording.map_err(|error| error.to_string());
+        (run, found.and_then(|it| outcome(&it, lead_s, aimed.aim.b_m)))
+    };
+    let found: Vec<(u64, Result<Outcome, String>)> =
+        (1..=table.runs as u64).into_par_iter().map(of).collect();
+    bar.finish_and_clear();
+    if interrupt::raised() {
+        return Err("interrupted".into());
     }
+    let mut outcomes = Vec::with_capacity(found.len());
+    let mut failed = Vec::new();
+    for (run, found) in found {
+        match found {
+            Ok(outcome) => outcomes.push(outcome),
+            Err(why) => failed.push((run, why)),
+        }
+    }
+    let (mean_m, covariance_m2) = miss_of(&outcomes);
+    Ok(Campaign { outcomes, failed, mean_m, covariance_m2 })
 }
 
 /// Times at which rows are recorded, in s.
@@ -130,8 +120,8 @@ impl Starts {
         })
     }
 
-    fn dispersed(&self, draw: &planner::flyby::dispersion::Draw, run: u64) -> Vec<(String, Value)> {
-        let vector = |name: &str, at: [f64; 3], off: &nalgebra::Vector3<f64>| -> Vec<(String, Value)> {
+    fn dispersed(&self, draw: &Draw, run: u64) -> Vec<(String, Value)> {
+        let vector = |name: &str, at: [f64; 3], off: &Vector3<f64>| -> Vec<(String, Value)> {
             (0..3).map(|axis| (format!("{name}[{}]", axis + 1), Value::Real(at[axis] + off[axis]))).collect()
         };
         let mut sets = vector("spacecraft.centerOfMass", self.center_of_mass_m, &draw.center_of_mass_m);
@@ -148,7 +138,10 @@ impl Starts {
 /// What a flight came to.
 fn outcome(recording: &Recording, lead_s: f64, aim_m: [f64; 2]) -> Result<Outcome, String> {
     let column = |name: &str| {
-        recording.column(name).map(|column| column.numbers()).ok_or_else(|| format!("the FMU has no output {name}"))
+        recording
+            .column(name)
+            .map(|column| column.numbers())
+            .ok_or_else(|| format!("the FMU has no output {name}"))
     };
     let last = |name: &str| -> Result<f64, String> { Ok(column(name)?.last().copied().unwrap_or(f64::NAN)) };
     if last(OUTPUTS[2])? < 1.0 {
@@ -159,7 +152,8 @@ fn outcome(recording: &Recording, lead_s: f64, aim_m: [f64; 2]) -> Result<Outcom
     let after = recording.times_s.partition_point(|time_s| *time_s <= epoch_s);
     let at = |name: &str| -> Result<f64, String> {
         let values = column(name)?;
-        let (Some(to_s), Some(from_s)) = (recording.times_s.get(after), recording.times_s.get(after.wrapping_sub(1)))
+        let (Some(to_s), Some(from_s)) =
+            (recording.times_s.get(after), recording.times_s.get(after.wrapping_sub(1)))
         else {
             return Err("the hyperbola osculates outside of the flight".to_owned());
         };

@@ -3,8 +3,9 @@
 use nalgebra::{Matrix2, Vector2};
 use planner::flyby::{
     Sensitivity,
-    maneuvers::{ExecutionErrors, Maneuver, Miss, approach, departure},
+    maneuvers::{ExecutionErrors, Miss, approach, departure},
     miss::MissCost,
+    report::Compared,
 };
 
 use super::update::time_s;
@@ -17,62 +18,44 @@ use crate::plan::{
     },
 };
 
-/// Manoeuvres compared.
-pub(in crate::plan::momentum) struct Compared {
-    /// Approach manoeuvres with their times, in s of the flight.
-    pub approach: Vec<(f64, Maneuver)>,
-    /// When the departure manoeuvre is, in s of the flight.
-    pub departure_s: f64,
-    pub cost: MissCost,
-    /// Root mean square of the departure manoeuvre without any correction, behind the approach manoeuvres, behind the plan, in m/s.
-    pub departure_m_s: [f64; 3],
-}
-
-impl Compared {
-    pub(super) fn of(
-        file: &PlanFile,
-        compare: &Compare,
-        (planned, aimed): (&Planned<'_>, &Aimed),
-        after: &Sensitivity,
-    ) -> Result<Self, Failure> {
-        let arrival_s = aimed.first.encounter.time_s;
-        let next_s = time_s(file, &compare.next, compare.next.it, &planned.mission)?;
-        let departure_s = arrival_s + compare.departure_s;
-        if next_s <= departure_s {
-            let what = "found a date before the departure manoeuvre, allowed: a later one";
-            return Err(file.problem(&compare.next, what).into());
-        }
-        let cost = MissCost::new(after, &aimed.surroundings, [departure_s, next_s])?;
-        let errors = ExecutionErrors {
-            direction_rad: compare.direction_error_rad,
-            magnitude: compare.magnitude_error,
-        };
-        let of = |sensitivity: &Sensitivity| Miss {
-            mean_m: aimed.aim.miss(&sensitivity.encounter).xy(),
-            covariance_m2: Matrix2::zeros(),
-        };
-        let mut miss = of(&aimed.first);
-        let mut all = Vec::new();
-        for at in &compare.approach_s {
-            let at_s = arrival_s + at.it;
-            if at_s < planned.mission.start_s || at_s >= aimed.first.encounter.epoch_s {
-                let what = "found a time outside of the flight, allowed: between its start and the encounter";
-                return Err(file.problem(at, what).into());
-            }
-            let by_velocity = aimed.first.by_velocity(at_s).fixed_rows::<2>(0).into_owned();
-            let Some(found) = approach(&miss, &by_velocity, &errors) else {
-                let what = "found a time at which no velocity moves both components of B, allowed: another";
-                return Err(file.problem(at, what).into());
-            };
-            miss = found.left;
-            all.push((at_s, found));
-        }
-        let sizes = [of(&aimed.first), miss, of(after)].map(|miss| departure(&miss, &cost.by_miss_1_s).1);
-        Ok(Self { approach: all, departure_s, cost, departure_m_s: sizes })
+/// Manoeuvres compared, by the tables of a plan.
+pub(super) fn compared(
+    file: &PlanFile,
+    compare: &Compare,
+    (planned, aimed): (&Planned<'_>, &Aimed),
+    after: &Sensitivity,
+) -> Result<Compared, Failure> {
+    let arrival_s = aimed.first.encounter.time_s;
+    let next_s = time_s(file, &compare.next, compare.next.it, &planned.mission)?;
+    let departure_s = arrival_s + compare.departure_s;
+    if next_s <= departure_s {
+        let what = "found a date before the departure manoeuvre, allowed: a later one";
+        return Err(file.problem(&compare.next, what).into());
     }
-
-    /// Departure manoeuvre by m of a miss along T and along R, in m/s.
-    pub(super) fn by_m(&self) -> [f64; 2] {
-        [Vector2::x(), Vector2::y()].map(|miss_m| self.cost.cost_m_s(miss_m.into()))
+    let cost = MissCost::new(after, &aimed.surroundings, [departure_s, next_s])?;
+    let errors =
+        ExecutionErrors { direction_rad: compare.direction_error_rad, magnitude: compare.magnitude_error };
+    let of = |sensitivity: &Sensitivity| Miss {
+        mean_m: aimed.aim.miss(&sensitivity.encounter).xy(),
+        covariance_m2: Matrix2::zeros(),
+    };
+    let mut miss = of(&aimed.first);
+    let mut all = Vec::new();
+    for at in &compare.approach_s {
+        let at_s = arrival_s + at.it;
+        if at_s < planned.mission.start_s || at_s >= aimed.first.encounter.epoch_s {
+            let what = "found a time outside of the flight, allowed: between its start and the encounter";
+            return Err(file.problem(at, what).into());
+        }
+        let by_velocity = aimed.first.by_velocity(at_s).fixed_rows::<2>(0).into_owned();
+        let Some(found) = approach(&miss, &by_velocity, &errors) else {
+            let what = "found a time at which no velocity moves both components of B, allowed: another";
+            return Err(file.problem(at, what).into());
+        };
+        miss = found.left;
+        all.push((at_s, found));
     }
+    let sizes = [of(&aimed.first), miss, of(after)].map(|miss| departure(&miss, &cost.by_miss_1_s).1);
+    let by_m_1_s = [Vector2::x(), Vector2::y()].map(|miss_m| cost.cost_m_s(miss_m.into()));
+    Ok(Compared { approach: all, departure_s, departure_m_s: sizes, by_m_1_s })
 }

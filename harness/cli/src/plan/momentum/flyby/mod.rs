@@ -3,21 +3,19 @@
 mod campaign;
 mod compared;
 mod picture;
-mod report;
 mod update;
 
 use ::files::Scratch;
 use nalgebra::Vector2;
 use planner::{
-    flyby::{Sensitivity, sensitivity::DesiredDeltaV},
-    momentum::{
-        attainable::{Reachable, reachable},
-        plan::MomentumPlan,
+    flyby::{
+        controls::aim_by_windows,
+        report::{FlybyReport, encounter_of, sensitivity_csv},
     },
+    momentum::{attainable::reachable, plan::MomentumPlan},
 };
 
-pub(super) use self::update::updated;
-use self::{campaign::Campaign, compared::Compared};
+pub(super) use self::{picture::charts, update::updated};
 use super::{aimed::Aimed, file::PlanFile, planned::Planned};
 use crate::plan::flights::{Failure, SimulatedMission};
 
@@ -29,86 +27,143 @@ const BEYOND: f64 = 1.02;
 /// Names of files that only plans with a flyby have.
 pub(super) const NAMES: [&str; 2] = ["desired.csv", "sensitivity.csv"];
 
-/// What a plan with a flyby comes to.
-pub(super) struct Flyby {
-    /// Where it can be moved to.
-    pub reach: Reachable,
-    /// Least changes of velocity that would do the same, at times in s of the flight.
-    pub desired: Vec<(f64, DesiredDeltaV)>,
-    /// Of the plan's flight; `None` where there is no plan.
-    pub after: Option<Sensitivity>,
-    pub compared: Option<Compared>,
-    pub campaign: Option<Campaign>,
-}
-
 /// Whether a correction is within what can be reached.
 fn holds(polygon_m: &[[f64; 2]], correction_m: Vector2<f64>) -> bool {
-    let pairs = polygon_m.iter().zip(polygon_m.iter().cycle().skip(1));
+    let mut pairs = polygon_m.iter().zip(polygon_m.iter().cycle().skip(1));
     let is_left = |(from, to): (&[f64; 2], &[f64; 2])| {
         let (from, to) = (Vector2::from(*from) * BEYOND, Vector2::from(*to) * BEYOND);
         (to - from).perp(&(correction_m - from)) >= 0.0
     };
-    polygon_m.len() > 2 && pairs.into_iter().all(is_left)
+    polygon_m.len() > 2 && pairs.all(is_left)
 }
 
-impl Flyby {
-    /// What can be known before the plan.
-    pub(super) fn before(planned: &Planned<'_>, aimed: &Aimed) -> Result<Self, Failure> {
-        let mut simulates = planned;
-        let reach = reachable(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
-        let miss = aimed.first_miss();
-        let from_s = planned.task.layout.frozen_until_s.max(planned.mission.start_s);
-        let epoch_s = aimed.first.encounter.epoch_s;
-        let days = (0..).map(|day| from_s + f64::from(day) * DESIRED_S).take_while(|at_s| *at_s < epoch_s);
-        let desired = days.filter_map(|at_s| {
-            let found = match aimed.aim.arrival_s {
-                None => aimed.first.desired(at_s, [miss.x, miss.y]),
-                Some(_) => aimed.first.desired_in_time(at_s, [miss.x, miss.y], miss.z),
-            };
-            Some((at_s, found?))
-        });
-        Ok(Self {
-            reach: reach.map_err(|error| error.to_string())?,
-            desired: desired.collect(),
-            after: None,
-            compared: None,
-            campaign: None,
-        })
-    }
-
-    /// Whether no choice of arrays and attitudes reaches the aim.
-    pub(super) fn is_out_of_reach(&self, aimed: &Aimed) -> bool {
-        !holds(&self.reach.polygon_m, -aimed.first_miss().xy())
-    }
-
-    /// What the plan's flight came to, beside manoeuvres and dispersed flights.
-    pub(super) fn complete(
-        &mut self,
-        file: &PlanFile,
-        planned: &Planned<'_>,
-        aimed: &Aimed,
-        found: &MomentumPlan,
-    ) -> Result<(), Failure> {
-        let mut flight = found.flight.clone();
-        let after = aimed.judge(&mut flight, &planned.sunlit)?;
-        self.compared = match &file.compare {
-            Some(at) => Some(Compared::of(file, &at.it, (planned, aimed), &after)?),
-            None => None,
+/// What can be known before the plan.
+pub(super) fn before(planned: &Planned<'_>, aimed: &Aimed) -> Result<FlybyReport, Failure> {
+    let mut simulates = planned;
+    let reach = reachable(&planned.task, &planned.sunlit, &planned.simulated, &mut simulates);
+    let reach = reach.map_err(|error| error.to_string())?;
+    let miss = aimed.first_miss();
+    let from_s = planned.task.layout.frozen_until_s.max(planned.mission.start_s);
+    let epoch_s = aimed.first.encounter.epoch_s;
+    let days = (0..).map(|day| from_s + f64::from(day) * DESIRED_S).take_while(|at_s| *at_s < epoch_s);
+    let desired = days.filter_map(|at_s| {
+        let found = match aimed.aim.arrival_s {
+            None => aimed.first.desired(at_s, [miss.x, miss.y]),
+            Some(_) => aimed.first.desired_in_time(at_s, [miss.x, miss.y], miss.z),
         };
-        if let Some(at) = &file.monte_carlo {
-            let folder = Scratch::new()?;
-            for (name, text) in planned.write_into(folder.path(), (&found.windows, &found.dumps), None)? {
-                std::fs::write(folder.path().join(name), text)?;
-            }
-            let template = planned.options.template.as_deref();
-            let mission = SimulatedMission::open(&folder.path().join("mission.toml"), template, &[])?;
-            let covariance = file.update.as_ref().and_then(|it| it.it.covariance);
-            let arrival_s = after.encounter.time_s;
-            self.campaign = Some(Campaign::simulate(&mission, (at.it, covariance), (aimed, arrival_s), planned)?);
-        }
-        self.after = Some(after);
-        Ok(())
+        Some((at_s, found?))
+    });
+    Ok(FlybyReport {
+        aim_m: aimed.aim.b_m,
+        epoch_minus_time_s: aimed.surroundings.epoch_minus_time_s,
+        radius_m: aimed.radius_m,
+        miss: [Some(miss), None],
+        encounter: encounter_of(&aimed.first, aimed.radius_m),
+        is_out_of_reach: !holds(&reach.polygon_m, -miss.xy()),
+        reach,
+        desired: desired.collect(),
+        compared: None,
+        campaign: None,
+    })
+}
+
+/// What the plan's flight came to, beside manoeuvres and dispersed flights; gives what windows change, as CSV.
+pub(super) fn complete(
+    report: &mut FlybyReport,
+    file: &PlanFile,
+    (planned, aimed): (&Planned<'_>, &Aimed),
+    found: &MomentumPlan,
+) -> Result<String, Failure> {
+    let mut flight = found.flight.clone();
+    let after = aimed.judge(&mut flight, &planned.sunlit)?;
+    report.miss[1] = Some(aimed.aim.miss(&after.encounter));
+    report.encounter = encounter_of(&after, aimed.radius_m);
+    if let Some(at) = &file.compare {
+        report.compared = Some(compared::compared(file, &at.it, (planned, aimed), &after)?);
     }
+    if let Some(at) = &file.monte_carlo {
+        let folder = Scratch::new()?;
+        for (name, text) in planned.write_into(folder.path(), (&found.windows, &found.dumps), None)? {
+            std::fs::write(folder.path().join(name), text)?;
+        }
+        let template = planned.options.template.as_deref();
+        let mission = SimulatedMission::open(&folder.path().join(super::NAMES[1]), template, &[])?;
+        let covariance = file.update.as_ref().and_then(|it| it.it.covariance);
+        let arrival_s = after.encounter.time_s;
+        report.campaign =
+            Some(campaign::simulated(&mission, (at.it, covariance), (aimed, arrival_s), planned)?);
+    }
+    let by_window = aim_by_windows(&after, &planned.sunlit, &flight, &found.windows);
+    Ok(String::from_utf8(sensitivity_csv(&found.windows, &by_window)?)?)
+}
+
+/// What a person reads of it.
+pub(super) fn summary(report: &FlybyReport, aimed: &Aimed) -> Vec<String> {
+    let km = |length_m: f64| terminal::short(length_m / 1e3);
+    let [arrival_s, osculation_s, altitude_m, excess_m_s] = report.encounter;
+    let lead_h = terminal::short((arrival_s - osculation_s) / 3600.0);
+    let missed = |label: &str, miss: &nalgebra::Vector3<f64>| {
+        let late = match aimed.aim.arrival_s {
+            Some(_) => format!(", {} s late", terminal::short(miss.z)),
+            None => String::new(),
+        };
+        format!("{label} misses by {} km along T, {} km along R{late}", km(miss.x), km(miss.y))
+    };
+    let name = aimed.surroundings.body.data().name;
+    let mut lines = vec![format!(
+        "{name}, {lead_h} h before closest approach: aim B.T {} km, B.R {} km; closest approach {} km above it, excess speed {} km/s",
+        km(report.aim_m[0]),
+        km(report.aim_m[1]),
+        km(altitude_m),
+        terminal::short(excess_m_s / 1e3),
+    )];
+    let [before, after] = &report.miss;
+    lines.extend(before.iter().map(|miss| missed("the mission as it is", miss)));
+    lines.extend(after.iter().map(|miss| missed("the plan", miss)));
+    let along = report.reach.along_m.map(|along_m| along_m.map_or("none".to_owned(), km));
+    lines.push(format!("reach +T {}, -T {}, +R {}, -R {} km", along[0], along[1], along[2], along[3]));
+    if report.is_out_of_reach {
+        lines.push(
+            "the aim is out of reach: no choice of arrays and attitudes leads there within the limits"
+                .to_owned(),
+        );
+    }
+    let least = report.desired.iter().min_by(|a, b| a.1.size_m_s().total_cmp(&b.1.size_m_s()));
+    if let Some((at_s, it)) = least {
+        lines.push(format!(
+            "least velocity change that would do the same: {} mm/s, {} d before",
+            terminal::short(1e3 * it.size_m_s()),
+            terminal::short((arrival_s - at_s) / 86_400.0)
+        ));
+    }
+    if let Some(compared) = &report.compared {
+        for (at_s, it) in &compared.approach {
+            lines.push(format!(
+                "approach manoeuvre {} d before: {} m/s, leaves {} km (root mean square)",
+                terminal::short((arrival_s - at_s) / 86_400.0),
+                terminal::short(it.rms_m_s),
+                km(it.left.rms_m())
+            ));
+        }
+        let [without, behind, planned] = compared.departure_m_s.map(terminal::short);
+        lines.push(format!(
+            "departure manoeuvre: {without} m/s without a correction, {behind} behind the approach manoeuvres, {planned} behind the plan"
+        ));
+    }
+    if let Some(campaign) = &report.campaign {
+        let ([large_m, small_m], angle_rad) = planner::flyby::maneuvers::ellipse(&campaign.covariance_m2);
+        lines.push(format!(
+            "{} dispersed flights, {} failed: mean miss {}, {} km, ellipse of one deviation {} by {} km, {} deg from T toward R",
+            campaign.outcomes.len() + campaign.failed.len(),
+            campaign.failed.len(),
+            km(campaign.mean_m.x),
+            km(campaign.mean_m.y),
+            km(large_m),
+            km(small_m),
+            terminal::short(angle_rad.to_degrees())
+        ));
+    }
+    lines
 }
 
 #[cfg(test)]
@@ -118,7 +173,8 @@ mod tests {
     #[test]
     fn a_correction_counts_within_the_polygon_and_a_little_beyond() {
         let square = [[-1e5, -1e4], [1e5, -1e4], [1e5, 2e4], [-1e5, 2e4]];
-        for (correction, is) in [([9e4, 0.0], true), ([1.01e5, 0.0], true), ([1.1e5, 0.0], false), ([0.0, -2e4], false)] {
+        let cases = [([9e4, 0.0], true), ([1.01e5, 0.0], true), ([1.1e5, 0.0], false), ([0.0, -2e4], false)];
+        for (correction, is) in cases {
             assert_eq!(holds(&square, Vector2::from(correction)), is, "{correction:?}");
         }
         assert!(!holds(&[], Vector2::zeros()) && !holds(&square[..2], Vector2::zeros()));

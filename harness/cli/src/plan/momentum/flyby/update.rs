@@ -42,15 +42,18 @@ pub(in crate::plan::momentum) fn updated(
     let position_m = update.position_m.unwrap_or(position_m);
     let velocity_m_s = update.velocity_m_s.unwrap_or(velocity_m_s);
     let folder = Scratch::new()?;
-    let vectors =
-        [("orbit.position", position_m), ("orbit.velocity", velocity_m_s), ("start.momentum", momentum_n_m_s)];
+    let vectors = [
+        ("orbit.position", position_m),
+        ("orbit.velocity", velocity_m_s),
+        ("start.momentum", momentum_n_m_s),
+    ];
     let sets: Vec<(String, Vec<f64>)> =
         vectors.iter().map(|(name, vector)| ((*name).to_owned(), vector.iter().copied().collect())).collect();
     let text = written::with_values(mission, folder.path(), &sets)?;
     let mut document: DocumentMut = text.parse()?;
     document.entry("set").or_insert(Item::Table(Table::new()))["orbit.source"] = value("inputs");
     let instant = |time_s: f64| match mission.zero_epoch_s {
-        Some(zero_s) => value(dates::date_utc(dates::later_s(zero_s, time_s))),
+        Some(zero_s) => value(dates::utc(zero_s + time_s)),
         None => value(time_s),
     };
     document["start"] = instant(at_s);

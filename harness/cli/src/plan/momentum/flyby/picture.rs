@@ -1,0 +1,125 @@
+//! Pictures of a flyby plan: its B-plane with what can be reached, and the velocity changes that would do the same.
+
+use core::f64::consts::TAU;
+
+use drawing::{Chart, Panel, PlaneChart, PlanePanel, Series};
+use planner::flyby::{
+    aim::b_of_periapsis_m,
+    maneuvers::ellipse,
+    report::{Campaign, FlybyReport},
+};
+
+use super::super::aimed::Aimed;
+
+const DAY_S: f64 = 86_400.0;
+/// Deviations of the ellipse that is drawn.
+const SIGMAS: f64 = 3.0;
+const POINTS: u32 = 90;
+
+/// B-plane and desired velocity changes.
+pub(in crate::plan::momentum) fn charts(report: &FlybyReport, aimed: &Aimed) -> (PlaneChart, Option<Chart>) {
+    (plane(report, aimed), desired(report))
+}
+
+fn circle(radius: f64) -> Vec<(f64, f64)> {
+    (0..=POINTS)
+        .map(|k| (TAU * f64::from(k) / f64::from(POINTS)).sin_cos())
+        .map(|(s, c)| (radius * c, radius * s))
+        .collect()
+}
+
+/// In km from the planet's centre; the picture has T to the right and R down, as seen along the asymptote.
+fn plane(report: &FlybyReport, aimed: &Aimed) -> PlaneChart {
+    let km = |[t_m, r_m]: [f64; 2]| (t_m / 1e3, -r_m / 1e3);
+    let aim = report.aim_m;
+    let place = |miss: &Option<nalgebra::Vector3<f64>>| {
+        miss.map(|miss| km([aim[0] + miss.x, aim[1] + miss.y])).into_iter().collect::<Vec<_>>()
+    };
+    let impact_m = b_of_periapsis_m(report.radius_m, aimed.surroundings.gm_m3_s2, report.encounter[3]);
+    let before = report.miss[0].unwrap_or_default();
+    let mut reach: Vec<(f64, f64)> = report
+        .reach
+        .polygon_m
+        .iter()
+        .map(|[t_m, r_m]| km([aim[0] + before.x + t_m, aim[1] + before.y + r_m]))
+        .collect();
+    reach.extend(reach.first().copied());
+    let series = |wide: bool| {
+        let mut series = vec![
+            Series::rings("aim", vec![km(aim)]),
+            Series::dots("mission as it is", place(&report.miss[0])),
+            Series::dots("plan", place(&report.miss[1])),
+            Series::line("reach", reach.clone()),
+        ];
+        if wide {
+            series.push(Series::line("planet", circle(report.radius_m / 1e3)));
+            series.push(Series::dashed("impact", circle(impact_m / 1e3)));
+        }
+        if let Some(campaign) = &report.campaign {
+            series.push(Series::dashed("three deviations", ring(campaign, aim)));
+        }
+        series
+    };
+    let farthest = reach
+        .iter()
+        .chain(&place(&report.miss[0]))
+        .fold(0.0_f64, |far, (x, y)| far.max(x.abs()).max(y.abs()));
+    let near = |(x, y): (f64, f64)| (x - km(aim).0).abs().max((y - km(aim).1).abs());
+    let close = reach.iter().copied().chain(place(&report.miss[0])).map(near).fold(1.0, f64::max);
+    let name = aimed.surroundings.body.data().name;
+    PlaneChart {
+        title: format!("B-plane at {name}, hyperbola osculating before closest approach"),
+        x_label: "B.T [km]".to_owned(),
+        y_label: "-B.R [km]".to_owned(),
+        panels: vec![
+            PlanePanel {
+                title: name.to_owned(),
+                series: series(true),
+                half_width: 1.15 * farthest.max(impact_m / 1e3),
+                ..PlanePanel::default()
+            },
+            PlanePanel {
+                title: "about the aim".to_owned(),
+                series: series(false),
+                centre: km(aim),
+                half_width: 1.15 * close,
+                ..PlanePanel::default()
+            },
+        ],
+        shading: None,
+    }
+}
+
+fn ring(campaign: &Campaign, aim_m: [f64; 2]) -> Vec<(f64, f64)> {
+    let ([large_m, small_m], angle_rad) = ellipse(&campaign.covariance_m2);
+    let (sine, cosine) = angle_rad.sin_cos();
+    let point = |(x, y): (f64, f64)| {
+        let (along_m, across_m) = (SIGMAS * large_m * x, SIGMAS * small_m * y);
+        let t_m = aim_m[0] + campaign.mean_m.x + along_m * cosine - across_m * sine;
+        let r_m = aim_m[1] + campaign.mean_m.y + along_m * sine + across_m * cosine;
+        (t_m / 1e3, -r_m / 1e3)
+    };
+    circle(1.0).into_iter().map(point).collect()
+}
+
+fn desired(report: &FlybyReport) -> Option<Chart> {
+    let arrival_s = report.encounter[0];
+    let day = |at_s: f64| (at_s - arrival_s) / DAY_S;
+    let first = report.desired.first()?;
+    let of = |value: &dyn Fn(&planner::flyby::sensitivity::DesiredDeltaV) -> f64| {
+        report.desired.iter().map(|(at_s, it)| (day(*at_s), value(it))).collect::<Vec<_>>()
+    };
+    if first.1.size_m_s() == 0.0 {
+        return None;
+    }
+    let size = Panel::new("log10 of m/s")
+        .with([Series::curve("desired velocity change", of(&|it| it.size_m_s().log10()))]);
+    let angles = Panel::new("direction [deg]").with([
+        Series::line("right ascension", of(&|it| it.right_ascension_rad().to_degrees())),
+        Series::line("declination", of(&|it| it.declination_rad().to_degrees())),
+    ]);
+    Some(
+        Chart::new("velocity change that would do the same", "day from closest approach")
+            .with([size, angles]),
+    )
+}

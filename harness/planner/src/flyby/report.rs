@@ -1,0 +1,207 @@
+//! What a plan with a flyby came to, as members of `plan.json`, as `desired.csv` and as `sensitivity.csv`.
+
+use nalgebra::{Matrix2, Vector2, Vector3};
+use serde_json::{Map, Value, json};
+
+use super::{
+    controls::AimByWindow,
+    dispersion::Outcome,
+    maneuvers::{Maneuver, ellipse},
+    sensitivity::{DesiredDeltaV, Sensitivity},
+};
+use crate::momentum::{attainable::Reachable, report::percentiles, windows::Window};
+
+/// Manoeuvres that would do what the plan does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compared {
+    /// Approach manoeuvres with their times, in s of the flight.
+    pub approach: Vec<(f64, Maneuver)>,
+    /// When the departure manoeuvre is, in s of the flight.
+    pub departure_s: f64,
+    /// Root mean square of it: without any correction, behind the approach manoeuvres, behind the plan, in m/s.
+    pub departure_m_s: [f64; 3],
+    /// Departure manoeuvre by m of a miss along T and along R, in m/s.
+    pub by_m_1_s: [f64; 2],
+}
+
+/// Dispersed flights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Campaign {
+    /// By run.
+    pub outcomes: Vec<Outcome>,
+    /// Runs that failed, with why: a flight into the planet, one that misses it.
+    pub failed: Vec<(u64, String)>,
+    /// Mean of the miss along T and R, in m.
+    pub mean_m: Vector2<f64>,
+    /// Its covariance, in m2.
+    pub covariance_m2: Matrix2<f64>,
+}
+
+/// What a plan with a flyby came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlybyReport {
+    /// B along T and R aimed at, in m.
+    pub aim_m: [f64; 2],
+    /// What turns a time of the flight into s past J2000 TDB.
+    pub epoch_minus_time_s: f64,
+    /// Radius of the planet, in m.
+    pub radius_m: f64,
+    /// Miss of the mission as it is, and of the plan: along T and R in m, of the arrival in s.
+    pub miss: [Option<Vector3<f64>>; 2],
+    /// Encounter of the plan's flight, of the mission's where there is no plan: closest approach and osculation in s of the flight,
+    /// altitude in m, speed far from the planet in m/s.
+    pub encounter: [f64; 4],
+    /// Where the encounter can be moved to from where the mission meets it.
+    pub reach: Reachable,
+    /// Whether no choice of arrays and attitudes reaches the aim.
+    pub is_out_of_reach: bool,
+    /// Least changes of velocity that would do the same, at times in s of the flight.
+    pub desired: Vec<(f64, DesiredDeltaV)>,
+    /// Manoeuvres compared.
+    pub compared: Option<Compared>,
+    /// Dispersed flights.
+    pub campaign: Option<Campaign>,
+}
+
+/// Closest approach and osculation in s of the flight, altitude in m, speed far from the planet in m/s.
+pub fn encounter_of(sensitivity: &Sensitivity, radius_m: f64) -> [f64; 4] {
+    let encounter = &sensitivity.encounter;
+    [
+        encounter.time_s,
+        encounter.epoch_s,
+        encounter.closest.position_m.norm() - radius_m,
+        encounter.plane.excess_speed_m_s,
+    ]
+}
+
+impl FlybyReport {
+    /// Members of `plan.json`.
+    pub fn members(&self) -> Map<String, Value> {
+        let [arrival_s, osculation_s, altitude_m, excess_m_s] = self.encounter;
+        let miss = |miss: &Option<Vector3<f64>>| miss.map_or(Value::Null, |it| json!([it.x, it.y]));
+        let late = |miss: &Option<Vector3<f64>>| miss.map_or(Value::Null, |it| json!(it.z));
+        let [plus_t, minus_t, plus_r, minus_r] = self.reach.along_m;
+        let desired = self.desired.iter().map(|(at_s, it)| {
+            json!({
+                "at_s": at_s,
+                "size_m_s": it.size_m_s(),
+                "rightAscension_deg": it.right_ascension_rad().to_degrees(),
+                "declination_deg": it.declination_rad().to_degrees(),
+            })
+        });
+        let members = json!({
+            "aim_m": self.aim_m,
+            "missBefore_m": miss(&self.miss[0]),
+            "missAfter_m": miss(&self.miss[1]),
+            "lateBefore_s": late(&self.miss[0]),
+            "lateAfter_s": late(&self.miss[1]),
+            "arrival_s": arrival_s,
+            "osculation_s": osculation_s,
+            "osculationEpoch_s": osculation_s + self.epoch_minus_time_s,
+            "altitude_m": altitude_m,
+            "excessSpeed_m_s": excess_m_s,
+            "reach_m": { "+T": plus_t, "-T": minus_t, "+R": plus_r, "-R": minus_r },
+            "reachable_m": self.reach.polygon_m,
+            "desiredDeltaV": desired.collect::<Vec<_>>(),
+            "maneuvers": self.compared.as_ref().map_or(Value::Null, compared),
+            "dispersions": self.campaign.as_ref().map_or(Value::Null, campaign),
+        });
+        match members {
+            Value::Object(members) => members,
+            _ => Map::new(),
+        }
+    }
+
+    /// `desired.csv`.
+    ///
+    /// # Errors
+    /// What CSV does not take.
+    pub fn desired_csv(&self) -> Result<Vec<u8>, csv::Error> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record([
+            "time_s",
+            "delta_v_m_s",
+            "right_ascension_deg",
+            "declination_deg",
+            "delta_v_x_m_s",
+            "delta_v_y_m_s",
+            "delta_v_z_m_s",
+        ])?;
+        for (at_s, it) in &self.desired {
+            let angles = [it.right_ascension_rad(), it.declination_rad()].map(f64::to_degrees);
+            let numbers =
+                [*at_s, it.size_m_s()].into_iter().chain(angles).chain(it.delta_v_m_s.iter().copied());
+            writer.write_record(numbers.map(|number| number.to_string()))?;
+        }
+        writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+    }
+}
+
+fn compared(compared: &Compared) -> Value {
+    let approach = compared.approach.iter().map(|(at_s, it)| {
+        let ([large_m, small_m], angle_rad) = ellipse(&it.left.covariance_m2);
+        json!({
+            "at_s": at_s,
+            "mean_m_s": [it.mean_m_s.x, it.mean_m_s.y, it.mean_m_s.z],
+            "rms_m_s": it.rms_m_s,
+            "left_m": it.left.rms_m(),
+            "ellipse": { "semiAxes_m": [large_m, small_m], "angle_deg": angle_rad.to_degrees() },
+        })
+    });
+    let [without, behind_approach, behind_plan] = compared.departure_m_s;
+    json!({
+        "approach": approach.collect::<Vec<_>>(),
+        "departure": {
+            "at_s": compared.departure_s,
+            "withoutCorrection_m_s": without,
+            "behindApproach_m_s": behind_approach,
+            "behindPlan_m_s": behind_plan,
+            "byT_m_s_km": 1e3 * compared.by_m_1_s[0],
+            "byR_m_s_km": 1e3 * compared.by_m_1_s[1],
+        },
+    })
+}
+
+fn campaign(campaign: &Campaign) -> Value {
+    let of = |value: &dyn Fn(&Outcome) -> f64| {
+        let [half, most, nearly_all] = percentiles(campaign.outcomes.iter().map(value).collect());
+        json!({ "50": half, "90": most, "99": nearly_all })
+    };
+    let ([large_m, small_m], angle_rad) = ellipse(&campaign.covariance_m2);
+    json!({
+        "runs": campaign.outcomes.len() + campaign.failed.len(),
+        "failed": campaign.failed.iter().map(|(run, why)| json!({ "run": run, "why": why })).collect::<Vec<_>>(),
+        "mean_m": [campaign.mean_m.x, campaign.mean_m.y],
+        "ellipse": { "semiAxes_m": [large_m, small_m], "angle_deg": angle_rad.to_degrees() },
+        "percentiles": {
+            "miss_m": of(&|it| it.miss_m[0].hypot(it.miss_m[1])),
+            "missT_m": of(&|it| it.miss_m[0]),
+            "missR_m": of(&|it| it.miss_m[1]),
+            "arrival_s": of(&|it| it.arrival_s),
+            "altitude_m": of(&|it| it.altitude_m),
+            "momentum_n_m_s": of(&|it| it.momentum_n_m_s),
+        },
+    })
+}
+
+/// `sensitivity.csv`: B.T, B.R (m) and arrival (s) of every window by a degree of offset, windmill, azimuth and elevation, and by the
+/// share of the alternate attitude.
+///
+/// # Errors
+/// What CSV does not take.
+pub fn sensitivity_csv(windows: &[Window], by_window: &[AimByWindow]) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let controls = ["offset_deg", "windmill_deg", "azimuth_deg", "elevation_deg", "alternate_share"];
+    let rows = ["b_t_m", "b_r_m", "arrival_s"];
+    let names = controls.iter().flat_map(|control| rows.map(|row| format!("{row}_by_{control}")));
+    writer.write_record(["start_s", "stop_s"].map(str::to_owned).into_iter().chain(names))?;
+    for (window, by) in windows.iter().zip(by_window) {
+        let numbers = by.by_control.iter().enumerate().flat_map(|(control, by)| {
+            let unit = if control < 4 { 1.0_f64.to_radians() } else { 1.0 };
+            [0, 1, 2].map(|row| by[row] * unit)
+        });
+        let cells = [window.start_s, window.stop_s].into_iter().chain(numbers);
+        writer.write_record(cells.map(|number| number.to_string()))?;
+    }
+    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+}
