@@ -1,6 +1,7 @@
 //! `heliotorque plan`: optimal plans.
 
 mod files;
+mod flights;
 pub(crate) mod momentum;
 mod picture;
 

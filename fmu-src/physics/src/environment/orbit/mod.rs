@@ -1,4 +1,4 @@
-//! Spacecraft orbits: Kepler's equation, elements and state, two-body motion in closed form, disturbed motion integrated, about one
+//! Spacecraft orbits: Kepler's equation, elements and state, two-body motion in closed form, arcs between places, disturbed motion integrated, about one
 //! body or between several.
 
 mod b_plane;
@@ -9,6 +9,7 @@ mod disturbed_tests;
 mod elements;
 mod gravity;
 pub mod kepler;
+mod lambert;
 mod n_body;
 #[cfg(test)]
 mod n_body_tests;
@@ -21,6 +22,7 @@ pub use b_plane::BPlane;
 pub use disturbed::{DisturbedOrbit, OrbitIntegrationError, OrbitMethod};
 pub use elements::{Elements, OrbitError, period_s, semi_major_axis_m};
 pub use gravity::{Flattening, Gravity, tide_m_s2};
+pub use lambert::{LambertArc, LambertBranch, LambertError, LambertVelocities};
 pub use n_body::{BodyPlaces, Collision, NBodyGravity, NBodySettings};
 pub use transition::{Partials, partials_over, transition};
 pub use two_body::TwoBodyOrbit;

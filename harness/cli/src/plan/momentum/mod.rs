@@ -2,7 +2,6 @@
 
 mod description;
 mod file;
-mod flights;
 mod options;
 mod picture;
 mod planned;
@@ -34,10 +33,10 @@ use planner::momentum::{
 pub(crate) use self::options::MomentumOptions;
 use self::{
     file::PlanFile,
-    flights::{Failure, SimulatedMission, Thresholds},
     planned::{NAMES, Planned},
     timeline::MissionTimeline,
 };
+use super::flights::{Failure, SimulatedMission, Thresholds};
 use crate::{interrupt, outcome::Outcome};
 
 /// Reads the plan file and what it names, and simulates the mission as it is.
@@ -50,8 +49,9 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
         format!("{name}={}", values.join(","))
     });
     let settings: Vec<String> = settings.collect();
-    let mission = SimulatedMission::open(&file.mission.it, template, &settings)
-        .map_err(|error| file.problem(&file.mission, &error.to_string()))?;
+    let in_mission = |error: Failure| file.problem(&file.mission, &error.to_string());
+    let mission = SimulatedMission::open(&file.mission.it, template, &settings).map_err(in_mission)?;
+    mission.check_downlinks().map_err(in_mission)?;
     check_spans(file, &mission)?;
     let is_in_orbit = mission.is_in_orbit();
     if let Some(at) = file.of_cruise.first().filter(|_| is_in_orbit) {

@@ -11,13 +11,8 @@ use planner::momentum::{
     windows::Window,
 };
 
-use super::{
-    file::Activity,
-    flights::{Failure, SimulatedMission, Thresholds},
-    options::MomentumOptions,
-    timeline::MissionTimeline,
-    written,
-};
+use super::super::flights::{Failure, SimulatedMission, Thresholds};
+use super::{file::Activity, options::MomentumOptions, timeline::MissionTimeline, written};
 
 /// Names of the files.
 pub(super) const NAMES: [&str; 6] =

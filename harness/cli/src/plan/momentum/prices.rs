@@ -8,7 +8,8 @@ use planner::momentum::{
     windows::{Occupied, Window, WindowKind},
 };
 
-use super::{file::PlanFile, flights::Failure, planned::Planned};
+use super::super::flights::Failure;
+use super::{file::PlanFile, planned::Planned};
 
 /// All of them.
 pub(super) fn all(

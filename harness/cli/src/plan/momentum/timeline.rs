@@ -18,10 +18,8 @@ use planner::momentum::{
 };
 use toml_edit::{DocumentMut, Item};
 
-use super::{
-    file::Activity,
-    flights::{Failure, SimulatedMission},
-};
+use super::super::flights::{Failure, SimulatedMission};
+use super::file::Activity;
 
 /// Angles are written so fine, as parts of a deg.
 const PARTS_OF_DEG: f64 = 1e4;

@@ -11,10 +11,8 @@ use planner::momentum::{
 };
 use toml_edit::{DocumentMut, Item, Table, value};
 
-use super::{
-    flights::{Failure, SimulatedMission},
-    timeline::{MissionTimeline, array_steps, shown_deg, shown_n_m_s, stretches},
-};
+use super::super::flights::{Failure, SimulatedMission};
+use super::timeline::{MissionTimeline, array_steps, shown_deg, shown_n_m_s, stretches};
 
 /// The mission's text with the plan's timeline, for a file in `folder`.
 ///

@@ -1,9 +1,9 @@
-//! Flights of a planned mission through its FMU: as it is, and by the timeline of a plan.
+//! Flights of a planned mission through its FMU: as it is, by the timeline of a plan, with other values at the start.
 
 use std::{error::Error, path::Path, sync::atomic::AtomicBool};
 
 use files::Scratch;
-use loader::{Fmu, InputTable, Options, Value};
+use loader::{Fmu, InputTable, Options, Recording, Value};
 use physics::{
     environment::dates,
     guidance::timeline::{Timeline, simulation_time_s},
@@ -47,6 +47,21 @@ pub(super) enum Thresholds {
     Never,
 }
 
+/// What of a mission is simulated and recorded.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Requested<'a> {
+    /// Values that win over the mission's.
+    pub sets: &'a [(String, Value)],
+    /// Outputs, as `record` of a mission names them.
+    pub outputs: &'a [String],
+    /// Distance of communication points, in s; otherwise an hour, in an orbit phase ten minutes.
+    pub step_s: Option<f64>,
+    /// Rows at these times alone, in s, which grow from the start on; otherwise at communication points.
+    pub at_s: Option<&'a [f64]>,
+    /// Where it ends, in s, instead of the mission's stop.
+    pub stop_s: Option<f64>,
+}
+
 /// A mission that can be simulated.
 pub(super) struct SimulatedMission {
     pub mission: Mission,
@@ -74,24 +89,18 @@ impl SimulatedMission {
         let Some(mission) = simulated.mission.clone() else {
             return Err(format!("{}: found no mission, allowed: one (.toml)", file.display()).into());
         };
-        if let SpacecraftSource::Fmu(fmu) = &mission.spacecraft_source {
-            let found =
-                format!("found `fmu = {:?}`, which takes no other timeline", fmu.display().to_string());
-            let allowed = "allowed: spacecraft or model, of which the plan's FMU is packed";
-            return Err(format!("{}: {found}, {allowed}", file.display()).into());
-        }
-        if let Some(Inputs::Rows(rows)) = &mission.inputs
-            && let Some(at) = rows.iter().find(|at| at.it.0.starts_with("downlink."))
-        {
-            let what = "found an input that the plan commands, allowed: none of downlink.*: inputs rule over timelines";
-            return Err(mission.problem(at, what).into());
-        }
         let (subject, folder) = simulated.open()?;
         let settings = Settings::of(&subject, &simulated, None)?;
         let Subject::Fmu(fmu) = subject else {
             return Err(format!("{}: found a system, allowed: {MODEL}", file.display()).into());
         };
-        check(file, &fmu, &settings.sets)?;
+        if item(fmu.description(), &settings.sets, "attitude.source").is_none() {
+            let (shown, found) = (file.display(), &fmu.description().model_name);
+            return Err(format!(
+                "{shown}: model: found {found}, allowed: {MODEL}: a plan is for its missions"
+            )
+            .into());
+        }
         Ok(Self {
             mission,
             fmu,
@@ -102,6 +111,33 @@ impl SimulatedMission {
             inputs: settings.inputs,
             _folder: folder,
         })
+    }
+
+    /// Refuses a mission whose downlinks cannot be planned: a plant must follow them ideally, and choose no places of the Sun itself.
+    ///
+    /// # Errors
+    /// What is not as a plan needs it.
+    pub(super) fn check_downlinks(&self) -> Result<(), Failure> {
+        let shown = self.mission.file.display();
+        if let SpacecraftSource::Fmu(fmu) = &self.mission.spacecraft_source {
+            let found =
+                format!("found `fmu = {:?}`, which takes no other timeline", fmu.display().to_string());
+            let allowed = "allowed: spacecraft or model, of which the plan's FMU is packed";
+            return Err(format!("{shown}: {found}, {allowed}").into());
+        }
+        if let Some(Inputs::Rows(rows)) = &self.mission.inputs
+            && let Some(at) = rows.iter().find(|at| at.it.0.starts_with("downlink."))
+        {
+            let what = "found an input that the plan commands, allowed: none of downlink.*: inputs rule over timelines";
+            return Err(self.mission.problem(at, what).into());
+        }
+        for (name, allowed) in [("attitude.source", "guided"), ("momentum.strategy", "dumpsOnly")] {
+            let found = item(self.fmu.description(), &self.sets, name).unwrap_or("none");
+            if found != allowed {
+                return Err(format!("{shown}: {name}: found {found}, allowed: {allowed}, for a plan").into());
+            }
+        }
+        Ok(())
     }
 
     /// Its time of an instant, in s; `None` for a date where the mission has none.
@@ -183,7 +219,7 @@ impl SimulatedMission {
         let panels: Vec<String> = panels.collect();
         let mut patterns = panels.clone();
         patterns.extend(plant::recorded(CONVENTION).map(str::to_owned));
-        let mut sets = self.sets.clone();
+        let mut sets = Vec::new();
         if thresholds == Thresholds::Never {
             let axes = 1..=3;
             sets.extend(axes.map(|axis| (format!("dump.threshold[{axis}]"), Value::Real(NEVER_N_M_S))));
@@ -191,18 +227,29 @@ impl SimulatedMission {
         if let Some(seed) = seed.and_then(|seed| i32::try_from(seed).ok()) {
             sets.push(("noise.seed".to_owned(), Value::Integer(seed)));
         }
+        let recording =
+            self.record(&Requested { sets: &sets, outputs: &patterns, ..Requested::default() })?;
+        let column = |name: &str| recording.column(name).map(|column| column.numbers());
+        Ok(plant::flight(&recording.times_s, &column, (panels.len(), CONVENTION))?)
+    }
+
+    /// Simulates it and gives what was requested.
+    pub(super) fn record(&self, requested: &Requested<'_>) -> Result<Recording, Failure> {
+        let description = self.fmu.description();
         let step_s = if self.is_in_orbit() { ORBIT_STEP_S } else { STEP_S };
+        let stop_s = requested.stop_s.unwrap_or(self.stop_s);
         let cancel = AtomicBool::new(false);
         let mut reported = |_: f64| {
             cancel.store(interrupt::raised(), std::sync::atomic::Ordering::Relaxed);
         };
         let options = Options {
             start_s: Some(self.start_s),
-            stop_s: Some(self.stop_s),
-            step_s: Some(step_s.min((self.stop_s - self.start_s) / 8.0)),
-            sets,
+            stop_s: Some(stop_s),
+            step_s: Some(requested.step_s.unwrap_or(step_s).min((stop_s - self.start_s) / 8.0)),
+            sets: [&self.sets, requested.sets].concat(),
             inputs: self.inputs.as_ref(),
-            record: Some(selected(description, &patterns, loader::select_outputs)?),
+            record: Some(selected(description, requested.outputs, loader::select_outputs)?),
+            record_at_s: requested.at_s,
             apart: description.variables.iter().position(|it| it.name == "dump.count"),
             progress: Some(&mut reported),
             cancel: Some(&cancel),
@@ -213,26 +260,6 @@ impl SimulatedMission {
         if interrupt::raised() {
             return Err("interrupted".into());
         }
-        let column = |name: &str| recording.column(name).map(|column| column.numbers());
-        Ok(plant::flight(&recording.times_s, &column, (panels.len(), CONVENTION))?)
+        Ok(recording)
     }
-}
-
-/// A plant that follows downlinks ideally, and chooses no places of the Sun itself.
-fn check(file: &Path, fmu: &Fmu, sets: &[(String, Value)]) -> Result<(), Failure> {
-    let description = fmu.description();
-    let shown = file.display();
-    if item(description, sets, "attitude.source").is_none() {
-        let found = &description.model_name;
-        return Err(
-            format!("{shown}: model: found {found}, allowed: {MODEL}: a plan is for its missions").into()
-        );
-    }
-    for (name, allowed) in [("attitude.source", "guided"), ("momentum.strategy", "dumpsOnly")] {
-        let found = item(description, sets, name).unwrap_or("none");
-        if found != allowed {
-            return Err(format!("{shown}: {name}: found {found}, allowed: {allowed}, for a plan").into());
-        }
-    }
-    Ok(())
 }
