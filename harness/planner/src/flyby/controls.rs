@@ -77,3 +77,6 @@ fn rates(
     }
     (by_force * force_n, by_control)
 }
+
+#[cfg(test)]
+mod tests;

@@ -132,3 +132,6 @@ fn across_earth(
         |axis: &Vector3<f64>| axis.dot(earth).abs() < ACROSS && sun.dot(&axis.cross(earth)).abs() > ACROSS;
     [z, turned].into_iter().find(is_across)
 }
+
+#[cfg(test)]
+mod tests;

@@ -75,3 +75,6 @@ fn over(ahead: &Ahead<'_>, end_s: f64) -> Result<(Matrix6<f64>, CartesianState),
     })?;
     Ok((matrix, state))
 }
+
+#[cfg(test)]
+mod tests;

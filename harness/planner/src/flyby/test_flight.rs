@@ -242,11 +242,21 @@ impl Leg {
 
     /// Rows an hour apart, as far as to one hour behind `to_s`.
     pub(super) fn recorded(&mut self, start: State6, to_s: f64) -> SimulatedFlight {
+        self.recorded_over(start, [0.0, ((to_s / 3600.0).floor() + 1.0) * 3600.0], 3600.0)
+    }
+
+    /// Rows that are `step_s` apart, over whole steps.
+    pub(super) fn recorded_over(
+        &mut self,
+        start: State6,
+        [from_s, to_s]: [f64; 2],
+        step_s: f64,
+    ) -> SimulatedFlight {
         let (mut y, mut rows) = (start, Vec::new());
-        for hour in 0..=(to_s / 3600.0) as usize + 1 {
-            let at_s = hour as f64 * 3600.0;
-            if hour > 0 {
-                y = self.propagated(y, [at_s - 3600.0, at_s]);
+        for step in 0..=((to_s - from_s) / step_s).round() as usize {
+            let at_s = from_s + step as f64 * step_s;
+            if step > 0 {
+                y = self.propagated(y, [from_s + (step - 1) as f64 * step_s, at_s]);
             }
             let ahead = self.flips && self.cosine(at_s, &y) < 0.0;
             let mut row = self.row(at_s, &y, ahead);

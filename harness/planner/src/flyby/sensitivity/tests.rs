@@ -122,3 +122,12 @@ fn the_desired_change_of_velocity_takes_a_miss_away() {
         }
     }
 }
+
+#[test]
+fn timing() {
+    let flight = flight(fixed_in_the_body(1.0), true);
+    let begun = std::time::Instant::now();
+    let spacecraft = sunlit([0.0; 3]);
+    let s = Sensitivity::new(&flight.recorded, &surroundings(), &spacecraft).unwrap();
+    println!("TIME sensitivity {:?} cells {}", begun.elapsed(), s.cells.len());
+}

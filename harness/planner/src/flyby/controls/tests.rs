@@ -1,0 +1,86 @@
+//! What a window's controls do is what flights with other controls differ by.
+
+use std::{cell::Cell, rc::Rc};
+
+use nalgebra::Vector3;
+
+use super::*;
+use crate::flyby::test_flight::{Aim, DAY_S, LONG_S, Leg, packed, surroundings};
+use crate::momentum::{
+    simulated::FlightRow,
+    test_spacecraft::sunlit,
+    torque::{Attitude, Controls},
+    windows::WindowKind,
+};
+
+const DEG: f64 = core::f64::consts::PI / 180.0;
+const STEPS: [f64; CONTROLS] = [0.2 * DEG, 0.2 * DEG, 0.2 * DEG, 0.2 * DEG, 0.05];
+
+fn window(start_s: f64, controls: Controls) -> Window {
+    let stop_s = start_s + 3.0 * DAY_S;
+    Window {
+        start_s,
+        stop_s,
+        kind: WindowKind::Free,
+        command: None,
+        free_of_contact: vec![[start_s, stop_s]],
+        bounds: [[-1.0, 1.0], [-0.1, 0.1], [-0.2, 0.2], [0.0, 0.0], [0.0, 0.5]],
+        places: Vec::new(),
+        offsets_rad: [0.0, 1.0],
+        baseline_rad: 0.0,
+        sides: vec![1.0, -1.0],
+        controls,
+    }
+}
+
+/// A leg on which light acts in the window alone, with the controls that are put.
+fn leg(window: &Window) -> (Leg, Rc<Cell<Option<Controls>>>) {
+    let put = Rc::new(Cell::new(Some(window.controls)));
+    let (sunlit, span_s, controls) = (sunlit([0.0; 3]), [window.start_s, window.stop_s], Rc::clone(&put));
+    let law = move |at_s: f64, row: &FlightRow| match controls.get() {
+        Some(controls) if (span_s[0]..=span_s[1]).contains(&at_s) => {
+            let found = sunlit.linearised(row, Attitude::Downlink, &controls);
+            found.mean_force_n(controls.get(Control::Alternate)).0
+        }
+        _ => Vector3::zeros(),
+    };
+    (Leg::new(Box::new(law), true), put)
+}
+
+#[test]
+fn controls_of_a_window_move_the_encounter_as_flights_show() {
+    let controls = Controls([35.0 * DEG, 1.0 * DEG, 2.0 * DEG, -1.0 * DEG, 0.3]);
+    let window = window(102.0 * DAY_S, controls);
+    let (mut leg, put) = leg(&window);
+    let start = leg.start();
+    let about = leg.aim(start, 0.0, LONG_S);
+    let flight = leg.recorded(start, about.z);
+    let sensitivity = Sensitivity::new(&flight, &surroundings(), &sunlit([0.0; 3])).unwrap();
+    let found = aim_by_windows(&sensitivity, &sunlit([0.0; 3]), &flight, std::slice::from_ref(&window));
+    let row = flight.rows.iter().find(|row| row.time_s == window.start_s).unwrap();
+    let state = packed(&row.motion.unwrap().from_sun);
+    let mut aim = |controls: Option<Controls>| -> Aim {
+        put.set(controls);
+        let behind = leg.propagated(state, [window.start_s, window.stop_s]);
+        leg.aim(behind, window.stop_s, about.z)
+    };
+    for (index, step) in STEPS.into_iter().enumerate() {
+        let of = |sign: f64| {
+            Some(Controls(core::array::from_fn(|it| {
+                controls.0[it] + if it == index { sign * step } else { 0.0 }
+            })))
+        };
+        let expected = (aim(of(1.0)) - aim(of(-1.0))) / (2.0 * step);
+        let partials = found[0].by_control[index];
+        if index == Control::Elevation as usize {
+            assert_eq!(partials, Vector3::zeros(), "its bounds leave no choice");
+            continue;
+        }
+        let [off, size] = [partials - expected, expected].map(|it| it.xy().norm());
+        assert!(off < 1e-4 * size, "{index}: {off} of {size} m");
+        assert!((partials.z - expected.z).abs() < 1e-4 * expected.z.abs() + 1e-3, "{index}");
+    }
+    let by_light = aim(Some(controls)) - aim(None);
+    let off_m = (found[0].by_light - by_light).xy().norm();
+    assert!(off_m < 1e-3 * by_light.xy().norm() && by_light.xy().norm() > 1e4, "{off_m} {by_light}");
+}
