@@ -6,12 +6,13 @@
 //! Reference: Kizner, A Method of Describing Miss Distances for Lunar and Interplanetary Trajectories, 1961; paper 003.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use crate::environment::CartesianState;
 use crate::environment::frames::dcm_eme2000_from_ecliptic;
 
 /// An osculating hyperbola in its B-plane.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BPlane {
     /// Component of B along T, parallel to the ecliptic, m.
     pub b_t_m: f64,
