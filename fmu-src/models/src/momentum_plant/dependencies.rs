@@ -134,6 +134,7 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramet
     let orbit = knowns![v.position, v.velocity, v.heliocentric.position, v.orbit.time_since_periapsis];
     let between = knowns![v.orbit.current_center, &v.encounter];
     table.output(knowns![sun, earth, orbit, between], &inputs.places, &parameters.orbit);
+    predicted(table, v, inputs, parameters);
     let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
     let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
     let seen = knowns![v.attitude.q, v.attitude.rate, sun, others, v.sunshade.polynomial_valid];
@@ -143,6 +144,14 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramet
     table.output(&v.panel, knowns![&inputs.attitude, &v.panel], stood);
     let sensed = knowns![&v.estimate, v.sun.sensed, v.sun.sensed_valid];
     table.output(sensed, knowns![&inputs.attitude, &inputs.failures], &parameters.sensors);
+}
+
+/// Predictions of the encounter, made where a step begins: by all that moves the spacecraft from there on.
+fn predicted(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, parameters: &Parameters) {
+    let pushed = knowns![&inputs.dumped_at_once, &v.panel, &v.downlink, v.force.applied];
+    let turned = knowns![&inputs.attitude, &inputs.commanded, &inputs.failures];
+    let ahead = knowns![&v.prediction, &parameters.light, &parameters.actuators];
+    table.output(&v.prediction, knowns![pushed, turned], ahead);
 }
 
 /// Forces and torques by source, what they add up to, and faces one by one.

@@ -103,7 +103,7 @@ fn begin(
         state.take_first_command(estimate.attitude, time_s)?;
     }
     let PlantState { flight, inputs, command, .. } = state;
-    let undo = flight.sample_at_start(given, &inputs.dynamics).map_err(failure)?;
+    let undo = flight.sample_at_start(given, &inputs.dynamics, time_s).map_err(failure)?;
     let report = flight.report(given, &inputs.dynamics, command, time_s).map_err(failure)?;
     outputs::flyable(&report)?;
     Ok(undo)

@@ -15,9 +15,9 @@ use physics::environment::orbit::{
 use super::named_model::{NamedModel, assert_cuts_change_nothing};
 
 /// 2008-10-06 08:40, the second flyby of Mercury.
-const FLYBY_S: f64 = 276_640_800.0;
+pub(super) const FLYBY_S: f64 = 276_554_400.0;
 /// From the start to periapsis.
-const AHEAD_S: f64 = 10.0 * DAY_S;
+pub(super) const AHEAD_S: f64 = 10.0 * DAY_S;
 const SPEED_M_S: f64 = 5.2e3;
 const BODIES: [Body; 5] = [Body::Mercury, Body::Venus, Body::Earth, Body::Mars, Body::Jupiter];
 
@@ -44,7 +44,7 @@ impl BodyPlaces for Backward {
 }
 
 /// Ten days before the spacecraft is at this altitude above Mercury, from the Sun; there it goes level, or down by an angle.
-fn start(altitude_m: f64, down_rad: f64) -> CartesianState {
+pub(super) fn start(altitude_m: f64, down_rad: f64) -> CartesianState {
     let mercury = Ephemeris::default().state(Body::Mercury, FLYBY_S);
     let normal = mercury.position_m.cross(&mercury.velocity_m_s).normalize();
     let outward = mercury.position_m.normalize();
@@ -79,7 +79,7 @@ fn start(altitude_m: f64, down_rad: f64) -> CartesianState {
 }
 
 /// A flight that starts there, light pushing it or not.
-fn sets(start: &CartesianState, feedback: bool) -> Vec<(&'static str, f64)> {
+pub(super) fn sets(start: &CartesianState, feedback: bool) -> Vec<(&'static str, f64)> {
     let (r, v) = (start.position_m, start.velocity_m_s);
     vec![
         ("start.epoch", FLYBY_S - AHEAD_S),

@@ -31,7 +31,9 @@ pub use flight::propagator_state::PropagatorState;
 pub use flight::report::{ControlReport, EncounterReport, Report, Shown, WheelReport};
 pub use flight::sun_choice::SunChoice;
 pub use flight::wheel_control::{WheelControl, WheelControlSettings};
-pub use flight::{Changes, Flight, ForecastMomentum, ModeSettings, StepContext, Undo};
+pub use flight::{
+    Changes, EncounterPrediction, Flight, ForecastMomentum, ModeSettings, PredictedArrival, StepContext, Undo,
+};
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;
 pub use light::sunlit::SunlitCraft;
@@ -42,7 +44,7 @@ pub use motion::panel_motion::PanelMotion;
 pub use motion::trajectory::Trajectory;
 pub use settings::configuration::{
     AttitudeSource, Command, Configuration, DynamicAttitude, Encounter, EphemerisSource, LightSource, Motion,
-    SunLight, orbit_from_elements,
+    PredictionSettings, SunLight, orbit_from_elements,
 };
 pub use settings::control_defaults::ControlDefaults;
 pub use settings::dynamics_settings::{

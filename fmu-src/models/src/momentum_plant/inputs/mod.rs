@@ -181,7 +181,8 @@ pub(super) fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), F
     let shape = values.choice(variables.sunshade.shape).0;
     let shadows = variables.shadowing.check(values, spacecraft, shape)?;
     let encounter = n_body::unused_encounter(variables, values);
-    for warning in [shadows, unused_map(spacecraft), encounter].into_iter().flatten() {
+    let prediction = n_body::unused_prediction(variables, values);
+    for warning in [shadows, unused_map(spacecraft), encounter, prediction].into_iter().flatten() {
         context.log.warning(&warning);
     }
     center::say_followed(context, values);

@@ -2,12 +2,13 @@
 
 use fmi_export::{Failure, Values};
 use physics::bodies::{Body, BodyData};
+use physics::environment::ephemeris::VALID_EPOCH_S;
 use physics::environment::onboard::{OnboardEphemeris, OnboardTarget};
 use physics::environment::orbit::{NBodyGravity, NBodySettings};
-use physics::plant::Encounter;
+use physics::plant::{Encounter, PredictionSettings};
 
 use super::center::Center;
-use crate::common::ephemeris::{EPHEMERIS_FILE, check_epoch};
+use crate::common::ephemeris::{EPHEMERIS_FILE, check_epoch, precise};
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::choices::EphemerisSource;
@@ -19,6 +20,18 @@ pub(super) fn unused_encounter(variables: &PlantVariables, values: &Values) -> O
         "encounter.body is {} and has no effect: orbit.dynamics nBody (3) has encounters",
         OnboardTarget::from(body)
     ))
+}
+
+/// What to say of predictions of no encounter.
+pub(super) fn unused_prediction(variables: &PlantVariables, values: &Values) -> Option<String> {
+    let refresh_s = values.real(variables.prediction.refresh);
+    let has_encounter = variables.encounter.body(&variables.orbit, values).is_some();
+    (refresh_s > 0.0 && !has_encounter).then(|| {
+        format!(
+            "prediction.refresh is {refresh_s} s and has no effect: what is predicted is the encounter with encounter.body in \
+             orbit.dynamics nBody (3)"
+        )
+    })
 }
 
 /// The bodies that attract beside the Sun and the centre.
@@ -82,7 +95,35 @@ pub(super) fn check(
         body,
         gm_m3_s2: center.planet.gm_m3_s2,
         radius_m: center.planet.radius_m,
+        prediction: PredictionSettings {
+            refresh_s: values.real(variables.prediction.refresh),
+            horizon_s: values.real(variables.prediction.horizon),
+            last_epoch_s: last_epoch_s(context, values),
+            lead_s: values.real(variables.encounter.lead_time),
+        },
     }))
+}
+
+/// Until when the ephemerides place all that attracts, in s past J2000 TDB.
+fn last_epoch_s(context: &Plan<'_>, values: &Values) -> f64 {
+    let variables = context.variables;
+    let is_onboard = matches!(values.choice(variables.ephemeris.source), EphemerisSource::Chebyshev);
+    let carried = precise(context.setup.ephemeris.as_ref()).filter(|_| is_onboard);
+    let spans_s = carried.into_iter().flat_map(|carried| {
+        placed(variables, values).filter_map(|(target, from)| carried.span_s(target, from))
+    });
+    spans_s.map(|[_, last_s]| last_s).fold(VALID_EPOCH_S, f64::min)
+}
+
+/// What ephemerides have to place, each from another body: all that attracts, and the planet of the encounter.
+fn placed<'a>(
+    variables: &PlantVariables,
+    values: &'a Values,
+) -> impl Iterator<Item = (OnboardTarget, Body)> + 'a {
+    let encounter = variables.encounter.body(&variables.orbit, values);
+    let planets = attracting(variables, values).chain(encounter).map(|body| (body.into(), Body::Sun));
+    let has_moon = values.boolean(variables.orbit.attraction.moon);
+    planets.chain(has_moon.then_some((OnboardTarget::Moon, Body::Earth)))
 }
 
 /// Refuses onboard ephemerides that do not place all that attracts, or not at `epoch_s`, which `what` gives.
@@ -96,11 +137,7 @@ pub(super) fn check_onboard(
     if !variables.orbit.is_n_body(values) {
         return Ok(());
     }
-    let planets = attracting(variables, values).map(|body| (OnboardTarget::from(body), Body::Sun));
-    let encounter = variables.encounter.body(&variables.orbit, values).map(|body| (body.into(), Body::Sun));
-    let has_moon = values.boolean(variables.orbit.attraction.moon);
-    let moon = has_moon.then_some((OnboardTarget::Moon, Body::Earth));
-    for (target, from) in planets.chain(encounter).chain(moon) {
+    for (target, from) in placed(variables, values) {
         let span_s = carried.span_s(target, from).ok_or_else(|| {
             Failure::new(format!(
                 "{EPHEMERIS_FILE}: found no [[body]] that joins {target} with {}, allowed with orbit.dynamics nBody (3): one of \

@@ -16,7 +16,7 @@ use super::super::setup::Plan;
 use super::super::state::PlantState;
 use crate::common::choices::OrbitCenter;
 use crate::common::loads;
-use crate::momentum_plant::variables::motion::EncounterVariables;
+use crate::momentum_plant::variables::motion::{EncounterVariables, PredictionVariables};
 
 /// Writes every output but those of single faces, and what follows from parameters where these are others.
 pub(crate) fn write(context: &Plan<'_>, values: &mut Values, report: &Report<'_>, is_reconfigured: bool) {
@@ -81,6 +81,7 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     values.set_real(variables.orbit.time_since_periapsis, report.since_periapsis_s);
     values.set_choice(variables.orbit.current_center, OrbitCenter(report.integration_center));
     write_encounter(&variables.encounter, values, report);
+    write_prediction(&variables.prediction, values, report);
     values.set_real(variables.mass, mass.mass_kg);
     values.set_vector(variables.center_of_mass, mass.center_of_mass_body_m.into());
 
@@ -122,6 +123,21 @@ fn write_encounter(v: &EncounterVariables, values: &mut Values, report: &Report<
     values.set_integer(v.count, count);
     values.set_real(v.last_time, last.map_or(-1.0, |it| it.at_s));
     values.set_real(v.last_altitude, last.map_or(0.0, |it| it.altitude_m));
+}
+
+/// The last prediction of the encounter.
+fn write_prediction(v: &PredictionVariables, values: &mut Values, report: &Report<'_>) {
+    let (prediction, arrival) = (report.prediction, report.prediction.and_then(|it| it.arrival));
+    let epoch_minus_time_s = report.configuration.epoch_minus_time_s;
+    values.set_real(v.since, prediction.map_or(-1.0, |it| it.since_s));
+    values.set_boolean(v.valid, arrival.is_some());
+    values.set_real(v.arrival, arrival.map_or(-1.0, |it| it.at_s));
+    values.set_real(v.altitude, arrival.map_or(0.0, |it| it.altitude_m));
+    values.set_real(v.excess_speed, arrival.map_or(0.0, |it| it.b_plane.excess_speed_m_s));
+    values.set_real(v.b_t, arrival.map_or(0.0, |it| it.b_plane.b_t_m));
+    values.set_real(v.b_r, arrival.map_or(0.0, |it| it.b_plane.b_r_m));
+    let epoch_s = arrival.map_or(0.0, |it| time::epoch_at_s(it.osculates_s, epoch_minus_time_s));
+    values.set_real(v.epoch, epoch_s);
 }
 
 /// System momentum, wheels, dumps, what swings.

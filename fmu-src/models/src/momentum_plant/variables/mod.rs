@@ -25,8 +25,8 @@ use effects::{
 };
 use flexibility::{FlexibleModeVariables, SloshVariables};
 use motion::{
-    AttitudeVariables, CommandVariables, EncounterVariables, OrbitVariables, StartVariables,
-    TimelineVariables,
+    AttitudeVariables, CommandVariables, EncounterVariables, OrbitVariables, PredictionVariables,
+    StartVariables, TimelineVariables,
 };
 use propulsion::{
     AccelerometerVariables, ManeuverVariables, PropellantVariables, TankVariables, ThrustVariables,
@@ -62,6 +62,8 @@ pub struct PlantVariables {
     pub orbit: OrbitVariables,
     #[group]
     pub encounter: EncounterVariables,
+    #[group]
+    pub prediction: PredictionVariables,
     #[group]
     pub planet: PlanetVariables,
     #[group]

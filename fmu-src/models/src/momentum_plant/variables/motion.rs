@@ -208,6 +208,9 @@ pub struct EncounterVariables {
     /// that planet's.
     #[parameter(start = EncounterBody(None))]
     pub body: Choice<EncounterBody>,
+    /// So long before a predicted closest approach the hyperbola of prediction.bT and prediction.bR osculates.
+    #[parameter(unit = "s", display = "h", min = 0.0, max = 1e8, start = 21_600.0)]
+    pub lead_time: Real,
     /// Its position from orbit.center in EME2000; 0 without an encounter, as its velocity and distance.
     #[output(unit = "m", display = "AU", nominal = 1e11)]
     pub position: RealVector<3>,
@@ -240,6 +243,45 @@ pub struct EncounterVariables {
     /// Its altitude above planet.radius; 0 before any.
     #[output(unit = "m", display = "km", nominal = 1e6)]
     pub last_altitude: Real,
+}
+
+/// Predictions of the encounter: the flight simulated on to the next closest approach within the sphere of influence of
+/// encounter.body, along the present timeline, inputs held.
+#[derive(Variables)]
+#[variables(setup = PlantSetup)]
+pub struct PredictionVariables {
+    /// The encounter is predicted at whole multiples of this time; 0: never. Each prediction costs a flight of the orbit up to the
+    /// encounter, also of solver.workLimit. It is made in the step that begins there or goes over it, with that step's inputs.
+    #[parameter(unit = "s", display = "d", min = 0.0, max = 1e10, start = 0.0)]
+    pub refresh: Real,
+    /// How far ahead the closest approach is looked for at most; where there is none until then, that costs all of it.
+    #[parameter(unit = "s", display = "d", min = 1.0, max = 1e10, start = 34_560_000.0)]
+    pub horizon: Real,
+    /// Whether the last prediction found a closest approach, and a hyperbola encounter.leadTime before it.
+    #[output]
+    pub valid: Boolean,
+    /// Time of the last prediction; -1 before any.
+    #[output(unit = "s", display = "d", nominal = 1e6)]
+    pub since: Real,
+    /// Time of the closest approach it found; -1 without one. On a path into the planet that of the impact.
+    #[output(unit = "s", display = "d", nominal = 1e6)]
+    pub arrival: Real,
+    /// Altitude of the closest approach above planet.radius; 0 on a path into the planet, and without one.
+    #[output(unit = "m", display = "km", nominal = 1e6)]
+    pub altitude: Real,
+    /// Speed far from the planet of the hyperbola that osculates at prediction.epoch; 0 without one, as the next three.
+    #[output(unit = "m/s", display = "km/s", nominal = 1e3)]
+    pub excess_speed: Real,
+    /// Component of its B along T, as encounter.bT has it.
+    #[output(unit = "m", display = "km", nominal = 1e7)]
+    pub b_t: Real,
+    /// Component of its B along R.
+    #[output(unit = "m", display = "km", nominal = 1e7)]
+    pub b_r: Real,
+    /// When that hyperbola osculates, seconds past J2000 TDB: encounter.leadTime before the closest approach, or at the prediction
+    /// if that is later.
+    #[output(unit = "s", display = "d", nominal = 1e8)]
+    pub epoch: Real,
 }
 
 /// Commands over time.

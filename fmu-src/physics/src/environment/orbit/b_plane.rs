@@ -6,6 +6,7 @@
 //! Reference: Kizner, A Method of Describing Miss Distances for Lunar and Interplanetary Trajectories, 1961; paper 003.
 
 use nalgebra::{Matrix3x6, Vector3};
+use serde::{Deserialize, Serialize};
 
 use crate::environment::CartesianState;
 use crate::environment::frames::dcm_eme2000_from_ecliptic;
@@ -13,7 +14,7 @@ use crate::math;
 use crate::numerics::scalar::{Dual64, Scalar, constant_vector};
 
 /// An osculating hyperbola in its B-plane.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BPlane {
     /// Component of B along T, parallel to the ecliptic, m.
     pub b_t_m: f64,

@@ -27,6 +27,10 @@ use crate::{
 /// Pieces of a segment at whose ends distances are looked at.
 const PIECES: usize = 8;
 
+/// A segment that begins this near the edge of a sphere of influence and goes over it counts as beyond it, in m: light moves the
+/// path by centimetres after the edge was sought.
+const EDGE_M: f64 = 1.0;
+
 /// Where bodies are, EME2000, by the flight's clock.
 pub trait BodyPlaces {
     /// Position and velocity from the Sun.
@@ -235,6 +239,26 @@ impl NBodyGravity {
         nearest.filter(|(share, _)| *share < 1.0).map_or(Body::Sun, |(_, body)| body)
     }
 
+    /// The body beyond the edge that a path from `about` is just about to go over, else `about`.
+    fn body_at_edge(
+        &self,
+        about: Body,
+        state: &CartesianState,
+        at_s: f64,
+        places: &mut impl BodyPlaces,
+    ) -> Body {
+        let from_sun = *state + places.heliocentric(about, at_s);
+        let mut spheres =
+            self.planets().filter(|body| self.settings.changes_center && [Body::Sun, *body].contains(&about));
+        let crossed = spheres.find(|body| {
+            let from_body = if *body == about { *state } else { from_sun - places.heliocentric(*body, at_s) };
+            let outward = if *body == about { 1.0 } else { -1.0 };
+            let beyond_m = outward * (from_body.position_m.norm() - self.sphere_m(*body));
+            beyond_m > -EDGE_M && outward * from_body.position_m.dot(&from_body.velocity_m_s) > 0.0
+        });
+        crossed.map_or(about, |body| if body == about { Body::Sun } else { body })
+    }
+
     /// Where a path from `about` first comes into the sphere of influence of another body or leaves its own, and the body whose
     /// sphere it is in from there on.
     pub(super) fn sphere_reached(
@@ -370,7 +394,9 @@ fn first_fall(
         }
         // A distance is convex where it is least: it may dip below what is seen by no more than both slopes.
         let slopes = (before - now) + (after - now);
-        let dips = now < slopes.min(reach_m) && now <= before && now <= after;
+        // One that begins at an edge has just come over it.
+        let begins_there = piece == 0 && now < EDGE_M;
+        let dips = !begins_there && now < slopes.min(reach_m) && now <= before && now <= after;
         if dips && now > 0.0 && before > 0.0 {
             let lowest_s = lowest(from_s, at((piece + 1).min(PIECES)), height_m);
             if height_m(lowest_s) < 0.0 {
@@ -451,7 +477,8 @@ impl IntegrationCenter {
             let changes = gravity.settings.changes_center;
             return Ok(if changes { gravity.body_about(self.body, state, at_s, places) } else { self.body });
         }
-        Ok(self.reaches.map_or(self.body, |reached| reached.body))
+        let at_edge = |places| gravity.body_at_edge(self.body, state, at_s, places);
+        Ok(self.reaches.map_or_else(|| at_edge(places), |reached| reached.body))
     }
 
     /// The present segment, from where positions are given.

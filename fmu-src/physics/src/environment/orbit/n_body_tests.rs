@@ -10,7 +10,7 @@ use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 
 /// 2008-10-06 08:40, the second flyby of Mercury.
-const FLYBY_S: f64 = 276_640_800.0;
+const FLYBY_S: f64 = 276_554_400.0;
 
 /// The planets of an ephemeris, by a clock that begins at an epoch.
 struct Sky {
@@ -229,6 +229,40 @@ fn a_flyby_is_the_same_about_the_sun_and_about_the_planet() {
     let expected = independent(packed(&start), [0.0, end_s], |at_s, y| newton(&mut sky, &bodies, at_s, y));
     let off_m = (packed(&found) - expected).fixed_rows::<3>(0).norm();
     assert!(off_m < 5.0, "{off_m} m");
+}
+
+#[test]
+fn a_segment_that_ends_next_to_an_edge_goes_over_it() {
+    let bodies = [Body::Mercury];
+    let mut sky = Sky::at(FLYBY_S - 10.0 * DAY_S);
+    let start = before_flyby(&mut sky, &bodies, RADIUS_MERCURY_M + 2e5);
+    let gravity = gravity(settings(), Body::Sun, &bodies);
+    let method = OrbitMethod::default();
+    let mut advance = |orbit: &mut DisturbedOrbit, limit_s: f64| {
+        orbit.advance_between_bodies(limit_s, &method, &gravity, &mut sky, |_| Vector3::zeros()).unwrap();
+        orbit.integration_center().unwrap()
+    };
+    let mut orbit = DisturbedOrbit::between_bodies(&start, 0.0, &gravity).unwrap();
+    for other in [Body::Mercury, Body::Sun] {
+        let mut before = orbit;
+        while orbit.integration_center() != Some(other) {
+            before = orbit;
+            advance(&mut orbit, f64::INFINITY);
+        }
+        let edge_s = orbit.start_s();
+        // The last segment before it again, to its very edge and a millimetre before and behind it.
+        let mut last = before;
+        while last.end_s() < edge_s {
+            before = last;
+            advance(&mut last, edge_s);
+        }
+        for off_s in [-2e-7, 0.0, 2e-7] {
+            let mut cut = before;
+            advance(&mut cut, edge_s + off_s);
+            assert!((cut.end_s() - edge_s).abs() < 3e-7, "{}", cut.end_s() - edge_s);
+            assert_eq!(advance(&mut cut, f64::INFINITY), other, "{off_s}");
+        }
+    }
 }
 
 #[test]

@@ -321,7 +321,11 @@ impl<'a> Plant<'a> {
         Ok((self.kinematics.laws_until_s(start_s, &instant, known_s), instant))
     }
 
-    fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
+    /// Makes sure that the orbit is known from `start_s` on, with the light that pushes it, and tells up to where.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub(crate) fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
         if self.kinematics.trajectory.end_s() > start_s {
             return self.extend_radiation(start_s, self.kinematics.trajectory.end_s());
         }

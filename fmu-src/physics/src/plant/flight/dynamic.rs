@@ -22,10 +22,11 @@ use crate::plant::disturbances::disturbance_interval::{DisturbanceInterval, Line
 use crate::plant::disturbances::evaluation::{Evaluation, Plant};
 use crate::plant::mass::MassState;
 use crate::plant::motion::panel_motion::PanelMotion;
+use crate::plant::settings::configuration::{AttitudeSource, Command};
 use crate::plant::settings::dynamics_settings::{
-    DynamicsInputs, DynamicsSettings, StartMotion, StartPointing,
+    DynamicsInputs, DynamicsSettings, StartMotion, StartPointing, Tracked,
 };
-use crate::plant::settings::error::PlantError;
+use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::thruster_events::ThrusterEvent;
 use crate::plant::settings::work::Cost;
 use crate::plant::thrusters::reaction_control::Thrusters;
@@ -129,7 +130,29 @@ impl AttitudeDynamics {
         }
     }
 
-    /// Advances until the motion covers `end_s`.
+    /// What a step requests from its start on: dumps, pulses, thrust.
+    pub(super) fn take_requests(
+        &mut self,
+        settings: &DynamicsSettings,
+        flight: &mut ConfiguredFlight<'_>,
+        inputs: &DynamicsInputs,
+        [start_s, end_s]: [f64; 2],
+    ) -> Result<(), PlantError> {
+        if inputs.maneuver.is_some() {
+            return Err(PlantError::Maneuver { time_s: start_s, why: ManeuverError::ByTorque });
+        }
+        if let Some(target_body_n_m_s) = inputs.dump_to_body_n_m_s {
+            self.cut(start_s, false);
+            self.dump_to(settings, flight, target_body_n_m_s);
+        }
+        let pulses = flight.thrusters.command_pulses(&inputs.pulses, [start_s, end_s]);
+        if flight.thrusters.command_thrust(&inputs.thrust, start_s) || pulses {
+            self.cut(start_s, false);
+        }
+        Ok(())
+    }
+
+    /// Advances until the motion covers `end_s`, within the work that has begun.
     pub(super) fn advance(
         &mut self,
         settings: &mut DynamicsSettings,
@@ -138,7 +161,6 @@ impl AttitudeDynamics {
         end_s: f64,
     ) -> Result<(), PlantError> {
         self.resume(settings, flight);
-        flight.world.begin_work(flight.given.work_limit);
         let units = if settings.gyrostat.is_rigid() { 1 } else { FLEXIBLE_UNITS };
         while self.motion.end_s() < end_s - tolerance_s(end_s) {
             let time_s = self.motion.end_s();
@@ -157,6 +179,25 @@ impl AttitudeDynamics {
             flight.take_thrust(&self.motion)?;
         }
         Ok(())
+    }
+
+    /// What a fork stands in from `time_s` on: the commanded attitude, followed ideally; without one the present attitude is held.
+    pub(super) fn ideal_attitude(
+        &mut self,
+        settings: &DynamicsSettings,
+        flight: &mut ConfiguredFlight<'_>,
+        inputs: &DynamicsInputs,
+        time_s: f64,
+    ) -> AttitudeSource {
+        match (&settings.control, inputs.tracked, flight.world.configuration.attitude.guided()) {
+            (Some(_), Tracked::Guidance, Some(law)) => AttitudeSource::Guided(*law),
+            (Some(_), Tracked::Attitude(command), _) => AttitudeSource::Commanded(command),
+            _ => AttitudeSource::Commanded(Command {
+                attitude: Attitude::from_unit(self.motion.attitude_at(time_s)),
+                rate_body_rad_s: Vector3::zeros(),
+                since_s: time_s,
+            }),
+        }
     }
 
     /// The body has the mass properties of the present segment, and what flies those of the last edge of the grid.
@@ -324,7 +365,7 @@ impl AttitudeDynamics {
     }
 
     /// Thrusters bring the momentum to `target_body_n_m_s` from the present end of the motion on.
-    pub(super) fn dump_to(
+    fn dump_to(
         &mut self,
         settings: &DynamicsSettings,
         flight: &mut ConfiguredFlight<'_>,

@@ -1,4 +1,5 @@
-//! A fork of a flight: the same spacecraft simulated on from a copy of its state, guided ideally, nothing of the flight changing.
+//! A fork of a flight: the same spacecraft simulated on from a copy of its state, in an attitude that is followed ideally, nothing
+//! of the flight changing.
 //!
 //! It has no dumps, scheduled ones neither. Of the events ahead it sees maneuvers, without their errors and propellant, and places of
 //! the centre of mass.
@@ -11,6 +12,8 @@ use crate::guidance::timeline::TimelineManeuver;
 use crate::loads::ForceTorque;
 use crate::momentum::{MomentumIntegrator, Settings, Stop, StopTimes, Totals};
 use crate::plant::disturbances::evaluation::{Plant, PreparedSpacecraft, World};
+use crate::plant::motion::approaches::Approach;
+use crate::plant::motion::geometry::Geometry;
 use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::radiation_settings::RadiationSettings;
@@ -53,7 +56,40 @@ pub(crate) struct Fork<'f> {
     flight: (AttitudeSource, Settings, RadiationSettings, MassProperties),
 }
 
+/// Where a fork was.
+#[derive(Clone, Debug)]
+pub(super) struct Waypoint {
+    /// When, in s.
+    pub time_s: f64,
+    propagator: PropagatorState,
+    scheduled: usize,
+    mass_at_zero: MassProperties,
+}
+
 impl<'f> Fork<'f> {
+    /// Begins at a time in s in this attitude with these totals, where the flight is.
+    pub(super) fn new(
+        prepared: PreparedSpacecraft<'f>,
+        world: &'f mut World,
+        propagator: &PropagatorState,
+        attitude: AttitudeSource,
+        applied: [ForceTorque<f64>; 2],
+        (time_s, totals): (f64, Totals),
+    ) -> Self {
+        let configuration = &mut world.configuration;
+        let attitude = core::mem::replace(&mut configuration.attitude, attitude);
+        let flight = (attitude, configuration.momentum, configuration.light_and_heat, world.mass_at_zero);
+        // Those of this time are over.
+        let scheduled = configuration.thruster_events.until(time_s);
+        let integrator = MomentumIntegrator::new(time_s, totals);
+        Self { prepared, world, propagator: propagator.clone(), integrator, applied, scheduled, flight }
+    }
+
+    /// What the flight computed ahead of `time_s` is void: something else acts from there on.
+    pub(super) fn cut(&mut self, time_s: f64) {
+        self.propagator.cut(&self.world.configuration, time_s, true);
+    }
+
     /// Begins at a time in s with these totals, in default attitudes of the law and without dumps, evaluated about every `step_s`;
     /// tolerances shorten what is too coarse.
     pub(super) fn guided(
@@ -65,20 +101,16 @@ impl<'f> Fork<'f> {
         (time_s, totals): (f64, Totals),
         step_s: f64,
     ) -> Self {
-        let configuration = &mut world.configuration;
         let law = Guided { managed: false, ..law.with_sun_places(None, None) };
-        let attitude = core::mem::replace(&mut configuration.attitude, AttitudeSource::Guided(law));
-        let flight = (attitude, configuration.momentum, configuration.light_and_heat, world.mass_at_zero);
-        // Those of this time are over.
-        let scheduled = configuration.thruster_events.until(time_s);
+        let attitude = AttitudeSource::Guided(law);
+        let mut fork = Self::new(prepared, world, propagator, attitude, applied, (time_s, totals));
+        let configuration = &mut fork.world.configuration;
         configuration.momentum.grid_s = configuration.momentum.grid_s.max(step_s);
         configuration.light_and_heat.grid_s = configuration.light_and_heat.grid_s.max(step_s);
         configuration.momentum.tolerance = configuration.momentum.tolerance.max(FORECAST_TOLERANCE);
         configuration.momentum.policy.threshold_body_n_m_s = Vector3::repeat(f64::INFINITY);
-        let mut propagator = propagator.clone();
-        propagator.cut(configuration, time_s, true);
-        let integrator = MomentumIntegrator::new(time_s, totals);
-        Self { prepared, world, propagator, integrator, applied, scheduled, flight }
+        fork.cut(time_s);
+        fork
     }
 
     /// Advances until everything is known at `time_s`.
@@ -93,20 +125,57 @@ impl<'f> Fork<'f> {
             let mut plant = Plant::new(self.prepared, self.world, &mut self.propagator, &external);
             let times = StopTimes { scheduled_s, dumped_s: None };
             match self.integrator.advance_to_stop(&mut plant, &settings, time_s, times)? {
-                Stop::Scheduled { at_s } => self.take_event(at_s)?,
+                Stop::Scheduled { at_s } => {
+                    self.integrator.cut(at_s);
+                    let delta_v_inertial_m_s = self.take_event(at_s)?;
+                    self.integrator.push(&delta_v_inertial_m_s);
+                }
                 // No threshold, and nothing is chosen.
                 Stop::Reached | Stop::Dump(_) | Stop::Choice { .. } => return Ok(()),
             }
         }
     }
 
-    /// What the schedule has at `time_s`, where the fork has come.
-    fn take_event(&mut self, time_s: f64) -> Result<(), PlantError> {
-        let Self { world, propagator, integrator, .. } = self;
+    /// Advances the orbit alone from `time_s`, where the fork has come: to the next event, which is over then, or as far as the
+    /// orbit is known there, at most to `limit_s`; gives how far it came.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub(super) fn advance_orbit(&mut self, time_s: f64, limit_s: f64) -> Result<f64, PlantError> {
+        let scheduled_s = self.world.configuration.thruster_events.next_s(self.scheduled);
+        let external = |_: f64| self.applied;
+        let mut plant = Plant::new(self.prepared, self.world, &mut self.propagator, &external);
+        let until_s = plant.orbit_and_light(time_s)?.min(limit_s);
+        if scheduled_s <= until_s {
+            self.take_event(scheduled_s)?;
+        }
+        Ok(until_s.min(scheduled_s))
+    }
+
+    /// The time at an epoch in s past J2000 TDB, in s.
+    pub(super) fn time_at_epoch_s(&self, epoch_s: f64) -> f64 {
+        epoch_s - self.world.configuration.epoch_minus_time_s
+    }
+
+    /// Where the fork is.
+    pub(super) fn waypoint(&self, time_s: f64) -> Waypoint {
+        let propagator = self.propagator.clone();
+        Waypoint { time_s, propagator, scheduled: self.scheduled, mass_at_zero: self.world.mass_at_zero }
+    }
+
+    /// Goes on from there.
+    pub(super) fn return_to(&mut self, waypoint: Waypoint) {
+        (self.propagator, self.scheduled) = (waypoint.propagator, waypoint.scheduled);
+        self.world.mass_at_zero = waypoint.mass_at_zero;
+    }
+
+    /// What the schedule has at `time_s`, where the fork has come; gives the velocity change, EME2000, in m/s.
+    fn take_event(&mut self, time_s: f64) -> Result<Vector3<f64>, PlantError> {
+        let Self { world, propagator, .. } = self;
         let configuration = &world.configuration;
-        let Some(event) = configuration.thruster_events.next(self.scheduled).copied() else { return Ok(()) };
+        let next = configuration.thruster_events.next(self.scheduled).copied();
+        let Some(event) = next else { return Ok(Vector3::zeros()) };
         self.scheduled += 1;
-        integrator.cut(time_s);
         if let Some(place_body_m) = event.center_of_mass_body_m {
             let before = propagator.center_of_mass.of(configuration);
             propagator.center_of_mass.place(configuration, place_body_m);
@@ -115,12 +184,24 @@ impl<'f> Fork<'f> {
                 after.center_of_mass_body_m - before.center_of_mass_body_m;
             propagator.cut(configuration, time_s, true);
         }
-        if let Some(TimelineManeuver { delta_v_inertial_m_s, .. }) = event.maneuver {
-            let moved = propagator.maneuver(configuration, time_s, &delta_v_inertial_m_s);
-            moved.map_err(|error| PlantError::Maneuver { time_s, why: error.into() })?;
-            integrator.push(&delta_v_inertial_m_s);
-        }
-        Ok(())
+        let Some(TimelineManeuver { delta_v_inertial_m_s, .. }) = event.maneuver else {
+            return Ok(Vector3::zeros());
+        };
+        let moved = propagator.maneuver(configuration, time_s, &delta_v_inertial_m_s);
+        moved.map_err(|error| PlantError::Maneuver { time_s, why: error.into() })?;
+        Ok(delta_v_inertial_m_s)
+    }
+
+    /// The closest approach to the encounter's body beyond `time_s`, as far as the orbit is known.
+    pub(super) fn approach_after(&self, time_s: f64) -> Option<Approach> {
+        self.propagator.trajectory.approach_after(time_s)
+    }
+
+    /// Sun, planet and Earth at `time_s` as the spacecraft sees them, where the orbit is known.
+    pub(super) fn geometry_at(&mut self, time_s: f64) -> Geometry {
+        let World { configuration, ephemeris, .. } = &mut *self.world;
+        let spacecraft = self.propagator.trajectory.state_at(configuration, time_s);
+        Geometry::at(configuration, ephemeris, time_s, spacecraft)
     }
 
     /// Momentum and geometry at `time_s`, where the fork has come.

@@ -13,6 +13,7 @@ use crate::momentum::{DumpEvent, DumpSpacing, MomentumIntegrator, Stop, StopTime
 
 use super::configured::ConfiguredFlight;
 use super::downlink_forecast::StartMomentum;
+use crate::plant::settings::dynamics_settings::DynamicsInputs;
 use crate::plant::settings::error::{ManeuverError, PlantError};
 use crate::plant::settings::thruster_events::{Maneuver, ThrusterEvent};
 
@@ -74,12 +75,32 @@ impl IdealFlight {
         let totals = Totals::at_start(momentum_body_n_m_s, &frame.inertial_from_body);
         let over = spacecraft.world.configuration.thruster_events.before(time_s);
         let mut begun = Self::new(time_s, totals, over);
+        spacecraft.world.begin_work(spacecraft.given.work_limit);
         begun.advance(spacecraft, time_s)?;
         Ok(begun)
     }
 
+    /// What a step requests from `start_s` on: a maneuver, a dump.
+    pub(super) fn take_requests(
+        &mut self,
+        spacecraft: &mut ConfiguredFlight<'_>,
+        inputs: &DynamicsInputs,
+        start_s: f64,
+    ) -> Result<(), PlantError> {
+        let mut target = inputs.dump_to_body_n_m_s;
+        if let Some(maneuver) = &inputs.maneuver {
+            self.maneuver(spacecraft, start_s, maneuver)?;
+            let requested = spacecraft.world.configuration.thruster_events.requested_body_n_m_s;
+            target = target.or(maneuver.dumps.then_some(requested));
+        }
+        if let Some(target_body_n_m_s) = target {
+            self.dump_to(spacecraft, start_s, target_body_n_m_s);
+        }
+        Ok(())
+    }
+
     /// Dumps to this momentum, body frame, in N m s, at `time_s` on request.
-    pub(super) fn dump_to(
+    fn dump_to(
         &mut self,
         spacecraft: &mut ConfiguredFlight<'_>,
         time_s: f64,
@@ -91,7 +112,7 @@ impl IdealFlight {
     }
 
     /// The maneuver, at `time_s`.
-    pub(super) fn maneuver(
+    fn maneuver(
         &mut self,
         spacecraft: &mut ConfiguredFlight<'_>,
         time_s: f64,
@@ -149,7 +170,7 @@ impl IdealFlight {
         Ok(())
     }
 
-    /// Advances until the momentum is known at `time_s`.
+    /// Advances until the momentum is known at `time_s`, within the work that has begun.
     pub(super) fn advance(
         &mut self,
         spacecraft: &mut ConfiguredFlight<'_>,
@@ -157,7 +178,6 @@ impl IdealFlight {
     ) -> Result<(), PlantError> {
         let settings = spacecraft.world.configuration.momentum;
         let mut dumped_s = None;
-        spacecraft.world.begin_work(spacecraft.given.work_limit);
         loop {
             let scheduled_s = spacecraft.world.configuration.thruster_events.next_s(self.scheduled);
             let times = StopTimes { scheduled_s, dumped_s };

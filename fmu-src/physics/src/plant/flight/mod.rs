@@ -6,6 +6,7 @@ mod center_of_mass;
 mod configured;
 mod control_loop;
 mod dynamic;
+mod encounter_prediction;
 mod fork;
 mod momentum_dumps;
 mod sensing;
@@ -18,6 +19,7 @@ pub(super) mod sun_choice;
 pub(super) mod wheel_control;
 
 pub use configured::StepContext;
+pub use encounter_prediction::{EncounterPrediction, PredictedArrival};
 pub use fork::ForecastMomentum;
 
 use nalgebra::Vector3;
@@ -30,9 +32,9 @@ use crate::momentum::Totals;
 use crate::loads::ForceTorque;
 use crate::plant::disturbances::evaluation::{Evaluation, Plant, PreparedSpacecraft, World};
 use crate::plant::motion::instant::Instant;
-use crate::plant::settings::configuration::{Command, Configuration};
+use crate::plant::settings::configuration::{Command, Configuration, PredictionSettings};
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
-use crate::plant::settings::error::{ManeuverError, PlantError};
+use crate::plant::settings::error::PlantError;
 use crate::plant::settings::ideal_settings::IdealSettings;
 use crate::plant::settings::panel_setting::PanelSetting;
 use crate::plant::settings::thruster_events::ThrusterEvent;
@@ -52,6 +54,8 @@ pub struct Flight {
     /// Thrusters and tanks.
     pub thrusters: Thrusters,
     mode: Mode,
+    /// The last prediction of the encounter; none before any.
+    prediction: Option<EncounterPrediction>,
     #[serde(skip)]
     setup: Option<Box<FlightSetup>>,
 }
@@ -101,7 +105,13 @@ pub struct Changes {
 impl Flight {
     /// That waits.
     pub fn waiting(thrusters: Thrusters) -> Self {
-        Self { propagator: PropagatorState::default(), thrusters, mode: Mode::Waiting, setup: None }
+        Self {
+            propagator: PropagatorState::default(),
+            thrusters,
+            mode: Mode::Waiting,
+            prediction: None,
+            setup: None,
+        }
     }
 
     /// Rejects decoded states that no flight of this spacecraft can produce.
@@ -111,6 +121,7 @@ impl Flight {
         let panels = if has_mass { spacecraft.panels.len() } else { 0 };
         let (wheels, oscillators) = (spacecraft.wheels.len(), spacecraft.oscillator_count());
         self.propagator.is_valid()
+            && self.prediction.as_ref().is_none_or(EncounterPrediction::is_valid)
             && self.thrusters.is_valid(spacecraft.thrusters.len(), spacecraft.tanks.len())
             && match &self.mode {
                 Mode::Waiting => true,
@@ -244,7 +255,7 @@ impl Flight {
         given: StepContext<'a>,
         log: &'a mut dyn FnMut(&ThrusterEvent),
     ) -> Result<(ConfiguredFlight<'a>, &'a mut ModeSettings, &'a mut Mode), PlantError> {
-        let Self { propagator, thrusters, setup: Some(setup), mode } = self else {
+        let Self { propagator, thrusters, setup: Some(setup), mode, .. } = self else {
             return Err(PlantError::OtherMode);
         };
         let FlightSetup { world, settings, .. } = &mut **setup;
@@ -274,7 +285,7 @@ impl Flight {
         Ok(())
     }
 
-    /// Advances until everything is known at the end of the step.
+    /// Advances until everything is known at the end of the step; predictions due at its start are its own, at its end the next's.
     ///
     /// # Errors
     /// What ends a flight.
@@ -285,38 +296,76 @@ impl Flight {
         [start_s, end_s]: [f64; 2],
         log: &mut dyn FnMut(&ThrusterEvent),
     ) -> Result<(), PlantError> {
+        self.take_requests(given, inputs, [start_s, end_s], log)?;
+        let settings = self.prediction_settings();
+        for time_s in settings.into_iter().flat_map(|settings| settings.times_s([start_s, end_s])) {
+            self.advance_to(given, inputs, time_s, log)?;
+            self.predict(given, inputs, time_s)?;
+        }
+        self.advance_to(given, inputs, end_s, log)
+    }
+
+    /// A step's work begins, and what it requests from its start on is taken.
+    fn take_requests(
+        &mut self,
+        given: StepContext<'_>,
+        inputs: &DynamicsInputs,
+        span_s: [f64; 2],
+        log: &mut dyn FnMut(&ThrusterEvent),
+    ) -> Result<(), PlantError> {
         let (mut flight, settings, mode) = self.parts(given, log)?;
+        flight.world.begin_work(given.work_limit);
         match (mode, settings) {
             (Mode::Waiting, _) => Ok(()),
             (Mode::Ideal(ideal), ModeSettings::Ideal(_)) => {
-                let mut target = inputs.dump_to_body_n_m_s;
-                if let Some(maneuver) = &inputs.maneuver {
-                    ideal.maneuver(&mut flight, start_s, maneuver)?;
-                    let requested = flight.world.configuration.thruster_events.requested_body_n_m_s;
-                    target = target.or(maneuver.dumps.then_some(requested));
-                }
-                if let Some(target_body_n_m_s) = target {
-                    ideal.dump_to(&mut flight, start_s, target_body_n_m_s);
-                }
-                ideal.advance(&mut flight, end_s)
+                ideal.take_requests(&mut flight, inputs, span_s[0])
             }
             (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
-                if inputs.maneuver.is_some() {
-                    let why = ManeuverError::ByTorque;
-                    return Err(PlantError::Maneuver { time_s: start_s, why });
-                }
-                if let Some(target_body_n_m_s) = inputs.dump_to_body_n_m_s {
-                    dynamics.cut(start_s, false);
-                    dynamics.dump_to(settings, &mut flight, target_body_n_m_s);
-                }
-                let pulses = flight.thrusters.command_pulses(&inputs.pulses, [start_s, end_s]);
-                if flight.thrusters.command_thrust(&inputs.thrust, start_s) || pulses {
-                    dynamics.cut(start_s, false);
-                }
-                dynamics.advance(settings, &mut flight, inputs, end_s)
+                dynamics.take_requests(settings, &mut flight, inputs, span_s)
             }
             _ => Err(PlantError::OtherMode),
         }
+    }
+
+    /// Advances until everything is known at `time_s`.
+    fn advance_to(
+        &mut self,
+        given: StepContext<'_>,
+        inputs: &DynamicsInputs,
+        time_s: f64,
+        log: &mut dyn FnMut(&ThrusterEvent),
+    ) -> Result<(), PlantError> {
+        let (mut flight, settings, mode) = self.parts(given, log)?;
+        match (mode, settings) {
+            (Mode::Waiting, _) => Ok(()),
+            (Mode::Ideal(ideal), ModeSettings::Ideal(_)) => ideal.advance(&mut flight, time_s),
+            (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) => {
+                dynamics.advance(settings, &mut flight, inputs, time_s)
+            }
+            _ => Err(PlantError::OtherMode),
+        }
+    }
+
+    fn prediction_settings(&self) -> Option<PredictionSettings> {
+        let encounter = self.configuration()?.encounter?;
+        Some(encounter.prediction).filter(|_| !self.is_waiting())
+    }
+
+    /// Predicts the encounter at `time_s`, where the flight has come, in the attitude that timeline and inputs command.
+    fn predict(
+        &mut self,
+        given: StepContext<'_>,
+        inputs: &DynamicsInputs,
+        time_s: f64,
+    ) -> Result<(), PlantError> {
+        let ignored = &mut |_: &ThrusterEvent| {};
+        let (mut flight, settings, mode) = self.parts(given, ignored)?;
+        let mut attitude = None;
+        if let (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) = (mode, settings) {
+            attitude = Some(dynamics.ideal_attitude(settings, &mut flight, inputs, time_s));
+        }
+        self.prediction = Some(EncounterPrediction::of(&mut flight, attitude, time_s)?);
+        Ok(())
     }
 
     /// What samples at the start with these inputs would do: to be shown there, and to be undone, as the first step takes them with
@@ -328,20 +377,24 @@ impl Flight {
         &mut self,
         given: StepContext<'_>,
         inputs: &DynamicsInputs,
+        time_s: f64,
     ) -> Result<Undo, PlantError> {
-        let undo = Undo(self.mode.clone(), self.thrusters.clone());
+        let undo = Undo(self.mode.clone(), self.thrusters.clone(), self.prediction);
         let ignored = &mut |_: &ThrusterEvent| {};
         let (mut flight, settings, mode) = self.parts(given, ignored)?;
         if let (Mode::Dynamic(dynamics), ModeSettings::Dynamic(settings)) = (mode, settings) {
             flight.world.begin_work(given.work_limit);
             dynamics.process_events(settings, &mut flight, inputs)?;
         }
+        if self.prediction_settings().is_some_and(|it| it.is_due(time_s)) {
+            self.predict(given, inputs, time_s)?;
+        }
         Ok(undo)
     }
 
     /// Undoes samples at the start.
-    pub fn undo(&mut self, Undo(mode, thrusters): Undo) {
-        (self.mode, self.thrusters) = (mode, thrusters);
+    pub fn undo(&mut self, Undo(mode, thrusters, prediction): Undo) {
+        (self.mode, self.thrusters, self.prediction) = (mode, thrusters, prediction);
     }
 
     /// Everything at `time_s`, where the flight has come; one that waits holds the attitude of `held`, and the momentum of its
@@ -357,7 +410,7 @@ impl Flight {
         time_s: f64,
     ) -> Result<Report<'_>, PlantError> {
         let (is_waiting, frame) = (self.is_waiting(), held.frame_at(time_s));
-        let Self { propagator, thrusters, setup: Some(setup), mode } = self else {
+        let Self { propagator, thrusters, setup: Some(setup), mode, prediction } = self else {
             return Err(PlantError::OtherMode);
         };
         let FlightSetup { world, settings, evaluation } = &mut **setup;
@@ -420,6 +473,7 @@ impl Flight {
             evaluation,
             integration_center: propagator.trajectory.integration_center(configuration),
             approaches: propagator.trajectory.approaches_until(time_s),
+            prediction: *prediction,
             shown,
         })
     }
@@ -441,4 +495,4 @@ impl Flight {
 }
 
 /// A flight before samples at its start.
-pub struct Undo(Mode, Thrusters);
+pub struct Undo(Mode, Thrusters, Option<EncounterPrediction>);

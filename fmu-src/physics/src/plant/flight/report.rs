@@ -17,6 +17,7 @@ use crate::plant::settings::ideal_settings::IdealSettings;
 use crate::plant::thrusters::reaction_control::Thrusters;
 
 use super::dynamic::AttitudeDynamics;
+use super::encounter_prediction::EncounterPrediction;
 use super::ideal::{IdealFlight, Maneuvers};
 
 /// Everything about a flight at one time.
@@ -41,6 +42,8 @@ pub struct Report<'a> {
     pub integration_center: Body,
     /// Closest approaches to the encounter's body so far, and the last of them.
     pub approaches: (i32, Option<Approach>),
+    /// The last prediction of the next one; `None` before any.
+    pub prediction: Option<EncounterPrediction>,
     /// Momentum, dumps, sensors and control.
     pub shown: Shown<'a>,
 }
@@ -61,10 +64,9 @@ impl Report<'_> {
     pub fn encounter(&self) -> Option<EncounterReport> {
         let encounter = self.configuration.encounter?;
         let geometry = &self.evaluation.instant.geometry;
-        let body = geometry.to_planet? + geometry.spacecraft;
-        let from_body = geometry.spacecraft - body;
+        let from_body = geometry.from_planet()?;
         Some(EncounterReport {
-            body,
+            body: geometry.spacecraft - from_body,
             distance_m: from_body.position_m.norm(),
             b_plane: BPlane::of(&from_body, encounter.gm_m3_s2),
         })

@@ -42,6 +42,12 @@ impl Approaches {
         }
     }
 
+    /// The first one that was found beyond `time_s`.
+    pub(crate) fn after(&self, time_s: f64) -> Option<Approach> {
+        let [last, before] = self.last;
+        [before, last].into_iter().flatten().find(|approach| approach.at_s > time_s)
+    }
+
     /// Forgets one found beyond `time_s`: it will be met again.
     pub(crate) fn forget_after(&mut self, time_s: f64) {
         self.came_nearer = None;

@@ -63,6 +63,11 @@ impl Geometry {
         self.to_earth + self.spacecraft
     }
 
+    /// The spacecraft from the planet, if there is one.
+    pub fn from_planet(&self) -> Option<CartesianState> {
+        self.to_planet.map(|planet| CartesianState::default() - planet)
+    }
+
     /// Directions with their rates; a body at zero distance counts as lying toward +X.
     pub fn lines_of_sight(&self) -> LinesOfSight {
         let unit = |to: &CartesianState| {

@@ -173,6 +173,11 @@ impl Trajectory {
         self.approaches.until(time_s)
     }
 
+    /// The first closest approach that was found beyond `time_s`.
+    pub(crate) fn approach_after(&self, time_s: f64) -> Option<Approach> {
+        self.approaches.after(time_s)
+    }
+
     /// Up to where the orbit is known; infinite in closed form.
     pub(crate) fn end_s(&self) -> f64 {
         self.orbit.as_ref().map_or(f64::INFINITY, DisturbedOrbit::end_s)

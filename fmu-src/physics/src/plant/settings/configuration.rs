@@ -19,6 +19,7 @@ use crate::guidance::{Guided, SunPlace};
 use crate::loads::{Active, Effect};
 use crate::momentum::Settings;
 use crate::numerics::scalar::Dual64;
+use crate::numerics::spacing::spacing;
 use crate::spacecraft::{MassProperties, Panel, SunshadeModel, hinged_masses, with_panels};
 
 use super::panel_setting::{PanelSetting, SunAt};
@@ -150,6 +151,41 @@ pub struct Encounter {
     pub gm_m3_s2: f64,
     /// Its radius, in m.
     pub radius_m: f64,
+    /// Predictions of it.
+    pub prediction: PredictionSettings,
+}
+
+/// When an encounter is predicted, how far ahead, and at which time its hyperbola osculates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PredictionSettings {
+    /// At whole multiples of this, in s; 0: never.
+    pub refresh_s: f64,
+    /// So far ahead at most, in s.
+    pub horizon_s: f64,
+    /// Nor beyond this epoch, until which the ephemerides place all bodies, in s past J2000 TDB.
+    pub last_epoch_s: f64,
+    /// So long before the closest approach, in s.
+    pub lead_s: f64,
+}
+
+impl PredictionSettings {
+    /// The times from `start_s` on and before `end_s` at which a prediction is due, in s.
+    pub(crate) fn times_s(self, [start_s, end_s]: [f64; 2]) -> impl Iterator<Item = f64> {
+        let is_on = self.refresh_s > 0.0;
+        let numbers = if is_on { self.first_number(start_s)..self.first_number(end_s) } else { 0..0 };
+        numbers.map(move |number| number as f64 * self.refresh_s)
+    }
+
+    /// The first multiple from `time_s` on; a time next to one counts as that: one step ends there and another begins.
+    fn first_number(self, time_s: f64) -> i64 {
+        ((time_s - 4.0 * spacing(time_s)) / self.refresh_s).ceil() as i64
+    }
+
+    /// Whether one is due at `time_s`.
+    pub(crate) fn is_due(self, time_s: f64) -> bool {
+        let next_s = self.first_number(time_s) as f64 * self.refresh_s;
+        self.refresh_s > 0.0 && next_s - time_s <= 4.0 * spacing(time_s)
+    }
 }
 
 /// What moves the spacecraft.

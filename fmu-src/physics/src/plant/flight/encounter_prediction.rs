@@ -1,0 +1,129 @@
+//! Prediction of the next closest approach to the encounter's planet, and its B-plane.
+//!
+//! Method: a fork of the flight is propagated, without momentum and dumps, to the closest approach within the sphere of influence, and
+//! anew from its last waypoint to the time at which the hyperbola osculates, which is known only then. Where the fork stands in the
+//! flight's own attitude it has the flight's own segments, to the bit.
+
+use serde::{Deserialize, Serialize};
+
+use super::configured::ConfiguredFlight;
+use super::fork::{Fork, Waypoint};
+use crate::environment::orbit::{BPlane, Collision, OrbitIntegrationError};
+use crate::loads::ForceTorque;
+use crate::momentum::Totals;
+use crate::plant::settings::configuration::{AttitudeSource, Encounter};
+use crate::plant::settings::error::PlantError;
+use crate::plant::settings::work::Cost;
+
+/// Units of work of a prediction beside its orbit.
+const UNITS: u32 = 10;
+
+/// A prediction.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EncounterPrediction {
+    /// When it was made, in s.
+    pub since_s: f64,
+    /// What it found; `None`: no closest approach before the horizon, or no hyperbola.
+    pub arrival: Option<PredictedArrival>,
+}
+
+/// The next closest approach.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PredictedArrival {
+    /// When, in s; on a path into the planet where it ends.
+    pub at_s: f64,
+    /// Height above the planet's radius, in m; 0 on a path into it.
+    pub altitude_m: f64,
+    /// The hyperbola that osculates at `osculates_s`.
+    pub b_plane: BPlane,
+    /// So long before the closest approach as is set, or when the prediction was made if that is later, in s.
+    pub osculates_s: f64,
+}
+
+impl EncounterPrediction {
+    /// Of the flight at `time_s`, in an attitude of its own from there on, or in the flight's. The Sun stays where it was chosen to
+    /// stand in downlinks.
+    ///
+    /// # Errors
+    /// More work than a step may take.
+    pub(super) fn of(
+        flight: &mut ConfiguredFlight<'_>,
+        attitude: Option<AttitudeSource>,
+        time_s: f64,
+    ) -> Result<Self, PlantError> {
+        let ConfiguredFlight { given, world, propagator, .. } = flight;
+        let evaluations = world.ephemeris.evaluations();
+        world.work.spend(Cost::Search, UNITS, evaluations, time_s)?;
+        let Some(encounter) = world.configuration.encounter else {
+            return Ok(Self { since_s: time_s, arrival: None });
+        };
+        let [applied, slope] = (given.external)(time_s);
+        let held = [applied, ForceTorque::zero()];
+        let begin = (time_s, Totals::default());
+        let is_another = attitude.is_some();
+        let mut attitude = attitude.unwrap_or(world.configuration.attitude);
+        if let AttitudeSource::Guided(law) = &mut attitude {
+            law.managed = false;
+        }
+        let mut fork = Fork::new(given.prepared, world, propagator, attitude, held, begin);
+        if is_another || slope != ForceTorque::zero() {
+            fork.cut(time_s);
+        }
+        match arrival(&mut fork, &encounter, time_s) {
+            Err(PlantError::Work(exceeded)) => Err(exceeded.into()),
+            // What ends the fork ends the flight where that comes there, if it does.
+            other => Ok(Self { since_s: time_s, arrival: other.ok().flatten() }),
+        }
+    }
+
+    /// Whether a simulation can produce it.
+    pub(super) fn is_valid(&self) -> bool {
+        self.arrival.is_none_or(|it| it.at_s >= self.since_s && it.osculates_s >= self.since_s)
+    }
+}
+
+/// Where a fork that begins at `time_s` arrives.
+fn arrival(
+    fork: &mut Fork<'_>,
+    encounter: &Encounter,
+    time_s: f64,
+) -> Result<Option<PredictedArrival>, PlantError> {
+    let lead_s = encounter.prediction.lead_s;
+    // The last one is too late where the other is not: they are the lead or more apart.
+    let mut waypoints: [Option<Waypoint>; 2] = [None, Some(fork.waypoint(time_s))];
+    let mut now_s = time_s;
+    let limit_s = time_s + encounter.prediction.horizon_s;
+    let limit_s = limit_s.min(fork.time_at_epoch_s(encounter.prediction.last_epoch_s));
+    let (at_s, altitude_m) = loop {
+        if now_s >= limit_s {
+            return Ok(None);
+        }
+        if waypoints[1].as_ref().is_none_or(|last| now_s - last.time_s > lead_s) {
+            waypoints = [waypoints[1].take(), Some(fork.waypoint(now_s))];
+        }
+        let advanced = fork.advance_orbit(now_s, limit_s);
+        if let Err(PlantError::Orbit(OrbitIntegrationError::Collision(Collision::Impact {
+            at_s, name, ..
+        }))) = &advanced
+            && *name == encounter.body.data().name
+        {
+            break (*at_s, 0.0);
+        }
+        now_s = advanced?;
+        if let Some(approach) = fork.approach_after(time_s).filter(|it| it.at_s <= now_s) {
+            break (approach.at_s, approach.altitude_m);
+        }
+    };
+    let osculates_s = (at_s - lead_s).max(time_s);
+    let Some(from) = waypoints.into_iter().flatten().rfind(|it| it.time_s <= osculates_s) else {
+        return Ok(None);
+    };
+    let mut now_s = from.time_s;
+    fork.return_to(from);
+    while now_s < osculates_s {
+        now_s = fork.advance_orbit(now_s, osculates_s)?;
+    }
+    let from_planet = fork.geometry_at(osculates_s).from_planet();
+    let b_plane = from_planet.and_then(|state| BPlane::of(&state, encounter.gm_m3_s2));
+    Ok(b_plane.map(|b_plane| PredictedArrival { at_s, altitude_m, b_plane, osculates_s }))
+}
