@@ -18,10 +18,14 @@ use super::{
 
 /// Directions in which the farthest places are sought.
 const DIRECTIONS: usize = 32;
-/// Range of the controls about each answer, as shares.
-const RANGES: [f64; 4] = [WHOLE, 0.3, 0.1, 0.03];
-/// Along one axis the other one is kept within this share of what the first is moved by at most, and within so many m.
+/// By which the range of the controls about an answer narrows where the next is no farther, and where that ends.
+const NARROWED: f64 = 0.4;
+const LEAST_RANGE: f64 = 0.02;
+/// A place farther by less than this share is the last.
+const GAINED: f64 = 2e-3;
+/// Along one axis the other one is kept within so many m by the model, and within this share of the way in the end.
 const ASIDE_M: f64 = 10.0;
+const ASIDE: f64 = 0.01;
 
 /// The model of a mission before any flight of a plan.
 fn bare(task: &PlanTask, sunlit: &SunlitSpacecraft, simulated: &SimulatedFlight) -> Result<Model, PlanError> {
@@ -147,20 +151,43 @@ pub fn reachable(
     Ok(Reachable { along_m, polygon_m: hull(corners.collect()) })
 }
 
-/// The place farthest in a direction from where the encounter was; straight: nowhere aside.
+/// The place farthest in a direction from where the encounter was; straight: nowhere aside. Sought with the alternate attitude and
+/// without, for it takes away what tilt does.
 fn farthest(
     model: &Model,
     sunlit: &SunlitSpacecraft,
     (here, direction): (Vector2<f64>, Vector2<f64>),
     is_straight: bool,
 ) -> Option<Vector2<f64>> {
-    let mut model = model.clone();
-    let leaders = counted::single(&model);
+    let mut best: Option<Vector2<f64>> = None;
+    for alternates in [true, false] {
+        let mut model = model.clone();
+        if !alternates {
+            model.windows.iter_mut().for_each(|window| window.bounds[Control::Alternate as usize] = [0.0; 2]);
+            model.linearise(sunlit);
+        }
+        let found = climb(&mut model, sunlit, (here, direction), is_straight);
+        let is_farther =
+            |found: &Vector2<f64>| best.is_none_or(|best| direction.dot(found) > direction.dot(&best));
+        best = found.filter(is_farther).or(best);
+    }
+    best
+}
+
+/// The same from the model's controls on: an answer is taken where it is farther, and the range about it narrows where it is not.
+fn climb(
+    model: &mut Model,
+    sunlit: &SunlitSpacecraft,
+    (here, direction): (Vector2<f64>, Vector2<f64>),
+    is_straight: bool,
+) -> Option<Vector2<f64>> {
+    let leaders = counted::single(model);
     let aside = Vector2::new(-direction.y, direction.x);
-    let mut place = None;
-    for trust in RANGES {
+    let (mut place, mut trust): (Option<Vector2<f64>>, f64) = (None, WHOLE);
+    let limit_n_m_s = model.limit.momentum_n_m_s;
+    while trust > LEAST_RANGE {
         let (constant, terms) = model.linear_miss(&leaders)?;
-        let mut program = model.program(&leaders, whole(&model), [GUARD, trust]);
+        let mut program = model.program(&leaders, whole(model), [GUARD, trust]);
         let by = |axis: Vector2<f64>| terms.iter().map(move |(index, by)| (*index, axis.dot(&by.xy())));
         let size = by(direction).map(|(_, by)| by.abs()).fold(0.0, f64::max);
         if size == 0.0 {
@@ -176,9 +203,26 @@ fn farthest(
             });
         }
         let Some(solution) = program.solve(Goal::Farthest) else { break };
-        give(&mut model, &leaders, &solution);
-        model.linearise(sunlit);
-        place = Some(model.miss()?.xy() - here);
+        let mut next = model.clone();
+        give(&mut next, &leaders, &solution);
+        next.linearise(sunlit);
+        let found = next.miss()?.xy() - here;
+        let is_aside = is_straight && aside.dot(&found).abs() > ASIDE * direction.dot(&found).abs() + ASIDE_M;
+        let is_kept = next.excess_n_m_s().0 <= GUARD * limit_n_m_s && !is_aside;
+        let gained = place.map_or(f64::INFINITY, |place| direction.dot(&(found - place)));
+        if is_kept && gained > 0.0 {
+            *model = next;
+            place = Some(found);
+            if gained < GAINED * direction.dot(&found).abs() {
+                break;
+            }
+        } else {
+            // Nothing yet: the next linearisation is about the answer all the same.
+            if place.is_none() {
+                *model = next;
+            }
+            trust *= NARROWED;
+        }
     }
     place
 }

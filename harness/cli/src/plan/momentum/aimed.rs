@@ -57,7 +57,11 @@ impl Aimed {
         let b_m = match flyby.aim.it {
             AimOfFile::BPlane(b_m) => b_m,
             AimOfFile::Altitude([altitude_m, angle_rad]) => {
-                let b_m = b_of_periapsis_m(radius_m + altitude_m, gm_m3_s2, excess_m_s);
+                // From the osculation on tides change B: by as much as in the flight of the mission as it is.
+                let simulated_m = first.encounter.plane.b_t_m.hypot(first.encounter.plane.b_r_m);
+                let [aimed_m, passed_m] = [radius_m + altitude_m, first.encounter.closest.position_m.norm()]
+                    .map(|radius_m| b_of_periapsis_m(radius_m, gm_m3_s2, excess_m_s));
+                let b_m = simulated_m + aimed_m - passed_m;
                 [b_m * angle_rad.cos(), b_m * angle_rad.sin()]
             }
         };

@@ -123,8 +123,8 @@ pub(super) struct ActivityDescription {
     pub command: Written,
 }
 
-/// Where the mission is to pass a planet: `bT` and `bR`, or `altitude` and `angle`, of the hyperbola that osculates
-/// `encounter.leadTime` before the closest approach.
+/// Where the mission is to pass a planet: `bT` and `bR`, or `altitude` and `angle`, where B is that of the
+/// hyperbola that osculates `encounter.leadTime` before the closest approach.
 #[derive(Debug, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
@@ -137,7 +137,7 @@ pub(super) struct FlybyDescription {
     /// Component of B along R.
     #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
     pub b_r: Option<Written>,
-    /// Altitude of that hyperbola's periapsis.
+    /// Altitude of the closest approach.
     #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
     pub altitude: Option<Written>,
     /// Angle of B from T toward R.

@@ -37,6 +37,22 @@ pub(super) fn check_spans(file: &PlanFile, mission: &SimulatedMission) -> Result
     Ok(())
 }
 
+/// Refuses a flyby whose arrays cannot stay as the mission has them up to the date of the plan.
+pub(super) fn check_arrays(file: &PlanFile, mission: &SimulatedMission) -> Result<(), Failure> {
+    if file.flyby.is_none() || file.freeze_s.it <= 0.0 {
+        return Ok(());
+    }
+    let controls = (1..).map(|number| (number, mission.values().item(&format!("panel[{number}].control"))));
+    let all = controls.map_while(|(number, item)| Some((number, item?)));
+    let moved = all.filter(|(_, item)| !matches!(*item, "sunOffset" | "timeline" | "fixed")).next();
+    let Some((number, found)) = moved else { return Ok(()) };
+    let what = format!(
+        "found panel[{number}].control {found}, allowed: timeline or sunOffset, for arrays stay as they are up to `from`: first \
+         `plan momentum`"
+    );
+    Err(file.problem(&file.mission, &what).into())
+}
+
 /// Angle that no downlink's Sun is off -Y by, in rad: where neither plan nor keep-in zone bounds it.
 const MOST_TILT_RAD: f64 = 1.5;
 /// Places stay so far within the keep-in zone, in rad: angles are rounded where they are written.

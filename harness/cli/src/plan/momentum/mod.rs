@@ -33,7 +33,7 @@ pub(crate) use self::options::MomentumOptions;
 use self::{
     aimed::Aimed,
     file::PlanFile,
-    layout::{check_spans, layout, orbit_layout, refit},
+    layout::{check_arrays, check_spans, layout, orbit_layout, refit},
     planned::{NAMES, Planned},
     timeline::MissionTimeline,
 };
@@ -105,6 +105,7 @@ fn opened<'a>(options: &'a MomentumOptions, file: &PlanFile, began: Instant) -> 
     }
     let file = &frozen_until_from(file, &mission)?;
     check_spans(file, &mission)?;
+    check_arrays(file, &mission)?;
     let is_in_orbit = mission.is_in_orbit();
     if let Some(at) = file.of_cruise.first().filter(|_| is_in_orbit) {
         let what =

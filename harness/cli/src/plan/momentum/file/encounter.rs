@@ -23,7 +23,7 @@ const MOST_RUNS: usize = 100_000;
 pub(in crate::plan) enum Aim {
     /// B along T and R, in m.
     BPlane([f64; 2]),
-    /// Altitude of the hyperbola's periapsis in m, angle of B from T toward R in rad.
+    /// Altitude of the closest approach in m, angle of B from T toward R in rad.
     Altitude([f64; 2]),
 }
 
