@@ -200,6 +200,14 @@ fn neither_cuts_nor_saving_change_a_bit_of_a_flyby() {
         },
     );
     assert_eq!(centers.into_iter().collect::<Vec<_>>(), [1, 2]);
+    // Ten days and ten minutes; another altitude, so that cells and edges lie elsewhere.
+    let sets = self::sets(&start(5e5, 0.0), true);
+    assert_cuts_change_nothing(
+        || named.fly(0.0, &sets).unwrap(),
+        [20.0 * DAY_S],
+        &[6e2, 10.0 * DAY_S],
+        |_| (),
+    );
 }
 
 #[test]

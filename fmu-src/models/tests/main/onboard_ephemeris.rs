@@ -1,4 +1,5 @@
-//! Ephemeris files for tests: Sun and Earth from Mercury by VSOP87, the Sun turned aside where a test wants it wrong.
+//! Ephemeris files for tests: Sun and Earth from Mercury by VSOP87, the Sun turned aside where a test wants it wrong; planets from
+//! the Sun.
 
 use nalgebra::{Rotation3, Vector3};
 use physics::bodies::Body;
@@ -44,4 +45,26 @@ pub(crate) fn file(span_s: f64, turned_rad: f64) -> (String, f64) {
     }
     let worst_m = precise.iter().map(|body| body.error.position_m).fold(0.0, f64::max);
     (to_toml(&OnboardEphemeris { source: None, precise, coarse: Vec::new() }), worst_m)
+}
+
+/// A file of planets from the Sun, and of the Moon from the Earth, by VSOP87 over a span of epochs.
+pub(crate) fn from_sun_file(
+    targets: &[OnboardTarget],
+    span_s: [f64; 2],
+    ephemeris: &mut Ephemeris,
+) -> String {
+    let plan = FitPlan::new(span_s, 2.0 * 86_400.0);
+    let body =
+        |target: OnboardTarget| Body::ALL.into_iter().find(|body| OnboardTarget::from(*body) == target);
+    let fitted = targets.iter().map(|target| {
+        let mut state = |epoch_s: f64| match body(*target) {
+            Some(body) => ephemeris.state(body, epoch_s),
+            None => ephemeris.moon_from_earth(epoch_s),
+        };
+        let states: Vec<_> = plan.epochs_s().into_iter().map(&mut state).collect();
+        let (motion, error) = plan.fit(&states, 10);
+        let center = if *target == OnboardTarget::Moon { Body::Earth } else { Body::Sun };
+        FittedBody { target: *target, center, motion, error }
+    });
+    to_toml(&OnboardEphemeris { source: None, precise: fitted.collect(), coarse: Vec::new() })
 }

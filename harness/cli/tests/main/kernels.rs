@@ -8,9 +8,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use physics::constants::{GM_EARTH_M3_S2, GM_MERCURY_M3_S2, GM_SUN_M3_S2};
 use physics::environment::onboard::{OnboardEphemeris, OnboardTarget};
 
-use crate::{run, says, shown};
+use crate::{run, says, shown, template};
 
 /// 2011-04-02 TDB, where both kernels begin.
 const START_S: f64 = 354_974_400.0;
@@ -139,6 +140,83 @@ fn bodies_go_by_name_and_by_naif_id() {
     let found = model.motion.state(epoch_s).unwrap().position_m;
     let off_m = (0..3).map(|i| (found[i] - (earth[i] - sun[i])).powi(2)).sum::<f64>().sqrt();
     assert!(off_m <= 100.0, "{off_m} m");
+}
+
+/// Newton's law for a spacecraft at `r` m from the Sun, by the circles of the kernels.
+fn fall_m_s2(r: [f64; 3], epoch_s: f64) -> [f64; 3] {
+    let toward = |d: [f64; 3], gm: f64| {
+        let cubed = d.iter().map(|x| x * x).sum::<f64>().powf(1.5);
+        d.map(|x| gm * x / cubed)
+    };
+    let sun_m = truth_m(OnboardTarget::Sun, epoch_s);
+    let mercury_m = sun_m.map(|x| -x);
+    let earth_m = {
+        let from_mercury_m = truth_m(OnboardTarget::Earth, epoch_s);
+        [0, 1, 2].map(|i| from_mercury_m[i] - sun_m[i])
+    };
+    let mut sum = toward(r.map(|x| -x), GM_SUN_M3_S2);
+    for (place_m, gm) in [(mercury_m, GM_MERCURY_M3_S2), (earth_m, GM_EARTH_M3_S2)] {
+        let [direct, indirect] = [[0, 1, 2].map(|i| place_m[i] - r[i]), place_m].map(|d| toward(d, gm));
+        sum = [0, 1, 2].map(|i| sum[i] + direct[i] - indirect[i]);
+    }
+    sum
+}
+
+#[test]
+fn a_flight_between_planets_goes_by_kernels() {
+    let Some((scratch, plant)) = template() else { return };
+    let planets = kernel("planets.bsp");
+    let path = |name: &str| scratch.path().join(name);
+    let (file, fmu, record) = (path("planets.toml"), path("ByKernel.fmu"), path("record.csv"));
+    let bodies = ["--bodies", "mercury,earth", "--center", "sun", "--degree", "14", "--segment", "8d"];
+    fit(&[&planets], "2011-04-25 TDB", &[&bodies[..], &["--output", shown(&file)]].concat(), 0);
+    let pack = ["pack", "--template", shown(&plant), "--model", "MomentumPlant", "--output", shown(&fmu)];
+    run(&[&pack[..], &["--ephemeris", shown(&file)]].concat(), 0);
+    // On the way to Mercury, past it within its sphere of influence.
+    let [mercury_m, later_m] = [0.0, 1.0].map(|at_s| truth_m(OnboardTarget::Sun, START_S + at_s).map(|x| -x));
+    let off_m = [1.6e8, 5e7, 2e7];
+    let mut r: [f64; 3] = [0, 1, 2].map(|i| mercury_m[i] + off_m[i]);
+    let mut v: [f64; 3] = [0, 1, 2].map(|i| later_m[i] - mercury_m[i] - off_m[i] / 4e5 + [0.0, 90.0, 0.0][i]);
+    let epoch = format!("start.epoch={START_S:e}");
+    let mut sets = vec![
+        epoch,
+        "orbit.center=sun".to_owned(),
+        "orbit.source=inputs".to_owned(),
+        "orbit.dynamics=nBody".to_owned(),
+        "ephemeris.source=chebyshev".to_owned(),
+        "orbit.radiationFeedback=false".to_owned(),
+    ];
+    sets.extend(["venus", "moon", "mars", "jupiter"].map(|body| format!("orbit.attraction.{body}=false")));
+    sets.extend((0..3).map(|i| format!("orbit.position[{}]={:e}", i + 1, r[i])));
+    sets.extend((0..3).map(|i| format!("orbit.velocity[{}]={:e}", i + 1, v[i])));
+    let mut arguments = vec!["run", shown(&fmu), "--stop", "20d", "--step", "1d", "--quiet"];
+    arguments.extend(["--record", "position,orbit.currentCenter", "--output", shown(&record)]);
+    arguments.extend(sets.iter().flat_map(|set| ["--set", set.as_str()]));
+    run(&arguments, 0);
+    // Runge and Kutta's method of fourth order in steps of five minutes.
+    let h = 300.0;
+    let moved = |r: [f64; 3], v: [f64; 3], h: f64| [0, 1, 2].map(|i| r[i] + h * v[i]);
+    for step in 0..5760 {
+        let at_s = START_S + h * f64::from(step);
+        let k1 = (v, fall_m_s2(r, at_s));
+        let half = |k: ([f64; 3], [f64; 3]), h: f64, at_s: f64| {
+            (moved(v, k.1, h), fall_m_s2(moved(r, k.0, h), at_s))
+        };
+        let k2 = half(k1, h / 2.0, at_s + h / 2.0);
+        let k3 = half(k2, h / 2.0, at_s + h / 2.0);
+        let k4 = half(k3, h, at_s + h);
+        let mean = |a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]| {
+            [0, 1, 2].map(|i| (a[i] + 2.0 * (b[i] + c[i]) + d[i]) / 6.0)
+        };
+        (r, v) = (moved(r, mean(k1.0, k2.0, k3.0, k4.0), h), moved(v, mean(k1.1, k2.1, k3.1, k4.1), h));
+    }
+    let text = fs::read_to_string(&record).unwrap();
+    let last: Vec<&str> = text.lines().last().unwrap().split(',').collect();
+    let off_m: f64 = (0..3).map(|i| (last[i + 1].parse::<f64>().unwrap() - r[i]).powi(2)).sum::<f64>().sqrt();
+    assert!(last[0].starts_with("1728000") && off_m < 10.0, "{off_m} m: {text}");
+    // It went through Mercury's sphere.
+    let centers: Vec<&str> = text.lines().skip(1).filter_map(|line| line.rsplit(',').next()).collect();
+    assert!(centers.contains(&"1") && centers.last() == Some(&"2"), "{centers:?}");
 }
 
 #[test]
