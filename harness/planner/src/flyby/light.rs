@@ -3,7 +3,7 @@
 //! Equation: the force F goes by the pressure, with d from the Sun as 1 / d^2, and turns with the body: dF = dtheta x F + F dP / P. In
 //! downlinks the Sun stands still in the body frame and the Earth stays across w, the Z axis (alternate: turned by 180 deg about the
 //! Sun line s): dtheta = s x ds + a s, a (s . (w x e)) = -w . de - (s x ds) . (w x e), e toward the Earth. Otherwise a = 0. Arrays stand
-//! still to the Sun; that they may follow its distance is left out.
+//! still to the Sun, or follow its distance: then F changes by that too.
 //! Where the downlink attitude turns to its other form (at 90 deg between Sun and Earth for MESSENGER) the acceleration jumps, earlier or
 //! later by dt = -dh / h', h = s . e: the state behind it is off by (a before - a after) dt, the saltation.
 
@@ -55,6 +55,7 @@ impl<'a> LightAlong<'a> {
         let (sun_m, earth_m) = (row.to_sun_m.norm(), row.to_earth_m.norm());
         let (sun, earth) = (row.to_sun_m / sun_m, row.to_earth_m / earth_m);
         let across = across_earth(&row.inertial_from_body, &sun, &earth).filter(|_| row.downlink);
+        let by_distance_n_m = self.sunlit.force_by_distance_n_m(row);
         let columns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|moved: Vector3<f64>| {
             let by_sun = (sun * sun.dot(&moved) - moved) / sun_m;
             let by_earth = (earth * earth.dot(&moved) - moved) / earth_m;
@@ -64,7 +65,7 @@ impl<'a> LightAlong<'a> {
                 turn -= sun * ((across.dot(&by_earth) + turn.dot(&normal)) / sun.dot(&normal));
             }
             let pressure = if self.is_fixed { 0.0 } else { 2.0 * sun.dot(&moved) / sun_m };
-            turn.cross(&motion.light_n) + motion.light_n * pressure
+            turn.cross(&motion.light_n) + motion.light_n * pressure - by_distance_n_m * sun.dot(&moved)
         });
         Matrix3::from_columns(&columns) / motion.mass_kg
     }

@@ -91,8 +91,11 @@ pub fn sunlit(
         center_of_mass_body_m: values.vector("spacecraft.centerOfMass"),
         inertia_body_kg_m2: Matrix3::from_fn(inertia),
     };
-    for (index, (enabled, sign)) in sunlit.panels.iter_mut().enumerate() {
+    let panels = sunlit.panels.iter_mut().zip(&mut sunlit.followed_suns).enumerate();
+    for (index, ((enabled, sign), suns)) in panels {
         let name = |last: &str| format!("panel[{}].{last}", index + 1);
+        let follows = values.item(&name("control")) == Some("distance");
+        *suns = follows.then(|| values.real("articulation.targetSuns"));
         *enabled = values.is_true(&name("enabled"));
         match values.item(&name("tilt")) {
             Some("positive") => *sign = 1.0,

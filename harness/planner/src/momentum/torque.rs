@@ -22,7 +22,7 @@ use physics::{
 
 use super::simulated::FlightRow;
 
-/// Step of the central differences, in rad.
+/// Step of the central differences, in rad or as a share.
 const STEP_RAD: f64 = 1e-4;
 /// Number of controls of a window.
 pub const CONTROLS: usize = 5;
@@ -87,6 +87,8 @@ pub struct SunlitSpacecraft {
     pub centers_of_mass: Vec<(f64, Vector3<f64>)>,
     /// Whether each panel takes part, and the sense of its tilt.
     pub panels: Vec<(bool, f64)>,
+    /// The light on its cells that each panel is turned for as the distance from the Sun changes, in suns, where it is.
+    pub followed_suns: Vec<Option<f64>>,
     /// What torques are given in: EME2000, or, where the body components are integrated, the body frame.
     pub convention: Convention,
     solar: SolarModel,
@@ -108,6 +110,7 @@ impl SunlitSpacecraft {
             antennas: Antennas::of(&spacecraft.antennas),
             mass_at_zero: spacecraft.mass_properties,
             panels: spacecraft.panels.iter().map(|panel| (true, panel.tilt_sign)).collect(),
+            followed_suns: vec![None; spacecraft.panels.len()],
             centers_of_mass: Vec::new(),
             convention: Convention::Inertial,
             light,
@@ -179,19 +182,54 @@ impl SunlitSpacecraft {
     ) -> [Vector3<f64>; 2] {
         let distance_m = row.to_sun_m.norm();
         let sun_body = inertial_from_body.inverse() * (row.to_sun_m / distance_m);
-        let sunlit = SunlitCraft {
+        let sunlit = self.craft(row, settings, distance_m);
+        let center = sunlit.mass_properties(&sun_body).center_of_mass_body_m;
+        let load = sunlit.load(&self.beam(row, sun_body), &center);
+        let torque = self.given_from_body(inertial_from_body) * load.torque_body_n_m;
+        [inertial_from_body * load.force_body_n, torque]
+    }
+
+    fn beam(&self, row: &FlightRow, source_body: Vector3<f64>) -> Beam<f64> {
+        Beam { source_body, pressure_pa: self.light.pressure_pa(row.to_sun_m.norm()) * row.lit_fraction }
+    }
+
+    /// At a row, its panels standing as they do this far from the Sun, in m.
+    fn craft<'a>(
+        &'a self,
+        row: &FlightRow,
+        settings: &'a [PanelSetting],
+        sun_distance_m: f64,
+    ) -> SunlitCraft<'a> {
+        SunlitCraft {
             solar: &self.solar,
             panels: &self.spacecraft.panels,
             settings,
             mass_at_zero: self.mass_at(row.time_s),
             time_s: row.time_s,
-            sun_distance_m: distance_m,
-        };
-        let pressure_pa = self.light.pressure_pa(distance_m) * row.lit_fraction;
-        let center = sunlit.mass_properties(&sun_body).center_of_mass_body_m;
-        let load = sunlit.load(&Beam { source_body: sun_body, pressure_pa }, &center);
-        let torque = self.given_from_body(inertial_from_body) * load.torque_body_n_m;
-        [inertial_from_body * load.force_body_n, torque]
+            sun_distance_m,
+        }
+    }
+
+    /// What panels that follow the distance from the Sun change of the force by it, at the same pressure, EME2000, in N/m.
+    pub fn force_by_distance_n_m(&self, row: &FlightRow) -> Vector3<f64> {
+        if self.followed_suns.iter().all(Option::is_none) {
+            return Vector3::zeros();
+        }
+        let panels = self.panels.iter().zip(&self.followed_suns).zip(&row.panel_angles_rad);
+        let setting =
+            |((&(enabled, tilt_sign), suns), angle_rad): ((&(bool, f64), &Option<f64>), &f64)| match *suns {
+                _ if !enabled => PanelSetting::Disabled,
+                Some(suns) => PanelSetting::Distance { suns, tilt_sign },
+                None => PanelSetting::Angle(Ramp::held(*angle_rad)),
+            };
+        let settings: Vec<_> = panels.map(setting).collect();
+        let distance_m = row.to_sun_m.norm();
+        let sun_body = row.inertial_from_body.inverse() * (row.to_sun_m / distance_m);
+        let [high_n, low_n] = [STEP_RAD, -STEP_RAD].map(|step| {
+            let craft = self.craft(row, &settings, distance_m * (1.0 + step));
+            craft.load(&self.beam(row, sun_body), &Vector3::zeros()).force_body_n
+        });
+        row.inertial_from_body * (high_n - low_n) / (2.0 * STEP_RAD * distance_m)
     }
 
     /// Torque of direct sunlight with arrays and attitude as they were simulated; no angle is a control.

@@ -30,14 +30,14 @@ fn the_manoeuvre_leads_back_to_the_nominal_place() {
     };
     let (aim, nominal_m) = fly(Vector3::zeros(), Vector3::zeros());
     let by_place = encounter.at_epoch_partials.fixed_columns::<3>(0).into_owned();
-    for miss_m in [[50.0, 0.0], [0.0, 50.0], [-30.0, 40.0]] {
+    for miss_m in [[10.0, 0.0], [0.0, 10.0], [-6.0, 8.0]] {
         let shift_m = by_place.try_inverse().unwrap() * Vector3::new(miss_m[0], miss_m[1], 0.0);
         let (missed, without_m) = fly(shift_m, Vector3::zeros());
         assert!((missed.x - aim.x - miss_m[0]).hypot(missed.y - aim.y - miss_m[1]) < 0.05);
         assert!((missed.z - aim.z).abs() < 1e-3);
         let (_, with_m) = fly(shift_m, cost.delta_v_m_s(miss_m));
         let [left_m, whole_m] = [with_m, without_m].map(|it| (it - nominal_m).norm());
-        assert!(left_m < 2e-3 * whole_m && whole_m > 1e5, "{left_m} of {whole_m} m");
+        assert!(left_m < 2e-3 * whole_m && whole_m > 1e3, "{left_m} of {whole_m} m");
     }
     assert!(MissCost::new(&sensitivity, &surroundings(), [date_s, manoeuvre_s]).is_err());
 }

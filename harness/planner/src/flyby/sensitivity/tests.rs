@@ -68,9 +68,7 @@ fn the_encounter_is_that_of_the_flight() {
     assert!((encounter.time_s - flight.aim.z).abs() < 1e-3, "{} {}", encounter.time_s, flight.aim.z);
     let off_m = (encounter.plane.b_t_m - flight.aim.x).hypot(encounter.plane.b_r_m - flight.aim.y);
     assert!(off_m < 10.0, "{off_m}");
-    let distances = flight.recorded.rows.iter().map(|row| row.to_sun_m.norm() / 1.495_978_707e11);
-    let (least, most) =
-        distances.fold((9.0, 0.0), |(least, most), it| (f64::min(least, it), f64::max(most, it)));
+    assert!((encounter.plane.excess_speed_m_s - 5.02e3).abs() < 20.0);
 }
 
 #[test]
@@ -121,13 +119,4 @@ fn the_desired_change_of_velocity_takes_a_miss_away() {
             assert!((direction * desired.size_m_s() - desired.delta_v_m_s).norm() < 1e-12);
         }
     }
-}
-
-#[test]
-fn timing() {
-    let flight = flight(fixed_in_the_body(1.0), true);
-    let begun = std::time::Instant::now();
-    let spacecraft = sunlit([0.0; 3]);
-    let s = Sensitivity::new(&flight.recorded, &surroundings(), &spacecraft).unwrap();
-    println!("TIME sensitivity {:?} cells {}", begun.elapsed(), s.cells.len());
 }
