@@ -4,6 +4,7 @@
 //! theory, then runs what it found through the FMU, which knows nothing of the planner.
 
 pub mod ephemeris;
+pub mod leg;
 pub mod momentum;
 pub mod refit;
 pub mod spin;
