@@ -2,6 +2,8 @@
 
 mod files;
 mod flights;
+pub(crate) mod leg;
+mod mission_text;
 pub(crate) mod momentum;
 mod picture;
 
@@ -20,6 +22,8 @@ pub(crate) enum Plan {
     Spin(Box<SpinPlan>),
     /// Arrays, places of the Sun and alternation that hold the momentum of a mission below its limit
     Momentum(momentum::MomentumOptions),
+    /// The velocity at a place and date with which a mission comes to an encounter with a planet
+    Leg(leg::LegOptions),
 }
 
 /// `heliotorque plan spin`.
@@ -47,6 +51,7 @@ pub(crate) fn run(arguments: &Plan) -> Outcome {
     let arguments = match arguments {
         Plan::Spin(arguments) => arguments,
         Plan::Momentum(options) => return momentum::run(options),
+        Plan::Leg(options) => return leg::run(options),
     };
     let mut options = arguments.options.clone();
     if let Some(path) = &options.spacecraft {

@@ -29,6 +29,12 @@ pub fn impact_parameter_m(distance_m: f64, excess_speed_m_s: f64, mu_m3_s2: f64)
     (distance_m * (distance_m + 2.0 * mu_m3_s2 / (excess_speed_m_s * excess_speed_m_s))).sqrt()
 }
 
+/// Closest distance from a body's centre, in m, of the hyperbola with this length of B.
+pub fn closest_distance_m(b_m: f64, excess_speed_m_s: f64, mu_m3_s2: f64) -> f64 {
+    let axis_m = mu_m3_s2 / (excess_speed_m_s * excess_speed_m_s);
+    b_m * b_m / (axis_m + axis_m.hypot(b_m))
+}
+
 impl Aim {
     /// B along T and R, in m, on a hyperbola without tides about a body of this gravitational parameter and radius.
     pub fn b_m(&self, excess_speed_m_s: f64, mu_m3_s2: f64, radius_m: f64) -> Vector2<f64> {

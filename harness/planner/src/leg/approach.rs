@@ -77,8 +77,9 @@ impl Approach {
 
     /// B.T, B.R (m) and the speed far away (m/s) at a time: a cubic through the four rows about it, beyond the rows the nearest.
     fn b_plane_at(&self, time_s: f64) -> Vector3<f64> {
-        let value =
-            |row: &ApproachRow| Vector3::new(row.b_plane.b_t_m, row.b_plane.b_r_m, row.b_plane.excess_speed_m_s);
+        let value = |row: &ApproachRow| {
+            Vector3::new(row.b_plane.b_t_m, row.b_plane.b_r_m, row.b_plane.excess_speed_m_s)
+        };
         let rows = &self.rows;
         let after = rows.partition_point(|row| row.time_s < time_s);
         match (after.checked_sub(1).and_then(|before| rows.get(before)), rows.get(after)) {

@@ -7,6 +7,6 @@ mod shooting;
 #[cfg(test)]
 mod tests;
 
-pub use aim::{Aim, Flyby, impact_parameter_m};
+pub use aim::{Aim, Flyby, closest_distance_m, impact_parameter_m};
 pub use approach::{Approach, ApproachRow, Encounter};
 pub use shooting::{Failure, Leg, LegError, LegTask, SimulatesLeg, shoot};

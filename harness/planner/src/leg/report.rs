@@ -5,18 +5,33 @@ use physics::environment::dates;
 use serde_json::{Value, json};
 
 use super::{
-    aim::{Aim, Flyby},
+    aim::{Aim, Flyby, closest_distance_m},
     shooting::{Leg, LegTask},
 };
 
 const DAY_S: f64 = 86_400.0;
+
+/// The UTC date of a time of the flight, to the second; `zero_epoch_s` is the epoch of time 0 in s past J2000 TDB.
+pub fn date(time_s: f64, zero_epoch_s: f64) -> String {
+    let date = dates::utc(zero_epoch_s + time_s + 0.5);
+    match date.split_once('.') {
+        Some((seconds, _)) => format!("{seconds} UTC"),
+        None => date,
+    }
+}
+
+/// Altitude of the hyperbola that osculates the lead time before, in m: on the way from there the Sun's tide moves the path.
+pub fn osculating_altitude_m(task: &LegTask, leg: &Leg) -> f64 {
+    let found = &leg.encounter;
+    closest_distance_m(found.b_m.norm(), found.excess_speed_m_s, task.mu_m3_s2) - task.radius_m
+}
 
 /// A time of the flight: its s, and the date where the flight has one.
 fn instant(time_s: f64, zero_epoch_s: Option<f64>) -> Value {
     let mut instant = json!({ "time_s": time_s });
     if let Some(zero_s) = zero_epoch_s {
         instant["epoch_s"] = json!(zero_s + time_s);
-        instant["date"] = json!(dates::utc(zero_s + time_s));
+        instant["date"] = json!(date(time_s, zero_s));
     }
     instant
 }
@@ -64,6 +79,7 @@ pub fn json(
         "days": (found.arrival_s - task.start_s) / DAY_S,
         "altitude_m": found.altitude_m,
         "osculation": instant(found.osculation_s, zero_epoch_s),
+        "osculatingAltitude_m": osculating_altitude_m(task, leg),
         "bT_m": found.b_m.x,
         "bR_m": found.b_m.y,
         "excessSpeed_m_s": found.excess_speed_m_s,

@@ -111,7 +111,7 @@ pub enum LegError {
     Lambert(#[from] LambertError),
     /// An aim inside the body.
     #[error(
-        "|B| of {found_km:.1} km, with {excess_speed_m_s:.1} m/s far from the body: the path ends in it, allowed: above {least_km:.1} km"
+        "found |B| of {found_km:.1} km, with {excess_speed_m_s:.1} m/s far from the body: the path ends in it, allowed: above {least_km:.1} km"
     )]
     Inside {
         /// Length of B, km.
@@ -122,7 +122,9 @@ pub enum LegError {
         excess_speed_m_s: f64,
     },
     /// Flights that do not come near.
-    #[error("{rounds} flights came no nearer to the aim than {miss_km:.3} km")]
+    #[error(
+        "found no flight nearer to the aim than {miss_km:.3} km, of {rounds}, allowed: an encounter that can be reached from this place"
+    )]
     Lost {
         /// How many.
         rounds: u32,
@@ -170,13 +172,19 @@ impl LegTask {
         let least_m = impact_parameter_m(self.radius_m, excess_speed_m_s, self.mu_m3_s2);
         let [found_km, least_km] = [found_m, least_m].map(|size_m| 1e-3 * size_m);
         // Not a number is no aim either.
-        if found_m > least_m { Ok(()) } else { Err(LegError::Inside { found_km, least_km, excess_speed_m_s }) }
+        if found_m > least_m {
+            Ok(())
+        } else {
+            Err(LegError::Inside { found_km, least_km, excess_speed_m_s })
+        }
     }
 
     /// What an encounter lacks to the aim along T and R, and along S by its time, m.
     fn lacks_m(&self, found: &Encounter) -> Vector3<f64> {
         let lacks = match self.aim {
-            Aim::Plane { .. } => self.aim.b_m(found.excess_speed_m_s, self.mu_m3_s2, self.radius_m) - found.b_m,
+            Aim::Plane { .. } => {
+                self.aim.b_m(found.excess_speed_m_s, self.mu_m3_s2, self.radius_m) - found.b_m
+            }
             Aim::Altitude { altitude_m, angle_rad } => {
                 // The altitude is that of the flight, which is not the hyperbola's of the lead time.
                 let size_m = found.b_m.norm();

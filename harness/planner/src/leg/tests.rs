@@ -3,13 +3,13 @@
 use nalgebra::Vector3;
 use physics::{
     bodies::{Body, BodyData},
-    constants::{ASTRONOMICAL_UNIT_M, DAY_S, GM_MERCURY_M3_S2, RADIUS_MERCURY_M},
+    constants::{ASTRONOMICAL_UNIT_M, DAY_S, GM_MERCURY_M3_S2, GM_SUN_M3_S2, RADIUS_MERCURY_M},
     environment::{
-        CartesianState,
+        CartesianState, dates,
         ephemeris::Ephemeris,
         orbit::{
-            BPlane, BodyPlaces, DisturbedOrbit, LambertBranch, LambertError, NBodyGravity, NBodySettings,
-            OrbitMethod,
+            BPlane, BodyPlaces, DisturbedOrbit, LambertArc, LambertBranch, LambertError, NBodyGravity,
+            NBodySettings, OrbitMethod, TwoBodyOrbit,
         },
     },
 };
@@ -64,7 +64,8 @@ impl Flights<'_> {
             tolerance_m: 1e-3,
         };
         let all = [Body::Venus, Body::Earth, Body::Jupiter].into_iter();
-        let all = all.chain(mercury.then_some(Body::Mercury)).map(|body| BodyData { j2: 0.0, ..*body.data() });
+        let all =
+            all.chain(mercury.then_some(Body::Mercury)).map(|body| BodyData { j2: 0.0, ..*body.data() });
         let gravity = NBodyGravity::new(settings, Body::Sun.data(), all, None);
         let start = CartesianState { position_m: self.task.position_m, velocity_m_s: *velocity_m_s };
         let mut orbit = DisturbedOrbit::between_bodies(&start, self.task.start_s, &gravity)?;
@@ -191,7 +192,7 @@ fn what_cannot_be_is_refused_before_a_flight_to_the_body() {
     assert!(matches!(short, LegError::Lambert(LambertError::TooShort { revolutions: 1, .. })), "{short}");
     let mercury = Sky(Ephemeris::default()).heliocentric(Body::Mercury, 0.0);
     let opposite = refused(LegTask { position_m: mercury.position_m * -1.2, ..task(80.0, aim) });
-    assert!(opposite.to_string().starts_with("the places are 180 deg apart"), "{opposite}");
+    assert!(opposite.to_string().starts_with("found places 180 deg apart"), "{opposite}");
 }
 
 #[test]
@@ -204,10 +205,65 @@ fn a_flyby_turns_by_what_its_hyperbola_turns() {
         position_m: Vector3::new(-far_m, b_m, 0.0),
         velocity_m_s: Vector3::new((5.2e3_f64.powi(2) + 2.0 * GM_MERCURY_M3_S2 / far_m).sqrt(), 0.0, 0.0),
     };
-    let orbit = physics::environment::orbit::TwoBodyOrbit::from_state(&start, GM_MERCURY_M3_S2, 0.0).unwrap();
+    let orbit = TwoBodyOrbit::from_state(&start, GM_MERCURY_M3_S2, 0.0).unwrap();
     let end = orbit.state_at(2.0 * orbit.periapsis_epoch_s(0));
     let change_m_s = (end.velocity_m_s - start.velocity_m_s).norm();
     assert!((change_m_s / flyby.delta_v_m_s - 1.0).abs() < 1e-5, "{change_m_s} {flyby:?}");
     assert!((end.velocity_m_s.angle(&start.velocity_m_s) - flyby.turn_rad).abs() < 1e-5);
     assert!((flyby.delta_v_m_s - 2452.0).abs() < 20.0, "{flyby:?}");
+}
+
+#[test]
+fn a_hyperbola_has_one_closest_distance_for_its_b() {
+    for distance_m in [2.5e6, 1e7, 1e9] {
+        let b_m = impact_parameter_m(distance_m, 5.2e3, GM_MERCURY_M3_S2);
+        assert!((closest_distance_m(b_m, 5.2e3, GM_MERCURY_M3_S2) / distance_m - 1.0).abs() < 1e-12);
+    }
+}
+
+/// A vector of a shipped leg file, `[depart]`, in SI.
+fn shipped(number: u32, key: &str, unit: &str, factor: f64) -> Vector3<f64> {
+    let file = format!("../../fmu-src/resources/examples/legs/messenger-flyby{number}.toml");
+    let leg: toml::Table = std::fs::read_to_string(file).unwrap().parse().unwrap();
+    let parts = leg["depart"][key].as_array().unwrap().iter();
+    let parts =
+        parts.map(|part| part.as_str().unwrap().strip_suffix(unit).unwrap().trim().parse::<f64>().unwrap());
+    Vector3::from_iterator(parts) * factor
+}
+
+/// What the heads of the shipped leg files say of their places, to the kilometre and millimetre a second that stand there.
+#[test]
+fn places_of_the_shipped_legs_are_where_their_files_say() {
+    let mut sky = Ephemeris::default();
+    let mut at = |body: Body, date: &str| sky.state(body, dates::epoch_s(date).unwrap());
+    let (first, second) = ("2008-01-14T19:04:00 UTC", "2008-10-06T08:40:00 UTC");
+    let epoch_s = |date: &str| dates::epoch_s(date).unwrap();
+
+    let (venus, mercury) = (at(Body::Venus, "2007-06-05T23:08:00 UTC"), at(Body::Mercury, first));
+    let arc = LambertArc {
+        from_m: venus.position_m,
+        to_m: mercury.position_m,
+        time_s: epoch_s(first) - epoch_s("2007-06-05T23:08:00 UTC"),
+        north: venus.position_m.cross(&venus.velocity_m_s),
+        mu_m3_s2: GM_SUN_M3_S2,
+    };
+    let velocity_m_s = arc.revolving(1, LambertBranch::Left).unwrap().from_m_s;
+    let start = CartesianState { velocity_m_s, ..venus };
+    let orbit = TwoBodyOrbit::from_state(&start, GM_SUN_M3_S2, epoch_s("2007-06-05T23:08:00 UTC")).unwrap();
+    let place = orbit.state_at(epoch_s("2007-12-19T00:00:00 UTC"));
+    assert!((place.position_m - shipped(1, "position", "km", 1e3)).amax() <= 501.0);
+    assert!((place.velocity_m_s - shipped(1, "velocity", "m/s", 1.0)).amax() <= 0.51e-3);
+
+    let mercury = at(Body::Mercury, second);
+    let [perihelion_m, aphelion_m] = [0.315, 0.70].map(|distance| distance * ASTRONOMICAL_UNIT_M);
+    let momentum = (2.0 * GM_SUN_M3_S2 * perihelion_m * aphelion_m / (perihelion_m + aphelion_m)).sqrt();
+    let (up, distance_m) = (mercury.position_m.normalize(), mercury.position_m.norm());
+    let across_m_s = momentum / distance_m;
+    let speed_squared = GM_SUN_M3_S2 * (2.0 / distance_m - 2.0 / (perihelion_m + aphelion_m));
+    let inward_m_s = (speed_squared - across_m_s * across_m_s).sqrt();
+    let ahead = mercury.position_m.cross(&mercury.velocity_m_s).normalize().cross(&up);
+    let end = CartesianState { velocity_m_s: ahead * across_m_s - up * inward_m_s, ..mercury };
+    let orbit = TwoBodyOrbit::from_state(&end, GM_SUN_M3_S2, epoch_s(second)).unwrap();
+    let place = orbit.state_at(epoch_s("2008-03-19T00:00:00 UTC"));
+    assert!((place.position_m - shipped(2, "position", "km", 1e3)).amax() <= 501.0);
 }

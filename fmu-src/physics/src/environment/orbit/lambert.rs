@@ -65,14 +65,16 @@ pub enum LambertError {
     Orbit(#[from] OrbitError),
     /// Both places and the centre lie on a line.
     #[error(
-        "the places are {angle_deg} deg apart as seen from the centre, in line with it: no plane of an arc, allowed: any other angle"
+        "found places {angle_deg} deg apart as seen from the centre, in line with it: no plane of an arc, allowed: any other angle"
     )]
     InLine {
         /// Angle between them, deg.
         angle_deg: f64,
     },
     /// So many revolutions take longer.
-    #[error("{revolutions} revolutions take {least_s} s at least, found {time_s} s")]
+    #[error(
+        "found {time_s} s for {revolutions} revolutions, which take longer, allowed: {least_s} s at least, or fewer"
+    )]
     TooShort {
         /// Whole revolutions.
         revolutions: u32,
@@ -82,7 +84,9 @@ pub enum LambertError {
         time_s: f64,
     },
     /// A time so long or short that no double is near enough to it.
-    #[error("the time of {time_s} s is out of proportion to the places")]
+    #[error(
+        "found {time_s} s between the places, out of all proportion, allowed: less, or places farther apart"
+    )]
     Time {
         /// It, s.
         time_s: f64,
