@@ -8,6 +8,10 @@ const RESOURCES: &str = "../../fmu-src/resources";
 const AU_M: f64 = 149_597_870_700.0;
 const LEAD_S: f64 = 21_600.0;
 
+/// An ephemeris of ten days in the year 2000.
+const SHORT: &str = "frame = \"EME2000\"\n[[body]]\nbody = \"mercury\"\ncenter = \"sun\"\ndegree = 0\nerror_m = 1.0\n\
+                     error_m_s = 0.1\nsegment = [{ start_s = 0.0, end_s = 864000.0, x_m = [5e10], y_m = [0], z_m = [0] }]\n";
+
 /// A leg and its mission in a folder, edited.
 pub(crate) fn flyby(folder: &Path, number: u32, edits: &[(&str, &str)]) {
     let read = |name: &str| fs::read_to_string(Path::new(RESOURCES).join(name)).unwrap();
@@ -21,6 +25,7 @@ pub(crate) fn flyby(folder: &Path, number: u32, edits: &[(&str, &str)]) {
         assert!(mission.contains(old) || leg.contains(old), "{old}");
         (mission, leg) = (mission.replace(old, new), leg.replace(old, new));
     }
+    fs::write(folder.join("short.toml"), SHORT).unwrap();
     fs::write(folder.join("flyby.toml"), mission).unwrap();
     fs::write(folder.join("leg.toml"), leg).unwrap();
 }

@@ -192,7 +192,7 @@ fn what_cannot_be_is_refused_before_a_flight_to_the_body() {
     assert!(matches!(short, LegError::Lambert(LambertError::TooShort { revolutions: 1, .. })), "{short}");
     let mercury = Sky(Ephemeris::default()).heliocentric(Body::Mercury, 0.0);
     let opposite = refused(LegTask { position_m: mercury.position_m * -1.2, ..task(80.0, aim) });
-    assert!(opposite.to_string().starts_with("found places 180 deg apart"), "{opposite}");
+    assert!(opposite.to_string().starts_with("found places 180.000 deg apart"), "{opposite}");
 }
 
 #[test]

@@ -14,6 +14,7 @@ use nalgebra::Vector3;
 use thiserror::Error;
 
 use super::elements::{OrbitError, check, check_mu};
+use crate::constants::DAY_S;
 use crate::math;
 use crate::numerics::roots::{RootError, bracketed};
 
@@ -65,7 +66,7 @@ pub enum LambertError {
     Orbit(#[from] OrbitError),
     /// Both places and the centre lie on a line.
     #[error(
-        "found places {angle_deg} deg apart as seen from the centre, in line with it: no plane of an arc, allowed: any other angle"
+        "found places {angle_deg:.3} deg apart as seen from the centre, in line with it: no plane of an arc, allowed: any other angle"
     )]
     InLine {
         /// Angle between them, deg.
@@ -73,7 +74,7 @@ pub enum LambertError {
     },
     /// So many revolutions take longer.
     #[error(
-        "found {time_s} s for {revolutions} revolutions, which take longer, allowed: {least_s} s at least, or fewer"
+        "found {:.3} d with {revolutions} revolutions, allowed: {:.3} d or more, or fewer revolutions", .time_s / DAY_S, .least_s / DAY_S
     )]
     TooShort {
         /// Whole revolutions.
