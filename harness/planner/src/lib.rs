@@ -1,9 +1,10 @@
-//! Optimal plans, ephemerides to carry, what a history of momentum says of a spacecraft, and how long downlinks can hold it.
+//! Optimal plans, what an encounter depends on, ephemerides to carry, what a history of momentum says of a spacecraft, and how long downlinks can hold it.
 //!
 //! The planner is the only part of the harness that uses the physics directly: it searches with the fast linear
 //! theory, then runs what it found through the FMU, which knows nothing of the planner.
 
 pub mod ephemeris;
+pub mod flyby;
 pub mod leg;
 pub mod momentum;
 pub mod refit;

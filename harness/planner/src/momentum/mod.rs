@@ -13,7 +13,7 @@ mod region;
 pub mod report;
 pub mod simulated;
 #[cfg(test)]
-mod test_spacecraft;
+pub(crate) mod test_spacecraft;
 pub mod torque;
 pub mod windows;
 

@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
 use super::{
     program::{Begin, Program, Step},
     simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
-    torque::{Attitude, CONTROLS, Control, SunlitSpacecraft},
+    torque::{CONTROLS, Control, SunlitSpacecraft},
     windows::{Window, WindowKind},
 };
 
@@ -418,13 +418,7 @@ struct At {
 
 impl At {
     fn of(sunlit: &SunlitSpacecraft, row: &FlightRow, window: &Window) -> Self {
-        let found = match window.kind {
-            WindowKind::Free => sunlit.linearised(row, Attitude::Downlink, &window.controls),
-            WindowKind::Frozen => sunlit.simulated(row),
-            WindowKind::Fixed | WindowKind::Planned => {
-                sunlit.linearised(row, Attitude::SimulatedFlight, &window.controls)
-            }
-        };
+        let found = window.linearised(sunlit, row);
         Self {
             torque: found.torque,
             by_angle: found.by_angle,

@@ -4,6 +4,7 @@ use model_description::{Description, start_values, value::Value};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use physics::{
     attitude::Attitude,
+    environment::CartesianState,
     momentum::Convention,
     plant::{LightSource, SunLight},
     refusal::Refusal,
@@ -11,7 +12,7 @@ use physics::{
 };
 
 use super::{
-    simulated::{FlightRow, SimulatedFlight},
+    simulated::{FlightRow, Motion, SimulatedFlight},
     torque::SunlitSpacecraft,
 };
 
@@ -122,12 +123,24 @@ pub fn recorded(convention: Convention) -> [&'static str; 10] {
     ]
 }
 
+/// What is recorded beside it where the motion counts: of a flight to an encounter.
+pub const RECORDED_MOTION: [&str; 7] = [
+    "velocity",
+    "sun.velocityInertial",
+    "encounter.position",
+    "encounter.velocity",
+    "force.solar",
+    "force.thermal",
+    "mass",
+];
+
 /// The variable with the angle of a panel, from 0.
 pub fn panel(number: usize) -> String {
     format!("panel[{}].angleActual", number + 1)
 }
 
-/// A recording as a flight; `column` gives the values of a variable, a flag as 1 or 0.
+/// A recording as a flight, with its motion where it has [`RECORDED_MOTION`]; `column` gives the values of a variable, a flag as 1
+/// or 0.
 ///
 /// # Errors
 /// A column that is not there, a quaternion that is none.
@@ -148,6 +161,28 @@ pub fn flight(
     let (position, sun, earth, total, solar, momentum) = (position?, sun?, earth?, total?, solar?, momentum?);
     let q = columns(q, 4)?;
     let (lit, dumps, downlink) = (column(lit)?, column(dumps)?, column(downlink)?);
+    let motion = match column("velocity[1]") {
+        Ok(_) => {
+            let [velocity, sun_velocity, body, body_velocity, light, heat, mass] = RECORDED_MOTION;
+            let names = [velocity, sun_velocity, body, body_velocity, light, heat];
+            let of = names.map(|name| columns(name, 3)).into_iter().collect::<Result<Vec<_>, _>>()?;
+            Some((of, column(mass)?))
+        }
+        Err(_) => None,
+    };
+    let motion_at = |row: usize, inertial_from_body: &Rotation3<f64>| {
+        let (columns, mass) = motion.as_ref()?;
+        let at = |index: usize| vector(&columns[index], row);
+        let sun = CartesianState { position_m: vector(&sun, row), velocity_m_s: at(1) };
+        let here = CartesianState { position_m: vector(&position, row), velocity_m_s: at(0) };
+        let body = CartesianState { position_m: at(2), velocity_m_s: at(3) };
+        Some(Motion {
+            from_sun: here - sun,
+            body_from_sun: body - sun,
+            mass_kg: mass[row],
+            light_n: inertial_from_body * (at(4) + at(5)),
+        })
+    };
     let angles = (0..panels).map(|number| column(&panel(number))).collect::<Result<Vec<_>, _>>()?;
     let attitude = |row: usize| -> Result<Rotation3<f64>, String> {
         let q = [0, 1, 2, 3].map(|part: usize| q[part][row]);
@@ -171,6 +206,7 @@ pub fn flight(
             momentum_n_m_s: vector(&momentum, row),
             dumps: dumps[row] as u32,
             downlink: downlink[row] != 0.0,
+            motion: motion_at(row, &inertial_from_body),
         })
     });
     let mut rows: Vec<FlightRow> = rows.collect::<Result<_, _>>()?;

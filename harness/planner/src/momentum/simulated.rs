@@ -1,6 +1,7 @@
 //! A flight as the FMU reports it: geometry, attitude, torque and momentum at its communication points.
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
+use physics::environment::CartesianState;
 
 /// What is meant by the size of a momentum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -19,6 +20,52 @@ impl MomentumSize {
             Self::Length => momentum.norm(),
             Self::LargestComponent => momentum.amax(),
         }
+    }
+}
+
+/// How the spacecraft moves between the Sun and the body of its encounter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// The spacecraft from the Sun, EME2000.
+    pub from_sun: CartesianState,
+    /// The body of the encounter from the Sun, EME2000; the centre of the orbit where there is no encounter.
+    pub body_from_sun: CartesianState,
+    /// Mass of the spacecraft, in kg.
+    pub mass_kg: f64,
+    /// Force of sunlight and of the heat that it leaves, EME2000, in N.
+    pub light_n: Vector3<f64>,
+}
+
+impl Motion {
+    /// The spacecraft from the body of the encounter, EME2000.
+    pub fn from_body(&self) -> CartesianState {
+        self.from_sun - self.body_from_sun
+    }
+
+    /// Motion `share` of the `span_s` to `next`: paths by the cubics with both velocities, whose error is h^4 / 384 times the
+    /// fourth derivative: 50 m for rows 6 h apart 0.3 AU from the Sun.
+    pub fn toward(&self, next: &Self, share: f64, span_s: f64) -> Self {
+        let path = |from: &CartesianState, to: &CartesianState| hermite(from, to, share, span_s);
+        Self {
+            from_sun: path(&self.from_sun, &next.from_sun),
+            body_from_sun: path(&self.body_from_sun, &next.body_from_sun),
+            mass_kg: self.mass_kg + share * (next.mass_kg - self.mass_kg),
+            light_n: self.light_n.lerp(&next.light_n, share),
+        }
+    }
+}
+
+/// On the cubic through two states that are `span_s` apart.
+fn hermite(from: &CartesianState, to: &CartesianState, share: f64, span_s: f64) -> CartesianState {
+    let rest = 1.0 - share;
+    let chord_m = to.position_m - from.position_m;
+    let [first_m, last_m] = [from, to].map(|state| state.velocity_m_s * span_s);
+    let bulge_m = (first_m - chord_m) * rest - (last_m - chord_m) * share;
+    let slope_m = (first_m - chord_m) * (rest * (1.0 - 3.0 * share))
+        + (last_m - chord_m) * (share * (3.0 * share - 2.0));
+    CartesianState {
+        position_m: from.position_m + chord_m * share + bulge_m * (share * rest),
+        velocity_m_s: (chord_m + slope_m) / span_s,
     }
 }
 
@@ -45,12 +92,15 @@ pub struct FlightRow {
     pub dumps: u32,
     /// Whether a downlink lasts.
     pub downlink: bool,
+    /// Motion and light, where they were recorded.
+    pub motion: Option<Motion>,
 }
 
 impl FlightRow {
     /// The row `share` of the way to `next`, with the dumps of this one.
-    fn toward(&self, next: &Self, share: f64) -> Self {
+    pub(crate) fn toward(&self, next: &Self, share: f64) -> Self {
         let mixed = |a: f64, b: f64| a + share * (b - a);
+        let span_s = next.time_s - self.time_s;
         let [from, to] =
             [self, next].map(|row| UnitQuaternion::from_rotation_matrix(&row.inertial_from_body));
         let attitude = from.try_slerp(&to, share, 1e-12).unwrap_or(from);
@@ -66,6 +116,7 @@ impl FlightRow {
             momentum_n_m_s: self.momentum_n_m_s.lerp(&next.momentum_n_m_s, share),
             dumps: self.dumps,
             downlink: self.downlink,
+            motion: self.motion.zip(next.motion).map(|(from, to)| from.toward(&to, share, span_s)),
         }
     }
 }

@@ -18,7 +18,7 @@ use super::{
 pub(super) const DAY_S: f64 = 86_400.0;
 
 /// With the centre of mass there, in m.
-pub(super) fn sunlit(center_of_mass_m: [f64; 3]) -> SunlitSpacecraft {
+pub(crate) fn sunlit(center_of_mass_m: [f64; 3]) -> SunlitSpacecraft {
     let spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
     let light = SunLight { source: LightSource::Distance { flux_w_m2: 1358.0 }, scale: 1.0 };
     let mut sunlit = SunlitSpacecraft::new(spacecraft, light, None).unwrap();
@@ -40,6 +40,7 @@ pub(super) fn row(sunlit: &SunlitSpacecraft, time_s: f64, distance_au: f64, alon
         momentum_n_m_s: Vector3::zeros(),
         dumps: 0,
         downlink: true,
+        motion: None,
     };
     row.inertial_from_body = sunlit.downlink_attitude(&row, 0.0, 0.0).unwrap();
     row

@@ -1,7 +1,7 @@
-//! Torque of sunlight by array offset, windmill angle, place of the Sun and alternation, and its derivatives.
+//! Force and torque of sunlight by array offset, windmill angle, place of the Sun and alternation, and their derivatives.
 //!
 //! The downlink attitude puts the Sun at azimuth A and elevation E of the body frame, the Earth in the XY plane; the alternate one is the
-//! same turned by 180 deg about the Sun line s, so that its torque is T' = 2 s (s.T) - T: what lies across the Sun line changes sign.
+//! same turned by 180 deg about the Sun line s, so that its torque is T' = 2 s (s.T) - T, its force alike: what lies across the Sun line changes sign.
 //! Of a share a of the time in the alternate attitude the mean torque is (1 - a) T + a T'. Derivatives by the angles are central
 //! differences of the physics with a step of [`STEP_RAD`] (error of its square, 1e-8 relative); that by the share is exact.
 
@@ -170,7 +170,7 @@ impl SunlitSpacecraft {
         panels.map(one).collect()
     }
 
-    /// Force and torque about the centre of mass of direct sunlight, in N and N m.
+    /// Force in EME2000 and torque about the centre of mass of direct sunlight, in N and N m.
     fn load(
         &self,
         row: &FlightRow,
@@ -190,8 +190,8 @@ impl SunlitSpacecraft {
         let pressure_pa = self.light.pressure_pa(distance_m) * row.lit_fraction;
         let center = sunlit.mass_properties(&sun_body).center_of_mass_body_m;
         let load = sunlit.load(&Beam { source_body: sun_body, pressure_pa }, &center);
-        let given_from_body = self.given_from_body(inertial_from_body);
-        [load.force_body_n, load.torque_body_n_m].map(|it| given_from_body * it)
+        let torque = self.given_from_body(inertial_from_body) * load.torque_body_n_m;
+        [inertial_from_body * load.force_body_n, torque]
     }
 
     /// Torque of direct sunlight with arrays and attitude as they were simulated; no angle is a control.
@@ -203,7 +203,7 @@ impl SunlitSpacecraft {
         };
         let settings: Vec<_> = enabled.zip(&row.panel_angles_rad).map(angle).collect();
         let loads = self.load(row, &row.inertial_from_body, &settings);
-        self.linear(row, &row.inertial_from_body, loads, [Vector3::zeros(); 4])
+        self.linear(row, &row.inertial_from_body, loads, [[Vector3::zeros(); 2]; 4])
     }
 
     /// Torque of direct sunlight in the attitude that is not alternate, in N m.
@@ -222,15 +222,15 @@ impl SunlitSpacecraft {
         self.load(row, &inertial_from_body, &self.settings(controls))
     }
 
-    /// That torque and its derivatives by the angles, each with that of the alternate attitude behind it.
+    /// That torque, the force with it, and their derivatives by the angles.
     pub fn linearised(&self, row: &FlightRow, attitude: Attitude, controls: &Controls) -> LinearTorque {
-        let at = |controls: &Controls| self.torque_n_m(row, attitude, controls);
         let by = |control: Control| {
             let value = controls.get(control);
-            let [high, low] = [STEP_RAD, -STEP_RAD].map(|step| at(&controls.with(control, value + step)));
-            (high - low) / (2.0 * STEP_RAD)
+            let at = |step: f64| self.loads(row, attitude, &controls.with(control, value + step));
+            let [high, low] = [at(STEP_RAD), at(-STEP_RAD)];
+            [0, 1].map(|of| (high[of] - low[of]) / (2.0 * STEP_RAD))
         };
-        let mut by_angle = [Vector3::zeros(); 4];
+        let mut by_angle = [[Vector3::zeros(); 2]; 4];
         by_angle[0] = by(Control::Offset);
         by_angle[1] = by(Control::Windmill);
         if attitude == Attitude::Downlink {
@@ -250,12 +250,20 @@ impl SunlitSpacecraft {
         &self,
         row: &FlightRow,
         inertial_from_body: &Rotation3<f64>,
-        [force, torque]: [Vector3<f64>; 2],
-        by_angle: [Vector3<f64>; 4],
+        [force_n, torque]: [Vector3<f64>; 2],
+        loads_by_angle: [[Vector3<f64>; 2]; 4],
     ) -> LinearTorque {
         // T = sum (r - c) x F, so dT/dc_i = -e_i x F.
-        let by_center = force.cross_matrix() * self.given_from_body(inertial_from_body).matrix();
-        LinearTorque { torque, by_angle, by_center, half_turn: half_turn(&row.to_sun_m) }
+        let given_from_body = self.given_from_body(inertial_from_body);
+        let given_force_n = given_from_body * (inertial_from_body.inverse() * force_n);
+        LinearTorque {
+            torque,
+            by_angle: loads_by_angle.map(|[_, torque]| torque),
+            force_n,
+            force_by_angle: loads_by_angle.map(|[force, _]| force),
+            by_center: given_force_n.cross_matrix() * given_from_body.matrix(),
+            half_turn: half_turn(&row.to_sun_m),
+        }
     }
 }
 
@@ -266,6 +274,10 @@ pub struct LinearTorque {
     pub torque: Vector3<f64>,
     /// By offset, windmill, azimuth, elevation, in N m/rad.
     pub by_angle: [Vector3<f64>; 4],
+    /// Force with it, EME2000, in N.
+    pub force_n: Vector3<f64>,
+    /// That by the same angles, in N/rad.
+    pub force_by_angle: [Vector3<f64>; 4],
     /// By the centre of mass, body frame, in N.
     pub by_center: Matrix3<f64>,
     /// Takes a vector to that turned by 180 deg about the Sun line.
@@ -275,10 +287,24 @@ pub struct LinearTorque {
 impl LinearTorque {
     /// Mean torque of a share of the alternate attitude, and its derivatives by the controls.
     pub fn mean(&self, alternate: f64) -> (Vector3<f64>, [Vector3<f64>; CONTROLS]) {
+        self.mean_of(&self.torque, &self.by_angle, alternate)
+    }
+
+    /// Mean force, EME2000, in N, and its derivatives by the controls.
+    pub fn mean_force_n(&self, alternate: f64) -> (Vector3<f64>, [Vector3<f64>; CONTROLS]) {
+        self.mean_of(&self.force_n, &self.force_by_angle, alternate)
+    }
+
+    fn mean_of(
+        &self,
+        vector: &Vector3<f64>,
+        by_angle: &[Vector3<f64>; 4],
+        alternate: f64,
+    ) -> (Vector3<f64>, [Vector3<f64>; CONTROLS]) {
         let mix = self.mix(alternate);
-        let [offset, windmill, azimuth, elevation] = self.by_angle.map(|it| mix * it);
-        let by_share = self.half_turn * self.torque - self.torque;
-        (mix * self.torque, [offset, windmill, azimuth, elevation, by_share])
+        let [offset, windmill, azimuth, elevation] = by_angle.map(|it| mix * it);
+        let by_share = self.half_turn * vector - vector;
+        (mix * vector, [offset, windmill, azimuth, elevation, by_share])
     }
 
     /// (1 - a) 1 + a times the half turn.

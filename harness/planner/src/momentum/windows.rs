@@ -6,7 +6,7 @@ use super::{
     baseline::{NoOffset, OffsetStep, allowed_rad, baseline},
     places::{PlaceSide, places},
     simulated::{FlightRow, SAME_S, SimulatedFlight},
-    torque::{CONTROLS, Control, Controls, SunlitSpacecraft},
+    torque::{Attitude, CONTROLS, Control, Controls, LinearTorque, SunlitSpacecraft},
 };
 
 /// What a window is.
@@ -65,6 +65,17 @@ impl Window {
     /// In s.
     pub fn length_s(&self) -> f64 {
         self.stop_s - self.start_s
+    }
+
+    /// Sunlight at a row of the window about its present controls.
+    pub fn linearised(&self, sunlit: &SunlitSpacecraft, row: &FlightRow) -> LinearTorque {
+        match self.kind {
+            WindowKind::Free => sunlit.linearised(row, Attitude::Downlink, &self.controls),
+            WindowKind::Frozen => sunlit.simulated(row),
+            WindowKind::Fixed | WindowKind::Planned => {
+                sunlit.linearised(row, Attitude::SimulatedFlight, &self.controls)
+            }
+        }
     }
 
     fn free_s(&self) -> f64 {

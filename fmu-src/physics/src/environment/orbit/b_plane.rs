@@ -5,10 +5,12 @@
 //! J2000; R = S x T.
 //! Reference: Kizner, A Method of Describing Miss Distances for Lunar and Interplanetary Trajectories, 1961; paper 003.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3x6, Vector3};
 
 use crate::environment::CartesianState;
 use crate::environment::frames::dcm_eme2000_from_ecliptic;
+use crate::math;
+use crate::numerics::scalar::{Dual64, Scalar, constant_vector};
 
 /// An osculating hyperbola in its B-plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,26 +26,62 @@ pub struct BPlane {
 impl BPlane {
     /// Of a state in EME2000 about a body of gravitational parameter `mu_m3_s2`; `None` on an ellipse or a straight line.
     pub fn of(state: &CartesianState, mu_m3_s2: f64) -> Option<Self> {
-        let (r, v) = (state.position_m, state.velocity_m_s);
-        let excess_squared = v.norm_squared() - 2.0 * mu_m3_s2 / r.norm();
-        let momentum = r.cross(&v);
-        let momentum_m2_s = momentum.norm();
-        if !(excess_squared > 0.0 && momentum_m2_s > 0.0) {
-            return None;
-        }
-        let normal = momentum / momentum_m2_s;
-        let excess_speed_m_s = excess_squared.sqrt();
-        // Through the semi-latus rectum: the difference of nearly equal vectors is not exact far from the body.
-        let ratio_s_m = momentum_m2_s / mu_m3_s2;
-        let eccentricity = (1.0 + excess_squared * ratio_s_m * ratio_s_m).sqrt();
-        let toward = (v.cross(&momentum) / mu_m3_s2 - r.normalize()).normalize();
-        let cosine = 1.0 / eccentricity;
-        let asymptote = toward * cosine + normal.cross(&toward) * (1.0 - cosine * cosine).sqrt();
-        let north = dcm_eme2000_from_ecliptic() * Vector3::z();
-        let t = asymptote.cross(&north).try_normalize(0.0)?;
-        let b_m = asymptote.cross(&normal) * (momentum_m2_s / excess_speed_m_s);
-        Some(Self { b_t_m: b_m.dot(&t), b_r_m: b_m.dot(&asymptote.cross(&t)), excess_speed_m_s })
+        let [b_t_m, b_r_m, excess_speed_m_s] = components(&state.position_m, &state.velocity_m_s, mu_m3_s2)?;
+        Some(Self { b_t_m, b_r_m, excess_speed_m_s })
     }
+
+    /// Exact partials of B.T, B.R (m) and of the speed far from the body (m/s) by that state (m, m/s).
+    pub fn partials(state: &CartesianState, mu_m3_s2: f64) -> Option<Matrix3x6<f64>> {
+        let mut partials = Matrix3x6::zeros();
+        for (axis, mut column) in partials.column_iter_mut().enumerate() {
+            let [mut position_m, mut velocity_m_s] =
+                [&state.position_m, &state.velocity_m_s].map(constant_vector::<Dual64>);
+            let seeded = if axis < 3 { &mut position_m[axis] } else { &mut velocity_m_s[axis - 3] };
+            seeded.eps = 1.0;
+            column.copy_from_slice(
+                &components(&position_m, &velocity_m_s, mu_m3_s2)?.map(|component| component.eps),
+            );
+        }
+        Some(partials)
+    }
+
+    /// Angle by which the body turns the path, in rad: tan(angle / 2) = mu / (B v^2).
+    pub fn turn_rad(&self, mu_m3_s2: f64) -> f64 {
+        2.0 * math::atan2(mu_m3_s2, self.size_m() * self.excess_speed_m_s * self.excess_speed_m_s)
+    }
+
+    /// Change of the velocity far behind the body for a miss in any direction of the plane, in m/s a m: v sin(turn) / B.
+    pub fn outgoing_change_1_s(&self, mu_m3_s2: f64) -> f64 {
+        self.excess_speed_m_s * math::sin(self.turn_rad(mu_m3_s2)) / self.size_m()
+    }
+
+    /// Length of B, m.
+    pub fn size_m(&self) -> f64 {
+        math::hypot(self.b_t_m, self.b_r_m)
+    }
+}
+
+/// B.T, B.R and the speed far from the body.
+fn components<T: Scalar>(r: &Vector3<T>, v: &Vector3<T>, mu_m3_s2: f64) -> Option<[T; 3]> {
+    let one = T::constant(1.0);
+    let excess_squared = v.norm_squared() - T::constant(2.0 * mu_m3_s2) / r.norm();
+    let momentum = r.cross(v);
+    let momentum_m2_s = momentum.norm();
+    if !(excess_squared.value() > 0.0 && momentum_m2_s.value() > 0.0) {
+        return None;
+    }
+    let normal = momentum / momentum_m2_s;
+    let excess_speed_m_s = excess_squared.sqrt();
+    // Through the semi-latus rectum: the difference of nearly equal vectors is not exact far from the body.
+    let ratio_s_m = momentum_m2_s / mu_m3_s2;
+    let eccentricity = (one + excess_squared * ratio_s_m * ratio_s_m).sqrt();
+    let toward = (v.cross(&momentum) / T::constant(mu_m3_s2) - r.normalize()).normalize();
+    let cosine = one / eccentricity;
+    let asymptote = toward * cosine + normal.cross(&toward) * (one - cosine * cosine).sqrt();
+    let north = constant_vector::<T>(&(dcm_eme2000_from_ecliptic() * Vector3::z()));
+    let t = asymptote.cross(&north).try_normalize(T::constant(0.0))?;
+    let b_m = asymptote.cross(&normal) * (momentum_m2_s / excess_speed_m_s);
+    Some([b_m.dot(&t), b_m.dot(&asymptote.cross(&t)), excess_speed_m_s])
 }
 
 #[cfg(test)]
@@ -88,5 +126,51 @@ mod tests {
         assert_eq!(BPlane::of(&CartesianState::on_circle(3e6, GM_MERCURY_M3_S2), GM_MERCURY_M3_S2), None);
         let falling = CartesianState { position_m: Vector3::x() * 1e7, velocity_m_s: Vector3::x() * -9e3 };
         assert_eq!(BPlane::of(&falling, GM_MERCURY_M3_S2), None);
+    }
+
+    #[test]
+    fn partials_are_central_differences() {
+        let state = CartesianState {
+            position_m: Vector3::new(-8.1e7, 6.2e7, -3.3e7),
+            velocity_m_s: Vector3::new(4.1e3, -2.7e3, 1.5e3),
+        };
+        let partials = BPlane::partials(&state, GM_MERCURY_M3_S2).unwrap();
+        for axis in 0..6 {
+            let step = if axis < 3 { 3e3 } else { 1e-1 };
+            let [after, before] = [step, -step].map(|step| {
+                let mut moved = state;
+                let part = if axis < 3 { &mut moved.position_m } else { &mut moved.velocity_m_s };
+                part[axis % 3] += step;
+                let plane = BPlane::of(&moved, GM_MERCURY_M3_S2).unwrap();
+                Vector3::new(plane.b_t_m, plane.b_r_m, plane.excess_speed_m_s)
+            });
+            let difference = (after - before) / (2.0 * step);
+            for row in 0..3 {
+                let size = partials.fixed_view::<1, 3>(row, axis / 3 * 3).norm();
+                let off = (difference[row] - partials[(row, axis)]).abs();
+                assert!(off < 1e-8 * size, "{row} {axis}: {off} of {size}");
+            }
+        }
+    }
+
+    /// Hyperbolas with B a little aside, propagated until they leave.
+    #[test]
+    fn a_miss_changes_the_outgoing_velocity_alike_in_all_directions() {
+        let start = |aside_m: Vector3<f64>| CartesianState {
+            position_m: Vector3::new(-3e10, 5.1e6, 0.0) + aside_m,
+            velocity_m_s: Vector3::x() * 5.2e3,
+        };
+        let outgoing = |aside_m: Vector3<f64>| {
+            let orbit = TwoBodyOrbit::from_state(&start(aside_m), GM_MERCURY_M3_S2, 0.0).unwrap();
+            orbit.state_at(1.2e7).velocity_m_s
+        };
+        let plane = BPlane::of(&start(Vector3::zeros()), GM_MERCURY_M3_S2).unwrap();
+        let turned = outgoing(Vector3::zeros()).angle(&Vector3::x());
+        assert!((turned / plane.turn_rad(GM_MERCURY_M3_S2) - 1.0).abs() < 1e-3, "{turned}");
+        for across in [Vector3::y(), Vector3::z(), Vector3::new(0.0, 0.6, -0.8)] {
+            let change_1_s = (outgoing(across * 1e3) - outgoing(across * -1e3)).norm() / 2e3;
+            let expected_1_s = plane.outgoing_change_1_s(GM_MERCURY_M3_S2);
+            assert!((change_1_s / expected_1_s - 1.0).abs() < 1e-3, "{change_1_s} {expected_1_s}");
+        }
     }
 }

@@ -46,7 +46,7 @@ pub enum OrbitIntegrationError {
 
 /// The integration method of a [`DisturbedOrbit`]: computed once, shared, no state.
 #[derive(Clone, Debug, Default)]
-pub struct OrbitMethod(Collocation<NODES, TERMS>);
+pub struct OrbitMethod(pub(super) Collocation<NODES, TERMS>);
 
 /// A spacecraft's orbit as a chain of integrated segments with edges at whole multiples of their length: serialisable
 /// state with dense output. Positions relative to the central body, in EME2000; times on the caller's clock.

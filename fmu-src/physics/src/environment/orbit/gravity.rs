@@ -4,7 +4,7 @@
 //! Reference: Vallado, Fundamentals of Astrodynamics and Applications, 8.6; Battin, An Introduction to the Mathematics and
 //! Methods of Astrodynamics, 8.4.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::{bodies::BodyData, constants::GM_SUN_M3_S2};
@@ -78,6 +78,13 @@ impl Gravity {
         }
         sum
     }
+}
+
+/// Gradient of the acceleration toward a point mass, 1/s2, at this position from it: mu / r^3 (3 u uT - 1), u along the position.
+pub(super) fn gradient_per_s2(position_m: &Vector3<f64>, gm_m3_s2: f64) -> Matrix3<f64> {
+    let inverse = 1.0 / position_m.norm();
+    let along = position_m * inverse;
+    (along * along.transpose() * 3.0 - Matrix3::identity()) * (gm_m3_s2 * inverse * inverse * inverse)
 }
 
 /// Acceleration by a distant body relative to the centre's own fall toward it, m/s2:

@@ -10,12 +10,12 @@
 //! Reference: Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 8.4 and 8.5; Petit and Luzum, IERS
 //! Conventions 2010, 10.12.
 
-use nalgebra::{SVector, Vector3};
+use nalgebra::{Matrix3, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::deviation::TERMS;
-use super::gravity::{Flattening, Gravity};
+use super::gravity::{Flattening, Gravity, gradient_per_s2};
 use crate::{
     bodies::{Body, BodyData},
     constants::{GM_MOON_M3_S2, GM_SUN_M3_S2, SPEED_OF_LIGHT_M_S},
@@ -180,6 +180,35 @@ impl NBodyGravity {
             sum += relativity_m_s2(&from_sun, self.bodies[Body::Sun as usize][0]);
         }
         if about.is_planet() { sum - places.acceleration_m_s2(about, at_s) } else { sum }
+    }
+
+    /// Gradient of that acceleration by the position, 1/s2: of all that attract as point masses. Flattening, up to some 1e-4 of the
+    /// gradient near Mercury's surface, and relativity, 1e-7, are left out.
+    pub fn gradient_per_s2(
+        &self,
+        about: Body,
+        at_s: f64,
+        position_m: &Vector3<f64>,
+        places: &mut impl BodyPlaces,
+    ) -> Matrix3<f64> {
+        let mut center_m = Vector3::zeros();
+        if about.is_planet() {
+            center_m = places.heliocentric(about, at_s).position_m;
+        }
+        let from_sun_m = position_m + center_m;
+        let mut sum = gradient_per_s2(&from_sun_m, self.bodies[Body::Sun as usize][0]);
+        for body in self.planets() {
+            let from_body_m = match body == about {
+                true => *position_m,
+                false => from_sun_m - places.heliocentric(body, at_s).position_m,
+            };
+            sum += gradient_per_s2(&from_body_m, self.bodies[body as usize][0]);
+        }
+        if self.settings.moon {
+            let moon_m = places.heliocentric(Body::Earth, at_s).position_m + places.moon_from_earth_m(at_s);
+            sum += gradient_per_s2(&(from_sun_m - moon_m), GM_MOON_M3_S2);
+        }
+        sum
     }
 
     /// Whether a segment's position is as good as the settings say, or as its rounding allows.

@@ -4,6 +4,7 @@ use approx::assert_relative_eq;
 use nalgebra::Matrix4;
 
 use super::*;
+use crate::momentum::torque::Attitude;
 use crate::momentum::{
     test_spacecraft::{DAY_S, simulated, sunlit, task},
     windows::Reach,
