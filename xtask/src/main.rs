@@ -32,7 +32,7 @@ cargo xtask <task>
           HELIOTORQUE_FUZZ_SECONDS is another time per target
   test NAME
           the tests in Rust and Python that have NAME in their name, with what they need built first
-  bless golden|reference|schema|mistakes|guide
+  bless golden|reference|schema|mistakes|legs|guide
           write anew what tests compare with, after a change that is meant
   env     build everything, then print the variables that the tests read, as `export NAME='value'`
   dist    build for Linux with glibc 2.17 or later and pack every shipped FMU and system into dist/

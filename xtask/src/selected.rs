@@ -19,6 +19,7 @@ const RECORDED: &[(&str, Option<&str>, Option<&str>)] = &[
     ("reference", Some("reference::"), None),
     ("schema", Some("in_step"), None),
     ("mistakes", Some("mistakes::"), None),
+    ("legs", Some("the_shipped_missions_are_those_of_their_legs"), None),
     ("guide", None, Some("prints_what or follow_the_schemas")),
 ];
 

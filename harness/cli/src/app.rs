@@ -36,7 +36,7 @@ enum Command {
     Run(simulation::Run),
     /// Connect FMUs by the names and units of their variables: a system (SSP) that any tool for SSP runs
     Wire(wire::Wire),
-    /// Write a commented file that works unchanged: spacecraft, spinner, mission or timeline
+    /// Write a commented file that works unchanged: spacecraft, spinner, mission, timeline, plan or leg
     New(new::New),
     /// Draw a spacecraft's file: front, side, top and perspective, with axes, Sun, names, centre of mass, panel axes
     Draw(draw::Draw),
@@ -129,6 +129,7 @@ fn loading(command: &Command) -> Option<Relayed> {
         Command::Plan(plan::Plan::Momentum(it) | plan::Plan::Flyby(it)) => {
             (of_template(it.template.as_ref()), it.patience, LARGE)
         }
+        Command::Plan(plan::Plan::Leg(it)) => (of_template(it.template.as_ref()), it.patience, LARGE),
         Command::Refit(it) => (of_template(it.template.as_ref()), it.patience, LARGE),
         Command::Plan(plan::Plan::Spin(it)) => (of_template(it.options.fmu.as_ref()), it.patience, LARGE),
         Command::Study(it) => (it.name.clone(), it.patience, LARGE),

@@ -20,6 +20,8 @@ pub(crate) enum FileKind {
     Ephemeris,
     /// How far arrays and attitude may go to hold a mission's momentum.
     Plan,
+    /// Where and when a leg begins, and the encounter that it leads to.
+    Leg,
 }
 
 /// The table that every spacecraft and spinner has.
@@ -43,7 +45,7 @@ const OF_PARTS: [&str; 12] = [
 const OF_TIMELINE: [&str; 2] = ["command", "event"];
 /// The list that timelines share with spacecraft, and the keys of its items that only timelines have.
 const PANELS: (&str, [&str; 3]) = ("panels", ["at", "sunOffset", "windmill"]);
-/// Keys that only plans have.
+/// Keys that plans have, and legs at most.
 const OF_PLAN: [&str; 9] = [
     "mission",
     "freeze",
@@ -55,6 +57,8 @@ const OF_PLAN: [&str; 9] = [
     "contactShare",
     "activity",
 ];
+/// Tables that only legs have.
+const OF_LEG: [&str; 2] = ["depart", "arrive"];
 /// Keys that only missions have.
 const OF_MISSION: [&str; 14] = [
     "spacecraft",
@@ -88,6 +92,8 @@ impl FileKind {
             Some(Self::Spacecraft)
         } else if ephemeris::is_meant(text) {
             Some(Self::Ephemeris)
+        } else if OF_LEG.into_iter().any(has) {
+            Some(Self::Leg)
         } else if OF_PLAN.into_iter().any(has) {
             Some(Self::Plan)
         } else if OF_MISSION.into_iter().any(has) {
@@ -137,6 +143,7 @@ impl FileKind {
             Self::Timeline => "timeline",
             Self::Ephemeris => "ephemeris",
             Self::Plan => "plan",
+            Self::Leg => "leg",
         }
     }
 
@@ -148,6 +155,7 @@ impl FileKind {
             ),
             Self::Mission => format!("run it: `heliotorque run {file}`"),
             Self::Plan => format!("`heliotorque plan momentum {file} --output DIR` carries it out"),
+            Self::Leg => format!("`heliotorque plan leg {file} --output DIR` carries it out"),
             Self::Timeline | Self::Ephemeris => {
                 let word = self.word();
                 format!("`{word} = \"{file}\"` in a mission or `heliotorque pack --{word} {file}` takes it")
@@ -205,6 +213,8 @@ mod tests {
             (include_str!("new/mission.toml"), Some(FileKind::Mission)),
             (include_str!("new/timeline.toml"), Some(FileKind::Timeline)),
             (include_str!("new/plan.toml"), Some(FileKind::Plan)),
+            (include_str!("new/leg.toml"), Some(FileKind::Leg)),
+            ("mission = \"a.toml\"\n[arrive]\nbody = \"mercury\"\n", Some(FileKind::Leg)),
             ("[[comand]]\nat = 0\n", Some(FileKind::Timeline)),
             ("[[panels]]\nat = 0\n", Some(FileKind::Timeline)),
             ("[[panels]]\nsun_offset_deg = 3\n[[command]]\n", Some(FileKind::Spacecraft)),

@@ -1,6 +1,7 @@
 //! What times and angles on the command line mean.
 
-use physics::{constants::ASTRONOMICAL_UNIT_M, environment::dates};
+use model_description::units;
+use physics::environment::dates;
 
 /// Seconds, or a number with a unit of time.
 pub(crate) fn duration(text: &str) -> Result<f64, String> {
@@ -53,16 +54,16 @@ pub(crate) fn angle(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "an angle carries its unit: 60deg, 1.2rad".to_owned())
 }
 
-/// A length with its unit, in m.
-pub(crate) fn length(text: &str) -> Result<f64, String> {
-    const UNITS: [(&str, f64); 5] =
-        [("km", 1e3), ("cm", 1e-2), ("mm", 1e-3), ("AU", ASTRONOMICAL_UNIT_M), ("m", 1.0)];
+/// A number in the SI unit of this name, or with one of the units that it is shown in.
+pub(crate) fn quantity(text: &str, unit: &str) -> Option<f64> {
     let text = text.trim();
-    let number = |(unit, factor): &(&str, f64)| {
-        Some(text.strip_suffix(unit)?.trim_end().parse::<f64>().ok()? * factor)
-    };
-    let length_m = UNITS.iter().find_map(number).filter(|length_m| length_m.is_finite());
-    length_m.ok_or_else(|| "a length carries its unit: 200 km, 2 cm, 0.5 AU".to_owned())
+    let shown = units::find(unit).into_iter().flat_map(|known| known.display);
+    let factors = shown.map(|(name, factor)| (*name, 1.0 / factor));
+    // "5 km" ends in m as well: the longest name that fits is meant.
+    let fitting = factors.chain([(unit, 1.0), ("", 1.0)]).filter(|(name, _)| text.ends_with(name));
+    let (name, factor) = fitting.max_by_key(|(name, _)| name.len())?;
+    let number: f64 = text[..text.len() - name.len()].trim_end().parse().ok()?;
+    Some(number * factor).filter(|value| value.is_finite())
 }
 
 #[cfg(test)]
@@ -81,8 +82,13 @@ mod tests {
         assert_eq!(instant("2 h"), Ok(Instant::Time(7200.0)));
         assert_eq!(instant("2009-04-06 TDB"), Ok(Instant::Epoch(292_248_000.0)));
         assert!(instant("2009-04-06").unwrap_err().contains("UTC or TDB"));
-        assert_eq!([length("200 km"), length("-1cm"), length("3 m")], [Ok(2e5), Ok(-0.01), Ok(3.0)]);
-        assert!(length("200").is_err() && length("far").is_err());
+        assert_eq!(quantity("0.5 km", "m"), Some(500.0));
+        assert_eq!([quantity("-3", "m"), quantity("2m", "m")], [Some(-3.0), Some(2.0)]);
+        assert_eq!(
+            [quantity("1 AU", "m"), quantity("4.2 km/s", "m/s")],
+            [Some(149_597_870_700.0), Some(4200.0)]
+        );
+        assert_eq!([quantity("1 s", "m"), quantity("km", "m"), quantity("nan", "m")], [None; 3]);
         assert_eq!(span("1 h"), Ok(3600.0));
         for bad in ["0", "-5", "-1d", "soon"] {
             assert!(span(bad).is_err(), "{bad}");

@@ -5,6 +5,7 @@
 
 pub mod ephemeris;
 pub mod flyby;
+pub mod leg;
 pub mod momentum;
 pub mod refit;
 pub mod spin;

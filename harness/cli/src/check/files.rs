@@ -1,4 +1,4 @@
-//! `heliotorque check FILE.toml`: a spacecraft, a mission, a timeline, an ephemeris or a plan, by what it is meant as.
+//! `heliotorque check FILE.toml`: a spacecraft, a mission, a timeline, an ephemeris, a plan or a leg, by what it is meant as.
 
 use physics::{
     environment::onboard::OnboardEphemeris,
@@ -11,15 +11,14 @@ use crate::{
     carried::{ephemeris, timeline},
     kind::{FileKind, is_blank},
     outcome::{self, Outcome},
-    plan::momentum,
+    plan::{leg, momentum},
 };
 
 /// Judges the file.
 pub(super) fn run(arguments: &Check) -> Outcome {
     let (file, text) = (arguments.subject.display().to_string(), files::read_text(&arguments.subject)?);
     if is_blank(&text) {
-        let allowed =
-            "a spacecraft, a spinner, a mission, a timeline, an ephemeris or a plan: see `heliotorque new`";
+        let allowed = "a spacecraft, a spinner, a mission, a timeline, an ephemeris, a plan or a leg: see `heliotorque new`";
         return Err(format!("{file}: found an empty file, allowed: {allowed}").into());
     }
     match FileKind::of(&text) {
@@ -29,6 +28,10 @@ pub(super) fn run(arguments: &Check) -> Outcome {
         Some(FileKind::Plan) => match momentum::checked(&arguments.subject) {
             Ok(summary) => outcome::printed(&format!("{file}: ok: {summary}")),
             Err(problems) => outcome::refused(&file, &problems, "a plan"),
+        },
+        Some(FileKind::Leg) => match leg::checked(&arguments.subject) {
+            Ok(summary) => outcome::printed(&format!("{file}: ok: {summary}")),
+            Err(problems) => outcome::refused(&file, &problems, "a leg"),
         },
         Some(FileKind::Ephemeris) => match OnboardEphemeris::from_toml(&file, &text) {
             Ok(read) => outcome::printed(&format!("{file}: ok: {}", ephemeris::table(&read, text.len()))),

@@ -7,6 +7,6 @@ mod resolved;
 mod schema;
 mod written;
 
-pub(crate) use file::{Inputs, Mission, Plot, SpacecraftSource};
+pub(crate) use file::{At, Inputs, Mission, Plot, SpacecraftSource};
 pub(crate) use resolved::Resolved;
 pub(crate) use written::Written;

@@ -36,6 +36,8 @@ pub(crate) enum NewKind {
     Timeline,
     /// How far arrays and attitude may go to hold a mission's momentum, for `plan momentum`
     Plan,
+    /// The place and date at which a leg begins, and the encounter that it leads to, for `plan leg`
+    Leg,
 }
 
 impl NewKind {
@@ -47,6 +49,7 @@ impl NewKind {
             Self::Mission => ("mission.toml", include_str!("mission.toml")),
             Self::Timeline => ("timeline.toml", include_str!("timeline.toml")),
             Self::Plan => ("plan.toml", include_str!("plan.toml")),
+            Self::Leg => ("leg.toml", include_str!("leg.toml")),
         }
     }
 }

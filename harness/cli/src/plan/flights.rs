@@ -67,7 +67,9 @@ pub(super) struct SimulatedMission {
     pub mission: Mission,
     pub fmu: Fmu,
     pub sets: Vec<(String, Value)>,
-    inputs: Option<InputTable>,
+    pub inputs: Option<InputTable>,
+    /// Its own communication step, in s.
+    pub step_s: f64,
     pub start_s: f64,
     pub stop_s: f64,
     /// Epoch of time 0 in s past J2000 TDB, where the mission begins at a date.
@@ -105,6 +107,7 @@ impl SimulatedMission {
             mission,
             fmu,
             start_s: settings.times.start_s,
+            step_s: settings.times.step_s,
             stop_s: settings.times.stop_s,
             zero_epoch_s: simulated.zero_epoch_s(settings.times.start_s),
             sets: settings.sets,
@@ -244,6 +247,17 @@ impl SimulatedMission {
 
     /// Simulates it and gives what was requested.
     pub(super) fn record(&self, requested: &Requested<'_>) -> Result<Recording, Failure> {
+        match self.record_until(requested)? {
+            (recording, None) => Ok(recording),
+            (_, Some(error)) => Err(error.into()),
+        }
+    }
+
+    /// The same of a flight that an error may end: what was recorded until then, and the error.
+    pub(super) fn record_until(
+        &self,
+        requested: &Requested<'_>,
+    ) -> Result<(Recording, Option<String>), Failure> {
         let description = self.fmu.description();
         let step_s = if self.is_in_orbit() { ORBIT_STEP_S } else { STEP_S };
         let stop_s = requested.stop_s.unwrap_or(self.stop_s);
@@ -264,11 +278,16 @@ impl SimulatedMission {
             cancel: Some(&cancel),
             ..Options::default()
         };
-        let recording =
-            loader::simulate(&self.fmu, options).map_err(|error| loader::Error::chain(&error))?.recording;
+        let simulated = loader::simulate(&self.fmu, options);
         if interrupt::raised() {
             return Err("interrupted".into());
         }
-        Ok(recording)
+        Ok(match simulated {
+            Ok(simulation) => (simulation.recording, None),
+            Err(stopped) => {
+                let error = loader::Error::chain(&stopped);
+                (stopped.partial, Some(error))
+            }
+        })
     }
 }

@@ -2,6 +2,8 @@
 
 mod files;
 mod flights;
+pub(crate) mod leg;
+mod mission_text;
 pub(crate) mod momentum;
 mod picture;
 
@@ -23,6 +25,8 @@ pub(crate) enum Plan {
     /// The same with an aim in the B-plane of an encounter, reached by sunlight
     #[command(after_help = FLYBY)]
     Flyby(momentum::MomentumOptions),
+    /// The velocity at a place and date with which a mission comes to an encounter with a planet
+    Leg(leg::LegOptions),
 }
 
 /// Shown with the help of `plan flyby`.
@@ -61,6 +65,7 @@ pub(crate) fn run(arguments: &Plan) -> Outcome {
         Plan::Spin(arguments) => arguments,
         Plan::Momentum(options) => return momentum::run(options, momentum::PlanKind::Momentum),
         Plan::Flyby(options) => return momentum::run(options, momentum::PlanKind::Flyby),
+        Plan::Leg(options) => return leg::run(options),
     };
     let mut options = arguments.options.clone();
     if let Some(path) = &options.spacecraft {

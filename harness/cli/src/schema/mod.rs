@@ -10,7 +10,7 @@ use crate::outcome::{self, Outcome};
 /// `heliotorque schema`.
 #[derive(Debug, Args)]
 pub(crate) struct Schema {
-    /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; mission, which `run` flies; timeline, which `pack --timeline` takes; ephemeris, which `pack --ephemeris` takes; or plan, which `plan momentum` takes
+    /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; mission, which `run` flies; timeline, which `pack --timeline` takes; ephemeris, which `pack --ephemeris` takes; plan, which `plan momentum` takes; or leg, which `plan leg` takes
     #[arg(value_enum, default_value_t, hide_possible_values = true)]
     pub kind: SchemaKind,
 }
@@ -31,6 +31,8 @@ pub(crate) enum SchemaKind {
     Ephemeris,
     /// How far arrays and attitude may go.
     Plan,
+    /// Where and when a leg begins, and the encounter that it leads to.
+    Leg,
 }
 
 /// Prints the schema.
@@ -40,6 +42,7 @@ pub(crate) fn run(arguments: &Schema) -> Outcome {
         SchemaKind::Spinner => include_str!("../../../../fmu-src/resources/spinner.schema.json"),
         SchemaKind::Mission => include_str!("../../../../fmu-src/resources/mission.schema.json"),
         SchemaKind::Timeline => include_str!("../../../../fmu-src/resources/timeline.schema.json"),
+        SchemaKind::Leg => include_str!("../../../../fmu-src/resources/leg.schema.json"),
         SchemaKind::Plan => include_str!("../../../../fmu-src/resources/plan.schema.json"),
         SchemaKind::Ephemeris => include_str!("../../../../fmu-src/resources/ephemeris.schema.json"),
     };

@@ -9,6 +9,7 @@ mod hostile;
 mod installed;
 #[cfg(feature = "spk")]
 mod kernels;
+mod legs;
 mod limits;
 mod maps;
 mod missions;

@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path};
 
-use crate::{heliotorque, momentum_plans::cruise, run, shown, template, text, words};
+use crate::{heliotorque, legs::flyby, momentum_plans::cruise, run, shown, template, text, words};
 
 const RECORDED: &str = "tests/main/mistakes.txt";
 /// What begins a line of what is said.
@@ -51,6 +51,11 @@ impl Mistake {
     /// Name of the file, beside which stand those that its command needs, in a folder, and what stands in it.
     fn base(&self, folder: &Path) -> (String, String) {
         let toml = format!("{}.toml", self.kind);
+        if ["leg", "flyby"].contains(&self.kind.as_str()) {
+            flyby(folder, 1, &[]);
+            let text = fs::read_to_string(folder.join(&toml)).unwrap();
+            return (toml, text);
+        }
         if self.command.is_none() && self.kind != "plan" {
             return (toml, run(&["new", &self.kind, "-"], 0));
         }

@@ -44,7 +44,7 @@ fn number(folder: &Path, key: &str) -> f64 {
 }
 
 /// Columns of a CSV by name.
-fn columns(file: &Path, names: &[&str]) -> Vec<Vec<f64>> {
+pub(crate) fn columns(file: &Path, names: &[&str]) -> Vec<Vec<f64>> {
     let text = fs::read_to_string(file).unwrap();
     let mut lines = text.lines();
     let header: Vec<&str> = lines.next().unwrap().split(',').collect();

@@ -4,7 +4,7 @@ use std::{fs, process::Command};
 
 use crate::{run, says, shown, template};
 
-const KINDS: [&str; 5] = ["spacecraft", "spinner", "mission", "timeline", "plan"];
+const KINDS: [&str; 6] = ["spacecraft", "spinner", "mission", "timeline", "plan", "leg"];
 
 #[test]
 fn a_file_that_is_there_is_kept() {
@@ -43,8 +43,8 @@ fn every_new_file_works_unchanged() {
         let spacecraft = ["--spacecraft", shown(&file)];
         let packs: &[&[&str]] = match kind {
             "mission" => &[&["--mission", shown(&file)]],
-            // It names the mission beside it, and is packed with nothing.
-            "plan" => &[],
+            // They name the mission beside them, and are packed with nothing.
+            "plan" | "leg" => &[],
             "timeline" => &[
                 &["--model", "Guidance", "--timeline", shown(&file)],
                 &["--timeline", shown(&file), "--set", "panel[1].control=timeline"],
@@ -93,7 +93,8 @@ fn every_command_has_a_page_that_man_reads() {
         .collect();
     let mut expected: Vec<String> =
         commands.iter().map(|command| format!("heliotorque-{command}.1")).collect();
-    let more = ["heliotorque.1", "heliotorque-plan-momentum.1", "heliotorque-plan-spin.1"];
+    let more =
+        ["heliotorque.1", "heliotorque-plan-leg.1", "heliotorque-plan-momentum.1", "heliotorque-plan-spin.1"];
     expected.extend(more.map(str::to_owned));
     expected.sort();
     assert_eq!(pages, expected);

@@ -14,6 +14,7 @@ use nalgebra::Vector3;
 use thiserror::Error;
 
 use super::elements::{OrbitError, check, check_mu};
+use crate::constants::DAY_S;
 use crate::math;
 use crate::numerics::roots::{RootError, bracketed};
 
@@ -65,14 +66,16 @@ pub enum LambertError {
     Orbit(#[from] OrbitError),
     /// Both places and the centre lie on a line.
     #[error(
-        "the places are {angle_deg} deg apart as seen from the centre, in line with it: no plane of an arc, allowed: any other angle"
+        "found places {angle_deg:.3} deg apart as seen from the centre, in line with it: no plane of an arc, allowed: any other angle"
     )]
     InLine {
         /// Angle between them, deg.
         angle_deg: f64,
     },
     /// So many revolutions take longer.
-    #[error("{revolutions} revolutions take {least_s} s at least, found {time_s} s")]
+    #[error(
+        "found {:.3} d with {revolutions} revolutions, allowed: {:.3} d or more, or fewer revolutions", .time_s / DAY_S, .least_s / DAY_S
+    )]
     TooShort {
         /// Whole revolutions.
         revolutions: u32,
@@ -82,7 +85,9 @@ pub enum LambertError {
         time_s: f64,
     },
     /// A time so long or short that no double is near enough to it.
-    #[error("the time of {time_s} s is out of proportion to the places")]
+    #[error(
+        "found {time_s} s between the places, out of all proportion, allowed: less, or places farther apart"
+    )]
     Time {
         /// It, s.
         time_s: f64,

@@ -11,20 +11,13 @@ use physics::{
 
 use self::encounter::{Compare, Flyby, MonteCarlo, Update};
 use super::description::{ActivityDescription, ContactDescription, Description};
+pub(super) use crate::mission::At;
 use crate::{kind::FileKind, mission::Written, values};
 
 const DAY_S: f64 = 86_400.0;
 const ALLOWED_SPAN: &str = "a number of s or one with a unit: 600, \"12 h\", \"3 d\"";
 const ALLOWED_ANGLE: &str = "a number of rad or one with a unit: \"2 deg\"";
 const ALLOWED_MOMENTUM: &str = "a number of N.m.s above 0, or one with that unit: 5.5, \"5.5 N.m.s\"";
-
-/// Something with the key and line that it stands in.
-#[derive(Clone, Debug)]
-pub(super) struct At<T> {
-    pub it: T,
-    pub key: String,
-    pub line: usize,
-}
 
 /// An activity that might be added.
 #[derive(Clone, Debug)]

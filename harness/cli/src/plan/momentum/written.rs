@@ -1,6 +1,6 @@
 //! The files of a plan: the mission that simulates it, and its arrays and places of the Sun as an input table.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
 use nalgebra::Vector3;
 use physics::plant::ThrusterEventSettings;
@@ -9,52 +9,13 @@ use planner::momentum::{
     torque::Control,
     windows::{Window, WindowKind},
 };
-use toml_edit::{DocumentMut, Item, Table, value};
+use toml_edit::value;
 
-use super::super::flights::{Failure, SimulatedMission};
+use super::super::{
+    flights::{Failure, SimulatedMission},
+    mission_text,
+};
 use super::timeline::{MissionTimeline, array_steps, shown_deg, shown_n_m_s, stretches};
-
-/// The mission's text with other values, for a file in `folder`.
-///
-/// # Errors
-/// A mission that cannot be read again.
-pub(super) fn with_values(
-    planned: &SimulatedMission,
-    folder: &Path,
-    sets: &[(String, Vec<f64>)],
-) -> Result<String, Failure> {
-    let file = &planned.mission.file;
-    let mut document: DocumentMut = files::read_text(file)?.parse()?;
-    let home = file.parent().unwrap_or(Path::new(""));
-    let moved = |path: &str| relative(folder, &home.join(path)).to_string_lossy().replace('\\', "/");
-    for key in ["spacecraft", "ephemeris", "inputs", "timeline"] {
-        let path = document.get(key).and_then(Item::as_str).map(str::to_owned);
-        if let Some(path) = path {
-            document[key] = value(moved(&path));
-        }
-    }
-    let table = document.entry("set").or_insert(Item::Table(Table::new()));
-    if let Some(table) = table.as_table_like_mut() {
-        for (name, values) in sets {
-            // Values of single elements would count behind that of the whole.
-            let elements: Vec<String> = table
-                .iter()
-                .map(|(key, _)| key.to_owned())
-                .filter(|key| key.strip_prefix(name.as_str()).is_some_and(|rest| rest.starts_with('[')))
-                .collect();
-            for key in elements {
-                table.remove(&key);
-            }
-            let one = if let [number] = values[..] {
-                value(number)
-            } else {
-                value(values.iter().copied().collect::<toml_edit::Array>())
-            };
-            table.insert(name, one);
-        }
-    }
-    Ok(document.to_string())
-}
 
 /// The mission's text with the plan's timeline, for a file in `folder`.
 ///
@@ -66,27 +27,15 @@ pub(super) fn mission(
     panels: usize,
     sets: &[(String, Vec<f64>)],
 ) -> Result<String, Failure> {
-    let mut document: DocumentMut = with_values(planned, folder, sets)?.parse()?;
+    let mut document = mission_text::moved(&planned.mission.file, folder)?;
     document["timeline"] = value("timeline.toml");
     for number in 1..=panels {
-        document["set"][&format!("panel[{number}].control")] = value("timeline");
+        mission_text::set(&mut document, &format!("panel[{number}].control"), value("timeline"));
+    }
+    for (name, values) in sets {
+        mission_text::set(&mut document, name, mission_text::numbers(values));
     }
     Ok(document.to_string())
-}
-
-/// A path from a folder.
-fn relative(folder: &Path, path: &Path) -> PathBuf {
-    let whole = |path: &Path| std::fs::canonicalize(path).ok();
-    let (Some(from), Some(to)) = (whole(folder), whole(path)) else { return path.to_owned() };
-    let (from, to): (Vec<Component<'_>>, Vec<Component<'_>>) =
-        (from.components().collect(), to.components().collect());
-    let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
-    // On another drive.
-    if shared == 0 {
-        return to.iter().collect();
-    }
-    let up = from[shared..].iter().map(|_| Component::ParentDir);
-    up.chain(to[shared..].iter().copied()).collect()
 }
 
 /// How long a request of a dump is held, in s: seen by steps of a minute.

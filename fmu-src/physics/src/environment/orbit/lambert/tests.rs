@@ -204,7 +204,7 @@ fn places_in_line_have_no_plane() {
         mu_m3_s2: GM_SUN_M3_S2,
     };
     let refused = arc.direct().unwrap_err();
-    assert!(refused.to_string().starts_with("the places are 180 deg apart"), "{refused}");
+    assert!(refused.to_string().starts_with("found places 180.000 deg apart"), "{refused}");
     assert_eq!(arc.revolving(1, LambertBranch::Left), Err(refused));
     let near = LambertArc { to_m: arc.to_m + Vector3::new(0.0, 0.0, 1e5), ..arc };
     assert!(near.direct().is_ok());

@@ -71,7 +71,7 @@ impl Builder<'_> {
     fn length(&mut self, place: &Place, written: Option<&Written>) -> Option<f64> {
         let written = written?;
         let length_m = match written {
-            Written::Text(text) => values::length(text).ok(),
+            Written::Text(text) => values::quantity(text, "m"),
             _ => number(written),
         };
         let length_m = length_m.filter(|length_m| length_m.is_finite());
@@ -85,7 +85,7 @@ impl Builder<'_> {
     fn least_zero(&mut self, place: &Place, written: Option<&Written>, default: f64, unit: &str) -> f64 {
         let Some(written) = written else { return default };
         let value = match written {
-            Written::Text(text) if unit == "m" => values::length(text).ok(),
+            Written::Text(text) if unit == "m" => values::quantity(text, "m"),
             _ => number(written),
         };
         value.filter(|value| *value >= 0.0 && value.is_finite()).unwrap_or_else(|| {

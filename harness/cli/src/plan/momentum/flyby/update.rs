@@ -6,15 +6,13 @@ use ::files::Scratch;
 use loader::{Recording, Value};
 use nalgebra::Vector3;
 use physics::environment::dates;
-use toml_edit::{DocumentMut, Item, Table, value};
+use toml_edit::value;
 
 use crate::{
     plan::{
         flights::{Failure, Requested, SimulatedMission},
-        momentum::{
-            file::{At, PlanFile, encounter::Update},
-            written,
-        },
+        mission_text,
+        momentum::file::{At, PlanFile, encounter::Update},
     },
     values,
 };
@@ -47,11 +45,11 @@ pub(in crate::plan::momentum) fn updated(
         ("orbit.velocity", velocity_m_s),
         ("start.momentum", momentum_n_m_s),
     ];
-    let sets: Vec<(String, Vec<f64>)> =
-        vectors.iter().map(|(name, vector)| ((*name).to_owned(), vector.iter().copied().collect())).collect();
-    let text = written::with_values(mission, folder.path(), &sets)?;
-    let mut document: DocumentMut = text.parse()?;
-    document.entry("set").or_insert(Item::Table(Table::new()))["orbit.source"] = value("inputs");
+    let mut document = mission_text::moved(&mission.mission.file, folder.path())?;
+    for (name, vector) in vectors {
+        mission_text::set(&mut document, name, mission_text::numbers(vector.as_slice()));
+    }
+    mission_text::set(&mut document, "orbit.source", value("inputs"));
     let instant = |time_s: f64| match mission.zero_epoch_s {
         Some(zero_s) => value(dates::utc(zero_s + time_s)),
         None => value(time_s),

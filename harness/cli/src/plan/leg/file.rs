@@ -1,0 +1,237 @@
+//! A leg, from its file: what stands there, in SI, by the line that it stands in.
+
+use std::path::{Path, PathBuf};
+
+use nalgebra::Vector3;
+use physics::{
+    environment::{dates, orbit::LambertBranch},
+    toml::{Checker, Document, Place},
+};
+use planner::leg::Aim;
+
+use super::description::{ArcBranch, ArriveDescription, Description};
+use crate::{
+    kind::FileKind,
+    mission::{At, Written},
+    values::{self, Instant},
+};
+
+const ALLOWED_LENGTH: &str = "a number of m or one with a unit: \"200 km\", \"0.5 AU\"";
+const ALLOWED_SPEED: &str = "a number of m/s or one with a unit: \"38.2 km/s\"";
+const ALLOWED_ANGLE: &str = "an angle from -360 to 360 deg: a number of rad or one with a unit, \"30 deg\"";
+const MOST_REVOLUTIONS: u32 = 100;
+
+/// A leg file.
+#[derive(Clone, Debug)]
+pub(super) struct LegFile {
+    pub file: PathBuf,
+    pub mission: At<PathBuf>,
+    /// Date of the departure, in s past J2000 TDB.
+    pub depart_epoch_s: Option<At<f64>>,
+    /// From the Sun, EME2000.
+    pub position_m: At<Vector3<f64>>,
+    pub velocity_before_m_s: Option<Vector3<f64>>,
+    /// The planet's name in variables of the FMU.
+    pub body: At<&'static str>,
+    pub arrive: At<Instant>,
+    pub aim: At<Aim>,
+    /// With their branch where there are any.
+    pub revolutions: At<Option<(u32, LambertBranch)>>,
+}
+
+impl LegFile {
+    /// Reads a leg.
+    ///
+    /// # Errors
+    /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
+    pub(super) fn read(file: &Path) -> Result<Self, String> {
+        Self::parse(file, &FileKind::Leg.read(file)?)
+    }
+
+    fn parse(file: &Path, text: &str) -> Result<Self, String> {
+        let shown = file.display().to_string();
+        let document = Document::parse(&shown, text).map_err(|error| error.to_string())?;
+        let (description, findings) = document.read::<Description>().map_err(|error| error.to_string())?;
+        let folder = file.parent().unwrap_or(Path::new(""));
+        let mut builder = Builder { check: Checker::new(&document, findings), folder };
+        let leg = builder.leg(file, &description);
+        builder.check.finish(leg).map_err(|error| error.to_string())
+    }
+
+    /// A problem at a place of the file.
+    pub(super) fn problem<T>(&self, at: &At<T>, what: &str) -> String {
+        format!("{}:{}: {}: {what}", self.file.display(), at.line, at.key)
+    }
+}
+
+struct Builder<'d> {
+    check: Checker<'d>,
+    folder: &'d Path,
+}
+
+impl Builder<'_> {
+    fn leg(&mut self, file: &Path, description: &Description) -> LegFile {
+        let root = Place::root();
+        let [mission, depart, arrive] = ["mission", "depart", "arrive"].map(|key| root.key(key));
+        let Description { depart: from, arrive: to, .. } = description;
+        let path = self.path(&mission, &description.mission);
+        let at = depart.key("at");
+        let depart_epoch_s = from.at.as_ref().and_then(|written| self.date(&at, written));
+        let position = depart.key("position");
+        let position_m = self.vector(&position, &from.position, ("m", ALLOWED_LENGTH));
+        let velocity = depart.key("velocity");
+        let velocity_before_m_s =
+            from.velocity.as_ref().map(|written| self.vector(&velocity, written, ("m/s", ALLOWED_SPEED)));
+        let [body, arrive_at, revolutions] = ["body", "at", "revolutions"].map(|key| arrive.key(key));
+        let arrival = self.instant(&arrive_at, &to.at);
+        let (aim_key, aim) = self.aim(&arrive, to);
+        let turns = self.revolutions(&arrive, to);
+        LegFile {
+            file: file.to_owned(),
+            mission: self.at(&mission, path),
+            depart_epoch_s: depart_epoch_s.map(|epoch_s| self.at(&at, epoch_s)),
+            position_m: self.at(&position, position_m),
+            velocity_before_m_s,
+            body: self.at(&body, to.body.word()),
+            arrive: self.at(&arrive_at, arrival),
+            aim: self.at(&aim_key, aim),
+            revolutions: self.at(&revolutions, turns),
+        }
+    }
+
+    fn at<T>(&self, place: &Place, it: T) -> At<T> {
+        At { it, key: place.to_string(), line: self.check.line(place) }
+    }
+
+    fn path(&mut self, place: &Place, path: &str) -> PathBuf {
+        let found = self.folder.join(path);
+        if !found.is_file() {
+            let shown = format!("{}, which is not there", found.display());
+            self.check.report(place, shown, "a file; paths are relative to this one's folder");
+        }
+        found
+    }
+
+    fn read(written: &Written, unit: &str) -> Option<f64> {
+        match written {
+            Written::Number(number) => Some(*number).filter(|number| number.is_finite()),
+            Written::Integer(number) => Some(*number as f64),
+            Written::Text(text) => values::quantity(text, unit),
+            _ => None,
+        }
+    }
+
+    fn quantity(&mut self, place: &Place, written: &Written, (unit, allowed): (&str, &str)) -> f64 {
+        Self::read(written, unit).unwrap_or_else(|| {
+            self.check.report(place, written, allowed);
+            0.0
+        })
+    }
+
+    fn vector(&mut self, place: &Place, written: &Written, (unit, allowed): (&str, &str)) -> Vector3<f64> {
+        let items = if let Written::List(items) = written { items.as_slice() } else { &[] };
+        let read: Vec<f64> = items.iter().filter_map(|item| Self::read(item, unit)).collect();
+        let vector = <[f64; 3]>::try_from(read).ok().filter(|_| items.len() == 3).map(Vector3::from);
+        let vector = vector.filter(|vector| vector.norm() > 0.0);
+        vector.unwrap_or_else(|| {
+            let found = match items.len() {
+                0 => written.to_string(),
+                _ => format!("[{}]", items.iter().map(Written::to_string).collect::<Vec<_>>().join(", ")),
+            };
+            self.check.report(place, found, format_args!("a list of three, not all 0, each {allowed}"));
+            Vector3::x()
+        })
+    }
+
+    fn date(&mut self, place: &Place, written: &Written) -> Option<f64> {
+        if let Written::Text(text) = written
+            && let Ok(Instant::Epoch(epoch_s)) = values::instant(text)
+        {
+            return Some(epoch_s);
+        }
+        self.check.report(place, written, dates::ALLOWED_DATE);
+        None
+    }
+
+    fn instant(&mut self, place: &Place, written: &Written) -> Instant {
+        let number = matches!(written, Written::Number(_) | Written::Integer(_) | Written::Text(_));
+        let instant = written.setting().filter(|_| number).and_then(|text| values::instant(&text).ok());
+        instant.unwrap_or_else(|| {
+            let allowed = format_args!("{}; or simulation time: \"200 d\"", dates::ALLOWED_DATE);
+            self.check.report(place, written, allowed);
+            Instant::Time(0.0)
+        })
+    }
+
+    /// With the key that it stands in.
+    fn aim(&mut self, arrive: &Place, to: &ArriveDescription) -> (Place, Aim) {
+        let [altitude, angle, b_t, b_r] = ["altitude", "angle", "bT", "bR"].map(|key| arrive.key(key));
+        match (&to.altitude, &to.angle, &to.b_t, &to.b_r) {
+            (Some(above), Some(toward), None, None) => {
+                let altitude_m = self.quantity(&altitude, above, ("m", ALLOWED_LENGTH));
+                if altitude_m <= 0.0 && !self.check.has_reported(&altitude) {
+                    let found = format!("{above}, inside the planet");
+                    self.check.report(
+                        &altitude,
+                        found,
+                        format_args!("an altitude above 0: {ALLOWED_LENGTH}"),
+                    );
+                }
+                let angle_rad = self.quantity(&angle, toward, ("rad", ALLOWED_ANGLE));
+                if angle_rad.abs() > core::f64::consts::TAU {
+                    self.check.report(&angle, toward, ALLOWED_ANGLE);
+                }
+                (altitude, Aim::Altitude { altitude_m, angle_rad })
+            }
+            (None, None, Some(along_t), Some(along_r)) => {
+                let b_t_m = self.quantity(&b_t, along_t, ("m", ALLOWED_LENGTH));
+                let b_r_m = self.quantity(&b_r, along_r, ("m", ALLOWED_LENGTH));
+                (b_t, Aim::Plane { b_t_m, b_r_m })
+            }
+            (above, toward, along_t, along_r) => {
+                let keys = [("altitude", above), ("angle", toward), ("bT", along_t), ("bR", along_r)];
+                let found: Vec<&str> =
+                    keys.iter().filter(|(_, it)| it.is_some()).map(|(key, _)| *key).collect();
+                let found = if found.is_empty() { "no aim".to_owned() } else { found.join(", ") };
+                self.check.report(arrive, found, "altitude and angle, or bT and bR");
+                (arrive.clone(), Aim::Plane { b_t_m: 0.0, b_r_m: 0.0 })
+            }
+        }
+    }
+
+    fn revolutions(&mut self, arrive: &Place, to: &ArriveDescription) -> Option<(u32, LambertBranch)> {
+        let [key, branch] = ["revolutions", "branch"].map(|key| arrive.key(key));
+        let number = match &to.revolutions {
+            None => Some(0),
+            Some(Written::Integer(number)) => {
+                u32::try_from(*number).ok().filter(|it| *it <= MOST_REVOLUTIONS)
+            }
+            Some(_) => None,
+        };
+        match (number, to.branch) {
+            (None, _) => {
+                let found = to.revolutions.as_ref().map(Written::to_string).unwrap_or_default();
+                self.check.report(&key, found, format_args!("a whole number from 0 to {MOST_REVOLUTIONS}"));
+                None
+            }
+            (Some(0), None) => None,
+            (Some(0), Some(_)) => {
+                self.check.report(&branch, "it without revolutions", "revolutions = 1 or more, or no branch");
+                None
+            }
+            (Some(number), Some(ArcBranch::Left)) => Some((number, LambertBranch::Left)),
+            (Some(number), Some(ArcBranch::Right)) => Some((number, LambertBranch::Right)),
+            (Some(_), None) => {
+                self.check.report_lack(
+                    arrive,
+                    "branch",
+                    "branch = \"left\" or \"right\", of two arcs that go around so often",
+                );
+                None
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
