@@ -34,6 +34,8 @@ const MODEL: &str = "MomentumPlant";
 const STEP_S: f64 = 3600.0;
 /// The same in an orbit phase, whose downlinks begin and end at such points.
 const ORBIT_STEP_S: f64 = 600.0;
+/// A flight whose last row is nearer to its planet came to it: farther than any goes in such a step.
+const NEAR_M: f64 = 1e8;
 /// A component of momentum that is never reached.
 const NEVER_N_M_S: f64 = 1e9;
 /// A mission's momentum is the physical one.
@@ -239,10 +241,17 @@ impl SimulatedMission {
         if let Some(seed) = seed.and_then(|seed| i32::try_from(seed).ok()) {
             sets.push(("noise.seed".to_owned(), Value::Integer(seed)));
         }
-        let recording =
-            self.record(&Requested { sets: &sets, outputs: &patterns, ..Requested::default() })?;
+        let requested = Requested { sets: &sets, outputs: &patterns, ..Requested::default() };
+        let (recording, ended) = self.record_until(&requested)?;
         let column = |name: &str| recording.column(name).map(|column| column.numbers());
-        Ok(plant::flight(&recording.times_s, &column, (panels.len(), CONVENTION))?)
+        let flight = plant::flight(&recording.times_s, &column, (panels.len(), CONVENTION));
+        let Some(why) = ended else { return Ok(flight?) };
+        // A path into the planet of the encounter: a plan, or another departure, may lead past it.
+        let last = flight.ok().filter(|flight| {
+            let motion = flight.rows.last().and_then(|row| row.motion);
+            motion.is_some_and(|motion| motion.from_body().position_m.norm() < NEAR_M)
+        });
+        last.map(|flight| SimulatedFlight { ended: Some(why.clone()), ..flight }).ok_or_else(|| why.into())
     }
 
     /// Simulates it and gives what was requested.

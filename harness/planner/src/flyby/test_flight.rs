@@ -268,7 +268,7 @@ impl Leg {
             });
             rows.push(row);
         }
-        SimulatedFlight { rows }
+        SimulatedFlight { rows, ..SimulatedFlight::default() }
     }
 }
 

@@ -4,6 +4,7 @@
 //! one direction, solved again about its own answer, for tilt, windmilling and alternation multiply.
 
 use nalgebra::{Vector2, Vector3};
+use rayon::prelude::*;
 
 use super::{
     counted,
@@ -17,7 +18,9 @@ use super::{
 };
 
 /// Directions in which the farthest places are sought.
-const DIRECTIONS: usize = 32;
+const DIRECTIONS: usize = 16;
+/// Rows of the flight that the reach is computed with are no closer, in s.
+const REACH_ROWS_S: f64 = 6.0 * 3600.0;
 /// By which the range of the controls about an answer narrows where the next is no farther, and where that ends.
 const NARROWED: f64 = 0.4;
 const LEAST_RANGE: f64 = 0.02;
@@ -122,7 +125,8 @@ pub fn reachable(
     simulated: &SimulatedFlight,
     simulates: &mut dyn Simulates,
 ) -> Result<Reachable, PlanError> {
-    let mut model = bare(task, sunlit, simulated)?;
+    simulates.progress("reach");
+    let mut model = bare(task, sunlit, &simulated.thinned(REACH_ROWS_S))?;
     // The target itself is no limit here.
     model.aim(sunlit, task.target.map(|_| super::target::Target { tolerance: [None; 3] }));
     let Some(here) = model.miss() else { return Ok(Reachable::default()) };
@@ -131,24 +135,26 @@ pub fn reachable(
     if model.excess_n_m_s().0 > 0.0 {
         refine(&mut model, sunlit, &single, (Goal::LeastExcess, WHOLE), simulates)?;
     }
-    let mut farthest = |direction: Vector2<f64>, is_straight: bool| {
-        simulates.progress("reach");
-        farthest(&model, sunlit, (here, direction), is_straight)
-    };
+    let farthest =
+        |direction: Vector2<f64>, is_straight: bool| farthest(&model, sunlit, (here, direction), is_straight);
     let axes = [Vector2::x(), -Vector2::x(), Vector2::y(), -Vector2::y()];
-    let widest = axes.map(|axis| farthest(axis, false).map_or(0.0, |place| place.dot(&axis)));
-    let along_m = axes.map(|axis| {
-        // Behind where it is: the limits do not let it stay there.
-        farthest(axis, true).map(|place| place.dot(&axis)).filter(|along_m| *along_m >= 0.0)
-    });
+    let found: Vec<(Option<Vector2<f64>>, Option<Vector2<f64>>)> =
+        axes.par_iter().map(|axis| (farthest(*axis, false), farthest(*axis, true))).collect();
+    // One behind where it is: the limits do not let it stay there.
+    let along = |at: usize| found[at].1.map(|place| place.dot(&axes[at])).filter(|along_m| *along_m >= 0.0);
+    let widest = [0, 1, 2, 3].map(|at| found[at].0.map_or(0.0, |place| place.dot(&axes[at])));
     let scale = Vector2::new(widest[0].max(widest[1]), widest[2].max(widest[3])).add_scalar(1.0);
-    let directions = (0..DIRECTIONS).map(|k| core::f64::consts::TAU * k as f64 / DIRECTIONS as f64);
-    // Normals of an ellipse of that size.
-    let corners = directions.filter_map(|angle| {
-        let normal = Vector2::new(angle.cos() / scale.x, angle.sin() / scale.y);
-        farthest(normal.normalize(), false)
-    });
-    Ok(Reachable { along_m, polygon_m: hull(corners.collect()) })
+    // Normals of an ellipse of that size, between the axes.
+    let between = (0..DIRECTIONS).filter(|k| k % (DIRECTIONS / 4) != 0);
+    let normals: Vec<Vector2<f64>> = between
+        .map(|k| core::f64::consts::TAU * k as f64 / DIRECTIONS as f64)
+        .map(|angle| Vector2::new(angle.cos() / scale.x, angle.sin() / scale.y).normalize())
+        .collect();
+    let mut corners: Vec<Option<Vector2<f64>>> =
+        normals.par_iter().map(|normal| farthest(*normal, false)).collect();
+    corners.extend(found.iter().flat_map(|(widest, straight)| [*widest, *straight]));
+    let polygon_m = hull(corners.into_iter().flatten().collect());
+    Ok(Reachable { along_m: [0, 1, 2, 3].map(along), polygon_m })
 }
 
 /// The place farthest in a direction from where the encounter was; straight: nowhere aside. Sought with the alternate attitude and

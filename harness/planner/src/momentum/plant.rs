@@ -217,5 +217,5 @@ pub fn flight(
     rows.reverse();
     rows.dedup_by(|next, kept| next.time_s >= kept.time_s);
     rows.reverse();
-    Ok(SimulatedFlight { rows, encountered: None })
+    Ok(SimulatedFlight { rows, ..SimulatedFlight::default() })
 }

@@ -130,9 +130,15 @@ pub struct SimulatedFlight {
     pub rows: Vec<FlightRow>,
     /// How it missed what it was aimed at; `None` where there is nothing.
     pub encountered: Option<Encountered>,
+    /// Why it ended before the mission does: a path into a planet.
+    pub ended: Option<String>,
 }
 
 impl SimulatedFlight {
+    fn without_rows(&self) -> Self {
+        Self { rows: Vec::new(), encountered: self.encountered.clone(), ended: self.ended.clone() }
+    }
+
     /// The flight with a row at each of these times that lies within it, interpolated where it has none.
     pub fn with_rows_at(&self, times_s: &[f64]) -> Self {
         let mut rows = self.rows.clone();
@@ -150,7 +156,21 @@ impl SimulatedFlight {
             let row = before.toward(next, share);
             rows.insert(after, row);
         }
-        Self { rows, encountered: self.encountered.clone() }
+        Self { rows, ..self.without_rows() }
+    }
+
+    /// The flight with rows at least so far apart, in s, the first and the last among them.
+    pub fn thinned(&self, step_s: f64) -> Self {
+        let mut rows: Vec<FlightRow> = Vec::new();
+        for (index, row) in self.rows.iter().enumerate() {
+            let is_apart = rows.last().is_none_or(|last| row.time_s - last.time_s >= step_s - SAME_S);
+            // Dumps stay between the same rows.
+            let dumps = rows.last().is_some_and(|last| last.dumps != row.dumps);
+            if is_apart || dumps || index + 1 == self.rows.len() {
+                rows.push(row.clone());
+            }
+        }
+        Self { rows, ..self.without_rows() }
     }
 
     /// The flight with what another one reports within a span.
@@ -160,7 +180,7 @@ impl SimulatedFlight {
             self.rows.iter().filter(|row| row.time_s <= from_s + SAME_S).cloned().collect();
         rows.extend(other.rows.iter().filter(is_inside).cloned());
         rows.extend(self.rows.iter().filter(|row| row.time_s >= to_s - SAME_S).cloned());
-        Self { rows, encountered: self.encountered.clone() }
+        Self { rows, ..self.without_rows() }
     }
 
     /// What is known at a time within the flight, interpolated.

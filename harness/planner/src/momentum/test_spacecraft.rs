@@ -51,7 +51,7 @@ pub(super) fn simulated(sunlit: &SunlitSpacecraft, days: u32, distance_au: f64) 
     let times = (0..=12 * days).map(|k| f64::from(k) * 7200.0);
     SimulatedFlight {
         rows: times.map(|time_s| row(sunlit, time_s, distance_au, 0.3)).collect(),
-        encountered: None,
+        ..SimulatedFlight::default()
     }
 }
 

@@ -269,6 +269,11 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     for warning in written::beyond_inputs(&planned.mission, &planned.timeline) {
         terminal::note(&warning);
     }
+    if let Some(why) = &found.flight.ended {
+        terminal::note(&format!(
+            "warning: the mission with this plan ends early, see `plan leg` and `plan flyby`: {why}"
+        ));
+    }
     if !options.quiet {
         terminal::print(&summary(&planned, &found, (&prices, &seeds)))?;
         if let (Some(report), Some(aimed)) = (&encounter, &planned.aimed) {
