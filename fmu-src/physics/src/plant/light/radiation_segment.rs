@@ -60,8 +60,8 @@ impl RadiationSegment {
             (core::mem::take(&mut self.temperatures_k), core::mem::take(&mut self.end_k));
         temperatures_k.clone_from(&other.temperatures_k);
         end_k.clone_from(&other.end_k);
-        let Self { start_s, end_s, next_longest_s, ref loads, .. } = *other;
-        *self = Self { start_s, end_s, next_longest_s, loads: loads.clone(), temperatures_k, end_k };
+        let Self { start_s, end_s, next_longest_s, loads, .. } = *other;
+        *self = Self { start_s, end_s, next_longest_s, loads, temperatures_k, end_k };
     }
 
     /// Whether it is the one before the first.
