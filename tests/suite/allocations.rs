@@ -182,19 +182,23 @@ fn predictive_targets_allocate_nothing() {
     }
 }
 
-/// Surfaces that store heat, through eclipses; shadows of one another are left out, they may allocate.
-#[test]
-fn stored_heat_allocates_nothing() {
-    let text = include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml");
+/// A MomentumPlant of this file.
+fn with_file(text: &str) -> (InProcess, Names) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("spacecraft.toml"), text).unwrap();
     let description = LIBRARY
         .describe(LIBRARY.find("MomentumPlant").unwrap(), Some("spacecraft.toml"), Some(text))
         .unwrap();
-    let names = Names::new(&description);
     let location = format!("file://{}", folder.path().display());
-    let mut instance =
-        InProcess::instantiate(library("MomentumPlant"), &description.guid, Some(&location)).unwrap();
+    let instance = InProcess::instantiate(library("MomentumPlant"), &description.guid, Some(&location));
+    (instance.unwrap(), Names::new(&description))
+}
+
+/// Surfaces that store heat, through eclipses; shadows of one another are left out, they may allocate.
+#[test]
+fn stored_heat_allocates_nothing() {
+    let text = include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml");
+    let (mut instance, names) = with_file(text);
     ok(instance.set_debug_logging(false, &[]));
     Scenario::Lit.prepare(&mut instance, &names);
     ok(instance.start(0.0, None));
@@ -218,6 +222,36 @@ fn stored_heat_allocates_nothing() {
     });
     assert_eq!(count, Count::default());
     assert!(dark > 20, "{dark}");
+}
+
+/// Predictions of an encounter, whose forks carry the heat stored in surfaces along.
+#[test]
+fn predictions_allocate_nothing() {
+    let text = include_str!("../../fmu-src/resources/examples/mercury-orbiter.toml");
+    let (mut instance, names) = with_file(text);
+    ok(instance.set_debug_logging(false, &[]));
+    Scenario::Lit.prepare(&mut instance, &names);
+    let integers = ["orbit.center", "orbit.source", "orbit.dynamics", "encounter.body"]
+        .map(|name| names.of(BaseType::Integer, name));
+    ok(instance.set_integer(&integers, &[2, 2, 3, 1]));
+    ok(instance.set_real(&names.vector::<3>("orbit.position"), &[5e10, 0.0, 0.0]));
+    ok(instance.set_real(&names.vector::<3>("orbit.velocity"), &[0.0, 5e4, 5e3]));
+    let reals = ["prediction.refresh", "prediction.horizon"].map(|name| names.real(name));
+    ok(instance.set_real(&reals, &[3_600.0, 86_400.0]));
+    ok(instance.start(0.0, None));
+    let since = [names.real("prediction.since")];
+    let mut since_s = [0.0];
+    for number in 0..20 {
+        ok(instance.do_step(1_200.0 * f64::from(number), 1_200.0));
+    }
+    let ((), count) = counted(|| {
+        for number in 20..60 {
+            ok(instance.do_step(1_200.0 * f64::from(number), 1_200.0));
+        }
+        ok(instance.get_real(&since, &mut since_s));
+    });
+    assert_eq!(count, Count::default());
+    assert_eq!(since_s, [68_400.0]);
 }
 
 /// The memoryless model: Sun, planet, panels and mass placed anew before every step, through eclipses.

@@ -166,6 +166,11 @@ fn in_flight_by_torque_the_command_is_followed_ideally() {
     let [commanded, controlled] = [turned(2.0), turned(3.0)];
     // The controller's swing of ten minutes moves the spacecraft by less than a metre in ten days.
     assert!((commanded - controlled).norm() < 10.0, "{commanded} {controlled}");
+    let controlled = [&predicting(100.0)[..], &[("attitude.source", 3.0), ("command.source", 2.0)]].concat();
+    let fly = || named.fly(0.0, &controlled).unwrap();
+    assert_cuts_change_nothing(fly, [200.0, 350.0], &[50.0, 133.0], |flight| {
+        assert!(flight.boolean("prediction.valid"));
+    });
     let mut free = predicting(600.0);
     free.extend([("attitude.source", 4.0), ("start.q[1]", q[0]), ("start.q[2]", q[1])]);
     free.extend([("start.q[3]", q[2]), ("start.q[4]", q[3])]);

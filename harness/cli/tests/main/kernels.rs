@@ -176,7 +176,8 @@ fn a_flight_between_planets_goes_by_kernels() {
     let [mercury_m, later_m] = [0.0, 1.0].map(|at_s| truth_m(OnboardTarget::Sun, START_S + at_s).map(|x| -x));
     let off_m = [1.6e8, 5e7, 2e7];
     let mut r: [f64; 3] = [0, 1, 2].map(|i| mercury_m[i] + off_m[i]);
-    let mut v: [f64; 3] = [0, 1, 2].map(|i| later_m[i] - mercury_m[i] - off_m[i] / 4e5 + [0.0, 90.0, 0.0][i]);
+    let mut v: [f64; 3] =
+        [0, 1, 2].map(|i| later_m[i] - mercury_m[i] - off_m[i] / 1e5 + [0.0, 800.0, 0.0][i]);
     let epoch = format!("start.epoch={START_S:e}");
     let mut sets = vec![
         epoch,

@@ -115,6 +115,8 @@ pub struct World {
     pub light: Option<RadiationSolver>,
     /// What the step has cost so far.
     pub work: Work,
+    /// Room of forks, kept from one to the next: they allocate nothing.
+    pub fork_room: [PropagatorState; 3],
 }
 
 impl World {
@@ -127,6 +129,7 @@ impl World {
             laws,
             light: None,
             work: Work::new(u32::MAX, 0),
+            fork_room: Default::default(),
         }
     }
 
@@ -193,7 +196,7 @@ impl<'a> Plant<'a> {
         propagator: &'a mut PropagatorState,
         external: &'a External<'a>,
     ) -> Self {
-        let World { configuration, mass_at_zero, ephemeris, laws, light, work } = world;
+        let World { configuration, mass_at_zero, ephemeris, laws, light, work, .. } = world;
         let PropagatorState { trajectory, light: segment, sun_choice, .. } = propagator;
         let kinematics = Kinematics {
             configuration,

@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::configured::ConfiguredFlight;
-use super::fork::{Fork, Waypoint};
+use super::fork::Fork;
 use crate::environment::orbit::{BPlane, Collision, OrbitIntegrationError};
 use crate::loads::ForceTorque;
 use crate::momentum::Totals;
@@ -89,8 +89,6 @@ fn arrival(
     time_s: f64,
 ) -> Result<Option<PredictedArrival>, PlantError> {
     let lead_s = encounter.prediction.lead_s;
-    // The last one is too late where the other is not: they are the lead or more apart.
-    let mut waypoints: [Option<Waypoint>; 2] = [None, Some(fork.waypoint(time_s))];
     let mut now_s = time_s;
     let limit_s = time_s + encounter.prediction.horizon_s;
     let limit_s = limit_s.min(fork.time_at_epoch_s(encounter.prediction.last_epoch_s));
@@ -98,9 +96,8 @@ fn arrival(
         if now_s >= limit_s {
             return Ok(None);
         }
-        if waypoints[1].as_ref().is_none_or(|last| now_s - last.time_s > lead_s) {
-            waypoints = [waypoints[1].take(), Some(fork.waypoint(now_s))];
-        }
+        // Where the last one is too late the one before is not.
+        fork.mark(now_s, lead_s);
         let advanced = fork.advance_orbit(now_s, limit_s);
         if let Err(PlantError::Orbit(OrbitIntegrationError::Collision(Collision::Impact {
             at_s, name, ..
@@ -115,11 +112,7 @@ fn arrival(
         }
     };
     let osculates_s = (at_s - lead_s).max(time_s);
-    let Some(from) = waypoints.into_iter().flatten().rfind(|it| it.time_s <= osculates_s) else {
-        return Ok(None);
-    };
-    let mut now_s = from.time_s;
-    fork.return_to(from);
+    let Some(mut now_s) = fork.go_back(osculates_s) else { return Ok(None) };
     while now_s < osculates_s {
         now_s = fork.advance_orbit(now_s, osculates_s)?;
     }

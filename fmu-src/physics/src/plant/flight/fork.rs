@@ -53,15 +53,15 @@ pub(crate) struct Fork<'f> {
     applied: [ForceTorque<f64>; 2],
     /// Events of the schedule that are over.
     scheduled: usize,
+    /// The last two waypoints.
+    waypoints: [(Option<Waypoint>, PropagatorState); 2],
     flight: (AttitudeSource, Settings, RadiationSettings, MassProperties),
 }
 
-/// Where a fork was.
-#[derive(Clone, Debug)]
-pub(super) struct Waypoint {
-    /// When, in s.
-    pub time_s: f64,
-    propagator: PropagatorState,
+/// Where a fork was, beside its propagator there.
+#[derive(Clone, Copy, Debug)]
+struct Waypoint {
+    time_s: f64,
     scheduled: usize,
     mass_at_zero: MassProperties,
 }
@@ -76,13 +76,16 @@ impl<'f> Fork<'f> {
         applied: [ForceTorque<f64>; 2],
         (time_s, totals): (f64, Totals),
     ) -> Self {
+        let [mut own, first, second] = core::mem::take(&mut world.fork_room);
+        own.copy_from(propagator);
         let configuration = &mut world.configuration;
         let attitude = core::mem::replace(&mut configuration.attitude, attitude);
         let flight = (attitude, configuration.momentum, configuration.light_and_heat, world.mass_at_zero);
         // Those of this time are over.
         let scheduled = configuration.thruster_events.until(time_s);
         let integrator = MomentumIntegrator::new(time_s, totals);
-        Self { prepared, world, propagator: propagator.clone(), integrator, applied, scheduled, flight }
+        let waypoints = [(None, first), (None, second)];
+        Self { prepared, world, propagator: own, integrator, applied, scheduled, waypoints, flight }
     }
 
     /// What the flight computed ahead of `time_s` is void: something else acts from there on.
@@ -157,16 +160,26 @@ impl<'f> Fork<'f> {
         epoch_s - self.world.configuration.epoch_minus_time_s
     }
 
-    /// Where the fork is.
-    pub(super) fn waypoint(&self, time_s: f64) -> Waypoint {
-        let propagator = self.propagator.clone();
-        Waypoint { time_s, propagator, scheduled: self.scheduled, mass_at_zero: self.world.mass_at_zero }
+    /// Keeps `time_s`, where the fork has come, as a waypoint if the last one is more than `apart_s` back.
+    pub(super) fn mark(&mut self, time_s: f64, apart_s: f64) {
+        if matches!(&self.waypoints[1].0, Some(last) if time_s - last.time_s <= apart_s) {
+            return;
+        }
+        self.waypoints.swap(0, 1);
+        let (waypoint, propagator) = &mut self.waypoints[1];
+        propagator.copy_from(&self.propagator);
+        *waypoint =
+            Some(Waypoint { time_s, scheduled: self.scheduled, mass_at_zero: self.world.mass_at_zero });
     }
 
-    /// Goes on from there.
-    pub(super) fn return_to(&mut self, waypoint: Waypoint) {
-        (self.propagator, self.scheduled) = (waypoint.propagator, waypoint.scheduled);
-        self.world.mass_at_zero = waypoint.mass_at_zero;
+    /// Goes back to the last waypoint up to `time_s` and gives its time; `None` without one.
+    pub(super) fn go_back(&mut self, time_s: f64) -> Option<f64> {
+        let is_up_to = |waypoint: &Option<Waypoint>| waypoint.is_some_and(|it| it.time_s <= time_s);
+        let (waypoint, propagator) = self.waypoints.iter_mut().rfind(|(waypoint, _)| is_up_to(waypoint))?;
+        core::mem::swap(&mut self.propagator, propagator);
+        let Waypoint { time_s, scheduled, mass_at_zero } = waypoint.take()?;
+        (self.scheduled, self.world.mass_at_zero) = (scheduled, mass_at_zero);
+        Some(time_s)
     }
 
     /// What the schedule has at `time_s`, where the fork has come; gives the velocity change, EME2000, in m/s.
@@ -227,6 +240,8 @@ impl<'f> Fork<'f> {
 
 impl Drop for Fork<'_> {
     fn drop(&mut self) {
+        let [(_, first), (_, second)] = &mut self.waypoints;
+        self.world.fork_room = [&mut self.propagator, first, second].map(core::mem::take);
         let configuration = &mut self.world.configuration;
         (
             configuration.attitude,

@@ -41,6 +41,16 @@ impl PropagatorState {
         Ok(Self { trajectory: Trajectory::new(configuration, time_s)?, ..Self::default() })
     }
 
+    /// Becomes another one; allocates nothing where it held as much before.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        match (&mut self.light, &other.light) {
+            (Some(light), Some(other)) => light.copy_from(other),
+            (light, other) => light.clone_from(other),
+        }
+        let Self { trajectory, light: _, sun_choice, center_of_mass } = *other;
+        (self.trajectory, self.sun_choice, self.center_of_mass) = (trajectory, sun_choice, center_of_mass);
+    }
+
     /// Goes on from another place; the heat stored in the surfaces comes along.
     ///
     /// # Errors

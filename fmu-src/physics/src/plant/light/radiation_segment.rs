@@ -54,6 +54,16 @@ impl RadiationSegment {
         }
     }
 
+    /// Becomes another one; allocates nothing where it held as many temperatures before.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        let (mut temperatures_k, mut end_k) =
+            (core::mem::take(&mut self.temperatures_k), core::mem::take(&mut self.end_k));
+        temperatures_k.clone_from(&other.temperatures_k);
+        end_k.clone_from(&other.end_k);
+        let Self { start_s, end_s, next_longest_s, loads, .. } = *other;
+        *self = Self { start_s, end_s, next_longest_s, loads, temperatures_k, end_k };
+    }
+
     /// Whether it is the one before the first.
     pub(crate) fn is_before(&self) -> bool {
         self.loads.present().next().is_none()
