@@ -3,6 +3,7 @@
 
 mod checks;
 mod drawings;
+mod encounters;
 mod ephemerides;
 mod files;
 mod hostile;

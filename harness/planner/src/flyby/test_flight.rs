@@ -12,7 +12,7 @@ use super::flight::Surroundings;
 use crate::momentum::simulated::{FlightRow, Motion, SimulatedFlight};
 
 pub(super) const DAY_S: f64 = 86_400.0;
-/// The second flyby, 2008-10-06 08:40, in s past J2000, and how long before it the leg begins.
+/// A day behind the second flyby, in s past J2000, and how long before it the leg begins.
 const FLYBY_S: f64 = 276_640_800.0;
 pub(super) const LONG_S: f64 = 200.0 * DAY_S;
 pub(super) const MASS_KG: f64 = 900.0;

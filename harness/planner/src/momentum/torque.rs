@@ -182,7 +182,7 @@ impl SunlitSpacecraft {
     ) -> [Vector3<f64>; 2] {
         let distance_m = row.to_sun_m.norm();
         let sun_body = inertial_from_body.inverse() * (row.to_sun_m / distance_m);
-        let sunlit = self.craft(row, settings, distance_m);
+        let sunlit = self.spacecraft_at(row, settings, distance_m);
         let center = sunlit.mass_properties(&sun_body).center_of_mass_body_m;
         let load = sunlit.load(&self.beam(row, sun_body), &center);
         let torque = self.given_from_body(inertial_from_body) * load.torque_body_n_m;
@@ -194,7 +194,7 @@ impl SunlitSpacecraft {
     }
 
     /// At a row, its panels standing as they do this far from the Sun, in m.
-    fn craft<'a>(
+    fn spacecraft_at<'a>(
         &'a self,
         row: &FlightRow,
         settings: &'a [PanelSetting],
@@ -226,8 +226,8 @@ impl SunlitSpacecraft {
         let distance_m = row.to_sun_m.norm();
         let sun_body = row.inertial_from_body.inverse() * (row.to_sun_m / distance_m);
         let [high_n, low_n] = [STEP_RAD, -STEP_RAD].map(|step| {
-            let craft = self.craft(row, &settings, distance_m * (1.0 + step));
-            craft.load(&self.beam(row, sun_body), &Vector3::zeros()).force_body_n
+            let sunlit = self.spacecraft_at(row, &settings, distance_m * (1.0 + step));
+            sunlit.load(&self.beam(row, sun_body), &Vector3::zeros()).force_body_n
         });
         row.inertial_from_body * (high_n - low_n) / (2.0 * STEP_RAD * distance_m)
     }

@@ -49,7 +49,7 @@ fn leg(window: &Window) -> (Leg, Rc<Cell<Option<Controls>>>) {
 
 #[test]
 fn controls_of_a_window_move_the_encounter_as_flights_show() {
-    let controls = Controls([35.0 * DEG, 1.0 * DEG, 2.0 * DEG, -1.0 * DEG, 0.3]);
+    let controls = Controls([35.0 * DEG, 1.0 * DEG, 2.0 * DEG, -DEG, 0.3]);
     let window = window(102.0 * DAY_S, controls);
     let (mut leg, put) = leg(&window);
     let start = leg.start();

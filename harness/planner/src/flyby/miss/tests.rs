@@ -20,7 +20,7 @@ fn the_manoeuvre_leads_back_to_the_nominal_place() {
     let cost = MissCost::new(&sensitivity, &surroundings(), [manoeuvre_s, date_s]).unwrap();
     let body = leg.body(surroundings().body, encounter.epoch_s);
     let nominal = packed(&(body + encounter.at_epoch));
-    let mut fly = |shift_m: Vector3<f64>, delta_v_m_s: Vector3<f64>| {
+    let mut propagated = |shift_m: Vector3<f64>, delta_v_m_s: Vector3<f64>| {
         let mut y = nominal;
         (0..3).for_each(|axis| y[axis] += shift_m[axis]);
         let aim = leg.aim(y, encounter.epoch_s, encounter.time_s);
@@ -28,14 +28,14 @@ fn the_manoeuvre_leads_back_to_the_nominal_place() {
         (0..3).for_each(|axis| y[axis + 3] += delta_v_m_s[axis]);
         (aim, unpacked(&leg.propagated(y, [manoeuvre_s, date_s])).position_m)
     };
-    let (aim, nominal_m) = fly(Vector3::zeros(), Vector3::zeros());
+    let (aim, nominal_m) = propagated(Vector3::zeros(), Vector3::zeros());
     let by_place = encounter.at_epoch_partials.fixed_columns::<3>(0).into_owned();
     for miss_m in [[10.0, 0.0], [0.0, 10.0], [-6.0, 8.0]] {
         let shift_m = by_place.try_inverse().unwrap() * Vector3::new(miss_m[0], miss_m[1], 0.0);
-        let (missed, without_m) = fly(shift_m, Vector3::zeros());
+        let (missed, without_m) = propagated(shift_m, Vector3::zeros());
         assert!((missed.x - aim.x - miss_m[0]).hypot(missed.y - aim.y - miss_m[1]) < 0.05);
         assert!((missed.z - aim.z).abs() < 1e-3);
-        let (_, with_m) = fly(shift_m, cost.delta_v_m_s(miss_m));
+        let (_, with_m) = propagated(shift_m, cost.delta_v_m_s(miss_m));
         let [left_m, whole_m] = [with_m, without_m].map(|it| (it - nominal_m).norm());
         assert!(left_m < 2e-3 * whole_m && whole_m > 1e3, "{left_m} of {whole_m} m");
     }
