@@ -6,6 +6,7 @@ mod drawings;
 mod encounters;
 mod ephemerides;
 mod files;
+mod flybys;
 mod hostile;
 mod installed;
 #[cfg(feature = "spk")]

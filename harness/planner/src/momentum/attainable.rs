@@ -22,13 +22,13 @@ const DIRECTIONS: usize = 16;
 /// Rows of the flight that the reach is computed with are no closer, in s.
 const REACH_ROWS_S: f64 = 6.0 * 3600.0;
 /// By which the range of the controls about an answer narrows where the next is no farther, and where that ends.
-const NARROWED: f64 = 0.4;
-const LEAST_RANGE: f64 = 0.02;
+const NARROWED: f64 = 0.5;
+const LEAST_RANGE: f64 = 0.01;
 /// A place farther by less than this share is the last.
 const GAINED: f64 = 2e-3;
 /// Along one axis the other one is kept within so many m by the model, and within this share of the way in the end.
 const ASIDE_M: f64 = 10.0;
-const ASIDE: f64 = 0.01;
+const ASIDE: f64 = 0.03;
 
 /// The model of a mission before any flight of a plan.
 fn bare(task: &PlanTask, sunlit: &SunlitSpacecraft, simulated: &SimulatedFlight) -> Result<Model, PlanError> {
