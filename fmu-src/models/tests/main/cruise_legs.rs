@@ -197,18 +197,18 @@ fn a_file_places_all_that_attracts_over_the_whole_flight_or_is_refused() {
     let begin = start(2e5, 0.0);
     let by_file =
         [&sets(&begin, false)[..], &[("ephemeris.source", 4.0), ("prediction.refresh", DAY_S)]].concat();
-    let flies_by = |text: &str| NamedModel::<MomentumPlant>::shipped().with_schedule(FILE, text);
+    let with_file = |text: &str| NamedModel::<MomentumPlant>::shipped().with_schedule(FILE, text);
     for lacking in all {
         let others: Vec<_> = all.into_iter().filter(|target| *target != lacking).collect();
         // The Moon counts from the Earth.
         let others = if lacking == Earth { vec![Mercury, Venus, Mars, Jupiter] } else { others };
-        let text = flies_by(&file(&others, 12.0)).refusal(&by_file);
+        let text = with_file(&file(&others, 12.0)).refusal(&by_file);
         assert!(text.contains(FILE) && text.contains(&lacking.to_string()), "{lacking}: {text}");
     }
     // Not attracted by it, the flight needs no Moon.
-    let without_moon = flies_by(&file(&all[..5], 12.0));
+    let without_moon = with_file(&file(&all[..5], 12.0));
     without_moon.fly(0.0, &[&by_file[..], &[("orbit.attraction.moon", 0.0)]].concat()).unwrap();
-    let named = flies_by(&file(&all, 12.0));
+    let named = with_file(&file(&all, 12.0));
     let early = [&by_file[..], &[("start.epoch", FLYBY_S - AHEAD_S - DAY_S)]].concat();
     let text = named.refusal(&early);
     assert!(text.contains("start.epoch: found") && text.contains("places"), "{text}");
@@ -226,6 +226,6 @@ fn a_file_places_all_that_attracts_over_the_whole_flight_or_is_refused() {
     let error = flight.step_to(12.5 * DAY_S).unwrap_err().to_string();
     assert!(error.contains("the epoch at the end of the step: found") && error.contains(FILE), "{error}");
     // Nothing is predicted beyond the file.
-    let short = flies_by(&file(&all, 8.0)).fly(0.0, &by_file).map(|it| it.boolean("prediction.valid"));
+    let short = with_file(&file(&all, 8.0)).fly(0.0, &by_file).map(|it| it.boolean("prediction.valid"));
     assert_eq!(short.ok(), Some(false));
 }

@@ -21,7 +21,7 @@ fn predicted(flight: &NamedInstance<'_, MomentumPlant>) -> [f64; 5] {
 }
 
 /// The same as the flight has it, which is before `arrival_s` by more than the lead.
-fn flown(flight: &mut NamedInstance<'_, MomentumPlant>, arrival_s: f64) -> [f64; 5] {
+fn simulated(flight: &mut NamedInstance<'_, MomentumPlant>, arrival_s: f64) -> [f64; 5] {
     flight.step_to(arrival_s - LEAD_S).unwrap();
     let hyperbola = ["bT", "bR", "excessSpeed"].map(|name| flight.real(&format!("encounter.{name}")));
     flight.step_to(arrival_s + 3600.0).unwrap();
@@ -43,7 +43,7 @@ fn what_is_predicted_comes_to_the_bit() {
         assert_eq!(flight.real("prediction.since"), since_days * DAY_S);
         assert_eq!(predicted(&flight), first);
     }
-    assert_eq!(flown(&mut flight, first[0]), first);
+    assert_eq!(simulated(&mut flight, first[0]), first);
     // Light is in it.
     let without = [&predicting(2.5 * DAY_S)[..], &[("orbit.radiationFeedback", 0.0)]].concat();
     let other = predicted(&named.fly(0.0, &without).unwrap());
@@ -71,7 +71,7 @@ fn maneuvers_ahead_count_and_inputs_are_held() {
     assert_eq!(flight.integer("maneuver.count"), 1);
     let with_inputs = predicted(&flight);
     assert!((with_inputs[2] - first[2]).hypot(with_inputs[3] - first[3]) > 1e4);
-    assert_eq!(flown(&mut flight, with_inputs[0]), with_inputs);
+    assert_eq!(simulated(&mut flight, with_inputs[0]), with_inputs);
     assert_eq!(flight.integer("maneuver.count"), 2);
 }
 
@@ -108,7 +108,7 @@ fn without_an_approach_there_is_none() {
     flight.step_to(13.0 * DAY_S).unwrap();
     assert_eq!(flight.real("prediction.since"), 12.0 * DAY_S);
     none(&flight);
-    // None is asked for, and none possible.
+    // None is requested, and none possible.
     let flight = named.fly(0.0, &sets(&start(2e5, 0.0), true)).unwrap();
     none(&flight);
     assert_eq!(flight.real("prediction.since"), -1.0);
