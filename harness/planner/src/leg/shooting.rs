@@ -82,7 +82,7 @@ pub trait SimulatesLeg {
     /// A flight that is refused.
     fn approach(&mut self, velocity_m_s: &Vector3<f64>) -> Result<Approach, Failure>;
 
-    /// Told what is done.
+    /// Reports what is done.
     fn progress(&mut self, doing: &str);
 }
 

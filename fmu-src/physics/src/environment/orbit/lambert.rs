@@ -74,7 +74,7 @@ pub enum LambertError {
     },
     /// So many revolutions take longer.
     #[error(
-        "found {:.3} d with {revolutions} revolutions, allowed: {:.3} d or more, or fewer revolutions", .time_s / DAY_S, .least_s / DAY_S
+        "found {:.3} d, revolutions {revolutions}, allowed: {:.3} d or more, or fewer revolutions", .time_s / DAY_S, .least_s / DAY_S
     )]
     TooShort {
         /// Whole revolutions.

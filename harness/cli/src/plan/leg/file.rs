@@ -26,8 +26,8 @@ const MOST_REVOLUTIONS: u32 = 100;
 pub(super) struct LegFile {
     pub file: PathBuf,
     pub mission: At<PathBuf>,
-    /// Date of the departure, in s past J2000 TDB.
-    pub depart_epoch_s: Option<At<f64>>,
+    /// Date of the departure, in s past J2000 TDB, and as it is written.
+    pub depart: Option<At<(f64, String)>>,
     /// From the Sun, EME2000.
     pub position_m: At<Vector3<f64>>,
     pub velocity_before_m_s: Option<Vector3<f64>>,
@@ -76,7 +76,7 @@ impl Builder<'_> {
         let Description { depart: from, arrive: to, .. } = description;
         let path = self.path(&mission, &description.mission);
         let at = depart.key("at");
-        let depart_epoch_s = from.at.as_ref().and_then(|written| self.date(&at, written));
+        let departure = from.at.as_ref().and_then(|written| self.date(&at, written));
         let position = depart.key("position");
         let position_m = self.vector(&position, &from.position, ("m", ALLOWED_LENGTH));
         let velocity = depart.key("velocity");
@@ -89,7 +89,7 @@ impl Builder<'_> {
         LegFile {
             file: file.to_owned(),
             mission: self.at(&mission, path),
-            depart_epoch_s: depart_epoch_s.map(|epoch_s| self.at(&at, epoch_s)),
+            depart: departure.map(|date| self.at(&at, date)),
             position_m: self.at(&position, position_m),
             velocity_before_m_s,
             body: self.at(&body, to.body.word()),
@@ -143,11 +143,11 @@ impl Builder<'_> {
         })
     }
 
-    fn date(&mut self, place: &Place, written: &Written) -> Option<f64> {
+    fn date(&mut self, place: &Place, written: &Written) -> Option<(f64, String)> {
         if let Written::Text(text) = written
             && let Ok(Instant::Epoch(epoch_s)) = values::instant(text)
         {
-            return Some(epoch_s);
+            return Some((epoch_s, text.clone()));
         }
         self.check.report(place, written, dates::ALLOWED_DATE);
         None

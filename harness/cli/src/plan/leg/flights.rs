@@ -45,7 +45,7 @@ pub(super) struct LegFlights<'a> {
     pub mu_m3_s2: f64,
     pub radius_m: f64,
     at_arrival: CartesianState,
-    /// Told what is done.
+    /// Reports what is done.
     say: &'a dyn Fn(&str),
 }
 

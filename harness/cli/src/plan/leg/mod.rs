@@ -65,7 +65,7 @@ pub(crate) fn checked(file: &Path) -> Result<String, String> {
         values::Instant::Time(time_s) => format!("day {}", terminal::short(time_s / DAY_S)),
         values::Instant::Epoch(epoch_s) => dates::utc(epoch_s),
     };
-    let from = found.depart_epoch_s.as_ref().map_or_else(|| "its start".to_owned(), |at| dates::utc(at.it));
+    let from = found.depart.as_ref().map_or("its start", |at| &at.it.1);
     let revolutions = found.revolutions.it.map_or(0, |(number, _)| number);
     Ok(format!(
         "leads {} from {from} to {} at {}, {}, in {revolutions} revolutions",
@@ -104,7 +104,7 @@ impl<'a> LegMission<'a> {
             let what = "found an input that the leg gives, allowed: none of orbit.position, orbit.velocity";
             return Err(mission.problem(at, what).into());
         }
-        if let (Some(at), None) = (&file.depart_epoch_s, &mission.epoch_s) {
+        if let (Some(at), None) = (&file.depart, &mission.epoch_s) {
             let what = "found a date, allowed: no such key, as the mission does not start at a date";
             return Err(file.problem(at, what).into());
         }
@@ -128,14 +128,19 @@ impl<'a> LegMission<'a> {
     fn text(&self, folder: &Path, velocity_m_s: &[f64]) -> Result<String, Failure> {
         let mut document: DocumentMut = mission_text::moved(&self.mission.file, folder)?;
         let mut zero_epoch_s = self.mission.epoch_s.as_ref().map(|at| at.it);
-        if let Some(at) = &self.file.depart_epoch_s
-            && Some(at.it) != zero_epoch_s
+        let mut stop_s = self.mission.stop_s;
+        if let (Some(at), Some(before_s)) = (&self.file.depart, zero_epoch_s)
+            && at.it.0 != before_s
         {
-            document["start"] = value(dates::utc(at.it));
-            zero_epoch_s = Some(at.it);
+            document["start"] = value(&at.it.1);
+            zero_epoch_s = Some(at.it.0);
+            // A duration counts from the new start, a date does not.
+            let is_date = document.get("stop").and_then(|it| it.as_str()).is_some_and(dates::looks_like_date);
+            stop_s =
+                stop_s.map(|stop_s| if is_date { stop_s - dates::span_s(before_s, at.it.0) } else { stop_s });
         }
         let needed_s = self.arrival_s(zero_epoch_s) + BEHIND_S;
-        if self.mission.stop_s.is_none_or(|stop_s| stop_s < needed_s) {
+        if stop_s.is_none_or(|stop_s| stop_s < needed_s) {
             document["stop"] = value(format!("{} d", (needed_s / DAY_S).ceil()));
         }
         if let Some(table) = document.get_mut("set").and_then(|it| it.as_table_like_mut()) {

@@ -27,7 +27,8 @@ fn units_are_read() {
     let leg = parsed(FULL).unwrap();
     assert_eq!(leg.position_m.it, Vector3::new(0.5 * 149_597_870_700.0, 2e10, -3e3));
     assert_eq!(leg.velocity_before_m_s, Some(Vector3::new(1e3, 0.0, -2.5)));
-    assert_eq!(leg.depart_epoch_s.unwrap().it, dates::epoch_s("2008-03-19 TDB").unwrap());
+    let (epoch_s, text) = leg.depart.unwrap().it;
+    assert_eq!((epoch_s, text.as_str()), (dates::epoch_s("2008-03-19 TDB").unwrap(), "2008-03-19 TDB"));
     assert_eq!(leg.arrive.it, Instant::Epoch(dates::epoch_s("2008-10-06T08:40:00 UTC").unwrap()));
     assert_eq!((leg.body.it, leg.revolutions.it), ("mercury", Some((1, LambertBranch::Right))));
     let Aim::Altitude { altitude_m, angle_rad } = leg.aim.it else { panic!("{:?}", leg.aim) };
