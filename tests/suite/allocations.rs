@@ -231,9 +231,9 @@ fn predictions_allocate_nothing() {
     let (mut instance, names) = with_file(text);
     ok(instance.set_debug_logging(false, &[]));
     Scenario::Lit.prepare(&mut instance, &names);
-    let integers = ["orbit.center", "orbit.source", "orbit.dynamics", "encounter.body"]
+    let integers = ["orbit.center", "orbit.source", "orbit.dynamics", "encounter.body", "ephemeris.source"]
         .map(|name| names.of(BaseType::Integer, name));
-    ok(instance.set_integer(&integers, &[2, 2, 3, 1]));
+    ok(instance.set_integer(&integers, &[2, 2, 3, 1, 1]));
     ok(instance.set_real(&names.vector::<3>("orbit.position"), &[5e10, 0.0, 0.0]));
     ok(instance.set_real(&names.vector::<3>("orbit.velocity"), &[0.0, 5e4, 5e3]));
     let reals = ["prediction.refresh", "prediction.horizon"].map(|name| names.real(name));
