@@ -21,10 +21,10 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|it| it.as_f64().unwrap()).collect()
 }
 
-/// Momentum of the shipped leg planned in windows of six days, and the leg to 200 km with that plan: `leg/mission.toml`.
+/// Momentum of the shipped leg planned in windows of ten days, and the leg to 200 km with that plan: `leg/mission.toml`.
 fn led(folder: &Path, template: &Path, momentum: &str) {
     flyby(folder, 2, &[]);
-    let text = format!("mission = \"flyby.toml\"\nfreeze = 0\nwindow = \"6 d\"\n{momentum}");
+    let text = format!("mission = \"flyby.toml\"\nfreeze = 0\nwindow = \"10 d\"\n{momentum}");
     fs::write(folder.join("momentum.toml"), text).unwrap();
     plan("momentum", &folder.join("momentum.toml"), &folder.join("momentum"), template, 0);
     let leg = fs::read_to_string(folder.join("leg.toml")).unwrap();
@@ -67,13 +67,13 @@ fn passed(mission: &Path, template: &Path, more: &[&str]) -> [f64; 3] {
 /// Momentum planned, departure led to 200 km with that plan, an error of 4 cm/s there, corrected from 111 d before on.
 #[test]
 fn the_steps_of_the_paper_lead_back_to_the_aim() {
-    let Some(template) = template() else { return };
+    let Some((_packed, template)) = template() else { return };
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let momentum = "contactShare = 0.3\n[momentum]\nlimit = \"5.3 N.m.s\"\n[tilt]\nazimuth = \"5 deg\"\nelevation = \"6 deg\"\n";
     led(folder, &template, momentum);
     let text = format!(
-        "mission = \"leg/mission.toml\"\nwindow = \"6 d\"\ncontactShare = 0.3\n[momentum]\nlimit = \"{LIMIT_N_M_S} N.m.s\"\n\
+        "mission = \"leg/mission.toml\"\nwindow = \"10 d\"\ncontactShare = 0.3\n[momentum]\nlimit = \"{LIMIT_N_M_S} N.m.s\"\n\
          [tilt]\nazimuth = \"10 deg\"\nelevation = \"12 deg\"\n[sunOffset]\nchange = true\nlargest = \"20 deg\"\n\
          [flyby]\nbody = \"mercury\"\naltitude = \"200 km\"\nangle = 0\nfrom = \"2008-06-17 UTC\"\n\
          [update]\nat = \"2008-03-19 UTC\"\nvelocity = {}\n[compare]\nnext = \"2009-09-29 UTC\"\n",
@@ -109,6 +109,8 @@ fn the_steps_of_the_paper_lead_back_to_the_aim() {
     assert!((by_timeline[2] - 200.0).abs() < 1.0);
     let text = fs::read_to_string(&mission).unwrap();
     let table = text.replace("timeline = \"timeline.toml\"\n", "").replace("\"timeline\"", "\"command\"");
+    // Between the rows of a jump the corridor is left for a millisecond.
+    let table = table.split("\n[limits]").next().unwrap();
     fs::write(output.join("table.toml"), table).unwrap();
     let inputs = output.join("plan.csv");
     let by_table =
@@ -127,14 +129,14 @@ fn the_steps_of_the_paper_lead_back_to_the_aim() {
 /// Runs with dispersions come to the same on one and on two threads.
 #[test]
 fn what_is_out_of_reach_is_refused_with_the_polygon() {
-    let Some(template) = template() else { return };
+    let Some((_packed, template)) = template() else { return };
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     led(folder, &template, "alternation = 0\nwindmill = 0\n[momentum]\nlimit = \"1e6 N.m.s\"\n");
     let file = folder.join("plan.toml");
     let text = |b_r_km: f64, more: &str| {
         format!(
-            "mission = \"leg/mission.toml\"\nwindow = \"6 d\"\n[momentum]\nlimit = \"1e6 N.m.s\"\n\
+            "mission = \"leg/mission.toml\"\nwindow = \"10 d\"\n[momentum]\nlimit = \"1e6 N.m.s\"\n\
              [tilt]\nazimuth = \"10 deg\"\nelevation = \"12 deg\"\n[sunOffset]\nchange = true\nlargest = \"90 deg\"\n\
              [flyby]\nbody = \"mercury\"\nbT = \"3321.8 km\"\nbR = \"{b_r_km} km\"\nfrom = \"2008-06-17 UTC\"\n{more}"
         )
@@ -163,7 +165,7 @@ fn what_is_out_of_reach_is_refused_with_the_polygon() {
     });
     fs::write(folder.join("covariance.csv"), covariance.collect::<Vec<_>>().join("\n")).unwrap();
     let more = "[update]\nat = \"2008-06-17 UTC\"\ncovariance = \"covariance.csv\"\n\
-                [montecarlo]\nruns = 12\ncenterOfMass = \"1 mm\"\nscale = 0.005\n";
+                [montecarlo]\nruns = 12\ncenterOfMass = \"1 mm\"\nscale = 0.0005\n";
     fs::write(&file, text(0.0, more).replace("change = true", "change = false")).unwrap();
     let dispersed = |threads: &str| {
         let output = folder.join(threads);
@@ -184,7 +186,7 @@ fn what_is_out_of_reach_is_refused_with_the_polygon() {
     assert_eq!(one, two);
     println!("{one}");
     assert_eq!((one["runs"].as_u64(), one["failed"].as_array().map(Vec::len)), (Some(12), Some(0)));
-    assert!(one["ellipse"]["semiAxes_m"][0].as_f64().unwrap() > 1e3);
+    assert!(one["ellipse"]["semiAxes_m"][0].as_f64().unwrap() > 100.0);
 }
 
 fn text_of(output: &std::process::Output) -> String {
@@ -194,7 +196,7 @@ fn text_of(output: &std::process::Output) -> String {
 /// Each with line, key, what was found and what is allowed.
 #[test]
 fn aims_and_states_that_cannot_be_are_refused() {
-    let Some(template) = template() else { return };
+    let Some((_packed, template)) = template() else { return };
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     flyby(folder, 2, &[("\"distance\"", "\"sunOffset\"")]);
@@ -204,18 +206,18 @@ fn aims_and_states_that_cannot_be_are_refused() {
     fs::write(folder.join("negative.csv"), negative.collect::<Vec<_>>().join("\n")).unwrap();
     let aim = "[flyby]\nbody = \"mercury\"\nbT = \"3500 km\"\nbR = 0\n";
     let cases = [
-        (aim.replace("mercury", "venus"), ":3: flyby.body: found \"venus\", allowed: \"mercury\""),
+        (aim.replace("mercury", "venus"), ":4: flyby.body: found \"venus\", allowed: \"mercury\""),
         (
             aim.replace("3500 km", "2000 km"),
-            ":4: flyby.bT: found B of 2000.0 and 0.0 km along T and R, whose periapsis lies",
+            ":5: flyby.bT: found B of 2000.0 and 0.0 km along T and R, whose periapsis lies",
         ),
         (
             aim.replace("bR = 0", "altitude = 1e5"),
             "flyby: found no whole aim, or two, allowed: either bT and bR, or altitude and angle",
         ),
         (format!("{aim}arrival = \"fixed\"\n"), "flyby.arrival: found fixed without time"),
-        (format!("{aim}from = \"2020-01-01 UTC\"\n"), ":6: flyby.from: found a time outside of the mission"),
-        (format!("{aim}tolerance = 0\n"), ":6: flyby.tolerance: found 0, allowed: a length from 1 m on"),
+        (format!("{aim}from = \"2020-01-01 UTC\"\n"), ":7: flyby.from: found a time outside of the mission"),
+        (format!("{aim}tolerance = 0\n"), ":7: flyby.tolerance: found 0, allowed: a length from 1 m on"),
         (
             format!("{aim}[update]\nat = \"2008-04-01 UTC\"\ncovariance = \"bad.csv\"\n"),
             "update.covariance: found ",
@@ -226,7 +228,7 @@ fn aims_and_states_that_cannot_be_are_refused() {
         ),
         (
             format!("{aim}[update]\nat = \"2007-04-01 UTC\"\n"),
-            ":7: update.at: found a time outside of the mission",
+            ":8: update.at: found a time outside of the mission",
         ),
         (
             format!("{aim}[compare]\nnext = \"2008-10-10 UTC\"\napproach = [\"42 d\"]\n"),
@@ -238,12 +240,12 @@ fn aims_and_states_that_cannot_be_are_refused() {
     let file = folder.join("plan.toml");
     for (tables, expected) in cases {
         fs::write(&file, format!("mission = \"flyby.toml\"\nfreeze = 0\n{tables}")).unwrap();
-        let said = plan("flyby", &file, &folder.join("out"), &template, 2);
+        let said = plan("flyby", &file, &folder.join("out"), &template, 1);
         says(&said, &[expected]);
     }
     fs::write(&file, format!("mission = \"flyby.toml\"\n{aim}")).unwrap();
     says(
-        &plan("momentum", &file, &folder.join("out"), &template, 2),
+        &plan("momentum", &file, &folder.join("out"), &template, 1),
         &["flyby: found it, allowed with `plan flyby"],
     );
 }
