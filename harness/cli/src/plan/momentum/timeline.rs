@@ -47,6 +47,8 @@ pub(super) struct MissionTimeline {
     events: Vec<Kept>,
     /// Offset and windmill angle of the arrays over time, in rad, where the timeline says so: time in s, each panel's angle.
     pub arrays_rad: Vec<(f64, Vec<f64>)>,
+    /// Sun's place in its downlinks by its commands: time in s, azimuth and elevation in rad, whether turned about the Sun line.
+    pub sun_places: Vec<(f64, [f64; 2], bool)>,
     /// Its events and their times, in s.
     pub thruster_events: Vec<(f64, TimelineEvent)>,
     is_dated: bool,
@@ -132,8 +134,18 @@ impl MissionTimeline {
                 angles.map(|(offset_rad, side)| offset_rad + step.windmill_rad * side).collect(),
             )
         });
+        let mut sun_places = Vec::new();
+        for (index, entry) in timeline.entries().iter().enumerate() {
+            let sun = entry.downlink.sun.map_or([0.0; 2], |sun| [sun.azimuth_rad, sun.elevation_rad]);
+            sun_places.push((time(entry.at_s), sun, entry.downlink.alternate));
+            let next_s = timeline.entries().get(index + 1).map_or(f64::INFINITY, |next| next.at_s);
+            if let Some(until_s) = entry.until_s.filter(|until_s| *until_s < next_s) {
+                sun_places.push((time(until_s), [0.0; 2], false));
+            }
+        }
         Ok(Self {
             arrays_rad: arrays.collect(),
+            sun_places,
             thruster_events: timeline.events().iter().map(|event| (time(event.at_s), *event)).collect(),
             commands: kept("command", commands.collect()),
             panels: kept("panels", panels.collect()),

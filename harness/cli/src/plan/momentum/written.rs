@@ -92,6 +92,11 @@ pub(super) fn inputs(
     for (at_s, angles_rad) in timeline.arrays_rad.iter().filter(|(at_s, _)| *at_s < frozen_s) {
         changes.push((*at_s, Change::Arrays(angles_rad.clone())));
     }
+    if is_frozen {
+        for (at_s, sun_rad, alternate) in timeline.sun_places.iter().filter(|it| it.0 < frozen_s) {
+            changes.push((at_s.max(planned.start_s), Change::Place(*sun_rad, *alternate)));
+        }
+    }
     for step in array_steps(&plan.windows) {
         let [offset_rad, windmill_rad] = [step.offset_deg, step.windmill_deg].map(f64::to_radians);
         changes.push((
@@ -99,7 +104,8 @@ pub(super) fn inputs(
             Change::Arrays(sides.iter().map(|side| offset_rad + windmill_rad * side).collect()),
         ));
     }
-    for window in &plan.windows {
+    // What is frozen first is the timeline's, above.
+    for window in plan.windows.iter().skip(usize::from(is_frozen && !timeline.sun_places.is_empty())) {
         if window.kind != WindowKind::Free {
             changes.push((window.start_s, Change::Sun(None, false)));
             continue;
@@ -206,6 +212,7 @@ pub(super) fn beyond_inputs(planned: &SimulatedMission, timeline: &MissionTimeli
 enum Change<'w> {
     Arrays(Vec<f64>),
     Sun(Option<&'w Window>, bool),
+    Place([f64; 2], bool),
     Dump(bool, Vector3<f64>),
     Maneuver(bool, Vector3<f64>),
     CenterOfMass(Vector3<f64>),
@@ -221,6 +228,10 @@ impl Change<'_> {
                 };
                 (inputs.azimuth_rad, inputs.elevation_rad) =
                     (angle(Control::Azimuth), angle(Control::Elevation));
+                inputs.alternate = *alternate;
+            }
+            Self::Place([azimuth_rad, elevation_rad], alternate) => {
+                (inputs.azimuth_rad, inputs.elevation_rad) = (*azimuth_rad, *elevation_rad);
                 inputs.alternate = *alternate;
             }
             Self::Maneuver(request, delta_v) => (inputs.maneuver, inputs.delta_v_m_s) = (*request, *delta_v),
