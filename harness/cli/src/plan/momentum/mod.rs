@@ -18,7 +18,6 @@ use std::{
     time::Instant,
 };
 
-use ::files::Destination;
 use nalgebra::{Matrix4, Vector3};
 use physics::guidance::timeline::Timeline;
 use planner::momentum::{
@@ -36,7 +35,10 @@ use self::{
     planned::{NAMES, Planned},
     timeline::MissionTimeline,
 };
-use super::flights::{Failure, SimulatedMission, Thresholds};
+use super::{
+    files::write_all,
+    flights::{Failure, SimulatedMission, Thresholds},
+};
 use crate::{interrupt, outcome::Outcome};
 
 /// Reads the plan file and what it names, and simulates the mission as it is.
@@ -380,17 +382,9 @@ fn events(planned: &Planned<'_>, found: &MomentumPlan) -> Vec<PlanEvent> {
 }
 
 fn write(planned: &Planned<'_>, contents: &[(&'static str, String)]) -> Result<(), Failure> {
-    const OPTION: &str = "--output";
     let mut inputs = planned.mission.mission.reads();
     inputs.push(&planned.options.plan);
-    let opened = contents.iter().map(|(name, text)| {
-        let path = planned.options.output.join(name);
-        Destination::open(&path, OPTION, &inputs).map(|destination| (destination, text))
-    });
-    // None is written unless all can be.
-    for (destination, text) in opened.collect::<Result<Vec<_>, _>>()? {
-        destination.fill(|file| file.write_all(text.as_bytes()))?;
-    }
+    write_all(&planned.options.output, contents, &inputs)?;
     Ok(())
 }
 
