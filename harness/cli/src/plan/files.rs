@@ -1,4 +1,4 @@
-//! The files of a planned burn.
+//! The files of a plan, and those of a planned burn.
 
 use std::{
     error::Error,
@@ -31,15 +31,27 @@ pub(super) fn write(
     ];
     fs::create_dir_all(folder).map_err(|error| format!("{}: {error}: see {OPTION}", folder.display()))?;
     let inputs: Vec<&Path> = spacecraft.into_iter().collect();
-    let opened = contents.map(|(name, text)| {
+    let contents = contents.map(|(name, text)| (name, terminal::unsigned_zeros(&text).into_owned()));
+    write_all(folder, &contents, &inputs)
+}
+
+/// Writes texts under their names into a folder and gives their paths; none is written unless all can be.
+///
+/// # Errors
+/// A file that cannot be written, or that is one of `inputs`.
+pub(super) fn write_all(
+    folder: &Path,
+    contents: &[(&str, String)],
+    inputs: &[&Path],
+) -> Result<Vec<PathBuf>, Box<dyn Error>> {
+    let opened = contents.iter().map(|(name, text)| {
         let path = folder.join(name);
-        Destination::open(&path, OPTION, &inputs).map(|destination| (path, destination, text))
+        Destination::open(&path, OPTION, inputs).map(|destination| (path, destination, text))
     });
-    // None is written unless all can be.
-    let opened = opened.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let opened = opened.collect::<Result<Vec<_>, _>>()?;
     let mut written = Vec::with_capacity(opened.len());
     for (path, destination, text) in opened {
-        destination.fill(|file| file.write_all(terminal::unsigned_zeros(&text).as_bytes()))?;
+        destination.fill(|file| file.write_all(text.as_bytes()))?;
         written.push(path);
     }
     Ok(written)

@@ -8,14 +8,9 @@ mod picture;
 #[cfg(feature = "schema")]
 mod schema;
 
-use std::{
-    cell::RefCell,
-    path::{Path, PathBuf},
-    process::ExitCode,
-    time::Instant,
-};
+use std::{cell::RefCell, path::Path, process::ExitCode, time::Instant};
 
-use ::files::{Destination, Scratch};
+use ::files::Scratch;
 use physics::{
     constants::DAY_S,
     environment::{dates, orbit::LambertError},
@@ -26,6 +21,7 @@ use toml_edit::{DocumentMut, value};
 pub(crate) use self::options::LegOptions;
 use self::{file::LegFile, flights::LegFlights};
 use super::{
+    files::write_all,
     flights::{Failure, SimulatedMission},
     mission_text,
 };
@@ -244,17 +240,7 @@ pub(crate) fn run(options: &LegOptions) -> Outcome {
     let contents = [(NAMES[0], text), (NAMES[1], picture), (NAMES[2], json)];
     let mut inputs = of_leg.mission.reads();
     inputs.push(&options.leg);
-    let opened = contents.iter().map(|(name, text)| {
-        let path = options.output.join(name);
-        Destination::open(&path, "--output", &inputs).map(|destination| (path, destination, text))
-    });
-    // None is written unless all can be.
-    let opened: Vec<(PathBuf, Destination, &String)> = opened.collect::<Result<_, _>>()?;
-    let mut written = Vec::new();
-    for (path, destination, text) in opened {
-        destination.fill(|file| file.write_all(text.as_bytes()))?;
-        written.push(path);
-    }
+    let written = write_all(&options.output, &contents, &inputs)?;
     if !options.quiet {
         terminal::print(&summary((&task, &leg), &file, mission.zero_epoch_s))?;
         written.iter().for_each(|path| terminal::note(&format!("wrote {}", path.display())));

@@ -16,7 +16,6 @@ mod written;
 
 use std::{cell::RefCell, path::Path, process::ExitCode, time::Instant};
 
-use ::files::Destination;
 use drawing::{Chart, DrawingError, Picture};
 use nalgebra::Vector3;
 use physics::guidance::timeline::Timeline;
@@ -37,7 +36,10 @@ use self::{
     planned::{NAMES, Planned},
     timeline::MissionTimeline,
 };
-use super::flights::{Failure, SimulatedMission, Thresholds};
+use super::{
+    files::write_all,
+    flights::{Failure, SimulatedMission, Thresholds},
+};
 use crate::{interrupt, outcome::Outcome};
 
 /// What is planned.
@@ -354,17 +356,9 @@ fn events(planned: &Planned<'_>, found: &MomentumPlan) -> Vec<PlanEvent> {
 }
 
 fn write(planned: &Planned<'_>, contents: &[(&'static str, String)]) -> Result<(), Failure> {
-    const OPTION: &str = "--output";
     let mut inputs = planned.mission.mission.reads();
     inputs.push(&planned.options.plan);
-    let opened = contents.iter().map(|(name, text)| {
-        let path = planned.options.output.join(name);
-        Destination::open(&path, OPTION, &inputs).map(|destination| (destination, text))
-    });
-    // None is written unless all can be.
-    for (destination, text) in opened.collect::<Result<Vec<_>, _>>()? {
-        destination.fill(|file| file.write_all(text.as_bytes()))?;
-    }
+    write_all(&planned.options.output, contents, &inputs)?;
     Ok(())
 }
 

@@ -99,8 +99,8 @@ proptest! {
     #[test]
     fn the_arc_of_an_orbit_is_that_orbit(
         eccentricity in prop_oneof![0.0_f64..0.95, 1.05_f64..4.0],
-        inclination_rad in 0.0_f64..3.14,
-        angles in prop::array::uniform2(0.0_f64..6.28),
+        inclination_rad in 0.0_f64..3.1,
+        angles in prop::array::uniform2(0.0_f64..6.2),
         anomaly_rad in -1.7_f64..1.7,
         share in 0.02_f64..0.98,
         revolutions in 0_u32..5,
@@ -209,6 +209,6 @@ fn places_in_line_have_no_plane() {
     for bad in [0.0, -1.0, f64::NAN] {
         assert!(matches!(LambertArc { time_s: bad, ..near }.direct(), Err(LambertError::Orbit(_))));
         assert!(matches!(LambertArc { mu_m3_s2: bad, ..near }.direct(), Err(LambertError::Orbit(_))));
-        assert!(matches!(LambertArc { to_m: near.to_m * (bad + bad.abs()), ..near }.direct(), Err(_)));
+        assert!(LambertArc { to_m: near.to_m * (bad + bad.abs()), ..near }.direct().is_err());
     }
 }
