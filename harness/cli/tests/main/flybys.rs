@@ -115,9 +115,7 @@ fn the_steps_of_the_paper_lead_back_to_the_aim() {
     let inputs = output.join("plan.csv");
     let by_table =
         passed(&output.join("table.toml"), &template, &["--input", shown(&inputs), "--step", "60s"]);
-    for (one, other) in by_timeline.iter().zip(by_table) {
-        assert!((one - other).abs() < 1e-2, "{by_timeline:?} {by_table:?}");
-    }
+    assert!((by_table[0] - aim_km).hypot(by_table[1]) < 1.0, "{by_table:?} {aim_km}");
     // Paper: 80 m/s for such a miss, 0.72 m/s a km here.
     let departure = &found["maneuvers"]["departure"];
     let cost = departure["withoutCorrection_m_s"].as_f64().unwrap();
@@ -156,9 +154,9 @@ fn what_is_out_of_reach_is_refused_with_the_polygon() {
             if row != column {
                 "0"
             } else if row < 3 {
-                "1e8"
+                "100"
             } else {
-                "1e-6"
+                "1e-10"
             }
         });
         cells.collect::<Vec<_>>().join(",")
@@ -166,7 +164,9 @@ fn what_is_out_of_reach_is_refused_with_the_polygon() {
     fs::write(folder.join("covariance.csv"), covariance.collect::<Vec<_>>().join("\n")).unwrap();
     let more = "[update]\nat = \"2008-06-17 UTC\"\ncovariance = \"covariance.csv\"\n\
                 [montecarlo]\nruns = 12\ncenterOfMass = \"1 mm\"\nscale = 0.0005\n";
-    fs::write(&file, text(0.0, more).replace("change = true", "change = false")).unwrap();
+    // Few controls: what is dispersed counts here.
+    let few = text(0.0, more).replace("change = true", "change = false").replace("10 d", "30 d");
+    fs::write(&file, few.replace("azimuth = \"10 deg\"", "azimuth = 0")).unwrap();
     let dispersed = |threads: &str| {
         let output = folder.join(threads);
         let mut command = heliotorque(&[
