@@ -13,6 +13,7 @@ use super::{
     program::{Goal, TargetRow},
     region::Region,
     simulated::{FlightRow, SAME_S, SimulatedFlight},
+    target::{LinearMiss, Target},
     torque::{Attitude, Control, SunlitSpacecraft},
     windows::Window,
 };
@@ -128,7 +129,7 @@ pub fn reachable(
     simulates.progress("reach");
     let mut model = bare(task, sunlit, &simulated.thinned(REACH_ROWS_S))?;
     // The target itself is no limit here.
-    model.aim(sunlit, task.target.map(|_| super::target::Target { tolerance: [None; 3] }));
+    model.aim(sunlit, task.target.map(|_| Target { tolerance: [None; 3] }));
     let Some(here) = model.miss() else { return Ok(Reachable::default()) };
     let here = here.xy();
     let single = counted::single(&model);
@@ -138,11 +139,12 @@ pub fn reachable(
     let farthest =
         |direction: Vector2<f64>, is_straight: bool| farthest(&model, sunlit, (here, direction), is_straight);
     let axes = [Vector2::x(), -Vector2::x(), Vector2::y(), -Vector2::y()];
-    let found: Vec<(Option<Vector2<f64>>, Option<Vector2<f64>>)> =
-        axes.par_iter().map(|axis| (farthest(*axis, false), farthest(*axis, true))).collect();
+    // As far as it goes, and straight.
+    let found: Vec<[Option<Vector2<f64>>; 2]> =
+        axes.par_iter().map(|axis| [false, true].map(|is_straight| farthest(*axis, is_straight))).collect();
     // One behind where it is: the limits do not let it stay there.
-    let along = |at: usize| found[at].1.map(|place| place.dot(&axes[at])).filter(|along_m| *along_m >= 0.0);
-    let widest = [0, 1, 2, 3].map(|at| found[at].0.map_or(0.0, |place| place.dot(&axes[at])));
+    let along = |at: usize| found[at][1].map(|place| place.dot(&axes[at])).filter(|along_m| *along_m >= 0.0);
+    let widest = [0, 1, 2, 3].map(|at| found[at][0].map_or(0.0, |place| place.dot(&axes[at])));
     let scale = Vector2::new(widest[0].max(widest[1]), widest[2].max(widest[3])).add_scalar(1.0);
     // Normals of an ellipse of that size, between the axes.
     let between = (0..DIRECTIONS).filter(|k| k % (DIRECTIONS / 4) != 0);
@@ -152,7 +154,7 @@ pub fn reachable(
         .collect();
     let mut corners: Vec<Option<Vector2<f64>>> =
         normals.par_iter().map(|normal| farthest(*normal, false)).collect();
-    corners.extend(found.iter().flat_map(|(widest, straight)| [*widest, *straight]));
+    corners.extend(found.iter().flatten());
     let polygon_m = hull(corners.into_iter().flatten().collect());
     Ok(Reachable { along_m: [0, 1, 2, 3].map(along), polygon_m })
 }
@@ -192,7 +194,7 @@ fn climb(
     let (mut place, mut trust): (Option<Vector2<f64>>, f64) = (None, WHOLE);
     let limit_n_m_s = model.limit.momentum_n_m_s;
     while trust > LEAST_RANGE {
-        let (constant, terms) = model.linear_miss(&leaders)?;
+        let LinearMiss { constant, terms } = model.linear_miss(&leaders)?;
         let mut program = model.program(&leaders, whole(model), [GUARD, trust]);
         let by = |axis: Vector2<f64>| terms.iter().map(move |(index, by)| (*index, axis.dot(&by.xy())));
         let size = by(direction).map(|(_, by)| by.abs()).fold(0.0, f64::max);

@@ -10,7 +10,7 @@ use super::{
     cell::{ALL, At, Cell, cell},
     program::{Begin, Program, Step},
     simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
-    target::{Aimed, Target},
+    target::{Aimed, LinearMiss, Target},
     torque::{CONTROLS, Control, SunlitSpacecraft},
     windows::{Window, WindowKind},
 };
@@ -435,10 +435,7 @@ impl Model {
     }
 
     /// Miss of the target as linear in the controls: constant, and by unit of each.
-    pub(super) fn linear_miss(
-        &self,
-        leaders: &[usize],
-    ) -> Option<(Vector3<f64>, Vec<(usize, Vector3<f64>)>)> {
+    pub(super) fn linear_miss(&self, leaders: &[usize]) -> Option<LinearMiss> {
         let mut constant = self.miss()?;
         let mut by = vec![Vector3::zeros(); CONTROLS * self.windows.len()];
         for cell in &self.cells {
@@ -450,12 +447,12 @@ impl Model {
             }
         }
         let moved = by.into_iter().enumerate().filter(|(_, by)| *by != Vector3::zeros());
-        Some((constant, moved.collect()))
+        Some(LinearMiss { constant, terms: moved.collect() })
     }
 
     fn add_target(&self, program: &mut Program, leaders: &[usize]) {
-        let (Some(aimed), Some((constant, terms))) = (&self.aimed, self.linear_miss(leaders)) else { return };
-        program.targets = aimed.target.rows(&constant, &terms, self.limit.momentum_n_m_s);
+        let (Some(aimed), Some(miss)) = (&self.aimed, self.linear_miss(leaders)) else { return };
+        program.targets = aimed.target.rows(&miss, self.limit.momentum_n_m_s);
     }
 
     /// The light on the cells of every panel within its corridor.

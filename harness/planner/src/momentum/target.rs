@@ -61,8 +61,7 @@ impl Target {
     /// Rows of a programme for a miss that is linear in the controls; `limit_n_m_s` is that of the momentum.
     pub(super) fn rows(
         &self,
-        constant: &Vector3<f64>,
-        terms: &[(usize, Vector3<f64>)],
+        LinearMiss { constant, terms }: &LinearMiss,
         limit_n_m_s: f64,
     ) -> Vec<TargetRow> {
         let bounded = (0..QUANTITIES).filter_map(|row| Some((row, self.tolerance[row]?)));
@@ -78,8 +77,18 @@ impl Target {
 
     /// By how much a miss exceeds what programmes allow, as their excess, in N m s.
     pub(super) fn excess_n_m_s(&self, miss: &Vector3<f64>, limit_n_m_s: f64) -> f64 {
-        self.rows(miss, &[], limit_n_m_s).iter().map(|row| row.excess(&[])).fold(f64::NEG_INFINITY, f64::max)
+        let linear = LinearMiss { constant: *miss, terms: Vec::new() };
+        self.rows(&linear, limit_n_m_s).iter().map(|row| row.excess(&[])).fold(f64::NEG_INFINITY, f64::max)
     }
+}
+
+/// A miss that is linear in controls: with all of them at 0, and by unit of a control by its index.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct LinearMiss {
+    /// With all of them at 0.
+    pub constant: Vector3<f64>,
+    /// By unit of those that move it.
+    pub terms: Vec<(usize, Vector3<f64>)>,
 }
 
 /// What the windows of a flight do about its target.
