@@ -43,8 +43,8 @@ pub(super) fn check_arrays(file: &PlanFile, mission: &SimulatedMission) -> Resul
         return Ok(());
     }
     let controls = (1..).map(|number| (number, mission.values().item(&format!("panel[{number}].control"))));
-    let all = controls.map_while(|(number, item)| Some((number, item?)));
-    let moved = all.filter(|(_, item)| !matches!(*item, "sunOffset" | "timeline" | "fixed")).next();
+    let mut all = controls.map_while(|(number, item)| Some((number, item?)));
+    let moved = all.find(|(_, item)| !matches!(*item, "sunOffset" | "timeline"));
     let Some((number, found)) = moved else { return Ok(()) };
     let what = format!(
         "found panel[{number}].control {found}, allowed: timeline or sunOffset, for arrays stay as they are up to `from`: first \

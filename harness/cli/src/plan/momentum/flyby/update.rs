@@ -50,11 +50,10 @@ pub(in crate::plan::momentum) fn updated(
         mission_text::set(&mut document, name, mission_text::numbers(vector.as_slice()));
     }
     mission_text::set(&mut document, "orbit.source", value("inputs"));
-    let instant = |time_s: f64| match mission.zero_epoch_s {
-        Some(zero_s) => value(dates::utc(zero_s + time_s)),
-        None => value(time_s),
+    document["start"] = match mission.zero_epoch_s {
+        Some(zero_s) => value(dates::utc(zero_s + at_s)),
+        None => value(at_s),
     };
-    document["start"] = instant(at_s);
     document["stop"] = value(mission.stop_s - at_s);
     let path = folder.path().join("updated.toml");
     std::fs::write(&path, document.to_string())?;
