@@ -4,7 +4,6 @@ use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Matrix4};
 
 use super::*;
-use crate::momentum::torque::Attitude;
 use crate::momentum::{
     test_spacecraft::{DAY_S, simulated, sunlit, task},
     torque::Attitude,
