@@ -91,7 +91,7 @@ mod tests {
     const ERRORS: ExecutionErrors = ExecutionErrors { direction_rad: 0.02, magnitude: 0.05 };
 
     fn by_velocity() -> Matrix2x3<f64> {
-        Matrix2x3::from_rows(&BY_VELOCITY_S.map(|row| nalgebra::RowVector3::from(row)))
+        Matrix2x3::from_rows(&BY_VELOCITY_S.map(nalgebra::RowVector3::from))
     }
 
     /// 20,000 manoeuvres with a direction turned about both axes across: deviations of samples are 0.5 %.
