@@ -192,8 +192,16 @@ fn the_missions_of_the_examples_fly() {
         }
     }
     missions.sort();
-    let expected =
-        ["ace", "mercury-orbiter", "messenger-cruise", "messenger", "solar-sailer", "sunshield-telescope"];
+    let expected = [
+        "ace",
+        "mercury-orbiter",
+        "messenger-cruise",
+        "messenger-flyby1",
+        "messenger-flyby2",
+        "messenger",
+        "solar-sailer",
+        "sunshield-telescope",
+    ];
     assert_eq!(missions, expected.map(|name| format!("{name}.toml")));
     let folder = at("examples/missions");
     let template = ["--template", "../../template.fmu"];

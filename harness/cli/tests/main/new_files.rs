@@ -93,8 +93,13 @@ fn every_command_has_a_page_that_man_reads() {
         .collect();
     let mut expected: Vec<String> =
         commands.iter().map(|command| format!("heliotorque-{command}.1")).collect();
-    let more =
-        ["heliotorque.1", "heliotorque-plan-leg.1", "heliotorque-plan-momentum.1", "heliotorque-plan-spin.1"];
+    let more = [
+        "heliotorque.1",
+        "heliotorque-plan-flyby.1",
+        "heliotorque-plan-leg.1",
+        "heliotorque-plan-momentum.1",
+        "heliotorque-plan-spin.1",
+    ];
     expected.extend(more.map(str::to_owned));
     expected.sort();
     assert_eq!(pages, expected);
