@@ -5,7 +5,7 @@
 use nalgebra::Vector3;
 
 use super::{encounter::Encounter, sensitivity::Sensitivity};
-use crate::momentum::{simulated::FlightRow, target::Encountered};
+use crate::momentum::{encountered::Encountered, simulated::FlightRow};
 
 /// Where the B-plane of the hyperbola that osculates some time before the closest approach is to be met.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,6 +4,7 @@ pub mod attainable;
 pub mod baseline;
 mod cell;
 mod counted;
+pub mod encountered;
 mod mission;
 mod model;
 pub mod places;

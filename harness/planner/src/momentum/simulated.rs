@@ -3,7 +3,7 @@
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use physics::environment::CartesianState;
 
-use super::target::Encountered;
+use super::encountered::Encountered;
 
 /// What is meant by the size of a momentum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

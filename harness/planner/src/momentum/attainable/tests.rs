@@ -4,8 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::*;
 use crate::momentum::{
+    encountered::Encountered,
     plan::{MomentumPlan, plan},
-    target::{Encountered, Target},
+    target::Target,
     test_spacecraft::{DAY_S, row, simulated, sunlit, task},
     torque::Controls,
     windows::Reach,

@@ -3,9 +3,9 @@
 use nalgebra::{Matrix6, SymmetricEigen, Vector3};
 use physics::toml::Place;
 
-use super::{ALLOWED_ANGLE, At, Builder, DAY_S};
+use super::reading::{ALLOWED_ANGLE, Builder, DAY_S};
 use crate::{
-    mission::Written,
+    mission::{At, Written},
     plan::momentum::description::{
         CompareDescription, FlybyDescription, MonteCarloDescription, UpdateDescription,
     },
