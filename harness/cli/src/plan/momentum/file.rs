@@ -5,10 +5,7 @@ mod reading;
 
 use std::path::{Path, PathBuf};
 
-use physics::{
-    environment::dates,
-    toml::{Checker, Document, Place},
-};
+use physics::toml::{Checker, Document, Place};
 
 use self::{
     encounter::{Compare, Flyby, MonteCarlo, Update},
