@@ -297,8 +297,7 @@ impl Flight {
         log: &mut dyn FnMut(&ThrusterEvent),
     ) -> Result<(), PlantError> {
         self.take_requests(given, inputs, [start_s, end_s], log)?;
-        let settings = self.prediction_settings();
-        for time_s in settings.into_iter().flat_map(|settings| settings.times_s([start_s, end_s])) {
+        for time_s in self.prediction_settings().times_s([start_s, end_s]) {
             self.advance_to(given, inputs, time_s, log)?;
             self.predict(given, inputs, time_s)?;
         }
@@ -346,9 +345,9 @@ impl Flight {
         }
     }
 
-    fn prediction_settings(&self) -> Option<PredictionSettings> {
-        let encounter = self.configuration()?.encounter?;
-        Some(encounter.prediction).filter(|_| !self.is_waiting())
+    fn prediction_settings(&self) -> PredictionSettings {
+        let encounter = self.configuration().and_then(|it| it.encounter);
+        encounter.filter(|_| !self.is_waiting()).map_or(PredictionSettings::NEVER, |it| it.prediction)
     }
 
     /// Predicts the encounter at `time_s`, where the flight has come, in the attitude that timeline and inputs command.
@@ -386,7 +385,7 @@ impl Flight {
             flight.world.begin_work(given.work_limit);
             dynamics.process_events(settings, &mut flight, inputs)?;
         }
-        if self.prediction_settings().is_some_and(|it| it.is_due(time_s)) {
+        if self.prediction_settings().is_due(time_s) {
             self.predict(given, inputs, time_s)?;
         }
         Ok(undo)

@@ -169,6 +169,9 @@ pub struct PredictionSettings {
 }
 
 impl PredictionSettings {
+    /// None is ever due.
+    pub(crate) const NEVER: Self = Self { refresh_s: 0.0, horizon_s: 0.0, last_epoch_s: 0.0, lead_s: 0.0 };
+
     /// The times from `start_s` on and before `end_s` at which a prediction is due, in s.
     pub(crate) fn times_s(self, [start_s, end_s]: [f64; 2]) -> impl Iterator<Item = f64> {
         let is_on = self.refresh_s > 0.0;
@@ -183,8 +186,11 @@ impl PredictionSettings {
 
     /// Whether one is due at `time_s`.
     pub(crate) fn is_due(self, time_s: f64) -> bool {
+        if self.refresh_s <= 0.0 {
+            return false;
+        }
         let next_s = self.first_number(time_s) as f64 * self.refresh_s;
-        self.refresh_s > 0.0 && next_s - time_s <= 4.0 * spacing(time_s)
+        next_s - time_s <= 4.0 * spacing(time_s)
     }
 }
 
