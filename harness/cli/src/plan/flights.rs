@@ -190,7 +190,7 @@ impl SimulatedMission {
         self.values().item("guided.phase") == Some("orbit")
     }
 
-    /// Whether it flies to a planet.
+    /// Whether it has an encounter with a planet.
     fn has_encounter(&self) -> bool {
         let body = self.values().item("encounter.body");
         self.values().item("orbit.dynamics") == Some("nBody") && body.is_some_and(|body| body != "none")

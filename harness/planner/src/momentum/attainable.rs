@@ -37,7 +37,7 @@ fn bare(task: &PlanTask, sunlit: &SunlitSpacecraft, simulated: &SimulatedFlight)
     Ok(Model::new(sunlit, simulated.clone(), windows, task.limit.clone()))
 }
 
-/// Tells nobody.
+/// Simulates nothing and reports no progress.
 struct Silent;
 
 impl Simulates for Silent {

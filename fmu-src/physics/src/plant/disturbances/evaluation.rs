@@ -324,7 +324,7 @@ impl<'a> Plant<'a> {
         Ok((self.kinematics.laws_until_s(start_s, &instant, known_s), instant))
     }
 
-    /// Makes sure that the orbit is known from `start_s` on, with the light that pushes it, and tells up to where.
+    /// Makes sure that the orbit is known from `start_s` on, with the light that pushes it; returns up to where.
     ///
     /// # Errors
     /// What ends a flight.

@@ -97,7 +97,7 @@ impl Aimed {
         Target { tolerance: [Some(side_m), Some(side_m), in_time] }
     }
 
-    /// Tells a flight how it missed.
+    /// Gives a flight its miss of the aim.
     pub(super) fn judge(
         &self,
         flight: &mut SimulatedFlight,
