@@ -61,7 +61,7 @@ fn configure(
             (Some(fixed), Some(settings)) => {
                 let mut world = World { light: fixed.light, ..World::new(read.configuration, fixed.laws) };
                 if let Some(planets) = context.setup.planets_at_start.get() {
-                    world.ephemeris.clone_from(planets);
+                    world.ephemeris.learn(planets);
                 }
                 state.flight.thrusters.settings = fixed.thrusters;
                 state.flight.configure(world, settings);

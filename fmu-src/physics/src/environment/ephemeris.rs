@@ -17,7 +17,8 @@
 //!
 //! A Julian date resolves 4e-5 s, in which Mercury moves by 2 m: what is evaluated is moved to the date itself.
 //!
-//! Two neighbouring segments of each layer are held, so that looking back and forth over an edge costs no refill.
+//! Two neighbouring segments of each layer are held, so that looking back and forth over an edge costs no refill; of what VSOP87
+//! itself is evaluated for, as many as a span of time needs that is looked at again and again ([`Ephemeris::holding`]).
 
 use core::f64::consts::TAU;
 
@@ -93,7 +94,10 @@ impl Theory {
     }
 }
 
-/// Planet positions, a cache over VSOP87 of fixed size: looking up never allocates, and the same epoch always gives
+/// Longest span whose segments are held, in s.
+const LONGEST_HELD_S: f64 = 1000.0 * DAY_S;
+
+/// Planet positions, a cache over VSOP87 whose size is chosen once: looking up never allocates, and the same epoch always gives
 /// the same bits. It is no state: skip it when serialising and start from the default.
 #[derive(Clone, Debug, Default)]
 pub struct Ephemeris {
@@ -125,6 +129,27 @@ impl Entered {
 }
 
 impl Ephemeris {
+    /// One that evaluates VSOP87 once for whatever is requested within `span_s`, up to a thousand days, however often: for those who
+    /// look that far ahead at every turn.
+    pub fn holding(span_s: f64) -> Self {
+        let mut all = Self::default();
+        let span_s = span_s.clamp(0.0, LONGEST_HELD_S);
+        all.planets.iter_mut().for_each(|planet| planet.elements = Slots::holding(span_s, LONG_S));
+        all.earth = Slots::holding(span_s, MIDDLE_S);
+        all.moon = Slots::holding(span_s, MIDDLE_S);
+        all
+    }
+
+    /// Takes over the segments that another one holds; allocates nothing.
+    pub fn learn(&mut self, other: &Self) {
+        for (own, others) in self.planets.iter_mut().zip(&other.planets) {
+            own.elements.learn(&others.elements);
+            own.position.learn(&others.position);
+        }
+        self.earth.learn(&other.earth);
+        self.moon.learn(&other.moon);
+    }
+
     /// Heliocentric position and velocity in EME2000 at `epoch_s` past J2000 TDB, geometric (no light time).
     ///
     /// The velocity is the derivative of the position, within 0.01 m/s. Beyond [`VALID_EPOCH_S`] the series loses its meaning;
@@ -207,13 +232,36 @@ impl Ephemeris {
     }
 }
 
-/// Two segments, one for even and one for odd numbers.
-#[derive(Clone, Debug, Default)]
+/// Segments, each in the place that the remainder of its number says: two, one for even and one for odd numbers, or more.
+#[derive(Clone, Debug)]
 struct Slots<const D: usize, const N: usize> {
-    held: [Option<(i64, Segment<D, N>)>; 2],
+    held: Box<[Option<(i64, Segment<D, N>)>]>,
+}
+
+impl<const D: usize, const N: usize> Default for Slots<D, N> {
+    fn default() -> Self {
+        Self::holding(0.0, 1.0)
+    }
 }
 
 impl<const D: usize, const N: usize> Slots<D, N> {
+    /// For all segments of this length that a span touches, wherever it begins, and its neighbour.
+    fn holding(span_s: f64, length_s: f64) -> Self {
+        let count = (span_s / length_s).ceil() as usize + 2;
+        Self { held: vec![None; count].into_boxed_slice() }
+    }
+
+    fn place(&self, number: i64) -> usize {
+        number.rem_euclid(self.held.len() as i64) as usize
+    }
+
+    fn learn(&mut self, other: &Self) {
+        for held in other.held.iter().flatten() {
+            let place = self.place(held.0);
+            self.held[place] = Some(*held);
+        }
+    }
+
     fn segment(
         &mut self,
         epoch_s: f64,
@@ -221,7 +269,8 @@ impl<const D: usize, const N: usize> Slots<D, N> {
         fit: impl FnOnce(f64, f64) -> Segment<D, N>,
     ) -> &Segment<D, N> {
         let number = (epoch_s / length_s).floor() as i64;
-        let slot = &mut self.held[(number & 1) as usize];
+        let place = self.place(number);
+        let slot = &mut self.held[place];
         if slot.as_ref().is_some_and(|(held, _)| *held != number) {
             *slot = None;
         }

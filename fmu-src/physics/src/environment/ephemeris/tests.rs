@@ -208,7 +208,7 @@ fn keplers_laws() {
 }
 
 #[test]
-fn work_is_counted_by_what_is_asked_for_alone() {
+fn work_is_counted_by_what_is_requested_alone() {
     let epochs: Vec<f64> = (0..60).map(|i| f64::from(i * 7919 % 60) * 5.3 * DAY_S - 1e8).collect();
     let mut used = Ephemeris::default();
     for &epoch_s in &epochs {
@@ -239,4 +239,31 @@ fn history_leaves_no_trace() {
         }
     }
     assert!(used.position_m(Body::Mercury, f64::NAN).x.is_nan());
+}
+
+#[test]
+fn a_span_is_held_whole_and_changes_no_bit() {
+    let (start_s, days) = (-1e8, 400);
+    let mut other = Ephemeris::default();
+    let _ = other.state(Body::Venus, start_s);
+    let mut holding = Ephemeris::holding(f64::from(days) * DAY_S);
+    holding.learn(&other);
+    for day in (0..=days).chain((0..=days).rev()) {
+        let epoch_s = start_s + f64::from(day) * DAY_S;
+        for body in Body::ALL {
+            assert_eq!(holding.state(body, epoch_s), other.state(body, epoch_s));
+        }
+        assert_eq!(holding.moon_from_earth(epoch_s), other.moon_from_earth(epoch_s));
+    }
+    let touched = |length_s: f64| {
+        let [first, last] =
+            [start_s, start_s + f64::from(days) * DAY_S].map(|at_s| (at_s / length_s).floor());
+        1 + (last - first) as usize
+    };
+    for body in [Body::Mercury, Body::Venus, Body::Mars, Body::Jupiter] {
+        let held = &holding.planets[body as usize].elements.held;
+        assert_eq!(held.iter().flatten().count(), touched(LONG_S));
+    }
+    assert_eq!(holding.earth.held.iter().flatten().count(), touched(MIDDLE_S));
+    assert_eq!(holding.moon.held.iter().flatten().count(), touched(MIDDLE_S));
 }
