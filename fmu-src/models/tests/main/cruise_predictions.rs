@@ -80,9 +80,9 @@ fn neither_cuts_nor_saving_change_a_bit_of_them() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let sets = predicting(1.3 * DAY_S);
     let mut since_s = Vec::new();
-    let fly = || named.fly(0.0, &sets).unwrap();
+    let begin = || named.fly(0.0, &sets).unwrap();
     let ends_s = [1.3, 5.0, 9.9, 10.002, 10.5].map(|day| day * DAY_S);
-    assert_cuts_change_nothing(fly, ends_s, &[10_800.0, 3.0 * DAY_S], |flight| {
+    assert_cuts_change_nothing(begin, ends_s, &[10_800.0, 3.0 * DAY_S], |flight| {
         since_s.push(flight.real("prediction.since"));
     });
     since_s.dedup();
@@ -167,8 +167,8 @@ fn in_flight_by_torque_the_command_is_followed_ideally() {
     // The controller's swing of ten minutes moves the spacecraft by less than a metre in ten days.
     assert!((commanded - controlled).norm() < 10.0, "{commanded} {controlled}");
     let controlled = [&predicting(100.0)[..], &[("attitude.source", 3.0), ("command.source", 2.0)]].concat();
-    let fly = || named.fly(0.0, &controlled).unwrap();
-    assert_cuts_change_nothing(fly, [200.0, 350.0], &[50.0, 133.0], |flight| {
+    let begin = || named.fly(0.0, &controlled).unwrap();
+    assert_cuts_change_nothing(begin, [200.0, 350.0], &[50.0, 133.0], |flight| {
         assert!(flight.boolean("prediction.valid"));
     });
     let mut free = predicting(600.0);

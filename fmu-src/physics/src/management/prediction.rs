@@ -1,4 +1,4 @@
-//! What lies ahead of a downlink's begin, or of science that unloads: momentum and light through the coming cycles, flown in default attitudes and without
+//! What lies ahead of a downlink's begin, or of science that unloads: momentum and light through the coming cycles, simulated in default attitudes and without
 //! dumps.
 //!
 //! Components that are integrated on their own are noted one by one over the whole horizon ([`super::profile`]); the physical

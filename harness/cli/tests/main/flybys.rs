@@ -2,9 +2,10 @@
 
 use std::{fs, path::Path};
 
+use nalgebra::{Matrix2, Matrix6, Rotation2, Vector2};
 use serde_json::Value;
 
-use crate::{legs::flyby, momentum_plans::columns, run, says, shown, template};
+use crate::{heliotorque, legs::flyby, momentum_plans::columns, run, says, shown, template};
 
 const LIMIT_N_M_S: f64 = 5.5;
 
@@ -35,21 +36,27 @@ fn led(folder: &Path, template: &Path, momentum: &str) {
 /// Velocity of the leg at its departure, moved along X by an error in m/s.
 fn velocity(folder: &Path, error_m_s: f64) -> String {
     let text = fs::read_to_string(folder.join("leg/mission.toml")).unwrap();
-    let line = text.lines().find(|line| line.starts_with("\"orbit.velocity\"")).unwrap();
-    let list = line.split_once('[').unwrap().1.trim_end_matches(']');
-    let mut velocity: Vec<f64> = list.split(',').map(|it| it.trim().parse().unwrap()).collect();
+    let mut velocity = vector(&text, "orbit.velocity");
     velocity[0] += error_m_s;
     format!("{velocity:?}")
 }
 
+/// A vector of a mission's text.
+fn vector(text: &str, name: &str) -> Vec<f64> {
+    let line = text.lines().find(|line| line.starts_with(&format!("\"{name}\""))).unwrap();
+    let list = line.split_once('[').unwrap().1.trim_end_matches(']');
+    list.split(',').map(|it| it.trim().parse().unwrap()).collect()
+}
+
 /// B along T and R in km of a simulated mission, six hours before its closest approach, and the altitude there.
-fn passed(mission: &Path, template: &Path, more: &[&str]) -> [f64; 3] {
+/// A step of ten minutes or less: between rows so far apart B is linear to 5 m.
+fn passed(mission: &Path, template: &Path, (step, more): (&str, &[&str])) -> [f64; 3] {
     let output = mission.with_extension("passed.csv");
     let names = ["time", "encounter.bT", "encounter.bR", "encounter.lastTime", "encounter.lastAltitude"];
     let record = names[1..].join(",");
     let arguments = [
         &["run", shown(mission), "--template", shown(template), "--every", "600", "--quiet"][..],
-        &["--record", &record, "--output", shown(&output)],
+        &["--step", step, "--record", &record, "--output", shown(&output)],
         more,
     ];
     run(&arguments.concat(), 0);
@@ -103,7 +110,7 @@ fn the_steps_of_the_paper_lead_back_to_the_aim() {
     assert!(found["largestMomentum"]["simulated"].as_f64().unwrap() < LIMIT_N_M_S);
     // Simulated on its own, by timeline and by input table: the corridor is a limit of the mission, whose break is status 1.
     let mission = output.join("mission.toml");
-    let by_timeline = passed(&mission, &template, &[]);
+    let by_timeline = passed(&mission, &template, ("600s", &[]));
     let aim_km = numbers(&found["aim_m"])[0] / 1e3;
     assert!((by_timeline[0] - aim_km).hypot(by_timeline[1]) < 1.0, "{by_timeline:?} {aim_km}");
     assert!((by_timeline[2] - 200.0).abs() < 1.0);
@@ -113,14 +120,108 @@ fn the_steps_of_the_paper_lead_back_to_the_aim() {
     let table = table.split("\n[limits]").next().unwrap();
     fs::write(output.join("table.toml"), table).unwrap();
     let inputs = output.join("plan.csv");
-    let by_table =
-        passed(&output.join("table.toml"), &template, &["--input", shown(&inputs), "--step", "60s"]);
-    assert!((by_table[0] - aim_km).hypot(by_table[1]) < 1.0, "{by_table:?} {aim_km}");
+    let by_table = passed(&output.join("table.toml"), &template, ("60s", &["--input", shown(&inputs)]));
+    let apart_m = [0, 1, 2].map(|column| 1e3 * (by_table[column] - by_timeline[column]));
+    println!("by table less by timeline {apart_m:?} m");
+    assert!(apart_m.iter().all(|apart_m| apart_m.abs() < 0.1), "{by_table:?} {by_timeline:?}");
     // Paper: 80 m/s for such a miss, 0.72 m/s a km here.
     let departure = &found["maneuvers"]["departure"];
     let cost = departure["withoutCorrection_m_s"].as_f64().unwrap();
     assert!((cost / (before[0].abs() / 1e3) - 0.72).abs() < 0.15, "{cost}");
     assert!(departure["behindPlan_m_s"].as_f64().unwrap() < 1.0);
+}
+
+/// Near conjunctions the spacecraft rolls within hours: cells of a day follow its sunlight as those of two hours do.
+#[test]
+fn cells_of_a_day_and_of_two_hours_lead_to_the_same_encounter() {
+    let Some((_packed, template)) = template() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    flyby(folder.path(), 2, &[]);
+    let of = |settings: &[&str]| passed(&folder.path().join("flyby.toml"), &template, ("600s", settings));
+    let [days, hours] = [of(&[]), of(&["--set", "orbit.nBodyStep=7200"])];
+    let apart_m = (days[0] - hours[0]).hypot(days[1] - hours[1]) * 1e3;
+    println!("{apart_m} m apart");
+    assert!(apart_m < 1.0);
+}
+
+/// The lower root of a covariance: 3 km, 1 cm/s, the velocity along Y correlated with the position along X.
+fn root() -> Matrix6<f64> {
+    let deviations = [3e3, 3e3, 3e3, 1e-2, 1e-2, 1e-2];
+    let mut root = Matrix6::from_diagonal(&deviations.into());
+    (root[(4, 0)], root[(4, 4)]) = (8e-3, 6e-3);
+    root
+}
+
+const RUNS: u32 = 100;
+const SCALE: f64 = 0.02;
+
+/// From ten days before the encounter on: the ellipse is that of the flights that each column of the covariance's root leads to, the
+/// percentiles are alike for one thread and two.
+#[test]
+fn dispersed_flights_spread_as_the_covariance_says_on_any_number_of_threads() {
+    let Some((_packed, template)) = template() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    flyby(folder, 2, &[]);
+    let covariance = root() * root().transpose();
+    let row = |row: usize| covariance.row(row).iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+    fs::write(folder.join("covariance.csv"), (0..6).map(row).collect::<Vec<_>>().join("\n")).unwrap();
+    let text = format!(
+        "mission = \"flyby.toml\"\nfreeze = 0\nwindow = \"10 d\"\nalternation = 0\nwindmill = 0\n\
+         [momentum]\nlimit = \"1e6 N.m.s\"\n[tilt]\nazimuth = \"10 deg\"\nelevation = \"10 deg\"\n\
+         [flyby]\nbody = \"mercury\"\naltitude = \"200 km\"\nangle = 0\n\
+         [update]\nat = \"2008-09-26 UTC\"\ncovariance = \"covariance.csv\"\n\
+         [montecarlo]\nruns = {RUNS}\nseed = 3\nscale = {SCALE}\n"
+    );
+    let file = folder.join("plan.toml");
+    fs::write(&file, text).unwrap();
+    let of_threads = ["1", "2"].map(|threads| {
+        let output = folder.join(threads);
+        let arguments =
+            ["plan", "flyby", shown(&file), "--output", shown(&output), "--template", shown(&template)];
+        let done = heliotorque(&arguments).env("RAYON_NUM_THREADS", threads).output().unwrap();
+        assert_eq!(done.status.code(), Some(0), "{}", crate::text(&done));
+        json(&output)
+    });
+    let [found, other] = &of_threads;
+    let dispersions = &found["dispersions"];
+    assert_eq!(dispersions, &other["dispersions"]);
+    assert_eq!((&dispersions["runs"], &dispersions["failed"]), (&RUNS.into(), &Value::Array(Vec::new())));
+    // What each column leads to, and sunlight.
+    let mission = folder.join("1/mission.toml");
+    let text = fs::read_to_string(&mission).unwrap();
+    let [position, velocity] = ["orbit.position", "orbit.velocity"].map(|name| vector(&text, name));
+    let passed = |settings: &[String]| {
+        let more: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting.as_str()]).collect();
+        let [b_t, b_r, _] = passed(&mission, &template, ("600s", &more));
+        Vector2::new(1e3 * b_t, 1e3 * b_r)
+    };
+    let set = |name: &str, at: &[f64], off: &[f64]| {
+        let values: Vec<String> = at.iter().zip(off).map(|(at, off)| (at + off).to_string()).collect();
+        format!("{name}={}", values.join(","))
+    };
+    let nominal = passed(&[]);
+    let moved = root().column_iter().map(|column| {
+        let off = column.as_slice();
+        let sets = [set("orbit.position", &position, &off[..3]), set("orbit.velocity", &velocity, &off[3..])];
+        passed(&sets)
+    });
+    let moved: Vec<_> = moved.chain([passed(&[format!("solar.scale={}", 1.0 + SCALE)])]).collect();
+    let expected: Matrix2<f64> =
+        moved.iter().map(|moved| (moved - nominal) * (moved - nominal).transpose()).sum();
+    let ellipse = &dispersions["ellipse"];
+    let semi_axes = Vector2::from_vec(numbers(&ellipse["semiAxes_m"]));
+    let turn = Rotation2::new(ellipse["angle_deg"].as_f64().unwrap().to_radians()).into_inner();
+    let spread = turn * Matrix2::from_diagonal(&semi_axes.component_mul(&semi_axes)) * turn.transpose();
+    let mean = Vector2::from_vec(numbers(&dispersions["mean_m"]))
+        - Vector2::from_vec(numbers(&found["missAfter_m"]));
+    let inverse = expected.try_inverse().unwrap();
+    // The sum of squares of N flights is chi-squared with 2 (N - 1) degrees of freedom, that of the mean with 2.
+    let squares = (inverse * spread).trace() / 2.0;
+    let of_mean = f64::from(RUNS) * mean.dot(&(inverse * mean));
+    println!("squares {squares} of 1, of the mean {of_mean} of 2; semi-axes {semi_axes:?} m");
+    assert!((squares - 1.0).abs() < 4.0 / f64::from(RUNS - 1).sqrt());
+    assert!(of_mean < 20.0);
 }
 
 /// On the baseline without tilt, no limit on |H|, 111 d before: 170 km along +R is refused with what is in reach, along -R it is not.

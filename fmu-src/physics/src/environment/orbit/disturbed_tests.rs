@@ -14,8 +14,8 @@ use crate::{
 
 const SUN: Vector3<f64> = Vector3::new(3.5e10, 4.5e10, 1.0e10);
 
-/// Flies until `end_s` at a whole number of segments and returns the state there.
-fn fly(
+/// Simulates until `end_s` at a whole number of segments and returns the state there.
+fn simulated(
     elements: Elements,
     segment_length_s: f64,
     end_s: f64,
@@ -129,7 +129,7 @@ fn segments_keep_the_jacobi_like_energy_of_flattening() {
     };
     let momentum = |s: &CartesianState| s.position_m.cross(&s.velocity_m_s).dot(&flattening.pole);
     let start = MESSENGER_AS_PRINTED.state(MU).unwrap();
-    let (end, _) = fly(MESSENGER_AS_PRINTED, 300.0, 30.0 * 86_400.0, &gravity);
+    let (end, _) = simulated(MESSENGER_AS_PRINTED, 300.0, 30.0 * 86_400.0, &gravity);
     assert!((energy(&end) / energy(&start) - 1.0).abs() < 1e-11);
     assert!((momentum(&end) / momentum(&start) - 1.0).abs() < 1e-12);
 }
@@ -173,8 +173,8 @@ fn a_constant_push_moves_the_orbit_as_it_should() {
 
 #[test]
 fn halving_the_segment_changes_nothing_that_matters() {
-    let (coarse, _) = fly(MESSENGER_AS_PRINTED, 300.0, 864_000.0, &Gravity::of(Body::Mercury.data()));
-    let (fine, orbit) = fly(MESSENGER_AS_PRINTED, 150.0, 864_000.0, &Gravity::of(Body::Mercury.data()));
+    let (coarse, _) = simulated(MESSENGER_AS_PRINTED, 300.0, 864_000.0, &Gravity::of(Body::Mercury.data()));
+    let (fine, orbit) = simulated(MESSENGER_AS_PRINTED, 150.0, 864_000.0, &Gravity::of(Body::Mercury.data()));
     assert!((coarse.position_m - fine.position_m).norm() < 0.02);
     // The disturbances are no more than they should be: the undisturbed spacecraft is some tens of kilometres away.
     let plain = TwoBodyOrbit::from_elements(MESSENGER_AS_PRINTED, MU, 0.0).unwrap().state_at(864_000.0);
@@ -219,7 +219,7 @@ proptest! {
 
     #[test]
     fn asking_often_changes_no_bit(at in prop::collection::vec(0.0..5000.0f64, 1..20)) {
-        let (expected, _) = fly(MESSENGER_AS_PRINTED, 60.0, 5000.0, &Gravity::of(Body::Mercury.data()));
+        let (expected, _) = simulated(MESSENGER_AS_PRINTED, 60.0, 5000.0, &Gravity::of(Body::Mercury.data()));
         let method = OrbitMethod::default();
         let mut at = at;
         at.sort_by(f64::total_cmp);

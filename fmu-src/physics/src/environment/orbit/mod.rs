@@ -7,6 +7,7 @@ mod disturbed;
 #[cfg(test)]
 mod disturbed_tests;
 mod elements;
+mod first_fall;
 mod gravity;
 pub mod kepler;
 mod lambert;

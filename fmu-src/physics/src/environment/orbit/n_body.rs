@@ -15,21 +15,18 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::deviation::TERMS;
+use super::first_fall::{EDGE_M, first_fall};
 use super::gravity::{Flattening, Gravity, gradient_per_s2};
 use crate::{
     bodies::{Body, BodyData},
     constants::{GM_MOON_M3_S2, GM_SUN_M3_S2, SPEED_OF_LIGHT_M_S},
     environment::CartesianState,
     math,
-    numerics::{chebyshev::Segment, roots},
+    numerics::chebyshev::Segment,
 };
 
-/// Pieces of a segment at whose ends distances are looked at.
-const PIECES: usize = 8;
-
-/// A segment that begins this near the edge of a sphere of influence and goes over it counts as beyond it, in m: light moves the
-/// path by centimetres after the edge was sought.
-const EDGE_M: f64 = 1.0;
+/// No segment is shortened below this for what light does, in s.
+const SHORTEST_LIT_S: f64 = 60.0;
 
 /// Where bodies are, EME2000, by the flight's clock.
 pub trait BodyPlaces {
@@ -222,6 +219,14 @@ impl NBodyGravity {
         rows.column(TERMS - 1).norm() <= self.settings.tolerance_m.max(rounding_m)
     }
 
+    /// Whether an acceleration over a segment is: what its last term would do to the position, were it constant, is the measure.
+    pub fn resolves<const N: usize>(&self, acceleration_m_s2: &Segment<3, N>) -> bool {
+        let length_s = acceleration_m_s2.end() - acceleration_m_s2.start();
+        let last_m_s2 = acceleration_m_s2.coefficients().column(N - 1).norm();
+        let is_short = length_s <= SHORTEST_LIT_S;
+        is_short || !(0.5 * last_m_s2 * length_s * length_s > self.settings.tolerance_m)
+    }
+
     /// The body within whose sphere of influence a place is, else the Sun.
     fn body_about(
         &self,
@@ -273,17 +278,9 @@ impl NBodyGravity {
         }
         let mut first: Option<Reached> = None;
         for body in self.planets().filter(|body| about == Body::Sun || *body == about) {
-            let sphere_m = self.sphere_m(body);
             // Positive outside; a path about a planet is within its sphere.
             let sense = if body == about { -1.0 } else { 1.0 };
-            let mut gap_m = |at_s: f64| {
-                sense * (distance_m(body, about, &path(at_s).position_m, at_s, places) - sphere_m)
-            };
-            let reach_m = farthest_m(&path(span_s[0]), span_s);
-            if body != about && gap_m(span_s[0]) > reach_m {
-                continue;
-            }
-            let at_s = first_fall(span_s, reach_m / PIECES as f64, &mut gap_m);
+            let at_s = first_crossing([body, about], (self.sphere_m(body), sense), span_s, &path, places);
             if let Some(at_s) = at_s.filter(|at_s| first.is_none_or(|first| *at_s < first.at_s)) {
                 let into = if body == about { Body::Sun } else { body };
                 first = Some(Reached { at_s, body: into });
@@ -303,13 +300,8 @@ impl NBodyGravity {
         let bodies = self.planets().chain([Body::Sun]);
         for body in bodies.filter(|body| *body == about || !self.settings.changes_center) {
             let radius_m = self.bodies[body as usize][1];
-            let mut height_m =
-                |at_s: f64| distance_m(body, about, &path(at_s).position_m, at_s, places) - radius_m;
-            let reach_m = farthest_m(&path(span_s[0]), span_s);
-            if height_m(span_s[0]) > reach_m {
-                continue;
-            }
-            if let Some(at_s) = first_fall(span_s, reach_m / PIECES as f64, &mut height_m) {
+            let at_s = first_crossing([body, about], (radius_m, 1.0), span_s, &path, places);
+            if let Some(at_s) = at_s {
                 let of_body = if body == about {
                     CartesianState::default()
                 } else {
@@ -375,50 +367,21 @@ fn farthest_m(state: &CartesianState, [start_s, end_s]: [f64; 2]) -> f64 {
     2.0 * (state.velocity_m_s.norm() + 1e5) * (end_s - start_s)
 }
 
-/// The first time at which a height falls below zero, by its lowest points between pieces of the span too; it falls by no more than
-/// `reach_m` over a piece.
-fn first_fall(
-    [start_s, end_s]: [f64; 2],
-    reach_m: f64,
-    height_m: &mut impl FnMut(f64) -> f64,
+/// The first time at which a path from `about` comes nearer to a body than a radius, in m; with a negative sense, farther.
+fn first_crossing(
+    [body, about]: [Body; 2],
+    (radius_m, sense): (f64, f64),
+    span_s: [f64; 2],
+    path: &impl Fn(f64) -> CartesianState,
+    places: &mut impl BodyPlaces,
 ) -> Option<f64> {
-    let at = |piece: usize| start_s + (end_s - start_s) * piece as f64 / PIECES as f64;
-    let heights: [f64; PIECES + 1] = core::array::from_fn(|piece| height_m(at(piece)));
-    for piece in 0..=PIECES {
-        let now = heights[piece];
-        let [before, after] = [piece.checked_sub(1), Some(piece + 1)]
-            .map(|index| index.and_then(|index| heights.get(index)).copied().unwrap_or(f64::INFINITY));
-        let from_s = at(piece.saturating_sub(1));
-        if piece > 0 && before > 0.0 && now < 0.0 {
-            return roots::bracketed(from_s, at(piece), 0.0, height_m).ok();
-        }
-        // A distance is convex where it is least: it may dip below what is seen by no more than both slopes.
-        let slopes = (before - now) + (after - now);
-        // One that begins at an edge has just come over it.
-        let begins_there = piece == 0 && now < EDGE_M;
-        let dips = !begins_there && now < slopes.min(reach_m) && now <= before && now <= after;
-        if dips && now > 0.0 && before > 0.0 {
-            let lowest_s = lowest(from_s, at((piece + 1).min(PIECES)), height_m);
-            if height_m(lowest_s) < 0.0 {
-                return roots::bracketed(from_s, lowest_s, 0.0, height_m).ok();
-            }
-        }
+    let mut gap_m =
+        |at_s: f64| sense * (distance_m(body, about, &path(at_s).position_m, at_s, places) - radius_m);
+    let reach_m = farthest_m(&path(span_s[0]), span_s);
+    if gap_m(span_s[0]) > reach_m {
+        return None;
     }
-    None
-}
-
-/// Where a function with one lowest point is lowest, by golden sections.
-fn lowest(mut from_s: f64, mut to_s: f64, function: &mut impl FnMut(f64) -> f64) -> f64 {
-    const SHARE: f64 = 0.618_033_988_749_894_9;
-    for _ in 0..40 {
-        let [left_s, right_s] = [to_s - SHARE * (to_s - from_s), from_s + SHARE * (to_s - from_s)];
-        if function(left_s) < function(right_s) {
-            to_s = right_s;
-        } else {
-            from_s = left_s;
-        }
-    }
-    0.5 * (from_s + to_s)
+    first_fall(span_s, reach_m, &mut gap_m)
 }
 
 /// Where a path comes into a sphere of influence or leaves it.

@@ -103,7 +103,7 @@ pub type External<'a> = dyn Fn(f64) -> [ForceTorque; 2] + 'a;
 /// Where a flight takes place, and what is known of it beside its state.
 #[derive(Clone, Debug)]
 pub struct World {
-    /// What flies, where; its attitude is set as the flight goes on.
+    /// The spacecraft, and where it is; its attitude is set as the flight goes on.
     pub configuration: Configuration,
     /// With every panel at angle 0, of what is left of the propellant.
     pub mass_at_zero: MassProperties,
@@ -122,10 +122,12 @@ pub struct World {
 impl World {
     /// Of this configuration with full tanks, without light and heat beyond direct sunlight.
     pub fn new(configuration: Configuration, laws: Laws) -> Self {
+        let predictions = configuration.encounter.map(|encounter| encounter.prediction);
+        let ahead_s = predictions.filter(|it| it.refresh_s > 0.0).map_or(0.0, |it| it.horizon_s);
         Self {
             mass_at_zero: configuration.loaded(),
             configuration,
-            ephemeris: Ephemeris::default(),
+            ephemeris: Ephemeris::holding(ahead_s),
             laws,
             light: None,
             work: Work::new(u32::MAX, 0),
@@ -140,7 +142,7 @@ impl World {
     }
 }
 
-/// What flies, prepared once.
+/// The spacecraft, prepared once.
 #[derive(Clone, Copy, Debug)]
 pub struct PreparedSpacecraft<'a> {
     /// Its panels.
@@ -339,9 +341,17 @@ impl<'a> Plant<'a> {
         self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
         if self.kinematics.configuration.motion.is_pushed() {
             let lit_s = self.extend_radiation(start_s, self.kinematics.trajectory.end_s())?;
-            let end_s = self.kinematics.smooth_until(start_s, lit_s);
-            let acceleration_m_s2 =
-                Segment::<3, NODES>::fit(start_s, end_s, |at_s| self.sample(at_s).acceleration_inertial_m_s2);
+            let mut end_s = self.kinematics.smooth_until(start_s, lit_s);
+            let acceleration_m_s2 = loop {
+                let fitted = Segment::<3, NODES>::fit(start_s, end_s, |at_s| {
+                    self.sample(at_s).acceleration_inertial_m_s2
+                });
+                if self.kinematics.configuration.motion.resolves(&fitted) {
+                    break fitted;
+                }
+                self.kinematics.spend_units(Cost::Orbit, NODES as u32, start_s)?;
+                end_s = 0.5 * (start_s + end_s);
+            };
             let predicted = core::mem::replace(self.kinematics.trajectory, before);
             self.kinematics.trajectory.take_passages(&predicted, end_s);
             self.integrate(end_s, |at_s| acceleration_m_s2.value(at_s))?;

@@ -200,7 +200,7 @@ impl AttitudeDynamics {
         }
     }
 
-    /// The body has the mass properties of the present segment, and what flies those of the last edge of the grid.
+    /// The body has the mass properties of the present segment, and the whole spacecraft those of the last edge of the grid.
     pub(super) fn resume(&self, settings: &mut DynamicsSettings, flight: &mut ConfiguredFlight<'_>) {
         settings.set_mass_properties(&self.mass.now);
         let world = &mut *flight.world;

@@ -219,7 +219,7 @@ impl Flight {
     ) -> Result<(), PlantError> {
         let Some(setup) = self.setup.as_deref_mut() else { return Err(PlantError::OtherMode) };
         let so_far = &setup.world.configuration;
-        // On a disturbed orbit the mass tells where the spacecraft goes.
+        // On a disturbed orbit the mass decides where the spacecraft goes.
         let pushed = changes.force && so_far.motion.is_pushed();
         match &mut self.mode {
             Mode::Waiting => {}

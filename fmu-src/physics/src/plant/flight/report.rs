@@ -24,7 +24,7 @@ use super::ideal::{IdealFlight, Maneuvers};
 pub struct Report<'a> {
     /// When, in s.
     pub time_s: f64,
-    /// What flies, where.
+    /// The spacecraft, and where it is.
     pub configuration: &'a Configuration,
     /// Thrusters and tanks.
     pub thrusters: &'a Thrusters,

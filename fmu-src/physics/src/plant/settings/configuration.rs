@@ -18,6 +18,7 @@ use crate::guidance::timeline::TimelineSettings;
 use crate::guidance::{Guided, SunPlace};
 use crate::loads::{Active, Effect};
 use crate::momentum::Settings;
+use crate::numerics::chebyshev::Segment;
 use crate::numerics::scalar::Dual64;
 use crate::numerics::spacing::spacing;
 use crate::spacecraft::{MassProperties, Panel, SunshadeModel, hinged_masses, with_panels};
@@ -230,6 +231,15 @@ impl Motion {
     /// Whether light, heat and external forces accelerate the spacecraft.
     pub fn is_pushed(&self) -> bool {
         matches!(self, Self::Disturbed { feedback: true, .. } | Self::NBody { feedback: true, .. })
+    }
+
+    /// Whether the acceleration by light and heat over a segment is as good as the orbit is to be, in m/s2; one about a single body has
+    /// no tolerance.
+    pub(crate) fn resolves<const N: usize>(&self, acceleration_m_s2: &Segment<3, N>) -> bool {
+        match self {
+            Self::NBody { gravity, .. } => gravity.resolves(acceleration_m_s2),
+            Self::TwoBody | Self::Disturbed { .. } | Self::Held { .. } => true,
+        }
     }
 }
 
