@@ -46,7 +46,7 @@ const OF_TIMELINE: [&str; 2] = ["command", "event"];
 /// The list that timelines share with spacecraft, and the keys of its items that only timelines have.
 const PANELS: (&str, [&str; 3]) = ("panels", ["at", "sunOffset", "windmill"]);
 /// Keys that plans have, and legs at most.
-const OF_PLAN: [&str; 9] = [
+const OF_PLAN: [&str; 13] = [
     "mission",
     "freeze",
     "window",
@@ -56,6 +56,10 @@ const OF_PLAN: [&str; 9] = [
     "tilt",
     "contactShare",
     "activity",
+    "flyby",
+    "update",
+    "compare",
+    "montecarlo",
 ];
 /// Tables that only legs have.
 const OF_LEG: [&str; 2] = ["depart", "arrive"];
@@ -78,7 +82,7 @@ const OF_MISSION: [&str; 14] = [
 ];
 
 impl FileKind {
-    /// By the keys of the text; `None` where no key tells.
+    /// By the keys of the text; `None` where no key says it.
     pub(crate) fn of(text: &str) -> Option<Self> {
         let (root, _) = DeTable::parse_recoverable(text);
         let root = root.get_ref();
@@ -154,7 +158,9 @@ impl FileKind {
                 "`heliotorque pack --spacecraft {file}` makes an FMU of it, a mission (`heliotorque new mission`) simulates it"
             ),
             Self::Mission => format!("run it: `heliotorque run {file}`"),
-            Self::Plan => format!("`heliotorque plan momentum {file} --output DIR` carries it out"),
+            Self::Plan => format!(
+                "`heliotorque plan momentum {file} --output DIR` carries it out, with [flyby] `heliotorque plan flyby`"
+            ),
             Self::Leg => format!("`heliotorque plan leg {file} --output DIR` carries it out"),
             Self::Timeline | Self::Ephemeris => {
                 let word = self.word();
@@ -214,6 +220,10 @@ mod tests {
             (include_str!("new/timeline.toml"), Some(FileKind::Timeline)),
             (include_str!("new/plan.toml"), Some(FileKind::Plan)),
             (include_str!("new/leg.toml"), Some(FileKind::Leg)),
+            ("[flyby]\nbody = \"mercury\"\n", Some(FileKind::Plan)),
+            ("[update]\nat = 0\n", Some(FileKind::Plan)),
+            ("[compare]\nnext = 0\n", Some(FileKind::Plan)),
+            ("[montecarlo]\nruns = 9\n", Some(FileKind::Plan)),
             ("mission = \"a.toml\"\n[arrive]\nbody = \"mercury\"\n", Some(FileKind::Leg)),
             ("[[comand]]\nat = 0\n", Some(FileKind::Timeline)),
             ("[[panels]]\nat = 0\n", Some(FileKind::Timeline)),
