@@ -6,6 +6,7 @@ pub(crate) mod leg;
 mod mission_text;
 pub(crate) mod momentum;
 mod picture;
+mod reading;
 
 use std::{path::Path, process::ExitCode};
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use nalgebra::Vector3;
 use physics::{
     environment::{dates, orbit::LambertBranch},
-    toml::{Checker, Document, Place},
+    toml::Place,
 };
 use planner::leg::Aim;
 
@@ -13,10 +13,10 @@ use super::description::{ArcBranch, ArriveDescription, Description};
 use crate::{
     kind::FileKind,
     mission::{At, Written},
+    plan::reading::{self, ALLOWED_LENGTH, Builder, quantity},
     values::{self, Instant},
 };
 
-const ALLOWED_LENGTH: &str = "a number of m or one with a unit: \"200 km\", \"0.5 AU\"";
 const ALLOWED_SPEED: &str = "a number of m/s or one with a unit: \"38.2 km/s\"";
 const ALLOWED_ANGLE: &str = "an angle from -360 to 360 deg: a number of rad or one with a unit, \"30 deg\"";
 const MOST_REVOLUTIONS: u32 = 100;
@@ -45,28 +45,13 @@ impl LegFile {
     /// # Errors
     /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
     pub(super) fn read(file: &Path) -> Result<Self, String> {
-        Self::parse(file, &FileKind::Leg.read(file)?)
-    }
-
-    fn parse(file: &Path, text: &str) -> Result<Self, String> {
-        let shown = file.display().to_string();
-        let document = Document::parse(&shown, text).map_err(|error| error.to_string())?;
-        let (description, findings) = document.read::<Description>().map_err(|error| error.to_string())?;
-        let folder = file.parent().unwrap_or(Path::new(""));
-        let mut builder = Builder { check: Checker::new(&document, findings), folder };
-        let leg = builder.leg(file, &description);
-        builder.check.finish(leg).map_err(|error| error.to_string())
+        reading::read(FileKind::Leg, file, |builder, it: Description| builder.leg(file, &it))
     }
 
     /// A problem at a place of the file.
     pub(super) fn problem<T>(&self, at: &At<T>, what: &str) -> String {
-        format!("{}:{}: {}: {what}", self.file.display(), at.line, at.key)
+        reading::problem(&self.file, at, what)
     }
-}
-
-struct Builder<'d> {
-    check: Checker<'d>,
-    folder: &'d Path,
 }
 
 impl Builder<'_> {
@@ -83,7 +68,7 @@ impl Builder<'_> {
         let velocity_before_m_s =
             from.velocity.as_ref().map(|written| self.vector(&velocity, written, ("m/s", ALLOWED_SPEED)));
         let [body, arrive_at, revolutions] = ["body", "at", "revolutions"].map(|key| arrive.key(key));
-        let arrival = self.instant(&arrive_at, &to.at);
+        let arrival = self.instant(&arrive_at, &to.at).unwrap_or(Instant::Time(0.0));
         let (aim_key, aim) = self.aim(&arrive, to);
         let turns = self.revolutions(&arrive, to);
         LegFile {
@@ -99,30 +84,8 @@ impl Builder<'_> {
         }
     }
 
-    fn at<T>(&self, place: &Place, it: T) -> At<T> {
-        At { it, key: place.to_string(), line: self.check.line(place) }
-    }
-
-    fn path(&mut self, place: &Place, path: &str) -> PathBuf {
-        let found = self.folder.join(path);
-        if !found.is_file() {
-            let shown = format!("{}, which is not there", found.display());
-            self.check.report(place, shown, "a file; paths are relative to this one's folder");
-        }
-        found
-    }
-
-    fn read(written: &Written, unit: &str) -> Option<f64> {
-        match written {
-            Written::Number(number) => Some(*number).filter(|number| number.is_finite()),
-            Written::Integer(number) => Some(*number as f64),
-            Written::Text(text) => values::quantity(text, unit),
-            _ => None,
-        }
-    }
-
-    fn quantity(&mut self, place: &Place, written: &Written, (unit, allowed): (&str, &str)) -> f64 {
-        Self::read(written, unit).unwrap_or_else(|| {
+    fn required(&mut self, place: &Place, written: &Written, (unit, allowed): (&str, &str)) -> f64 {
+        quantity(written, unit).unwrap_or_else(|| {
             self.check.report(place, written, allowed);
             0.0
         })
@@ -130,7 +93,7 @@ impl Builder<'_> {
 
     fn vector(&mut self, place: &Place, written: &Written, (unit, allowed): (&str, &str)) -> Vector3<f64> {
         let items = if let Written::List(items) = written { items.as_slice() } else { &[] };
-        let read: Vec<f64> = items.iter().filter_map(|item| Self::read(item, unit)).collect();
+        let read: Vec<f64> = items.iter().filter_map(|item| quantity(item, unit)).collect();
         let vector = <[f64; 3]>::try_from(read).ok().filter(|_| items.len() == 3).map(Vector3::from);
         let vector = vector.filter(|vector| vector.norm() > 0.0);
         vector.unwrap_or_else(|| {
@@ -153,22 +116,12 @@ impl Builder<'_> {
         None
     }
 
-    fn instant(&mut self, place: &Place, written: &Written) -> Instant {
-        let number = matches!(written, Written::Number(_) | Written::Integer(_) | Written::Text(_));
-        let instant = written.setting().filter(|_| number).and_then(|text| values::instant(&text).ok());
-        instant.unwrap_or_else(|| {
-            let allowed = format_args!("{}; or simulation time: \"200 d\"", dates::ALLOWED_DATE);
-            self.check.report(place, written, allowed);
-            Instant::Time(0.0)
-        })
-    }
-
     /// With the key that it stands in.
     fn aim(&mut self, arrive: &Place, to: &ArriveDescription) -> (Place, Aim) {
         let [altitude, angle, b_t, b_r] = ["altitude", "angle", "bT", "bR"].map(|key| arrive.key(key));
         match (&to.altitude, &to.angle, &to.b_t, &to.b_r) {
             (Some(above), Some(toward), None, None) => {
-                let altitude_m = self.quantity(&altitude, above, ("m", ALLOWED_LENGTH));
+                let altitude_m = self.required(&altitude, above, ("m", ALLOWED_LENGTH));
                 if altitude_m <= 0.0 && !self.check.has_reported(&altitude) {
                     let found = format!("{above}, inside the planet");
                     self.check.report(
@@ -177,15 +130,15 @@ impl Builder<'_> {
                         format_args!("an altitude above 0: {ALLOWED_LENGTH}"),
                     );
                 }
-                let angle_rad = self.quantity(&angle, toward, ("rad", ALLOWED_ANGLE));
+                let angle_rad = self.required(&angle, toward, ("rad", ALLOWED_ANGLE));
                 if angle_rad.abs() > core::f64::consts::TAU {
                     self.check.report(&angle, toward, ALLOWED_ANGLE);
                 }
                 (altitude, Aim::Altitude { altitude_m, angle_rad })
             }
             (None, None, Some(along_t), Some(along_r)) => {
-                let b_t_m = self.quantity(&b_t, along_t, ("m", ALLOWED_LENGTH));
-                let b_r_m = self.quantity(&b_r, along_r, ("m", ALLOWED_LENGTH));
+                let b_t_m = self.required(&b_t, along_t, ("m", ALLOWED_LENGTH));
+                let b_r_m = self.required(&b_r, along_r, ("m", ALLOWED_LENGTH));
                 (b_t, Aim::Plane { b_t_m, b_r_m })
             }
             (above, toward, along_t, along_r) => {

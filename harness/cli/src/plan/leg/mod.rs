@@ -152,7 +152,7 @@ impl<'a> LegMission<'a> {
     }
 }
 
-/// Refuses a mission that does not fly between planets to that of the leg.
+/// Refuses a mission that does not move between planets to that of the leg.
 fn check(file: &LegFile, mission: &SimulatedMission, arrival_s: f64) -> Result<(), Failure> {
     let shown = file.mission.it.display();
     for (name, allowed) in

@@ -1,19 +1,20 @@
 //! A plan, from its file: what stands there, in SI, by the line that it stands in.
 
 pub(in crate::plan) mod encounter;
-mod reading;
 
 use std::path::{Path, PathBuf};
 
-use physics::toml::{Checker, Document, Place};
+use physics::toml::Place;
 
-use self::{
-    encounter::{Compare, Flyby, MonteCarlo, Update},
-    reading::{Builder, DAY_S},
-};
+use self::encounter::{Compare, Flyby, MonteCarlo, Update};
 use super::description::{ActivityDescription, ContactDescription, Description};
 pub(super) use crate::mission::At;
-use crate::{kind::FileKind, mission::Written, values};
+use crate::{
+    kind::FileKind,
+    mission::Written,
+    plan::reading::{self, Builder, DAY_S},
+    values,
+};
 
 /// An activity that might be added.
 #[derive(Clone, Debug)]
@@ -61,22 +62,12 @@ impl PlanFile {
     /// # Errors
     /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
     pub(super) fn read(file: &Path) -> Result<Self, String> {
-        Self::parse(file, &FileKind::Plan.read(file)?)
-    }
-
-    fn parse(file: &Path, text: &str) -> Result<Self, String> {
-        let shown = file.display().to_string();
-        let document = Document::parse(&shown, text).map_err(|error| error.to_string())?;
-        let (description, findings) = document.read::<Description>().map_err(|error| error.to_string())?;
-        let folder = file.parent().unwrap_or(Path::new(""));
-        let mut builder = Builder { check: Checker::new(&document, findings), folder };
-        let plan = builder.plan(file, description);
-        builder.check.finish(plan).map_err(|error| error.to_string())
+        reading::read(FileKind::Plan, file, |builder, it| builder.plan(file, it))
     }
 
     /// A problem at a place of the file.
     pub(super) fn problem<T>(&self, at: &At<T>, what: &str) -> String {
-        format!("{}:{}: {}: {what}", self.file.display(), at.line, at.key)
+        reading::problem(&self.file, at, what)
     }
 }
 

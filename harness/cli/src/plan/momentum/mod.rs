@@ -170,7 +170,7 @@ fn frozen_until_from(file: &PlanFile, mission: &SimulatedMission) -> Result<Plan
     Ok(file)
 }
 
-/// What a plan file says, in a sentence, without flying anything.
+/// What a plan file says, in a sentence, without simulating anything.
 ///
 /// # Errors
 /// Everything wrong in it.
@@ -195,7 +195,7 @@ pub(crate) fn checked(file: &Path) -> Result<String, String> {
     ))
 }
 
-/// Plans, writes the files and tells what came of it.
+/// Plans, writes the files and reports what came of it.
 pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     let began = Instant::now();
     let file = PlanFile::read(&options.plan)?;

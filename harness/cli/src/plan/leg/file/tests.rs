@@ -5,7 +5,8 @@ use super::*;
 fn parsed(text: &str) -> Result<LegFile, String> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("mission.toml"), "stop = 1\n").unwrap();
-    LegFile::parse(&folder.path().join("leg.toml"), text)
+    let file = folder.path().join("leg.toml");
+    reading::parse(&file, text, |builder, it: Description| builder.leg(&file, &it))
 }
 
 const FULL: &str = "mission = \"mission.toml\"

@@ -3,16 +3,17 @@
 use nalgebra::{Matrix6, SymmetricEigen, Vector3};
 use physics::toml::Place;
 
-use super::reading::{ALLOWED_ANGLE, Builder, DAY_S};
 use crate::{
     mission::{At, Written},
-    plan::momentum::description::{
-        CompareDescription, FlybyDescription, MonteCarloDescription, UpdateDescription,
+    plan::{
+        momentum::description::{
+            CompareDescription, FlybyDescription, MonteCarloDescription, UpdateDescription,
+        },
+        reading::{ALLOWED_ANGLE, ALLOWED_LENGTH, Builder, DAY_S, number, quantity},
     },
     values,
 };
 
-const ALLOWED_LENGTH: &str = "a number of m or one with a unit: 2e5, \"200 km\"";
 /// Least miss that can be a tolerance, in m.
 const LEAST_TOLERANCE_M: f64 = 1.0;
 /// Most flights with errors.
@@ -70,11 +71,7 @@ pub(in crate::plan) struct MonteCarlo {
 impl Builder<'_> {
     fn length(&mut self, place: &Place, written: Option<&Written>) -> Option<f64> {
         let written = written?;
-        let length_m = match written {
-            Written::Text(text) => values::quantity(text, "m"),
-            _ => number(written),
-        };
-        let length_m = length_m.filter(|length_m| length_m.is_finite());
+        let length_m = quantity(written, "m");
         if length_m.is_none() && !self.check.has_stand_in(place) {
             self.check.report(place, written, ALLOWED_LENGTH);
         }
@@ -84,12 +81,11 @@ impl Builder<'_> {
     /// A number from 0 on.
     fn least_zero(&mut self, place: &Place, written: Option<&Written>, default: f64, unit: &str) -> f64 {
         let Some(written) = written else { return default };
-        let value = match written {
-            Written::Text(text) if unit == "m" => values::quantity(text, "m"),
-            _ => number(written),
+        let (value, allowed) = match unit {
+            "m" => (quantity(written, "m"), ALLOWED_LENGTH),
+            _ => (number(written), "a number from 0 on"),
         };
         value.filter(|value| *value >= 0.0 && value.is_finite()).unwrap_or_else(|| {
-            let allowed = if unit == "m" { ALLOWED_LENGTH } else { "a number from 0 on" };
             self.check.report(place, written, allowed);
             default
         })
@@ -242,14 +238,6 @@ impl Builder<'_> {
             ),
             scale: self.least_zero(&place.key("scale"), table.scale.as_ref(), 0.0, "1"),
         }
-    }
-}
-
-fn number(written: &Written) -> Option<f64> {
-    match written {
-        Written::Integer(number) => Some(*number as f64),
-        Written::Number(number) => Some(*number),
-        _ => None,
     }
 }
 

@@ -5,7 +5,8 @@ use super::*;
 fn parsed(text: &str) -> Result<PlanFile, String> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("mission.toml"), "stop = 1\n").unwrap();
-    PlanFile::parse(&folder.path().join("plan.toml"), text)
+    let file = folder.path().join("plan.toml");
+    reading::parse(&file, text, |builder, it| builder.plan(&file, it))
 }
 
 #[test]
@@ -40,12 +41,12 @@ fn units_are_read() {
 }
 
 #[test]
-fn every_mistake_is_told_with_its_line() {
-    let told =
+fn every_mistake_is_reported_with_its_line() {
+    let refused =
         parsed("mission = \"none.toml\"\nwindow = 1\nalternation = \"half\"\nwidnmill = 0\n").unwrap_err();
     for expected in
         [":1: mission: found ", ":2: window: found 1", ":3: alternation: found \"half\"", ":4: widnmill"]
     {
-        assert!(told.contains(expected), "{expected}: {told}");
+        assert!(refused.contains(expected), "{expected}: {refused}");
     }
 }

@@ -1,24 +1,77 @@
-//! Numbers, times and paths of a plan file with what is reported of those that cannot be.
+//! Reading of the TOML files that are planned by: numbers, times and paths with what is reported of those that cannot be.
 
 use std::path::{Path, PathBuf};
 
 use physics::{
     environment::dates,
-    toml::{Checker, Place},
+    toml::{Checker, Document, Place},
 };
+use serde::de::DeserializeOwned;
 
 use crate::{
+    kind::FileKind,
     mission::{At, Written},
     values,
 };
 
 pub(super) const DAY_S: f64 = 86_400.0;
+pub(super) const ALLOWED_LENGTH: &str = "a number of m or one with a unit: 2e5, \"200 km\", \"0.5 AU\"";
 pub(super) const ALLOWED_SPAN: &str = "a number of s or one with a unit: 600, \"12 h\", \"3 d\"";
 pub(super) const ALLOWED_ANGLE: &str = "a number of rad or one with a unit: \"2 deg\"";
 pub(super) const ALLOWED_MOMENTUM: &str =
     "a number of N.m.s above 0, or one with that unit: 5.5, \"5.5 N.m.s\"";
 
-/// Reads the tables of a plan.
+/// A file of a kind, its tables read by `build`.
+///
+/// # Errors
+/// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
+pub(super) fn read<D: DeserializeOwned, T>(
+    kind: FileKind,
+    file: &Path,
+    build: impl FnOnce(&mut Builder<'_>, D) -> T,
+) -> Result<T, String> {
+    parse(file, &kind.read(file)?, build)
+}
+
+/// The same of its text.
+pub(super) fn parse<D: DeserializeOwned, T>(
+    file: &Path,
+    text: &str,
+    build: impl FnOnce(&mut Builder<'_>, D) -> T,
+) -> Result<T, String> {
+    let shown = file.display().to_string();
+    let document = Document::parse(&shown, text).map_err(|error| error.to_string())?;
+    let (description, findings) = document.read::<D>().map_err(|error| error.to_string())?;
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let mut builder = Builder { check: Checker::new(&document, findings), folder };
+    let built = build(&mut builder, description);
+    builder.check.finish(built).map_err(|error| error.to_string())
+}
+
+/// A problem at a place of a file.
+pub(super) fn problem<T>(file: &Path, at: &At<T>, what: &str) -> String {
+    format!("{}:{}: {}: {what}", file.display(), at.line, at.key)
+}
+
+/// A number in the SI unit of this name, or a text with a unit.
+pub(super) fn quantity(written: &Written, unit: &str) -> Option<f64> {
+    let number = match written {
+        Written::Text(text) => values::quantity(text, unit),
+        _ => number(written),
+    };
+    number.filter(|number| number.is_finite())
+}
+
+/// A number without a unit.
+pub(super) fn number(written: &Written) -> Option<f64> {
+    match written {
+        Written::Integer(number) => Some(*number as f64),
+        Written::Number(number) => Some(*number),
+        _ => None,
+    }
+}
+
+/// Reads the tables of a file.
 pub(super) struct Builder<'d> {
     pub check: Checker<'d>,
     /// That of the file.
@@ -77,13 +130,11 @@ impl Builder<'_> {
     pub(super) fn momentum(&mut self, place: &Place, written: Option<&Written>) -> Option<f64> {
         let written = written?;
         let number = match written {
-            Written::Number(number) => Some(*number),
-            Written::Integer(number) => Some(*number as f64),
             Written::Text(text) => {
                 let text = text.trim();
                 text.strip_suffix("N.m.s").unwrap_or(text).trim_end().parse().ok()
             }
-            _ => None,
+            _ => number(written),
         };
         let momentum = number.filter(|number: &f64| *number > 0.0 && number.is_finite());
         if momentum.is_none() {
@@ -94,12 +145,7 @@ impl Builder<'_> {
 
     pub(super) fn share(&mut self, place: &Place, written: Option<&Written>, default: f64, most: f64) -> f64 {
         let Some(written) = written else { return default };
-        let number = match written {
-            Written::Number(number) => Some(*number),
-            Written::Integer(number) => Some(*number as f64),
-            _ => None,
-        };
-        number.filter(|number| (0.0..=most).contains(number)).unwrap_or_else(|| {
+        number(written).filter(|number| (0.0..=most).contains(number)).unwrap_or_else(|| {
             self.check.report(place, written, format_args!("a share from 0 to {most}"));
             default
         })
