@@ -4,12 +4,11 @@ use nalgebra::{Matrix2, Vector2, Vector3};
 use serde_json::{Map, Value, json};
 
 use super::{
-    controls::AimByWindow,
     dispersion::Outcome,
     maneuvers::{Maneuver, ellipse},
     sensitivity::{DesiredDeltaV, Sensitivity},
 };
-use crate::momentum::{attainable::Reachable, report::percentiles, windows::Window};
+use crate::momentum::{attainable::Reachable, report::percentiles, target::Moves, windows::Window};
 
 /// Manoeuvres that would do what the plan does.
 #[derive(Clone, Debug, PartialEq)]
@@ -189,7 +188,7 @@ fn campaign(campaign: &Campaign) -> Value {
 ///
 /// # Errors
 /// What CSV does not take.
-pub fn sensitivity_csv(windows: &[Window], by_window: &[AimByWindow]) -> Result<Vec<u8>, csv::Error> {
+pub fn sensitivity_csv(windows: &[Window], by_window: &[Moves]) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let controls = ["offset_deg", "windmill_deg", "azimuth_deg", "elevation_deg", "alternate_share"];
     let rows = ["b_t_m", "b_r_m", "arrival_s"];

@@ -1,4 +1,4 @@
-//! Legs simulated between Sun and planets under a push of light: what flies with the velocity that was found is looked at anew.
+//! Legs simulated between Sun and planets under a push of light: the flight with the velocity that was found is simulated anew.
 
 use nalgebra::Vector3;
 use physics::{

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Matrix3x4, Vector3};
 
 use super::{
     simulated::FlightRow,
-    target::{Aimed, Moves},
+    target::Moves,
     torque::{CONTROLS, Control, LinearTorque, SunlitSpacecraft},
     windows::{Window, WindowKind},
 };
@@ -17,7 +17,7 @@ pub(super) const ALL: [Control; CONTROLS] =
 
 /// From one row to the next.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Cell {
+pub(crate) struct Cell {
     /// The window that it is in.
     pub window: usize,
     /// Gained at the present controls without the correction.
@@ -33,7 +33,7 @@ pub(super) struct Cell {
 }
 
 /// Force and torque and what they change by, at a row in a window.
-pub(super) struct At {
+pub(crate) struct At {
     load: LinearTorque,
     scale: f64,
     other: Vector3<f64>,
@@ -50,17 +50,14 @@ struct Mean {
 }
 
 impl At {
-    /// At the window's present controls.
-    pub(super) fn of(
+    /// At the window's present controls; `by_impulse` is what the encounter moves by, by force times time.
+    pub(crate) fn of(
         sunlit: &SunlitSpacecraft,
         row: &FlightRow,
         window: &Window,
-        aimed: Option<&Aimed>,
+        by_impulse: Matrix3<f64>,
     ) -> Self {
         let load = window.linearised(sunlit, row);
-        // What stays moves nothing.
-        let aimed = aimed.filter(|_| window.kind != WindowKind::Frozen);
-        let by_impulse = aimed.map_or_else(Matrix3::zeros, |aimed| aimed.by_impulse(sunlit, row));
         Self { load, scale: sunlit.light.scale, other: row.other_torque_n_m, by_impulse }
     }
 
@@ -84,7 +81,7 @@ impl At {
 }
 
 /// From one row to the next, with the share in the alternate attitude and that by unit of its control.
-pub(super) fn cell(
+pub(crate) fn cell(
     window: usize,
     of: &Window,
     rows: [&FlightRow; 2],

@@ -2,7 +2,7 @@
 
 pub mod attainable;
 pub mod baseline;
-mod cell;
+pub(crate) mod cell;
 mod counted;
 pub mod encountered;
 mod mission;

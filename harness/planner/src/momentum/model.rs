@@ -4,7 +4,7 @@
 //! what a flight through the FMU gained more with the same controls is added. So the model agrees with the last flight whatever effects
 //! that had, and its derivatives are those of sunlight.
 
-use nalgebra::{Matrix3x4, Matrix4, SymmetricEigen, Vector3};
+use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
 
 use super::{
     cell::{ALL, At, Cell, cell},
@@ -73,13 +73,8 @@ impl Model {
         windows: Vec<Window>,
         limit: Limit,
     ) -> Self {
-        let edges: Vec<f64> = windows
-            .iter()
-            .flat_map(|window| {
-                window.free_of_contact.iter().flatten().copied().chain([window.start_s, window.stop_s])
-            })
-            .collect();
-        let simulated = simulated.with_rows_at(&edges);
+        let edges_s: Vec<f64> = windows.iter().flat_map(Window::edges_s).collect();
+        let simulated = simulated.with_rows_at(&edges_s);
         let mut model = Self {
             corrections: vec![Vector3::zeros(); simulated.rows.len().saturating_sub(1)],
             simulated,
@@ -161,11 +156,15 @@ impl Model {
                 continue;
             }
             let share = of.alternate_at(middle_s);
+            // What stays moves nothing.
+            let aimed = self.aimed.as_ref().filter(|_| of.kind != WindowKind::Frozen);
+            let by_impulse =
+                |row: &FlightRow| aimed.map_or_else(Matrix3::zeros, |aimed| aimed.by_impulse(sunlit, row));
             let from = match last.take() {
                 Some((at_window, at, value)) if at_window == window && at == index => value,
-                _ => At::of(sunlit, &rows[index], of, self.aimed.as_ref()),
+                _ => At::of(sunlit, &rows[index], of, by_impulse(&rows[index])),
             };
-            let to = At::of(sunlit, &rows[index + 1], of, self.aimed.as_ref());
+            let to = At::of(sunlit, &rows[index + 1], of, by_impulse(&rows[index + 1]));
             cells.push(cell(window, of, [&rows[index], &rows[index + 1]], [&from, &to], share));
             last = Some((window, index + 1, to));
         }

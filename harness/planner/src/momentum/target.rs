@@ -4,6 +4,8 @@
 //! of L dF / m dt. Rows are B.T (m), B.R (m), arrival (s). The miss of the last flight is known; that of other controls is it, plus
 //! the difference of both integrals.
 
+use core::ops::AddAssign;
+
 use nalgebra::{Matrix3, Vector3};
 
 use super::{
@@ -86,11 +88,18 @@ impl Aimed {
     }
 }
 
-/// What a cell moves the encounter by at the present controls, and by unit of each.
+/// What sunlight moves the encounter by over a time: B.T (m), B.R (m), arrival (s).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Moves {
+pub struct Moves {
     /// At the present controls.
     pub at: Vector3<f64>,
-    /// By unit of each control.
+    /// By rad or share of each control; nothing where its bounds leave no choice.
     pub by_control: [Vector3<f64>; CONTROLS],
+}
+
+impl AddAssign for Moves {
+    fn add_assign(&mut self, other: Self) {
+        self.at += other.at;
+        self.by_control.iter_mut().zip(other.by_control).for_each(|(sum, by)| *sum += by);
+    }
 }

@@ -62,6 +62,11 @@ pub struct Window {
 }
 
 impl Window {
+    /// Its ends and those of its times without contact, in s.
+    pub(crate) fn edges_s(&self) -> impl Iterator<Item = f64> {
+        self.free_of_contact.iter().flatten().copied().chain([self.start_s, self.stop_s])
+    }
+
     /// In s.
     pub fn length_s(&self) -> f64 {
         self.stop_s - self.start_s

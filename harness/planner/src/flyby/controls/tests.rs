@@ -9,7 +9,7 @@ use crate::flyby::test_flight::{Aim, DAY_S, LONG_S, Leg, packed, surroundings};
 use crate::momentum::{
     simulated::FlightRow,
     test_spacecraft::sunlit,
-    torque::{Attitude, Controls},
+    torque::{Attitude, CONTROLS, Control, Controls},
     windows::WindowKind,
 };
 
@@ -81,6 +81,6 @@ fn controls_of_a_window_move_the_encounter_as_flights_show() {
         assert!((partials.z - expected.z).abs() < 1e-4 * expected.z.abs() + 1e-3, "{index}");
     }
     let by_light = aim(Some(controls)) - aim(None);
-    let off_m = (found[0].by_light - by_light).xy().norm();
+    let off_m = (found[0].at - by_light).xy().norm();
     assert!(off_m < 1e-3 * by_light.xy().norm() && by_light.xy().norm() > 1e4, "{off_m} {by_light}");
 }

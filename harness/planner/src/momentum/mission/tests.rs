@@ -3,7 +3,7 @@ use super::*;
 
 fn mission(text: &str) -> Result<Mission, String> {
     let scratch = tempfile::tempdir().unwrap();
-    let path = scratch.path().join("flown.csv");
+    let path = scratch.path().join("simulated.csv");
     std::fs::write(&path, text).unwrap();
     Mission::read(&path)
 }
@@ -70,7 +70,7 @@ fn what_is_no_recording_is_refused_by_name() {
         ),
         (format!("{head}\n0,1,2,3\n"), "two rows"),
         (format!("{head}\n1,1,2,3\n0,1,2,3\n"), "times rise"),
-        (format!("{head}\n0,1,2,3\n1,1,nan,3\n"), "flown.csv:3: torque.total[2]: found \"nan\""),
+        (format!("{head}\n0,1,2,3\n1,1,nan,3\n"), "simulated.csv:3: torque.total[2]: found \"nan\""),
         (format!("{head},sun.distance\n0,1,2,3,1\n1,1,2,3,0\n"), "sun.distance above 0"),
         ("x\n1\n2\n".to_owned(), "column time"),
     ] {
