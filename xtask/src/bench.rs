@@ -34,42 +34,22 @@ pub(crate) fn all() -> Outcome {
     }
     system(&built)?;
     study(&built)?;
-    plans(&built)
+    plans(&built)?;
+    flybys(&built)
 }
 
 /// A cruise of 200 days by its timeline, its plans, and a refit of ten days of a history; starts of the processes with them.
 fn plans(built: &Built) -> Outcome {
-    let scratch = build::scratch("bench-plans")?;
-    let resources = root().join("fmu-src").join("resources");
-    let missions = resources.join("examples").join("missions");
-    let heliotorque = |words: &str| {
-        let mut command = command(&built.heliotorque);
-        command.current_dir(&scratch).args(words.split_whitespace()).arg("--quiet");
-        command.arg("--template").arg(root().join("dist").join("MomentumPlant.fmu"));
-        command
-    };
-    let row = |name: &str, command: &mut Command| -> Outcome {
-        println!("bench {name} {:.2} s", median_s(command)?);
-        Ok(())
-    };
-    let write = |name: &str, text: &str| {
-        let path = scratch.join(name);
-        std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
-    };
+    let folder = Folder::new(built, "bench-plans")?;
+    let heliotorque = |words: &str| folder.command(words);
+    let write = |name: &str, text: &str| folder.write(name, text);
     let flight = "run cruise.toml --output cruise.csv";
-    for (from, to) in [(&resources, "messenger.toml"), (&missions, "messenger-cruise-timeline.toml")] {
-        let path = from.join(to);
-        std::fs::copy(&path, scratch.join(to)).map_err(|error| format!("{}: {error}", path.display()))?;
-    }
-    let mission = missions.join("messenger-cruise.toml");
-    let text =
-        std::fs::read_to_string(&mission).map_err(|error| format!("{}: {error}", mission.display()))?;
-    let text = text.replace("../../messenger.toml", "messenger.toml");
+    write("messenger-cruise-timeline.toml", &resource("examples/missions/messenger-cruise-timeline.toml")?)?;
+    let text = resource("examples/missions/messenger-cruise.toml")?
+        .replace("../../messenger.toml", "messenger.toml");
     write("cruise.toml", &text)?;
     row("cruise_200_days_by_timeline", &mut heliotorque(flight))?;
-    if let Some(bytes) = peak_bytes(&mut heliotorque(flight))? {
-        println!("bench cruise_200_days_by_timeline_peak {:.1} MB", bytes as f64 / 1e6);
-    }
+    peak_row("cruise_200_days_by_timeline_peak", &mut heliotorque(flight))?;
     // Without angles of the arrays nothing is counted.
     let plan = "mission = \"cruise.toml\"\n[momentum]\nlimit = 5.5\n[tilt]\nazimuth = \"5 deg\"\nelevation = \"5 deg\"\n";
     write("convex.toml", &format!("windmill = 0\n{plan}"))?;
@@ -93,6 +73,100 @@ fn plans(built: &Built) -> Outcome {
         "refit_10_days_1441_rows",
         &mut heliotorque("refit ten-days.toml --telemetry history.csv --output refit.toml"),
     )
+}
+
+/// The leg to the second flyby of Mercury: simulated, with the partials of all windows, planned for an aim 170 km off, and dispersed.
+fn flybys(built: &Built) -> Outcome {
+    const LEGS: u32 = 1000;
+    let folder = Folder::new(built, "bench-flybys")?;
+    let heliotorque = |words: &str| folder.command(words);
+    let mission = resource("examples/missions/messenger-flyby2.toml")?;
+    folder.write("flyby.toml", &mission.replace("../../messenger.toml", "messenger.toml"))?;
+    let leg = resource("examples/legs/messenger-flyby2.toml")?;
+    folder.write("leg.toml", &leg.replace("../missions/messenger-flyby2.toml", "momentum/mission.toml"))?;
+    let flight = "run flyby.toml --stop 17280000 --output flyby.csv";
+    row("n_body_200_days", &mut heliotorque(flight))?;
+    peak_row("n_body_200_days_peak", &mut heliotorque(flight))?;
+    // Arrays of a plan flyby stay as they are up to its date: they come from a plan of the momentum, to which the departure is led.
+    let tilt = "[tilt]\nazimuth = \"10 deg\"\nelevation = \"12 deg\"\n";
+    folder.write(
+        "momentum.toml",
+        &format!("mission = \"flyby.toml\"\nfreeze = 0\nwindow = \"10 d\"\n{tilt}"),
+    )?;
+    output(&mut heliotorque("plan momentum momentum.toml --output momentum"))?;
+    output(&mut heliotorque("plan leg leg.toml --output leg"))?;
+    let aim = |altitude: &str| {
+        format!(
+            "[flyby]\nbody = \"mercury\"\naltitude = \"{altitude}\"\nangle = 0\nfrom = \"2008-06-17 UTC\"\n"
+        )
+    };
+    let met = format!("mission = \"leg/mission.toml\"\nwindmill = 0\n{tilt}{}", aim("200 km"));
+    folder.write("met.toml", &met)?;
+    row("partials_of_all_windows_with_the_flight", &mut heliotorque("plan flyby met.toml --output met"))?;
+    let text = format!(
+        "mission = \"leg/mission.toml\"\nwindow = \"10 d\"\n{tilt}[sunOffset]\nchange = true\nlargest = \"20 deg\"\n{}",
+        aim("370 km")
+    );
+    folder.write("plan.toml", &text)?;
+    row("plan_flyby_170_km", &mut heliotorque("plan flyby plan.toml --output plan"))?;
+    let variances = [1e6, 1e6, 1e6, 1e-6, 1e-6, 1e-6];
+    let line = |row: usize| {
+        let cells = (0..6).map(|column| if row == column { variances[row] } else { 0.0 });
+        cells.map(|it| it.to_string()).collect::<Vec<_>>().join(",")
+    };
+    folder.write("covariance.csv", &(0..6).map(line).collect::<Vec<_>>().join("\n"))?;
+    let state = "[update]\nat = \"2008-03-19 UTC\"\ncovariance = \"covariance.csv\"\n";
+    folder.write("dispersed.toml", &format!("{met}{state}[montecarlo]\nruns = {LEGS}\nscale = 0.01\n"))?;
+    let begin = Instant::now();
+    output(&mut heliotorque("plan flyby dispersed.toml --output dispersed"))?;
+    println!("bench plan_flyby_{LEGS}_dispersed_legs {:.2} s", begin.elapsed().as_secs_f64());
+    Ok(())
+}
+
+/// A file of the resources.
+fn resource(name: &str) -> Result<String, String> {
+    let path = root().join("fmu-src").join("resources").join(name);
+    std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// An empty folder with the spacecraft, in which the program runs.
+struct Folder<'b> {
+    path: PathBuf,
+    built: &'b Built,
+}
+
+impl<'b> Folder<'b> {
+    fn new(built: &'b Built, name: &str) -> Result<Self, String> {
+        let folder = Self { path: build::scratch(name)?, built };
+        folder.write("messenger.toml", &resource("messenger.toml")?)?;
+        Ok(folder)
+    }
+
+    fn write(&self, name: &str, text: &str) -> Outcome {
+        let path = self.path.join(name);
+        std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
+    }
+
+    fn command(&self, words: &str) -> Command {
+        let mut command = command(&self.built.heliotorque);
+        command.current_dir(&self.path).args(words.split_whitespace()).arg("--quiet");
+        command.arg("--template").arg(root().join("dist").join("MomentumPlant.fmu"));
+        command
+    }
+}
+
+/// How long a command takes.
+fn row(name: &str, command: &mut Command) -> Outcome {
+    println!("bench {name} {:.2} s", median_s(command)?);
+    Ok(())
+}
+
+/// The memory that it takes, where the system reports it.
+fn peak_row(name: &str, command: &mut Command) -> Outcome {
+    if let Some(bytes) = peak_bytes(command)? {
+        println!("bench {name} {:.1} MB", bytes as f64 / 1e6);
+    }
+    Ok(())
 }
 
 /// The greatest memory of a command and what it starts, each by itself; `None` where the system does not report it.
