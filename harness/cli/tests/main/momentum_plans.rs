@@ -125,7 +125,7 @@ fn a_cruise_is_planned_and_flown_below_its_limit() {
     assert!(number(folder, "planned") < 5.5 && number(folder, "simulated") < 5.5);
     assert!(number(folder, "largestDifference_n_m_s") < 0.02 * 5.5);
     assert_eq!([number(folder, "changes"), number(folder, "changesAtLeast")], [7.0, 7.0]);
-    // The mission that was written flies it.
+    // As the mission that was written simulates it.
     let simulated = folder.join("simulated.csv");
     let mission = folder.join("out/mission.toml");
     let names = "momentum.inertial,panel*.corridorMargin,downlink.clamped,dump.count";
@@ -266,7 +266,7 @@ fn contacts_are_kept_and_prices_told() {
     }
 }
 
-/// A refit's values fly, three sigma of its covariance are left; other seeds move the centre of mass at every dump.
+/// A refit's values are simulated, three sigma of its covariance are left; other seeds move the centre of mass at every dump.
 #[test]
 fn a_refit_flies_and_leaves_its_margin() {
     let Some((scratch, template)) = template() else { return };
@@ -379,9 +379,9 @@ fn what_cannot_be_planned_is_refused_by_line() {
     assert!(fs::read_to_string(folder.join("out/plan.json")).unwrap().contains("\"limit\": \"corridor\""));
     // Panels that no windmill angle turns.
     cruise(folder, &[("stop = \"200 d\"", "stop = \"40 d\"")]);
-    let craft = folder.join("messenger.toml");
-    let text = fs::read_to_string(&craft).unwrap();
-    fs::write(&craft, text.replace("[[panels]]", "[[panels]]\nwindmill_side = 0")).unwrap();
+    let spacecraft = folder.join("messenger.toml");
+    let text = fs::read_to_string(&spacecraft).unwrap();
+    fs::write(&spacecraft, text.replace("[[panels]]", "[[panels]]\nwindmill_side = 0")).unwrap();
     let said = plan(folder, &template, &format!("windmill = \"1 deg\"\n{PLAN}"), 1);
     assert!(said.contains("plan.toml:1: windmill: found panels without a side"), "{said}");
     // Contacts where alternation is needed.
