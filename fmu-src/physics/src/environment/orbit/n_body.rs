@@ -223,8 +223,9 @@ impl NBodyGravity {
     pub fn resolves<const N: usize>(&self, acceleration_m_s2: &Segment<3, N>) -> bool {
         let length_s = acceleration_m_s2.end() - acceleration_m_s2.start();
         let last_m_s2 = acceleration_m_s2.coefficients().column(N - 1).norm();
-        let is_short = length_s <= SHORTEST_LIT_S;
-        is_short || !(0.5 * last_m_s2 * length_s * length_s > self.settings.tolerance_m)
+        let off_m = 0.5 * last_m_s2 * length_s * length_s;
+        // Of what is not a number no shorter segment is better.
+        length_s <= SHORTEST_LIT_S || off_m.is_nan() || off_m <= self.settings.tolerance_m
     }
 
     /// The body within whose sphere of influence a place is, else the Sun.
