@@ -160,7 +160,7 @@ fn limits_are_a_status_and_histories_tables() {
 
 #[test]
 fn a_full_disk_leaves_what_was_written() {
-    let text = "runs = 40000\n[vary]\n\"x[1]\" = { normal = [0, 1] }\n\"x[3]\" = { normal = [0, 1] }\n\
+    let text = "runs = 52000\n[vary]\n\"x[1]\" = { normal = [0, 1] }\n\"x[3]\" = { normal = [0, 1] }\n\
         [keep]\nextremes = [\"ishigami\", \"ramp\", \"sum\"]\n";
     let Some((scratch, file)) = campaign(text) else { return };
     // Unpacked: nothing else is written.
