@@ -58,6 +58,11 @@ def library():
 
 
 @pytest.fixture(scope="session")
+def probe_library():
+    return _path("HELIOTORQUE_PROBE_LIBRARY")
+
+
+@pytest.fixture(scope="session")
 def momentum_plant(dist):
     return str(dist / "MomentumPlant.fmu")
 

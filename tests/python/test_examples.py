@@ -113,6 +113,30 @@ def test_parameter_study(run, momentum_plant):
     assert last[1] == pytest.approx(0.5 * slope, rel=1e-3)
 
 
+def test_sobol_indices(run, momentum_plant, heliotorque, monkeypatch):
+    """Of a nearly linear output the indices are the shares of the squared slopes times variances."""
+    monkeypatch.setenv("HELIOTORQUE", str(heliotorque))
+    text = run("sobol_indices")
+    middle = {"spacecraft.centerOfMass[1]": 0.0, "spacecraft.centerOfMass[3]": -0.0254, "solar.scale": 1.0}
+    widths = {"spacecraft.centerOfMass[1]": 0.01, "spacecraft.centerOfMass[3]": 0.005, "solar.scale": 0.05}
+
+    def momentum(values):
+        flight = simulate_fmu(
+            momentum_plant, stop_time=3 * 86400, step_size=3 * 86400, output_interval=3 * 86400, start_values=values,
+            output=["momentum.body[1]"],
+        )
+        return flight["momentum.body[1]"][-1]
+
+    changes = [
+        momentum(middle | {name: middle[name] + width}) - momentum(middle | {name: middle[name] - width})
+        for name, width in widths.items()
+    ]
+    shares = np.square(changes) / np.square(changes).sum()
+    for name, share in zip(widths, shares):
+        alone, with_others = numbers(re.escape(name) + ": # alone, # with others", text)
+        assert alone == pytest.approx(share, abs=0.03) and with_others == pytest.approx(share, abs=0.03)
+
+
 def test_save_restore(run, momentum_plant):
     """The restored instance ends with the bits of a plant that was never interrupted."""
     text = run("save_restore")

@@ -13,7 +13,7 @@ use crate::{
     child::{self, Bounds, LARGE, Relayed, SMALL},
     completions, draw, ephemeris, home, info, interrupt, manual, map, new,
     outcome::Outcome,
-    pack, plan, refit, run as simulation, schema, size, study, wire,
+    pack, plan, refit, run as simulation, schema, size, study, sweep, wire,
 };
 
 /// Spacecraft disturbance torque and momentum as FMUs: show, check and simulate them, pack your own.
@@ -36,7 +36,7 @@ enum Command {
     Run(simulation::Run),
     /// Connect FMUs by the names and units of their variables: a system (SSP) that any tool for SSP runs
     Wire(wire::Wire),
-    /// Write a commented file that works unchanged: spacecraft, spinner, mission, timeline, plan or leg
+    /// Write a commented file that works unchanged: spacecraft, spinner, mission, campaign, timeline, plan or leg
     New(new::New),
     /// Draw a spacecraft's file: front, side, top and perspective, with axes, Sun, names, centre of mass, panel axes
     Draw(draw::Draw),
@@ -51,6 +51,8 @@ enum Command {
     Ephemeris(ephemeris::Ephemeris),
     /// Print the JSON Schema of a file, for editors that complete and check TOML
     Schema(schema::Schema),
+    /// Simulate many runs of a mission or an FMU whose values vary, and keep what is needed of each
+    Sweep(sweep::Sweep),
     /// Run a study of the papers, or list them
     Study(study::Study),
     /// Find an optimal plan
@@ -68,6 +70,9 @@ enum Command {
     /// Runs an FMU for `run` in a process of its own
     #[command(hide = true)]
     RunInChild(simulation::RunInChild),
+    /// Simulates runs for `sweep` in a process of its own
+    #[command(hide = true)]
+    SweepInChild(sweep::SweepInChild),
     /// Carries out a command that loads a library in a process of its own
     #[command(hide = true)]
     InChild(InChild),
@@ -95,14 +100,14 @@ pub(crate) fn run() -> Outcome {
     let command = Arguments::parse().command;
     match &command {
         // A child is ended by its parent.
-        Command::Probe(_) | Command::RunInChild(_) => {}
+        Command::Probe(_) | Command::RunInChild(_) | Command::SweepInChild(_) => {}
         Command::InChild(InChild { output_columns, note_columns, arguments }) => {
             let screen = Screen { output_columns: *output_columns, note_columns: *note_columns };
             let given = [OsString::from(env!("CARGO_BIN_NAME"))].into_iter().chain(arguments.iter().cloned());
             return child::serve(screen, || carry_out(Arguments::parse_from(given).command));
         }
         // What was recorded until then is written.
-        command => interrupt::listen(matches!(command, Command::Run(_)), child::end_all)?,
+        command => interrupt::listen(matches!(command, Command::Run(_) | Command::Sweep(_)), child::end_all)?,
     }
     match loading(&command) {
         Some(relayed) => relayed.run(std::env::args_os().skip(1)),
@@ -153,6 +158,8 @@ fn carry_out(mut command: Command) -> Outcome {
         Command::Run(arguments) => simulation::run(&arguments),
         Command::Wire(arguments) => wire::run(&arguments),
         Command::RunInChild(arguments) => simulation::run_in_child(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::SweepInChild(arguments) => sweep::run_in_child(&arguments),
         Command::New(arguments) => new::run(&arguments),
         Command::Man(arguments) => manual::run(&arguments, Arguments::command()),
         Command::Draw(arguments) => draw::run(&arguments),

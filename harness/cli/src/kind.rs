@@ -22,6 +22,8 @@ pub(crate) enum FileKind {
     Plan,
     /// Where and when a leg begins, and the encounter that it leads to.
     Leg,
+    /// What varies over many runs, and what is kept of each.
+    Campaign,
 }
 
 /// The table that every spacecraft and spinner has.
@@ -63,6 +65,8 @@ const OF_PLAN: [&str; 13] = [
 ];
 /// Tables that only legs have.
 const OF_LEG: [&str; 2] = ["depart", "arrive"];
+/// Keys that only campaigns have.
+const OF_CAMPAIGN: [&str; 5] = ["vary", "keep", "sampling", "runs", "correlation"];
 /// Keys that only missions have.
 const OF_MISSION: [&str; 14] = [
     "spacecraft",
@@ -96,6 +100,8 @@ impl FileKind {
             Some(Self::Spacecraft)
         } else if ephemeris::is_meant(text) {
             Some(Self::Ephemeris)
+        } else if OF_CAMPAIGN.into_iter().any(has) {
+            Some(Self::Campaign)
         } else if OF_LEG.into_iter().any(has) {
             Some(Self::Leg)
         } else if OF_PLAN.into_iter().any(has) {
@@ -148,6 +154,7 @@ impl FileKind {
             Self::Ephemeris => "ephemeris",
             Self::Plan => "plan",
             Self::Leg => "leg",
+            Self::Campaign => "campaign",
         }
     }
 
@@ -162,6 +169,7 @@ impl FileKind {
                 "`heliotorque plan momentum {file} --output DIR` carries it out, with [flyby] `heliotorque plan flyby`"
             ),
             Self::Leg => format!("`heliotorque plan leg {file} --output DIR` carries it out"),
+            Self::Campaign => format!("`heliotorque sweep {file}` simulates it"),
             Self::Timeline | Self::Ephemeris => {
                 let word = self.word();
                 format!("`{word} = \"{file}\"` in a mission or `heliotorque pack --{word} {file}` takes it")
@@ -224,6 +232,7 @@ mod tests {
             ("[update]\nat = 0\n", Some(FileKind::Plan)),
             ("[compare]\nnext = 0\n", Some(FileKind::Plan)),
             ("[montecarlo]\nruns = 9\n", Some(FileKind::Plan)),
+            (include_str!("new/campaign.toml"), Some(FileKind::Campaign)),
             ("mission = \"a.toml\"\n[arrive]\nbody = \"mercury\"\n", Some(FileKind::Leg)),
             ("[[comand]]\nat = 0\n", Some(FileKind::Timeline)),
             ("[[panels]]\nat = 0\n", Some(FileKind::Timeline)),

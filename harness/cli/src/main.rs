@@ -33,6 +33,7 @@ mod run;
 mod schema;
 mod size;
 mod study;
+mod sweep;
 mod values;
 mod variables;
 mod wire;

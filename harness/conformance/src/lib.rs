@@ -46,6 +46,14 @@ const fn probe(name: &'static str, title: &'static str, run: fn(&Fmu) -> Finding
     Probe { name, title, run }
 }
 
+/// Whether an instance that was reset runs as a fresh one, to the bit, over a few steps of the default experiment.
+///
+/// # Errors
+/// A call that fails.
+pub fn resets(fmu: &Fmu) -> Result<bool, Error> {
+    state::resets(fmu)
+}
+
 /// Runs the probe or trial of this name; `None` where there is none. An FMU that fails in it is a finding.
 pub fn run(fmu: &Fmu, name: &str) -> Option<Vec<Finding>> {
     let findings = if let Some(probe) = PROBES.iter().find(|probe| probe.name == name) {

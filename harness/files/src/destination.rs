@@ -3,7 +3,7 @@
 use std::{
     ffi::OsString,
     fs::{self, File, Metadata, OpenOptions, TryLockError},
-    io::{self, BufWriter, Write},
+    io::{self, BufWriter, Seek, Write},
     path::{Path, PathBuf},
 };
 
@@ -146,6 +146,13 @@ impl Growing {
             .map_err(|error| format!("{}: {error}: see {}", part.path.display(), self.destination.option))
     }
 
+    /// Goes on with what a recording before left, of which the first bytes are kept; on the standard output there is none.
+    pub fn keep(&mut self, bytes: u64) -> Result<(), String> {
+        let Some(part) = &mut self.part else { return Ok(()) };
+        part.keep(bytes)
+            .map_err(|error| format!("{}: {error}: see {}", part.path.display(), self.destination.option))
+    }
+
     /// Whether the reader of the standard output went away: what is appended then goes nowhere.
     pub fn has_lost_reader(&self) -> bool {
         self.lost_reader
@@ -223,6 +230,13 @@ impl Part {
         Err("others take it away again and again".to_owned())
     }
 
+    fn keep(&mut self, bytes: u64) -> io::Result<()> {
+        self.file.set_len(bytes)?;
+        self.file.seek(io::SeekFrom::End(0))?;
+        self.is_begun = true;
+        Ok(())
+    }
+
     fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
         if !self.is_begun {
             self.file.set_len(0)?;
@@ -292,7 +306,8 @@ fn check(target: &Path, inputs: &[&Path]) -> Result<(), String> {
     Ok(())
 }
 
-fn part_of(target: &Path) -> PathBuf {
+/// Where the recording of a file in progress grows.
+pub fn part_of(target: &Path) -> PathBuf {
     let mut name = target.as_os_str().to_owned();
     name.push(".part");
     PathBuf::from(name)

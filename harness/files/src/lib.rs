@@ -12,7 +12,7 @@ mod entries;
 mod input;
 mod temporary;
 
-pub use destination::{Destination, Growing};
+pub use destination::{Destination, Growing, part_of};
 pub use entries::Entries;
 pub use input::{MOST_TABLE_BYTES, MOST_TEXT_BYTES, kind, open, open_at_most, read, read_at_most, read_text};
 pub use temporary::{Scratch, remove_temporaries};

@@ -31,7 +31,7 @@ pub fn read_rows(from: impl Read) -> Result<Vec<Vec<String>>, csv::Error> {
 pub fn write_header(recording: &Recording, columns: usize, to: &mut dyn Write) -> io::Result<()> {
     write!(to, "time")?;
     for name in recording.names.iter().take(columns) {
-        write!(to, ",{}", csv_field(name))?;
+        write!(to, ",{}", field(name))?;
     }
     writeln!(to)
 }
@@ -61,7 +61,7 @@ fn cell(value: Option<&Value>) -> String {
     match value {
         Some(Value::Real(value)) => Real(*value).to_string(),
         Some(Value::Boolean(value)) => u8::from(*value).to_string(),
-        Some(Value::Text(text)) => csv_field(text).into_owned(),
+        Some(Value::Text(text)) => field(text).into_owned(),
         Some(Value::Integer(value)) => value.to_string(),
         None => Real(f64::NAN).to_string(),
     }
@@ -83,8 +83,8 @@ impl fmt::Display for Real {
     }
 }
 
-/// Quotes a CSV field where it has to be (RFC 4180).
-fn csv_field(text: &str) -> std::borrow::Cow<'_, str> {
+/// A text as a field, quoted where it has to be (RFC 4180).
+pub fn field(text: &str) -> std::borrow::Cow<'_, str> {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\"")).into()
     } else {

@@ -195,17 +195,27 @@ pub fn simulate(fmu: &Fmu, mut options: Options<'_>) -> Result<Simulation, Box<S
 /// As [`simulate`], with the rows handed on as they are recorded. Also gives what the instance logged.
 pub fn simulate_into(
     fmu: &Fmu,
-    mut options: Options<'_>,
+    options: Options<'_>,
     rows: &mut dyn Rows,
 ) -> Result<(Ended, Vec<LogMessage>), Error> {
+    let mut instance = Instance::new(fmu, "run", &options.instance)?;
+    let ended = simulate_with(&mut instance, options, rows)?;
+    Ok((ended, instance.messages()))
+}
+
+/// As [`simulate_into`], with an instance that was just made or reset.
+pub fn simulate_with(
+    instance: &mut Instance,
+    mut options: Options<'_>,
+    rows: &mut dyn Rows,
+) -> Result<Ended, Error> {
+    let fmu = &instance.fmu().clone();
     let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
     let recorded = RecordedPoints::new(&times, options.record_every_s)?;
     let positions = options.record.take().unwrap_or_else(|| outputs(fmu.description()));
     let mut reader = Reader::new(fmu, &positions);
-    let mut instance = Instance::new(fmu, "run", &options.instance)?;
     let mut record = |instance: &mut Instance, time_s: f64| reader.read(instance, time_s, rows);
-    let ended = run_steps(fmu, &mut instance, (&times, recorded), &mut options, &mut record)?;
-    Ok((ended, instance.messages()))
+    run_steps(fmu, instance, (&times, recorded), &mut options, &mut record)
 }
 
 /// Which communication points are recorded: the start, the point nearest to every whole multiple of a time after it, and the last

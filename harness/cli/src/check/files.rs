@@ -1,4 +1,4 @@
-//! `heliotorque check FILE.toml`: a spacecraft, a mission, a timeline, an ephemeris, a plan or a leg, by what it is meant as.
+//! `heliotorque check FILE.toml`: a spacecraft, a mission, a timeline, an ephemeris, a plan, a leg or a campaign, by what it is meant as.
 
 use physics::{
     environment::onboard::OnboardEphemeris,
@@ -12,13 +12,14 @@ use crate::{
     kind::{FileKind, is_blank},
     outcome::{self, Outcome},
     plan::{leg, momentum},
+    sweep,
 };
 
 /// Judges the file.
 pub(super) fn run(arguments: &Check) -> Outcome {
     let (file, text) = (arguments.subject.display().to_string(), files::read_text(&arguments.subject)?);
     if is_blank(&text) {
-        let allowed = "a spacecraft, a spinner, a mission, a timeline, an ephemeris, a plan or a leg: see `heliotorque new`";
+        let allowed = "a spacecraft, a spinner, a mission, a timeline, an ephemeris, a plan, a leg or a campaign: see `heliotorque new`";
         return Err(format!("{file}: found an empty file, allowed: {allowed}").into());
     }
     match FileKind::of(&text) {
@@ -32,6 +33,10 @@ pub(super) fn run(arguments: &Check) -> Outcome {
         Some(FileKind::Leg) => match leg::checked(&arguments.subject) {
             Ok(summary) => outcome::printed(&format!("{file}: ok: {summary}")),
             Err(problems) => outcome::refused(&file, &problems, "a leg"),
+        },
+        Some(FileKind::Campaign) => match sweep::checked(&arguments.subject) {
+            Ok(summary) => outcome::printed(&format!("{file}: ok: {summary}")),
+            Err(problems) => outcome::refused(&file, &problems, "a campaign"),
         },
         Some(FileKind::Ephemeris) => match OnboardEphemeris::from_toml(&file, &text) {
             Ok(read) => outcome::printed(&format!("{file}: ok: {}", ephemeris::table(&read, text.len()))),

@@ -8,5 +8,5 @@ mod schema;
 mod written;
 
 pub(crate) use file::{At, Inputs, Mission, Plot, SpacecraftSource};
-pub(crate) use resolved::Resolved;
+pub(crate) use resolved::{Resolved, in_file};
 pub(crate) use written::Written;

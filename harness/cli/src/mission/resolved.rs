@@ -65,6 +65,24 @@ impl Mission {
     }
 }
 
+/// What an error says at a key of a file.
+pub(crate) fn in_file(key: &str, error: loader::Error) -> String {
+    match error {
+        // The key names the variable.
+        loader::Error::Value { what, variable } if key.contains(&variable) => what,
+        loader::Error::Inputs(what) => what,
+        loader::Error::UnknownVariable { name, hint, .. } => {
+            format!("found the unknown variable {name:?}, allowed: one that the FMU has{hint}")
+        }
+        loader::Error::NoOutput { pattern, example, .. } => {
+            format!(
+                "found {pattern:?}, which no output fits, allowed: * for outputs, anything else by its name: {example}"
+            )
+        }
+        other => other.to_string(),
+    }
+}
+
 struct Resolver<'m, 's> {
     mission: &'m Mission,
     described: &'m Description,
@@ -78,21 +96,7 @@ impl<'m> Resolver<'m, '_> {
     }
 
     fn refuse<T>(&mut self, at: &At<T>, error: loader::Error) {
-        let what = match error {
-            // The key names the variable.
-            loader::Error::Value { what, variable } if at.key.contains(&variable) => what,
-            loader::Error::Inputs(what) => what,
-            loader::Error::UnknownVariable { name, hint, .. } => {
-                format!("found the unknown variable {name:?}, allowed: one that the FMU has{hint}")
-            }
-            loader::Error::NoOutput { pattern, example, .. } => {
-                format!(
-                    "found {pattern:?}, which no output fits, allowed: * for outputs, anything else by its name: {example}"
-                )
-            }
-            other => other.to_string(),
-        };
-        self.report(at, &what);
+        self.report(at, &in_file(&at.key, error));
     }
 
     fn sets(&mut self) -> Vec<(String, Value)> {

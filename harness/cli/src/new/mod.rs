@@ -38,6 +38,8 @@ pub(crate) enum NewKind {
     Plan,
     /// The place and date at which a leg begins, and the encounter that it leads to, for `plan leg`
     Leg,
+    /// What varies over many runs, and what is kept of each, for `sweep`
+    Campaign,
 }
 
 impl NewKind {
@@ -50,6 +52,7 @@ impl NewKind {
             Self::Timeline => ("timeline.toml", include_str!("timeline.toml")),
             Self::Plan => ("plan.toml", include_str!("plan.toml")),
             Self::Leg => ("leg.toml", include_str!("leg.toml")),
+            Self::Campaign => ("campaign.toml", include_str!("campaign.toml")),
         }
     }
 }

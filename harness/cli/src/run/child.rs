@@ -118,9 +118,7 @@ impl Inbox<'_> {
         match kind {
             ROW => {
                 self.rows_left = self.rows_left.checked_sub(1).ok_or(NOT_REQUESTED)?;
-                let sent = SentRow::of(&mut payload, self.collector.widths());
-                let sent = sent.filter(|_| payload.is_empty()).ok_or(NOT_REQUESTED)?;
-                self.collector.take(&sent.row()).map_err(|error| error.to_string())?;
+                take_row(&mut payload, self.collector)?;
             }
             MESSAGE if self.messages.len() < MESSAGES => {
                 self.messages.push(message(&mut payload).ok_or(NOT_REQUESTED)?);
@@ -176,17 +174,28 @@ struct RowSender<'a>(&'a mut Link);
 
 impl Rows for RowSender<'_> {
     fn take(&mut self, row: &Row<'_>) -> Result<(), Error> {
-        let whole = |value: &i32| u64::from(*value as u32);
-        self.0
-            .send(ROW, |payload| {
-                payload.push(row.time_s.to_bits());
-                payload.extend(row.reals.iter().map(|value| value.to_bits()));
-                payload.extend(row.integers.iter().map(whole));
-                payload.extend(row.booleans.iter().map(whole));
-                row.texts.iter().for_each(|text| push_text(payload, text));
-            })
-            .map_err(Error::Rows)
+        self.0.send(ROW, |payload| push_row(payload, row)).map_err(Error::Rows)
     }
+}
+
+/// Appends a row to a payload, as [`take_row`] reads it.
+pub(crate) fn push_row(payload: &mut Vec<u64>, row: &Row<'_>) {
+    let whole = |value: &i32| u64::from(*value as u32);
+    payload.push(row.time_s.to_bits());
+    payload.extend(row.reals.iter().map(|value| value.to_bits()));
+    payload.extend(row.integers.iter().map(whole));
+    payload.extend(row.booleans.iter().map(whole));
+    row.texts.iter().for_each(|text| push_text(payload, text));
+}
+
+/// Hands the row of a payload to a collector.
+///
+/// # Errors
+/// A row that the collector does not wait for, more than memory is given for.
+pub(crate) fn take_row(payload: &mut Payload<'_>, collector: &mut Collector) -> Result<(), String> {
+    let sent = SentRow::of(payload, collector.widths());
+    let sent = sent.filter(|_| payload.is_empty()).ok_or(NOT_REQUESTED)?;
+    collector.take(&sent.row()).map_err(|error| error.to_string())
 }
 
 /// Runs in this process and sends the parent what comes of it.

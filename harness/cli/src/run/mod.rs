@@ -27,7 +27,7 @@ use crate::{
     output::{self, Known, LimitChecks, Origin, Outputs},
     pointing, variables,
 };
-pub(crate) use child::{RunInChild, run as run_in_child};
+pub(crate) use child::{RunInChild, push_row, run as run_in_child, take_row};
 pub(crate) use options::Run;
 pub(crate) use settings::Settings;
 pub(crate) use simulated::{Assemble, Simulated, assemble_into};

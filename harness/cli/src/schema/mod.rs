@@ -10,7 +10,7 @@ use crate::outcome::{self, Outcome};
 /// `heliotorque schema`.
 #[derive(Debug, Args)]
 pub(crate) struct Schema {
-    /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; mission, which `run` flies; timeline, which `pack --timeline` takes; ephemeris, which `pack --ephemeris` takes; plan, which `plan momentum` takes; or leg, which `plan leg` takes
+    /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; mission, which `run` flies; timeline, which `pack --timeline` takes; ephemeris, which `pack --ephemeris` takes; plan, which `plan momentum` takes; leg, which `plan leg` takes; or campaign, which `sweep` takes
     #[arg(value_enum, default_value_t, hide_possible_values = true)]
     pub kind: SchemaKind,
 }
@@ -33,6 +33,8 @@ pub(crate) enum SchemaKind {
     Plan,
     /// Where and when a leg begins, and the encounter that it leads to.
     Leg,
+    /// What varies over many runs, and what is kept of each.
+    Campaign,
 }
 
 /// Prints the schema.
@@ -43,6 +45,7 @@ pub(crate) fn run(arguments: &Schema) -> Outcome {
         SchemaKind::Mission => include_str!("../../../../fmu-src/resources/mission.schema.json"),
         SchemaKind::Timeline => include_str!("../../../../fmu-src/resources/timeline.schema.json"),
         SchemaKind::Leg => include_str!("../../../../fmu-src/resources/leg.schema.json"),
+        SchemaKind::Campaign => include_str!("../../../../fmu-src/resources/campaign.schema.json"),
         SchemaKind::Plan => include_str!("../../../../fmu-src/resources/plan.schema.json"),
         SchemaKind::Ephemeris => include_str!("../../../../fmu-src/resources/ephemeris.schema.json"),
     };

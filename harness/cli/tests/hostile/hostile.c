@@ -1,6 +1,7 @@
 /* An FMU that misbehaves: what it does is chosen by -DBEHAVIOUR=..., where by -DAT_LOADING, -DIN_DESCRIBE,
-   -DIN_INSTANTIATE or -DIN_STEP.
-   One Real output x with reference 0, which is the time; steps from 3 s on do the behaviour. */
+   -DIN_INSTANTIATE or -DIN_STEP, or -DIN_STEP_IF the parameter trouble (reference 1) is above 0.5.
+   One Real output x with reference 0, which is the time; steps from 3 s on do the behaviour. With -DKEEPS a reset forgets nothing:
+   x is the number of steps since the instance was made. */
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <signal.h>
@@ -37,7 +38,8 @@ typedef struct {
     void *environment;
 } Callbacks;
 
-static double now;
+static double now, trouble;
+static int steps;
 static Callbacks callbacks;
 static volatile int forever = 1;
 static int *volatile nowhere = NULL;
@@ -113,6 +115,8 @@ int fmi2SetDebugLogging(Component c, int on, size_t n, const char *const *names)
 Component fmi2Instantiate(const char *name, int type, const char *guid, const char *where, const Callbacks *given, int visible, int on) {
     (void)name; (void)type; (void)guid; (void)where; (void)visible; (void)on;
     callbacks = *given;
+    steps = 0;
+    trouble = 0;
 #ifdef IN_INSTANTIATE
     behaviour();
 #endif
@@ -127,10 +131,20 @@ int fmi2SetupExperiment(Component c, int has, double tolerance, double start, in
 int fmi2EnterInitializationMode(Component c) { (void)c; return 0; }
 int fmi2ExitInitializationMode(Component c) { (void)c; return 0; }
 int fmi2Terminate(Component c) { (void)c; return 0; }
-int fmi2Reset(Component c) { (void)c; return 0; }
+int fmi2Reset(Component c) { (void)c; trouble = 0; return 0; }
 int fmi2GetReal(Component c, const unsigned *references, size_t n, double *values) {
-    (void)c; (void)references;
-    for (size_t i = 0; i < n; i++) values[i] = BEHAVIOUR == ANSWERS_NAN && now >= 3 ? 0.0 / (now - now) : now;
+    (void)c;
+    for (size_t i = 0; i < n; i++) {
+        values[i] = BEHAVIOUR == ANSWERS_NAN && now >= 3 ? 0.0 / (now - now) : references[i] == 1 ? trouble : now;
+#ifdef KEEPS
+        if (references[i] == 0) values[i] = steps;
+#endif
+    }
+    return 0;
+}
+int fmi2SetReal(Component c, const unsigned *references, size_t n, const double *values) {
+    (void)c;
+    for (size_t i = 0; i < n; i++) if (references[i] == 1) trouble = values[i];
     return 0;
 }
 int fmi2DoStep(Component c, double time, double step, int no) {
@@ -141,11 +155,18 @@ int fmi2DoStep(Component c, double time, double step, int no) {
         if (status) return status;
     }
 #endif
+#ifdef IN_STEP_IF
+    if (time >= 3 && trouble > 0.5) {
+        int status = behaviour();
+        if (status) return status;
+    }
+#endif
     now = time + step;
+    steps++;
     return 0;
 }
 #define NOTHING(name) int fmi2##name(Component c) { (void)c; return 0; }
-NOTHING(GetInteger) NOTHING(GetBoolean) NOTHING(GetString) NOTHING(SetReal) NOTHING(SetInteger) NOTHING(SetBoolean)
+NOTHING(GetInteger) NOTHING(GetBoolean) NOTHING(GetString) NOTHING(SetInteger) NOTHING(SetBoolean)
 NOTHING(SetString) NOTHING(GetFMUstate) NOTHING(SetFMUstate) NOTHING(FreeFMUstate) NOTHING(SerializedFMUstateSize)
 NOTHING(SerializeFMUstate) NOTHING(DeSerializeFMUstate) NOTHING(GetDirectionalDerivative)
 NOTHING(SetRealInputDerivatives) NOTHING(GetRealOutputDerivatives) NOTHING(CancelStep) NOTHING(GetStatus)

@@ -23,6 +23,7 @@ mod plans;
 mod refits;
 mod runs;
 mod sizes;
+mod sweeps;
 mod timelines;
 mod usage;
 

@@ -56,6 +56,9 @@ impl Mistake {
             let text = fs::read_to_string(folder.join(&toml)).unwrap();
             return (toml, text);
         }
+        if self.kind == "campaign" {
+            run(&["new", "mission", shown(&folder.join("mission.toml")), "--force"], 0);
+        }
         if self.command.is_none() && self.kind != "plan" {
             return (toml, run(&["new", &self.kind, "-"], 0));
         }

@@ -4,7 +4,7 @@ use std::{fs, process::Command};
 
 use crate::{run, says, shown, template};
 
-const KINDS: [&str; 6] = ["spacecraft", "spinner", "mission", "timeline", "plan", "leg"];
+const KINDS: [&str; 7] = ["spacecraft", "spinner", "mission", "timeline", "plan", "leg", "campaign"];
 
 #[test]
 fn a_file_that_is_there_is_kept() {
@@ -44,7 +44,7 @@ fn every_new_file_works_unchanged() {
         let packs: &[&[&str]] = match kind {
             "mission" => &[&["--mission", shown(&file)]],
             // They name the mission beside them, and are packed with nothing.
-            "plan" | "leg" => &[],
+            "plan" | "leg" | "campaign" => &[],
             "timeline" => &[
                 &["--model", "Guidance", "--timeline", shown(&file)],
                 &["--timeline", shown(&file), "--set", "panel[1].control=timeline"],

@@ -1,11 +1,11 @@
 //! States: saved, restored, serialised, reset, all to the bit.
 
-use loader::Fmu;
+use loader::{Error, Fmu, Instance, InstanceOptions};
 use model_description::call_table::State;
 
 use crate::{
     Finding,
-    experiment::{self, STEPS},
+    experiment::{self, Bits, STEPS},
     probe::Findings,
     verdict::refused,
 };
@@ -24,12 +24,7 @@ pub(crate) fn probe(fmu: &Fmu) -> Findings {
     let again = experiment::short_simulation(fmu, &experiment::strict())?;
     findings.push(Finding::expect(again == at_end, "a second simulation gives the same bits"));
 
-    fresh.reset()?;
-    experiment::advance(&mut fresh, State::StepComplete)?;
-    let reset_start = experiment::outputs(&mut fresh)?;
-    experiment::simulate(&mut fresh, 0, STEPS)?;
-    let reset_end = experiment::outputs(&mut fresh)?;
-    let same = reset_start == at_start && reset_end == at_end;
+    let same = after_reset(&mut fresh)? == [at_start, at_end.clone()];
     findings.push(Finding::expect(same, "after fmi2Reset it runs as a fresh instance, to the bit"));
 
     if !flags.can_get_and_set_fmu_state {
@@ -75,6 +70,27 @@ pub(crate) fn probe(fmu: &Fmu) -> Findings {
     instance.free_state(saved)?;
     findings.push(Finding::good("frees its state"));
     Ok(findings)
+}
+
+/// Whether an instance that was reset runs as a fresh one, to the bit.
+///
+/// # Errors
+/// A call that fails.
+pub(crate) fn resets(fmu: &Fmu) -> Result<bool, Error> {
+    let mut instance = experiment::ready(fmu, &InstanceOptions::default())?;
+    let at_start = experiment::outputs(&mut instance)?;
+    experiment::simulate(&mut instance, 0, STEPS)?;
+    let at_end = experiment::outputs(&mut instance)?;
+    Ok(after_reset(&mut instance)? == [at_start, at_end])
+}
+
+/// The outputs at the start and after a short simulation of an instance that is reset.
+fn after_reset(instance: &mut Instance) -> Result<[Bits; 2], Error> {
+    instance.reset()?;
+    experiment::advance(instance, State::StepComplete)?;
+    let at_start = experiment::outputs(instance)?;
+    experiment::simulate(instance, 0, STEPS)?;
+    Ok([at_start, experiment::outputs(instance)?])
 }
 
 /// Bytes that were cut or changed.

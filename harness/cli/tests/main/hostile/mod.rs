@@ -5,6 +5,7 @@
 mod checks;
 mod commands;
 mod runs;
+mod sweeps;
 
 use std::{
     fs,

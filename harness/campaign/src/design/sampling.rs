@@ -1,0 +1,86 @@
+//! How runs are spread over what varies.
+
+use super::{DesignError, MOST_RUNS, MOST_SOBOL_RUNS, NUM_DIMENSIONS, Varied};
+
+/// How the values of runs are chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Sampling {
+    /// Independent draws.
+    Random,
+    /// One run in each of as many strata as there are runs, of every variable.
+    LatinHypercube,
+    /// The points of the Sobol sequence, not scrambled.
+    Sobol,
+    /// Every combination of listed values.
+    Grid,
+    /// All at their means, then each a standard deviation below and above.
+    OneAtATime,
+    /// The rows of a table.
+    File(Vec<Vec<f64>>),
+}
+
+impl Sampling {
+    /// Its word in a campaign.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Random => "random",
+            Self::LatinHypercube => "latinHypercube",
+            Self::Sobol => "sobol",
+            Self::Grid => "grid",
+            Self::OneAtATime => "oneAtATime",
+            Self::File(_) => "file",
+        }
+    }
+
+    /// Refuses distributions that it does not take.
+    pub(super) fn check(&self, varied: &[Varied]) -> Result<(), DesignError> {
+        for Varied { name, distribution } in varied {
+            if distribution.listed().is_some_and(<[f64]>::is_empty) {
+                return Err(DesignError::Empty {
+                    found: format!("{name} without a value"),
+                    allowed: "at least one value",
+                });
+            }
+            if *self == Self::Grid && distribution.listed().is_none() {
+                return Err(DesignError::Kind {
+                    name: name.clone(),
+                    distribution: distribution.key(),
+                    sampling: self.key(),
+                    allowed: "values and steps",
+                });
+            }
+        }
+        if *self == Self::Sobol && varied.len() > NUM_DIMENSIONS as usize {
+            return Err(DesignError::Dimensions { found: varied.len() });
+        }
+        Ok(())
+    }
+
+    /// How many runs there are.
+    pub(super) fn runs(&self, varied: &[Varied], given: Option<u64>) -> Result<u64, DesignError> {
+        let own = match self {
+            Self::Grid => {
+                let counts =
+                    varied.iter().filter_map(|it| it.distribution.listed()).map(|list| list.len() as u64);
+                Some(counts.fold(1_u64, u64::saturating_mul))
+            }
+            Self::OneAtATime => Some(2 * varied.len() as u64 + 1),
+            Self::File(rows) => Some(rows.len() as u64),
+            Self::Random | Self::LatinHypercube | Self::Sobol => None,
+        };
+        let most = if *self == Self::Sobol { MOST_SOBOL_RUNS } else { MOST_RUNS };
+        let runs = match (own, given) {
+            (Some(own), Some(found)) if own != found => {
+                let allowed = format!("{own}, which sampling {} has, or no `runs`", self.key());
+                return Err(DesignError::Runs { found, allowed });
+            }
+            (Some(own), _) => own,
+            (None, given) => given.unwrap_or(0),
+        };
+        if !(1..=most).contains(&runs) {
+            let allowed = format!("1 to {most} with sampling {}", self.key());
+            return Err(DesignError::Runs { found: runs, allowed });
+        }
+        Ok(runs)
+    }
+}

@@ -1,0 +1,109 @@
+//! The shape of a campaign file.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use crate::mission::Written;
+
+/// Many runs of a mission or an FMU: what varies and what is kept of each run. Paths are relative to the file.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(title = "heliotorque campaign"))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct Description {
+    /// The mission: spacecraft or FMU, times, values, inputs, limits.
+    pub mission: Option<String>,
+    /// An FMU that is packed already, instead of a mission.
+    pub fmu: Option<String>,
+    /// Where its runs begin, in s or with a unit; otherwise its default.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub start: Option<Written>,
+    /// Where its runs end; otherwise its default.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub stop: Option<Written>,
+    /// Communication step; the mission's or the FMU's default unless given.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub step: Option<Written>,
+    /// How many runs; grid, oneAtATime and file have a number of their own.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<u64>"))]
+    pub runs: Option<Written>,
+    /// Seed of the draws; 0 unless given.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<u64>"))]
+    pub seed: Option<Written>,
+    /// How runs are spread over what varies; random unless given.
+    pub sampling: Option<SamplingWord>,
+    /// The values of every run with sampling file: a CSV file whose columns are named as variables.
+    pub file: Option<String>,
+    /// Correlations of normal variables: two names and a coefficient each.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<super::schema::Correlation>>"))]
+    pub correlation: Option<Vec<Written>>,
+    /// What varies, by names of variables in quotes.
+    pub vary: Option<BTreeMap<String, VaryDescription>>,
+    /// What is kept of each run; the final values of all outputs unless given.
+    pub keep: Option<KeepDescription>,
+}
+
+/// How the values of runs are chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase")]
+pub(super) enum SamplingWord {
+    /// Independent draws.
+    #[default]
+    Random,
+    /// One run in each of as many strata as there are runs, of every variable.
+    LatinHypercube,
+    /// The points of the Sobol sequence, not scrambled.
+    Sobol,
+    /// Every combination of values and steps.
+    Grid,
+    /// All at their means, then each a standard deviation below and above.
+    OneAtATime,
+    /// The rows of `file`.
+    File,
+}
+
+/// Where the values of a variable come from: one of these, numbers in SI or with a unit, dates for epochs.
+#[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub(super) struct VaryDescription {
+    /// Mean and standard deviation.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::List>"))]
+    pub normal: Option<Vec<Written>>,
+    /// The smallest and the largest value.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::List>"))]
+    pub uniform: Option<Vec<Written>>,
+    /// The smallest and the largest value, both above 0, between which the logarithm is uniform.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::List>"))]
+    pub log_uniform: Option<Vec<Written>>,
+    /// The smallest value, the most likely one, the largest one.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::List>"))]
+    pub triangular: Option<Vec<Written>>,
+    /// A list of values, each as likely as any other.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::List>"))]
+    pub values: Option<Vec<Written>>,
+    /// From, to and how many values, evenly spaced.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::List>"))]
+    pub steps: Option<Vec<Written>>,
+}
+
+/// What is kept of each run: names of variables, vectors, patterns with * for outputs.
+#[derive(Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(super) struct KeepDescription {
+    /// The value at the end, as NAME.final.
+    pub r#final: Option<Vec<String>>,
+    /// The smallest and largest value, the largest magnitude and its time at communication points, as NAME.min, NAME.max, NAME.largest,
+    /// NAME.timeOfLargest.
+    pub extremes: Option<Vec<String>>,
+    /// Percentiles of all runs over time, in a table beside the one of the runs.
+    pub percentiles: Option<Vec<String>>,
+    /// Time between their rows, in s or with a unit; every communication point unless given.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<super::schema::Number>"))]
+    pub every: Option<Written>,
+    /// A folder that takes a table of every run over time: what the mission records, otherwise every output.
+    pub histories: Option<String>,
+}

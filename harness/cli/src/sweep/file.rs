@@ -1,0 +1,302 @@
+//! A campaign, from its file: what varies and what is kept, by the line that it stands in.
+
+use std::path::{Path, PathBuf};
+
+use physics::toml::{Checker, Document, Place};
+
+use super::description::{Description, KeepDescription, SamplingWord, VaryDescription};
+use crate::{
+    home,
+    kind::FileKind,
+    mission::{At, Written},
+    values,
+};
+
+const ALLOWED_SPAN: &str = "a time above 0, a number of s or one with a unit: 600, \"10 d\"";
+const ALLOWED_TIME: &str = "a number of s or one with a unit: 600, \"10 d\"";
+
+/// A key of `vary.NAME`, how many numbers it takes, and what they are.
+type DistributionKey = (&'static str, Option<usize>, &'static str);
+const DISTRIBUTIONS: [DistributionKey; 6] = [
+    ("normal", Some(2), "mean and standard deviation"),
+    ("uniform", Some(2), "the smallest and the largest value"),
+    ("logUniform", Some(2), "the smallest and the largest value, above 0"),
+    ("triangular", Some(3), "the smallest value, the most likely one, the largest one"),
+    ("values", None, "at least one value"),
+    ("steps", Some(3), "from, to and how many"),
+];
+
+/// How a variable varies, as it is written.
+#[derive(Clone, Debug)]
+pub(super) struct WrittenDistribution {
+    /// The variable.
+    pub name: String,
+    /// The key.
+    pub key: &'static str,
+    /// Its values, as `--set` takes them.
+    pub values: Vec<String>,
+}
+
+/// What is kept.
+#[derive(Clone, Debug)]
+pub(super) struct WrittenKeep {
+    /// The final values; `None` where nothing says what is kept: then of all outputs.
+    pub finals: Option<Vec<At<String>>>,
+    /// Extremes.
+    pub extremes: Vec<At<String>>,
+    /// Percentiles over time.
+    pub percentiles: Vec<At<String>>,
+    /// Time between their rows.
+    pub every_s: Option<f64>,
+    /// The folder of tables over time.
+    pub histories: Option<At<PathBuf>>,
+}
+
+/// A campaign file.
+#[derive(Clone, Debug)]
+pub(super) struct CampaignFile {
+    /// As the caller named it.
+    pub file: PathBuf,
+    /// Its text.
+    pub text: String,
+    /// The mission or the FMU.
+    pub simulated: PathBuf,
+    pub start_s: Option<f64>,
+    pub stop_s: Option<f64>,
+    pub step_s: Option<f64>,
+    pub runs: Option<At<u64>>,
+    pub seed: u64,
+    pub sampling: At<SamplingWord>,
+    pub table: Option<PathBuf>,
+    pub correlations: Vec<At<([String; 2], f64)>>,
+    pub vary: Vec<At<WrittenDistribution>>,
+    pub keep: WrittenKeep,
+}
+
+impl CampaignFile {
+    /// Reads a campaign.
+    ///
+    /// # Errors
+    /// A file that cannot be read; everything wrong in it with line, key, what was found and what is allowed.
+    pub(super) fn read(file: &Path) -> Result<Self, String> {
+        Self::parse(file, FileKind::Campaign.read(file)?)
+    }
+
+    pub(super) fn parse(file: &Path, text: String) -> Result<Self, String> {
+        let shown = file.display().to_string();
+        let document = Document::parse(&shown, &text).map_err(|error| error.to_string())?;
+        let (description, findings) = document.read::<Description>().map_err(|error| error.to_string())?;
+        let folder = file.parent().unwrap_or(Path::new(""));
+        let mut builder = Builder { check: Checker::new(&document, findings), folder };
+        let mut campaign = builder.campaign(file, description);
+        campaign = builder.check.finish(campaign).map_err(|error| error.to_string())?;
+        campaign.text = text;
+        Ok(campaign)
+    }
+
+    /// A problem at a place of the file.
+    pub(super) fn problem<T>(&self, at: &At<T>, what: &str) -> String {
+        format!("{}:{}: {}: {what}", self.file.display(), at.line, at.key)
+    }
+}
+
+struct Builder<'d> {
+    check: Checker<'d>,
+    folder: &'d Path,
+}
+
+impl Builder<'_> {
+    fn campaign(&mut self, file: &Path, description: Description) -> CampaignFile {
+        let root = Place::root();
+        let simulated = self.simulated(&description);
+        let sampling = description.sampling.unwrap_or_default();
+        let table = description.file.as_ref().map(|path| self.path(&root.key("file"), path));
+        self.one_sampling(&description, sampling);
+        let vary = description.vary.unwrap_or_default().into_iter();
+        let vary =
+            vary.filter_map(|(name, it)| self.varied(&root.key("vary").key(&name), name, &it)).collect();
+        let correlations = description.correlation.unwrap_or_default();
+        let correlations = correlations.iter().enumerate();
+        let correlations = correlations
+            .filter_map(|(k, it)| self.correlation(&root.key("correlation").item(k), it))
+            .collect();
+        let runs = description.runs.as_ref().map(|written| self.count(&root.key("runs"), written, 1));
+        let seed = description.seed.as_ref().map_or(0, |written| self.count(&root.key("seed"), written, 0));
+        CampaignFile {
+            file: file.to_owned(),
+            text: String::new(),
+            simulated,
+            start_s: description.start.as_ref().map(|written| self.time(&root.key("start"), written)),
+            stop_s: description.stop.as_ref().map(|written| self.time(&root.key("stop"), written)),
+            step_s: self.span(&root.key("step"), description.step.as_ref()),
+            runs: runs.map(|runs| self.at(&root.key("runs"), runs)),
+            seed,
+            sampling: self.at(&root.key("sampling"), sampling),
+            table,
+            correlations,
+            vary,
+            keep: self.keep(description.keep),
+        }
+    }
+
+    fn at<T>(&self, place: &Place, it: T) -> At<T> {
+        At { it, key: place.to_string(), line: self.check.line(place) }
+    }
+
+    fn path(&mut self, place: &Place, path: &str) -> PathBuf {
+        let found = self.folder.join(path);
+        if !found.exists() {
+            let shown = format!("{}, which is not there", found.display());
+            self.check.report(place, shown, "a file; paths are relative to this one's folder");
+        }
+        found
+    }
+
+    fn simulated(&mut self, description: &Description) -> PathBuf {
+        let root = Place::root();
+        match (&description.mission, &description.fmu) {
+            (Some(mission), None) => {
+                for (key, it) in [("start", &description.start), ("stop", &description.stop)] {
+                    if it.is_some() {
+                        let found = format!("`{key}` beside `mission`");
+                        self.check.report(&root.key(key), found, "the mission's own");
+                    }
+                }
+                self.path(&root.key("mission"), mission)
+            }
+            (None, Some(fmu)) => {
+                // A shipped FMU, wherever the file is.
+                let found = home::found(self.folder.join(fmu));
+                if found.exists() { found } else { self.path(&root.key("fmu"), fmu) }
+            }
+            (None, None) => {
+                let allowed = "mission = \"mission.toml\", or fmu = \"My.fmu\" with stop and step";
+                self.check.report_lack(&root, "mission", allowed);
+                PathBuf::new()
+            }
+            (Some(_), Some(_)) => {
+                self.check.report(&root.key("fmu"), "`fmu` beside `mission`", "one of them");
+                PathBuf::new()
+            }
+        }
+    }
+
+    /// Values come from `vary` or from a file.
+    fn one_sampling(&mut self, description: &Description, sampling: SamplingWord) {
+        let root = Place::root();
+        if sampling == SamplingWord::File {
+            if description.file.is_none() {
+                self.check.report_lack(&root, "file", "file = \"table.csv\" with sampling file");
+            }
+            if description.vary.is_some() {
+                self.check.report(&root.key("vary"), "`vary` beside sampling file", "one of them");
+            }
+        } else {
+            if description.file.is_some() {
+                let found = "`file` with another sampling";
+                self.check.report(&root.key("file"), found, "sampling = \"file\", or no `file`");
+            }
+            if description.vary.is_none() {
+                self.check.report_lack(&root, "vary", "a table [vary] with at least one variable");
+            }
+        }
+    }
+
+    fn varied(
+        &mut self,
+        place: &Place,
+        name: String,
+        description: &VaryDescription,
+    ) -> Option<At<WrittenDistribution>> {
+        let VaryDescription { normal, uniform, log_uniform, triangular, values, steps } = description;
+        let given = [normal, uniform, log_uniform, triangular, values, steps];
+        let given: Vec<_> =
+            DISTRIBUTIONS.iter().zip(given).filter_map(|(key, list)| Some((key, list.as_ref()?))).collect();
+        let [((key, count, meaning), list)] = given[..] else {
+            let found: Vec<&str> = given.iter().map(|((key, ..), _)| *key).collect();
+            let found = if found.is_empty() { "no distribution".to_owned() } else { found.join(" and ") };
+            let allowed = DISTRIBUTIONS.map(|(key, ..)| key).join(", ");
+            self.check.report(place, found, format_args!("one of {allowed}"));
+            return None;
+        };
+        if count.is_some_and(|count| count != list.len()) || list.is_empty() {
+            let found = format!("a list of {}", list.len());
+            self.check.report(&place.key(key), found, format_args!("{meaning}"));
+            return None;
+        }
+        let texts: Option<Vec<String>> =
+            list.iter().map(|it| it.setting().filter(|_| !matches!(it, Written::List(_)))).collect();
+        let Some(values) = texts else {
+            self.check.report(&place.key(key), "a list in the list", meaning);
+            return None;
+        };
+        Some(self.at(&place.key(key), WrittenDistribution { name, key, values }))
+    }
+
+    fn correlation(&mut self, place: &Place, written: &Written) -> Option<At<([String; 2], f64)>> {
+        if let Written::List(items) = written
+            && let [Written::Text(one), Written::Text(other), coefficient] = &items[..]
+        {
+            let coefficient = match coefficient {
+                Written::Number(number) => Some(*number),
+                Written::Integer(number) => Some(*number as f64),
+                _ => None,
+            };
+            if let Some(coefficient) = coefficient.filter(|it| it.abs() <= 1.0) {
+                return Some(self.at(place, ([one.clone(), other.clone()], coefficient)));
+            }
+        }
+        let allowed = "two names and a coefficient from -1 to 1: [\"a\", \"b\", 0.5]";
+        self.check.report(place, written, allowed);
+        None
+    }
+
+    fn count(&mut self, place: &Place, written: &Written, least: u64) -> u64 {
+        let number = if let Written::Integer(number) = written { u64::try_from(*number).ok() } else { None };
+        number.filter(|number| *number >= least).unwrap_or_else(|| {
+            self.check.report(place, written, format_args!("a whole number from {least} on"));
+            least
+        })
+    }
+
+    fn time(&mut self, place: &Place, written: &Written) -> f64 {
+        let time_s = written.setting().and_then(|text| values::duration(&text).ok());
+        time_s.unwrap_or_else(|| {
+            self.check.report(place, written, ALLOWED_TIME);
+            0.0
+        })
+    }
+
+    fn span(&mut self, place: &Place, written: Option<&Written>) -> Option<f64> {
+        let written = written?;
+        let span_s = written.setting().and_then(|text| values::span(&text).ok());
+        if span_s.is_none() {
+            self.check.report(place, written, ALLOWED_SPAN);
+        }
+        span_s
+    }
+
+    fn keep(&mut self, description: Option<KeepDescription>) -> WrittenKeep {
+        let place = Place::root().key("keep");
+        let is_given = description.is_some();
+        let KeepDescription { r#final, extremes, percentiles, every, histories } =
+            description.unwrap_or_default();
+        if let (Some(written), None) = (&every, &percentiles) {
+            self.check.report(&place.key("every"), written, "`every` beside `percentiles`");
+        }
+        let names = |key: &str, names: Option<Vec<String>>| -> Vec<At<String>> {
+            let place = place.key(key);
+            let names = names.unwrap_or_default().into_iter().enumerate();
+            names.map(|(k, name)| self.at(&place.item(k), name)).collect()
+        };
+        let finals = is_given.then(|| names("final", r#final));
+        let (extremes, percentiles) = (names("extremes", extremes), names("percentiles", percentiles));
+        WrittenKeep {
+            finals,
+            extremes,
+            percentiles,
+            every_s: self.span(&place.key("every"), every.as_ref()),
+            histories: histories.map(|path| self.at(&place.key("histories"), self.folder.join(path))),
+        }
+    }
+}

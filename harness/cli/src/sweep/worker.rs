@@ -1,0 +1,275 @@
+//! A process that simulates every n-th run of a campaign, with one instance that is reset between runs.
+
+use std::{
+    path::PathBuf,
+    process::ExitCode,
+    sync::atomic::{AtomicBool, Ordering},
+};
+
+use campaign::Extremes;
+use clap::Args;
+use loader::{Ended, Error, Fmu, Instance, InstanceOptions, Options, Row, Rows, Status, Value};
+use model_description::{BaseType, Description};
+
+use super::{
+    file::CampaignFile,
+    resolved::{Campaign, Kept, simulated},
+};
+use crate::{
+    child::{Link, push_text},
+    outcome::Outcome,
+    run::{Subject, push_row},
+};
+
+/// `heliotorque sweep-in-child`.
+#[derive(Debug, Args)]
+pub(crate) struct SweepInChild {
+    /// The campaign
+    #[arg(long)]
+    pub campaign: PathBuf,
+    /// The folder that the FMU was unpacked into
+    #[arg(long)]
+    pub unpacked_in: PathBuf,
+    /// The first run
+    #[arg(long)]
+    pub first: u64,
+    /// Distance of the runs
+    #[arg(long)]
+    pub stride: u64,
+    /// The first run that is not simulated
+    #[arg(long)]
+    pub end: u64,
+    /// A new instance a run
+    #[arg(long)]
+    pub fresh: bool,
+}
+
+/// Kinds of frames: a run begins, a row of its history, a row of its percentiles, its end, the end of all, a failure before any.
+pub(super) const BEGUN: u8 = 1;
+pub(super) const ROW: u8 = 2;
+pub(super) const POINT: u8 = 3;
+pub(super) const ENDED: u8 = 4;
+pub(super) const ALL_ENDED: u8 = 5;
+pub(super) const REFUSED: u8 = 6;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum RunStatus {
+    /// At the stop, within limits.
+    Ok,
+    /// At the stop, beyond a limit.
+    Limit,
+    /// The FMU ended it.
+    Ended,
+    /// A call failed, crashed or hung.
+    Failed,
+}
+
+impl RunStatus {
+    pub(super) const ALL: [Self; 4] = [Self::Ok, Self::Limit, Self::Ended, Self::Failed];
+
+    /// Its word in the table.
+    pub(super) fn word(self) -> &'static str {
+        ["ok", "limit", "ended", "failed"][self as usize]
+    }
+}
+
+/// Simulates and sends the parent what is kept.
+pub(crate) fn run(arguments: &SweepInChild) -> Outcome {
+    let mut link = Link::attach("heliotorque sweep")?;
+    if let Err(error) = simulate_all(arguments, &mut link) {
+        let text = Error::chain(error.as_ref());
+        link.send(REFUSED, |payload| push_text(payload, &text))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn simulate_all(arguments: &SweepInChild, link: &mut Link) -> Result<(), Box<dyn std::error::Error>> {
+    let subject = Subject::open(&arguments.unpacked_in)?;
+    let Subject::Fmu(fmu) = &subject else { return Err("found a system, allowed: an FMU".into()) };
+    let file = CampaignFile::read(&arguments.campaign)?;
+    let campaign = Campaign::resolve(&file, simulated(&file, None)?, &subject)?;
+    let is_reset = !arguments.fresh && conformance::resets(fmu).unwrap_or(false);
+    let mut rows = KeptRows::new(&campaign, fmu.description(), link);
+    let mut held: Option<Instance> = None;
+    let runs = (arguments.first..arguments.end).step_by(usize::try_from(arguments.stride)?);
+    for run in runs {
+        if rows.link.cancel_word().load(Ordering::Relaxed) != 0 {
+            return Ok(());
+        }
+        rows.begin(run)?;
+        let instance = match held.take() {
+            Some(mut instance) if is_reset => instance.reset().map(|()| instance),
+            _ => Instance::new(fmu, "run", &InstanceOptions::default()),
+        };
+        let ended = instance.and_then(|mut instance| {
+            let ended = simulate(&mut instance, &campaign, fmu, run, &mut rows)?;
+            held = Some(instance);
+            Ok(ended)
+        });
+        match ended {
+            Ok(Ended::Cancelled) => return Ok(()),
+            Ok(ended) => rows.end(ended)?,
+            Err(error) => {
+                rows.fail(&Error::chain(&error))?;
+                if error.status() == Some(Status::Fatal) {
+                    // No instance of a library may be used after it: the parent starts another process.
+                    return Ok(());
+                }
+            }
+        }
+    }
+    link.send(ALL_ENDED, |_| {})?;
+    Ok(())
+}
+
+fn simulate(
+    instance: &mut Instance,
+    campaign: &Campaign,
+    fmu: &Fmu,
+    run: u64,
+    rows: &mut KeptRows<'_>,
+) -> Result<Ended, Error> {
+    let times = campaign.settings.times;
+    let mut sets: Vec<(String, Value)> = campaign.settings.sets.clone();
+    sets.extend(campaign.sets(fmu.description(), run));
+    let cancel_word = rows.link.cancel_word();
+    let cancel = AtomicBool::new(false);
+    let mut check_cancel = |_: f64| cancel.store(cancel_word.load(Ordering::Relaxed) != 0, Ordering::Relaxed);
+    check_cancel(0.0);
+    let options = Options {
+        start_s: Some(times.start_s),
+        stop_s: Some(times.stop_s),
+        step_s: Some(times.step_s),
+        record_every_s: (!campaign.kept.needs_all_points()).then_some(times.stop_s - times.start_s),
+        sets,
+        inputs: campaign.settings.inputs.as_ref(),
+        record: Some(campaign.kept.positions.clone()),
+        progress: Some(&mut check_cancel),
+        cancel: Some(&cancel),
+        ..Options::default()
+    };
+    loader::simulate_with(instance, options, rows)
+}
+
+/// Takes the rows of a run and sends what is kept of them.
+struct KeptRows<'a> {
+    campaign: &'a Campaign,
+    kept: &'a Kept,
+    /// Base type and place in a row of every recorded variable.
+    places: Vec<(BaseType, usize)>,
+    link: &'a mut Link,
+    /// Communication points so far.
+    points: u64,
+    finals: Vec<f64>,
+    extremes: Vec<Extremes>,
+    /// The first limit that was broken.
+    broken: Option<String>,
+}
+
+impl<'a> KeptRows<'a> {
+    fn new(campaign: &'a Campaign, described: &Description, link: &'a mut Link) -> Self {
+        let kept = &campaign.kept;
+        let mut counts = [0; 4];
+        let place = |position: &usize| {
+            let base = described.variables[*position].kind.base_type();
+            counts[base as usize] += 1;
+            (base, counts[base as usize] - 1)
+        };
+        Self {
+            campaign,
+            kept,
+            places: kept.positions.iter().map(place).collect(),
+            link,
+            points: 0,
+            finals: vec![f64::NAN; kept.finals.len()],
+            extremes: vec![Extremes::default(); kept.extremes.len()],
+            broken: None,
+        }
+    }
+
+    fn value(&self, row: &Row<'_>, column: usize) -> f64 {
+        match self.places[column] {
+            (BaseType::Real, place) => row.reals[place],
+            (BaseType::Integer, place) => f64::from(row.integers[place]),
+            (BaseType::Boolean, place) => f64::from(u8::from(row.booleans[place] != 0)),
+            (BaseType::String, _) => f64::NAN,
+        }
+    }
+
+    fn begin(&mut self, run: u64) -> Result<(), String> {
+        self.points = 0;
+        self.finals.fill(f64::NAN);
+        self.extremes.fill(Extremes::default());
+        self.broken = None;
+        self.link.send(BEGUN, |payload| payload.push(run))
+    }
+
+    fn end(&mut self, ended: Ended) -> Result<(), String> {
+        let status = match (ended, &self.broken) {
+            (Ended::ByItself, _) => RunStatus::Ended,
+            (_, Some(_)) => RunStatus::Limit,
+            (_, None) => RunStatus::Ok,
+        };
+        let reason = self.broken.take().unwrap_or_default();
+        self.send(status, &reason)
+    }
+
+    fn fail(&mut self, why: &str) -> Result<(), String> {
+        self.finals.fill(f64::NAN);
+        self.extremes.fill(Extremes {
+            min: f64::NAN,
+            max: f64::NAN,
+            largest: f64::NAN,
+            time_of_largest_s: f64::NAN,
+        });
+        self.send(RunStatus::Failed, why)
+    }
+
+    fn send(&mut self, status: RunStatus, reason: &str) -> Result<(), String> {
+        let (finals, extremes) = (&self.finals, &self.extremes);
+        self.link.send(ENDED, |payload| {
+            payload.push(status as u64);
+            let extremes = extremes.iter().flat_map(|it| [it.min, it.max, it.largest, it.time_of_largest_s]);
+            payload.extend(finals.iter().copied().chain(extremes).map(f64::to_bits));
+            push_text(payload, reason);
+        })
+    }
+
+    fn check_limits(&mut self, row: &Row<'_>) {
+        if self.broken.is_some() {
+            return;
+        }
+        self.broken = self.kept.limits.iter().find_map(|(column, limit)| {
+            let value = self.value(row, *column);
+            let is_kept =
+                limit.min.is_none_or(|min| value >= min) && limit.max.is_none_or(|max| value <= max);
+            let time = terminal::short(row.time_s);
+            (!is_kept).then(|| format!("{}: found {} at {time} s", limit.at, terminal::short(value)))
+        });
+    }
+}
+
+impl Rows for KeptRows<'_> {
+    fn take(&mut self, row: &Row<'_>) -> Result<(), Error> {
+        for (place, column) in self.kept.finals.iter().enumerate() {
+            self.finals[place] = self.value(row, *column);
+        }
+        for (place, column) in self.kept.extremes.iter().enumerate() {
+            let value = self.value(row, *column);
+            self.extremes[place].update(row.time_s, value);
+        }
+        self.check_limits(row);
+        let point = self.points;
+        self.points += 1;
+        if !self.kept.percentiles.is_empty() && self.campaign.percentile_points.contain(point) {
+            let values: Vec<u64> =
+                self.kept.percentiles.iter().map(|column| self.value(row, *column).to_bits()).collect();
+            self.link.send(POINT, |payload| payload.extend(values)).map_err(Error::Rows)?;
+        }
+        if self.kept.histories > 0 && self.campaign.history_points.contain(point) {
+            self.link.send(ROW, |payload| push_row(payload, row)).map_err(Error::Rows)?;
+        }
+        Ok(())
+    }
+}
