@@ -394,7 +394,7 @@ fn every_broken_cell_is_noticed() {
         let states = WALKED.chars().filter(|state| !alike(function, *state));
         misprints.extend(states.map(|state| flipped(function, state)));
     }
-    let every = client::short_or_long(4, 1);
+    let every = client::short_or_long(8, 1);
     for misprint in misprints.into_iter().step_by(every) {
         assert!(calls_until_noticed(misprint, &mut runner).is_some(), "{misprint:?} was not noticed");
     }
