@@ -29,7 +29,7 @@ ALL = [name for name in NAMES if not re.fullmatch(r"momentum/table\d", name)]
 # Flown by the same means as momentum/figure5, for half a minute of one core and more.
 LONG = {"momentum/tables", "momentum/assumptions", "momentum/dump-targets", "momentum/wheels", "momentum/sensitivity"}
 # One of every means by which threads share the work.
-EVERY_RUN = {"control/slew", "momentum/figure5", "pointing/limb", "spin/figure3", "thermal/table7"}
+EVERY_RUN = {"control/slew", "momentum/figure4", "pointing/limb", "spin/figure3", "thermal/table7"}
 
 
 def long_unless(daily, names):
