@@ -64,9 +64,9 @@ fn python() -> Outcome {
     test::python(environment, "rebuilds")
 }
 
-/// Tests of the models in their long extent.
+/// Tests of the physics and of the models in their long extent.
 fn models() -> Outcome {
-    run(cargo(&format!("test {TESTS} --test models")).env(VARIABLE, "models"))
+    run(cargo(&format!("test {TESTS} --lib --test models")).env(VARIABLE, "models"))
 }
 
 /// Tests of the shared library and of the command line in their long extent, and the C client.
