@@ -27,10 +27,14 @@ def xtask(heliotorque, *arguments, folder, **environment):
     )
 
 
-def test_an_installed_program_works_anywhere(heliotorque, tmp_path):
+WHOLE = pytest.param([], marks=[pytest.mark.long, pytest.mark.rebuilds])
+
+
+@pytest.mark.parametrize("options", [["--built"], WHOLE], ids=["built", "whole"])
+def test_an_installed_program_works_anywhere(heliotorque, tmp_path, options):
     prefix, folder = tmp_path / "prefix", tmp_path / "empty"
     folder.mkdir()
-    installed = xtask(heliotorque, "install", "--prefix", prefix, folder=ROOT)
+    installed = xtask(heliotorque, "install", *options, "--prefix", prefix, folder=ROOT)
     assert installed.returncode == 0, installed.stderr
     assert f"{prefix / 'bin'} is not on PATH" in installed.stderr and "export PATH=" in installed.stderr
     shared = prefix / "lib" / "heliotorque"

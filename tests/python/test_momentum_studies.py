@@ -30,9 +30,25 @@ PAPER_STRATEGIES = {
     ("reactive", 4): (1, 2, 8), ("predictive", 4): (0, 1, 5), ("reactive", 7): (0, 1, 4), ("predictive", 7): (0, 0, 2),
 }
 
+# Tables 2 to 5 with every strategy and the optimum, and the choices that the paper leaves open: minutes of one core.
+whole_tables = pytest.mark.long
+
+
 @pytest.fixture(scope="module")
 def simulated(studied):
-    return {name: studied(f"momentum/{name}") for name in ("table2", "table3", "table4", "table5", "figure4", "figure5", "assumptions")}
+    """What a study of the group prints and leaves, by name."""
+
+    class Simulated(dict):
+        def __missing__(self, name):
+            return studied(f"momentum/{name}")
+
+    return Simulated()
+
+
+@pytest.fixture(scope="module")
+def dumps_alone(heliotorque, dist, tmp_path_factory):
+    """Table 2 without targets by sunlight and without the optimum, which takes seconds."""
+    return study(heliotorque, dist, tmp_path_factory.mktemp("study"), "momentum/table2", 4, "--only", "dumps only")
 
 
 def dumps_by_row(files, rows):
@@ -56,6 +72,7 @@ def cylinder(rows, strategy="dumps only"):
     return cells
 
 
+@whole_tables
 @pytest.mark.parametrize("name", ["table2", "table4"])
 def test_counts_are_as_their_verdicts_say(simulated, name):
     text, files = simulated[name]
@@ -69,6 +86,12 @@ def test_counts_are_as_their_verdicts_say(simulated, name):
     assert re.search(r"Trends .*: \d+ of \d+ comparisons hold", text)
 
 
+def test_dumps_alone_are_near_the_papers(dumps_alone):
+    for cell, row in cylinder(table(dumps_alone[1], "table2.csv")).items():
+        assert int(row["paper"]) == PAPER_CELLS[cell[1:]] and row["verdict"] == "within 2", row
+
+
+@whole_tables
 def test_table_2(simulated):
     """Every cell is near the paper's, predictive ones within 1, and no predictive dump follows another within a tenth of a day."""
     rows = table(simulated["table2"][1], "table2.csv")
@@ -86,6 +109,7 @@ def test_table_2(simulated):
             assert (np.diff(days) > 0.1).all(), row
 
 
+@whole_tables
 def test_table_4_is_near_the_papers(simulated):
     rows = table(simulated["table4"][1], "table4.csv")
     reactive = [row for row in rows if (row["momentum"], row["strategy"]) == (PAPERS, "reactive")]
@@ -105,6 +129,7 @@ def test_plates_alone_dump_about_as_often_as_the_cylinder(studied):
     assert found == {"4 N.m.s": [6, 7, 14], "7 N.m.s": [2, 4, 8]}
 
 
+@whole_tables
 @pytest.mark.parametrize("name", ["table2", "table4"])
 def test_strategies_save_dumps_in_every_row_and_column(simulated, name):
     """In the paper's convention, dumps to 0.9: those to 1.0 dump again where the drift turns."""
@@ -121,6 +146,7 @@ def test_strategies_save_dumps_in_every_row_and_column(simulated, name):
                 assert count <= cells[strategy, threshold, far]
 
 
+@whole_tables
 @pytest.mark.parametrize("name", ["table2", "table4"])
 def test_no_strategy_has_fewer_dumps_than_the_optimum(simulated, name):
     rows = table(simulated[name][1], f"{name}.csv")
@@ -131,15 +157,28 @@ def test_no_strategy_has_fewer_dumps_than_the_optimum(simulated, name):
         assert optima[row["threshold"], row["momentum"], row["offset"]] <= int(row["ours"]), row
 
 
-@pytest.mark.parametrize("threshold, offset_cm, rule", [(4, -5.08, 0.9), (7, -2.54, 0.9), (4, -2.54, 1.0)])
-def test_dumps_are_those_that_fmpy_simulates(simulated, momentum_plant, threshold, offset_cm, rule):
+CASES = [(4, -5.08, 0.9), (7, -2.54, 0.9), (4, -2.54, 1.0)]
+
+
+def assert_dumps_are_fmpys(files, momentum_plant, threshold, offset_cm, rule):
     start = PAPER | {"sunshade.shape": 2, "spacecraft.centerOfMass[3]": offset_cm / 100.0, "dump.reinitFraction": rule}
     start |= {f"dump.threshold[{axis}]": float(threshold) for axis in (1, 2, 3)}
     expected = [f"{time / DAY_S:.6f}" for time in dump_times(simulate(momentum_plant, start=start))]
     label = [f"dumps only, {threshold} N.m.s, to {rule:.1f}, ", CYLINDER, PAPERS, f"Z {offset_cm} cm"]
+    found = table(files, "dumps.csv")
+    assert [row["dump_time_d"] for row in found if all(part in row["case"] for part in label)] == expected
+
+
+@pytest.mark.parametrize("threshold, offset_cm, rule", CASES)
+def test_dumps_are_those_that_fmpy_simulates(dumps_alone, momentum_plant, threshold, offset_cm, rule):
+    assert_dumps_are_fmpys(dumps_alone[1], momentum_plant, threshold, offset_cm, rule)
+
+
+@whole_tables
+@pytest.mark.parametrize("threshold, offset_cm, rule", CASES)
+def test_dumps_of_the_whole_tables_are_those_that_fmpy_simulates(simulated, momentum_plant, threshold, offset_cm, rule):
     for name in ("table2", "table3"):
-        found = table(simulated[name][1], "dumps.csv")
-        assert [row["dump_time_d"] for row in found if all(part in row["case"] for part in label)] == expected
+        assert_dumps_are_fmpys(simulated[name][1], momentum_plant, threshold, offset_cm, rule)
 
 
 @pytest.mark.long
@@ -150,6 +189,7 @@ def test_tables_from_one_set_of_simulations_are_those_of_each(simulated, studied
     assert files["figure4.svg"] == simulated["figure4"][1]["figure4.svg"] and text.count("Trends") == 2
 
 
+@whole_tables
 @pytest.mark.parametrize("name", ["table3", "table5"])
 def test_tables_3_and_5_have_the_gaps_of_their_dumps(simulated, name):
     text, files = simulated[name]
@@ -168,7 +208,7 @@ def test_tables_3_and_5_have_the_gaps_of_their_dumps(simulated, name):
         assert row["five days"] == ("broken" if (gaps < 5.0).any() else "kept"), row
 
 
-def test_figure_4_draws_the_momentum_that_fmpy_simulates(simulated, momentum_plant):
+def test_figure_4_draws_the_momentum_that_fmpy_simulates(simulated, dumps_alone, momentum_plant):
     _, files = simulated["figure4"]
     start = PAPER | {"sunshade.shape": 2, "dump.reinitFraction": 1.0} | {f"dump.threshold[{axis}]": 4.0 for axis in (1, 2, 3)}
     result = simulate(momentum_plant, start=start)
@@ -178,9 +218,9 @@ def test_figure_4_draws_the_momentum_that_fmpy_simulates(simulated, momentum_pla
     momentum = np.array([float(row["momentum_x_n_m_s"]) for row in rows])
     assert np.abs(momentum - result["momentum.body[1]"][hourly]).max() < 1e-9
     picture = "".join(ElementTree.fromstring(files["figure4.svg"]).itertext())
-    for (rule, threshold, offset), row in cylinder(table(simulated["table2"][1], "table2.csv")).items():
+    for (rule, threshold, offset), row in cylinder(table(dumps_alone[1], "table2.csv")).items():
         assert (rule, threshold) != ("1.0", "4 N.m.s") or f"Z = {offset}, {row['ours']} dumps" in picture
-    assert files["figure4.svg"] == simulated["table2"][1]["figure4.svg"]
+    assert files["figure4.svg"] == dumps_alone[1]["figure4.svg"]
 
 
 def test_figure_5_draws_both_strategies(simulated, momentum_plant):
@@ -195,6 +235,7 @@ def test_figure_5_draws_both_strategies(simulated, momentum_plant):
     assert np.abs(momentum - result["momentum.body[1]"][::6]).max() < 1e-9
 
 
+@whole_tables
 def test_choices_that_the_paper_leaves_open_move_the_counts(simulated):
     text, files = simulated["assumptions"]
     rows = table(files, "assumptions.csv")
@@ -216,6 +257,7 @@ def test_choices_that_the_paper_leaves_open_move_the_counts(simulated):
     assert equal == ["comparable", "comparable", "off", "off"]
 
 
+@whole_tables
 @pytest.mark.parametrize(
     "key, offset_cm, start",
     [
@@ -235,6 +277,7 @@ def test_choices_are_those_that_fmpy_simulates(simulated, momentum_plant, key, o
     assert str(count) == row["ours"].split(" / ")[[0.0, -2.54, -5.08].index(offset_cm)]
 
 
+@whole_tables
 @pytest.mark.parametrize("name", ["table2", "table4", "assumptions"])
 def test_every_counted_dump_is_listed(simulated, name):
     _, files = simulated[name]
@@ -243,6 +286,7 @@ def test_every_counted_dump_is_listed(simulated, name):
     assert [len(list(group)) for _, group in cases] == [count for count in counted if count]
 
 
+@whole_tables
 def test_two_dumps_within_a_sample_stand_apart(simulated, momentum_plant):
     """Each with its own time and impulse, as FMPy finds them in steps that are shorter than their gap."""
     rows = table(simulated["assumptions"][1], "dumps.csv")

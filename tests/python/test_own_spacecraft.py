@@ -60,8 +60,12 @@ def test_the_example_runs_ninety_days_and_dumps(sailer):
     assert np.abs(stack(result, "momentum.body")).max() <= 1.0 + 1e-9
 
 
-def test_sixty_five_plates_without_panels_and_wheels(urchin_65):
+@pytest.mark.long
+def test_fmpy_has_nothing_to_report_of_sixty_five_plates(urchin_65):
     assert validate_fmu(urchin_65) == []
+
+
+def test_sixty_five_plates_without_panels_and_wheels(urchin_65):
     names = {variable.name for variable in read_model_description(urchin_65).modelVariables}
     assert not any(name.startswith(("panel[", "wheel[")) for name in names)
     assert_torque_is_the_sum_over_the_file(urchin_65, urchin(65), panels=0)

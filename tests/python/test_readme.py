@@ -134,19 +134,23 @@ def rows_of(studied, name):
     return table(studied(name)[1], f"{name.split('/')[1]}.csv")
 
 
+@pytest.mark.long
 def test_dumps_are_those_of_the_studies(studied):
     tables = rows_of(studied, "momentum/table2") + rows_of(studied, "momentum/table4")
     block(dump_rows(tables, rows_of(studied, "momentum/assumptions")))
 
 
+@pytest.mark.long
 def test_dumps_by_strategy_are_those_of_the_studies(studied):
     block(strategy_rows(rows_of(studied, "momentum/table2"), rows_of(studied, "momentum/table4")))
 
 
+@pytest.mark.long
 def test_optima_are_those_of_the_studies(studied):
     block(optimum_rows(rows_of(studied, "momentum/table2"), rows_of(studied, "momentum/table4")))
 
 
+@pytest.mark.long
 def test_gaps_are_those_of_the_study(studied):
     block(gap_rows(rows_of(studied, "momentum/table3")))
 
@@ -359,6 +363,7 @@ def test_coefficients_and_thresholds_are_those_of_info(heliotorque, momentum_pla
     assert f"| {published} | {least} | **off**" in row
 
 
+@pytest.mark.long
 def test_the_paper_integrates_body_components_and_the_physical_momentum_dumps_more_often(studied, momentum_plant):
     types = read_model_description(momentum_plant).typeDefinitions
     [convention] = [kind for kind in types if kind.name == "MomentumConvention"]

@@ -10,6 +10,8 @@ import pytest
 from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 
+from studies import table
+
 REPOSITORY = pathlib.Path(__file__).parents[2]
 @pytest.fixture(scope="module")
 def spin_plant(dist):
@@ -79,22 +81,21 @@ def verdicts(folder):
         return {row["quantity"]: row["verdict"] for row in csv.DictReader(file)}
 
 
-def test_the_studies_agree_with_the_paper_or_say_why(heliotorque, dist, tmp_path):
+def test_the_studies_agree_with_the_paper_or_say_why(studied):
     for name in ("figure2", "figure3", "figure4", "figure6", "figure7", "numbers"):
-        text = study(heliotorque, name, dist, tmp_path)
+        text, files = studied(f"spin/{name}")
         assert not re.search(r"  off\b", text), text
-        assert (tmp_path / f"{name}.csv").stat().st_size > 100
+        assert len(files[f"{name}.csv"]) > 100
         if name != "numbers":
-            assert (tmp_path / f"{name}.svg").stat().st_size > 1000
-    seen = verdicts(tmp_path)
+            assert len(files[f"{name}.svg"]) > 1000
+    seen = {row["quantity"]: row["verdict"] for row in table(studied("spin/numbers")[1], "numbers.csv")}
     assert len(seen) >= 24 and not {"", "off"} & set(seen.values())
     assert [name for name, verdict in seen.items() if "arithmetic" in verdict] == ["simulation, end of the manoeuvre"]
 
 
-def test_the_papers_nutation_range_hangs_on_a_choice_of_axis(heliotorque, dist, tmp_path):
-    text = study(heliotorque, "figure4", dist, tmp_path)
-    with open(tmp_path / "figure4.csv", newline="") as file:
-        rows = [row for row in csv.DictReader(file) if 60.0 <= float(row["time_s"]) <= 1368.0]
+def test_the_papers_nutation_range_hangs_on_a_choice_of_axis(studied):
+    text, files = studied("spin/figure4")
+    rows = [row for row in table(files, "figure4.csv") if 60.0 <= float(row["time_s"]) <= 1368.0]
     ranges = {}
     for row in rows:
         ranges.setdefault(row["case"], []).append(float(row["nutation_deg"]))

@@ -1,6 +1,6 @@
 //! Real, Integer and Boolean get and set and doStep allocate no memory once an instance has simulated a while.
 
-use client::{InProcess, Names};
+use client::{InProcess, Names, short_or_long};
 use heliotorque_tests::counting::{Count, counted};
 use model_description::BaseType;
 
@@ -68,7 +68,7 @@ fn simulations_allocate_nothing() {
         let events = happened(&mut simulation);
         let (mut instance, mut time_s) = (simulation.instance, simulation.time_s);
         let ((), count) = counted(|| {
-            for step in 0..4_000 {
+            for step in 0..short_or_long(2_000, 4_000) {
                 client.turn(&mut instance, step);
                 ok(instance.do_step(time_s, step_s));
                 time_s += step_s;

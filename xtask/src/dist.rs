@@ -36,8 +36,13 @@ pub(crate) fn dist() -> Result<Built, String> {
 
 /// Packs what was built.
 pub(crate) fn pack_all(built: &Built) -> Outcome {
-    pack(built)?;
-    systems::pack(built, &scratch("systems")?)?;
+    let scratch = scratch("systems")?;
+    // Each waits for one core.
+    std::thread::scope(|scope| {
+        let systems = scope.spawn(|| systems::pack(built, &scratch));
+        pack(built)?;
+        systems.join().unwrap_or_else(|_| Err("the thread of the systems panicked".to_owned()))
+    })?;
     // Only here is everything packed, and `current` looks at it.
     let stamp = stamp();
     fs::write(&stamp, "").map_err(|error| format!("{}: {error}", stamp.display()))

@@ -16,10 +16,16 @@ const LIBRARY_FOLDER: [&str; 2] = ["lib", "heliotorque"];
 /// Where `man` looks for pages of commands, beside the folder with the program.
 const MANUAL_FOLDER: [&str; 3] = ["share", "man", "man1"];
 
-/// Builds and packs everything, then copies it below the prefix that `options` name, otherwise `~/.local`.
+/// Leaves out building and packing.
+const BUILT: &str = "--built";
+
+/// Builds and packs everything, unless that is built already by an option, then copies it below the prefix that `options` name,
+/// otherwise `~/.local`.
 pub(crate) fn install(options: &[String]) -> Outcome {
-    let prefix = prefix(options)?;
-    let built = dist::dist()?;
+    let is_built = options.iter().any(|option| option == BUILT);
+    let others: Vec<String> = options.iter().filter(|option| *option != BUILT).cloned().collect();
+    let prefix = prefix(&others)?;
+    let built = if is_built { build::built() } else { dist::dist()? };
     let binaries = prefix.join("bin");
     let folder = LIBRARY_FOLDER.iter().fold(prefix.clone(), |path, part| path.join(part));
     let program = built.heliotorque.clone();
@@ -42,7 +48,7 @@ pub(crate) fn install(options: &[String]) -> Outcome {
 }
 
 fn prefix(options: &[String]) -> Result<PathBuf, String> {
-    const ALLOWED: &str = "allowed: --prefix FOLDER, otherwise ~/.local";
+    const ALLOWED: &str = "allowed: --prefix FOLDER, otherwise ~/.local; --built";
     let given = match options {
         [] => None,
         [flag, folder] if flag == "--prefix" => Some(folder.as_str()),

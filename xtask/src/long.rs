@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::build::{self, Built};
+use crate::build::{self, Built, TESTS};
 use crate::dist;
 use crate::shell::{Outcome, available, cargo, command, root, run, target};
 use crate::test::{self, compile_c_with};
@@ -57,21 +57,22 @@ pub(crate) fn all() -> Outcome {
     Ok(())
 }
 
-/// The tests in Python that take minutes.
+/// The tests in Python that take minutes, last what builds and packs anew what the others read.
 fn python() -> Outcome {
-    test::python(test::current_environment()?, "long")
+    let environment = test::current_environment()?;
+    test::python(environment.clone(), "long and not rebuilds")?;
+    test::python(environment, "rebuilds")
 }
 
-/// Tests of the models in their long extent.
+/// Tests of the physics and of the models in their long extent.
 fn models() -> Outcome {
-    run(cargo("test --locked --release -p models --all-features").env(VARIABLE, "models"))
+    run(cargo(&format!("test {TESTS} --lib --test models")).env(VARIABLE, "models"))
 }
 
-/// Tests of the shared library in their long extent, and the C client.
+/// Tests of the shared library and of the command line in their long extent, and the C client.
 fn suite() -> Outcome {
     let environment = test::current_environment()?;
-    let tests = "test --locked --release --all-features -p heliotorque-tests";
-    run(cargo(tests).envs(environment).env(VARIABLE, "suite"))?;
+    run(cargo(&format!("test {TESTS} --test suite --test main")).envs(environment).env(VARIABLE, "suite"))?;
     test::c_client(&build::built(), true)
 }
 

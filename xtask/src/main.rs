@@ -37,7 +37,7 @@ cargo xtask <task>
   env     build everything, then print the variables that the tests read, as `export NAME='value'`
   dist    build for Linux with glibc 2.17 or later and pack every shipped FMU and system into dist/
   install build and pack everything, then put the program, its library and the FMUs below a prefix: ~/.local or
-          --prefix FOLDER; the program then works in any folder
+          --prefix FOLDER; the program then works in any folder; --built takes what target/ and dist/ have
   bench   measure speed and memory; prints `bench <name> <value> <unit>` lines
   guide   build the guide of docs/ into target/guide
   notices write anew what licences the linked crates have, after Cargo.lock has changed

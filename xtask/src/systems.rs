@@ -3,9 +3,10 @@
 //! What a system needs stands in its FMUs, because not every tool applies parameters of an SSP.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use crate::build::Built;
-use crate::shell::{Outcome, command, root, run};
+use crate::shell::{Beside, Outcome, command, root, run};
 
 /// The attitude that the orbit phase's guidance commands at the start of `MessengerLoop.ssp`: from any other the first slew would
 /// lead the Sun out of its zone.
@@ -84,6 +85,7 @@ const SYSTEMS: &[System] = &[
 
 /// Packs every shipped system into `dist/`.
 pub(crate) fn pack(built: &Built, scratch: &Path) -> Outcome {
+    let mut records = Vec::new();
     for system in SYSTEMS {
         let mut fmus = Vec::new();
         for component in system.components {
@@ -101,24 +103,23 @@ pub(crate) fn pack(built: &Built, scratch: &Path) -> Outcome {
                 .args(options)
                 .arg("--output")
                 .arg(root().join("dist").join(file)))?;
-            record(built, file)?;
+            // A simulation waits for one core, as packing does.
+            records.push(Beside::start(&mut record(built, file))?);
         }
     }
-    Ok(())
+    records.into_iter().try_for_each(Beside::finish)
 }
 
 /// Time between two rows of a reference flight, in s.
 const EVERY: &str = "600";
 
 /// The default experiment beside the system, outputs at the start being exchanged in initialization.
-fn record(built: &Built, file: &str) -> Outcome {
+fn record(built: &Built, file: &str) -> Command {
     let system = root().join("dist").join(file);
-    run(command(&built.heliotorque)
-        .arg("run")
-        .arg(&system)
-        .args(["--quiet", "--first-exchange", "initial", "--every", EVERY])
-        .arg("--output")
-        .arg(system.with_extension("csv")))
+    let mut simulation = command(&built.heliotorque);
+    simulation.arg("run").arg(&system).args(["--quiet", "--first-exchange", "initial", "--every", EVERY]);
+    simulation.arg("--output").arg(system.with_extension("csv"));
+    simulation
 }
 
 fn pack_component(built: &Built, component: &Component, scratch: &Path) -> Result<PathBuf, String> {

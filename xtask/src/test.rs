@@ -15,8 +15,29 @@ pub(crate) fn all() -> Outcome {
         run(&mut cargo("fmt --all --check"))?;
         guide::check_format()?;
     }
+    let built = build_and_lint()?;
+    dist::pack_all(&built)?;
+    let environment = environment(&built)?;
+    let locale = locale::environment()?;
+    let others = std::thread::scope(|scope| {
+        // The client waits for one core, as some of the tests do; the guide is compiled meanwhile.
+        let others = scope.spawn(|| [c_client(&built, false), guide::test(environment.clone())]);
+        let tests =
+            run(cargo(&format!("test --no-fail-fast {TESTS}")).envs(environment.clone()).envs(locale));
+        let others =
+            others.join().unwrap_or_else(|_| [Err("a thread of the tests panicked".to_owned()), Ok(())]);
+        others.into_iter().chain([tests]).collect::<Vec<_>>()
+    });
+    let outcomes = others.into_iter().chain([python(environment, "not long")]);
+    let failures: Vec<String> = outcomes.filter_map(Outcome::err).collect();
+    if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
+}
+
+/// Builds libraries, programs and tests, and lints them.
+fn build_and_lint() -> Result<Built, String> {
     // Most of it is optimised on one core: lints and the tests' own build go on beside it.
     let library = Beside::start(&mut build::libraries())?;
+    let interpreter = std::thread::spawn(python::interpreter);
     if shell::output(&mut cargo("clippy --version")).is_ok() {
         run(&mut cargo(&format!("clippy {TESTS} --all-targets --quiet -- -D warnings")))?;
         guide::lint()?;
@@ -27,24 +48,8 @@ pub(crate) fn all() -> Outcome {
     }
     run(&mut cargo(&format!("test --no-run {TESTS}")))?;
     library.finish()?;
-    let built = build::built();
-    dist::pack_all(&built)?;
-    let environment = environment(&built)?;
-    let locale = locale::environment()?;
-    let rust = std::thread::scope(|scope| {
-        // It waits for one core, as some of the tests do.
-        let client = scope.spawn(|| c_client(&built, false));
-        let tests =
-            run(cargo(&format!("test --no-fail-fast {TESTS}")).envs(environment.clone()).envs(locale));
-        [tests, client.join().unwrap_or_else(|_| Err("the C client's thread panicked".to_owned()))]
-    });
-    let others = [
-        guide::test(environment.clone()),
-        python(environment.clone(), "not long"),
-        pytest(environment, &[INSTALLATION]),
-    ];
-    let failures: Vec<String> = rust.into_iter().chain(others).filter_map(Outcome::err).collect();
-    if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
+    interpreter.join().unwrap_or_else(|_| Err("the thread of the Python environment panicked".to_owned()))?;
+    Ok(build::built())
 }
 
 /// Where the tests find what was built, and the seed of their draws.
@@ -74,21 +79,13 @@ pub(crate) fn print_environment() -> Outcome {
     Ok(())
 }
 
-/// It builds and packs anew, so it runs after all that read what is there.
-const INSTALLATION: &str = "tests/python/test_install.py";
-
-fn pytest(environment: Vec<(&'static str, PathBuf)>, arguments: &[&str]) -> Outcome {
-    run(command(python::interpreter()?)
-        .args(["-m", "pytest", "-q"])
-        .args(arguments)
-        .env("PYTHONDONTWRITEBYTECODE", "1")
-        .envs(environment))
-}
-
 /// Runs the tests in Python of a mark on up to four processes.
 pub(crate) fn python(environment: Vec<(&'static str, PathBuf)>, mark: &str) -> Outcome {
-    let several = ["--numprocesses=auto", "--maxprocesses=4", "--dist=loadgroup"];
-    pytest(environment, &[&several[..], &["-m", mark, "--ignore", INSTALLATION, "tests/python"]].concat())
+    run(command(python::interpreter()?)
+        .args(["-m", "pytest", "-q", "--numprocesses=auto", "--maxprocesses=4", "--dist=loadgroup"])
+        .args(["-m", mark, "tests/python"])
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .envs(environment))
 }
 
 /// An FMU whose library others built: FMPy's container around our plant.

@@ -23,18 +23,3 @@ pub(crate) const DISTURBANCE_TORQUE: Manual = manual!("DisturbanceTorque", "body
 pub(crate) const SPIN_PLANT: Manual = manual!("SpinPlant", "spin_frame");
 /// Of Guidance.
 pub(crate) const GUIDANCE: Manual = manual!("Guidance", "body_frame");
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_source_says_by_what() {
-        for manual in [MOMENTUM_PLANT, DISTURBANCE_TORQUE, SPIN_PLANT, GUIDANCE] {
-            assert!(manual.sources().count() > 10);
-            for (what, by) in manual.sources() {
-                assert!(!by.is_empty(), "{what}");
-            }
-        }
-    }
-}

@@ -44,3 +44,6 @@ pub mod management;
 pub mod spin;
 
 pub mod plausibility;
+
+#[cfg(test)]
+mod tests;

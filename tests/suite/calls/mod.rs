@@ -19,7 +19,7 @@ use crate::support;
 use master::{Answer, Call, Master, Misprint, Picked};
 use variables::{Value, references};
 
-/// Calls in a run; `HELIOTORQUE_CALLS` sets another number.
+/// Calls in a long run, a third of them in a short one; `HELIOTORQUE_CALLS` sets another number.
 const CALLS: u64 = 1_000_000;
 const LONGEST_SEQUENCE: usize = 300;
 
@@ -314,7 +314,8 @@ const WALKED: &str = "IMCFTE";
 
 #[test]
 fn any_sequence_of_calls_is_answered_by_the_table() {
-    let expected = std::env::var("HELIOTORQUE_CALLS").ok().and_then(|it| it.parse().ok()).unwrap_or(CALLS);
+    let usual = client::short_or_long(CALLS / 3, CALLS);
+    let expected = std::env::var("HELIOTORQUE_CALLS").ok().and_then(|it| it.parse().ok()).unwrap_or(usual);
     let made = || MADE.lock().unwrap_or_else(PoisonError::into_inner);
     let mut batch = 0;
     while made().values().sum::<u64>() < expected {
@@ -394,7 +395,7 @@ fn every_broken_cell_is_noticed() {
         let states = WALKED.chars().filter(|state| !alike(function, *state));
         misprints.extend(states.map(|state| flipped(function, state)));
     }
-    let every = client::short_or_long(4, 1);
+    let every = client::short_or_long(8, 1);
     for misprint in misprints.into_iter().step_by(every) {
         assert!(calls_until_noticed(misprint, &mut runner).is_some(), "{misprint:?} was not noticed");
     }

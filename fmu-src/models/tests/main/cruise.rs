@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use client::short_or_long;
 use models::MomentumPlant;
 use nalgebra::{Rotation3, Vector3};
 use physics::bodies::{Body, BodyData};
@@ -189,23 +190,24 @@ fn neither_cuts_nor_saving_change_a_bit_of_a_flyby() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let sets = sets(&start(2e5, 0.0), true);
     let mut centers = BTreeSet::new();
+    let step_s = short_or_long(7_200.0, 600.0);
     // In between: before the sphere, within it before and after periapsis, behind it.
     let ends_s = [9.0, 9.9, 10.002, 10.1, 12.0].map(|day| day * DAY_S).into_iter();
     assert_cuts_change_nothing(
         || named.fly(0.0, &sets).unwrap(),
         ends_s,
-        &[600.0],
+        &[step_s],
         |flight| {
             centers.insert(flight.integer("orbit.currentCenter"));
         },
     );
     assert_eq!(centers.into_iter().collect::<Vec<_>>(), [1, 2]);
-    // Ten days and ten minutes; another altitude, so that cells and edges lie elsewhere.
+    // Ten days and that step; another altitude, so that cells and edges lie elsewhere.
     let sets = self::sets(&start(5e5, 0.0), true);
     assert_cuts_change_nothing(
         || named.fly(0.0, &sets).unwrap(),
         [20.0 * DAY_S],
-        &[6e2, 10.0 * DAY_S],
+        &[step_s, 10.0 * DAY_S],
         |_| (),
     );
 }

@@ -164,7 +164,7 @@ fn targets_save_dumps_and_looking_ahead_saves_more() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let dumps = [1.0, 2.0, 3.0].map(|strategy| {
         let mut flight = named.fly(0.0, &mission(strategy)).unwrap();
-        flight.fly_to(90.0 * 86_400.0, 3600.0).unwrap();
+        flight.fly_to(short_or_long(60.0, 90.0) * 86_400.0, 3600.0).unwrap();
         flight.integer("dump.count")
     });
     println!("dumps only, reactive, predictive: {dumps:?}");
@@ -222,7 +222,7 @@ fn dumps_of(named: &NamedModel<MomentumPlant>, mission: &Sets, strategy: f64) ->
 fn predictive_targets_cost_no_dumps_in_any_mission() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let (mut saved, mut worse) = (0, Vec::new());
-    let missions: u32 = short_or_long(3, 30);
+    let missions: u32 = short_or_long(1, 30);
     for number in 0..missions {
         let mission = random_mission(number, 2.0);
         let [reactive, predictive] = [2.0, 3.0].map(|strategy| dumps_of(&named, &mission, strategy));
@@ -232,7 +232,7 @@ fn predictive_targets_cost_no_dumps_in_any_mission() {
             worse.push((number, reactive, predictive));
         }
     }
-    assert!(worse.is_empty() && saved > missions.cast_signed(), "{saved} {worse:?}");
+    assert!(worse.is_empty() && saved > short_or_long(0, missions.cast_signed()), "{saved} {worse:?}");
 }
 
 #[test]
@@ -242,7 +242,7 @@ fn the_communication_step_changes_no_dump() {
         let steps_s = short_or_long(&[60.0, 600.0][..], &[10.0, 60.0, 600.0]);
         let simulated = steps_s.iter().map(|&step_s| {
             let mut flight = named.fly(0.0, &mission(strategy)).unwrap();
-            flight.fly_to(short_or_long(30.0, 90.0) * 86_400.0, step_s).unwrap();
+            flight.fly_to(short_or_long(15.0, 90.0) * 86_400.0, step_s).unwrap();
             (flight.integer("dump.count"), flight.real("dump.lastTime"))
         });
         let simulated: Vec<_> = simulated.collect();
@@ -255,7 +255,7 @@ fn looking_ahead_under_a_turning_body_costs_no_dumps() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let dumps = [2.0, 3.0].map(|strategy| {
         let mut flight = named.fly(0.0, &with(&mission(strategy), &[("momentum.convention", 1.0)])).unwrap();
-        flight.fly_to(90.0 * 86_400.0, 3600.0).unwrap();
+        flight.fly_to(short_or_long(60.0, 90.0) * 86_400.0, 3600.0).unwrap();
         flight.integer("dump.count")
     });
     println!("physical momentum: reactive, predictive: {dumps:?}");
@@ -275,7 +275,7 @@ fn cutting_and_saving_change_no_bit() {
             let sets = with(&mission(strategy), more);
             let is_simulated = more.iter().any(|(name, _)| *name == "attitude.source");
             let (from_s, until_s) =
-                if is_simulated { (6000.0, 8000.0) } else { (80_000.0, short_or_long(140_000.0, 220_000.0)) };
+                if is_simulated { (6000.0, 8000.0) } else { (80_000.0, short_or_long(110_000.0, 220_000.0)) };
             let step_s = if is_simulated { 333.3 } else { 7777.7 };
             assert_cuts_change_nothing(
                 || named.fly(0.0, &sets).unwrap(),
@@ -295,6 +295,7 @@ fn a_controlled_flight_turns_to_the_chosen_place() {
         &[
             ("attitude.source", 3.0),
             ("command.source", 2.0),
+            ("control.rate", 10.0),
             ("start.momentum[1]", 0.0),
             ("start.momentum[2]", 0.0),
             ("start.momentum[3]", 0.0),
@@ -372,12 +373,21 @@ const EFFECTS: [(&str, f64); 5] = [
 #[test]
 fn sources_add_up_to_the_momentum_since_the_last_dump() {
     let named = NamedModel::<MomentumPlant>::shipped();
+    // Lower thresholds make for dumps in fewer days.
+    let (days, threshold) = short_or_long((15, 2.5), (60, 4.0));
     for convention in [1.0, 2.0] {
-        let sets =
-            with(&mission(1.0), &[("momentum.convention", convention), ("gravityGradient.enabled", 1.0)]);
+        let sets = with(
+            &mission(1.0),
+            &[
+                ("momentum.convention", convention),
+                ("gravityGradient.enabled", 1.0),
+                ("dump.threshold[1]", threshold),
+                ("dump.threshold[2]", threshold),
+                ("dump.threshold[3]", threshold),
+            ],
+        );
         let mut flight = named.fly(0.0, &[&sets[..], &EFFECTS[..2], &EFFECTS[3..]].concat()).unwrap();
         let (mut since, mut dumps, mut checked) = (Vector3::zeros(), 0, 0);
-        let days = short_or_long(30, 60);
         for day in 1..=days {
             flight.step_to(86_400.0 * f64::from(day)).unwrap();
             let count = flight.integer("dump.count");

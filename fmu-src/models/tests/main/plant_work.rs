@@ -98,10 +98,10 @@ fn a_mercury_year_with_every_effect_is_far_within_the_default() {
         ("orbit.dynamics", 2.0),
         ("guided.slewRate", 1e-3),
         // Half of the default for the whole year.
-        ("solver.workLimit", short_or_long(0.25, 1.0) * 1e7),
+        ("solver.workLimit", short_or_long(0.1, 1.0) * 1e7),
     ];
     let mut flight = named.fly(0.0, &everything).unwrap();
-    flight.step_to(short_or_long(0.25, 1.0) * 87.969 * 86_400.0).unwrap();
+    flight.step_to(short_or_long(0.1, 1.0) * 87.969 * 86_400.0).unwrap();
     assert_eq!(flight.not_finite(), None);
 }
 
@@ -137,8 +137,10 @@ fn scattered(named: &NamedModel<MomentumPlant>, seed: u64, limit: f64) -> (Durat
 #[test]
 fn any_legal_parameters_get_an_answer() {
     let named = NamedModel::<MomentumPlant>::shipped();
-    let trials =
-        std::env::var("HELIOTORQUE_WORK_TRIALS").ok().and_then(|text| text.parse().ok()).unwrap_or(200);
+    let trials = std::env::var("HELIOTORQUE_WORK_TRIALS")
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .unwrap_or(short_or_long(80, 200));
     let limit =
         std::env::var("HELIOTORQUE_WORK_LIMIT").ok().and_then(|text| text.parse().ok()).unwrap_or(LIMIT);
     let (mut simulated, mut exhausted, mut worst) = (0, 0, Duration::ZERO);

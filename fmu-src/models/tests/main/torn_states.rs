@@ -3,6 +3,7 @@
 
 use std::time::{Duration, Instant};
 
+use client::short_or_long;
 use fmi_export::Model;
 use models::{Guidance, MomentumPlant, SpinPlant};
 
@@ -32,6 +33,9 @@ const FORGED: [f64; 14] = [
     0.0,
     -1.0,
 ];
+
+/// Of these, what is put everywhere: the first three in the tests' short extent.
+const EXTREME: &[f64] = &[f64::NAN, 1e200, -1.0, f64::INFINITY, -1e308, 1e-308, 0.0];
 
 /// One of these numbers wherever one may stand.
 fn everywhere(state: &[u8], forged: &[f64]) -> Vec<Vec<u8>> {
@@ -107,28 +111,30 @@ fn a_plant_in_light_and_heat() {
     let named = NamedModel::<MomentumPlant>::with("radiating.toml", RADIATING);
     for feedback in [0.0, 1.0] {
         let sets = [EFFECTS, SHADOWED, BUSY, &[("orbit.radiationFeedback", feedback), LIMIT]].concat();
-        goes_on_or_fails(&named, &sets, 5_000.0, &[5_060.0], |state| scattered(state, 700));
+        goes_on_or_fails(&named, &sets, 5_000.0, &[5_060.0], |state| {
+            scattered(state, short_or_long(250, 700))
+        });
     }
     let orbiter = include_str!("../../../resources/examples/mercury-orbiter.toml");
     let named = NamedModel::<MomentumPlant>::with("mercury-orbiter.toml", orbiter);
     let sets = [&EFFECTS[..2], &[("orbit.dynamics", 2.0), LIMIT]].concat();
-    goes_on_or_fails(&named, &sets, 1_000.0, &[2_000.0], |state| scattered(state, 1500));
+    goes_on_or_fails(&named, &sets, 1_000.0, &[2_000.0], |state| scattered(state, short_or_long(500, 1500)));
 }
 
 #[test]
 fn a_controlled_plant() {
     let named = NamedModel::<MomentumPlant>::shipped();
     let sets = [("attitude.source", 3.0), LIMIT];
-    goes_on_or_fails(&named, &sets, 1.0, &[1.03], |state| scattered(state, 1000));
+    goes_on_or_fails(&named, &sets, 1.0, &[1.03], |state| scattered(state, short_or_long(400, 1000)));
 }
 
 #[test]
 fn a_guidance() {
     let named = NamedModel::<Guidance>::shipped();
-    let forged = [f64::NAN, f64::INFINITY, -1e308, 1e200, 1e-308, -1.0];
+    let forged = short_or_long(&EXTREME[..3], &EXTREME[..6]);
     for case in CUT {
         let sets = [PLACED, case].concat();
-        goes_on_or_fails(&named, &sets, 20.5, &[23.0], |state| everywhere(state, &forged));
+        goes_on_or_fails(&named, &sets, 20.5, &[23.0], |state| everywhere(state, forged));
     }
 }
 
@@ -136,7 +142,7 @@ fn a_guidance() {
 #[test]
 fn a_spinner() {
     let named = NamedModel::<SpinPlant>::shipped();
-    let forged = [f64::NAN, f64::INFINITY, -1e308, 1e200, 1e-308, 0.0, -1.0];
+    let forged = short_or_long(&EXTREME[..3], EXTREME);
     let cells = [
         ("burn.timing", 3.0),
         ("inertia[1]", 230.0),
@@ -150,9 +156,9 @@ fn a_spinner() {
         [(&[("burn.timing", 2.0), cells[6]][..], 50.0), (&cells[..], 50.0), (&cells[..], 10.22)]
     {
         let ends_s = [at_s + 0.5, at_s + 30.0];
-        goes_on_or_fails(&named, sets, at_s, &ends_s, |state| scattered(state, 1500));
+        goes_on_or_fails(&named, sets, at_s, &ends_s, |state| scattered(state, short_or_long(500, 1500)));
         if at_s != 50.0 || sets.len() < 3 {
-            goes_on_or_fails(&named, sets, at_s, &ends_s, |state| everywhere(state, &forged));
+            goes_on_or_fails(&named, sets, at_s, &ends_s, |state| everywhere(state, forged));
         }
     }
 }

@@ -191,6 +191,17 @@ fn names_that_look_alike_are_the_same() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
+#[test]
+fn every_source_of_a_manual_says_by_what() {
+    for model in MODELS {
+        let manual = LIBRARY.find(model).unwrap().manual;
+        assert!(manual.sources().count() > 10, "{model}");
+        for (what, by) in manual.sources() {
+            assert!(!by.is_empty(), "{model}: {what}");
+        }
+    }
+}
+
 /// The name without its indices.
 fn bare_of(name: &str) -> String {
     let mut bare = String::new();

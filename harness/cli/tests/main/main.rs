@@ -28,8 +28,11 @@ mod timelines;
 mod usage;
 
 use std::{
+    collections::BTreeMap,
+    fs,
     path::{Path, PathBuf},
     process::{Command, Output},
+    sync::{Mutex, PoisonError},
 };
 
 use tempfile::TempDir;
@@ -44,6 +47,11 @@ pub fn heliotorque(arguments: &[&str]) -> Command {
 /// The words of a command line; none of them has a blank.
 pub fn words(line: &str) -> Vec<&str> {
     line.split(' ').collect()
+}
+
+/// Whether the tests run in their long extent, as `cargo xtask test --long` sets it.
+pub fn is_long() -> bool {
+    std::env::var_os("HELIOTORQUE_LONG").is_some()
 }
 
 /// What it printed, both streams.
@@ -101,11 +109,19 @@ pub fn template() -> Option<(TempDir, PathBuf)> {
     packed_from(&library()?, "MomentumPlant", "template.fmu", &[])
 }
 
-/// A model packed with these options in a fresh folder.
+/// A model packed with these options in a fresh folder: by the first test that needs it, for the others a copy.
 pub fn packed_from(library: &Path, model: &str, name: &str, more: &[&str]) -> Option<(TempDir, PathBuf)> {
+    static PACKED: Mutex<BTreeMap<Vec<String>, Vec<u8>>> = Mutex::new(BTreeMap::new());
     let scratch = tempfile::tempdir().unwrap();
     let fmu = scratch.path().join(name);
-    let pack = ["pack", "--library", shown(library), "--model", model, "--output", shown(&fmu)];
-    run(&[&pack[..], more].concat(), 0);
+    let key = [&[shown(library), model][..], more].concat().into_iter().map(str::to_owned).collect();
+    let mut packed = PACKED.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(content) = packed.get(&key) {
+        fs::write(&fmu, content).unwrap();
+    } else {
+        let pack = ["pack", "--library", shown(library), "--model", model, "--output", shown(&fmu)];
+        run(&[&pack[..], more].concat(), 0);
+        packed.insert(key, fs::read(&fmu).unwrap());
+    }
     Some((scratch, fmu))
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::{built, heliotorque, run, says, shown, template, text};
+use crate::{built, heliotorque, is_long, run, says, shown, template, text};
 
 const MESSENGER_FULL: &str = "../../fmu-src/resources/messenger-full.toml";
 
@@ -82,7 +82,7 @@ fn more_capacity_takes_fewer_dumps_and_more_margin_larger_wheels() {
                 "--template",
                 shown(&template),
                 "--duration",
-                "60d",
+                if is_long() { "60d" } else { "30d" },
                 "--margin",
                 margin,
                 "--output",

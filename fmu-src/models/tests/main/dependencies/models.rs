@@ -11,7 +11,7 @@ use super::draw::Draw::{Between, Flag, Rotation, Vector, Whole};
 use super::draw::{Kept, Row, draw, redraw};
 
 /// In a long search there are so many times as many states.
-const LONG: usize = 80;
+const LONG: usize = 200;
 
 /// Forces and torques are fitted so closely that nothing is left of what lies ahead.
 const CLOSE: &[Row] = &[
@@ -267,17 +267,17 @@ macro_rules! searches {
 }
 
 searches! {
-    momentum_plant, 8: plant(MomentumPlant::DEFAULT_SETUP);
-    momentum_plant_per_plate, 6: plant(RADIATING);
-    momentum_plant_with_everything, 6: plant(ALL);
-    momentum_plant_with_thrusters, 8: plant(FULL);
-    momentum_plant_controlled, 6: plant(&controlled());
-    disturbance_torque, 8:
+    momentum_plant, 3: plant(MomentumPlant::DEFAULT_SETUP);
+    momentum_plant_per_plate, 2: plant(RADIATING);
+    momentum_plant_with_everything, 3: plant(ALL);
+    momentum_plant_with_thrusters, 3: plant(FULL);
+    momentum_plant_controlled, 2: plant(&controlled());
+    disturbance_torque, 4:
         Search::<DisturbanceTorque>::new(DisturbanceTorque::DEFAULT_SETUP, DISTURBANCE);
-    disturbance_torque_per_plate, 8:
+    disturbance_torque_per_plate, 4:
         Search::<DisturbanceTorque>::new(RADIATING, DISTURBANCE);
-    disturbance_torque_with_everything, 8:
+    disturbance_torque_with_everything, 4:
         Search::<DisturbanceTorque>::new(ALL, DISTURBANCE);
-    spin_plant, 25: Search::<SpinPlant>::new(SpinPlant::DEFAULT_SETUP, SPIN);
-    guidance_shipped, 25: guidance();
+    spin_plant, 10: Search::<SpinPlant>::new(SpinPlant::DEFAULT_SETUP, SPIN);
+    guidance_shipped, 10: guidance();
 }

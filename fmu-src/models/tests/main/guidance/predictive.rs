@@ -27,7 +27,7 @@ fn craft(strategy: f64, convention: f64) -> Vec<(&'static str, f64)> {
 }
 
 fn span_s() -> f64 {
-    short_or_long(10.0, 30.0) * CYCLE_S
+    short_or_long(6.0, 30.0) * CYCLE_S
 }
 
 /// Thresholds low enough for dumps within days.

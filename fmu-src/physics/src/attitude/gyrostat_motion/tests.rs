@@ -6,6 +6,7 @@ use nalgebra::Matrix3;
 
 use super::*;
 use crate::attitude::ReactionWheel;
+use crate::tests::short_or_long;
 
 const INERTIA: [f64; 3] = [199.6, 507.1, 484.9];
 
@@ -140,7 +141,8 @@ fn a_free_body_turns_as_jacobi_says() {
 }
 
 #[test]
-fn momentum_and_energy_are_kept_for_a_day() {
+fn momentum_and_energy_are_kept() {
+    let end_s = short_or_long(3_600.0, 86_400.0);
     let mut locked = pyramid();
     locked.iter_mut().for_each(|wheel| wheel.locked = true);
     let spacecraft = spacecraft(locked);
@@ -150,8 +152,8 @@ fn momentum_and_energy_are_kept_for_a_day() {
         0.5 * motion.rate_body_rad_s.dot(&(spacecraft.inertia_body_kg_m2() * motion.rate_body_rad_s))
     };
     let first = motion.at(&spacecraft, 0.0);
-    fly(&mut motion, &spacecraft, &[Motor::default(); 4], &BodyLoad::none(1.0), 86_400.0, 0.02);
-    let last = motion.at(&spacecraft, 86_400.0);
+    fly(&mut motion, &spacecraft, &[Motor::default(); 4], &BodyLoad::none(1.0), end_s, 0.02);
+    let last = motion.at(&spacecraft, end_s);
     assert_eq!(last.momentum_inertial_n_m_s, first.momentum_inertial_n_m_s);
     assert_relative_eq!(energy(&last), energy(&first), max_relative = 1e-10);
     let formed =

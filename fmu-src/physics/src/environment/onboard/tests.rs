@@ -13,6 +13,7 @@ use crate::environment::orbit::{Elements, TwoBodyOrbit};
 use crate::environment::time::MOMENTUM_STUDY_START_S as START_S;
 use crate::math;
 use crate::numerics::chebyshev::Segment;
+use crate::tests::short_or_long;
 
 const SPAN_S: [f64; 2] = [START_S, START_S + 40.0 * DAY_S];
 
@@ -65,7 +66,7 @@ fn stated_errors_bound_the_fit_and_are_nearly_reached() {
         let mut truth = motion(body.target);
         let mut found = FitError::default();
         // Epochs that are neither nodes nor checks, an irrational part of the span apart.
-        for i in 0..20_000 {
+        for i in 0..short_or_long(3_000, 20_000) {
             let epoch_s = SPAN_S[0] + (SPAN_S[1] - SPAN_S[0]) * (f64::from(i) * 0.618_033_988_75).fract();
             let state = body.motion.state(epoch_s).unwrap();
             found = found.worst(FitError::of(&state, &truth(epoch_s)));
@@ -73,7 +74,9 @@ fn stated_errors_bound_the_fit_and_are_nearly_reached() {
         let [position, velocity] =
             [found.position_m / body.error.position_m, found.velocity_m_s / body.error.velocity_m_s];
         assert!(position < 1.05 && velocity < 1.05, "{}: {position} {velocity}", body.target);
-        assert!(position > 0.5 && velocity > 0.5, "{}: {position} {velocity}", body.target);
+        // Among few epochs none need be near the worst.
+        let nearly = short_or_long(0.0, 0.5);
+        assert!(position > nearly && velocity > nearly, "{}: {position} {velocity}", body.target);
     }
 }
 
@@ -184,8 +187,9 @@ fn a_coarse_model_follows_elements_that_drift() {
 fn coarse_error(body: Body) -> (f64, FitError) {
     let (mut ephemeris, mut coarse) = (Ephemeris::default(), CoarseEphemeris::default());
     let (mut angle_rad, mut error) = (0.0_f64, FitError::default());
-    for i in 0..3_000 {
-        let epoch_s = (f64::from(i) / 1_500.0 - 1.0) * 50.0 * 365.25 * DAY_S;
+    let count = short_or_long(1_000, 3_000);
+    for i in 0..count {
+        let epoch_s = (f64::from(2 * i) / f64::from(count) - 1.0) * 50.0 * 365.25 * DAY_S;
         let (truth, found) = (ephemeris.state(body, epoch_s), coarse.state(body, epoch_s));
         error = error.worst(FitError::of(&found, &truth));
         let across = found.position_m.cross(&truth.position_m).norm();

@@ -11,6 +11,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::numerics::scalar::{Dual64, Scalar};
 use crate::spacecraft::{Polygon, Spacecraft, SunshadeModel};
+use crate::tests::short_or_long;
 
 fn outline(points: &[[f64; 3]]) -> Outline {
     let polygon = Polygon::new(points.iter().map(|p| Vector3::from(*p)).collect()).unwrap();
@@ -225,7 +226,7 @@ fn suns() -> impl Strategy<Value = Vector3<f64>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(short_or_long(8, 24)))]
     #[test]
     fn rays_cast_one_by_one_find_the_same(outlines in random_scene(), sun in suns()) {
         let found = lit(&outlines, &sun, &[]);

@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use super::{assert_same_attitude, energy_j, reach, runge_kutta, started, tensor};
 use crate::attitude::{Inertia, Quaternion, RigidBodyState, angle_between_rad};
 use crate::spin::{motion::Motion, series::BodyTorque};
+use crate::tests::short_or_long;
 
 const OMEGA_RAD_S: f64 = std::f64::consts::PI / 6.0;
 
@@ -163,9 +164,9 @@ fn the_closed_form_and_the_series_are_the_same_motion() {
 }
 
 #[test]
-fn momentum_and_energy_are_conserved_over_1e5_revolutions() {
+fn momentum_and_energy_are_conserved_over_many_revolutions() {
     let rate = Vector3::new(0.03, 0.01, OMEGA_RAD_S);
-    let end_s = 1e5 * 2.0 * std::f64::consts::PI / OMEGA_RAD_S;
+    let end_s = short_or_long(2e4, 1e5) * 2.0 * std::f64::consts::PI / OMEGA_RAD_S;
     for (principal, tolerance) in [([238.58, 238.58, 353.82], 1e-12), ([200.0, 260.0, 353.82], 1e-10)] {
         let inertia = Inertia::new(principal).unwrap();
         let motion = start(inertia, 0.0, rate, Vector3::zeros());

@@ -7,6 +7,7 @@ use crate::guidance::geometry::moving::{MovingMatrix, MovingVector, moving};
 use crate::guidance::geometry::test_geometry::{Motion, Random, difference_rad_s};
 use crate::guidance::geometry::test_orbit::about_mercury;
 use crate::guidance::pointing::law::PointingVectors;
+use crate::tests::short_or_long;
 
 fn surroundings(position: MovingVector, sun: MovingVector) -> EphemerisAtTime {
     let far = Moving::constant(1e7);
@@ -49,7 +50,8 @@ fn the_cone_is_kept_or_the_best_turn_flagged() {
     let mut random = Random(11);
     let mut seen = [0; 3];
     let worst = [(); 2].map(|()| core::cell::Cell::new(0.0_f64));
-    for _ in 0..200_000 {
+    let count = short_or_long(60_000, 200_000);
+    for _ in 0..count {
         let mut vector = || moving(random.direction(), random.direction() * 1e-4);
         let vectors = PointingVectors {
             boresight_body: vector(),
@@ -94,7 +96,7 @@ fn the_cone_is_kept_or_the_best_turn_flagged() {
         }
     }
     assert!(worst[0].get() < 1e-14 && worst[1].get() < 1e-12, "{worst:?}");
-    assert!(seen.iter().all(|count| *count > 10_000), "{seen:?}");
+    assert!(seen.iter().all(|found| *found > count / 20), "{seen:?}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use super::*;
 use crate::attitude::{angle_between_rad, direction_from_angles};
 use crate::guidance::constraints::keep_in::KeepInMethod;
 use crate::guidance::geometry::test_geometry::{Random, nearest_zone};
+use crate::tests::short_or_long;
 
 const RATE_RAD_S: f64 = 5e-3;
 
@@ -79,7 +80,7 @@ fn slew(case: &Case) -> Slew {
 fn a_turn_leaves_the_eigenaxis_only_where_that_leaves_the_zone_and_stays_inside() {
     let mut random = Random(41);
     let mut seen = [0; 2];
-    for _ in 0..4000 {
+    for _ in 0..short_or_long(1500, 4000) {
         let case = case(&mut random);
         let slew = slew(&case);
         let is_eigenaxis = matches!(slew, Slew::Eigenaxis { .. });
