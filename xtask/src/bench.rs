@@ -5,9 +5,9 @@ use std::process::Command;
 use std::time::Instant;
 
 use crate::build::{self, Built};
-use crate::dist;
 use crate::shell::{Outcome, cargo, command, need, output, root, run};
 use crate::test::compile_c;
+use crate::{dist, python};
 
 /// Kernel benchmarks, as examples of `physics`.
 const EXAMPLES: &[&str] = &["bench_solar", "bench_radiation"];
@@ -35,7 +35,56 @@ pub(crate) fn all() -> Outcome {
     system(&built)?;
     study(&built)?;
     plans(&built)?;
-    flybys(&built)
+    flybys(&built)?;
+    sweep(&built)
+}
+
+/// Flights of ten days in one step each: `sweep` beside a C program with the same values, with one and two workers and its memory; then
+/// steps of a minute beside FMPy.
+fn sweep(built: &Built) -> Outcome {
+    const FLIGHTS: u32 = 1000;
+    let folder = Folder::new(built, "bench-sweep")?;
+    let campaign = root().join("examples").join("campaign.toml");
+    let text = std::fs::read_to_string(&campaign)
+        .map_err(|error| format!("{}: {error}", campaign.display()))?
+        .replace("../dist", &root().join("dist").display().to_string())
+        .replace("runs = 10000", &format!("runs = {FLIGHTS}"));
+    folder.write("campaign.toml", &text)?;
+    let swept = |words: &str| {
+        let mut command = command(&built.heliotorque);
+        command.current_dir(&folder.path).args(["sweep", "campaign.toml", "--quiet"]);
+        command.args(words.split_whitespace());
+        command
+    };
+    if need("gcc", "the benchmark of a sweep beside C")? {
+        let program = compile_c(&folder.path, "bench_sweep")?;
+        output(&mut swept("--dry-run --output values.csv"))?;
+        let begin = processor_s();
+        output(command(&program).arg(&built.library).arg("values.csv").current_dir(&folder.path))?;
+        let by_c_s = processor_s() - begin;
+        let begin = processor_s();
+        output(&mut swept("--workers 1"))?;
+        let own_s = processor_s() - begin;
+        println!("bench sweep_{FLIGHTS}_flights_of_10_days_processor_time {own_s:.2} s");
+        println!("bench sweep_over_c_loop_processor_time {:.3} times", own_s / by_c_s);
+    }
+    let [one_s, two_s] = [median_s(&mut swept("--workers 1"))?, median_s(&mut swept("--workers 2"))?];
+    println!("bench sweep_two_workers_over_one {:.2} times", one_s / two_s);
+    peak_row("sweep_peak_of_a_process", &mut swept("--workers 2"))?;
+    let script = root().join("tests").join("python").join("bench_sweep.py");
+    run(command(python::interpreter()?)
+        .arg(script)
+        .arg(&built.heliotorque)
+        .arg(root().join("dist").join("MomentumPlant.fmu")))
+}
+
+/// Processor time of all processes that this one has waited for, and theirs, in s; 0 where the system does not report it.
+fn processor_s() -> f64 {
+    const TICKS_PER_S: f64 = 100.0;
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // Behind the name in parentheses: user and system time of children are the 14th and 15th field.
+    let fields = stat.rsplit_once(')').map_or("", |(_, fields)| fields).split_whitespace();
+    fields.skip(13).take(2).filter_map(|it| it.parse::<f64>().ok()).sum::<f64>() / TICKS_PER_S
 }
 
 /// A cruise of 200 days by its timeline, its plans, and a refit of ten days of a history; starts of the processes with them.
