@@ -1,4 +1,4 @@
-//! Pictures of a plane: square panels side by side, the same scale along both axes, one legend.
+//! Pictures of a plane: square panels side by side, the same scale along both axes unless stated, one legend.
 
 use super::{
     axes::round_up,
@@ -48,6 +48,8 @@ pub struct PlanePanel {
     pub centre: (f64, f64),
     /// Half its side.
     pub half_width: f64,
+    /// Half its side along the vertical axis, where that has another scale.
+    pub half_height: Option<f64>,
 }
 
 /// Greatest side of a panel.
@@ -76,7 +78,7 @@ impl Picture for PlaneChart {
     }
 
     fn height(&self) -> Option<f64> {
-        let drawable = |panel: &PlanePanel| panel.half_width.is_finite() && panel.half_width > 0.0;
+        let drawable = |panel: &PlanePanel| panel.half_sides().iter().all(|it| it.is_finite() && *it > 0.0);
         let is_drawable = !self.panels.is_empty() && self.panels.iter().all(drawable);
         let around = TITLE_HEIGHT + self.legend().height() + PANEL_TITLE_HEIGHT + X_AXIS_HEIGHT;
         is_drawable.then_some(around + self.side())
@@ -88,13 +90,13 @@ impl Picture for PlaneChart {
         let top = top + TITLE_HEIGHT + legend.height() + PANEL_TITLE_HEIGHT;
         for (index, panel) in self.panels.iter().enumerate() {
             let left = PLOT_LEFT + self.panel_width() * index as f64;
-            let [x, y] = [panel.centre.0, panel.centre.1]
-                .map(|middle| [middle - panel.half_width, middle + panel.half_width]);
+            let halves = panel.half_sides();
+            let [x, y] = [(panel.centre.0, halves[0]), (panel.centre.1, halves[1])]
+                .map(|(middle, half)| [middle - half, middle + half]);
             let frame = Frame { left, top, width: side, height: side, x, y };
             let labels = [self.x_label.as_str(), self.y_label.as_str()];
-            let step = round_up(panel.half_width / 3.0);
-            let axes =
-                Axes { labels, steps: [step; 2], label_px: LABEL - 20.0, is_whole: false, named: [&[]; 2] };
+            let steps = halves.map(|half| round_up(half / 3.0));
+            let axes = Axes { labels, steps, label_px: LABEL - 20.0, is_whole: false, named: [&[]; 2] };
             let axes = axes.beside(y);
             pen.text((left + 0.5 * side, top - 8.0), 13.0, "middle", TEXT, &panel.title);
             panel.draw(pen, &frame, &axes, self.shading.as_ref());
@@ -106,6 +108,11 @@ impl Picture for PlaneChart {
 }
 
 impl PlanePanel {
+    /// Along both axes.
+    fn half_sides(&self) -> [f64; 2] {
+        [self.half_width, self.half_height.unwrap_or(self.half_width)]
+    }
+
     fn draw(&self, pen: &mut Pen, frame: &Frame, axes: &Axes<'_>, shading: Option<&Shading>) {
         let at = |points: &[(f64, f64)]| -> Vec<Pixel> {
             points.iter().map(|(x, y)| frame.at([*x, *y])).collect()
@@ -176,6 +183,32 @@ mod tests {
         let svg = crate::svg(&[&chart]).unwrap();
         assert!(svg.contains(" width=\"960\" ") && svg.matches("left").count() == 2);
         assert!(crate::svg(&[&PlaneChart::default()]).is_err());
+    }
+
+    #[test]
+    fn a_panel_of_two_scales_fills_its_square() {
+        let corners = vec![(-1.0, -100.0), (1.0, -100.0), (1.0, 100.0), (-1.0, 100.0)];
+        let panel = PlanePanel {
+            cells: vec![(corners, 0.5)],
+            half_width: 1.0,
+            half_height: Some(100.0),
+            ..PlanePanel::default()
+        };
+        let shading = Some(Shading { least: -1.0, greatest: 1.0, unit: "N".to_owned() });
+        let svg =
+            crate::svg(&[&PlaneChart { panels: vec![panel], shading, ..PlaneChart::default() }]).unwrap();
+        let path = svg.split("<path d=\"M").nth(1).unwrap().split('z').next().unwrap();
+        let number = |text: &str| text.parse::<f64>().unwrap();
+        let places: Vec<Pixel> = path
+            .split('L')
+            .map(|pair| pair.split_once(',').unwrap())
+            .map(|(x, y)| (number(x), number(y)))
+            .collect();
+        let side = GREATEST_SIDE;
+        assert!(
+            (places[1].0 - places[0].0 - side).abs() < 0.2 && (places[1].1 - places[2].1 - side).abs() < 0.2
+        );
+        assert!(svg.contains(">-1.0<") && svg.contains(">1.0<") && svg.contains(">N<"), "{svg}");
     }
 
     #[test]
