@@ -137,6 +137,29 @@ def test_sobol_indices(run, momentum_plant, heliotorque, monkeypatch):
         assert alone == pytest.approx(share, abs=0.03) and with_others == pytest.approx(share, abs=0.03)
 
 
+def test_dask_sweep(run, dist, heliotorque, momentum_plant, monkeypatch):
+    """Momentum is linear in the drawn place: mean and deviation are those of FMPy's runs at the ends of a standard deviation."""
+    # The cluster's processes find the folder wherever they run.
+    monkeypatch.setenv("HELIOTORQUE", str(heliotorque.resolve()))
+    runs, mean, deviation, per_cm = numbers(
+        r"# runs: X momentum # \+- # N.m.s, # N.m.s per cm", run("dask_sweep", dist.resolve())
+    )
+    names = vector("momentum.body")
+    start = {"momentum.convention": 2} | {f"dump.threshold[{i}]": 1e9 for i in (1, 2, 3)}
+    at_mean, above = [
+        simulate_fmu(
+            momentum_plant, stop_time=10 * 86400, step_size=3600, output_interval=86400, output=names,
+            start_values=start | {"spacecraft.centerOfMass[3]": z_m},
+        )[names[0]][-1]
+        for z_m in (-0.0254, -0.0204)
+    ]
+    assert runs == 40
+    assert per_cm == pytest.approx((above - at_mean) / 0.5, rel=1e-3)
+    # A Latin hypercube's mean is near the distribution's, and its deviation too.
+    assert mean == pytest.approx(at_mean, abs=0.05 * abs(above - at_mean))
+    assert deviation == pytest.approx(abs(above - at_mean), rel=0.1)
+
+
 def test_save_restore(run, momentum_plant):
     """The restored instance ends with the bits of a plant that was never interrupted."""
     text = run("save_restore")

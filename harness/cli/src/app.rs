@@ -11,9 +11,9 @@ use terminal::Screen;
 use crate::{
     check,
     child::{self, Bounds, LARGE, Relayed, SMALL},
-    completions, draw, ephemeris, home, info, interrupt, manual, map, new,
+    compare, completions, draw, ephemeris, home, info, interrupt, manual, map, new,
     outcome::Outcome,
-    pack, plan, refit, run as simulation, schema, size, study, sweep, wire,
+    pack, plan, plot, refit, run as simulation, schema, size, study, sweep, wire,
 };
 
 /// Spacecraft disturbance torque and momentum as FMUs: show, check and simulate them, pack your own.
@@ -60,6 +60,10 @@ enum Command {
     Plan(plan::Plan),
     /// Fit centre of mass and solar.scale of a mission to a history of momentum, with their covariance
     Refit(refit::Refit),
+    /// Compare two tables, as `run` and campaigns write them: the largest difference of every variable, and when
+    Compare(compare::Compare),
+    /// Draw tables, as `run` and campaigns write them: over time, overlaid, percentiles, histogram, scatter, heat, tornado
+    Plot(plot::Plot),
     /// Print what a shell needs to complete commands and options
     Completions(completions::Completions),
     /// Print the manual's page of the program or of a command
@@ -168,6 +172,8 @@ fn carry_out(mut command: Command) -> Outcome {
         Command::Pack(arguments) => pack::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Ephemeris(arguments) => ephemeris::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
+        Command::Plot(arguments) => plot::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments, &Arguments::command()),
         Command::Plan(arguments) => plan::run(&arguments),
         Command::Refit(arguments) => refit::run(&arguments),

@@ -1,13 +1,15 @@
-//! Line charts: stacked panels over one horizontal axis, each with its own unit and legend.
+//! Charts of lines, dots and bars: stacked panels over one horizontal axis, each with its own unit and legend.
+
+use std::collections::BTreeSet;
 
 use super::{
     axes::round_up,
-    envelope,
+    envelope::{self, Envelope},
     frame::{Axes, Frame},
     legend::{Legend, ROW_HEIGHT},
     pen::{COLOURS, GREY, Pen, Pixel},
     picture::{LABEL, PANEL_HEIGHT, PLOT_LEFT, Picture, RIGHT, SHADE, TITLE_HEIGHT, WIDTH, X_AXIS_HEIGHT},
-    series::{Mark, Panel, Series, pieces},
+    series::{BAND_OPACITY, Mark, Panel, Series, pieces},
 };
 
 const SINGLE_HEIGHT: f64 = 420.0;
@@ -17,6 +19,10 @@ const MARGIN: f64 = 8.0;
 const PLOT_WIDTH: f64 = WIDTH - PLOT_LEFT - RIGHT;
 /// Columns of half a pixel, in each of which a line keeps what is visible.
 const COLUMNS: f64 = 2.0 * PLOT_WIDTH;
+
+/// Dots from which on those that others hide are left out, and their distance in px.
+const MANY_DOTS: usize = 2000;
+const HIDDEN_PX: f64 = 1.5;
 
 /// A chart: panels over one horizontal axis.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -138,7 +144,10 @@ impl Panel {
     }
 
     fn data_range(&self) -> [f64; 2] {
-        let data = self.series.iter().flat_map(|series| series.points.iter().map(|(_, y)| *y));
+        let bands = self.series.iter().flat_map(|series| &series.bands);
+        let edges = bands.flat_map(|band| band.range.lowest.iter().chain(&band.range.greatest));
+        let points = self.series.iter().flat_map(|series| &series.points);
+        let data = points.chain(edges).map(|(_, y)| *y);
         let finite = data.chain(self.marks.iter().copied()).filter(|y| y.is_finite());
         extremes(finite).map_or([0.0, 1.0], |[low, high]| padded(low, high))
     }
@@ -177,10 +186,36 @@ pub(super) fn draw_series(
     };
     let dots = || series.points.iter().map(|(x, y)| [*x, *y]).filter(|point| frame.holds(*point));
     let [low, high] = frame.corners();
+    if !series.bands.is_empty() {
+        pen.within(low, high, |pen| {
+            let pieces = series.bands.iter().flat_map(|band| band.range.pieces());
+            pieces.for_each(|piece| {
+                let edges = Envelope { lowest: thin(&piece.lowest), greatest: thin(&piece.greatest) };
+                pen.polygon(
+                    &place(edges.outline()),
+                    &format!("fill=\"{colour}\" fill-opacity=\"{BAND_OPACITY}\""),
+                );
+            });
+        });
+    }
     match series.mark {
         Mark::Dots => {
-            dots().for_each(|at| pen.circle(frame.at(at), 3.0, &format!("fill=\"{colour}\"")));
+            let fill = format!("fill=\"{colour}\"");
+            let places: Vec<Pixel> = dots().map(|at| frame.at(at)).collect();
+            distinct(places).into_iter().for_each(|at| pen.circle(at, 3.0, &fill));
         }
+        Mark::Bars => pen.within(low, high, |pen| {
+            let bars = series.points.windows(2).filter(|pair| pair[0].1 != 0.0 && pair[0].1.is_finite());
+            bars.for_each(|pair| {
+                let ((from, value), to) = (pair[0], pair[1].0);
+                let corners = [[from, value.max(0.0)], [to, value.min(0.0)]].map(|corner| frame.at(corner));
+                pen.rect(
+                    corners[0],
+                    corners[1],
+                    &format!("fill=\"{colour}\" stroke=\"#ffffff\" stroke-width=\"0.6\""),
+                );
+            });
+        }),
         Mark::Rings => dots().for_each(|at| {
             pen.circle(frame.at(at), 5.0, &format!("fill=\"none\" stroke=\"{colour}\""));
         }),
@@ -209,6 +244,16 @@ pub(super) fn draw_series(
             );
         }),
     }
+}
+
+/// Dots without those that others hide, where there are many.
+fn distinct(dots: Vec<Pixel>) -> Vec<Pixel> {
+    if dots.len() <= MANY_DOTS {
+        return dots;
+    }
+    let cell = |(x, y): &Pixel| [*x, *y].map(|place| (place / HIDDEN_PX).round() as i64);
+    let mut taken = BTreeSet::new();
+    dots.into_iter().filter(|dot| taken.insert(cell(dot))).collect()
 }
 
 fn extremes(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {

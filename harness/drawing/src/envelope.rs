@@ -9,9 +9,9 @@ const HEIGHT: f64 = 0.2;
 /// Numbers of columns that are tried: of two pixels each, and of ten.
 const COLUMNS: [usize; 2] = [400, 80];
 
-/// The extremes of a line over its columns.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Envelope {
+/// Two edges: the extremes of a line over its columns, or any range over the same x.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Envelope {
     /// The least values.
     pub lowest: Vec<(f64, f64)>,
     /// The greatest values.
@@ -22,6 +22,24 @@ impl Envelope {
     /// Around the band.
     pub(crate) fn outline(&self) -> Vec<(f64, f64)> {
         self.greatest.iter().chain(self.lowest.iter().rev()).copied().collect()
+    }
+
+    /// The parts between points at which one edge is not finite.
+    pub(crate) fn pieces(&self) -> Vec<Self> {
+        let mut pieces = vec![Self::default()];
+        for (low, high) in self.lowest.iter().zip(&self.greatest) {
+            let is_finite = [low.0, low.1, high.0, high.1].into_iter().all(f64::is_finite);
+            match pieces.last_mut() {
+                Some(piece) if is_finite => {
+                    piece.lowest.push(*low);
+                    piece.greatest.push(*high);
+                }
+                Some(piece) if piece.lowest.is_empty() => {}
+                _ => pieces.push(Self::default()),
+            }
+        }
+        pieces.retain(|piece| !piece.lowest.is_empty());
+        pieces
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{
     pen::{COLOURS, GREY, Pen, TEXT, width_px},
     picture::{PLOT_LEFT, RIGHT, SHADE, WIDTH},
-    series::{Mark, Panel, Series},
+    series::{BAND_OPACITY, Mark, Panel, Series},
 };
 
 /// Height of a row.
@@ -25,6 +25,8 @@ enum Swatch {
     Shades,
     /// The extremes of an oscillation.
     Band,
+    /// A range about a series by the series' place, on so many wider ones.
+    Range(usize, usize),
 }
 
 /// What a band is.
@@ -98,7 +100,11 @@ impl<'a> Legend<'a> {
 }
 
 fn series(all: &[Series]) -> impl Iterator<Item = (Swatch, &str)> {
-    all.iter().enumerate().map(|(k, it)| (Swatch::Series(k, it.mark), it.label.as_str()))
+    all.iter().enumerate().flat_map(|(k, it)| {
+        let bands = it.bands.iter().enumerate();
+        let bands = bands.map(move |(wider, band)| (Swatch::Range(k, wider), band.label.as_str()));
+        std::iter::once((Swatch::Series(k, it.mark), it.label.as_str())).chain(bands)
+    })
 }
 
 /// Of an entry with the space to the next one.
@@ -118,6 +124,14 @@ impl Swatch {
                     pen.lines([&[(x, y), (x + SWATCH, y)][..]], &format!("stroke=\"{GREY}\""));
                 }
             }
+            Self::Range(index, wider) => {
+                let colour = COLOURS[index % COLOURS.len()];
+                // On the wider ones, as in the panel.
+                for _ in 0..=wider {
+                    let fill = format!("fill=\"{colour}\" fill-opacity=\"{BAND_OPACITY}\"");
+                    pen.rect((x, y - 6.0), (x + SWATCH, y + 6.0), &fill);
+                }
+            }
             Self::Marks => line(pen, &format!("stroke=\"{GREY}\" stroke-dasharray=\"7 4\"")),
             Self::Series(index, mark) => {
                 let colour = COLOURS[index % COLOURS.len()];
@@ -131,6 +145,9 @@ impl Swatch {
                     }
                     Mark::Rings => pen.circle(middle, 5.0, &format!("fill=\"none\" stroke=\"{colour}\"")),
                     Mark::Dots => pen.circle(middle, 4.0, &format!("fill=\"{colour}\"")),
+                    Mark::Bars => {
+                        pen.rect((x, y - 6.0), (x + SWATCH, y + 6.0), &format!("fill=\"{colour}\""))
+                    }
                 }
             }
         }

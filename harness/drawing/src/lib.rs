@@ -16,16 +16,19 @@ mod shading;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod tornado;
 
 pub use axes::{round_up, tick_text, ticks};
 pub use bars::{BarChart, BarPanel};
 pub use camera::{Camera, contains};
 pub use chart::Chart;
+pub use envelope::Envelope;
 pub use frame::{Axes, Frame, thinned};
 pub use labels::{Labels, NAME_SIZE};
 pub use pen::{BESIDE, COLOURS, GREY, HEADING, INK, Pen, Pixel, TEXT, png, width_px};
 pub use picture::{DrawingError, Picture, is_chart, svg};
 pub use plane::{PlaneChart, PlanePanel};
-pub use series::{Mark, Panel, Series};
+pub use series::{Band, Mark, Panel, Series};
 pub use shading::{Shading, mixed};
 pub use surface::{Finish, Surface, Vector, unit};
+pub use tornado::TornadoChart;

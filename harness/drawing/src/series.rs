@@ -1,6 +1,6 @@
 //! What a chart shows: series in panels.
 
-use super::envelope;
+use super::envelope::{self, Envelope};
 
 /// How a series is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -18,6 +18,20 @@ pub enum Mark {
     Dashed,
     /// A staircase: each value holds until the next, as flags and counts do.
     Steps,
+    /// Bars from zero, each up to the x of the next point, as in a histogram; the last point ends the last bar.
+    Bars,
+}
+
+/// Of each of the bands about a line, which darken where they lie on each other.
+pub(super) const BAND_OPACITY: f64 = 0.18;
+
+/// A range about a line, such as that between two percentiles.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Band {
+    /// Text of the legend; empty for no entry.
+    pub label: String,
+    /// Its edges, with the same x each.
+    pub range: Envelope,
 }
 
 /// One line of a panel.
@@ -29,37 +43,50 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
     /// Line or dots.
     pub mark: Mark,
+    /// Ranges about the line, in its colour under it, the widest first.
+    pub bands: Vec<Band>,
 }
 
 impl Series {
     /// A line through `points`.
     pub fn line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self { label: label.into(), points, mark: Mark::Line }
+        Self { label: label.into(), points, mark: Mark::Line, bands: Vec::new() }
     }
 
     /// A line through `points` that is compared with another and so never drawn as an envelope.
     pub fn curve(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self { label: label.into(), points, mark: Mark::Curve }
+        Self { label: label.into(), points, mark: Mark::Curve, bands: Vec::new() }
     }
 
     /// Dots at `points`.
     pub fn dots(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self { label: label.into(), points, mark: Mark::Dots }
+        Self { label: label.into(), points, mark: Mark::Dots, bands: Vec::new() }
     }
 
     /// Rings about `points`.
     pub fn rings(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self { label: label.into(), points, mark: Mark::Rings }
+        Self { label: label.into(), points, mark: Mark::Rings, bands: Vec::new() }
     }
 
     /// A dashed line through `points`.
     pub fn dashed(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self { label: label.into(), points, mark: Mark::Dashed }
+        Self { label: label.into(), points, mark: Mark::Dashed, bands: Vec::new() }
     }
 
     /// A staircase through `points`.
     pub fn steps(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self { label: label.into(), points, mark: Mark::Steps }
+        Self { label: label.into(), points, mark: Mark::Steps, bands: Vec::new() }
+    }
+
+    /// Bars from zero over the spans between `points`.
+    pub fn bars(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self { label: label.into(), points, mark: Mark::Bars, bands: Vec::new() }
+    }
+
+    /// The series with ranges about it, the widest first.
+    #[must_use]
+    pub fn with_bands(self, bands: impl IntoIterator<Item = Band>) -> Self {
+        Self { bands: bands.into_iter().collect(), ..self }
     }
 
     /// The series drawn otherwise.

@@ -1,4 +1,4 @@
-//! Shading of a quantity that is not negative: colours from 0 to the greatest value, and their scale.
+//! Shading of a quantity: colours from its least to its greatest value, and their scale.
 
 use super::{
     axes::{round_up, tick_text, ticks},
@@ -10,7 +10,7 @@ use super::{
 pub(super) const SCALE_WIDTH: f64 = 50.0;
 /// Shades that are told apart.
 const SHADES: usize = 32;
-/// From 0 to the greatest, equally apart: of ever less luminance, so that order shows without colour too (ColorBrewer's YlGnBu).
+/// From the least to the greatest, equally apart: of ever less luminance, so that order shows without colour too (ColorBrewer's YlGnBu).
 const SCALE: [[f64; 3]; 9] = [
     [255.0, 255.0, 217.0],
     [237.0, 248.0, 177.0],
@@ -23,9 +23,11 @@ const SCALE: [[f64; 3]; 9] = [
     [8.0, 29.0, 88.0],
 ];
 
-/// Colours for values from 0 to a greatest one.
+/// Colours for values from a least to a greatest one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shading {
+    /// Value of the first colour, 0 of what is not negative.
+    pub least: f64,
     /// Value of the last colour.
     pub greatest: f64,
     /// Unit, above the scale.
@@ -35,8 +37,12 @@ pub struct Shading {
 impl Shading {
     /// Number of the shade of a value.
     fn shade(&self, value: f64) -> usize {
-        let share = if self.greatest > 0.0 { value / self.greatest } else { 0.0 };
+        let share = if self.span() > 0.0 { (value - self.least) / self.span() } else { 0.0 };
         ((share * SHADES as f64) as usize).min(SHADES - 1)
+    }
+
+    fn span(&self) -> f64 {
+        self.greatest - self.least
     }
 
     /// Fills cells by their values, those of a shade at once.
@@ -57,10 +63,10 @@ impl Shading {
             let [low, high] = [number, number + 1].map(|at| y(at as f64 / SHADES as f64));
             pen.rect((left, high), (left + width, low), &format!("fill=\"{}\"", colour(number)));
         }
-        if self.greatest > 0.0 {
-            let step = round_up(self.greatest / 7.0);
-            for value in ticks([0.0, self.greatest], step) {
-                let at = (left + width + 4.0, y(value / self.greatest) + 4.0);
+        if self.span() > 0.0 {
+            let step = round_up(self.span() / 7.0);
+            for value in ticks([self.least, self.greatest], step) {
+                let at = (left + width + 4.0, y((value - self.least) / self.span()) + 4.0);
                 pen.text(at, 11.0, "start", BESIDE, &tick_text(value, step));
             }
         }
@@ -88,9 +94,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shades_grow_ever_darker_from_zero_to_the_greatest() {
-        let shading = Shading { greatest: 4.0, unit: String::new() };
-        assert_eq!([0.0, 1.999, 4.0].map(|value| shading.shade(value)), [0, SHADES / 2 - 1, SHADES - 1]);
+    fn shades_grow_ever_darker_from_the_least_to_the_greatest() {
+        for (least, greatest) in [(0.0, 4.0), (-3.0, 1.0), (10.0, 14.0)] {
+            let shading = Shading { least, greatest, unit: String::new() };
+            let shades = [0.0, 1.999, 4.0].map(|above| shading.shade(least + above));
+            assert_eq!(shades, [0, SHADES / 2 - 1, SHADES - 1]);
+        }
         // Relative luminance by its weights of red, green and blue (ITU-R BT.709).
         let luminance = |number: usize| {
             let text = colour(number);
@@ -102,7 +111,9 @@ mod tests {
 
     #[test]
     fn nothing_at_all_has_the_first_shade() {
-        let shading = Shading { greatest: 0.0, unit: String::new() };
-        assert_eq!(shading.shade(0.0), 0);
+        for value in [0.0, -2.0] {
+            let shading = Shading { least: value, greatest: value, unit: String::new() };
+            assert_eq!(shading.shade(value), 0);
+        }
     }
 }

@@ -228,3 +228,50 @@ fn what_lies_outside_of_a_frame_is_not_seen() {
     let is_white = |x: u32, y: u32| png.pixel(x, y).unwrap().green() == 255;
     assert!((0..10).all(|x| is_white(x, 45)) && !is_white(20, 45) && (0..20).all(|y| is_white(70, y)));
 }
+
+#[test]
+fn bands_lie_under_their_line_and_are_named() {
+    let edge =
+        |value: f64| vec![(0.0, value), (1.0, 2.0 * value), (2.0, f64::NAN), (3.0, value), (4.0, value)];
+    let band = |label: &str, half: f64| Band {
+        label: label.to_owned(),
+        range: Envelope { lowest: edge(-half), greatest: edge(half) },
+    };
+    let line = (0..5).map(|k| (f64::from(k), 0.0)).collect();
+    let series = Series::line("median", line).with_bands([band("5 to 95 %", 10.0), band("25 to 75 %", 4.0)]);
+    let svg = svg(&[&Chart::new("", "time [d]").with([Panel::new("h").with([series])])]).unwrap();
+    for text in [">median<", ">5 to 95 %<", ">25 to 75 %<"] {
+        assert!(svg.contains(text), "{text} is missing");
+    }
+    // Two bands of two pieces each, before the line.
+    let polygons: Vec<usize> = svg.match_indices("<polygon").map(|(at, _)| at).collect();
+    let line = svg.find("stroke-linejoin").unwrap();
+    assert!(polygons.len() == 4 && polygons.iter().all(|at| *at < line), "{svg}");
+    assert!(svg.contains(">20<") && svg.contains(">-20<"), "the axis leaves out the bands: {svg}");
+}
+
+#[test]
+fn a_histogram_has_a_bar_for_each_count_above_zero() {
+    let counts = Series::bars("", vec![(0.0, 3.0), (1.0, 0.0), (2.0, 6.0), (3.0, 0.0)]);
+    let panel = Panel::new("runs").whole().range(0.0, 6.0).with([counts]);
+    let svg = svg(&[&Chart::new("", "x").with([panel])]).unwrap();
+    let number = |tag: &str, key: &str| -> f64 {
+        tag.split(&format!("{key}=\"")).nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
+    };
+    let bars: Vec<&str> = svg.split("<rect ").filter(|tag| tag.contains("fill=\"#0072b2\"")).collect();
+    let [low, high] = bars[..] else { panic!("{svg}") };
+    assert!((number(high, " height") - 2.0 * number(low, " height")).abs() < 0.2);
+    assert!((number(high, " width") - number(low, " width")).abs() < 0.2);
+    assert!((number(high, "x") - number(low, "x") - 2.0 * number(low, " width")).abs() < 0.2);
+}
+
+#[test]
+fn dots_that_others_hide_are_left_out_where_there_are_many() {
+    let count = |points: Vec<(f64, f64)>| {
+        let panel = Panel::new("").range(0.0, 1.0).with([Series::dots("", points)]);
+        svg(&[&Chart::new("", "").with([panel])]).unwrap().matches("<circle").count()
+    };
+    let many = |all: u32| (0..all).map(|k| (f64::from(k % 10), f64::from(k % 2))).collect::<Vec<_>>();
+    assert_eq!(count(many(2000)), 2000);
+    assert_eq!(count(many(20_000)), 10);
+}

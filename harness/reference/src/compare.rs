@@ -1,156 +1,138 @@
-//! Compares a recording with a table of what was recorded before.
+//! The measure of two tables: how far each column of one is from the same column of the other.
+//!
+//! Real: max over rows of |found - expected|, and that as a fraction of the largest |expected| of the vector or scalar over all rows.
+//! Any other cell is the same or not: a difference is infinite.
 
-use loader::{Column, Recording, Value};
-
-/// Where a column deviates most.
+/// A cell of a table.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Deviation {
-    /// Name of the variable.
-    pub name: String,
-    /// Time in s.
-    pub time_s: f64,
-    /// What the table has.
-    pub expected: String,
-    /// What was found.
-    pub found: String,
-    /// For a Real as a fraction of the largest magnitude of the column or the vector it belongs to, infinite for others.
-    pub deviation: f64,
+pub enum Cell {
+    /// A number that may be a little off.
+    Real(f64),
+    /// What is the same or not.
+    Exact(String),
 }
 
-/// The largest deviation of every column that is not the same, by name; `rows` of the table belong to `lines` of the recording.
-pub(crate) fn deviations(
-    header: &[String],
-    rows: &[Vec<String>],
-    recording: &Recording,
-    lines: &[usize],
-) -> Vec<Deviation> {
-    let largest_of = |vector: &str| {
-        let columns = header.iter().enumerate().skip(1).filter(|(_, name)| vector_of(name) == vector);
-        let cells = columns.flat_map(|(index, _)| rows.iter().filter_map(move |row| row.get(index)));
-        cells
-            .filter_map(|cell| cell.parse().ok())
-            .fold(0.0_f64, |largest, value: f64| largest.max(value.abs()))
-    };
-    let column_of = |(index, name): (usize, &String)| {
-        let column = recording.column(name)?;
-        let largest = largest_of(vector_of(name));
-        let cells: Vec<&str> = rows.iter().map(|row| row.get(index).map_or("", String::as_str)).collect();
-        worst(column, &cells, lines, largest).map(|(row, deviation)| Deviation {
-            name: name.clone(),
-            time_s: recording.times_s.get(lines[row]).copied().unwrap_or(f64::NAN),
-            expected: cells[row].to_owned(),
-            found: column.value(lines[row]).as_ref().map_or(String::new(), shown),
-            deviation,
-        })
-    };
-    header.iter().enumerate().skip(1).filter_map(column_of).collect()
-}
+impl Cell {
+    /// A cell of a file without types: a number is a Real, a truth the number that others write for it.
+    pub fn of_text(text: &str) -> Self {
+        match text {
+            "true" => Self::Real(1.0),
+            "false" => Self::Real(0.0),
+            _ => text.parse().map_or_else(|_| Self::Exact(text.to_owned()), Self::Real),
+        }
+    }
 
-/// The vector that a variable is a component of, or the variable.
-fn vector_of(name: &str) -> &str {
-    name.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map_or(name, |(vector, _)| vector)
-}
+    /// Its magnitude; 0 of what has none.
+    fn magnitude(&self) -> f64 {
+        match self {
+            Self::Real(value) if value.is_finite() => value.abs(),
+            _ => 0.0,
+        }
+    }
 
-/// The row that deviates most and by how much; `None` where all are the same.
-fn worst(column: &Column, cells: &[&str], lines: &[usize], largest: f64) -> Option<(usize, f64)> {
-    let deviation: Vec<f64> = match column {
-        Column::Real(values) => {
-            let expected: Vec<f64> = cells.iter().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
-            let of_row = |(expected, &line): (&f64, &usize)| {
-                let error = (expected - values[line]).abs();
-                // What is no number is as far off as can be; a column of zeros is met by zeros.
-                if error == 0.0 {
+    /// How far another one is off; NaN is NaN.
+    fn difference(&self, found: &Self) -> f64 {
+        match (self, found) {
+            (Self::Real(expected), Self::Real(found)) => {
+                let is_same = expected == found || expected.is_nan() && found.is_nan();
+                let difference = (found - expected).abs();
+                // What is no number is as far off as can be.
+                if is_same {
                     0.0
-                } else if error.is_nan() {
+                } else if difference.is_nan() {
                     f64::INFINITY
                 } else {
-                    error / largest
+                    difference
                 }
-            };
-            expected.iter().zip(lines).map(of_row).collect()
+            }
+            (expected, found) if expected == found => 0.0,
+            _ => f64::INFINITY,
         }
-        _ => {
-            let same = |(cell, &line): (&&str, &usize)| is_same(column, cell, line);
-            cells.iter().zip(lines).map(|pair| if same(pair) { 0.0 } else { f64::INFINITY }).collect()
+    }
+}
+
+impl std::fmt::Display for Cell {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Real(value) => write!(f, "{}", loader::csv::Real(*value)),
+            Self::Exact(text) => f.write_str(text),
         }
+    }
+}
+
+/// A column that two tables have, in the rows that both have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compared {
+    /// Name of the variable.
+    pub name: String,
+    /// What the first table has.
+    pub expected: Vec<Cell>,
+    /// What the second table has.
+    pub found: Vec<Cell>,
+}
+
+/// Where a column differs most.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// Name of the variable.
+    pub name: String,
+    /// The row.
+    pub row: usize,
+    /// What the first table has there.
+    pub expected: Cell,
+    /// What the second table has there.
+    pub found: Cell,
+    /// In the variable's unit, infinite where a cell is no number.
+    pub absolute: f64,
+    /// As a fraction of the largest magnitude that the first table has of the vector or scalar.
+    pub fraction: f64,
+}
+
+/// The largest difference of every column that is not the same, in the order of the columns.
+pub fn differences(columns: &[Compared]) -> Vec<Difference> {
+    let largest_of = |vector: &(&str, &str)| {
+        let columns = columns.iter().filter(|column| vector_of(&column.name) == *vector);
+        columns.flat_map(|column| &column.expected).map(Cell::magnitude).fold(0.0, f64::max)
     };
-    let (row, largest) = deviation.into_iter().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (largest > 0.0).then_some((row, largest))
+    let worst_of = |column: &Compared| {
+        let pairs = column.expected.iter().zip(&column.found);
+        let absolutes = pairs.map(|(expected, found)| expected.difference(found)).enumerate();
+        let (row, absolute) =
+            absolutes.rev().max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, it)| *it > 0.0)?;
+        Some(Difference {
+            name: column.name.clone(),
+            row,
+            expected: column.expected[row].clone(),
+            found: column.found[row].clone(),
+            absolute,
+            fraction: absolute / largest_of(&vector_of(&column.name)),
+        })
+    };
+    columns.iter().filter_map(worst_of).collect()
 }
 
-fn is_same(column: &Column, cell: &str, line: usize) -> bool {
-    match column {
-        Column::Real(_) => false,
-        Column::Integer(values) => cell.parse() == Ok(values[line]),
-        // Others write the words.
-        Column::Boolean(values) => {
-            matches!((cell, values[line]), ("1" | "true", true) | ("0" | "false", false))
-        }
-        Column::Text(values) => values[line] == cell,
-    }
-}
+/// What a campaign keeps of a variable, behind its name.
+const KEPT: [&str; 12] = [
+    ".final",
+    ".min",
+    ".max",
+    ".largest",
+    ".timeOfLargest",
+    ".p1",
+    ".p5",
+    ".p25",
+    ".p50",
+    ".p75",
+    ".p95",
+    ".p99",
+];
 
-fn shown(value: &Value) -> String {
-    match value {
-        Value::Boolean(truth) => u8::from(*truth).to_string(),
-        other => other.to_string(),
-    }
+/// The vector that a variable is a component of, or the variable; and what is kept of it.
+fn vector_of(name: &str) -> (&str, &str) {
+    let kept = KEPT.into_iter().find(|kept| name.ends_with(kept)).unwrap_or_default();
+    let name = name.strip_suffix(kept).unwrap_or(name);
+    (name.strip_suffix(']').and_then(|name| name.rsplit_once('[')).map_or(name, |(vector, _)| vector), kept)
 }
 
 #[cfg(test)]
-mod tests {
-    //! Deviations against what was written by hand.
-
-    use super::*;
-
-    fn recording() -> Recording {
-        Recording {
-            times_s: vec![0.0, 1.0, 2.0],
-            names: ["x", "zero", "n", "b", "s"].map(str::to_owned).to_vec(),
-            units: vec![String::new(); 5],
-            columns: vec![
-                Column::Real(vec![1.0, 2.0, 4.0]),
-                Column::Real(vec![0.0, 0.0, 0.0]),
-                Column::Integer(vec![1, 2, 3]),
-                Column::Boolean(vec![true, false, true]),
-                Column::Text(vec!["a".to_owned(), "b".to_owned(), "c".to_owned()]),
-            ],
-        }
-    }
-
-    fn found(cells: [[&str; 6]; 3]) -> Vec<(String, f64)> {
-        let header = ["time", "x", "zero", "n", "b", "s"].map(str::to_owned);
-        let rows: Vec<Vec<String>> = cells.iter().map(|row| row.map(str::to_owned).to_vec()).collect();
-        let found = deviations(&header, &rows, &recording(), &[0, 1, 2]);
-        found.into_iter().map(|it| (it.name, it.deviation)).collect()
-    }
-
-    #[test]
-    fn what_is_the_same_deviates_by_nothing() {
-        let same = [
-            ["0", "1", "0", "1", "1", "a"],
-            ["1", "2", "-0", "2", "false", "b"],
-            ["2", "4.0", "0", "3", "true", "c"],
-        ];
-        assert_eq!(found(same), []);
-    }
-
-    #[test]
-    fn each_kind_of_column_is_judged() {
-        let other = [
-            ["0", "1.5", "0", "1", "1", "a"],
-            ["1", "2", "1e-300", "7", "1", "b"],
-            ["2", "5", "0", "3", "1", "x"],
-        ];
-        let expected =
-            [("x", 0.2), ("zero", 1.0), ("n", f64::INFINITY), ("b", f64::INFINITY), ("s", f64::INFINITY)];
-        assert_eq!(found(other), expected.map(|(name, deviation)| (name.to_owned(), deviation)));
-    }
-
-    #[test]
-    fn what_is_no_number_is_as_far_off_as_can_be() {
-        let torn =
-            [["0", "1", "0", "1", "1", "a"], ["1", "", "0", "2", "0", "b"], ["2", "4", "0", "3", "1", "c"]];
-        assert_eq!(found(torn), [("x".to_owned(), f64::INFINITY)]);
-    }
-}
+mod tests;

@@ -8,6 +8,7 @@ mod manifest;
 mod record;
 mod replay;
 
+pub use compare::{Cell, Compared, Difference, differences};
 pub use manifest::{Flight, Manifest, Related};
 pub use record::{RecordError, record};
 pub use replay::{Replay, replays};

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use loader::{Fmu, InputTable, Options};
+use loader::{Column, Fmu, InputTable, Options, Recording};
 
 use crate::{
     FOLDER, MANIFEST,
-    compare::{Deviation, deviations},
+    compare::{Cell, Compared, Difference, differences},
     manifest::{Manifest, Related},
 };
 
@@ -22,8 +22,8 @@ pub struct Replay {
     pub rows: usize,
     /// Columns that were compared.
     pub columns: usize,
-    /// What deviates, the worst first.
-    pub deviations: Vec<Deviation>,
+    /// What deviates, the worst first, each with its time in s.
+    pub deviations: Vec<(f64, Difference)>,
     /// Greatest deviation allowed, as a fraction of the largest magnitude of a vector or scalar.
     pub tolerance: f64,
     /// Whether the FMU states this tolerance.
@@ -34,8 +34,8 @@ pub struct Replay {
 
 impl Replay {
     /// The columns that deviate too much.
-    pub fn failures(&self) -> impl Iterator<Item = &Deviation> {
-        self.deviations.iter().filter(|it| it.deviation > self.tolerance)
+    pub fn failures(&self) -> impl Iterator<Item = &(f64, Difference)> {
+        self.deviations.iter().filter(|(_, it)| it.fraction > self.tolerance)
     }
 }
 
@@ -144,8 +144,10 @@ fn simulated(fmu: &Fmu, flight: &Related) -> Result<Replay, String> {
     if rows.is_empty() {
         return Err("none of its times is a communication point".to_owned());
     }
-    let mut deviations = deviations(&header, &rows, &recording, &lines);
-    deviations.sort_by(|a, b| b.deviation.total_cmp(&a.deviation));
+    let dated = |it: Difference| (recording.times_s.get(lines[it.row]).copied().unwrap_or(f64::NAN), it);
+    let mut deviations: Vec<_> =
+        differences(&compared(&header, &rows, &recording, &lines)).into_iter().map(dated).collect();
+    deviations.sort_by(|a, b| b.1.fraction.total_cmp(&a.1.fraction));
     Ok(Replay {
         source: flight.source.clone(),
         rows: rows.len(),
@@ -155,4 +157,102 @@ fn simulated(fmu: &Fmu, flight: &Related) -> Result<Replay, String> {
         is_stated: stated.is_some(),
         foreign,
     })
+}
+
+/// The columns of a table beside those of a recording; `rows` of the table belong to `lines` of the recording.
+fn compared(
+    header: &[String],
+    rows: &[Vec<String>],
+    recording: &Recording,
+    lines: &[usize],
+) -> Vec<Compared> {
+    let of = |(index, name): (usize, &String)| {
+        let column = recording.column(name)?;
+        let texts = rows.iter().map(|row| row.get(index).map_or("", String::as_str));
+        Some(Compared {
+            name: name.clone(),
+            expected: texts.map(|text| expected(column, text)).collect(),
+            found: lines.iter().map(|line| found(column, *line)).collect(),
+        })
+    };
+    header.iter().enumerate().skip(1).filter_map(of).collect()
+}
+
+/// A cell of a table as the variable's type has it: an Integer is right or wrong.
+fn expected(column: &Column, text: &str) -> Cell {
+    let exact = |text: &str| Cell::Exact(text.to_owned());
+    match (column, text) {
+        (Column::Real(_), _) => text.parse().map_or_else(|_| exact(text), Cell::Real),
+        (Column::Integer(_), _) => {
+            Cell::Exact(text.parse::<i32>().map_or_else(|_| text.to_owned(), |number| number.to_string()))
+        }
+        // Others write the words.
+        (Column::Boolean(_), "true") => exact("1"),
+        (Column::Boolean(_), "false") => exact("0"),
+        (Column::Boolean(_) | Column::Text(_), _) => exact(text),
+    }
+}
+
+fn found(column: &Column, line: usize) -> Cell {
+    match column {
+        Column::Real(values) => Cell::Real(values[line]),
+        Column::Integer(values) => Cell::Exact(values[line].to_string()),
+        Column::Boolean(values) => Cell::Exact(u8::from(values[line]).to_string()),
+        Column::Text(values) => Cell::Exact(values[line].clone()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Tables against a recording with a column of each type.
+
+    use super::*;
+
+    fn deviations(cells: [[&str; 6]; 3]) -> Vec<(String, f64)> {
+        let recording = Recording {
+            times_s: vec![0.0, 1.0, 2.0],
+            names: ["x", "zero", "n", "b", "s"].map(str::to_owned).to_vec(),
+            units: vec![String::new(); 5],
+            columns: vec![
+                Column::Real(vec![1.0, 2.0, 4.0]),
+                Column::Real(vec![0.0, 0.0, 0.0]),
+                Column::Integer(vec![1, 2, 3]),
+                Column::Boolean(vec![true, false, true]),
+                Column::Text(vec!["a".to_owned(), "b".to_owned(), "c".to_owned()]),
+            ],
+        };
+        let header = ["time", "x", "zero", "n", "b", "s"].map(str::to_owned);
+        let rows: Vec<Vec<String>> = cells.iter().map(|row| row.map(str::to_owned).to_vec()).collect();
+        let found = differences(&compared(&header, &rows, &recording, &[0, 1, 2]));
+        found.into_iter().map(|it| (it.name, it.fraction)).collect()
+    }
+
+    #[test]
+    fn what_is_the_same_deviates_by_nothing() {
+        let same = [
+            ["0", "1", "0", "1", "1", "a"],
+            ["1", "2", "-0", "2", "false", "b"],
+            ["2", "4.0", "0", "3", "true", "c"],
+        ];
+        assert_eq!(deviations(same), []);
+    }
+
+    #[test]
+    fn each_kind_of_column_is_judged() {
+        let other = [
+            ["0", "1.5", "0", "1", "1", "a"],
+            ["1", "2", "1e-300", "7", "1", "b"],
+            ["2", "5", "0", "3", "1", "x"],
+        ];
+        let expected =
+            [("x", 0.2), ("zero", 1.0), ("n", f64::INFINITY), ("b", f64::INFINITY), ("s", f64::INFINITY)];
+        assert_eq!(deviations(other), expected.map(|(name, deviation)| (name.to_owned(), deviation)));
+    }
+
+    #[test]
+    fn what_is_no_number_is_as_far_off_as_can_be() {
+        let torn =
+            [["0", "1", "0", "1", "1", "a"], ["1", "", "0", "2", "0", "b"], ["2", "4", "0", "3", "1", "c"]];
+        assert_eq!(deviations(torn), [("x".to_owned(), f64::INFINITY)]);
+    }
 }

@@ -12,6 +12,7 @@ mod standing;
 mod summary;
 mod svg;
 mod svg_path;
+mod time_axis;
 
 use std::{
     error::Error,
@@ -32,8 +33,9 @@ pub(crate) use file::OutputFile;
 pub(crate) use known::Known;
 pub(crate) use limits::{Limit, LimitChecks};
 pub(crate) use origin::Origin;
-pub(crate) use svg::is_lit_fraction;
+pub(crate) use svg::{chart, is_lit_fraction, panel, shade_eclipses};
 pub(crate) use svg_path::{check_path as check_svg_path, is_svg_path};
+pub(crate) use time_axis::TimeAxis;
 
 /// A picture of a run.
 #[derive(Clone, Debug)]

@@ -108,6 +108,14 @@ impl Origin<'_> {
         if let Some(unit) = loader::unit(self.described, variable) {
             column.insert("unit", unit.into());
         }
+        if let Some((name, factor, offset)) = loader::display_unit(self.described, variable) {
+            let mut display = InlineTable::from_iter([("unit", toml_edit::Value::from(name))]);
+            display.insert("factor", factor.into());
+            if offset != 0.0 {
+                display.insert("offset", offset.into());
+            }
+            column.insert("display", display.into());
+        }
         let items = value::items(self.described, variable);
         if !items.is_empty() {
             let items: InlineTable =
@@ -128,11 +136,11 @@ mod tests {
     const PLANT: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="Plant" guid="{plant}" version="2">
   <CoSimulation modelIdentifier="Plant"/>
-  <UnitDefinitions><Unit name="N.m.s"/><Unit name="s"/></UnitDefinitions>
+  <UnitDefinitions><Unit name="N.m.s"><DisplayUnit name="mN.m.s" factor="1000"/></Unit><Unit name="s"/></UnitDefinitions>
   <TypeDefinitions><SimpleType name="Mode"><Enumeration><Item name="nadir" value="1"/><Item name="safe" value="4"/></Enumeration></SimpleType></TypeDefinitions>
   <ModelVariables>
     <ScalarVariable name="start.epoch" valueReference="0" causality="parameter" variability="fixed"><Real unit="s" start="0"/></ScalarVariable>
-    <ScalarVariable name="momentum[2]" valueReference="1" causality="output" description="System &quot;momentum&quot;."><Real unit="N.m.s"/></ScalarVariable>
+    <ScalarVariable name="momentum[2]" valueReference="1" causality="output" description="System &quot;momentum&quot;."><Real unit="N.m.s" displayUnit="mN.m.s"/></ScalarVariable>
     <ScalarVariable name="mode" valueReference="2" causality="output" variability="discrete"><Enumeration declaredType="Mode"/></ScalarVariable>
     <ScalarVariable name="mode.start" valueReference="3" causality="parameter" variability="fixed"><Enumeration declaredType="Mode" start="1"/></ScalarVariable>
   </ModelVariables>
@@ -165,6 +173,8 @@ mod tests {
         assert_eq!(read["columns"]["time"]["unit"].as_str(), Some("s"));
         let column = &read["columns"]["momentum[2]"];
         assert_eq!(column["unit"].as_str(), Some("N.m.s"));
+        let display = &column["display"];
+        assert_eq!((display["unit"].as_str(), display["factor"].as_float()), (Some("mN.m.s"), Some(1000.0)));
         assert_eq!(column["description"].as_str(), Some("System \"momentum\"."));
         assert_eq!(read["columns"]["mode"]["items"]["safe"].as_integer(), Some(4));
     }

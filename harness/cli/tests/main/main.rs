@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests")]
 
 mod checks;
+mod compares;
 mod drawings;
 mod encounters;
 mod ephemerides;
@@ -20,6 +21,7 @@ mod momentum_plans;
 mod new_files;
 mod packs;
 mod plans;
+mod plots;
 mod refits;
 mod runs;
 mod sizes;

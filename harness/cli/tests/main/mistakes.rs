@@ -23,6 +23,10 @@ struct Mistake {
 const TELEMETRY: &str = "time,momentum.inertial[1],momentum.inertial[2],momentum.inertial[3]\n0,0,0,0\n86400,0.1,0,0\n\
                          172800,0.2,0,0.1\n259200,0.3,0.1,0.1\n";
 
+/// A table that is drawn, or compared with the same one beside it.
+const TABLE: &str =
+    "time,momentum.body[1],momentum.body[2],mode\n0,1,0,nadir\n60,2,0.5,nadir\n120,4,1,safe\n";
+
 fn parse(block: &str) -> Mistake {
     let mut mistake = Mistake::default();
     for line in block.lines() {
@@ -58,6 +62,10 @@ impl Mistake {
         }
         if self.kind == "campaign" {
             run(&["new", "mission", shown(&folder.join("mission.toml")), "--force"], 0);
+        }
+        if self.kind == "table" {
+            fs::write(folder.join("other.csv"), TABLE).unwrap();
+            return ("table.csv".to_owned(), TABLE.to_owned());
         }
         if self.command.is_none() && self.kind != "plan" {
             return (toml, run(&["new", &self.kind, "-"], 0));
@@ -149,7 +157,9 @@ fn every_typical_mistake_is_reported_with_file_place_finding_and_remedy() {
         let (name, base) = mistake.base(scratch.path());
         mistake.write(&base, &scratch.path().join(&name));
         let command = mistake.command.unwrap_or_else(|| format!("check {name}"));
-        let command = [words(&command), vec!["--template", "template.fmu"]].concat();
+        let no_template = ["compare", "plot"].iter().any(|it| command.starts_with(it));
+        let template = if no_template { Vec::new() } else { vec!["--template", "template.fmu"] };
+        let command = [words(&command), template].concat();
         let output = heliotorque(&command).current_dir(scratch.path()).output().unwrap();
         let said = text(&output);
         let is_refused = output.status.code() == Some(1);

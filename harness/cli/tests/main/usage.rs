@@ -14,6 +14,8 @@ fn wrong_usage_is_two() {
         &["pack", "--library", "a.so", "--output", "x.fmu"],
         &["pack", "--model", "M", "--library", "a.so", "--template", "b.fmu", "--output", "x.fmu"],
         &["check"],
+        &["compare", "a.csv"],
+        &["plot"],
     ] {
         run(arguments, 2);
     }
@@ -126,7 +128,17 @@ fn shells_complete_commands_and_options() {
     {
         let script = run(&["completions", shell], 0);
         assert!(script.contains(begin), "{shell}: {script}");
-        for part in ["info", "draw", "perspective", "pack", "per-plate", "coefficients", "timeline"] {
+        for part in [
+            "info",
+            "draw",
+            "perspective",
+            "compare",
+            "tornado",
+            "pack",
+            "per-plate",
+            "coefficients",
+            "timeline",
+        ] {
             assert!(script.contains(part), "{shell}: {script} lacks {part}");
         }
         assert!(!script.contains("in-child"), "{shell}: a hidden command shows");
@@ -179,7 +191,20 @@ fn every_shell_takes_the_commands_of_readme_and_guide() {
 #[test]
 fn every_command_and_flag_has_help() {
     let all = run(&["--help"], 0);
-    for command in ["info", "check", "run", "wire", "draw", "map", "pack", "schema", "study", "completions"] {
+    for command in [
+        "info",
+        "check",
+        "run",
+        "wire",
+        "draw",
+        "map",
+        "pack",
+        "compare",
+        "plot",
+        "schema",
+        "study",
+        "completions",
+    ] {
         assert!(all.contains(command), "{command}");
         let help = run(&[command, "--help"], 0);
         let flags: Vec<&str> = help.lines().filter(|line| line.trim_start().starts_with('-')).collect();

@@ -35,7 +35,7 @@ pub(crate) fn flights(fmu: &Fmu) -> Findings {
             continue;
         }
         let worst = match replay.deviations.first() {
-            Some(worst) => format!("the largest deviation {:.1e}", worst.deviation),
+            Some((_, worst)) => format!("the largest deviation {:.1e}", worst.fraction),
             None => "no deviation".to_owned(),
         };
         let stated = if *is_stated { "" } else { ", no tolerance is stated" };
@@ -45,10 +45,10 @@ pub(crate) fn flights(fmu: &Fmu) -> Findings {
                 "{source}: {rows} rows of {columns} columns, {worst}, allowed: {tolerance:e}{stated}"
             )));
         }
-        for failure in failures.iter().take(SHOWN) {
+        for (time_s, failure) in failures.iter().take(SHOWN) {
             findings.push(Finding::bad(format!(
-                "{source}: {} at {} s: found {}, allowed: {} within {tolerance:e} of the largest magnitude{stated}",
-                failure.name, failure.time_s, failure.found, failure.expected
+                "{source}: {} at {time_s} s: found {}, allowed: {} within {tolerance:e} of the largest magnitude{stated}",
+                failure.name, failure.found, failure.expected
             )));
         }
         if let Some(more) = failures.len().checked_sub(SHOWN).filter(|more| *more > 0) {

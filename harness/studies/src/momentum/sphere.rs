@@ -75,6 +75,7 @@ pub(super) fn picture(title: &str, unit: &str, found: &[Lit], size: impl Fn(&Lit
         y_label: "Sun toward Z [deg]".to_owned(),
         panels: vec![panel("Sun on the side of -Y", -1.0), panel("Sun on the side of +Y", 1.0)],
         shading: Some(Shading {
+            least: 0.0,
             greatest: found.iter().map(|lit| size(lit).norm()).fold(0.0, f64::max),
             unit: unit.to_owned(),
         }),

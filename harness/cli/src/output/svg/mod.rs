@@ -11,10 +11,10 @@ use loader::{Column, Recording};
 use model_description::{Causality, Description};
 
 use super::{
-    date_axis::DateAxis,
     exporter::Exporter,
     known::Known,
     shown::{ANGLE_UNIT, ROUNDING, Shown, find},
+    time_axis::TimeAxis,
 };
 use crate::variables::vector;
 
@@ -23,10 +23,6 @@ const PANELS: usize = 10;
 
 /// Eclipses shaded at most; more would be stripes.
 const ECLIPSES: usize = 60;
-
-/// Time units for the horizontal axis: from how long a run on, name, seconds.
-const TIME_UNITS: [(f64, &str, f64); 4] =
-    [(3.0 * 86_400.0, "d", 86_400.0), (3.0 * 3600.0, "h", 3600.0), (600.0, "min", 60.0), (0.0, "s", 1.0)];
 
 /// What is drawn together: the elements of a vector, or the same quantity of everything that is counted.
 fn group(name: &str) -> String {
@@ -53,19 +49,25 @@ pub(super) struct Svg {
 impl Svg {
     fn draw(&self, described: &Description, recording: &Recording) -> Result<String, Box<dyn Error>> {
         let only = self.names.as_ref().map(|names| recording.only(names));
-        let (mut chart, seconds) = chart(described, only.as_ref().unwrap_or(recording), &self.known);
-        let mut eclipses = eclipses(recording, seconds);
-        if eclipses.len() > ECLIPSES {
-            terminal::note(&format!("{} eclipses, so not shaded", eclipses.len()));
-            eclipses.clear();
-        }
-        for panel in &mut chart.panels {
-            panel.shades.clone_from(&eclipses);
-        }
-        if let Some(first) = chart.panels.first_mut().filter(|_| !eclipses.is_empty()) {
-            first.shade_label = "eclipse".to_owned();
-        }
+        let recorded = only.as_ref().unwrap_or(recording);
+        let (mut chart, seconds) = chart(described, recorded, &self.known, "--record");
+        shade_eclipses(&mut chart, recording, seconds);
         Ok(drawing::svg(&[&chart])?)
+    }
+}
+
+/// Shades when the Sun was not whole, where the recording says so, in all panels of a chart in units of so many seconds.
+pub(crate) fn shade_eclipses(chart: &mut Chart, recording: &Recording, seconds: f64) {
+    let mut eclipses = eclipses(recording, seconds);
+    if eclipses.len() > ECLIPSES {
+        terminal::note(&format!("{} eclipses, so not shaded", eclipses.len()));
+        eclipses.clear();
+    }
+    for panel in &mut chart.panels {
+        panel.shades.clone_from(&eclipses);
+    }
+    if let Some(first) = chart.panels.first_mut().filter(|_| !eclipses.is_empty()) {
+        first.shade_label = "eclipse".to_owned();
     }
 }
 
@@ -90,12 +92,61 @@ impl Exporter for Svg {
     }
 }
 
-/// The chart of a recording, and how many seconds a unit of its horizontal axis has.
-fn chart(described: &Description, recording: &Recording, known: &Known) -> (Chart, f64) {
+/// The chart of a recording, and how many seconds a unit of its horizontal axis has; `option` is what chooses its variables.
+pub(crate) fn chart(
+    described: &Description,
+    recording: &Recording,
+    known: &Known,
+    option: &str,
+) -> (Chart, f64) {
     let ends_s = recording.times_s.first().zip(recording.times_s.last());
-    let span_s = ends_s.map_or(0.0, |(first_s, last_s)| last_s - first_s);
-    let (_, time_unit, seconds) =
-        TIME_UNITS.into_iter().find(|(from_s, _, _)| span_s >= *from_s).unwrap_or((0.0, "s", 1.0));
+    let axis = TimeAxis::over(
+        ends_s.map_or([0.0; 2], |(first_s, last_s)| [*first_s, *last_s]),
+        known.zero_epoch_s(),
+    );
+    let mut groups = groups(described, recording, known, axis.seconds);
+    let constant = leave_out_constants(&mut groups);
+    if !constant.is_empty() {
+        terminal::note(&format!("constant, so not drawn: {}", constant.join(", ")));
+    }
+    if let Some(beyond) = groups.get(PANELS..) {
+        let left_out: usize = beyond.iter().map(|group| group.panel.series.len()).sum();
+        if left_out > 0 {
+            let limit = format!("the picture shows the first {PANELS} panels");
+            terminal::note(&format!("{limit} and leaves out {left_out} variables: see {option}"));
+        }
+        groups.truncate(PANELS);
+    }
+    let vectors = groups.iter().filter(|group| group.is_vector()).count();
+    let panels = groups.into_iter().map(|group| group.labelled(vectors > 1, known)).collect();
+    let legend =
+        if vectors > 1 { AXES[..3].iter().map(|axis| (*axis).to_owned()).collect() } else { Vec::new() };
+    let TimeAxis { seconds, label, names } = axis;
+    let title = described.model_name.clone();
+    (Chart { title, x_label: label, panels, legend, x_names: names }, seconds)
+}
+
+/// The panel of one variable with its line, over an axis in units of so many seconds.
+pub(crate) fn panel(
+    described: &Description,
+    recording: &Recording,
+    variable: &str,
+    seconds: f64,
+) -> Option<Panel> {
+    // With those that it is large or small against.
+    let together: Vec<String> =
+        recording.names.iter().filter(|name| group(name) == group(variable)).cloned().collect();
+    let groups = groups(described, &recording.only(&together), &Known::default(), seconds);
+    groups.into_iter().find_map(|Group { name, mut panel, .. }| {
+        panel.series.retain(|series| series.label == variable);
+        let unit = panel.y_label.strip_prefix(name.as_str()).unwrap_or_default();
+        let y_label = format!("{variable}{unit}");
+        (!panel.series.is_empty()).then_some(Panel { y_label, ..panel })
+    })
+}
+
+/// What is drawn together, in the order of the recording.
+fn groups(described: &Description, recording: &Recording, known: &Known, seconds: f64) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for (name, column) in drawn(described, recording) {
         let vector = group(name);
@@ -125,29 +176,7 @@ fn chart(described: &Description, recording: &Recording, known: &Known) -> (Char
     }
     groups.iter_mut().for_each(Group::still);
     groups.iter_mut().for_each(|group| group.panel.names.sort_by(|a, b| a.0.total_cmp(&b.0)));
-    let constant = leave_out_constants(&mut groups);
-    if !constant.is_empty() {
-        terminal::note(&format!("constant, so not drawn: {}", constant.join(", ")));
-    }
-    if let Some(beyond) = groups.get(PANELS..) {
-        let left_out: usize = beyond.iter().map(|group| group.panel.series.len()).sum();
-        if left_out > 0 {
-            let limit = format!("the picture shows the first {PANELS} panels");
-            terminal::note(&format!("{limit} and leaves out {left_out} variables: see --record"));
-        }
-        groups.truncate(PANELS);
-    }
-    let vectors = groups.iter().filter(|group| group.is_vector()).count();
-    let panels = groups.into_iter().map(|group| group.labelled(vectors > 1, known)).collect();
-    let legend =
-        if vectors > 1 { AXES[..3].iter().map(|axis| (*axis).to_owned()).collect() } else { Vec::new() };
-    let title = described.model_name.clone();
-    let dates = known.zero_epoch_s().zip(ends_s).and_then(|(zero_s, (first_s, last_s))| {
-        let DateAxis { ticks, label } = DateAxis::over(zero_s + first_s, zero_s + last_s)?;
-        Some((ticks.into_iter().map(|(at_s, text)| ((at_s - zero_s) / seconds, text)).collect(), label))
-    });
-    let (x_names, x_label) = dates.unwrap_or_else(|| (Vec::new(), format!("time [{time_unit}]")));
-    (Chart { title, x_label, panels, legend, x_names }, seconds)
+    groups
 }
 
 /// Components of vectors and, with the scalar last, of quaternions.

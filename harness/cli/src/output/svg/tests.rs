@@ -24,7 +24,7 @@ fn drawn_chart(columns: &[(&str, Column)], known: &Known) -> Chart {
         units: vec![String::new(); columns.len()],
         columns: columns.iter().map(|(_, column)| column.clone()).collect(),
     };
-    chart(&description, &recording, known).0
+    chart(&description, &recording, known, "--record").0
 }
 
 /// The labels of each panel of a recording of two points.

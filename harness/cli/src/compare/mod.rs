@@ -1,0 +1,48 @@
+//! `heliotorque compare`: how far two tables are from each other, variable by variable.
+
+mod options;
+mod pairing;
+mod picture;
+mod report;
+
+use std::process::ExitCode;
+
+use files::Destination;
+
+use crate::{
+    outcome::Outcome,
+    output::check_svg_path,
+    table::{Sidecar, Table},
+};
+pub(crate) use options::Compare;
+use pairing::Pairing;
+
+/// Compares.
+pub(crate) fn run(arguments: &Compare) -> Outcome {
+    let inputs = [arguments.first.as_path(), arguments.second.as_path()];
+    let plot = arguments.plot.as_deref().map(|path| {
+        check_svg_path(path, "--plot")?;
+        Destination::open(path, "--plot", &inputs)
+    });
+    let plot = plot.transpose()?;
+    let [first, second] = inputs.map(Table::read);
+    let (first, second) = (first?, second?);
+    let sidecar = Sidecar::beside(&first.path)?;
+    let pairing = Pairing::of(&first, &second)?;
+    let mut found = reference::differences(&pairing.columns);
+    found.sort_by(|a, b| b.fraction.total_cmp(&a.fraction));
+    let tables = [&first, &second];
+    let text = report::text(tables, &pairing, &found, (&sidecar, arguments.tolerance));
+    let takes_stdout = plot.as_ref().is_some_and(Destination::is_stdout);
+    if let Some(destination) = plot {
+        let svg = picture::svg(tables, &pairing, &found, &sidecar)?;
+        destination.fill(|file| file.write_all(svg.as_bytes()))?;
+    }
+    if takes_stdout {
+        terminal::note(&text);
+    } else {
+        terminal::print(&text)?;
+    }
+    let is_beyond = found.iter().any(|it| it.fraction > arguments.tolerance);
+    Ok(if is_beyond { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+}

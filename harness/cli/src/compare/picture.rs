@@ -1,0 +1,75 @@
+//! The picture of a comparison: the second table less the first, a panel for each vector that differs.
+
+use drawing::{COLOURS, Chart, DrawingError, Panel, Series};
+use reference::{Cell, Difference};
+
+use super::pairing::Pairing;
+use crate::{
+    output::TimeAxis,
+    table::{Sidecar, TIME, Table},
+    variables::vector,
+};
+
+/// Panels drawn at most; more would not be readable.
+const PANELS: usize = 10;
+
+/// As SVG text; `found` is what differs, `sidecar` that of the first table.
+///
+/// # Errors
+/// Nothing to draw.
+pub(super) fn svg(
+    tables: [&Table; 2],
+    pairing: &Pairing,
+    found: &[Difference],
+    sidecar: &Sidecar,
+) -> Result<String, DrawingError> {
+    let [first, second] = tables;
+    let keys: Vec<f64> = pairing.rows.iter().map(|(row, _)| first.keys[*row]).collect();
+    let is_time = first.key == TIME;
+    let axis = match (is_time, &keys[..]) {
+        (true, [from_s, .., to_s]) => TimeAxis::over([*from_s, *to_s], sidecar.zero_epoch_s),
+        (true, _) => TimeAxis::over([0.0; 2], None),
+        _ => TimeAxis { seconds: 1.0, label: sidecar.labelled(&first.key), names: Vec::new() },
+    };
+    let differs = |name: &str| found.is_empty() || found.iter().any(|it| it.name == name);
+    let mut panels: Vec<(String, Panel)> = Vec::new();
+    for column in pairing.columns.iter().filter(|column| differs(&column.name)) {
+        let display = sidecar.columns.get(&column.name).and_then(|it| it.display.as_ref());
+        let (unit, factor) = match display {
+            Some((unit, factor, _)) => (Some(unit.as_str()), *factor),
+            None => (sidecar.unit(&column.name), 1.0),
+        };
+        let pairs = column.expected.iter().zip(&column.found);
+        let points = keys.iter().zip(pairs).map(|(key, pair)| {
+            let difference = match pair {
+                (Cell::Real(expected), Cell::Real(found)) => factor * (found - expected),
+                _ => f64::NAN,
+            };
+            (key / axis.seconds, difference)
+        });
+        let points: Vec<(f64, f64)> = points.collect();
+        if points.iter().all(|(_, difference)| !difference.is_finite()) {
+            continue;
+        }
+        let name = vector(&column.name).unwrap_or(&column.name).to_owned();
+        let y_label = unit.map_or_else(|| name.clone(), |unit| format!("{name} [{unit}]"));
+        let series = match is_time {
+            true => Series::line(column.name.clone(), points),
+            false => Series::dots(column.name.clone(), points),
+        };
+        match panels.iter_mut().find(|(known, panel)| *known == name && panel.series.len() < COLOURS.len()) {
+            Some((_, panel)) => panel.series.push(series),
+            None => panels.push((name, Panel::new(y_label).with([series]))),
+        }
+    }
+    if let Some(beyond) = panels.len().checked_sub(PANELS).filter(|beyond| *beyond > 0) {
+        terminal::note(&format!("the picture shows the first {PANELS} panels and leaves out {beyond}"));
+        panels.truncate(PANELS);
+    }
+    let [one, other] = [first, second].map(|table| table.path.display());
+    let chart = Chart {
+        x_names: axis.names,
+        ..Chart::new(format!("{other} less {one}"), axis.label).with(panels.into_iter().map(|(_, it)| it))
+    };
+    drawing::svg(&[&chart])
+}
