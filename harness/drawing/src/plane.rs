@@ -64,7 +64,7 @@ pub fn ellipse(middle: (f64, f64), [first, second]: [f64; 2], angle_rad: f64) ->
 }
 
 /// Points of an ellipse.
-const POINTS: u32 = 90;
+const POINTS: u32 = 360;
 /// Greatest side of a panel.
 const GREATEST_SIDE: f64 = 600.0;
 const PANEL_TITLE_HEIGHT: f64 = 26.0;

@@ -124,6 +124,7 @@ pub(crate) fn figure3(run: &mut Run<'_>) -> Outcome {
     let cost_m_s = found.miss_m.map(|miss_m| found.target.cost.cost_m_s(miss_m));
     let altitude_km = found.altitude_offset_m.map(|offset_m| offset_m / 1e3);
     let near = |ours: f64, paper: f64, off: f64| verdict((ours - paper).abs() <= off);
+    let saved_m_s = cost_m_s[0] - cost_m_s[1];
     let (step_s, turned_rad) = found.step;
     let [from_deg, to_deg] = turned_rad.map(f64::to_degrees);
     let moved = format!("{:.1}, {toward_km:.1} of it", moved_km[0].hypot(moved_km[1]));
@@ -133,6 +134,7 @@ pub(crate) fn figure3(run: &mut Run<'_>) -> Outcome {
         compared("miss behind [km] | 11, taken", format!("{:.1}", size_km(behind_m)), near(size_km(behind_m), 11.0, 0.5)),
         compared("cost before [m/s] | 4.5", format!("{:.1}", cost_m_s[0]), near(cost_m_s[0], 4.5, 0.5)),
         compared("cost behind [m/s] | 1.5", format!("{:.1}", cost_m_s[1]), near(cost_m_s[1], 1.5, 0.5)),
+        compared("saved [m/s] | 3", format!("{saved_m_s:.1}"), near(saved_m_s, 3.0, 0.5)),
         compared("altitude offset before [km] | -", format!("{:+.1}", altitude_km[0]), "-"),
         compared("altitude offset behind [km] | within 2", format!("{:+.1}", altitude_km[1]), verdict(altitude_km[1].abs() < 2.0)),
     ];

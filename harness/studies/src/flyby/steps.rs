@@ -1,6 +1,8 @@
 //! Paper 003's steps to the second flyby: momentum planned, departure led to that plan, its error, and plans anew; Figures 6 to 9.
 
+use nalgebra::{Matrix2, Vector2};
 use planner::flyby::Aim;
+use planner::momentum::simulated::FlightRow;
 use planner::momentum::windows::{Reach, Window};
 
 use super::leg::{Failure, Leg, Met, Room, STEP_S, planned, windows_from};
@@ -14,7 +16,7 @@ const DAY_S: f64 = 86_400.0;
 const DEG: f64 = core::f64::consts::PI / 180.0;
 /// Miss behind the departure, along T and R, in m; its direction is assumed.
 const DEPARTURE_MISS_M: [f64; 2] = [-170e3, 0.0];
-/// Of the plan of momentum alone: tilts leave room for what corrects later.
+/// Of the plan of momentum alone: tilts and momentum leave room for what corrects later.
 const MOMENTUM: Room = Room {
     window_s: 10.0 * DAY_S,
     reach: Reach {
@@ -24,20 +26,10 @@ const MOMENTUM: Room = Room {
         elevation_rad: 6.0 * DEG,
         alternate: 0.0,
     },
-    limit_n_m_s: 5.3,
+    limit_n_m_s: 4.5,
 };
-/// Of corrections: the keep-in zone of the paper, its threshold of dumps.
-const CORRECTED: Room = Room {
-    window_s: 10.0 * DAY_S,
-    reach: Reach {
-        offset_rad: 20.0 * DEG,
-        windmill_rad: 2.0 * DEG,
-        azimuth_rad: 10.0 * DEG,
-        elevation_rad: 12.0 * DEG,
-        alternate: 0.0,
-    },
-    limit_n_m_s: 5.5,
-};
+/// The paper's threshold of dumps, in N m s.
+const THRESHOLD_N_M_S: f64 = 5.5;
 
 /// A correction of the paper.
 struct Correction {
@@ -46,8 +38,26 @@ struct Correction {
     /// Before the flyby, in days.
     before_d: f64,
     window_s: f64,
-    /// By which orbit determination moves the intercept, along T and R, in m; assumed where the paper prints none, as is its direction.
-    drift_m: [f64; 2],
+    /// Offsets of the arrays off their baseline, in deg. The baseline of a short leg is another one.
+    offset_deg: f64,
+    /// The earlier ones leave something of the threshold.
+    limit_n_m_s: f64,
+    /// By which orbit determination moves the intercept, in m, to where less sunlight moves it; size assumed where the paper prints none.
+    drift_m: f64,
+}
+
+impl Correction {
+    /// With the keep-in zone of the paper.
+    fn room(&self) -> Room {
+        let reach = Reach {
+            offset_rad: self.offset_deg * DEG,
+            windmill_rad: 2.0 * DEG,
+            azimuth_rad: 10.0 * DEG,
+            elevation_rad: 12.0 * DEG,
+            alternate: 0.0,
+        };
+        Room { window_s: self.window_s, reach, limit_n_m_s: self.limit_n_m_s }
+    }
 }
 
 const CORRECTIONS: [Correction; 3] = [
@@ -56,21 +66,27 @@ const CORRECTIONS: [Correction; 3] = [
         date: "17 June 2008",
         before_d: 111.0,
         window_s: 10.0 * DAY_S,
-        drift_m: [0.0; 2],
+        offset_deg: 5.0,
+        limit_n_m_s: 5.0,
+        drift_m: 0.0,
     },
     Correction {
         figure: "figure8",
         date: "18 September 2008",
         before_d: 18.0,
         window_s: 3.0 * DAY_S,
-        drift_m: [5e3, 0.0],
+        offset_deg: 20.0,
+        limit_n_m_s: 5.3,
+        drift_m: 2e3,
     },
     Correction {
         figure: "figure9",
         date: "29 September 2008",
         before_d: 7.0,
         window_s: 2.0 * DAY_S,
-        drift_m: [-4e3, 0.0],
+        offset_deg: 20.0,
+        limit_n_m_s: 5.5,
+        drift_m: -4e3,
     },
 ];
 
@@ -132,8 +148,9 @@ impl<'a> Steps<'a> {
         for correction in &CORRECTIONS[..corrections] {
             let last = corrected.last().map_or(&departed, |[_, after]| after);
             let at_s = ((last.arrival_s() - correction.before_d * DAY_S) / STEP_S).round() * STEP_S;
-            let before = off(last, at_s, correction.drift_m)?;
-            let room = Room { window_s: correction.window_s, ..CORRECTED };
+            let moved_m = sunward(last, at_s) * correction.drift_m;
+            let before = off(last, at_s, moved_m.into())?;
+            let room = correction.room();
             let free = Aim { arrival_s: None, ..aim };
             let windows = before.leg.planned(&room, &before.windows, Some(&free))?.windows;
             let after = Step::of(before.leg.clone(), windows)?;
@@ -158,6 +175,14 @@ fn off<'a>(step: &Step<'a>, at_s: f64, moved_m: [f64; 2]) -> Result<Step<'a>, Fa
         false => step.leg.clone(),
     };
     Step::of(leg.changed(&error), windows_from(&step.windows, at_s))
+}
+
+/// Direction along T and R that less sunlight from a time on moves an intercept to.
+fn sunward(step: &Step<'_>, at_s: f64) -> Vector2<f64> {
+    let by_velocity = |at_s| step.met.sensitivity.by_velocity(at_s).fixed_rows::<2>(0).into_owned();
+    let moved = |row: &FlightRow| by_velocity(row.time_s) * row.to_sun_m / row.to_sun_m.norm().powi(3);
+    let rows = step.met.flight.rows.iter().filter(|row| row.time_s >= at_s);
+    rows.map(moved).sum::<Vector2<f64>>().normalize()
 }
 
 /// The steps of a study.
@@ -230,7 +255,7 @@ pub(crate) fn figure9(run: &mut Run<'_>) -> Outcome {
 struct Corrected {
     /// In m along T and R, before and behind it.
     miss_m: [[f64; 2]; 2],
-    covariance_m2: nalgebra::Matrix2<f64>,
+    covariance_m2: Matrix2<f64>,
     greatest_n_m_s: f64,
     /// Off the aim's altitude, as the FMU reports it, in m.
     altitude_offset_m: f64,
@@ -263,7 +288,7 @@ fn corrected(run: &mut Run<'_>, index: usize, costs_m_s: &[f64]) -> Outcome {
     let row = |(found, correction): (&Corrected, &Correction)| {
         let [before_km, after_km] = found.miss_m.map(size_km);
         let ([large_m, small_m], _) = planner::flyby::maneuvers::ellipse(&found.covariance_m2);
-        let holds = after_km < 1.0 && found.greatest_n_m_s < CORRECTED.limit_n_m_s;
+        let holds = after_km < 1.0 && found.greatest_n_m_s < THRESHOLD_N_M_S;
         vec![
             format!("{} d", correction.before_d),
             format!("{before_km:.2}"),
@@ -283,8 +308,8 @@ fn corrected(run: &mut Run<'_>, index: usize, costs_m_s: &[f64]) -> Outcome {
     );
     run.line(ASSUMED);
     run.line(
-        "Each plan goes on from the one above, with the state there as orbit determination finds it: 170 km off at 111 d; 5 km (assumed) \
-         along T at 18 d; 4 km, printed, along -T (assumed) at 7 d. Windows hold arrays and place of the Sun; the FMU gets them as inputs.",
+        "Each plan goes on from the one above, with the state there as orbit determination finds it: 170 km off at 111 d; 2 km \
+         (assumed) at 18 d, 4 km (printed) at 7 d, along where sunlight moves it (assumed). Windows hold arrays and place of the Sun; the FMU gets them as inputs.",
     );
     let Some(Corrected { miss_m: [before_m, after_m], covariance_m2, .. }) = all.into_iter().next_back() else {
         return Ok(());
