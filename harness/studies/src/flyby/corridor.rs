@@ -1,7 +1,11 @@
 //! Paper 003, Figure 4: the corridor of the arrays' offset by distance from the Sun, with the offsets of baseline and plan.
 
 use drawing::{Chart, Panel, Series};
-use planner::momentum::{baseline::allowed_rad, torque::Control, windows::{Reach, Window}};
+use planner::momentum::{
+    baseline::allowed_rad,
+    torque::Control,
+    windows::{Reach, Window},
+};
 
 use super::early::WHOLE_S;
 use super::steps::{Step, steps};
@@ -30,9 +34,7 @@ fn schedule(step: &Step<'_>, of: &dyn Fn(&Window) -> f64) -> Schedule {
 pub(crate) fn figure4(run: &mut Run<'_>) -> Outcome {
     let (corridor, schedules) = steps(run, 1, |steps| {
         let corridor = steps.led.leg.layout(WHOLE_S, Reach::default()).corridor;
-        let allowed = move |au: f64| {
-            allowed_rad(&corridor, au * AU_M).map(|rad| rad.map(f64::to_degrees))
-        };
+        let allowed = move |au: f64| allowed_rad(&corridor, au * AU_M).map(|rad| rad.map(f64::to_degrees));
         let offset = |window: &Window| window.controls.get(Control::Offset);
         let last = steps.corrected.last().map_or(&steps.departed, |[_, after]| after);
         let schedules = [
@@ -62,10 +64,8 @@ pub(crate) fn figure4(run: &mut Run<'_>) -> Outcome {
          ([articulation] of messenger.toml). Both schedules are of the leg to flyby 2; windmilling is beside them.",
     );
     let bound = |index: usize| bounds.iter().map(|(au, deg)| (*au, deg[index])).collect();
-    let mut series = vec![
-        Series::dashed("least, thermal", bound(0)),
-        Series::dashed("greatest, power", bound(1)),
-    ];
+    let mut series =
+        vec![Series::dashed("least, thermal", bound(0)), Series::dashed("greatest, power", bound(1))];
     series.extend(schedules.iter().map(|(label, schedule)| {
         let mut points = schedule.clone();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -74,9 +74,9 @@ pub(crate) fn figure4(run: &mut Run<'_>) -> Outcome {
     let chart = Chart::new("Offset of the arrays by distance", "distance from the Sun [AU]")
         .with([Panel::new("offset from the Sun [deg]").with(series)]);
     run.picture("figure4.svg", &chart)?;
-    let of_bounds = bounds.iter().flat_map(|(au, [least, most])| {
-        [row!["least", *au, *least], row!["greatest", *au, *most]]
-    });
+    let of_bounds = bounds
+        .iter()
+        .flat_map(|(au, [least, most])| [row!["least", *au, *least], row!["greatest", *au, *most]]);
     let of_schedules = schedules
         .iter()
         .flat_map(|(label, schedule)| schedule.iter().map(|(au, deg)| row![*label, *au, *deg]));

@@ -24,9 +24,7 @@ fn all(run: &Run<'_>) -> Result<Vec<(f64, DesiredDeltaV)>, Failure> {
     let arrival_s = sensitivity.encounter.time_s;
     let count = ((FIRST_D - LAST_D) / EVERY_D).round() as u32;
     let days = (0..=count).map(|k| FIRST_D - EVERY_D * f64::from(k));
-    Ok(days
-        .filter_map(|day| Some((day, sensitivity.desired(arrival_s - day * DAY_S, MISS_M)?)))
-        .collect())
+    Ok(days.filter_map(|day| Some((day, sensitivity.desired(arrival_s - day * DAY_S, MISS_M)?))).collect())
 }
 
 /// Figure 5.
@@ -41,10 +39,18 @@ pub(crate) fn figure5(run: &mut Run<'_>) -> Outcome {
         least.map_or((f64::NAN, f64::NAN), |(day, desired)| (*day, 1e3 * desired.size_m_s()));
     let near = |ours: f64, paper: f64| verdict((ours / paper - 1.0).abs() < 0.05);
     let rows = vec![
-        compared("118 d before [mm/s] | 9.2, the least", format!("{:.2}", mm_s(118.0)), near(mm_s(118.0), 9.2)),
+        compared(
+            "118 d before [mm/s] | 9.2, the least",
+            format!("{:.2}", mm_s(118.0)),
+            near(mm_s(118.0), 9.2),
+        ),
         compared("4 d before [mm/s] | 480", format!("{:.0}", mm_s(4.0)), near(mm_s(4.0), 480.0)),
         compared("the least [mm/s] | 9.2", format!("{least_mm_s:.2}"), near(least_mm_s, 9.2)),
-        compared("its time [d before] | 118", format!("{least_d:.1}"), verdict((least_d - 118.0).abs() < 5.0)),
+        compared(
+            "its time [d before] | 118",
+            format!("{least_d:.1}"),
+            verdict((least_d - 118.0).abs() < 5.0),
+        ),
     ];
     run.line("Velocity change that takes a miss of 170 km away, by its time (paper 003, Figure 5)\n");
     run.table("what | paper | ours | verdict", &rows);
@@ -58,10 +64,8 @@ pub(crate) fn figure5(run: &mut Run<'_>) -> Outcome {
         all.iter().map(|(before_d, it)| (day(*before_d), of(it))).collect()
     };
     let published = vec![(-118.0, 9.2e-3_f64.log10()), (-4.0, 0.48_f64.log10())];
-    let size = Panel::new("log10 of m/s").with([
-        Series::curve("ours", line(&|it| it.size_m_s().log10())),
-        Series::dots("paper", published),
-    ]);
+    let size = Panel::new("log10 of m/s")
+        .with([Series::curve("ours", line(&|it| it.size_m_s().log10())), Series::dots("paper", published)]);
     let angles = Panel::new("direction [deg]").with([
         Series::dots("right ascension", line(&|it| it.right_ascension_rad().to_degrees())),
         Series::dots("declination", line(&|it| it.declination_rad().to_degrees())),

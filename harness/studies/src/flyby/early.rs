@@ -56,9 +56,8 @@ fn before_m(target: &Target, moved_m: [f64; 2]) -> Option<[f64; 2]> {
     let along = moved_m.map(|part_m| part_m / size_m);
     let along_m = (BEHIND_M.powi(2) - BEFORE_M.powi(2) - size_m.powi(2)) / (2.0 * size_m);
     let aside_m = (BEFORE_M.powi(2) - along_m.powi(2)).sqrt();
-    let place = |aside_m: f64| {
-        [along_m * along[0] - aside_m * along[1], along_m * along[1] + aside_m * along[0]]
-    };
+    let place =
+        |aside_m: f64| [along_m * along[0] - aside_m * along[1], along_m * along[1] + aside_m * along[0]];
     let gained_m = |place_m: &[f64; 2]| {
         let behind_m = [place_m[0] + moved_m[0], place_m[1] + moved_m[1]];
         let [before_m, behind_m] = [*place_m, behind_m].map(|it| target.altitude_offset_m(it).abs());
@@ -129,14 +128,26 @@ pub(crate) fn figure3(run: &mut Run<'_>) -> Outcome {
     let [from_deg, to_deg] = turned_rad.map(f64::to_degrees);
     let moved = format!("{:.1}, {toward_km:.1} of it", moved_km[0].hypot(moved_km[1]));
     let rows = vec![
-        compared("miss before [km] | 10, taken", format!("{:.1}", size_km(before_m)), near(size_km(before_m), 10.0, 0.5)),
+        compared(
+            "miss before [km] | 10, taken",
+            format!("{:.1}", size_km(before_m)),
+            near(size_km(before_m), 10.0, 0.5),
+        ),
         compared("moved toward the Sun [km] | kilometres", moved, verdict(toward_km > 1.0)),
-        compared("miss behind [km] | 11, taken", format!("{:.1}", size_km(behind_m)), near(size_km(behind_m), 11.0, 0.5)),
+        compared(
+            "miss behind [km] | 11, taken",
+            format!("{:.1}", size_km(behind_m)),
+            near(size_km(behind_m), 11.0, 0.5),
+        ),
         compared("cost before [m/s] | 4.5", format!("{:.1}", cost_m_s[0]), near(cost_m_s[0], 4.5, 0.5)),
         compared("cost behind [m/s] | 1.5", format!("{:.1}", cost_m_s[1]), near(cost_m_s[1], 1.5, 0.5)),
         compared("saved [m/s] | 3", format!("{saved_m_s:.1}"), near(saved_m_s, 3.0, 0.5)),
         compared("altitude offset before [km] | -", format!("{:+.1}", altitude_km[0]), "-"),
-        compared("altitude offset behind [km] | within 2", format!("{:+.1}", altitude_km[1]), verdict(altitude_km[1].abs() < 2.0)),
+        compared(
+            "altitude offset behind [km] | within 2",
+            format!("{:+.1}", altitude_km[1]),
+            verdict(altitude_km[1].abs() < 2.0),
+        ),
     ];
     run.line("Mercury flyby 1: arrays turned three days early (paper 003, Figure 3)\n");
     run.table("what | paper | ours | verdict", &rows);
@@ -153,7 +164,11 @@ pub(crate) fn figure3(run: &mut Run<'_>) -> Outcome {
         title: "B-plane at Mercury, flyby 1, arrays turned three days early".to_owned(),
         intercepts: vec![
             Intercept { label: "as planned", miss_m: before_m, covariance_m2: None },
-            Intercept { label: "three days early", miss_m: behind_m, covariance_m2: Some(found.covariance_m2) },
+            Intercept {
+                label: "three days early",
+                miss_m: behind_m,
+                covariance_m2: Some(found.covariance_m2),
+            },
         ],
         costs_m_s: &[1.5, 3.0, 4.5],
     };

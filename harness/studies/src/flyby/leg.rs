@@ -87,11 +87,8 @@ impl<'a> Leg<'a> {
             plant::sunlit(plant::spacecraft("spacecraft.toml", &text)?, &values, Convention::Inertial)?;
         let surroundings = Surroundings::of(&values, 0.0)?;
         let radius_m = values.real("planet.radius");
-        let kind = FlightKind {
-            convention: Convention::Inertial,
-            panels: sunlit.panels.len(),
-            has_encounter: true,
-        };
+        let kind =
+            FlightKind { convention: Convention::Inertial, panels: sunlit.panels.len(), has_encounter: true };
         Ok(Self { fmu, case, stop_s, kind, surroundings, sunlit, radius_m, begun: None })
     }
 

@@ -49,9 +49,8 @@ impl Target {
 
     /// By how much the altitude of a miss is above that of the aim, in m, without tides.
     pub(super) fn altitude_offset_m(&self, miss_m: [f64; 2]) -> f64 {
-        let periapsis_m = |[t_m, r_m]: [f64; 2]| {
-            periapsis_of_b_m(t_m.hypot(r_m), self.gm_m3_s2, self.excess_m_s)
-        };
+        let periapsis_m =
+            |[t_m, r_m]: [f64; 2]| periapsis_of_b_m(t_m.hypot(r_m), self.gm_m3_s2, self.excess_m_s);
         periapsis_m(self.place_m(miss_m)) - periapsis_m(self.aim_m)
     }
 
@@ -64,8 +63,7 @@ impl Target {
         let along_m = (b_m * b_m - aim_m * aim_m - size_m * size_m) / (2.0 * aim_m);
         let aside_m = (size_m * size_m - along_m * along_m).sqrt();
         let [cosine, sine] = self.aim_m.map(|part_m| part_m / aim_m);
-        let place =
-            |aside_m: f64| [along_m * cosine - aside_m * sine, along_m * sine + aside_m * cosine];
+        let place = |aside_m: f64| [along_m * cosine - aside_m * sine, along_m * sine + aside_m * cosine];
         aside_m.is_finite().then(|| [place(aside_m), place(-aside_m)])
     }
 
@@ -115,9 +113,8 @@ impl Plane<'_> {
     fn series(&self) -> Vec<Series> {
         let target = self.target;
         let at = |miss_m: [f64; 2]| shown(target.place_m(miss_m));
-        let radius_km = |periapsis_m: f64| {
-            b_of_periapsis_m(periapsis_m, target.gm_m3_s2, target.excess_m_s) / 1e3
-        };
+        let radius_km =
+            |periapsis_m: f64| b_of_periapsis_m(periapsis_m, target.gm_m3_s2, target.excess_m_s) / 1e3;
         let circle = |radius_km: f64| ellipse((0.0, 0.0), [radius_km; 2], 0.0);
         let dots = self.intercepts.iter().map(|it| Series::dots(it.label, vec![at(it.miss_m)]));
         let mut series = vec![Series::rings("aim", vec![at([0.0; 2])])];

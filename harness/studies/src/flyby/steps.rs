@@ -212,7 +212,11 @@ pub(crate) fn figure6(run: &mut Run<'_>) -> Outcome {
     let altitude_km = target.altitude_offset_m(miss_m) / 1e3;
     let rows = vec![
         compared("miss [km] | 170", format!("{size_km:.1}"), verdict((size_km - 170.0).abs() < 2.0)),
-        compared("cost of 170 km along T [m/s] | 80", format!("{cost_m_s:.0}"), verdict((cost_m_s - 80.0).abs() < 8.0)),
+        compared(
+            "cost of 170 km along T [m/s] | 80",
+            format!("{cost_m_s:.0}"),
+            verdict((cost_m_s - 80.0).abs() < 8.0),
+        ),
         compared("altitude offset [km] | -", format!("{altitude_km:.1}"), "-"),
         compared("error of the departure [mm/s] | -", format!("{:.1}", 1e3 * error_m_s), "-"),
     ];
@@ -225,7 +229,11 @@ pub(crate) fn figure6(run: &mut Run<'_>) -> Outcome {
     let plane = Plane {
         target: &target,
         title: "B-plane at Mercury behind the departure, 201 days before flyby 2".to_owned(),
-        intercepts: vec![Intercept { label: "behind the departure", miss_m, covariance_m2: Some(covariance_m2) }],
+        intercepts: vec![Intercept {
+            label: "behind the departure",
+            miss_m,
+            covariance_m2: Some(covariance_m2),
+        }],
         costs_m_s: &[20.0, 40.0, 80.0, 120.0],
     };
     plane.write(run, "figure6")
@@ -311,7 +319,8 @@ fn corrected(run: &mut Run<'_>, index: usize, costs_m_s: &[f64]) -> Outcome {
         "Each plan goes on from the one above, with the state there as orbit determination finds it: 170 km off at 111 d; 2 km \
          (assumed) at 18 d, 4 km (printed) at 7 d, along where sunlight moves it (assumed). Windows hold arrays and place of the Sun; the FMU gets them as inputs.",
     );
-    let Some(Corrected { miss_m: [before_m, after_m], covariance_m2, .. }) = all.into_iter().next_back() else {
+    let Some(Corrected { miss_m: [before_m, after_m], covariance_m2, .. }) = all.into_iter().next_back()
+    else {
         return Ok(());
     };
     let plane = Plane {

@@ -95,7 +95,8 @@ pub(crate) fn table2(run: &mut Run<'_>) -> Outcome {
         }
     }
     run.line("Costs of flybys by manoeuvres (paper 003, Table 2)\n");
-    let header = "flyby | whose | approach [m/s] | departure [m/s] | total [m/s] | miss [km] | altitude offset [km]";
+    let header =
+        "flyby | whose | approach [m/s] | departure [m/s] | total [m/s] | miss [km] | altitude offset [km]";
     run.table_and_csv("table2.csv", header, rows)?;
     run.line(
         "Another planet and another leg: the paper's are not described, so there is no verdict. Ours are percentiles of 1000 linear draws, \
@@ -123,11 +124,8 @@ pub(crate) fn table3(run: &mut Run<'_>) -> Outcome {
         let aimed_m = steps.aimed_altitude_m();
         let Some([_, last]) = steps.corrected.last() else { return Err("found no correction".into()) };
         let miss_m = last.miss_m(&steps.target);
-        let ours: Ours = [
-            miss_m[0].hypot(miss_m[1]),
-            last.altitude_m()? - aimed_m,
-            steps.target.cost.cost_m_s(miss_m),
-        ];
+        let ours: Ours =
+            [miss_m[0].hypot(miss_m[1]), last.altitude_m()? - aimed_m, steps.target.cost.cost_m_s(miss_m)];
         Ok((steps.target, ours))
     })?;
     let targets: [(&Target, Ours); 2] = [(&early.target, first), (&target, second)];

@@ -75,8 +75,7 @@ impl Costs {
         let met = leg.met(&[])?;
         let target = Target::of(&leg, &met, &FLYBY_2)?;
         let brighter = leg.brighter(1.0 + SCALE).met(&[])?.sensitivity.encounter.plane;
-        let by_scale_m =
-            Vector2::new(brighter.b_t_m - target.aim_m[0], brighter.b_r_m - target.aim_m[1]);
+        let by_scale_m = Vector2::new(brighter.b_t_m - target.aim_m[0], brighter.b_r_m - target.aim_m[1]);
         let motion = met.flight.rows.first().and_then(|row| row.motion).ok_or("found no motion")?;
         let departure_m_s = motion.from_sun.velocity_m_s.normalize() * DEPARTURE_M_S;
         let sensitivity = &met.sensitivity;
@@ -86,7 +85,8 @@ impl Costs {
             let drawn = Drawn { sensitivity, unit, run };
             let mut miss_m = drawn.execution_m(0, 0.0, &departure_m_s);
             if is_cleaned_up {
-                let clean_up_m_s = drawn.maneuver_m_s(CLEAN_UP_S, miss_m + drawn.estimate_m(1, CLEAN_UP_S))?;
+                let clean_up_m_s =
+                    drawn.maneuver_m_s(CLEAN_UP_S, miss_m + drawn.estimate_m(1, CLEAN_UP_S))?;
                 miss_m = drawn.execution_m(2, CLEAN_UP_S, &clean_up_m_s) - drawn.estimate_m(1, CLEAN_UP_S);
             }
             miss_m += by_scale_m * drawn.draw(3).position_m.x;
