@@ -1,8 +1,7 @@
-//! Paper 003's steps to the second flyby: momentum planned, departure led to that plan, its error, and plans anew; Figures 6 to 9.
+//! Paper 003's steps to the second flyby: momentum planned, departure led to that plan, its error, and plans anew; Figures 6 and 7.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Matrix2;
 use planner::flyby::Aim;
-use planner::momentum::simulated::FlightRow;
 use planner::momentum::windows::{Reach, Window};
 
 use super::leg::{Failure, Leg, Met, Room, STEP_S, planned, windows_from};
@@ -42,8 +41,6 @@ struct Correction {
     offset_deg: f64,
     /// The earlier ones leave something of the threshold.
     limit_n_m_s: f64,
-    /// By which orbit determination moves the intercept, in m, to where less sunlight moves it; size assumed where the paper prints none.
-    drift_m: f64,
 }
 
 impl Correction {
@@ -60,35 +57,14 @@ impl Correction {
     }
 }
 
-const CORRECTIONS: [Correction; 3] = [
-    Correction {
-        figure: "figure7",
-        date: "17 June 2008",
-        before_d: 111.0,
-        window_s: 10.0 * DAY_S,
-        offset_deg: 5.0,
-        limit_n_m_s: 5.0,
-        drift_m: 0.0,
-    },
-    Correction {
-        figure: "figure8",
-        date: "18 September 2008",
-        before_d: 18.0,
-        window_s: 3.0 * DAY_S,
-        offset_deg: 20.0,
-        limit_n_m_s: 5.3,
-        drift_m: 2e3,
-    },
-    Correction {
-        figure: "figure9",
-        date: "29 September 2008",
-        before_d: 7.0,
-        window_s: 2.0 * DAY_S,
-        offset_deg: 20.0,
-        limit_n_m_s: 5.5,
-        drift_m: -4e3,
-    },
-];
+const CORRECTIONS: [Correction; 1] = [Correction {
+    figure: "figure7",
+    date: "17 June 2008",
+    before_d: 111.0,
+    window_s: 10.0 * DAY_S,
+    offset_deg: 5.0,
+    limit_n_m_s: 5.0,
+}];
 
 /// A leg that goes on by some windows.
 pub(super) struct Step<'a> {
@@ -148,8 +124,7 @@ impl<'a> Steps<'a> {
         for correction in &CORRECTIONS[..corrections] {
             let last = corrected.last().map_or(&departed, |[_, after]| after);
             let at_s = ((last.arrival_s() - correction.before_d * DAY_S) / STEP_S).round() * STEP_S;
-            let moved_m = sunward(last, at_s) * correction.drift_m;
-            let before = off(last, at_s, moved_m.into())?;
+            let before = off(last, at_s, [0.0; 2])?;
             let room = correction.room();
             let free = Aim { arrival_s: None, ..aim };
             let windows = before.leg.planned(&room, &before.windows, Some(&free))?.windows;
@@ -175,14 +150,6 @@ fn off<'a>(step: &Step<'a>, at_s: f64, moved_m: [f64; 2]) -> Result<Step<'a>, Fa
         false => step.leg.clone(),
     };
     Step::of(leg.changed(&error), windows_from(&step.windows, at_s))
-}
-
-/// Direction along T and R that less sunlight from a time on moves an intercept to.
-fn sunward(step: &Step<'_>, at_s: f64) -> Vector2<f64> {
-    let by_velocity = |at_s| step.met.sensitivity.by_velocity(at_s).fixed_rows::<2>(0).into_owned();
-    let moved = |row: &FlightRow| by_velocity(row.time_s) * row.to_sun_m / row.to_sun_m.norm().powi(3);
-    let rows = step.met.flight.rows.iter().filter(|row| row.time_s >= at_s);
-    rows.map(moved).sum::<Vector2<f64>>().normalize()
 }
 
 /// The steps of a study.
@@ -249,16 +216,6 @@ pub(crate) fn figure7(run: &mut Run<'_>) -> Outcome {
     corrected(run, 0, &[20.0, 40.0, 80.0, 120.0])
 }
 
-/// Figure 8.
-pub(crate) fn figure8(run: &mut Run<'_>) -> Outcome {
-    corrected(run, 1, &[1.0, 2.0, 4.0])
-}
-
-/// Figure 9.
-pub(crate) fn figure9(run: &mut Run<'_>) -> Outcome {
-    corrected(run, 2, &[1.0, 2.0, 4.0])
-}
-
 /// What one correction came to.
 struct Corrected {
     /// In m along T and R, before and behind it.
@@ -316,8 +273,7 @@ fn corrected(run: &mut Run<'_>, index: usize, costs_m_s: &[f64]) -> Outcome {
     );
     run.line(ASSUMED);
     run.line(
-        "Each plan goes on from the one above, with the state there as orbit determination finds it: 170 km off at 111 d; 2 km \
-         (assumed) at 18 d, 4 km (printed) at 7 d, along where sunlight moves it (assumed). Windows hold arrays and place of the Sun; the FMU gets them as inputs.",
+        "The plan goes on from the departure's miss. Windows hold arrays and place of the Sun; the FMU gets them as inputs.",
     );
     let Some(Corrected { miss_m: [before_m, after_m], covariance_m2, .. }) = all.into_iter().next_back()
     else {
