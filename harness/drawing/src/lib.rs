@@ -27,7 +27,7 @@ pub use frame::{Axes, Frame, thinned};
 pub use labels::{Labels, NAME_SIZE};
 pub use pen::{BESIDE, COLOURS, GREY, HEADING, INK, Pen, Pixel, TEXT, png, width_px};
 pub use picture::{DrawingError, Picture, is_chart, svg};
-pub use plane::{PlaneChart, PlanePanel};
+pub use plane::{PlaneChart, PlanePanel, ellipse};
 pub use series::{Band, Mark, Panel, Series};
 pub use shading::{Shading, mixed};
 pub use surface::{Finish, Surface, Vector, unit};

@@ -1,5 +1,7 @@
 //! Pictures of a plane: square panels side by side, the same scale along both axes unless stated, one legend.
 
+use core::f64::consts::TAU;
+
 use super::{
     axes::round_up,
     chart::draw_series,
@@ -52,6 +54,19 @@ pub struct PlanePanel {
     pub half_height: Option<f64>,
 }
 
+/// Points of an ellipse: its middle, its semi-axes, and the angle of the first of them from the horizontal axis.
+pub fn ellipse(middle: (f64, f64), [first, second]: [f64; 2], angle_rad: f64) -> Vec<(f64, f64)> {
+    let (sine, cosine) = angle_rad.sin_cos();
+    let point = |k: u32| {
+        let (y, x) = (TAU * f64::from(k) / f64::from(POINTS)).sin_cos();
+        let (along, across) = (first * x, second * y);
+        (middle.0 + along * cosine - across * sine, middle.1 + along * sine + across * cosine)
+    };
+    (0..=POINTS).map(point).collect()
+}
+
+/// Points of an ellipse.
+const POINTS: u32 = 360;
 /// Greatest side of a panel.
 const GREATEST_SIDE: f64 = 600.0;
 const PANEL_TITLE_HEIGHT: f64 = 26.0;

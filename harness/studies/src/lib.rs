@@ -7,6 +7,8 @@ mod attitude;
 mod case;
 mod cells;
 mod control;
+mod flight;
+mod flyby;
 mod momentum;
 mod options;
 mod pointing;
@@ -58,6 +60,22 @@ studies! {
         "momentum dumps by pulses of thrusters beside the same dumps at once";
     "control/jitter" of "000" by control::jitter:
         "attitude jitter of a flexible structure by a wheel out of balance, with its spectrum";
+    "flyby/table1" of "003" by flyby::table1:
+        "velocity change by each flyby of Mercury";
+    "flyby/table2" of "003" by flyby::table2:
+        "what manoeuvres before and behind a flyby of Mercury cost with errors of execution, and what they leave";
+    "flyby/table3" of "003" by flyby::table3:
+        "misses, altitudes and costs of flybys corrected by sunlight, without a manoeuvre";
+    "flyby/figure3" of "003" by flyby::figure3:
+        "B-plane of the first flyby of Mercury, arrays turned three days early";
+    "flyby/figure4" of "003" by flyby::figure4:
+        "corridor of the arrays by distance, and the offsets of baseline and plan in it";
+    "flyby/figure5" of "003" by flyby::figure5:
+        "velocity change that leads to the second flyby's aim, by its time";
+    "flyby/figure6" of "003" by flyby::figure6:
+        "B-plane of the second flyby behind the departure, missed by 170 km";
+    "flyby/figure7" of "003" by flyby::figure7:
+        "the same 111 days before it, planned anew by sunlight";
     "momentum/tables" of "000" by momentum::tables:
         "Tables 2 to 5 from one set of simulations";
     "momentum/table2" of "000" by momentum::table2:

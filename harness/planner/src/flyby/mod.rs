@@ -16,4 +16,5 @@ mod test_flight;
 pub use aim::Aim;
 pub use encounter::Encounter;
 pub use flight::Surroundings;
+pub use physics::environment::dates::epoch_s;
 pub use sensitivity::Sensitivity;

@@ -22,6 +22,7 @@ use super::variant::Variant;
 use crate::StudyError;
 use crate::attitude::Vector;
 use crate::case::{self, Row};
+use crate::flight::FlightKind;
 use crate::report::Run;
 use crate::settings::{Setting, Settings, set};
 
@@ -142,16 +143,8 @@ impl Simulates for Sought<'_> {
         windows: &[Window],
         dumps: &[PlannedDump],
     ) -> Result<SimulatedFlight, Box<dyn Error>> {
-        let panels: Vec<String> = (0..self.panels).map(plant::panel).collect();
-        let mut names: Vec<&str> = plant::recorded(self.convention).to_vec();
-        names.extend(panels.iter().map(String::as_str));
-        let recorded = self.case.steer(self.fmu, &names, &mut self.steer(windows, dumps))?;
-        let variables = &self.fmu.description().variables;
-        let elements =
-            names.iter().map(|name| self.fmu.select(name)).collect::<Result<Vec<_>, _>>()?.concat();
-        let known: Vec<&str> = elements.iter().map(|position| variables[*position].name.as_str()).collect();
-        let column = |name: &str| Some(recorded.columns[known.iter().position(|it| *it == name)?].clone());
-        Ok(plant::flight(&recorded.times_s, &column, (self.panels, self.convention))?)
+        let kind = FlightKind { convention: self.convention, panels: self.panels, has_encounter: false };
+        kind.simulate((&self.case, self.fmu), &mut self.steer(windows, dumps))
     }
 
     fn progress(&mut self, _: &str) {}

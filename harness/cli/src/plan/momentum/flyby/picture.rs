@@ -1,11 +1,9 @@
 //! Pictures of a flyby plan: its B-plane with what can be reached, and the velocity changes that would do the same.
 
-use core::f64::consts::TAU;
-
-use drawing::{Chart, Panel, PlaneChart, PlanePanel, Series};
+use drawing::{Chart, Panel, PlaneChart, PlanePanel, Series, ellipse};
 use planner::flyby::{
     aim::b_of_periapsis_m,
-    maneuvers::ellipse,
+    maneuvers,
     report::{Campaign, FlybyReport},
 };
 
@@ -14,18 +12,10 @@ use super::super::aimed::Aimed;
 const DAY_S: f64 = 86_400.0;
 /// Deviations of the ellipse that is drawn.
 const SIGMAS: f64 = 3.0;
-const POINTS: u32 = 90;
 
 /// B-plane and desired velocity changes.
 pub(in crate::plan::momentum) fn charts(report: &FlybyReport, aimed: &Aimed) -> (PlaneChart, Option<Chart>) {
     (plane(report, aimed), desired(report))
-}
-
-fn circle(radius: f64) -> Vec<(f64, f64)> {
-    (0..=POINTS)
-        .map(|k| (TAU * f64::from(k) / f64::from(POINTS)).sin_cos())
-        .map(|(s, c)| (radius * c, radius * s))
-        .collect()
 }
 
 /// In km from the planet's centre; the picture has T to the right and R down, as seen along the asymptote.
@@ -44,6 +34,7 @@ fn plane(report: &FlybyReport, aimed: &Aimed) -> PlaneChart {
         .map(|[t_m, r_m]| km([aim[0] + before.x + t_m, aim[1] + before.y + r_m]))
         .collect();
     reach.extend(reach.first().copied());
+    let circle = |radius_m: f64| ellipse((0.0, 0.0), [radius_m / 1e3; 2], 0.0);
     let series = |wide: bool| {
         let mut series = vec![
             Series::rings("aim", vec![km(aim)]),
@@ -52,8 +43,8 @@ fn plane(report: &FlybyReport, aimed: &Aimed) -> PlaneChart {
             Series::line("reach", reach.clone()),
         ];
         if wide {
-            series.push(Series::line("planet", circle(report.radius_m / 1e3)));
-            series.push(Series::dashed("impact", circle(impact_m / 1e3)));
+            series.push(Series::line("planet", circle(report.radius_m)));
+            series.push(Series::dashed("impact", circle(impact_m)));
         }
         if let Some(campaign) = &report.campaign {
             series.push(Series::dashed("three deviations", ring(campaign, aim)));
@@ -91,15 +82,9 @@ fn plane(report: &FlybyReport, aimed: &Aimed) -> PlaneChart {
 }
 
 fn ring(campaign: &Campaign, aim_m: [f64; 2]) -> Vec<(f64, f64)> {
-    let ([large_m, small_m], angle_rad) = ellipse(&campaign.covariance_m2);
-    let (sine, cosine) = angle_rad.sin_cos();
-    let point = |(x, y): (f64, f64)| {
-        let (along_m, across_m) = (SIGMAS * large_m * x, SIGMAS * small_m * y);
-        let t_m = aim_m[0] + campaign.mean_m.x + along_m * cosine - across_m * sine;
-        let r_m = aim_m[1] + campaign.mean_m.y + along_m * sine + across_m * cosine;
-        (t_m / 1e3, -r_m / 1e3)
-    };
-    circle(1.0).into_iter().map(point).collect()
+    let (axes_m, angle_rad) = maneuvers::ellipse(&campaign.covariance_m2);
+    let middle = ((aim_m[0] + campaign.mean_m.x) / 1e3, -(aim_m[1] + campaign.mean_m.y) / 1e3);
+    ellipse(middle, axes_m.map(|axis_m| SIGMAS * axis_m / 1e3), -angle_rad)
 }
 
 fn desired(report: &FlybyReport) -> Option<Chart> {

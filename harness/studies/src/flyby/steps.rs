@@ -1,0 +1,292 @@
+//! Paper 003's steps to the second flyby: momentum planned, departure led to that plan, its error, and plans anew; Figures 6 and 7.
+
+use nalgebra::Matrix2;
+use planner::flyby::Aim;
+use planner::momentum::windows::{Reach, Window};
+
+use super::leg::{Failure, Leg, Met, Room, STEP_S, planned, windows_from};
+use super::mission::FLYBY_2;
+use super::plane::{Intercept, Plane, SIGMAS, Target, covariance_m2};
+use crate::StudyError;
+use crate::report::{Outcome, Run};
+use crate::verdict::{compared, verdict};
+
+const DAY_S: f64 = 86_400.0;
+const DEG: f64 = core::f64::consts::PI / 180.0;
+/// Miss behind the departure, along T and R, in m; its direction is assumed.
+const DEPARTURE_MISS_M: [f64; 2] = [-170e3, 0.0];
+/// Of the plan of momentum alone: tilts and momentum leave room for what corrects later.
+const MOMENTUM: Room = Room {
+    window_s: 10.0 * DAY_S,
+    reach: Reach {
+        offset_rad: 0.0,
+        windmill_rad: 2.0 * DEG,
+        azimuth_rad: 5.0 * DEG,
+        elevation_rad: 6.0 * DEG,
+        alternate: 0.0,
+    },
+    limit_n_m_s: 4.5,
+};
+/// The paper's threshold of dumps, in N m s.
+const THRESHOLD_N_M_S: f64 = 5.5;
+
+/// A correction of the paper.
+struct Correction {
+    figure: &'static str,
+    date: &'static str,
+    /// Before the flyby, in days.
+    before_d: f64,
+    window_s: f64,
+    /// Offsets of the arrays off their baseline, in deg. The baseline of a short leg is another one.
+    offset_deg: f64,
+    /// The earlier ones leave something of the threshold.
+    limit_n_m_s: f64,
+}
+
+impl Correction {
+    /// With the keep-in zone of the paper.
+    fn room(&self) -> Room {
+        let reach = Reach {
+            offset_rad: self.offset_deg * DEG,
+            windmill_rad: 2.0 * DEG,
+            azimuth_rad: 10.0 * DEG,
+            elevation_rad: 12.0 * DEG,
+            alternate: 0.0,
+        };
+        Room { window_s: self.window_s, reach, limit_n_m_s: self.limit_n_m_s }
+    }
+}
+
+const CORRECTIONS: [Correction; 1] = [Correction {
+    figure: "figure7",
+    date: "17 June 2008",
+    before_d: 111.0,
+    window_s: 10.0 * DAY_S,
+    offset_deg: 5.0,
+    limit_n_m_s: 5.0,
+}];
+
+/// A leg that goes on by some windows.
+pub(super) struct Step<'a> {
+    pub leg: Leg<'a>,
+    pub windows: Vec<Window>,
+    pub met: Met,
+}
+
+impl Step<'_> {
+    /// In m along T and R.
+    pub(super) fn miss_m(&self, target: &Target) -> [f64; 2] {
+        let plane = self.met.sensitivity.encounter.plane;
+        [plane.b_t_m - target.aim_m[0], plane.b_r_m - target.aim_m[1]]
+    }
+
+    /// Altitude of its closest approach, in m, as the FMU reports it.
+    pub(super) fn altitude_m(&self) -> Result<f64, Failure> {
+        Ok(self.leg.passed(&self.windows, self.arrival_s())?[1])
+    }
+
+    fn arrival_s(&self) -> f64 {
+        self.met.sensitivity.encounter.time_s
+    }
+
+    fn of<'a>(leg: Leg<'a>, windows: Vec<Window>) -> Result<Step<'a>, Failure> {
+        let met = leg.met(&windows)?;
+        Ok(Step { leg, windows, met })
+    }
+}
+
+/// The flyby's leg, as far as it is planned.
+pub(super) struct Steps<'a> {
+    /// The leg as its mission is: its B is the aim.
+    unmanaged: Met,
+    pub target: Target,
+    /// Led to the plan of momentum.
+    pub led: Step<'a>,
+    /// With the error of the departure.
+    pub departed: Step<'a>,
+    /// By correction: before and behind it.
+    pub corrected: Vec<[Step<'a>; 2]>,
+}
+
+impl<'a> Steps<'a> {
+    /// Up to so many corrections.
+    fn of(leg: &Leg<'a>, corrections: usize, done: &dyn Fn()) -> Result<Self, Failure> {
+        let unmanaged = leg.met(&[])?;
+        let target = Target::of(leg, &unmanaged, &FLYBY_2)?;
+        let aim = Aim { b_m: target.aim_m, arrival_s: Some(unmanaged.sensitivity.encounter.time_s) };
+        let windows = leg.planned(&MOMENTUM, &[], None)?.windows;
+        done();
+        let (leg, met) = leg.led(&windows, &aim)?;
+        let led = Step { leg, windows, met };
+        let departed = off(&led, 0.0, DEPARTURE_MISS_M)?;
+        done();
+        let mut corrected: Vec<[Step<'a>; 2]> = Vec::new();
+        for correction in &CORRECTIONS[..corrections] {
+            let last = corrected.last().map_or(&departed, |[_, after]| after);
+            let at_s = ((last.arrival_s() - correction.before_d * DAY_S) / STEP_S).round() * STEP_S;
+            let before = off(last, at_s, [0.0; 2])?;
+            let room = correction.room();
+            let free = Aim { arrival_s: None, ..aim };
+            let windows = before.leg.planned(&room, &before.windows, Some(&free))?.windows;
+            let after = Step::of(before.leg.clone(), windows)?;
+            corrected.push([before, after]);
+            done();
+        }
+        Ok(Self { unmanaged, target, led, departed, corrected })
+    }
+
+    /// Altitude of the leg as its mission is, in m.
+    pub(super) fn aimed_altitude_m(&self) -> f64 {
+        self.unmanaged.sensitivity.encounter.closest.position_m.norm() - self.led.leg.radius_m
+    }
+}
+
+/// A step from a time of it on, with a state that moves its intercept: by the least change of velocity.
+fn off<'a>(step: &Step<'a>, at_s: f64, moved_m: [f64; 2]) -> Result<Step<'a>, Failure> {
+    let error = step.met.sensitivity.desired(at_s, moved_m.map(|part_m| -part_m));
+    let error = error.ok_or("found no velocity that moves the intercept")?.delta_v_m_s;
+    let leg = match at_s > 0.0 {
+        true => step.leg.from(&step.met.flight.at(at_s).ok_or("found no row of the flight")?)?,
+        false => step.leg.clone(),
+    };
+    Step::of(leg.changed(&error), windows_from(&step.windows, at_s))
+}
+
+/// The steps of a study.
+pub(super) fn steps<T>(
+    run: &Run<'_>,
+    corrections: usize,
+    of: impl FnOnce(Steps<'_>) -> Result<T, Failure>,
+) -> Result<T, StudyError> {
+    let fmu = run.options.fmu("MomentumPlant.fmu")?;
+    let bar = terminal::progress(corrections as u64 + 2, "steps", !run.options.progress);
+    let found = Leg::of(&fmu, &FLYBY_2).and_then(|leg| Steps::of(&leg, corrections, &|| bar.inc(1)));
+    bar.finish_and_clear();
+    planned(run, found.and_then(of))
+}
+
+/// Figure 6.
+pub(crate) fn figure6(run: &mut Run<'_>) -> Outcome {
+    let (target, error_m_s, miss_m, covariance_m2) = steps(run, 0, |steps| {
+        let error = steps.led.met.sensitivity.desired(0.0, DEPARTURE_MISS_M.map(|part_m| -part_m));
+        let error_m_s = error.map_or(f64::NAN, |error| error.size_m_s());
+        let miss_m = steps.departed.miss_m(&steps.target);
+        let covariance_m2 = covariance_m2(&steps.departed.met.sensitivity, 0.0);
+        Ok((steps.target, error_m_s, miss_m, covariance_m2))
+    })?;
+    let size_km = miss_m[0].hypot(miss_m[1]) / 1e3;
+    let cost_m_s = target.cost.cost_m_s(DEPARTURE_MISS_M);
+    let altitude_km = target.altitude_offset_m(miss_m) / 1e3;
+    let rows = vec![
+        compared("miss [km] | 170", format!("{size_km:.1}"), verdict((size_km - 170.0).abs() < 2.0)),
+        compared(
+            "cost of 170 km along T [m/s] | 80",
+            format!("{cost_m_s:.0}"),
+            verdict((cost_m_s - 80.0).abs() < 8.0),
+        ),
+        compared("altitude offset [km] | -", format!("{altitude_km:.1}"), "-"),
+        compared("error of the departure [mm/s] | -", format!("{:.1}", 1e3 * error_m_s), "-"),
+    ];
+    run.line("Mercury flyby 2 behind the departure of 19 March 2008 (paper 003, Figure 6)\n");
+    run.table("what | paper | ours | verdict", &rows);
+    run.line(ASSUMED);
+    run.line(
+        "The paper says neither date nor manoeuvre of its penalty; ours leads back to the path 30 d behind the flyby, for 2009-09-29.",
+    );
+    let plane = Plane {
+        target: &target,
+        title: "B-plane at Mercury behind the departure, 201 days before flyby 2".to_owned(),
+        intercepts: vec![Intercept {
+            label: "behind the departure",
+            miss_m,
+            covariance_m2: Some(covariance_m2),
+        }],
+        costs_m_s: &[20.0, 40.0, 80.0, 120.0],
+    };
+    plane.write(run, "figure6")
+}
+
+const ASSUMED: &str = "\
+Assumed, as it is not published: state at the departure, mass, centre of mass and aim (messenger-flyby2.toml, 200 km, B along T), the
+corridor of the arrays, that the miss is along -T, and the state's covariance: 1 km and 0.5 mm/s along each axis. Ellipses: three
+deviations by that alone.";
+
+/// Figure 7.
+pub(crate) fn figure7(run: &mut Run<'_>) -> Outcome {
+    corrected(run, 0, &[20.0, 40.0, 80.0, 120.0])
+}
+
+/// What one correction came to.
+struct Corrected {
+    /// In m along T and R, before and behind it.
+    miss_m: [[f64; 2]; 2],
+    covariance_m2: Matrix2<f64>,
+    greatest_n_m_s: f64,
+    /// Off the aim's altitude, as the FMU reports it, in m.
+    altitude_offset_m: f64,
+    windows: usize,
+}
+
+fn corrected(run: &mut Run<'_>, index: usize, costs_m_s: &[f64]) -> Outcome {
+    let correction = &CORRECTIONS[index];
+    let (target, all) = steps(run, index + 1, |steps| {
+        let aimed_m = steps.aimed_altitude_m();
+        let of = |[before, after]: &[Step<'_>; 2]| -> Result<Corrected, Failure> {
+            Ok(Corrected {
+                miss_m: [before, after].map(|step| step.miss_m(&steps.target)),
+                covariance_m2: covariance_m2(&after.met.sensitivity, 0.0),
+                greatest_n_m_s: after.met.flight.greatest_momentum().0,
+                altitude_offset_m: after.altitude_m()? - aimed_m,
+                windows: after.windows.len(),
+            })
+        };
+        let all = steps.corrected.iter().map(of).collect::<Result<Vec<_>, _>>()?;
+        Ok((steps.target, all))
+    })?;
+    run.line(&format!(
+        "Mercury flyby 2 planned anew on {}, {} days before it (paper 003, {})\n",
+        correction.date,
+        correction.before_d,
+        correction.figure.replace("figure", "Figure ")
+    ));
+    let size_km = |[t_m, r_m]: [f64; 2]| t_m.hypot(r_m) / 1e3;
+    let row = |(found, correction): (&Corrected, &Correction)| {
+        let [before_km, after_km] = found.miss_m.map(size_km);
+        let ([large_m, small_m], _) = planner::flyby::maneuvers::ellipse(&found.covariance_m2);
+        let holds = after_km < 1.0 && found.greatest_n_m_s < THRESHOLD_N_M_S;
+        vec![
+            format!("{} d", correction.before_d),
+            format!("{before_km:.2}"),
+            format!("{after_km:.2}"),
+            format!("{:+.2}", found.altitude_offset_m / 1e3),
+            format!("{:.2}", found.greatest_n_m_s),
+            found.windows.to_string(),
+            format!("{:.1} by {:.1}", SIGMAS * large_m / 1e3, SIGMAS * small_m / 1e3),
+            verdict(holds).to_owned(),
+        ]
+    };
+    let rows: Vec<_> = all.iter().zip(&CORRECTIONS).map(row).collect();
+    run.table(
+        "before the flyby | miss before [km] | miss behind, paper: under 1 [km] | altitude offset [km] | momentum, limit 5.5 [N.m.s] | \
+         windows | ellipse [km] | verdict",
+        &rows,
+    );
+    run.line(ASSUMED);
+    run.line(
+        "The plan goes on from the departure's miss. Windows hold arrays and place of the Sun; the FMU gets them as inputs.",
+    );
+    let Some(Corrected { miss_m: [before_m, after_m], covariance_m2, .. }) = all.into_iter().next_back()
+    else {
+        return Ok(());
+    };
+    let plane = Plane {
+        target: &target,
+        title: format!("B-plane at Mercury, {} days before flyby 2", correction.before_d),
+        intercepts: vec![
+            Intercept { label: "by the plan before", miss_m: before_m, covariance_m2: None },
+            Intercept { label: "planned anew", miss_m: after_m, covariance_m2: Some(covariance_m2) },
+        ],
+        costs_m_s,
+    };
+    plane.write(run, correction.figure)
+}
