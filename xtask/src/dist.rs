@@ -78,6 +78,8 @@ fn pack(built: &Built) -> Outcome {
             .arg(root().join("fmu-src").join("resources").join(spacecraft))
             .args(systems::options(options))
             .arg("--output")
-            .arg(root().join("dist").join(format!("{name}.fmu"))))
+            .arg(root().join("dist").join(format!("{name}.fmu")))
+            // The standard output may be a shell's, as that of `env` is.
+            .stdout(std::io::stderr()))
     })
 }

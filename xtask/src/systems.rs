@@ -131,6 +131,6 @@ fn pack_component(built: &Built, component: &Component, scratch: &Path) -> Resul
     if let Some(spacecraft) = spacecraft {
         pack.arg("--spacecraft").arg(root().join("fmu-src").join("resources").join(spacecraft));
     }
-    run(pack.args(options(further)).arg("--output").arg(&fmu))?;
+    run(pack.args(options(further)).arg("--output").arg(&fmu).stdout(std::io::stderr()))?;
     Ok(fmu)
 }

@@ -44,7 +44,10 @@ impl fmt::Display for Written {
             Self::Integer(number) => write!(f, "{number}"),
             Self::Boolean(truth) => write!(f, "{truth}"),
             Self::Text(text) => write!(f, "{text:?}"),
-            Self::List(_) => f.write_str("a list"),
+            Self::List(items) => {
+                let items: Vec<String> = items.iter().map(Self::to_string).collect();
+                write!(f, "[{}]", items.join(", "))
+            }
             Self::Table(_) => f.write_str("a table"),
         }
     }

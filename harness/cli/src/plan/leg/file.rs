@@ -97,11 +97,7 @@ impl Builder<'_> {
         let vector = <[f64; 3]>::try_from(read).ok().filter(|_| items.len() == 3).map(Vector3::from);
         let vector = vector.filter(|vector| vector.norm() > 0.0);
         vector.unwrap_or_else(|| {
-            let found = match items.len() {
-                0 => written.to_string(),
-                _ => format!("[{}]", items.iter().map(Written::to_string).collect::<Vec<_>>().join(", ")),
-            };
-            self.check.report(place, found, format_args!("a list of three, not all 0, each {allowed}"));
+            self.check.report(place, written, format_args!("a list of three, not all 0, each {allowed}"));
             Vector3::x()
         })
     }
