@@ -98,9 +98,10 @@ pub(super) fn to_toml(
     table.insert("fmu", toml_edit::value(&digests.fmu));
     set("digests", Item::Table(table));
     let mut vary = Table::new();
-    for at in &file.vary {
+    // By the names of the columns; a table of values has no other origin.
+    for (at, varied) in file.vary.iter().zip(campaign.design.varied()) {
         let text = format!("{} {}", at.it.key, at.it.values.join(", "));
-        vary.insert(&at.it.name, toml_edit::value(text));
+        vary.insert(&varied.name, toml_edit::value(text));
     }
     set("vary", Item::Table(vary));
     let mut units = Table::new();
