@@ -52,8 +52,8 @@ pub(super) struct Pool<'a> {
     pub is_over: &'a AtomicBool,
 }
 
-/// Why another process is not started.
-const GIVEN_UP: &str = "";
+/// Why a process is ended where the rest need not be simulated.
+const IS_OVER: &str = "the sweep is over";
 
 impl Pool<'_> {
     /// Simulates every n-th run from `worker` on, by as many processes as it takes; an error ends the campaign.
@@ -114,11 +114,10 @@ impl Pool<'_> {
             bounds,
             &mut |kind, payload| inbox.borrow_mut().take(kind, payload),
             &mut |line| shown.line(line),
-            &mut |_| if self.is_over.load(Ordering::Relaxed) { Err(GIVEN_UP.to_owned()) } else { Ok(()) },
+            &mut |_| if self.is_over.load(Ordering::Relaxed) { Err(IS_OVER.to_owned()) } else { Ok(()) },
         );
         if let EndReason::Refused(why) = &supervised.how
-            && !why.is_empty()
-            && why != NOT_REQUESTED
+            && ![IS_OVER, NOT_REQUESTED].contains(&why.as_str())
         {
             return Err(why.clone());
         }
