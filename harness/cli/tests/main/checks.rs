@@ -323,5 +323,5 @@ fn a_reference_table_with_names_of_another_fmi_is_a_note_and_the_rest_is_compare
     assert!(text.contains("1 to note, 0 wrong"), "{text}");
     // What it has is compared.
     let text = check(&format!("time,{name},Int8_output\n0,41,1\n1,41,1\n"), 1);
-    assert!(text.contains(&format!("ref.csv: {name} at 1 s: found 42, allowed: 41")), "{text}");
+    assert!(text.contains(&format!("ref.csv: {name} at 0 s: found 42, allowed: 41")), "{text}");
 }
