@@ -20,6 +20,7 @@ const CRATES: &[&str] = &[
     "harness/drawing",
     "harness/studies",
     "harness/planner",
+    "harness/campaign",
     "harness/systems",
     "harness/cli",
 ];

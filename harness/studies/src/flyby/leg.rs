@@ -19,6 +19,7 @@ use planner::{
     },
 };
 
+pub(super) use super::mission::Failure;
 use super::mission::Mission;
 use crate::StudyError;
 use crate::attitude::Vector;
@@ -26,8 +27,6 @@ use crate::case::Case;
 use crate::flight::FlightKind;
 use crate::report::Run;
 use crate::settings::{Settings, set};
-
-pub(super) type Failure = Box<dyn Error>;
 
 const DAY_S: f64 = 86_400.0;
 /// How near a plan comes to its aim, in m.

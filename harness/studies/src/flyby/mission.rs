@@ -4,8 +4,10 @@ use model_description::Description;
 use planner::flyby::epoch_s;
 use toml::{Table, Value};
 
-use super::leg::Failure;
 use crate::settings::{Settings, set};
+
+/// Why a leg cannot be simulated or planned.
+pub(super) type Failure = Box<dyn std::error::Error>;
 
 const DAY_S: f64 = 86_400.0;
 
