@@ -3,8 +3,6 @@
 //! Flights end seven hours and more before the closest approach: what follows is propagated by the planner, so that a path into the
 //! planet is one like others. [`Leg::passed`] simulates it to the end.
 
-use std::error::Error;
-
 use loader::Fmu;
 use planner::{
     flyby::{Aim, Sensitivity, Surroundings},
