@@ -177,7 +177,7 @@ def test_a_campaign_of_the_plant_is_the_same_byte_for_byte(client, heliotorque, 
     assert sweep(client, campaign, output, 4, str(heliotorque)) == RUNS
     assert output.read_bytes() == alone.read_bytes()
     header, *rows = output.read_text(encoding="utf-8").splitlines()
-    assert header.startswith("run,spacecraft.centerOfMass[3],solar.flux,") and len(rows) == RUNS
+    assert header.startswith("run,solar.flux,spacecraft.centerOfMass[3],") and len(rows) == RUNS
     same = subprocess.run([heliotorque, "compare", alone, output, "--tolerance", "0"], capture_output=True, text=True)
     assert same.returncode == 0 and "no difference" in same.stdout, same.stdout
     folder = tmp_path / "jobs"
