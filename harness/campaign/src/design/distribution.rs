@@ -2,6 +2,15 @@
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
+/// A variable and how it varies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Varied {
+    /// Its name.
+    pub name: String,
+    /// Where its values come from, in the variable's unit.
+    pub distribution: Distribution,
+}
+
 /// A distribution, or a list of values.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {

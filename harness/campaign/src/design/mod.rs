@@ -1,6 +1,7 @@
 //! The values of every run.
 
 mod distribution;
+mod error;
 mod sampling;
 #[cfg(test)]
 mod tests;
@@ -10,29 +11,17 @@ use rand_chacha::{
     ChaCha8Rng,
     rand_core::{Rng, SeedableRng},
 };
-use sobol_burley::{NUM_DIMENSIONS, parts::sobol_rev};
+use sobol_burley::parts::sobol_rev;
 
-pub use distribution::Distribution;
-pub use sampling::Sampling;
+pub use distribution::{Distribution, Varied};
+pub use error::DesignError;
+pub use sampling::{MOST_RUNS, Sampling};
 
-/// Runs of a campaign at most.
-pub const MOST_RUNS: u64 = 1_000_000_000;
-/// Points of the Sobol sequence, of which the crate has so many.
-const MOST_SOBOL_RUNS: u64 = 1 << 16;
 /// 2^-32 and 2^-53.
 const PER_32_BITS: f64 = 1.0 / 4_294_967_296.0;
 const PER_53_BITS: f64 = 1.0 / 9_007_199_254_740_992.0;
 /// Streams of the generator for permutations; below are those of the draws, by variable.
 const PERMUTATIONS: u64 = 1 << 32;
-
-/// A variable and how it varies.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Varied {
-    /// Its name.
-    pub name: String,
-    /// Where its values come from, in the variable's unit.
-    pub distribution: Distribution,
-}
 
 /// A correlation of two normally distributed variables.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,48 +30,6 @@ pub struct Correlation {
     pub names: [String; 2],
     /// From -1 to 1.
     pub coefficient: f64,
-}
-
-/// Why there is no such design.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DesignError {
-    /// The number of runs.
-    #[error("found {found} runs, allowed: {allowed}")]
-    Runs {
-        /// As they were given.
-        found: u64,
-        /// What the sampling takes.
-        allowed: String,
-    },
-    /// Nothing varies, or a list without a value.
-    #[error("found {found}, allowed: {allowed}")]
-    Empty {
-        /// What is empty.
-        found: String,
-        /// What is allowed.
-        allowed: &'static str,
-    },
-    /// A distribution that the sampling does not take.
-    #[error("found {name} as {distribution} with sampling {sampling}, allowed: {allowed}")]
-    Kind {
-        /// The variable.
-        name: String,
-        /// Its distribution's key.
-        distribution: &'static str,
-        /// The sampling's key.
-        sampling: &'static str,
-        /// What it takes.
-        allowed: &'static str,
-    },
-    /// A correlation that cannot be.
-    #[error("{0}")]
-    Correlation(String),
-    /// More variables than the Sobol sequence has dimensions.
-    #[error("found {found} variables with sampling sobol, allowed: up to {NUM_DIMENSIONS}")]
-    Dimensions {
-        /// How many there are.
-        found: usize,
-    },
 }
 
 /// The values of every run of a campaign.

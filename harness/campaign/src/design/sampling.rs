@@ -1,6 +1,13 @@
 //! How runs are spread over what varies.
 
-use super::{DesignError, MOST_RUNS, MOST_SOBOL_RUNS, NUM_DIMENSIONS, Varied};
+use sobol_burley::NUM_DIMENSIONS;
+
+use super::{distribution::Varied, error::DesignError};
+
+/// Runs of a campaign at most.
+pub const MOST_RUNS: u64 = 1_000_000_000;
+/// Points of the Sobol sequence, of which the crate has so many.
+const MOST_SOBOL_RUNS: u64 = 1 << 16;
 
 /// How the values of runs are chosen.
 #[derive(Clone, Debug, PartialEq)]
