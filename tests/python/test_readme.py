@@ -420,6 +420,13 @@ BENCHMARKS = {
         "plan_cruise_200_days_convex", "plan_cruise_200_days_counted_changes",
     ],
     "`refit` of ten days, 1,441 rows, nine flights": ["refit_10_days_1441_rows"],
+    "`sweep` of `examples/campaign.toml`, 1,000 flights of ten days in one step each": [
+        "sweep_1000_flights_of_10_days_processor_time", "sweep_over_c_loop_processor_time", "sweep_two_workers_over_one",
+        "sweep_peak_of_a_process",
+    ],
+    "`sweep` of eight flights in steps of a minute, three values read at each": [
+        "sweep_8_flights_in_steps_of_60_s", "fmpy_simulate_fmu_of_the_file_over_sweep_in_steps_of_60_s",
+    ],
     "MessengerLoop.ssp at 50 Hz, `heliotorque run` with all of its exchange": ["messenger_loop_50_hz_over_real_time"],
     "paper 000's study, 30 simulations of 90 days with the default dumps, both cores": ["study_momentum_table2_30_simulations"],
 }
@@ -427,7 +434,7 @@ BENCHMARKS = {
 
 def test_every_figure_of_performance_is_a_line_of_bench():
     root = TESTS.parent
-    files = [root / "tests/c/bench.c", root / "tests/c/bench_dynamics.c", root / "xtask/src/bench.rs", *(root / "fmu-src/physics/examples").glob("bench_*.rs")]
+    files = [root / "tests/c/bench.c", root / "tests/c/bench_dynamics.c", root / "xtask/src/bench.rs", root / "tests/python/bench_sweep.py", *(root / "fmu-src/physics/examples").glob("bench_*.rs")]
     text = "".join(file.read_text(encoding="utf-8") for file in files)
     # What is filled in when it prints may be anything: {name} and %s.
     literals = {literal.removeprefix("bench ").split(" ")[0] for literal in re.findall(r'"((?:bench )?[a-z0-9_{}%]+_[^"]*)"', text)}
