@@ -86,7 +86,7 @@ const OF_MISSION: [&str; 14] = [
 ];
 
 impl FileKind {
-    /// By the keys of the text; `None` where no key says it.
+    /// By the keys of the text; `None` where no key identifies it.
     pub(crate) fn of(text: &str) -> Option<Self> {
         let (root, _) = DeTable::parse_recoverable(text);
         let root = root.get_ref();

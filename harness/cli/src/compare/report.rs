@@ -1,4 +1,4 @@
-//! What a comparison says: the largest difference of every variable, and what only one table has.
+//! Report of a comparison: the largest difference of every variable, and what only one table has.
 
 use std::fmt::Write;
 

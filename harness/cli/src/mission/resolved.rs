@@ -65,7 +65,7 @@ impl Mission {
     }
 }
 
-/// What an error says at a key of a file.
+/// Message of an error at a key of a file.
 pub(crate) fn in_file(key: &str, error: loader::Error) -> String {
     match error {
         // The key names the variable.

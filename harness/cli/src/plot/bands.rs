@@ -51,7 +51,7 @@ pub(super) fn chart(table: &Table, sidecar: &Sidecar, patterns: &[String]) -> Re
         Some(table.keys.iter().map(|time_s| time_s / axis.seconds).zip(values).collect())
     };
     let panel = |(at, name): (usize, &String)| {
-        // What bands are is said once.
+        // The legend names bands once.
         let label = |text: String| if at == 0 { text } else { String::new() };
         let bands = BANDS.into_iter().filter_map(|(low, high)| {
             let range = Envelope { lowest: edge(name, low)?, greatest: edge(name, high)? };

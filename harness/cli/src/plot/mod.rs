@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &Plot) -> Outcome {
     outcome::written(destination, svg.as_bytes(), &format!("{}: of {rows} rows", path.display()))
 }
 
-/// What is asked for.
+/// What is requested.
 fn pictures(arguments: &Plot, tables: &[(Table, Sidecar)]) -> Result<Vec<Box<dyn Picture>>, String> {
     let one = |option: &str| match tables {
         [(table, sidecar)] => Ok((table, sidecar)),

@@ -81,7 +81,7 @@ fn of_variable(
     described: &[Described],
     (name, seconds): (&str, f64),
 ) -> Option<Panel> {
-    // What one table knows of it holds for all.
+    // What one table has of it holds for all.
     let knows = |at: &usize| tables[*at].1.columns.contains_key(name);
     let has = |at: &usize| tables[*at].0.column(name).is_some();
     let all = || 0..tables.len();

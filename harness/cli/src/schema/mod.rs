@@ -10,7 +10,7 @@ use crate::outcome::{self, Outcome};
 /// `heliotorque schema`.
 #[derive(Debug, Args)]
 pub(crate) struct Schema {
-    /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; mission, which `run` flies; timeline, which `pack --timeline` takes; ephemeris, which `pack --ephemeris` takes; plan, which `plan momentum` takes; leg, which `plan leg` takes; or campaign, which `sweep` takes
+    /// Of which kind of file: spacecraft; spinner, which SpinPlant is packed with; mission, which `run` simulates; timeline, which `pack --timeline` takes; ephemeris, which `pack --ephemeris` takes; plan, which `plan momentum` takes; leg, which `plan leg` takes; or campaign, which `sweep` takes
     #[arg(value_enum, default_value_t, hide_possible_values = true)]
     pub kind: SchemaKind,
 }

@@ -40,7 +40,7 @@ pub(super) struct WrittenDistribution {
 /// What is kept.
 #[derive(Clone, Debug)]
 pub(super) struct WrittenKeep {
-    /// The final values; `None` where nothing says what is kept: then of all outputs.
+    /// The final values; `None` without `[keep]`: then of all outputs.
     pub finals: Option<Vec<At<String>>>,
     /// Extremes.
     pub extremes: Vec<At<String>>,

@@ -197,7 +197,7 @@ impl Inbox<'_> {
         if let (Some(folder), Some(collector)) = (self.pool.histories, self.collector.take()) {
             write_history(folder, result.run, collector.recording(), self.pool.campaign.kept.histories)?;
         }
-        // Where nobody takes it, the campaign is over.
+        // Without a receiver the campaign is over.
         let _ = self.results.send(result);
         Ok(())
     }

@@ -69,7 +69,7 @@ impl<'a> RunTable<'a> {
         self.next
     }
 
-    /// Whether nobody reads the standard output any more.
+    /// Whether the reader of the standard output is gone.
     pub(super) fn has_lost_reader(&self) -> bool {
         self.file.has_lost_reader()
     }

@@ -56,7 +56,7 @@ impl Svg {
     }
 }
 
-/// Shades when the Sun was not whole, where the recording says so, in all panels of a chart in units of so many seconds.
+/// Shades when the Sun was not whole, where that is recorded, in all panels of a chart in units of so many seconds.
 pub(crate) fn shade_eclipses(chart: &mut Chart, recording: &Recording, seconds: f64) {
     let mut eclipses = eclipses(recording, seconds);
     if eclipses.len() > ECLIPSES {

@@ -170,7 +170,7 @@ fn frozen_until_from(file: &PlanFile, mission: &SimulatedMission) -> Result<Plan
     Ok(file)
 }
 
-/// What a plan file says, in a sentence, without simulating anything.
+/// Summary of a plan file in a sentence, without simulating anything.
 ///
 /// # Errors
 /// Everything wrong in it.
