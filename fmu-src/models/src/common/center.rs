@@ -4,6 +4,7 @@ use fmi_export::SetupError;
 use physics::bodies::surface::{MERCURY, PlanetSurface};
 use physics::bodies::{Body, BodyData};
 use physics::enumeration::Enumerated;
+use physics::environment::atmosphere::ExponentialAir;
 use physics::environment::frames::Frame;
 use physics::environment::kepler_planet::{KeplerPlanet, MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use physics::environment::orbit::{self, Elements};
@@ -93,6 +94,11 @@ impl CenterBody {
     /// The frame of those elements: the ecliptic about the Sun, the equator about a planet.
     pub const fn frame(&self) -> Frame {
         if self.data.body.is_planet() { Frame::PlanetEquator } else { Frame::Ecliptic }
+    }
+
+    /// Its air by the exponential model; without density where none is known.
+    pub fn air(&self) -> ExponentialAir {
+        self.data.atmosphere.unwrap_or(ExponentialAir::NONE)
     }
 
     /// The surface; Mercury's, at the body's radius, where there is none.

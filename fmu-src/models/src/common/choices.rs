@@ -2,6 +2,7 @@
 
 use fmi_export::Enumeration;
 use fmi_export::variables::{DeclaredItem, EnumerationType, Item};
+use physics::aerodynamics;
 use physics::bodies::{Body, surface};
 use physics::enumeration::{Enumerated, Item as EnumeratedItem};
 use physics::environment::eclipse::ShadowModel;
@@ -112,6 +113,26 @@ choices! {
     SunshadeShape(SunshadeModel);
     /// Where a Sun outside the keep-in zone is put.
     KeepInMethod(keep_in::KeepInMethod);
+    /// Force of air on a surface.
+    AerodynamicLaw(aerodynamics::AerodynamicLaw);
+    /// Temperature at which molecules leave a surface by the law of Sentman.
+    Reemission(aerodynamics::Reemission);
+}
+
+/// How a planet turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
+pub enum PlanetOrientation {
+    /// Evenly about a pole that stands still.
+    Uniform = 1,
+    /// The Earth by the IAU: precession of 2006, nutation to 1 arcsec, Earth rotation angle.
+    Iau = 2,
+}
+
+impl PlanetOrientation {
+    /// That of a body unless somebody says otherwise.
+    pub fn of(body: Body) -> Self {
+        if body == Body::Earth { Self::Iau } else { Self::Uniform }
+    }
 }
 
 impl SunshadeShape {

@@ -1,10 +1,16 @@
 //! Effects beside sunlight: the switches and laws that several models have, and what in a file is without effect.
 
-use fmi_export::{Boolean, Failure, Integer, Real, SetupError, Values, Variables};
+use fmi_export::{Boolean, Choice, Failure, Integer, Real, RealVector, SetupError, Values, Variables};
+use nalgebra::Vector3;
+use physics::aerodynamics::{self, AerodynamicOptions};
+use physics::bodies::Body;
 use physics::loads::{Active, Switch};
+use physics::numerics::scalar::Scalar;
 use physics::plant::Laws;
 use physics::spacecraft::{Spacecraft, StartValue, SunshadeModel};
 
+use super::center::CenterBody;
+use super::choices::{AerodynamicLaw, Reemission};
 use super::start_values::entry_of;
 
 /// Surfaces are named in messages up to so many.
@@ -48,29 +54,116 @@ pub struct GravityGradientVariables {
     /// Whether the planet's gravity gradient acts; paper 000 leaves it out.
     #[parameter(start = true)]
     pub enabled: Boolean,
+    /// Whether the flattening of the planet's gravity, planet.j2, acts on the gradient too.
+    #[parameter(start = false)]
+    pub flattening: Boolean,
+}
+
+/// Air on the spacecraft's surfaces.
+#[derive(Variables)]
+#[variables(setup = CenterBody)]
+pub struct AerodynamicVariables {
+    /// Whether air acts on the surfaces; by default about the Earth alone.
+    #[parameter(start = setup.data.body == Body::Earth)]
+    pub enabled: Boolean,
+    /// How it acts on a surface, by the materials' drag_coefficient or accommodation.
+    #[parameter(start = AerodynamicLaw(aerodynamics::AerodynamicLaw::DragCoefficient))]
+    pub law: Choice<AerodynamicLaw>,
+    /// Temperature at which molecules leave a surface with law sentman.
+    #[parameter(start = Reemission(aerodynamics::Reemission::Effusive))]
+    pub reemission: Choice<Reemission>,
+    /// Whether surfaces given as polygons shadow one another from the wind; others neither shadow nor are shadowed.
+    #[parameter(start = false)]
+    pub shadowing: Boolean,
+}
+
+/// Torque of the planet's magnetic field.
+#[derive(Variables)]
+#[variables(setup = CenterBody)]
+pub struct MagneticVariables {
+    /// Whether the planet's magnetic field acts on dipole.residual; by default about the Earth alone.
+    #[parameter(start = setup.data.body == Body::Earth)]
+    pub enabled: Boolean,
+}
+
+/// The spacecraft's magnetic dipole.
+#[derive(Variables)]
+pub struct DipoleVariables {
+    /// Dipole that stays in the spacecraft, body frame.
+    #[parameter(tunable, unit = "A.m2", min = -1e9, max = 1e9, start = [0.0; 3])]
+    pub residual: RealVector<3>,
 }
 
 /// Effects in closed form.
 #[derive(Variables)]
+#[variables(setup = CenterBody)]
 pub struct LawVariables {
     #[group]
     pub gravity_gradient: GravityGradientVariables,
+    #[group]
+    pub aerodynamics: AerodynamicVariables,
+    #[group]
+    pub magnetics: MagneticVariables,
+    #[group]
+    pub dipole: DipoleVariables,
 }
 
 impl LawVariables {
-    /// What the laws go by about a planet with this gravitational parameter, as `read` reads it.
-    pub fn read<T>(&self, gravitational_parameter: Real, read: impl Fn(Real) -> T) -> Laws<T> {
-        Laws { gm_m3_s2: read(gravitational_parameter) }
+    /// What the laws go by about a planet with this gravitational parameter, J2 and radius to which that refers, as `read` reads
+    /// them.
+    pub fn read<T: Scalar>(
+        &self,
+        values: &Values,
+        [gravitational_parameter, j2, j2_radius]: [Real; 3],
+        read: impl Fn(Real) -> T,
+    ) -> Laws<T> {
+        let flattened = values.boolean(self.gravity_gradient.flattening);
+        Laws {
+            gm_m3_s2: read(gravitational_parameter),
+            flattening: flattened.then(|| [read(j2), read(j2_radius)]),
+            dipole_body_a_m2: Vector3::from_fn(|i, _| read(self.dipole.residual.element(i))),
+        }
     }
 
-    /// The effects that act, by the switches here and those of planet light and recoil.
-    pub fn active(&self, values: &Values, [planet_light, recoil]: [Boolean; 2]) -> Active {
-        Active::by(|switch| {
-            values.boolean(match switch {
-                Switch::PlanetLight => planet_light,
-                Switch::Recoil => recoil,
-                Switch::GravityGradient => self.gravity_gradient.enabled,
-            })
+    /// The effects that act, by the switches here and those of planet light and recoil; air and magnetic field as given.
+    pub fn active(
+        &self,
+        values: &Values,
+        [planet_light, recoil]: [Boolean; 2],
+        [air, field]: [bool; 2],
+    ) -> Active {
+        Active::by(|switch| match switch {
+            Switch::PlanetLight => values.boolean(planet_light),
+            Switch::Recoil => values.boolean(recoil),
+            Switch::GravityGradient => values.boolean(self.gravity_gradient.enabled),
+            Switch::Aerodynamics => air,
+            Switch::Magnetics => field,
+        })
+    }
+}
+
+impl AerodynamicVariables {
+    /// How surfaces are prepared for air.
+    ///
+    /// # Errors
+    /// Shadows requested where no surface has an outline.
+    pub fn options(
+        &self,
+        values: &Values,
+        spacecraft: &Spacecraft,
+        shape: SunshadeModel,
+    ) -> Result<AerodynamicOptions, Failure> {
+        let shadowing = values.boolean(self.shadowing);
+        let outlines = Outlines::of(spacecraft, shape);
+        if shadowing && outlines.given == 0 {
+            let refusal = outlines.refusal(&spacecraft.name);
+            return Err(Failure::new(format!("aerodynamics.shadowing: {refusal}")));
+        }
+        Ok(AerodynamicOptions {
+            law: values.choice(self.law).0,
+            reemission: values.choice(self.reemission).0,
+            shadowing,
+            sunshade_model: spacecraft.sunshade.as_ref().map(|_| shape),
         })
     }
 }

@@ -8,6 +8,7 @@ pub(crate) mod elements;
 pub(crate) mod ephemeris;
 pub(crate) mod loads;
 pub(crate) mod management;
+pub(crate) mod orientation;
 pub(crate) mod spacecraft;
 pub(crate) mod start_values;
 pub(crate) mod variables;

@@ -1,6 +1,7 @@
 //! What each output depends on, by groups. There is no memory: in steps the same inputs count as at the start.
 
 use fmi_export::{Dependencies, knowns};
+use physics::loads::Effect;
 
 use super::setup::DisturbanceSetup;
 use super::variables::DisturbanceVariables;
@@ -13,6 +14,11 @@ pub(super) fn table(_setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Depe
     let eclipse = &knowns![&v.planet, v.sun.radius, &v.eclipse];
     let light = &knowns![eclipse, &v.solar, &v.planet_light, &v.thermal, &v.shadowing, &v.sunshade];
     let laws = &knowns![&v.planet, &v.laws, &v.spacecraft];
+    let near = &knowns![places, v.planet.pole];
+    // Surfaces in air are as warm as light makes them.
+    let blown = &knowns![lit, v.spacecraft.center_of_mass, &v.atmosphere];
+    let air = &knowns![light, laws];
+    let field = &knowns![&v.magnetic_field];
     let on_torque = (&knowns![lit, v.spacecraft.center_of_mass], &knowns![light, laws]);
 
     let mut table = Dependencies::new();
@@ -22,7 +28,12 @@ pub(super) fn table(_setup: &DisturbanceSetup, v: &DisturbanceVariables) -> Depe
         [(&torque.by_source, torque.total, on_torque), (&force.by_source, force.total, (lit, light))];
     for (by_source, total, of_light) in quantities {
         for (effect, output) in by_source.iter() {
-            let (at_steps, at_start) = if effect.is_light() { of_light } else { (places, laws) };
+            let (at_steps, at_start) = match effect {
+                Effect::Aerodynamic => (blown, air),
+                Effect::Magnetic => (field, laws),
+                effect if effect.is_light() => of_light,
+                _ => (near, laws),
+            };
             table.output(knowns![output, total], at_steps, at_start);
         }
     }

@@ -6,8 +6,9 @@ use fmi_export::{Failure, Real, Values};
 use physics::environment::eclipse::Shadow;
 use physics::loads::Active;
 use physics::numerics::scalar::Scalar;
-use physics::plant::{BySource, Parameters, PositionError, Positions};
-use physics::radiation::disturbance::{DisturbanceModel, Options, PlanetLightMethod, Workspace};
+use physics::aerodynamics::AerodynamicModel;
+use physics::plant::{BySource, Parameters, PositionError, Positions, Surfaces, Workspaces};
+use physics::radiation::disturbance::{DisturbanceModel, Options, PlanetLightMethod};
 use physics::spacecraft::Spacecraft;
 
 use super::setup::Plan;
@@ -19,6 +20,8 @@ use crate::common::spacecraft::inertia_body_kg_m2;
 #[derive(Clone, Debug)]
 pub(super) struct Prepared {
     model: DisturbanceModel,
+    /// Absent where air does not act.
+    air: Option<AerodynamicModel>,
     /// Absent without a planet.
     shadow: Option<Shadow>,
     pub parameters: Parameters<f64>,
@@ -100,12 +103,24 @@ impl Prepared {
                 "{error} (solver.workLimit); see planetLight.method, planetLight.belts and planetLight.nodes"
             ))
         })?;
+        let laws = &variables.laws;
+        let [air_acts, field_acts] = [laws.aerodynamics.enabled, laws.magnetics.enabled].map(|it| values.boolean(it));
+        let air = match air_acts {
+            true => Some(laws.aerodynamics.options(values, spacecraft, sunshade_model)?),
+            false => None,
+        };
+        let air = air.map(|options| AerodynamicModel::new(spacecraft, &options)).transpose();
         Ok(Self {
             model,
+            air: air.map_err(|error| failure(&error))?,
             shadow: present.then_some(shadow),
             parameters,
             inputs: variables.positions(),
-            active: variables.laws.active(values, [light.rings.enabled, variables.thermal.enabled]),
+            active: laws.active(
+                values,
+                [light.rings.enabled, variables.thermal.enabled],
+                [air_acts, field_acts],
+            ),
         })
     }
 
@@ -127,10 +142,10 @@ impl Prepared {
         &self,
         parameters: &Parameters<T>,
         positions: &Positions<T>,
-        workspace: &mut Workspace<T>,
+        workspaces: &mut Workspaces<T>,
     ) -> Result<BySource<T>, Failure> {
-        let model = (&self.model, self.active);
-        BySource::at(model, self.shadow.as_ref(), parameters, positions, workspace).map_err(|error| {
+        let surfaces = Surfaces { light: &self.model, air: self.air.as_ref(), active: self.active };
+        BySource::at(surfaces, self.shadow.as_ref(), parameters, positions, workspaces).map_err(|error| {
             let inputs = match &error {
                 PositionError::Eclipse(_) => "sun.positionBody, planet.positionBody, planet.radius",
                 PositionError::Geometry(_) => "sun.positionBody, planet.positionBody, planet.pole",

@@ -14,8 +14,7 @@ use fmi_export::{
     Step, StepEnd, Values,
 };
 use physics::numerics::scalar::Dual64;
-use physics::plant::{Parameters, Positions};
-use physics::radiation::disturbance::Workspace;
+use physics::plant::{Parameters, Positions, Workspaces};
 use serde::{Deserialize, Serialize};
 
 use inputs::Prepared;
@@ -29,17 +28,19 @@ pub struct DisturbanceState {
     positions: Positions<f64>,
     /// Factor of force and torque of direct sunlight, a tunable parameter.
     solar_scale: f64,
+    /// The residual dipole, body frame, in A m2, a tunable parameter.
+    dipole_body_a_m2: [f64; 3],
     /// Whether the warning was given which inputs are not set yet.
     said_unset: bool,
     #[serde(skip)]
     prepared: Option<Arc<Prepared>>,
     #[serde(skip)]
-    workspace: Workspace<f64>,
+    workspaces: Workspaces<f64>,
 }
 
 impl Model for DisturbanceTorque {
     const NAME: &'static str = "DisturbanceTorque";
-    const STATE_VERSION: u32 = 3;
+    const STATE_VERSION: u32 = 4;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger-thermal.toml");
     const REFERENCE_INPUTS: &'static str = include_str!("../../../resources/reference/DisturbanceTorque.csv");
@@ -92,9 +93,10 @@ impl Model for DisturbanceTorque {
         let mut state = DisturbanceState {
             positions: prepared.inputs.map(|input| values.real(*input)),
             solar_scale: prepared.parameters.solar_scale,
+            dipole_body_a_m2: prepared.parameters.laws.dipole_body_a_m2.into(),
             said_unset: false,
             prepared: Some(prepared.clone()),
-            workspace: Workspace::default(),
+            workspaces: Workspaces::default(),
         };
         update(context, values, &mut state, &prepared)?;
         Ok(state)
@@ -114,13 +116,14 @@ impl Model for DisturbanceTorque {
             *position = step.inputs.real(values, *input, step.end_s);
         }
         state.solar_scale = values.real(context.variables.solar.scale);
+        state.dipole_body_a_m2 = values.vector(context.variables.laws.dipole.residual);
         if !state.said_unset {
             let unset = prepared.unset(&state.positions);
             state.said_unset = !unset.is_empty();
             if state.said_unset {
                 context.log.warning(&format!(
-                    "inputs that are all zero count as not set yet: {}; without a Sun nothing acts, without a planet the Sun \
-                     alone does (planet.present = false says that there is none)",
+                    "inputs that are all zero count as not set yet: {}; without a Sun nothing acts, without a planet none of its light \
+                     and gravity does (planet.present = false says that there is none)",
                     unset.join(", ")
                 ));
             }
@@ -169,10 +172,13 @@ impl Differentiable for DisturbanceTorque {
         let mut parameters = variables.parameters(values, seeded);
         // Of the step that the outputs are of.
         parameters.solar_scale.re = state.solar_scale;
-        let mut workspace = Workspace::<Dual64>::default();
-        let found = prepared.evaluate(&parameters, &positions, &mut workspace)?;
+        for (seeded, value) in parameters.laws.dipole_body_a_m2.iter_mut().zip(state.dipole_body_a_m2) {
+            seeded.re = value;
+        }
+        let mut workspaces = Workspaces::<Dual64>::default();
+        let found = prepared.evaluate(&parameters, &positions, &mut workspaces)?;
         for (unknown, product) in unknowns.iter().zip(products) {
-            *product = outputs::value(variables, &found, &workspace, *unknown)
+            *product = outputs::value(variables, &found, &workspaces.light, *unknown)
                 .ok_or_else(|| Failure::new("directional derivatives are known of the outputs only"))?
                 .eps;
         }
@@ -187,14 +193,15 @@ fn update(
     state: &mut DisturbanceState,
     prepared: &Prepared,
 ) -> Result<(), Failure> {
-    let parameters = Parameters { solar_scale: state.solar_scale, ..prepared.parameters };
-    let found = prepared.evaluate(&parameters, &state.positions, &mut state.workspace)?;
+    let mut parameters = Parameters { solar_scale: state.solar_scale, ..prepared.parameters };
+    parameters.laws.dipole_body_a_m2 = state.dipole_body_a_m2.into();
+    let found = prepared.evaluate(&parameters, &state.positions, &mut state.workspaces)?;
     if !found.loads.total().is_finite() {
         return Err(Failure::new(
             "force or torque is no number at these inputs; see sun.positionBody, planet.positionBody, spacecraft.centerOfMass, solar.flux, solar.scale and \
              spacecraft.inertia, allowed: values a spacecraft can have",
         ));
     }
-    outputs::write(context.variables, values, &found, &state.workspace);
+    outputs::write(context.variables, values, &found, &state.workspaces.light);
     Ok(())
 }

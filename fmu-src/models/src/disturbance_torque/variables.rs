@@ -32,8 +32,12 @@ pub struct DisturbanceVariables {
     pub thermal: RecoilVariables,
     #[group]
     pub shadowing: ShadowingVariables,
-    #[group(name = "")]
+    #[group(name = "", setup = &setup.center)]
     pub laws: LawVariables,
+    #[group]
+    pub atmosphere: AtmosphereVariables,
+    #[group]
+    pub magnetic_field: MagneticFieldVariables,
     #[group]
     pub spacecraft: SpacecraftVariables,
     #[group]
@@ -57,6 +61,9 @@ impl DisturbanceVariables {
             planet_m: vector(self.planet.position_body),
             pole: vector(self.planet.pole),
             center_of_mass_m: vector(self.spacecraft.center_of_mass),
+            air: [self.atmosphere.density, self.atmosphere.temperature, self.atmosphere.molar_mass],
+            air_velocity_m_s: vector(self.atmosphere.velocity_body),
+            field_t: vector(self.magnetic_field.body),
             panel_angles_rad: self.panel.iter().map(|panel| panel.angle).collect(),
         }
     }
@@ -70,7 +77,7 @@ impl DisturbanceVariables {
             sun_radius_m: read(self.sun.radius),
             inertia_body_kg_m2: Matrix3::from_fn(|i, j| read(self.spacecraft.inertia.element(i, j))),
             planet: planet.surface.read(values, planet.radius, &read),
-            laws: self.laws.read(planet.gravitational_parameter, &read),
+            laws: self.laws.read(values, [planet.gravitational_parameter, planet.j2, planet.j2_radius], &read),
         }
     }
 }
@@ -108,11 +115,43 @@ pub struct PlanetVariables {
     /// Gravitational parameter of the planet: by it its gravity gradient.
     #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = setup.center.data.gm_m3_s2)]
     pub gravitational_parameter: Real,
-    /// North of the planet's cells in the body frame, of any length; -Z as paper 004 flies. Without effect on rings.
+    /// Flattening of the planet's gravity, with gravityGradient.flattening: second zonal harmonic, unnormalised.
+    #[parameter(unit = "1", min = -1.0, max = 1.0, start = setup.center.data.j2)]
+    pub j2: Real,
+    /// Radius to which planet.j2 refers.
+    #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data.j2_radius_m)]
+    pub j2_radius: Real,
+    /// North of the planet in the body frame, of any length; -Z as paper 004 flies: of its cells, and of the flattening of its
+    /// gravity. Without effect on rings.
     #[input(unit = "1", start = [0.0, 0.0, -1.0])]
     pub pole: RealVector<3>,
     #[group(name = "", setup = &setup.center)]
     pub surface: SurfaceVariables,
+}
+
+/// The air about the spacecraft.
+#[derive(Variables)]
+pub struct AtmosphereVariables {
+    /// Density; 0 = no air.
+    #[input(unit = "kg/m3", min = 0.0, max = 1e3, start = 0.0)]
+    pub density: Real,
+    /// Temperature.
+    #[input(unit = "K", min = 0.0, max = 1e5, start = 1000.0)]
+    pub temperature: Real,
+    /// Mean molar mass.
+    #[input(unit = "kg/mol", display = "g/mol", min = 0.0, max = 1.0, start = 0.016)]
+    pub molar_mass: Real,
+    /// Velocity of the spacecraft relative to the air, body frame.
+    #[input(unit = "m/s", display = "km/s", start = [0.0; 3])]
+    pub velocity_body: RealVector<3>,
+}
+
+/// The planet's magnetic field.
+#[derive(Variables)]
+pub struct MagneticFieldVariables {
+    /// Field where the spacecraft is, body frame.
+    #[input(unit = "T", display = "nT", start = [0.0; 3])]
+    pub body: RealVector<3>,
 }
 
 /// One solar panel.

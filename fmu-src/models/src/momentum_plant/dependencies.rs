@@ -41,6 +41,8 @@ struct Inputs {
     attitude: Knowns,
     /// Dumps of an ideal flight, which take the momentum at once.
     dumped_at_once: Knowns,
+    /// Air and magnetic field as they are given.
+    surroundings: Knowns,
     /// What fails.
     failures: Knowns,
     /// What fires thrusters and turns wheels.
@@ -54,13 +56,15 @@ impl Inputs {
         let places = knowns![v.orbit.position, v.orbit.velocity, &v.sun, &v.earth, &maneuver];
         let panels_weigh = setup.spacecraft.panels.iter().any(|panel| panel.mass.is_some());
         // The Sun's place in a downlink follows the momentum, and that the dump.
-        let guided = knowns![&v.panel, &v.dump, &v.downlink].only_if(choice.guided);
+        let surroundings = knowns![&v.atmosphere, &v.magnetic_field];
+        let guided = knowns![&v.panel, &v.dump, &v.downlink, &surroundings].only_if(choice.guided);
         let commanded = knowns![&v.command].only_if(choice.ideal || choice.waits);
         let attitude = knowns![&places, guided, commanded, knowns![&v.panel].only_if(panels_weigh)];
         let sensors = v.sun_sensor.iter().map(|sensor| sensor.failed).collect::<Knowns>();
         let wheels = v.wheel.iter().map(|wheel| wheel.failed).collect::<Knowns>();
         Self {
             places,
+            surroundings,
             attitude,
             dumped_at_once: knowns![&v.dump, maneuver].only_if(choice.ideal),
             failures: knowns![
@@ -93,7 +97,8 @@ impl Parameters {
         let orbit = knowns![&v.start, &v.orbit, &v.planet, &v.ephemeris, v.sun.radius, &v.eclipse, between];
         let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
         // Guidance balances torques against the momentum.
-        let aimed = &knowns![&v.guided, &v.momentum, &v.solar, &v.spacecraft, wheels.collect::<Knowns>()];
+        let air = &knowns![&v.atmosphere, &v.space_weather, &v.magnetic_field, v.earth.ut1_offset];
+        let aimed = &knowns![air, &v.laws, &v.guided, &v.momentum, &v.solar, &v.spacecraft, wheels.collect::<Knowns>()];
         let panels = knowns![&v.panel, v.articulation.target_suns];
         let followed = knowns![&v.attitude, &v.command, &v.timeline, &v.keep_in];
         let turned = knowns![&orbit, followed, &v.sunshade, panels];
@@ -108,6 +113,7 @@ impl Parameters {
             &v.thermal,
             &v.shadowing,
             &v.laws,
+            air,
             &v.solver,
             &v.solar,
             &v.spacecraft,
@@ -135,6 +141,15 @@ fn motion(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, paramet
     let between = knowns![v.orbit.current_center, &v.encounter];
     table.output(knowns![sun, earth, orbit, between], &inputs.places, &parameters.orbit);
     predicted(table, v, inputs, parameters);
+    let orientation = knowns![&parameters.orbit, v.earth.ut1_offset];
+    table.output(&v.geodetic, &inputs.places, &orientation);
+    let air = knowns![v.atmosphere.density, v.atmosphere.temperature, v.atmosphere.molar_mass];
+    let of_places = knowns![&inputs.places, &inputs.surroundings];
+    let models = knowns![orientation, &v.laws, &v.atmosphere, &v.space_weather, &v.magnetic_field];
+    table.output(knowns![air, v.magnetic_field.inertial], of_places, &models);
+    let turned = knowns![&inputs.attitude, &inputs.surroundings];
+    let relative = knowns![v.atmosphere.velocity_body, v.magnetic_field.body];
+    table.output(relative, turned, knowns![models, &parameters.attitude]);
     let sun = knowns![v.sun.direction, v.sun.azimuth, v.sun.elevation, v.sun.position_body];
     let others = knowns![v.planet.position_body, v.earth.azimuth, v.earth.elevation, v.keep_in.margin];
     let seen = knowns![v.attitude.q, v.attitude.rate, sun, others, v.sunshade.polynomial_valid];
@@ -156,7 +171,7 @@ fn predicted(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, para
 
 /// Forces and torques by source, what they add up to, and faces one by one.
 fn loads(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, parameters: &Parameters) {
-    let lit = &knowns![&inputs.attitude, &inputs.dumped_at_once, &v.panel];
+    let lit = &knowns![&inputs.attitude, &inputs.dumped_at_once, &v.panel, &inputs.surroundings];
     let by_source = knowns![&v.torque.by_source, &v.force.by_source, &v.plate];
     table.output(by_source, lit, &parameters.light);
     let total = knowns![v.torque.total, v.force.total, v.force.inertial, v.acceleration];
@@ -195,7 +210,8 @@ fn actuators(table: &mut Dependencies, v: &PlantVariables, inputs: &Inputs, para
     table.output(knowns![fired, &v.control], all, &parameters.actuators);
     for wheel in &v.wheel {
         // What acts on the body reaches the wheels that follow ideally or stand at their capacity.
-        let driven = knowns![all, &v.panel, &inputs.dumped_at_once, v.torque.applied, v.force.applied];
+        let applied = knowns![v.torque.applied, v.force.applied, &inputs.surroundings];
+        let driven = knowns![all, &v.panel, &inputs.dumped_at_once, applied];
         let at_start = knowns![&parameters.light, &parameters.actuators];
         table.output(knowns![wheel.torque, wheel.power], driven, at_start);
         // Ideal wheels hold what is left of the momentum.

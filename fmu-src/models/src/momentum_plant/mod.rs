@@ -23,7 +23,7 @@ use variables::PlantVariables;
 
 impl Model for MomentumPlant {
     const NAME: &'static str = "MomentumPlant";
-    const STATE_VERSION: u32 = 17;
+    const STATE_VERSION: u32 = 18;
     const SETUP_FILE: Option<&'static str> = Some("spacecraft.toml");
     const SCHEDULE_FILES: &'static [&'static str] = &[TIMELINE_FILE, EPHEMERIS_FILE];
     const DEFAULT_SETUP: &'static str = include_str!("../../../resources/messenger.toml");
@@ -84,7 +84,7 @@ impl Model for MomentumPlant {
     }
 
     fn initialize(context: &Plan<'_>, values: &mut Values, start_s: f64) -> Result<PlantState, Failure> {
-        inputs::check_effects(context, values)?;
+        inputs::check_effects(context, values, start_s)?;
         let mut state = inputs::start(context, values, start_s)?;
         outputs::write_guaranteed(context, values);
         step::start(context, values, &mut state, start_s)?;

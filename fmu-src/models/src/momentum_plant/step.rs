@@ -3,7 +3,7 @@
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::plant::{Undo, World};
 
-use super::inputs::{self, Reading, propulsion};
+use super::inputs::{self, FixedParameters, Reading, propulsion};
 use super::outputs::{self, failure, log_event};
 use super::setup::Plan;
 use super::state::PlantState;
@@ -59,11 +59,12 @@ fn configure(
     if let Some(read) = reading.configured.take() {
         match (read.fixed, read.settings) {
             (Some(fixed), Some(settings)) => {
-                let mut world = World { light: fixed.light, ..World::new(read.configuration, fixed.laws) };
+                let FixedParameters { light, air, thrusters } = fixed;
+                let mut world = World { light, air, ..World::new(read.configuration) };
                 if let Some(planets) = context.setup.planets_at_start.get() {
                     world.ephemeris.learn(planets);
                 }
-                state.flight.thrusters.settings = fixed.thrusters;
+                state.flight.thrusters.settings = thrusters;
                 state.flight.configure(world, settings);
             }
             (_, changed) => (configuration, settings) = (Some(read.configuration), changed),

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use super::dipole_in_field::DipoleInField;
 use super::internal_motion::InternalMotion;
 use super::mass_flow::MassFlow;
 use super::quaternion::Quaternion;
@@ -20,6 +21,8 @@ pub struct BodyLoad {
     pub flow_kg_s: [f64; 2],
     /// What that does to the body beside its force; absent where nothing flows.
     pub mass_flow: Option<MassFlow>,
+    /// A dipole in a magnetic field; absent where none is.
+    pub dipole: Option<DipoleInField>,
     /// What turns on hinges; absent where nothing does.
     pub internal: Option<InternalMotion>,
 }
@@ -34,6 +37,7 @@ impl BodyLoad {
             mass_kg,
             flow_kg_s: [0.0; 2],
             mass_flow: None,
+            dipole: None,
             internal: None,
         }
     }
@@ -42,6 +46,7 @@ impl BodyLoad {
     pub(super) fn is_zero(&self) -> bool {
         self.torque_body_n_m.iter().chain(&self.force_body_n).all(|it| *it == Vector3::zeros())
             && self.mass_flow.is_none()
+            && self.dipole.is_none()
     }
 
     /// Torque without jet damping in N m and acceleration in m/s2.

@@ -18,6 +18,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::body_load::{BodyLoad, BodyMotion};
+use super::dipole_in_field::FieldSeries;
 use super::gyrostat::Gyrostat;
 use super::imbalance::ImbalanceMotion;
 use super::internal_motion::InternalMotion;
@@ -238,6 +239,17 @@ impl GyrostatMotion {
         sums
     }
 
+    /// Change of the total momentum since the start of the segment by the dipole in the field, EME2000, in N m s; `None` without one.
+    pub fn magnetic_impulse_inertial_n_m_s(&self, time_s: f64) -> Option<Vector3<f64>> {
+        let dipole = self.load.dipole?;
+        let elapsed_s = time_s - self.start_s;
+        let attitudes = self.attitudes_before(elapsed_s);
+        let torques = GAUSS_3.into_iter().zip(attitudes).map(|((node, weight), attitude)| {
+            attitude.inertial_from_body(&dipole.torque_n_m(&attitude, node * elapsed_s)) * (weight * elapsed_s)
+        });
+        Some(torques.sum())
+    }
+
     /// Momentum of rotor `k` (0-based) relative to the body at `time_s`, where the body moves like this, in N m s.
     pub fn rotor_n_m_s(&self, gyrostat: &Gyrostat, k: usize, time_s: f64, motion: &BodyMotion) -> f64 {
         let (wheel, it) = (&gyrostat.wheels()[k], &self.rotors[k]);
@@ -350,6 +362,8 @@ impl GyrostatMotion {
         let scale = self.momentum_scale_n_m_s(gyrostat);
         let (mut power, mut small) = (1.0, 0);
         self.series.order = 0;
+        let attitude = self.series.attitude_after(0.0);
+        let mut magnetic = self.load.dipole.map(|it| (it.dipole_body_a_m2, FieldSeries::new(&it, &attitude)));
         loop {
             let j = self.series.order;
             self.series.rate[j] = self.rate_term(gyrostat, j);
@@ -361,6 +375,9 @@ impl GyrostatMotion {
             let mut torque = self.load.torque_body_n_m.get(j).copied().unwrap_or_default();
             if let Some(flow) = &self.load.mass_flow {
                 torque += flow.jet_damping.term(rates, j);
+            }
+            if let Some((dipole_body_a_m2, field)) = &mut magnetic {
+                torque += field.extend(dipole_body_a_m2, rates, j);
             }
             for (it, imbalance) in self.imbalances.iter_mut().zip(&gyrostat.appendages().imbalances) {
                 let wheel = &gyrostat.wheels()[imbalance.wheel];
@@ -478,7 +495,11 @@ impl GyrostatMotion {
             let attitudes = self.attitudes_before(elapsed_s);
             for ((node, weight), attitude) in GAUSS_3.into_iter().zip(attitudes) {
                 let at_s = node * elapsed_s;
-                for (total, load) in totals.iter_mut().zip(self.loads_after(at_s)) {
+                let [mut torque, acceleration] = self.loads_after(at_s);
+                if let Some(dipole) = &self.load.dipole {
+                    torque += dipole.torque_n_m(&attitude, at_s);
+                }
+                for (total, load) in totals.iter_mut().zip([torque, acceleration]) {
                     *total += attitude.inertial_from_body(&load) * (weight * elapsed_s);
                 }
             }

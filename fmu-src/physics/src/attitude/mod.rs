@@ -6,6 +6,7 @@
 
 mod angles;
 mod body_load;
+mod dipole_in_field;
 pub mod control;
 mod frame;
 mod gravity_gradient;
@@ -27,6 +28,7 @@ mod wheel;
 
 pub use angles::{SunAngles, angle_between_rad, direction_from_angles};
 pub use body_load::{BodyLoad, BodyMotion};
+pub use dipole_in_field::DipoleInField;
 pub use frame::{MovingFrame, MovingUnit};
 pub use gravity_gradient::gravity_gradient_n_m;
 pub use gyrostat::{Appendages, Gyrostat, GyrostatError};

@@ -7,6 +7,8 @@ pub enum Grid {
     Light,
     /// Wherever it is needed, by a law in closed form; of a body that moves by torque on the disturbance grid, as light is.
     Disturbance,
+    /// The same, but of a body that moves by torque by its attitude at every time, in a field on the disturbance grid.
+    Field,
     /// With the motion: no disturbance, but applied from outside or by the spacecraft itself.
     Motion,
 }
@@ -20,6 +22,10 @@ pub enum Switch {
     Recoil,
     /// Gravity gradient.
     GravityGradient,
+    /// Air.
+    Aerodynamics,
+    /// Magnetic field.
+    Magnetics,
 }
 
 /// A row of the table.
@@ -90,6 +96,8 @@ effects! {
     Infrared: "infrared", "Infrared light of the planet.", Some(Switch::PlanetLight), Light, true, true, 1e-2;
     Thermal: "thermal", "Recoil of the heat the spacecraft radiates.", Some(Switch::Recoil), Light, true, true, 1e-2;
     GravityGradient: "gravityGradient", "Gravity gradient of the planet.", Some(Switch::GravityGradient), Disturbance, false, true, 1e-1;
+    Aerodynamic: "aerodynamic", "Air on the spacecraft's surfaces.", Some(Switch::Aerodynamics), Disturbance, true, true, 1e-1;
+    Magnetic: "magnetic", "The residual dipole in the planet's magnetic field.", Some(Switch::Magnetics), Field, false, true, 1e-2;
     Applied: "applied", "What was applied from outside.", None, Motion, true, true, 1e-1;
     Thrusters: "thruster", "The spacecraft's own thrusters.", None, Motion, true, false, 1.0;
 }
@@ -110,6 +118,11 @@ impl Effect {
     /// Whether it is of light and heat.
     pub const fn is_light(self) -> bool {
         matches!(self.row().grid, Grid::Light)
+    }
+
+    /// Whether it is computed by the attitude at every time, in a field on the disturbance grid.
+    pub const fn is_in_field(self) -> bool {
+        matches!(self.row().grid, Grid::Field)
     }
 
     /// Whether it disturbs from the surroundings.

@@ -14,6 +14,7 @@
 //! replaces the command and [`PropagatorState::cut`] drops what was computed beyond it, while heat stored up to then stays.
 //! How far ahead is computed is `RadiationSettings::grid_s`: about the time between two samples wastes nothing.
 
+mod air_and_field;
 mod disturbances;
 mod flight;
 mod light;
@@ -22,7 +23,9 @@ mod motion;
 mod settings;
 mod thrusters;
 
-pub use disturbances::by_source::{BySource, Parameters, PositionError, Positions};
+pub use air_and_field::aerodynamic_solver::AerodynamicSolver;
+pub use air_and_field::air_and_field_segment::AirAndField;
+pub use disturbances::by_source::{BySource, Parameters, PositionError, Positions, Surfaces, Workspaces};
 pub use disturbances::evaluation::{Evaluation, External, Plant, PreparedSpacecraft, World};
 pub use disturbances::laws::{Laws, NearPlanet};
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
@@ -42,6 +45,9 @@ pub use motion::geometry::Geometry;
 pub use motion::instant::{Instant, Regime};
 pub use motion::panel_motion::PanelMotion;
 pub use motion::trajectory::Trajectory;
+pub use settings::air_and_field_settings::{
+    AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure,
+};
 pub use settings::configuration::{
     AttitudeSource, Command, Configuration, DynamicAttitude, Encounter, EphemerisSource, LightSource, Motion,
     PredictionSettings, SunLight, orbit_from_elements,

@@ -12,6 +12,7 @@ use super::super::setup::GuidanceSetup;
 use super::choices::SubsolarMethod;
 use crate::common::choices::OrbitCenter;
 use crate::common::choices::custom_body;
+use crate::common::orientation::RotationVariables;
 
 /// Where the flight starts.
 #[derive(Variables)]
@@ -51,12 +52,8 @@ pub struct PlanetVariables {
     /// Declination of the planet's north pole in EME2000 (IAU 2015).
     #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data.pole_declination_rad)]
     pub pole_declination: Real,
-    /// Prime meridian at J2000 (IAU 2015).
-    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.target.data.prime_meridian_rad)]
-    pub prime_meridian: Real,
-    /// Rotation rate.
-    #[parameter(unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = setup.target.data.rotation_rate_rad_s)]
-    pub rotation_rate: Real,
+    #[group(name = "", setup = &setup.target)]
+    pub rotation: RotationVariables,
     /// Gravitational parameter of the planet: by the acceleration it gives, the rate of a frame that follows the velocity.
     #[parameter(unit = "m3/s2", display = "km3/s2", min = 0.0, max = 1e21, start = setup.target.data.gm_m3_s2)]
     pub gravitational_parameter: Real,
@@ -96,6 +93,9 @@ pub struct SunVariables {
 /// The Earth.
 #[derive(Variables)]
 pub struct EarthVariables {
+    /// UT1 minus UTC, by which the Earth's orientation iau turns.
+    #[parameter(tunable, unit = "s", min = -1e3, max = 1e3, start = 0.0)]
+    pub ut1_offset: Real,
     /// Earth's position from the orbit's centre in EME2000 when ephemeris.source is inputs; zero: not connected yet.
     #[input(unit = "m", display = "AU", start = [0.0; 3])]
     pub position: RealVector<3>,

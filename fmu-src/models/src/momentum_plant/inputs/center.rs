@@ -4,9 +4,11 @@ use fmi_export::{Elements, Values};
 use physics::bodies::surface::PlanetSurface;
 use physics::bodies::{Body, BodyData};
 use physics::enumeration::Enumerated;
+use physics::environment::atmosphere::ExponentialAir;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements as KeplerElements;
 
+use super::air_and_field;
 use crate::common::elements::ElementHandles;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
@@ -20,6 +22,8 @@ pub(super) struct Center {
     pub planet: BodyData,
     /// Its surface; Mercury's where it has none.
     pub surface: PlanetSurface,
+    /// Its air by the exponential model.
+    pub air: ExponentialAir,
     /// Elements of the spacecraft's orbit, which count unless position and velocity are inputs.
     pub elements: KeplerElements,
     /// Frame of those elements.
@@ -53,10 +57,12 @@ impl Center {
             planet.j2_radius,
             planet.pole_right_ascension,
             planet.pole_declination,
+            planet.rotation.prime_meridian,
+            planet.rotation.rotation_rate,
         ];
-        let [a, b, c, d, e, f] = numbers.map(Elements::from);
-        let [g, h, i, j, k] = planet.surface.group();
-        let given = context.given(values, &[a, b, c, d, e, f, g, h, i, j, k]);
+        let group: Vec<Elements> =
+            numbers.into_iter().map(Elements::from).chain(planet.surface.group()).collect();
+        let given = context.given(values, &group);
         let radius_m = given.real_or(planet.radius, own_surface.radius_m);
         let surface = planet.surface.read_or(values, given, radius_m, &own_surface);
         let planet = BodyData {
@@ -67,9 +73,12 @@ impl Center {
             pole_right_ascension_rad: given
                 .real_or(planet.pole_right_ascension, own.pole_right_ascension_rad),
             pole_declination_rad: given.real_or(planet.pole_declination, own.pole_declination_rad),
+            prime_meridian_rad: given.real_or(planet.rotation.prime_meridian, own.prime_meridian_rad),
+            rotation_rate_rad_s: given.real_or(planet.rotation.rotation_rate, own.rotation_rate_rad_s),
             surface: Some(surface),
             ..own
         };
+        let air = air_and_field::exponential(context, values, &near);
         let handles = handles(context.variables);
         let [a, b, c, d, e, _] = handles.group();
         let given = context.given(values, &[a, b, c, d, e, orbit.frame.into()]);
@@ -81,6 +90,7 @@ impl Center {
             data: if encounter.is_some() { body.data } else { planet },
             planet,
             surface,
+            air,
             elements: handles.read_or(given, &own),
             frame: if has_frame { values.choice(orbit.frame).0 } else { body.frame() },
         }
@@ -95,6 +105,12 @@ impl Center {
         values.set_real(planet.j2_radius, data.j2_radius_m);
         values.set_real(planet.pole_right_ascension, data.pole_right_ascension_rad);
         values.set_real(planet.pole_declination, data.pole_declination_rad);
+        values.set_real(planet.rotation.prime_meridian, data.prime_meridian_rad);
+        values.set_real(planet.rotation.rotation_rate, data.rotation_rate_rad_s);
+        let atmosphere = &variables.atmosphere;
+        values.set_real(atmosphere.reference_density, self.air.reference_density_kg_m3);
+        values.set_real(atmosphere.reference_height, self.air.reference_height_m);
+        values.set_real(atmosphere.scale_height, self.air.scale_height_m);
         planet.surface.write(values, &self.surface);
         if !values.choice(variables.orbit.source).is_given() {
             handles(variables).write(values, &self.elements);

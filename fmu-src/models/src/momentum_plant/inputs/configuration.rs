@@ -20,6 +20,7 @@ use physics::plant::{
 };
 use physics::spacecraft::PanelControl;
 
+use super::air_and_field;
 use super::center::Center;
 use super::n_body;
 use crate::common::center::CenterBody;
@@ -91,6 +92,18 @@ pub(super) fn read(
             PanelControl::Distance => PanelSetting::Distance { suns: corridor.target_suns, tilt_sign },
         }
     }));
+    let acts = air_and_field::Followed::read(context, values, center.planet.body).acts;
+    let effects = variables.laws.active(values, switches, acts);
+    let figure = air_and_field::figure(context, values, &center.planet)?;
+    let planet = &variables.planet;
+    let laws = [
+        (planet.gravitational_parameter, center.planet.gm_m3_s2),
+        (planet.j2, center.planet.j2),
+        (planet.j2_radius, center.planet.j2_radius_m),
+    ];
+    let of_planet = |real: Real| {
+        laws.iter().find(|(own, _)| *own == real).map_or_else(|| values.real(real), |(_, value)| *value)
+    };
     Ok(Configuration {
         epoch_minus_time_s,
         center: data.body,
@@ -107,6 +120,8 @@ pub(super) fn read(
             time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s),
         ),
         ephemeris: ephemeris_source(&context.setup.bodies.body(data.body), context, values, state.waiting)?,
+        air_and_field: air_and_field::read(context, values, center, effects)?,
+        figure,
         light: variables.solar.read(values),
         shadow: variables.eclipse.read(values, center.planet.radius_m, values.real(variables.sun.radius))?,
         light_and_heat: RadiationSettings {
@@ -121,7 +136,8 @@ pub(super) fn read(
         center_of_mass_body_m: Vector3::from(values.vector(variables.spacecraft.center_of_mass)),
         mass_kg: values.real(variables.spacecraft.mass),
         inertia_body_kg_m2,
-        effects: variables.laws.active(values, switches),
+        effects,
+        laws: variables.laws.read(values, laws.map(|(parameter, _)| parameter), of_planet),
         momentum: settings(context, values),
         thruster_events: ThrusterEventSettings {
             schedule: followed.map(|it| it.events().clone()).unwrap_or_default(),

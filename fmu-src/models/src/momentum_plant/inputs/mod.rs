@@ -1,5 +1,6 @@
 //! One reading of parameters and inputs into what the physics takes; refuses what cannot be simulated, by name.
 
+mod air_and_field;
 mod center;
 mod configuration;
 mod dynamics;
@@ -12,9 +13,10 @@ use physics::attitude::Attitude;
 use physics::bodies::surface::PlanetSurface;
 use physics::environment::time;
 use physics::guidance::ChosenPlace;
+use physics::loads::Effect;
 use physics::management::Manager;
 use physics::plant::{
-    Changes, Configuration, DownlinkForecast, External, Laws, ModeSettings, PlantError, PreparedSpacecraft,
+    AerodynamicSolver, Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError, PreparedSpacecraft,
     RadiationSolver, ReactionControlSettings, StepContext, SunPlanner, Thrusters,
 };
 
@@ -55,8 +57,8 @@ pub(super) struct Configured {
 
 /// What follows from parameters that stay.
 pub(super) struct FixedParameters {
-    /// Effects in closed form.
-    pub laws: Laws,
+    /// Surfaces in air.
+    pub air: Option<AerodynamicSolver>,
     /// Light and heat beyond direct sunlight.
     pub light: Option<RadiationSolver>,
     /// Thrusters and tanks.
@@ -145,11 +147,12 @@ fn configured(
     } else {
         None
     };
-    let gm = context.variables.planet.gravitational_parameter;
-    let about_center = |real| if real == gm { center.planet.gm_m3_s2 } else { values.real(real) };
     let fixed = if is_anew {
         Some(FixedParameters {
-            laws: context.variables.laws.read(gm, about_center),
+            air: match state.waiting {
+                true => None,
+                false => air(context, values, &configuration)?,
+            },
             light: match state.waiting {
                 true => None,
                 false => light(context, values, &configuration, &center.surface)?,
@@ -176,7 +179,7 @@ pub(super) fn start(context: &Plan<'_>, values: &Values, start_s: f64) -> Result
 ///
 /// # Errors
 /// A setting that cannot have any.
-pub(super) fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), Failure> {
+pub(super) fn check_effects(context: &Plan<'_>, values: &Values, start_s: f64) -> Result<(), Failure> {
     let (variables, spacecraft) = (context.variables, &context.setup.spacecraft);
     let shape = values.choice(variables.sunshade.shape).0;
     let shadows = variables.shadowing.check(values, spacecraft, shape)?;
@@ -186,6 +189,7 @@ pub(super) fn check_effects(context: &Plan<'_>, values: &Values) -> Result<(), F
         context.log.warning(&warning);
     }
     center::say_followed(context, values);
+    air_and_field::report(context, values, start_s);
     Ok(())
 }
 
@@ -196,6 +200,7 @@ pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     let elements = ellipse.read(context, values, &context.setup.bodies.body(center.data.body));
     ellipse.write(values, &elements);
     center.write(context.variables, values);
+    air_and_field::Followed::read(context, values, center.planet.body).write(context.variables, values);
     let guided = &context.variables.guided;
     let phase = guided.phase(context, values, &context.setup.windows, !center.data.body.is_planet());
     values.set_choice(guided.phase, phase);
@@ -219,6 +224,21 @@ pub(super) fn check_span(
     let end = "the epoch at the end of the step";
     ephemeris::check_onboard(carried, center, end, end_epoch_s)?;
     n_body::check_onboard(variables, values, carried, end, end_epoch_s)
+}
+
+/// Surfaces in air; `None` where that does not act.
+fn air(
+    context: &Plan<'_>,
+    values: &Values,
+    configuration: &Configuration,
+) -> Result<Option<AerodynamicSolver>, Failure> {
+    let spacecraft = &context.setup.spacecraft;
+    if !configuration.effects.has(Effect::Aerodynamic) {
+        return Ok(None);
+    }
+    let options = context.variables.laws.aerodynamics.options(values, spacecraft, configuration.sunshade)?;
+    let solver = AerodynamicSolver::new(spacecraft, configuration, &options);
+    solver.map(Some).map_err(|error| Failure::new(format!("aerodynamics.*, sunshade.shape: {error}")))
 }
 
 /// What light and heat need beyond the configuration; `None` where direct sunlight is all there is.

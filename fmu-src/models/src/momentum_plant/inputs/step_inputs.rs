@@ -154,6 +154,12 @@ impl StepInputs {
         let downlink = &v.downlink;
         self.light.extend([downlink.sun_azimuth, downlink.sun_elevation].map(real));
         self.light.push(f64::from(u8::from(values.boolean(downlink.alternate))));
+        let (air, weather) = (&v.atmosphere, &v.space_weather);
+        let given = [air.given_density, air.given_temperature, air.given_molar_mass, air.density_factor];
+        self.light.extend(given.into_iter().chain([weather.f107, weather.f107_average, weather.ap]).map(real));
+        let vectors = [air.wind, v.magnetic_field.given, v.laws.dipole.residual];
+        self.light.extend(vectors.into_iter().flat_map(|vector| values.vector(vector)));
+        self.light.push(real(v.earth.ut1_offset));
         let moves = |input: Real| over_time.derivatives(input).next().is_some();
         self.panels_move = v.panel.iter().any(|panel| moves(panel.angle) || moves(panel.sun_offset_command));
         let ([a, b, c], [d, e, f]) = (values.vector(v.dump.threshold), values.vector(v.dump.target));

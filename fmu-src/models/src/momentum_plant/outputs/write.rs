@@ -6,7 +6,7 @@ use physics::attitude::{Attitude, SunAngles};
 use physics::environment::time;
 use physics::loads::Effect;
 use physics::plant::{
-    Configuration, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report, ThrusterEvent,
+    AirAndField, Configuration, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report, ThrusterEvent,
 };
 use physics::propulsion::surface_in_plume;
 use physics::radiation::{TorquePolynomial, polynomial_valid};
@@ -69,6 +69,8 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
         (values.real(variables.keep_in.azimuth), values.real(variables.keep_in.elevation));
     values.set_real(variables.keep_in.margin, sun.keep_in_margin_rad(azimuth_limit_rad, elevation_limit_rad));
 
+    write_air_and_field(context, values, report);
+
     let spacecraft = &instant.geometry.spacecraft;
     values.set_vector(variables.position, spacecraft.position_m.into());
     values.set_vector(variables.velocity, spacecraft.velocity_m_s.into());
@@ -103,6 +105,33 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
         values.set_real(panel.angle_actual, angle_rad.unwrap_or(0.0));
         values.set_real(panel.suns, suns.unwrap_or(0.0));
         values.set_real(panel.corridor_margin, suns.map_or(0.0, |suns| corridor.margin_suns(suns)));
+    }
+}
+
+/// Place over the planet, air and magnetic field.
+fn write_air_and_field(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
+    let Report { time_s, configuration, evaluation, .. } = report;
+    let Evaluation { instant, air_and_field, .. } = evaluation;
+    let AirAndField { air, air_velocity_m_s, field_inertial_t } = air_and_field;
+    let v = context.variables;
+    let from_planet = instant.geometry.from_planet();
+    if let Some((figure, place)) = configuration.figure.as_ref().zip(from_planet) {
+        let epoch_s = time::epoch_at_s(*time_s, configuration.epoch_minus_time_s);
+        let geodetic = figure.geodetic(epoch_s, &place.position_m);
+        values.set_real(v.geodetic.latitude, geodetic.latitude_rad);
+        values.set_real(v.geodetic.longitude, geodetic.longitude_rad);
+        values.set_real(v.geodetic.height, geodetic.height_m);
+    }
+    if configuration.effects.has(Effect::Aerodynamic) {
+        values.set_real(v.atmosphere.density, air.density_kg_m3);
+        values.set_real(v.atmosphere.temperature, air.temperature_k);
+        values.set_real(v.atmosphere.molar_mass, air.molar_mass_kg_mol);
+        let relative_m_s = from_planet.map(|place| instant.to_body * (place.velocity_m_s - air_velocity_m_s));
+        values.set_vector(v.atmosphere.velocity_body, relative_m_s.unwrap_or_default().into());
+    }
+    if configuration.effects.has(Effect::Magnetic) {
+        values.set_vector(v.magnetic_field.inertial, (*field_inertial_t).into());
+        values.set_vector(v.magnetic_field.body, (instant.to_body * field_inertial_t).into());
     }
 }
 
@@ -341,6 +370,7 @@ pub(crate) fn failure(error: PlantError) -> Failure {
                 Cost::Light => {
                     "light and heat: see solver.disturbanceStep, solver.disturbanceTolerance and planetLight.nodes"
                 }
+                Cost::Air => "air and magnetic field along the orbit; see atmosphere.tolerance",
                 Cost::Orbit => "integrating the orbit in steps of orbit.step",
                 Cost::Ephemeris => {
                     "the positions of planets far apart in time: see guided.slewRate and guided.downlinkEvery"

@@ -1,5 +1,6 @@
 //! The plant's variables at its public face.
 
+pub(super) mod air_and_field;
 pub(super) mod body;
 pub(super) mod choices;
 mod control;
@@ -12,6 +13,9 @@ mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
 
+use air_and_field::{
+    AtmosphereVariables, GeodeticVariables, MagneticFieldVariables, SpaceWeatherVariables,
+};
 use body::{
     ArticulationVariables, KeepInVariables, PanelVariables, SpacecraftVariables, SunshadeVariables,
     WheelVariables,
@@ -78,8 +82,16 @@ pub struct PlantVariables {
     pub thermal: ThermalVariables,
     #[group]
     pub shadowing: ShadowingVariables,
-    #[group(name = "")]
+    #[group(name = "", setup = &setup.center)]
     pub laws: LawVariables,
+    #[group]
+    pub atmosphere: AtmosphereVariables,
+    #[group]
+    pub space_weather: SpaceWeatherVariables,
+    #[group]
+    pub magnetic_field: MagneticFieldVariables,
+    #[group]
+    pub geodetic: GeodeticVariables,
     #[group]
     pub spacecraft: SpacecraftVariables,
     #[group]

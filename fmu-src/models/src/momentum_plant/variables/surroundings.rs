@@ -6,6 +6,7 @@ use physics::constants::{HALF_TURNS_RAD, QUARTER_TURNS_RAD};
 
 use super::super::setup::PlantSetup;
 use super::choices::EphemerisSource;
+use crate::common::orientation::RotationVariables;
 use crate::common::variables::{EllipseVariables, SurfaceVariables};
 
 /// Positions of the Sun, the orbit's centre and the Earth.
@@ -41,6 +42,8 @@ pub struct PlanetVariables {
     /// Declination of the planet's north pole in EME2000 (IAU 2015).
     #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.center.data.pole_declination_rad)]
     pub pole_declination: Real,
+    #[group(name = "", setup = &setup.center)]
+    pub rotation: RotationVariables,
     #[group(name = "", setup = &setup.center)]
     pub surface: SurfaceVariables,
     /// From the spacecraft to the planet's centre, body frame; 0 without a planet, that is with orbit.center sun.
@@ -99,6 +102,9 @@ pub struct SunVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct EarthVariables {
+    /// UT1 minus UTC, by which the Earth's orientation iau turns.
+    #[parameter(tunable, unit = "s", min = -1e3, max = 1e3, start = 0.0)]
+    pub ut1_offset: Real,
     /// Earth's position from the orbit's centre in EME2000 when ephemeris.source is inputs.
     #[input(unit = "m", display = "AU", start = [0.0; 3])]
     pub position: RealVector<3>,

@@ -5,11 +5,12 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::laws::{Laws, NearPlanet};
+use crate::aerodynamics::{self, AerodynamicModel, AirFlow};
 use crate::bodies::surface::PlanetSurface;
 use crate::environment::eclipse::{EclipseError, Shadow};
-use crate::loads::{Active, Effect, Loads};
+use crate::loads::{Active, Effect, ForceTorque, Loads};
 use crate::numerics::scalar::Scalar;
-use crate::radiation::disturbance::{DisturbanceModel, Geometry, Recoil, Workspace};
+use crate::radiation::disturbance::{self, DisturbanceModel, Geometry, Recoil};
 use crate::refusal::Refusal;
 
 /// Where everything is, body frame.
@@ -23,6 +24,12 @@ pub struct Positions<T> {
     pub pole: [T; 3],
     /// Centre of mass, in m.
     pub center_of_mass_m: [T; 3],
+    /// The air about the spacecraft: density in kg/m3, zero = none, temperature in K, molar mass in kg/mol.
+    pub air: [T; 3],
+    /// Velocity relative to the air, in m/s.
+    pub air_velocity_m_s: [T; 3],
+    /// Magnetic field, in T.
+    pub field_t: [T; 3],
     /// Angle of every panel about its axis, in rad.
     pub panel_angles_rad: Vec<T>,
 }
@@ -42,6 +49,26 @@ pub struct Parameters<T: Scalar> {
     pub planet: PlanetSurface<T>,
     /// What effects in closed form go by.
     pub laws: Laws<T>,
+}
+
+/// What the spacecraft is prepared as.
+#[derive(Clone, Copy, Debug)]
+pub struct Surfaces<'a> {
+    /// In light.
+    pub light: &'a DisturbanceModel,
+    /// In air, where that acts.
+    pub air: Option<&'a AerodynamicModel>,
+    /// The effects that act.
+    pub active: Active,
+}
+
+/// Room for surfaces in light and in air.
+#[derive(Clone, Debug, Default)]
+pub struct Workspaces<T: Scalar> {
+    /// In light.
+    pub light: disturbance::Workspace<T>,
+    /// In air.
+    pub air: aerodynamics::Workspace<T>,
 }
 
 /// Everything computed from one set of positions, but for the faces, which are in the workspace.
@@ -69,14 +96,16 @@ pub enum PositionError {
 impl<T> Positions<T> {
     /// Every number.
     pub fn iter(&self) -> impl Iterator<Item = &T> {
-        let vectors = [&self.sun_m, &self.planet_m, &self.pole, &self.center_of_mass_m];
-        vectors.into_iter().flatten().chain(&self.panel_angles_rad)
+        let places = [&self.sun_m, &self.planet_m, &self.pole, &self.center_of_mass_m];
+        let surroundings = [&self.air, &self.air_velocity_m_s, &self.field_t];
+        places.into_iter().chain(surroundings).flatten().chain(&self.panel_angles_rad)
     }
 
     /// Every number in the same order, to be written.
     pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut T> {
-        let vectors = [&mut self.sun_m, &mut self.planet_m, &mut self.pole, &mut self.center_of_mass_m];
-        vectors.into_iter().flatten().chain(&mut self.panel_angles_rad)
+        let places = [&mut self.sun_m, &mut self.planet_m, &mut self.pole, &mut self.center_of_mass_m];
+        let surroundings = [&mut self.air, &mut self.air_velocity_m_s, &mut self.field_t];
+        places.into_iter().chain(surroundings).flatten().chain(&mut self.panel_angles_rad)
     }
 
     /// What `of` makes of every number.
@@ -86,6 +115,9 @@ impl<T> Positions<T> {
             planet_m: self.planet_m.each_ref().map(&of),
             pole: self.pole.each_ref().map(&of),
             center_of_mass_m: self.center_of_mass_m.each_ref().map(&of),
+            air: self.air.each_ref().map(&of),
+            air_velocity_m_s: self.air_velocity_m_s.each_ref().map(&of),
+            field_t: self.field_t.each_ref().map(&of),
             panel_angles_rad: self.panel_angles_rad.iter().map(&of).collect(),
         }
     }
@@ -98,11 +130,11 @@ impl<T: Scalar> BySource<T> {
     /// # Errors
     /// The spacecraft inside planet or Sun, positions that are no numbers.
     pub fn at(
-        (model, active): (&DisturbanceModel, Active),
+        Surfaces { light: model, air, active }: Surfaces<'_>,
         shadow: Option<&Shadow>,
         parameters: &Parameters<T>,
         positions: &Positions<T>,
-        workspace: &mut Workspace<T>,
+        Workspaces { light: workspace, air: air_workspace }: &mut Workspaces<T>,
     ) -> Result<Self, PositionError> {
         let sun_m = Vector3::from(positions.sun_m);
         if is_zero(&sun_m) {
@@ -136,10 +168,22 @@ impl<T: Scalar> BySource<T> {
         let planet = shadow.filter(|_| active.has(Effect::Albedo)).map(|_| &parameters.planet);
         let light = model.evaluate_on(planet, &geometry, Recoil::Balance, workspace)?;
         let mut loads = light.of_active(active);
-        if let Some(planet_body_m) = planet_m {
-            let inertia_body_kg_m2 = parameters.inertia_body_kg_m2;
-            parameters.laws.exert(active, &NearPlanet { planet_body_m, inertia_body_kg_m2 }, &mut loads);
-        }
+        let pole = Vector3::from(positions.pole);
+        let [density_kg_m3, temperature_k, molar_mass_kg_mol] = positions.air;
+        let velocity_body_m_s = Vector3::from(positions.air_velocity_m_s);
+        let flow = AirFlow { density_kg_m3, temperature_k, molar_mass_kg_mol, velocity_body_m_s };
+        let air = air.filter(|_| density_kg_m3.value() > 0.0).map(|model| {
+            let center = Vector3::from(positions.center_of_mass_m);
+            model.load(&flow, &positions.panel_angles_rad, &center, None, air_workspace)
+        });
+        let at = NearPlanet {
+            planet_body_m: planet_m,
+            pole_body: if is_zero(&pole) { -Vector3::z() } else { pole.normalize() },
+            inertia_body_kg_m2: parameters.inertia_body_kg_m2,
+            field_body_t: Vector3::from(positions.field_t),
+            air: air.unwrap_or_else(ForceTorque::zero),
+        };
+        parameters.laws.exert(active, &at, &mut loads);
         Ok(Self { active, loads, lit_fraction })
     }
 }

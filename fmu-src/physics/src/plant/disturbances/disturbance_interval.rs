@@ -56,8 +56,11 @@ pub(crate) struct DisturbanceInterval {
     /// Length the tolerance will probably allow the next interval, in s.
     #[serde(with = "or_infinite")]
     next_longest_s: f64,
-    /// Force and torque of the disturbances that act, body frame; what is applied is known at any time.
+    /// Force and torque of the disturbances that act, body frame; what is applied is known at any time, what acts by a field follows
+    /// from it and the attitude.
     loads: ByEffect<Option<[Linear; 2]>>,
+    /// Magnetic field, EME2000.
+    field_inertial_t: Linear,
     /// Unit vector to the Sun, EME2000.
     to_sun: Linear,
     /// Visible part of the Sun's disc, at the start and per second.
@@ -73,6 +76,7 @@ impl DisturbanceInterval {
             end_s: f64::NEG_INFINITY,
             next_longest_s: f64::INFINITY,
             loads: ByEffect::default(),
+            field_inertial_t: nothing,
             to_sun: nothing,
             lit_fraction: [0.0; 2],
         }
@@ -119,17 +123,18 @@ impl DisturbanceInterval {
             [a - slope * NODES[0], slope / span_s]
         };
         let mut loads = ByEffect::default();
-        for effect in active.disturbances() {
+        for effect in active.disturbances().filter(|effect| !effect.is_in_field()) {
             let force = line(&|it| it.loads[effect].force_body_n);
             loads[effect] = Some([force, line(&|it| it.loads[effect].torque_body_n_m)]);
         }
+        let field_inertial_t = line(&|it| it.air_and_field.field_inertial_t);
         // The Sun is seen from the start on, however long the interval is.
         let (now, then) = (&begin, &second.instant);
         let elapsed_s = NODES[1] * span_s;
         let [to_sun, to_sun_then] = [now, then].map(|it| it.geometry.to_sun.position_m.normalize());
         let to_sun = [to_sun, (to_sun_then - to_sun) / elapsed_s];
         let lit_fraction = [now.lit_fraction, (then.lit_fraction - now.lit_fraction) / elapsed_s];
-        Ok(Self { start_s, end_s, next_longest_s, loads, to_sun, lit_fraction })
+        Ok(Self { start_s, end_s, next_longest_s, loads, field_inertial_t, to_sun, lit_fraction })
     }
 
     /// Whether a simulation can produce it.
@@ -159,6 +164,12 @@ impl DisturbanceInterval {
             loads[effect] = ForceTorque { force_body_n, torque_body_n_m };
         }
         loads
+    }
+
+    /// Magnetic field at `time_s`, EME2000, in T, and its rate in T/s.
+    pub(crate) fn field_at(&self, time_s: f64) -> Linear {
+        let [start, rate] = self.field_inertial_t;
+        [start + rate * (time_s - self.start_s), rate]
     }
 
     /// Torque of a disturbance that acts at `time_s` and its slope, in N m and N m/s.
@@ -193,12 +204,12 @@ fn orbital_rate_rad_s(spacecraft: &CartesianState) -> f64 {
     if distance_m > 0.0 { speed_m_s / distance_m } else { 0.0 }
 }
 
-/// Largest distance at the two ends of force and torque from the line through the loads at the two nodes, relative to the
-/// largest force and torque of all effects there; a torque counts against the largest force at an arm of 1 cm at least.
+/// Largest distance at the two ends of force, torque and magnetic field from the line through those at the two nodes, relative to the
+/// largest force and torque of all effects there, and the field; a torque counts against the largest force at an arm of 1 cm at least.
 fn left_out(active: Active, nodes: &[Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
     let (mut scale, mut most) = ([0.0_f64; 2], [0.0_f64; 2]);
     let beyond = NODES[0] / (NODES[1] - NODES[0]);
-    for effect in active.disturbances() {
+    for effect in active.disturbances().filter(|effect| !effect.is_in_field()) {
         let [a, b, start, end] = [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.loads[effect]);
         let kinds = [
             [a.force_body_n, b.force_body_n, start.force_body_n, end.force_body_n],
@@ -213,5 +224,10 @@ fn left_out(active: Active, nodes: &[Evaluation; 2], ends: &[Evaluation; 2]) -> 
     let [force_n, torque_n_m] = scale;
     let torque_n_m = torque_n_m.max(force_n * LEAST_ARM_M);
     let share = |most: f64, scale: f64| if scale > 0.0 { most / scale } else { 0.0 };
-    share(most[0], force_n).max(share(most[1], torque_n_m))
+    let [a, b, start, end] =
+        [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.air_and_field.field_inertial_t);
+    let slope = (b - a) * beyond;
+    let field_most_t = (start - (a - slope)).amax().max((end - (b + slope)).amax());
+    let of_field = share(field_most_t, a.amax().max(b.amax()));
+    share(most[0], force_n).max(share(most[1], torque_n_m)).max(of_field)
 }

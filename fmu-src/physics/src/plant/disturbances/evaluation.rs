@@ -7,6 +7,7 @@
 
 use nalgebra::{Rotation3, Vector3};
 
+use crate::aerodynamics::AirFlow;
 use crate::attitude::MovingFrame;
 use crate::constants::RADIUS_SUN_M;
 use crate::environment::ephemeris::Ephemeris;
@@ -19,7 +20,10 @@ use crate::numerics::chebyshev::Segment;
 use crate::radiation::{Beam, SolarModel};
 use crate::spacecraft::{MassProperties, Panel};
 
-use super::laws::{Laws, NearPlanet};
+use super::laws::NearPlanet;
+use crate::plant::air_and_field::aerodynamic_solver::AerodynamicSolver;
+use crate::plant::air_and_field::air_and_field_builder::AirAndFieldBuilder;
+use crate::plant::air_and_field::air_and_field_segment::{AirAndField, AirAndFieldSegment};
 use crate::plant::flight::propagator_state::PropagatorState;
 use crate::plant::flight::sun_choice::SunChoice;
 use crate::plant::light::light_and_heat::RadiationBuilder;
@@ -47,6 +51,8 @@ pub struct Evaluation {
     pub mass: MassProperties,
     /// Momentum of panels that turn, relative to the body, body frame, in N m s.
     pub panels_body_n_m_s: Vector3<f64>,
+    /// Air and magnetic field about it.
+    pub air_and_field: AirAndField,
 }
 
 impl Evaluation {
@@ -57,6 +63,7 @@ impl Evaluation {
             loads: Loads::zero(),
             mass,
             panels_body_n_m_s: Vector3::zeros(),
+            air_and_field: AirAndField::default(),
         }
     }
 
@@ -109,10 +116,10 @@ pub struct World {
     pub mass_at_zero: MassProperties,
     /// Planets.
     pub ephemeris: Ephemeris,
-    /// What effects in closed form go by.
-    pub laws: Laws,
     /// Light and heat beyond direct sunlight.
     pub light: Option<RadiationSolver>,
+    /// Surfaces in air.
+    pub air: Option<AerodynamicSolver>,
     /// What the step has cost so far.
     pub work: Work,
     /// Room of forks, kept from one to the next: they allocate nothing.
@@ -121,15 +128,15 @@ pub struct World {
 
 impl World {
     /// Of this configuration with full tanks, without light and heat beyond direct sunlight.
-    pub fn new(configuration: Configuration, laws: Laws) -> Self {
+    pub fn new(configuration: Configuration) -> Self {
         let predictions = configuration.encounter.map(|encounter| encounter.prediction);
         let ahead_s = predictions.filter(|it| it.refresh_s > 0.0).map_or(0.0, |it| it.horizon_s);
         Self {
             mass_at_zero: configuration.loaded(),
             configuration,
             ephemeris: Ephemeris::holding(ahead_s),
-            laws,
             light: None,
+            air: None,
             work: Work::new(u32::MAX, 0),
             fork_room: Default::default(),
         }
@@ -180,9 +187,10 @@ impl PreparedSpacecraft<'_> {
 pub struct Plant<'a> {
     prepared: PreparedSpacecraft<'a>,
     pub(crate) kinematics: Kinematics<'a>,
-    laws: Laws,
     segment: &'a mut Option<RadiationSegment>,
     light: Option<&'a mut RadiationSolver>,
+    air_and_field: &'a mut AirAndFieldSegment,
+    air: Option<&'a mut AerodynamicSolver>,
     sun_choice: SunChoice,
     external: &'a External<'a>,
 }
@@ -198,8 +206,8 @@ impl<'a> Plant<'a> {
         propagator: &'a mut PropagatorState,
         external: &'a External<'a>,
     ) -> Self {
-        let World { configuration, mass_at_zero, ephemeris, laws, light, work, .. } = world;
-        let PropagatorState { trajectory, light: segment, sun_choice, .. } = propagator;
+        let World { configuration, mass_at_zero, ephemeris, light, air, work, .. } = world;
+        let PropagatorState { trajectory, light: segment, air_and_field, sun_choice, .. } = propagator;
         let kinematics = Kinematics {
             configuration,
             trajectory,
@@ -212,9 +220,10 @@ impl<'a> Plant<'a> {
         Self {
             prepared,
             kinematics,
-            laws: *laws,
             segment,
             light: light.as_mut(),
+            air_and_field,
+            air: air.as_mut(),
             sun_choice: *sun_choice,
             external,
         }
@@ -226,12 +235,58 @@ impl<'a> Plant<'a> {
         let configuration = self.kinematics.configuration;
         let mass = self.mass_properties(&instant, time_s);
         let mut loads = self.radiation(time_s, &instant, &mass.center_of_mass_body_m);
-        if let Some(at) = NearPlanet::of(&instant, &mass) {
-            self.laws.exert(configuration.effects, &at, &mut loads);
+        let air_and_field = self.air_and_field(time_s);
+        if let Some(planet_body_m) = instant.planet_body_m {
+            let at = NearPlanet {
+                planet_body_m: Some(planet_body_m),
+                pole_body: instant.to_body * self.pole_inertial(time_s),
+                inertia_body_kg_m2: mass.inertia_body_kg_m2,
+                field_body_t: instant.to_body * air_and_field.field_inertial_t,
+                air: self.air_load(time_s, &instant, &air_and_field, &mass.center_of_mass_body_m),
+            };
+            configuration.laws.exert(configuration.effects, &at, &mut loads);
         }
         [loads[Effect::Applied], _] = (self.external)(time_s);
         let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass, time_s);
-        Evaluation { instant, loads, mass, panels_body_n_m_s }
+        Evaluation { instant, loads, mass, panels_body_n_m_s, air_and_field }
+    }
+
+    /// Air and magnetic field at `time_s`, which the propagator must have reached.
+    pub(crate) fn air_and_field(&self, time_s: f64) -> AirAndField {
+        let settings = &self.kinematics.configuration.air_and_field;
+        settings.as_ref().map_or_else(AirAndField::default, |it| self.air_and_field.at(it, time_s))
+    }
+
+    /// The planet's pole, EME2000, where the flattening of its gravity acts on the gradient.
+    fn pole_inertial(&self, time_s: f64) -> Vector3<f64> {
+        let Configuration { figure, laws, epoch_minus_time_s, .. } = self.kinematics.configuration;
+        let figure = figure.as_ref().filter(|_| laws.flattening.is_some());
+        figure.map_or(Vector3::z(), |it| it.orientation.pole_eme2000(time_s + epoch_minus_time_s))
+    }
+
+    /// What the air does to the surfaces.
+    fn air_load(
+        &mut self,
+        time_s: f64,
+        instant: &Instant,
+        found: &AirAndField,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> ForceTorque {
+        let configuration = self.kinematics.configuration;
+        let acts = configuration.effects.has(Effect::Aerodynamic) && found.air.density_kg_m3 > 0.0;
+        let Some((solver, moving)) = self.air.as_deref_mut().zip(instant.geometry.from_planet()).filter(|_| acts)
+        else {
+            return ForceTorque::zero();
+        };
+        let flow = AirFlow {
+            density_kg_m3: found.air.density_kg_m3,
+            temperature_k: found.air.temperature_k,
+            molar_mass_kg_mol: found.air.molar_mass_kg_mol,
+            velocity_body_m_s: instant.to_body * (moving.velocity_m_s - found.air_velocity_m_s),
+        };
+        let light = self.segment.as_ref().map(|segment| (segment, time_s));
+        let sun = instant.sun_at(time_s);
+        solver.load((configuration, self.prepared.panels), light, &sun, &flow, center_of_mass_body_m)
     }
 
     /// Mass, centre of mass and inertia as the panels stand at `time_s`.
@@ -307,6 +362,20 @@ impl<'a> Plant<'a> {
         builder.faces(light, self.segment.as_ref(), time_s, report)
     }
 
+    /// Makes sure that light, heat, air and magnetic field are known from `start_s` on, and tells up to where, at most `limit_s`.
+    fn extend_disturbances(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
+        let known_s = self.extend_air_and_field(start_s, limit_s)?;
+        Ok(self.extend_radiation(start_s, limit_s)?.min(known_s))
+    }
+
+    /// Makes sure that air and magnetic field are known likewise.
+    fn extend_air_and_field(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
+        let Configuration { air_and_field, figure, .. } = self.kinematics.configuration;
+        let Some((settings, figure)) = air_and_field.zip(*figure) else { return Ok(limit_s) };
+        let mut builder = AirAndFieldBuilder { settings, figure, kinematics: &mut self.kinematics };
+        builder.extend(self.air_and_field, start_s, limit_s)
+    }
+
     /// Makes sure that light and heat are known from `start_s` on, and tells up to where, at most `limit_s`.
     fn extend_radiation(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
         match &mut self.light {
@@ -332,7 +401,7 @@ impl<'a> Plant<'a> {
     /// What ends a flight.
     pub(crate) fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
         if self.kinematics.trajectory.end_s() > start_s {
-            return self.extend_radiation(start_s, self.kinematics.trajectory.end_s());
+            return self.extend_disturbances(start_s, self.kinematics.trajectory.end_s());
         }
         // Two integrations of some 40 evaluations, and the search for changes in between.
         self.kinematics.spend_units(Cost::Orbit, 60, start_s)?;
@@ -340,7 +409,7 @@ impl<'a> Plant<'a> {
         let before = *self.kinematics.trajectory;
         self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
         if self.kinematics.configuration.motion.is_pushed() {
-            let lit_s = self.extend_radiation(start_s, self.kinematics.trajectory.end_s())?;
+            let lit_s = self.extend_disturbances(start_s, self.kinematics.trajectory.end_s())?;
             let mut end_s = self.kinematics.smooth_until(start_s, lit_s);
             let acceleration_m_s2 = loop {
                 let fitted = Segment::<3, NODES>::fit(start_s, end_s, |at_s| {
@@ -355,11 +424,13 @@ impl<'a> Plant<'a> {
             let predicted = core::mem::replace(self.kinematics.trajectory, before);
             self.kinematics.trajectory.take_passages(&predicted, end_s);
             self.integrate(end_s, |at_s| acceleration_m_s2.value(at_s))?;
+            // The air pushes it by more than light does: it is that where the spacecraft really is.
+            self.air_and_field.cut(start_s);
         }
         let end_s = self.kinematics.trajectory.end_s();
         // Written so that a NaN is stuck too.
         if end_s > start_s {
-            self.extend_radiation(start_s, end_s)
+            self.extend_disturbances(start_s, end_s)
         } else {
             Err(PlantError::Stuck { start_s, end_s })
         }

@@ -2,54 +2,62 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::attitude::gravity_gradient_n_m;
-use crate::loads::{Active, Effect, ForceTorque, Grid, Loads};
+use crate::attitude::{flattened_gravity_gradient_n_m, gravity_gradient_n_m};
+use crate::loads::{Active, Effect, ForceTorque, Loads};
+use crate::magnetics;
 use crate::numerics::scalar::Scalar;
-use crate::plant::motion::instant::Instant;
-use crate::spacecraft::MassProperties;
 
 /// What the laws go by that does not change in flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Laws<T = f64> {
     /// Gravitational parameter of the planet, in m3/s2.
     pub gm_m3_s2: T,
+    /// Flattening of its gravity, where that acts on the gradient: J2 and the radius in m to which it refers.
+    pub flattening: Option<[T; 2]>,
+    /// The spacecraft's residual dipole, body frame, in A m2.
+    pub dipole_body_a_m2: Vector3<T>,
 }
 
 /// A body near a planet.
 #[derive(Clone, Copy, Debug)]
 pub struct NearPlanet<T> {
-    /// From the spacecraft to the planet's centre, body frame, in m.
-    pub planet_body_m: Vector3<T>,
+    /// From the spacecraft to the planet's centre, body frame, in m; `None` where it is not known.
+    pub planet_body_m: Option<Vector3<T>>,
+    /// Unit vector to the planet's north pole, body frame.
+    pub pole_body: Vector3<T>,
     /// Inertia about the centre of mass, body frame, in kg m2.
     pub inertia_body_kg_m2: Matrix3<T>,
-}
-
-impl NearPlanet<f64> {
-    /// The spacecraft of these mass properties at an instant; `None` where no planet is.
-    pub fn of(instant: &Instant, mass: &MassProperties) -> Option<Self> {
-        let inertia_body_kg_m2 = mass.inertia_body_kg_m2;
-        instant.planet_body_m.map(|planet_body_m| Self { planet_body_m, inertia_body_kg_m2 })
-    }
+    /// Magnetic field, body frame, in T.
+    pub field_body_t: Vector3<T>,
+    /// What the air does to the surfaces.
+    pub air: ForceTorque<T>,
 }
 
 impl<T: Scalar> Laws<T> {
     /// Writes the loads of those effects in closed form that act.
     pub fn exert(&self, active: Active, at: &NearPlanet<T>, loads: &mut Loads<T>) {
-        for effect in active.disturbances().filter(|effect| effect.row().grid == Grid::Disturbance) {
+        for effect in active.disturbances().filter(|effect| !effect.is_light()) {
             loads[effect] = self.load(effect, at);
         }
     }
 
     fn load(&self, effect: Effect, at: &NearPlanet<T>) -> ForceTorque<T> {
+        let torque = |torque_body_n_m: Option<Vector3<T>>| ForceTorque {
+            torque_body_n_m: torque_body_n_m.unwrap_or_else(Vector3::zeros),
+            ..ForceTorque::zero()
+        };
         match effect {
-            Effect::GravityGradient => ForceTorque {
-                torque_body_n_m: gravity_gradient_n_m(
+            Effect::GravityGradient => torque(at.planet_body_m.map(|planet_body_m| match self.flattening {
+                None => gravity_gradient_n_m(self.gm_m3_s2, &at.inertia_body_kg_m2, &planet_body_m),
+                Some(flattening) => flattened_gravity_gradient_n_m(
                     self.gm_m3_s2,
+                    flattening,
                     &at.inertia_body_kg_m2,
-                    &at.planet_body_m,
+                    [&planet_body_m, &at.pole_body],
                 ),
-                ..ForceTorque::zero()
-            },
+            })),
+            Effect::Aerodynamic => at.air,
+            Effect::Magnetic => torque(Some(magnetics::torque_n_m(&self.dipole_body_a_m2, &at.field_body_t))),
             Effect::Solar
             | Effect::Albedo
             | Effect::Infrared

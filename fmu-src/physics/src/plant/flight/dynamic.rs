@@ -8,7 +8,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::attitude::{Attitude, BodyLoad, BodyMotion, GyrostatMotion};
+use crate::attitude::{Attitude, BodyLoad, BodyMotion, DipoleInField, GyrostatMotion};
 use crate::loads::{ByEffect, Effect, ForceTorque};
 use crate::momentum::DumpEvent;
 use crate::numerics::spacing::spacing;
@@ -173,6 +173,7 @@ impl AttitudeDynamics {
             let limit_s = limit_s.min(self.dumps.until_s()).min(events.next_s(self.scheduled));
             let external = (flight.given.external)(time_s);
             let mut load = self.load(&external, flight.thrusters, time_s);
+            load.dipole = self.dipole(flight);
             load.internal = self.panels.internal(flight.given.prepared.panels, &self.mass.now, time_s);
             self.dumps.torques = self.torques_by_source(&external, time_s);
             self.motion.advance(&settings.gyrostat, self.control.wheels.motors(), &load, limit_s);
@@ -419,8 +420,18 @@ impl AttitudeDynamics {
             mass_kg: thrusters.mass_kg,
             flow_kg_s: thrusters.law.flow_kg_s,
             mass_flow: (!thrusters.law.is_none()).then_some(thrusters.mass_flow),
+            dipole: None,
             internal: None,
         }
+    }
+
+    /// The dipole in the field from the end of the motion on, where there is one.
+    fn dipole(&self, flight: &ConfiguredFlight<'_>) -> Option<DipoleInField> {
+        let dipole_body_a_m2 = flight.world.configuration.laws.dipole_body_a_m2;
+        let acts = flight.world.configuration.effects.has(Effect::Magnetic);
+        let field_inertial_t = self.disturbance.field_at(self.motion.end_s());
+        (acts && dipole_body_a_m2 != Vector3::zeros())
+            .then_some(DipoleInField { dipole_body_a_m2, field_inertial_t })
     }
 
     /// Torque by effect from `time_s` on.
@@ -447,7 +458,13 @@ impl AttitudeDynamics {
         let instant = plant.instant(time_s);
         let mass = MassProperties { mass_kg, ..plant.mass_properties(&instant, time_s) };
         let panels_body_n_m_s = plant.panel_momentum_body_n_m_s(&instant, &mass, time_s);
+        let air_and_field = plant.air_and_field(time_s);
         let mut loads = self.disturbance.loads_at(time_s);
+        if let Some(dipole) = self.dipole(flight) {
+            let [field_inertial_t, _] = self.disturbance.field_at(time_s);
+            let field_body_t = instant.to_body * field_inertial_t;
+            loads[Effect::Magnetic].torque_body_n_m = dipole.dipole_body_a_m2.cross(&field_body_t);
+        }
         let [torque_body_n_m, force_body_n] = self.motion.swinging_load(&settings.gyrostat, time_s, body);
         let [external, _] = (flight.given.external)(time_s);
         loads[Effect::Applied] = external + ForceTorque { force_body_n, torque_body_n_m };
@@ -456,7 +473,7 @@ impl AttitudeDynamics {
             force_body_n: thrusters.law.force_at_n(time_s),
             torque_body_n_m: thrusters.torque_at_n_m(time_s, &body.rate_body_rad_s),
         };
-        Evaluation { instant, loads, mass, panels_body_n_m_s }
+        Evaluation { instant, loads, mass, panels_body_n_m_s, air_and_field }
     }
 }
 

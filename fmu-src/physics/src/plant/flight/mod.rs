@@ -132,11 +132,12 @@ impl Flight {
 
     /// What was computed elsewhere than at `time_s`, if anything.
     pub fn uncovered(&self, time_s: f64) -> Option<&'static str> {
-        let PropagatorState { light, trajectory, .. } = &self.propagator;
+        let PropagatorState { light, trajectory, air_and_field, .. } = &self.propagator;
         let (is_covered, what) = match &self.mode {
             _ if !light.as_ref().is_none_or(|light| light.covers(time_s)) => {
                 (false, "light and heat were computed")
             }
+            _ if configuration_has_air && !air_and_field.covers(time_s) => (false, "air and magnetic field were computed"),
             _ if !trajectory.covers(time_s) => (false, "the orbit was integrated"),
             Mode::Waiting => (true, ""),
             Mode::Ideal(ideal) => (ideal.integrator.covers(time_s), "the momentum was accumulated"),
@@ -236,6 +237,9 @@ impl Flight {
             }
         }
         if let Some(configuration) = configuration {
+            if configuration.air_and_field != setup.world.configuration.air_and_field {
+                self.propagator.air_and_field.cut(time_s);
+            }
             setup.world.configuration = configuration;
             self.propagator.center_of_mass.reconfigured(&setup.world.configuration);
         }

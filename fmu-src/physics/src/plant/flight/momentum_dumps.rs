@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::GyrostatMotion;
-use crate::loads::ByEffect;
+use crate::loads::{ByEffect, Effect};
 use crate::momentum::{DumpEvent, DumpSpacing, Dumps, SourceMomenta};
 use crate::plant::disturbances::disturbance_interval::Linear;
 use crate::plant::thrusters::reaction_control::Thrusters;
@@ -62,7 +62,11 @@ impl MomentumDumps {
 
     /// What each effect did to the momentum since the end of the last dump, at `time_s`.
     pub(super) fn by_source(&self, motion: &GyrostatMotion, time_s: f64) -> SourceMomenta {
-        self.by_source.with(&motion.impulses_inertial_n_m_s(self.torques.values(), time_s))
+        let mut impulses = motion.impulses_inertial_n_m_s(self.torques.values(), time_s);
+        if let Some(impulse) = motion.magnetic_impulse_inertial_n_m_s(time_s) {
+            impulses[Effect::Magnetic as usize] = impulse;
+        }
+        self.by_source.with(&impulses)
     }
 
     /// Begins a dump at the end of the motion: by thrusters that give torque all ways about the centre of mass, or by a constant

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::center_of_mass::CenterOfMass;
 use super::sun_choice::SunChoice;
 use crate::environment::orbit::OrbitError;
+use crate::plant::air_and_field::air_and_field_segment::AirAndFieldSegment;
 use crate::plant::light::radiation_segment::RadiationSegment;
 use crate::plant::motion::trajectory::Trajectory;
 use crate::plant::settings::configuration::Configuration;
@@ -19,6 +20,8 @@ pub struct PropagatorState {
     pub trajectory: Trajectory,
     /// Light and heat of the present segment; absent before the first one.
     pub light: Option<RadiationSegment>,
+    /// Air and magnetic field of the present segment.
+    pub air_and_field: AirAndFieldSegment,
     /// Where the Sun stands during downlinks.
     pub sun_choice: SunChoice,
     /// Where the centre of mass lies.
@@ -29,6 +32,7 @@ impl PropagatorState {
     /// Rejects decoded states that no simulation can produce.
     pub fn is_valid(&self) -> bool {
         self.trajectory.is_valid()
+            && self.air_and_field.is_valid()
             && self.sun_choice.is_valid()
             && self.light.as_ref().is_none_or(RadiationSegment::is_valid)
     }
@@ -47,8 +51,9 @@ impl PropagatorState {
             (Some(light), Some(other)) => light.copy_from(other),
             (light, other) => light.clone_from(other),
         }
-        let Self { trajectory, light: _, sun_choice, center_of_mass } = *other;
-        (self.trajectory, self.sun_choice, self.center_of_mass) = (trajectory, sun_choice, center_of_mass);
+        let Self { trajectory, light: _, air_and_field, sun_choice, center_of_mass } = *other;
+        (self.trajectory, self.air_and_field) = (trajectory, air_and_field);
+        (self.sun_choice, self.center_of_mass) = (sun_choice, center_of_mass);
     }
 
     /// Goes on from another place; the heat stored in the surfaces comes along.
@@ -57,6 +62,7 @@ impl PropagatorState {
     /// A place below the surface.
     pub fn move_to(&mut self, configuration: &Configuration, time_s: f64) -> Result<(), PlantError> {
         self.trajectory = Trajectory::new(configuration, time_s)?;
+        self.air_and_field.cut(time_s);
         if let Some(light) = &mut self.light {
             light.cut(time_s);
         }
@@ -82,6 +88,9 @@ impl PropagatorState {
         let orbit_changes = configuration.motion.is_pushed();
         let taken_m_s = if orbit_changes { *jump_m_s } else { Vector3::zeros() };
         self.trajectory.cut(configuration, time_s, &taken_m_s);
+        if orbit_changes {
+            self.air_and_field.cut(time_s);
+        }
         if let Some(light) = self.light.as_mut().filter(|_| light_changes || orbit_changes) {
             light.cut(time_s);
         }
@@ -98,6 +107,7 @@ impl PropagatorState {
         delta_v_m_s: &Vector3<f64>,
     ) -> Result<(), OrbitError> {
         self.trajectory.maneuver(configuration, time_s, delta_v_m_s)?;
+        self.air_and_field.cut(time_s);
         if let Some(light) = &mut self.light {
             light.cut(time_s);
         }

@@ -59,12 +59,8 @@ impl RadiationBuilder<'_, '_> {
                 pole_body: -Vector3::z(),
             }
         });
-        for (angle_rad, &index) in viewing.panel_angles_rad.iter_mut().zip(light_panels) {
-            let setting = configuration.panels.get(index).zip(self.panels.get(index));
-            *angle_rad = setting
-                .and_then(|(setting, panel)| setting.angle_rad(panel, &instant.sun_at(time_s)))
-                .unwrap_or(0.0);
-        }
+        let angles_rad = &mut viewing.panel_angles_rad;
+        configuration.panel_angles_rad(self.panels, light_panels, &instant.sun_at(time_s), angles_rad);
     }
 
     /// Makes sure that light and heat are known from `start_s` on, and tells up to where, at most `limit_s`.
@@ -126,11 +122,13 @@ impl RadiationBuilder<'_, '_> {
         let end_s = interval.end_s();
         (segment.start_s, segment.end_s, segment.loads) = (start_s, end_s, series);
         segment.temperatures_k.clear();
-        if stores {
+        if stores || self.needs_walls() {
             segment.temperatures_k.extend((0..light.face_count()).map(|face| {
                 let samples = core::array::from_fn(|j| SVector::from([light.nodes[j].temperatures_k[face]]));
                 Segment::from_samples(start_s, end_s, &samples)
             }));
+        }
+        if stores {
             segment.end_k.copy_from_slice(light.heat_rule.end_k());
         }
         Ok(())
@@ -181,6 +179,8 @@ impl RadiationBuilder<'_, '_> {
             for node in nodes.iter_mut() {
                 node.radiate_stored(model)?;
             }
+        } else if self.needs_walls() {
+            nodes.iter_mut().for_each(RadiationNode::take_balance);
         }
         let mut series = ByEffect::default();
         for effect in self.kinematics.configuration.effects.light() {
@@ -239,6 +239,12 @@ impl RadiationBuilder<'_, '_> {
         let configuration = self.kinematics.configuration;
         let acts = configuration.light_and_heat.storage && configuration.effects.has(Effect::Thermal);
         acts && light.model.stores_heat()
+    }
+
+    /// Whether air meets the surfaces at the temperatures that light gives them.
+    fn needs_walls(&self) -> bool {
+        let effects = self.kinematics.configuration.effects;
+        effects.has(Effect::Aerodynamic) && effects.has(Effect::Thermal)
     }
 
     fn no_light(&self, time_s: f64, source: Refusal) -> PlantError {

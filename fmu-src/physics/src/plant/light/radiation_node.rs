@@ -56,6 +56,13 @@ impl RadiationNode {
         Ok(())
     }
 
+    /// After [`RadiationNode::balance`]: every surface has the temperature of balance.
+    pub(crate) fn take_balance(&mut self) {
+        for (kelvin, face) in self.temperatures_k.iter_mut().zip(self.workspace.faces()) {
+            *kelvin = face.temperature_k;
+        }
+    }
+
     /// After [`RadiationNode::balance`]: the recoil anew, at this node's stored temperatures.
     pub(crate) fn radiate_stored(&mut self, model: &DisturbanceModel) -> Result<(), Refusal> {
         let stored = Recoil::Stored(&self.temperatures_k);

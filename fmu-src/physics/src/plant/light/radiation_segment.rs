@@ -35,7 +35,7 @@ pub struct RadiationSegment {
     pub(crate) next_longest_s: f64,
     /// Absent for effects that do not act, and before the first segment for all.
     pub(crate) loads: ByEffect<Option<LoadSeries>>,
-    /// Temperature of every face in K; empty where no heat is stored.
+    /// Temperature of every face in K; empty where no heat is stored and no air meets the faces.
     pub(crate) temperatures_k: Vec<Segment<1, NODES>>,
     /// The same at the end.
     pub(crate) end_k: Vec<f64>,
@@ -115,6 +115,17 @@ impl RadiationSegment {
                 *kelvin = known_k;
             }
         }
+    }
+
+    /// Writes the temperatures in K of the faces at `time_s`; `false` where they are not known.
+    pub(crate) fn wall_temperatures_at(&self, time_s: f64, temperatures_k: &mut [f64]) -> bool {
+        if self.temperatures_k.len() != temperatures_k.len() || self.temperatures_k.is_empty() {
+            return false;
+        }
+        for (kelvin, series) in temperatures_k.iter_mut().zip(&self.temperatures_k) {
+            *kelvin = series.value(time_s)[0];
+        }
+        true
     }
 
     /// Ends at `time_s`: the flight changes there.

@@ -10,7 +10,6 @@ use super::radiation_node::RadiationNode;
 use super::radiation_segment::NODES;
 use super::stored_heat::HeatRule;
 use crate::plant::settings::configuration::Configuration;
-use crate::plant::settings::panel_setting::PanelSetting;
 
 /// The spacecraft and the planet's surface prepared for light and heat, with the scratch space of a flight. All of it
 /// follows from the setup and the configuration: cache, not state.
@@ -34,10 +33,7 @@ impl RadiationSolver {
         planet: &PlanetSurface,
         quadrature_nodes: usize,
     ) -> Result<Self, Refusal> {
-        let takes_part = |index: &usize| configuration.panels.get(*index) != Some(&PanelSetting::Disabled);
-        let panels: Vec<usize> = (0..spacecraft.panels.len()).filter(takes_part).collect();
-        let mut simulated = spacecraft.clone();
-        simulated.panels = panels.iter().map(|&index| spacecraft.panels[index].clone()).collect();
+        let (panels, simulated) = configuration.taking_part(spacecraft);
         let effects = &configuration.light_and_heat;
         let over_planet = configuration.effects.has(Effect::Albedo) && configuration.planet().is_some();
         let options = Options {

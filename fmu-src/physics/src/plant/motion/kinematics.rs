@@ -5,6 +5,7 @@
 //! Sun's. Momentum, light and outputs all read this.
 
 use crate::attitude::{MovingFrame, angle_between_rad};
+use crate::environment::CartesianState;
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::TwoBodyOrbit;
 use crate::guidance::downlink::default_downlink::DefaultDownlink;
@@ -130,6 +131,15 @@ impl Kinematics<'_> {
         let spacecraft_m = -to_planet.position_m;
         let sun_m = spacecraft_m + geometry.to_sun.position_m;
         self.configuration.shadow.fraction_and_gaps(&spacecraft_m, &sun_m)
+    }
+
+    /// The spacecraft about the planet, or about the centre where no planet is, at `time_s`.
+    pub(crate) fn from_planet(&mut self, time_s: f64) -> CartesianState {
+        let spacecraft = self.trajectory.state_at(self.configuration, time_s);
+        let elsewhere = self.configuration.planet().filter(|planet| *planet != self.configuration.center);
+        let Some(planet) = elsewhere else { return spacecraft };
+        let epoch_s = time_s + self.configuration.epoch_minus_time_s;
+        spacecraft - geometry::body(self.configuration, self.ephemeris, planet, epoch_s)
     }
 
     /// Where everything is at `time_s`.

@@ -21,8 +21,10 @@ use crate::momentum::Settings;
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::scalar::Dual64;
 use crate::numerics::spacing::spacing;
-use crate::spacecraft::{MassProperties, Panel, SunshadeModel, hinged_masses, with_panels};
+use crate::plant::disturbances::laws::Laws;
+use crate::spacecraft::{MassProperties, Panel, Spacecraft, SunshadeModel, hinged_masses, with_panels};
 
+use super::air_and_field_settings::{AirAndFieldSettings, PlanetFigure};
 use super::panel_setting::{PanelSetting, SunAt};
 use super::radiation_settings::RadiationSettings;
 use super::thruster_events::ThrusterEventSettings;
@@ -316,6 +318,29 @@ impl Configuration {
         self.light_and_heat.shadowing || self.effects.light().any(|effect| effect != Effect::Solar)
     }
 
+    /// The panels that take part, by their places among all of them, and the spacecraft with those alone.
+    pub(crate) fn taking_part(&self, spacecraft: &Spacecraft) -> (Vec<usize>, Spacecraft) {
+        let takes_part = |index: &usize| self.panels.get(*index) != Some(&PanelSetting::Disabled);
+        let panels: Vec<usize> = (0..spacecraft.panels.len()).filter(takes_part).collect();
+        let mut simulated = spacecraft.clone();
+        simulated.panels = panels.iter().map(|&index| spacecraft.panels[index].clone()).collect();
+        (panels, simulated)
+    }
+
+    /// Writes the angles in rad at which these panels stand with the Sun there.
+    pub(crate) fn panel_angles_rad(
+        &self,
+        panels: &[Panel],
+        taking_part: &[usize],
+        sun: &SunAt,
+        angles_rad: &mut [f64],
+    ) {
+        for (angle_rad, &index) in angles_rad.iter_mut().zip(taking_part) {
+            let setting = self.panels.get(index).zip(panels.get(index));
+            *angle_rad = setting.and_then(|(setting, panel)| setting.angle_rad(panel, sun)).unwrap_or(0.0);
+        }
+    }
+
     /// Mass, centre of mass and inertia with every panel at angle 0 and full tanks.
     pub fn loaded(&self) -> MassProperties {
         MassProperties {
@@ -379,6 +404,10 @@ pub struct Configuration {
     pub motion: Motion,
     /// Sun and Earth.
     pub ephemeris: EphemerisSource,
+    /// Figure and rotation of the planet, if there is one.
+    pub figure: Option<PlanetFigure>,
+    /// Air and magnetic field about it, where one of them acts.
+    pub air_and_field: Option<AirAndFieldSettings>,
     /// Sunlight.
     pub light: SunLight,
     /// Shadow of the planet.
@@ -401,6 +430,8 @@ pub struct Configuration {
     pub inertia_body_kg_m2: Matrix3<f64>,
     /// Which effects act.
     pub effects: Active,
+    /// What effects in closed form go by.
+    pub laws: Laws,
     /// Integration of momentum.
     pub momentum: Settings,
     /// What thruster events go by, and those that are scheduled.

@@ -3,6 +3,8 @@
 use thiserror::Error;
 
 use super::work::WorkExceeded;
+use crate::environment::atmosphere::AtmosphereError;
+use crate::environment::magnetic_field::MagneticFieldError;
 use crate::environment::orbit::{OrbitError, OrbitIntegrationError};
 use crate::momentum::TooManyDumps;
 use crate::refusal::Refusal;
@@ -35,6 +37,22 @@ pub enum PlantError {
         position_m: [f64; 3],
         /// Why.
         source: Refusal,
+    },
+    /// The model of the air does not reach where the spacecraft is.
+    #[error("the air at {time_s} s: {source}")]
+    Air {
+        /// When, in s.
+        time_s: f64,
+        /// Why.
+        source: AtmosphereError,
+    },
+    /// The model of the magnetic field does not reach where or when the spacecraft is.
+    #[error("the magnetic field at {time_s} s: {source}")]
+    Field {
+        /// When, in s.
+        time_s: f64,
+        /// Why.
+        source: MagneticFieldError,
     },
     /// Restored bytes of another spacecraft.
     #[error("the state holds {found} temperatures, allowed: {allowed}, one for each face")]

@@ -1,5 +1,6 @@
 //! What is set for a flight: configuration, dynamics, thrusters, light, bounds of work.
 
+pub(super) mod air_and_field_settings;
 pub(super) mod configuration;
 pub(super) mod control_defaults;
 pub(super) mod dynamics_settings;

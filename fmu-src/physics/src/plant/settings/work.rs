@@ -20,10 +20,12 @@ pub enum Cost {
     Orbit,
     /// Planets' positions fitted anew.
     Ephemeris,
+    /// Segments of air and magnetic field.
+    Air,
 }
 
 impl Cost {
-    const ALL: [Self; 7] = [
+    const ALL: [Self; 8] = [
         Self::Segment,
         Self::Refinement,
         Self::Search,
@@ -31,6 +33,7 @@ impl Cost {
         Self::Light,
         Self::Orbit,
         Self::Ephemeris,
+        Self::Air,
     ];
 }
 

@@ -1,0 +1,48 @@
+//! How a planet turns, as parameters say.
+
+use fmi_export::{Choice, Failure, Given, Real, Values, Variables};
+use physics::bodies::{Body, BodyData};
+use physics::environment::orientation::Orientation;
+
+use super::center::CenterBody;
+use super::choices::PlanetOrientation;
+
+/// Rotation of a planet.
+#[derive(Variables)]
+#[variables(setup = CenterBody)]
+pub struct RotationVariables {
+    /// Prime meridian at J2000 (IAU 2015).
+    #[parameter(unit = "rad", display = "deg", min = -1e3, max = 1e3, start = setup.data.prime_meridian_rad)]
+    pub prime_meridian: Real,
+    /// Rotation rate.
+    #[parameter(unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = setup.data.rotation_rate_rad_s)]
+    pub rotation_rate: Real,
+    /// How the planet turns: iau is the Earth's, by default, and the pole, prime meridian and rotation rate given here do not count
+    /// in it; other planets turn uniformly.
+    #[parameter(start = PlanetOrientation::of(setup.data.body))]
+    pub orientation: Choice<PlanetOrientation>,
+}
+
+impl RotationVariables {
+    /// The orientation that is set, else that of a body.
+    pub fn choice(&self, given: &Given<'_>, values: &Values, body: Body) -> PlanetOrientation {
+        if given.has(self.orientation) { values.choice(self.orientation) } else { PlanetOrientation::of(body) }
+    }
+}
+
+impl PlanetOrientation {
+    /// How a body turns whose `planet.*` are these, UT1 being so many seconds ahead of UTC.
+    ///
+    /// # Errors
+    /// The Earth's orientation requested of another body.
+    pub fn about(self, planet: &BodyData, ut1_minus_utc_s: f64) -> Result<Orientation, Failure> {
+        match self {
+            Self::Uniform => Ok(Orientation::uniform(planet)),
+            Self::Iau if planet.body == Body::Earth => Ok(Orientation::Iau { ut1_minus_utc_s }),
+            Self::Iau => Err(Failure::new(format!(
+                "planet.orientation: found iau with {}, allowed: uniform (1); iau is the Earth's alone",
+                planet.name
+            ))),
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! Figure and rotation of the planet, its air and its magnetic field, as parameters and inputs say; refuses by name what no model has.
+
+use fmi_export::{Elements, Failure, Values};
+use nalgebra::Vector3;
+use physics::bodies::{Body, BodyData};
+use physics::environment::atmosphere::{Air, AtmosphereModel, ExponentialAir, SpaceWeather};
+use physics::environment::geodetic::Ellipsoid;
+use physics::environment::magnetic_field::{self, MagneticField};
+use physics::loads::{Active, Effect};
+use physics::plant::{AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure};
+
+use super::center::Center;
+use crate::common::center::CenterBody;
+use crate::common::choices::PlanetOrientation;
+use crate::momentum_plant::setup::Plan;
+use crate::momentum_plant::variables::PlantVariables;
+use crate::momentum_plant::variables::air_and_field::{AtmosphereMethod, MagneticFieldMethod};
+
+/// Figure and rotation of the planet; `None` without one.
+pub(super) fn figure(
+    context: &Plan<'_>,
+    values: &Values,
+    planet: &BodyData,
+) -> Result<Option<PlanetFigure>, Failure> {
+    if !planet.body.is_planet() {
+        return Ok(None);
+    }
+    let orientation = Followed::read(context, values, planet.body).orientation;
+    let orientation = orientation.about(planet, values.real(context.variables.earth.ut1_offset))?;
+    let ellipsoid = Ellipsoid { equatorial_radius_m: planet.equatorial_radius_m, flattening: planet.flattening };
+    Ok(Some(PlanetFigure { orientation, ellipsoid }))
+}
+
+/// Air and field where one of them acts.
+pub(super) fn read(
+    context: &Plan<'_>,
+    values: &Values,
+    center: &Center,
+    effects: Active,
+) -> Result<Option<AirAndFieldSettings>, Failure> {
+    let v = context.variables;
+    if !center.planet.body.is_planet() {
+        return Ok(None);
+    }
+    let air = if effects.has(Effect::Aerodynamic) { Some(air(v, values, center)?) } else { None };
+    let field = if effects.has(Effect::Magnetic) { Some(field(v, values, &center.planet)?) } else { None };
+    let tolerance = values.real(v.atmosphere.tolerance);
+    Ok((air.is_some() || field.is_some()).then_some(AirAndFieldSettings { air, field, tolerance }))
+}
+
+fn air(v: &PlantVariables, values: &Values, center: &Center) -> Result<AirSettings, Failure> {
+    let (atmosphere, weather) = (&v.atmosphere, &v.space_weather);
+    let source = match values.choice(atmosphere.method) {
+        AtmosphereMethod::Exponential => AirSource::Model(AtmosphereModel::Exponential(center.air)),
+        AtmosphereMethod::Nrlmsise00 if center.planet.body == Body::Earth => {
+            AirSource::Model(AtmosphereModel::Nrlmsise00)
+        }
+        AtmosphereMethod::Nrlmsise00 => {
+            return Err(Failure::new(format!(
+                "atmosphere.method: found nrlmsise00 about {}, allowed: exponential (1), given (3); the model is the Earth's",
+                center.planet.name
+            )));
+        }
+        AtmosphereMethod::Given => AirSource::Given(Air {
+            density_kg_m3: values.real(atmosphere.given_density),
+            temperature_k: values.real(atmosphere.given_temperature),
+            molar_mass_kg_mol: values.real(atmosphere.given_molar_mass),
+        }),
+    };
+    Ok(AirSettings {
+        source,
+        weather: SpaceWeather {
+            f107: values.real(weather.f107),
+            f107_average: values.real(weather.f107_average),
+            ap: values.real(weather.ap),
+        },
+        density_factor: values.real(atmosphere.density_factor),
+        wind_m_s: Vector3::from(values.vector(atmosphere.wind)),
+    })
+}
+
+fn field(v: &PlantVariables, values: &Values, planet: &BodyData) -> Result<FieldSource, Failure> {
+    let refused = |found: &str, allowed: &str| {
+        Err(Failure::new(format!(
+            "magneticField.method: found {found} about {}, allowed: {allowed}",
+            planet.name
+        )))
+    };
+    match values.choice(v.magnetic_field.method) {
+        MagneticFieldMethod::Dipole => match planet.dipole {
+            Some(dipole) => Ok(FieldSource::Model(MagneticField::Dipole(dipole))),
+            None => refused("dipole", "given (3), as no dipole is known; Earth, Mercury and Jupiter have one"),
+        },
+        MagneticFieldMethod::Igrf14 if planet.body == Body::Earth => {
+            let epoch_s = values.real(v.start.epoch);
+            magnetic_field::check_igrf14(epoch_s)
+                .map_err(|error| Failure::new(format!("magneticField.method, start.epoch: {error}")))?;
+            Ok(FieldSource::Model(MagneticField::Igrf14))
+        }
+        MagneticFieldMethod::Igrf14 => refused("igrf14", "dipole (1), given (3); the model is the Earth's"),
+        MagneticFieldMethod::Given => Ok(FieldSource::Given(Vector3::from(values.vector(v.magnetic_field.given)))),
+    }
+}
+
+/// Values of the exponential model: what is given of `atmosphere.reference*` and `scaleHeight`, else the body's own.
+pub(super) fn exponential(context: &Plan<'_>, values: &Values, body: &CenterBody) -> ExponentialAir {
+    let v = &context.variables.atmosphere;
+    let own = body.air();
+    let group = [v.reference_density, v.reference_height, v.scale_height].map(Elements::from);
+    let given = context.given(values, &group);
+    ExponentialAir {
+        reference_density_kg_m3: given.real_or(v.reference_density, own.reference_density_kg_m3),
+        reference_height_m: given.real_or(v.reference_height, own.reference_height_m),
+        scale_height_m: given.real_or(v.scale_height, own.scale_height_m),
+        ..own
+    }
+}
+
+/// What follows the planet unless it is set.
+#[derive(Clone, Copy)]
+pub(super) struct Followed {
+    /// How it turns.
+    pub orientation: PlanetOrientation,
+    /// Whether air acts, and whether the magnetic field does.
+    pub acts: [bool; 2],
+    /// Whether that was set.
+    is_set: [bool; 2],
+}
+
+impl Followed {
+    /// About a body: as it is set, else air and field about the Earth, which turns as the IAU says.
+    pub(super) fn read(context: &Plan<'_>, values: &Values, body: Body) -> Self {
+        let (laws, rotation) = (&context.variables.laws, &context.variables.planet.rotation);
+        let switches = [laws.aerodynamics.enabled, laws.magnetics.enabled];
+        let [air, field] = switches.map(Elements::from);
+        let given = context.given(values, &[air, field, rotation.orientation.into()]);
+        let is_set = switches.map(|switch| given.has(switch));
+        let acts = [0, 1].map(|i| if is_set[i] { values.boolean(switches[i]) } else { body == Body::Earth });
+        Self { orientation: rotation.choice(&given, values, body), acts, is_set }
+    }
+
+    /// Writes it as it acts.
+    pub(super) fn write(self, variables: &PlantVariables, values: &mut Values) {
+        values.set_choice(variables.planet.rotation.orientation, self.orientation);
+        values.set_boolean(variables.laws.aerodynamics.enabled, self.acts[0]);
+        values.set_boolean(variables.laws.magnetics.enabled, self.acts[1]);
+    }
+}
+
+/// What to report of air and field that act by default, and to warn of where they are switched on and cannot act.
+pub(super) fn report(context: &Plan<'_>, values: &Values, start_s: f64) {
+    let planet = Center::read(context, values).planet.body;
+    let Followed { acts, is_set, .. } = Followed::read(context, values, planet);
+    for (k, name) in ["aerodynamics.enabled", "magnetics.enabled"].into_iter().enumerate() {
+        if acts[k] && !planet.is_planet() {
+            context.log.warning(&format!("{name} = true is without effect: there is no planet about which it could act"));
+        } else if acts[k] && !is_set[k] {
+            context.log.event(start_s, &format!("{name} = true, as about the Earth unless it is set"));
+        }
+    }
+}

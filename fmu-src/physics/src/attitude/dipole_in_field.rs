@@ -1,0 +1,67 @@
+//! A magnetic dipole that is fixed to a body, in a field that is known in inertial axes.
+//!
+//! Equations: T = m x b with the field b in the body; db/dt = c - w x b and dc/dt = -w x c, c the field's rate in inertial axes
+//! seen from the body.
+//! Method: the field is linear in time over a segment of motion; both right-hand sides are products, so the coefficients follow
+//! from one another by Cauchy products as those of the body's do ([`super::series`]).
+//! Order: that of the body's series.
+//! Reference: Wertz, Spacecraft Attitude Determination and Control, 17.2.3.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::quaternion::Quaternion;
+use super::series::TERMS;
+
+/// A dipole and the field about it over a segment of motion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DipoleInField {
+    /// Dipole, body frame, in A m2.
+    pub dipole_body_a_m2: Vector3<f64>,
+    /// Field at the start of the segment in T, and its rate in T/s, both EME2000.
+    pub field_inertial_t: [Vector3<f64>; 2],
+}
+
+impl DipoleInField {
+    /// The torque so long after the start, in this attitude, body frame, in N m.
+    pub fn torque_n_m(&self, attitude: &Quaternion, elapsed_s: f64) -> Vector3<f64> {
+        let [start, rate] = self.field_inertial_t;
+        self.dipole_body_a_m2.cross(&attitude.body_from_inertial(&(start + rate * elapsed_s)))
+    }
+}
+
+/// Series of the field and of its inertial rate, body frame, in T and T/s.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FieldSeries {
+    field: [Vector3<f64>; TERMS],
+    rate: [Vector3<f64>; TERMS],
+}
+
+impl FieldSeries {
+    /// In the attitude at the start of the segment.
+    pub(super) fn new(load: &DipoleInField, attitude: &Quaternion) -> Self {
+        let mut series = Self { field: [Vector3::zeros(); TERMS], rate: [Vector3::zeros(); TERMS] };
+        [series.field[0], series.rate[0]] = load.field_inertial_t.map(|it| attitude.body_from_inertial(&it));
+        series
+    }
+
+    /// Coefficient `j` of the torque in N m, whose terms up to there are known; computes the next terms from those of the body's
+    /// rate, of which so many are known.
+    pub(super) fn extend(
+        &mut self,
+        dipole_body_a_m2: &Vector3<f64>,
+        rates: &[Vector3<f64>],
+        j: usize,
+    ) -> Vector3<f64> {
+        let torque = dipole_body_a_m2.cross(&self.field[j]);
+        if j + 1 < TERMS {
+            let turned = |series: &[Vector3<f64>; TERMS]| -> Vector3<f64> {
+                (0..=j).map(|i| series[i].cross(&rates[j - i])).sum()
+            };
+            let divisor = (j + 1) as f64;
+            self.field[j + 1] = (self.rate[j] + turned(&self.field)) / divisor;
+            self.rate[j + 1] = turned(&self.rate) / divisor;
+        }
+        torque
+    }
+}

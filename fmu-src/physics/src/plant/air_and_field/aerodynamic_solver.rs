@@ -1,0 +1,67 @@
+//! Aerodynamic solver of the plant: the spacecraft's surfaces prepared for air, with room for what they need at one time.
+
+use nalgebra::Vector3;
+
+use crate::aerodynamics::{AerodynamicModel, AerodynamicOptions, AirFlow, Workspace};
+use crate::loads::ForceTorque;
+use crate::plant::light::radiation_segment::RadiationSegment;
+use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::panel_setting::SunAt;
+use crate::refusal::Refusal;
+use crate::spacecraft::{Panel, Spacecraft};
+
+/// The spacecraft's surfaces prepared for air. All of it follows from the setup and the configuration: cache, not state.
+#[derive(Clone, Debug)]
+pub struct AerodynamicSolver {
+    model: AerodynamicModel,
+    /// Place among all panels of those that take part.
+    panels: Vec<usize>,
+    panel_angles_rad: Vec<f64>,
+    wall_temperatures_k: Vec<f64>,
+    workspace: Workspace<f64>,
+}
+
+impl AerodynamicSolver {
+    /// Prepares `spacecraft` without the panels the configuration leaves out.
+    ///
+    /// # Errors
+    /// An impossible form of the sunshade.
+    pub fn new(
+        spacecraft: &Spacecraft,
+        configuration: &Configuration,
+        options: &AerodynamicOptions,
+    ) -> Result<Self, Refusal> {
+        let (panels, simulated) = configuration.taking_part(spacecraft);
+        let model = AerodynamicModel::new(&simulated, options)?;
+        Ok(Self {
+            panel_angles_rad: vec![0.0; panels.len()],
+            wall_temperatures_k: vec![0.0; model.face_count()],
+            workspace: Workspace::default(),
+            panels,
+            model,
+        })
+    }
+
+    /// Force and torque about the centre of mass, the panels standing to the Sun as their settings say; temperatures of the faces are
+    /// those of `light`, where it knows them, else those of their materials.
+    pub(crate) fn load(
+        &mut self,
+        (configuration, panels): (&Configuration, &[Panel]),
+        light: Option<(&RadiationSegment, f64)>,
+        sun: &SunAt,
+        flow: &AirFlow<f64>,
+        center_of_mass_body_m: &Vector3<f64>,
+    ) -> ForceTorque {
+        configuration.panel_angles_rad(panels, &self.panels, sun, &mut self.panel_angles_rad);
+        let is_known = light.is_some_and(|(segment, time_s)| {
+            segment.wall_temperatures_at(time_s, &mut self.wall_temperatures_k)
+        });
+        let walls_k = is_known.then_some(self.wall_temperatures_k.as_slice());
+        self.model.load(flow, &self.panel_angles_rad, center_of_mass_body_m, walls_k, &mut self.workspace)
+    }
+
+    /// About how many microseconds an evaluation takes.
+    pub(crate) fn evaluation_units(&self) -> u32 {
+        self.model.evaluation_units()
+    }
+}

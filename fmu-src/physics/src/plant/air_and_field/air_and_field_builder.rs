@@ -1,0 +1,192 @@
+//! Builds the segments of air and magnetic field as the flight reaches them.
+
+use nalgebra::{SVector, Vector3};
+
+use super::air_and_field_segment::{AirAndFieldSegment, NODES, Series};
+use crate::environment::CartesianState;
+use crate::environment::atmosphere::{Air, next_midnight_s};
+use crate::math;
+use crate::momentum::after_event_s;
+use crate::numerics::adaptive::AdaptiveInterval;
+use crate::numerics::events::first_event;
+use crate::plant::motion::kinematics::Kinematics;
+use crate::plant::settings::air_and_field_settings::{
+    AirAndFieldSettings, AirSource, FieldSource, PlanetFigure,
+};
+use crate::plant::settings::error::PlantError;
+use crate::plant::settings::work::Cost;
+
+/// Longest segment, in s.
+const LONGEST_S: f64 = 3600.0;
+/// No segment is shortened below this, in s.
+const SHORTEST_S: f64 = 1.0;
+/// Units of work of a node, by what is computed there.
+const AIR_UNITS: u32 = 15;
+const FIELD_UNITS: u32 = 3;
+
+/// What is fitted: air, its velocity, field.
+#[derive(Clone, Copy)]
+struct Node {
+    air: Vector3<f64>,
+    air_velocity_m_s: Vector3<f64>,
+    field_t: Vector3<f64>,
+}
+
+/// Builds the segments of a flight about a planet of this figure.
+pub(crate) struct AirAndFieldBuilder<'r, 'a> {
+    pub settings: AirAndFieldSettings,
+    pub figure: PlanetFigure,
+    pub kinematics: &'r mut Kinematics<'a>,
+}
+
+impl AirAndFieldBuilder<'_, '_> {
+    /// Makes sure that air and field are known from `start_s` on, and tells up to where, at most `limit_s`.
+    ///
+    /// # Errors
+    /// Where a model does not reach; work.
+    pub(crate) fn extend(
+        &mut self,
+        segment: &mut AirAndFieldSegment,
+        start_s: f64,
+        limit_s: f64,
+    ) -> Result<f64, PlantError> {
+        if !(segment.start_s <= start_s && start_s < segment.end_s) {
+            self.build(segment, start_s, limit_s)?;
+        }
+        Ok(segment.end_s.min(limit_s))
+    }
+
+    fn build(
+        &mut self,
+        segment: &mut AirAndFieldSegment,
+        start_s: f64,
+        limit_s: f64,
+    ) -> Result<(), PlantError> {
+        let longest_s = segment.next_longest_s.min(LONGEST_S);
+        let mut interval = AdaptiveInterval::new(start_s, f64::INFINITY, longest_s, limit_s, SHORTEST_S);
+        let smooth_s = self.smooth_until(start_s, interval.end_s())?;
+        interval.end_at(smooth_s);
+        loop {
+            self.spend(start_s)?;
+            let fitted = self.fit(start_s, interval.end_s());
+            match fitted {
+                Ok((series, unresolved)) => {
+                    if let Some(next_s) = interval.accept(unresolved, self.settings.tolerance, NODES) {
+                        *segment = AirAndFieldSegment {
+                            start_s,
+                            end_s: interval.end_s(),
+                            next_longest_s: next_s,
+                            ..series
+                        };
+                        return Ok(());
+                    }
+                }
+                // The flight may be over before it comes to where a model does not reach.
+                Err(error) if !interval.halve() => return Err(error),
+                Err(_) => {}
+            }
+        }
+    }
+
+    fn spend(&mut self, start_s: f64) -> Result<(), PlantError> {
+        let AirAndFieldSettings { air, field, .. } = &self.settings;
+        let by_model = matches!(air, Some(it) if matches!(it.source, AirSource::Model(_)));
+        let units = u32::from(by_model) * AIR_UNITS + u32::from(field.is_some()) * FIELD_UNITS;
+        self.kinematics.spend_units(Cost::Air, NODES as u32 * (units + 1), start_s)
+    }
+
+    /// The latest time up to `limit_s` until which the model of the air is smooth from `start_s` on: midnight, and the heights at
+    /// which its form changes.
+    fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
+        let Some(AirSource::Model(model)) = self.settings.air.map(|it| it.source) else { return Ok(limit_s) };
+        let epoch_minus_time_s = self.kinematics.configuration.epoch_minus_time_s;
+        let after_s = after_event_s(start_s).min(limit_s);
+        let mut limit_s = limit_s;
+        if model.changes_at_midnight() {
+            let midnight_s = next_midnight_s(after_s + epoch_minus_time_s) - epoch_minus_time_s;
+            limit_s = limit_s.min(midnight_s.max(after_s.next_up()));
+        }
+        let breaks_m = model.breaks_m();
+        let rounding_s = self.kinematics.time_rounding_s(limit_s);
+        let mut over = |at_s: f64| {
+            let height_m = self.height_m(at_s);
+            SVector::<f64, 3>::from_fn(|k, _| breaks_m.get(k).map_or(f64::INFINITY, |edge_m| height_m - edge_m))
+        };
+        let samples = Series::nodes(start_s, limit_s).map(&mut over);
+        Ok(first_event(after_s, start_s, limit_s, rounding_s, &samples, over).unwrap_or(limit_s))
+    }
+
+    fn height_m(&mut self, time_s: f64) -> f64 {
+        let epoch_s = time_s + self.kinematics.configuration.epoch_minus_time_s;
+        let from_planet = self.kinematics.from_planet(time_s);
+        self.figure.geodetic(epoch_s, &from_planet.position_m).height_m
+    }
+
+    /// The series over an interval, and their greatest last term relative to the tolerance's measure.
+    fn fit(&mut self, start_s: f64, end_s: f64) -> Result<(AirAndFieldSegment, f64), PlantError> {
+        let mut nodes = [Node { air: Vector3::zeros(), air_velocity_m_s: Vector3::zeros(), field_t: Vector3::zeros() }; NODES];
+        let mut has_air = true;
+        for (node, at_s) in nodes.iter_mut().zip(Series::nodes(start_s, end_s)) {
+            *node = self.node(at_s)?;
+            has_air &= node.air[0].is_finite();
+        }
+        let series = |of: fn(&Node) -> Vector3<f64>| Series::from_samples(start_s, end_s, &nodes.map(|node| of(&node)));
+        let AirAndFieldSettings { air, field, .. } = &self.settings;
+        let by_model = matches!(air, Some(it) if matches!(it.source, AirSource::Model(_)));
+        let fitted = AirAndFieldSegment {
+            air: (by_model && has_air).then(|| series(|node| node.air)),
+            air_velocity: air.is_some().then(|| series(|node| node.air_velocity_m_s)),
+            field: matches!(field, Some(FieldSource::Model(_))).then(|| series(|node| node.field_t)),
+            ..AirAndFieldSegment::default()
+        };
+        let of_air = fitted.air.as_ref().map_or(0.0, |it| {
+            let last = last_terms(it);
+            let mean = it.coefficients().column(0).abs();
+            last[0].max(last[1] / mean[1]).max(last[2] / mean[2])
+        });
+        let of_vector = |series: &Option<Series>, of: fn(&Node) -> Vector3<f64>| {
+            let largest = nodes.iter().map(|node| of(node).amax()).fold(0.0, f64::max);
+            series.as_ref().filter(|_| largest > 0.0).map_or(0.0, |it| last_terms(it).amax() / largest)
+        };
+        let of_velocity = of_vector(&fitted.air_velocity, |node| node.air_velocity_m_s);
+        let of_field = of_vector(&fitted.field, |node| node.field_t);
+        Ok((fitted, of_air.max(of_velocity).max(of_field)))
+    }
+
+    fn node(&mut self, time_s: f64) -> Result<Node, PlantError> {
+        let epoch_s = time_s + self.kinematics.configuration.epoch_minus_time_s;
+        let CartesianState { position_m, .. } = self.kinematics.from_planet(time_s);
+        let orientation = &self.figure.orientation;
+        let fixed_from_inertial = orientation.fixed_from_eme2000(epoch_s);
+        let position_fixed_m = fixed_from_inertial * position_m;
+        let (mut air, mut air_velocity_m_s) = (Vector3::zeros(), Vector3::zeros());
+        if let Some(settings) = &self.settings.air {
+            let geodetic = self.figure.ellipsoid.geodetic(&position_fixed_m);
+            if let AirSource::Model(model) = &settings.source {
+                let found = model.air_at(epoch_s, &geodetic, &settings.weather);
+                let Air { density_kg_m3, temperature_k, molar_mass_kg_mol } =
+                    found.map_err(|source| PlantError::Air { time_s, source })?;
+                let logarithm = if density_kg_m3 > 0.0 { math::ln(density_kg_m3) } else { f64::NEG_INFINITY };
+                air = Vector3::new(logarithm, temperature_k, molar_mass_kg_mol);
+            }
+            air_velocity_m_s = orientation.rotation_rad_s_eme2000(epoch_s).cross(&position_m);
+            if settings.wind_m_s != Vector3::zeros() {
+                air_velocity_m_s += fixed_from_inertial.inverse() * (geodetic.east_north_up() * settings.wind_m_s);
+            }
+        }
+        let field_t = match &self.settings.field {
+            Some(FieldSource::Model(model)) => {
+                let found = model.field_fixed_t(epoch_s, &position_fixed_m);
+                fixed_from_inertial.inverse() * found.map_err(|source| PlantError::Field { time_s, source })?
+            }
+            _ => Vector3::zeros(),
+        };
+        Ok(Node { air, air_velocity_m_s, field_t })
+    }
+}
+
+/// Greatest magnitude among the last two terms of each row.
+fn last_terms(series: &Series) -> Vector3<f64> {
+    let terms = series.coefficients();
+    terms.column(NODES - 1).abs().sup(&terms.column(NODES - 2).abs())
+}

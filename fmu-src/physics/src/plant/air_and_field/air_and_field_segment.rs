@@ -1,0 +1,119 @@
+//! Air and magnetic field over a segment of the orbit. They do not depend on the attitude, and a model of them costs more than
+//! what they do to the spacecraft.
+//!
+//! Equation: logarithm of the density, temperature, molar mass, velocity of the air and field in EME2000 as functions of time.
+//! Method: interpolation at [`NODES`] Chebyshev nodes, the segment shortened until its last terms are below the tolerance
+//! ([`crate::numerics::adaptive`]); it ends where a model is not smooth.
+//! Order: [`NODES`] in the length.
+//! Error measure: the last two terms: of the logarithm of the density, and of temperature, molar mass, velocity and field relative
+//! to the largest value in the segment.
+//! Reference: see [`crate::numerics::adaptive`].
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::environment::atmosphere::Air;
+use crate::math;
+use crate::numerics::chebyshev::Segment;
+use crate::numerics::or_infinite;
+use crate::plant::settings::air_and_field_settings::{AirAndFieldSettings, AirSettings, AirSource, FieldSource};
+
+/// Chebyshev nodes a segment.
+pub(crate) const NODES: usize = 10;
+/// Three functions of time.
+pub(crate) type Series = Segment<3, NODES>;
+/// No air is denser than the exponential of this, in kg/m3.
+const LARGEST_LOGARITHM: f64 = 20.0;
+
+/// Air and field at one time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AirAndField {
+    /// Density, temperature and molar mass; all zero where there is no air.
+    pub air: Air,
+    /// Velocity of the air about the planet's centre, EME2000, in m/s.
+    pub air_velocity_m_s: Vector3<f64>,
+    /// Magnetic field, EME2000, in T.
+    pub field_inertial_t: Vector3<f64>,
+}
+
+/// Air and field over one interval; what is given needs no series.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AirAndFieldSegment {
+    #[serde(with = "or_infinite")]
+    pub(crate) start_s: f64,
+    #[serde(with = "or_infinite")]
+    pub(crate) end_s: f64,
+    /// Length the tolerance will probably allow the next segment, in s.
+    #[serde(with = "or_infinite")]
+    pub(crate) next_longest_s: f64,
+    /// Logarithm of the density in kg/m3, temperature in K, molar mass in kg/mol; absent where a model has no air.
+    pub(crate) air: Option<Series>,
+    /// Velocity of the air, EME2000, in m/s.
+    pub(crate) air_velocity: Option<Series>,
+    /// Field, EME2000, in T.
+    pub(crate) field: Option<Series>,
+}
+
+impl Default for AirAndFieldSegment {
+    /// Before the first segment.
+    fn default() -> Self {
+        Self {
+            start_s: f64::INFINITY,
+            end_s: f64::NEG_INFINITY,
+            next_longest_s: f64::INFINITY,
+            air: None,
+            air_velocity: None,
+            field: None,
+        }
+    }
+}
+
+impl AirAndFieldSegment {
+    /// Whether a simulation can produce it.
+    pub(crate) fn is_valid(&self) -> bool {
+        let is_before = self.start_s == f64::INFINITY && self.end_s == f64::NEG_INFINITY;
+        let (start_s, end_s) = (self.start_s, self.end_s.max(self.start_s));
+        let series = [&self.air, &self.air_velocity, &self.field];
+        let largest = |it: &Series| it.coefficients().row(0).iter().map(|c| c.abs()).sum::<f64>();
+        (is_before || start_s.is_finite() && self.end_s.is_finite())
+            && self.next_longest_s > 0.0
+            && series.into_iter().flatten().all(|it| it.is_valid() && it.spans(start_s, end_s))
+            && self.air.as_ref().is_none_or(|it| largest(it) < 1e6)
+    }
+
+    /// Whether it has come to `time_s` and no segment further; so in every flight, not in every sequence of bytes.
+    pub(crate) fn covers(&self, time_s: f64) -> bool {
+        self.start_s <= time_s + 8.0 * f64::EPSILON * time_s.abs() && time_s <= self.end_s
+    }
+
+    /// Ends at `time_s`: the flight changes there.
+    pub(crate) fn cut(&mut self, time_s: f64) {
+        self.end_s = self.end_s.min(time_s);
+    }
+
+    /// Air and field at `time_s`.
+    pub(crate) fn at(&self, settings: &AirAndFieldSettings, time_s: f64) -> AirAndField {
+        let vector = |series: &Option<Series>| series.as_ref().map_or(Vector3::zeros(), |it| it.value(time_s));
+        AirAndField {
+            air: settings.air.as_ref().map_or(Air::default(), |air| self.air_at(air, time_s)),
+            air_velocity_m_s: vector(&self.air_velocity),
+            field_inertial_t: match settings.field {
+                Some(FieldSource::Given(field_inertial_t)) => field_inertial_t,
+                _ => vector(&self.field),
+            },
+        }
+    }
+
+    fn air_at(&self, settings: &AirSettings, time_s: f64) -> Air {
+        if let AirSource::Given(air) = settings.source {
+            return air;
+        }
+        let Some(series) = &self.air else { return Air::default() };
+        let values = series.value(time_s);
+        Air {
+            density_kg_m3: math::exp(values[0].min(LARGEST_LOGARITHM)) * settings.density_factor,
+            temperature_k: values[1],
+            molar_mass_kg_mol: values[2],
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! Figure and rotation of the planet, and which air and magnetic field are about it.
+
+use nalgebra::Vector3;
+
+use crate::environment::atmosphere::{Air, AtmosphereModel, SpaceWeather};
+use crate::environment::geodetic::{Ellipsoid, Geodetic};
+use crate::environment::magnetic_field::MagneticField;
+use crate::environment::orientation::Orientation;
+
+/// Figure and rotation of the planet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanetFigure {
+    /// How it is turned.
+    pub orientation: Orientation,
+    /// What heights count from.
+    pub ellipsoid: Ellipsoid,
+}
+
+impl PlanetFigure {
+    /// Where a position about its centre, EME2000, in m, is over its surface.
+    pub fn geodetic(&self, epoch_s: f64, position_m: &Vector3<f64>) -> Geodetic {
+        self.ellipsoid.geodetic(&(self.orientation.fixed_from_eme2000(epoch_s) * position_m))
+    }
+}
+
+/// Air and magnetic field about the planet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AirAndFieldSettings {
+    /// The air; `None` where it does not act.
+    pub air: Option<AirSettings>,
+    /// The field; `None` where it does not act.
+    pub field: Option<FieldSource>,
+    /// Last Chebyshev terms of both relative to their size.
+    pub tolerance: f64,
+}
+
+/// The air about the planet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AirSettings {
+    /// Where it comes from.
+    pub source: AirSource,
+    /// Activity of the Sun and of the Earth's field.
+    pub weather: SpaceWeather,
+    /// Factor of the model's density.
+    pub density_factor: f64,
+    /// Velocity of the air relative to the rotating planet: east, north, up, in m/s.
+    pub wind_m_s: Vector3<f64>,
+}
+
+/// Where density, temperature and molar mass come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AirSource {
+    /// A model.
+    Model(AtmosphereModel),
+    /// The same everywhere until it is given anew; without density there is none.
+    Given(Air),
+}
+
+/// Where the magnetic field comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FieldSource {
+    /// A model.
+    Model(MagneticField),
+    /// The same everywhere until it is given anew, EME2000, in T.
+    Given(Vector3<f64>),
+}
