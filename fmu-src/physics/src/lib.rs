@@ -37,6 +37,8 @@ pub mod guidance;
 
 pub mod momentum;
 
+pub mod aerodynamics;
+pub mod magnetics;
 pub mod plant;
 
 pub mod management;

@@ -509,6 +509,8 @@ impl GyrostatMotion {
 }
 
 #[cfg(test)]
+mod dipole_tests;
+#[cfg(test)]
 mod imbalance_tests;
 #[cfg(test)]
 mod mass_flow_tests;

@@ -75,6 +75,14 @@ pub struct BodyData {
     pub orbit_inclination_rad: f64,
     /// Longitude of its perihelion, in rad: ascending node plus argument of perihelion.
     pub orbit_perihelion_longitude_rad: f64,
+    /// r
+    pub equatorial_radius_m: f64,
+    /// f
+    pub flattening: f64,
+    /// a
+    pub atmosphere: Option<crate::environment::atmosphere::ExponentialAir>,
+    /// d
+    pub dipole: Option<crate::environment::magnetic_field::DipoleField>,
     /// Its surface in sunlight; `None` for the Sun.
     pub surface: Option<PlanetSurface>,
 }
@@ -158,6 +166,10 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 0.0,
         orbit_inclination_rad: 0.0,
         orbit_perihelion_longitude_rad: 0.0,
+        equatorial_radius_m: 6e6,
+        flattening: 0.0,
+        atmosphere: None,
+        dipole: None,
         surface: None,
     },
     BodyData {
@@ -177,6 +189,10 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 48.33 * DEG_RAD,
         orbit_inclination_rad: 7.0 * DEG_RAD,
         orbit_perihelion_longitude_rad: 77.457_796_28 * DEG_RAD,
+        equatorial_radius_m: 6e6,
+        flattening: 0.0,
+        atmosphere: None,
+        dipole: None,
         surface: Some(surface::MERCURY),
     },
     BodyData {
@@ -196,6 +212,10 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 76.679_842_55 * DEG_RAD,
         orbit_inclination_rad: 3.394_676_05 * DEG_RAD,
         orbit_perihelion_longitude_rad: 131.602_467_18 * DEG_RAD,
+        equatorial_radius_m: 6e6,
+        flattening: 0.0,
+        atmosphere: None,
+        dipole: None,
         surface: Some(gray(constants::RADIUS_VENUS_M, 0.77, 226.6)),
     },
     BodyData {
@@ -215,6 +235,10 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 0.0,
         orbit_inclination_rad: 0.0,
         orbit_perihelion_longitude_rad: 102.937_681_93 * DEG_RAD,
+        equatorial_radius_m: 6e6,
+        flattening: 0.0,
+        atmosphere: None,
+        dipole: None,
         surface: Some(gray(constants::RADIUS_EARTH_M, 0.294, 254.0)),
     },
     BodyData {
@@ -234,6 +258,10 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 49.559_538_91 * DEG_RAD,
         orbit_inclination_rad: 1.849_691_42 * DEG_RAD,
         orbit_perihelion_longitude_rad: -23.943_629_59 * DEG_RAD,
+        equatorial_radius_m: 6e6,
+        flattening: 0.0,
+        atmosphere: None,
+        dipole: None,
         surface: Some(gray(constants::RADIUS_MARS_M, 0.25, 209.8)),
     },
     BodyData {
@@ -253,6 +281,10 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 100.473_909_09 * DEG_RAD,
         orbit_inclination_rad: 1.304_396_95 * DEG_RAD,
         orbit_perihelion_longitude_rad: 14.728_479_83 * DEG_RAD,
+        equatorial_radius_m: 6e6,
+        flattening: 0.0,
+        atmosphere: None,
+        dipole: None,
         surface: Some(gray(constants::RADIUS_JUPITER_M, 0.343, 109.9)),
     },
     BodyData {
@@ -271,6 +303,10 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 0.0,
         orbit_inclination_rad: 0.0,
         orbit_perihelion_longitude_rad: 0.0,
+        equatorial_radius_m: 6e6,
+        flattening: 0.0,
+        atmosphere: None,
+        dipole: None,
         surface: None,
     },
 ];

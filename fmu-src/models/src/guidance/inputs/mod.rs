@@ -103,8 +103,8 @@ fn target(context: &Plan<'_>, values: &Values) -> (Body, TargetPlanet) {
             v.radii.into(),
             v.pole_right_ascension.into(),
             v.pole_declination.into(),
-            v.prime_meridian.into(),
-            v.rotation_rate.into(),
+            v.rotation.prime_meridian.into(),
+            v.rotation.rotation_rate.into(),
             v.gravitational_parameter.into(),
         ],
     );
@@ -112,8 +112,8 @@ fn target(context: &Plan<'_>, values: &Values) -> (Body, TargetPlanet) {
         radii_m: Vector3::from([0, 1, 2].map(|i| given.real_or(v.radii.element(i), own.radii_m[i]))),
         pole_right_ascension_rad: given.real_or(v.pole_right_ascension, own.pole_right_ascension_rad),
         pole_declination_rad: given.real_or(v.pole_declination, own.pole_declination_rad),
-        prime_meridian_rad: given.real_or(v.prime_meridian, own.prime_meridian_rad),
-        rotation_rate_rad_s: given.real_or(v.rotation_rate, own.rotation_rate_rad_s),
+        prime_meridian_rad: given.real_or(v.rotation.prime_meridian, own.prime_meridian_rad),
+        rotation_rate_rad_s: given.real_or(v.rotation.rotation_rate, own.rotation_rate_rad_s),
         gm_m3_s2: given.real_or(v.gravitational_parameter, own.gm_m3_s2),
     };
     (body, planet)
@@ -128,8 +128,8 @@ pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     values.set_vector(v.radii, planet.radii_m.into());
     values.set_real(v.pole_right_ascension, planet.pole_right_ascension_rad);
     values.set_real(v.pole_declination, planet.pole_declination_rad);
-    values.set_real(v.prime_meridian, planet.prime_meridian_rad);
-    values.set_real(v.rotation_rate, planet.rotation_rate_rad_s);
+    values.set_real(v.rotation.prime_meridian, planet.prime_meridian_rad);
+    values.set_real(v.rotation.rotation_rate, planet.rotation_rate_rad_s);
     values.set_real(v.gravitational_parameter, planet.gm_m3_s2);
     let guided = &context.variables.guided;
     let phase = guided.phase(context, values, &context.setup.windows, body == Body::Sun);

@@ -71,7 +71,7 @@ impl Default for AirAndFieldSegment {
 impl AirAndFieldSegment {
     /// Whether a simulation can produce it.
     pub(crate) fn is_valid(&self) -> bool {
-        let is_before = self.start_s == f64::INFINITY && self.end_s == f64::NEG_INFINITY;
+        let is_before = self.is_before();
         let (start_s, end_s) = (self.start_s, self.end_s.max(self.start_s));
         let series = [&self.air, &self.air_velocity, &self.field];
         let largest = |it: &Series| it.coefficients().row(0).iter().map(|c| c.abs()).sum::<f64>();
@@ -81,9 +81,14 @@ impl AirAndFieldSegment {
             && self.air.as_ref().is_none_or(|it| largest(it) < 1e6)
     }
 
+    /// Whether it is the one before the first.
+    fn is_before(&self) -> bool {
+        self.start_s == f64::INFINITY
+    }
+
     /// Whether it has come to `time_s` and no segment further; so in every flight, not in every sequence of bytes.
     pub(crate) fn covers(&self, time_s: f64) -> bool {
-        self.start_s <= time_s + 8.0 * f64::EPSILON * time_s.abs() && time_s <= self.end_s
+        self.is_before() || self.start_s <= time_s + 8.0 * f64::EPSILON * time_s.abs() && time_s <= self.end_s
     }
 
     /// Ends at `time_s`: the flight changes there.

@@ -63,12 +63,18 @@ pub struct Surfaces<'a> {
 }
 
 /// Room for surfaces in light and in air.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Workspaces<T: Scalar> {
     /// In light.
     pub light: disturbance::Workspace<T>,
     /// In air.
     pub air: aerodynamics::Workspace<T>,
+}
+
+impl<T: Scalar> Default for Workspaces<T> {
+    fn default() -> Self {
+        Self { light: Default::default(), air: Default::default() }
+    }
 }
 
 /// Everything computed from one set of positions, but for the faces, which are in the workspace.

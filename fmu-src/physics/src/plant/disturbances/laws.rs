@@ -20,7 +20,7 @@ pub struct Laws<T = f64> {
 
 /// A body near a planet.
 #[derive(Clone, Copy, Debug)]
-pub struct NearPlanet<T> {
+pub struct NearPlanet<T: Scalar> {
     /// From the spacecraft to the planet's centre, body frame, in m; `None` where it is not known.
     pub planet_body_m: Option<Vector3<T>>,
     /// Unit vector to the planet's north pole, body frame.

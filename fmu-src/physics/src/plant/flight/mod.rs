@@ -137,7 +137,7 @@ impl Flight {
             _ if !light.as_ref().is_none_or(|light| light.covers(time_s)) => {
                 (false, "light and heat were computed")
             }
-            _ if configuration_has_air && !air_and_field.covers(time_s) => (false, "air and magnetic field were computed"),
+            _ if !air_and_field.covers(time_s) => (false, "air and magnetic field were computed"),
             _ if !trajectory.covers(time_s) => (false, "the orbit was integrated"),
             Mode::Waiting => (true, ""),
             Mode::Ideal(ideal) => (ideal.integrator.covers(time_s), "the momentum was accumulated"),
