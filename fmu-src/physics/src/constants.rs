@@ -8,6 +8,8 @@ pub const ASTRONOMICAL_UNIT_M: f64 = 149_597_870_700.0;
 pub const STEFAN_BOLTZMANN_W_M2_K4: f64 = 5.670_374_419e-8;
 /// Radians in a degree.
 pub const DEG_RAD: f64 = core::f64::consts::PI / 180.0;
+/// An arc second, in rad.
+pub const ARCSECOND_RAD: f64 = DEG_RAD / 3600.0;
 /// Radians a second in a revolution a minute.
 pub const RPM_RAD_S: f64 = core::f64::consts::PI / 30.0;
 /// Seconds in a day.

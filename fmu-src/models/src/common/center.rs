@@ -4,7 +4,7 @@ use fmi_export::SetupError;
 use physics::bodies::surface::{MERCURY, PlanetSurface};
 use physics::bodies::{Body, BodyData};
 use physics::enumeration::Enumerated;
-use physics::environment::atmosphere::ExponentialAir;
+use physics::bodies::air::ExponentialAir;
 use physics::environment::frames::Frame;
 use physics::environment::kepler_planet::{KeplerPlanet, MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use physics::environment::orbit::{self, Elements};

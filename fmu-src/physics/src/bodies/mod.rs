@@ -5,8 +5,10 @@
 //! J2000 (Archinal et al. 2018; Mars 2009, whose series has no periodic terms), orbit planes the mean ones at J2000 on the
 //! ecliptic (Standish, Keplerian elements for approximate positions, 1800 to 2050). A planet's surface radiates and reflects
 //! by Lambert's law: Bond albedo and effective temperature (NASA planetary fact sheets) are all that is known of a cloudy
-//! one here.
+//! one here. Equators and flattenings are those of the IAU's working group too, the Earth's WGS 84's.
 
+pub mod air;
+pub mod dipole;
 pub mod surface;
 
 use nalgebra::Vector3;
@@ -15,6 +17,8 @@ use serde::{Deserialize, Serialize};
 use crate::constants::{self, DEG_RAD};
 use crate::enumeration::enumeration;
 use crate::math;
+use air::ExponentialAir;
+use dipole::DipoleField;
 use surface::{DayTemperature, PlanetSurface};
 
 enumeration! {
@@ -75,14 +79,14 @@ pub struct BodyData {
     pub orbit_inclination_rad: f64,
     /// Longitude of its perihelion, in rad: ascending node plus argument of perihelion.
     pub orbit_perihelion_longitude_rad: f64,
-    /// r
+    /// Radius of its equator, in m.
     pub equatorial_radius_m: f64,
-    /// f
+    /// 1 less the ratio of its polar to its equatorial radius.
     pub flattening: f64,
-    /// a
-    pub atmosphere: Option<crate::environment::atmosphere::ExponentialAir>,
-    /// d
-    pub dipole: Option<crate::environment::magnetic_field::DipoleField>,
+    /// Its air by the exponential model, where there is some.
+    pub atmosphere: Option<ExponentialAir>,
+    /// Its magnetic field as a dipole, where one is known.
+    pub dipole: Option<DipoleField>,
     /// Its surface in sunlight; `None` for the Sun.
     pub surface: Option<PlanetSurface>,
 }
@@ -166,7 +170,7 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 0.0,
         orbit_inclination_rad: 0.0,
         orbit_perihelion_longitude_rad: 0.0,
-        equatorial_radius_m: 6e6,
+        equatorial_radius_m: constants::RADIUS_SUN_M,
         flattening: 0.0,
         atmosphere: None,
         dipole: None,
@@ -189,10 +193,10 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 48.33 * DEG_RAD,
         orbit_inclination_rad: 7.0 * DEG_RAD,
         orbit_perihelion_longitude_rad: 77.457_796_28 * DEG_RAD,
-        equatorial_radius_m: 6e6,
-        flattening: 0.0,
+        equatorial_radius_m: 2_440.53e3,
+        flattening: 1.0 - 2_438.26 / 2_440.53,
         atmosphere: None,
-        dipole: None,
+        dipole: Some(dipole::MERCURY),
         surface: Some(surface::MERCURY),
     },
     BodyData {
@@ -212,9 +216,9 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 76.679_842_55 * DEG_RAD,
         orbit_inclination_rad: 3.394_676_05 * DEG_RAD,
         orbit_perihelion_longitude_rad: 131.602_467_18 * DEG_RAD,
-        equatorial_radius_m: 6e6,
+        equatorial_radius_m: 6_051.8e3,
         flattening: 0.0,
-        atmosphere: None,
+        atmosphere: Some(air::VENUS),
         dipole: None,
         surface: Some(gray(constants::RADIUS_VENUS_M, 0.77, 226.6)),
     },
@@ -235,10 +239,10 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 0.0,
         orbit_inclination_rad: 0.0,
         orbit_perihelion_longitude_rad: 102.937_681_93 * DEG_RAD,
-        equatorial_radius_m: 6e6,
-        flattening: 0.0,
-        atmosphere: None,
-        dipole: None,
+        equatorial_radius_m: 6_378_137.0,
+        flattening: 1.0 / 298.257_223_563,
+        atmosphere: Some(air::EARTH),
+        dipole: Some(dipole::EARTH),
         surface: Some(gray(constants::RADIUS_EARTH_M, 0.294, 254.0)),
     },
     BodyData {
@@ -258,9 +262,9 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 49.559_538_91 * DEG_RAD,
         orbit_inclination_rad: 1.849_691_42 * DEG_RAD,
         orbit_perihelion_longitude_rad: -23.943_629_59 * DEG_RAD,
-        equatorial_radius_m: 6e6,
-        flattening: 0.0,
-        atmosphere: None,
+        equatorial_radius_m: 3_396.19e3,
+        flattening: 1.0 - 3_376.20 / 3_396.19,
+        atmosphere: Some(air::MARS),
         dipole: None,
         surface: Some(gray(constants::RADIUS_MARS_M, 0.25, 209.8)),
     },
@@ -281,10 +285,10 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 100.473_909_09 * DEG_RAD,
         orbit_inclination_rad: 1.304_396_95 * DEG_RAD,
         orbit_perihelion_longitude_rad: 14.728_479_83 * DEG_RAD,
-        equatorial_radius_m: 6e6,
-        flattening: 0.0,
-        atmosphere: None,
-        dipole: None,
+        equatorial_radius_m: 71_492e3,
+        flattening: 1.0 - 66_854.0 / 71_492.0,
+        atmosphere: Some(air::JUPITER),
+        dipole: Some(dipole::JUPITER),
         surface: Some(gray(constants::RADIUS_JUPITER_M, 0.343, 109.9)),
     },
     BodyData {
@@ -303,7 +307,7 @@ pub const BODIES: [BodyData; Body::COUNT] = [
         orbit_node_rad: 0.0,
         orbit_inclination_rad: 0.0,
         orbit_perihelion_longitude_rad: 0.0,
-        equatorial_radius_m: 6e6,
+        equatorial_radius_m: 1.0,
         flattening: 0.0,
         atmosphere: None,
         dipole: None,

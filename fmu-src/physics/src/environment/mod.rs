@@ -5,6 +5,7 @@ pub mod coarse_ephemeris;
 pub mod eclipse;
 pub mod ephemeris;
 pub mod frames;
+pub mod utc;
 pub mod orientation;
 pub mod geodetic;
 pub mod atmosphere;

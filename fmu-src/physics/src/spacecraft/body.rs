@@ -112,6 +112,8 @@ impl CustomBody {
             pole_declination_rad: self.pole_rad[1],
             prime_meridian_rad: self.prime_meridian_rad,
             rotation_rate_rad_s: self.rotation_rate_rad_s,
+            equatorial_radius_m: self.radii_m[0],
+            flattening: 1.0 - self.radii_m[2] / self.radii_m[0],
             surface: Some(self.surface()),
             ..*Body::Custom.data()
         }

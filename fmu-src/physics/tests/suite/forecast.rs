@@ -58,7 +58,7 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
         start_momentum_body_n_m_s: Vector3::new(0.3, -0.2, 0.1),
     };
     flight.configure(
-        World::new(configured, Laws { gm_m3_s2: GM_MERCURY_M3_S2 }),
+        World::new(configured),
         ModeSettings::Ideal(settings),
     );
     flight.begin(given, 0.0, &mut |_| {}).unwrap();

@@ -151,7 +151,7 @@ impl Rig {
 
     /// Goes on under this configuration.
     fn world_of(&mut self, configuration: &Configuration) -> &mut World {
-        self.world.insert(World::new(configuration.clone(), Laws { gm_m3_s2: GM_MERCURY_M3_S2 }))
+        self.world.insert(World::new(configuration.clone()))
     }
 
     pub(crate) fn plant_with<'a>(

@@ -4,7 +4,7 @@ use fmi_export::{Elements, Values};
 use physics::bodies::surface::PlanetSurface;
 use physics::bodies::{Body, BodyData};
 use physics::enumeration::Enumerated;
-use physics::environment::atmosphere::ExponentialAir;
+use physics::bodies::air::ExponentialAir;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements as KeplerElements;
 
