@@ -39,7 +39,8 @@ pub fn next_midnight_s(epoch_s: f64) -> f64 {
     let utc_s = utc_s(epoch_s);
     let days = ((utc_s + 0.5 * DAY_S) / DAY_S).floor() + 1.0;
     let midnight_utc_s = (days - 0.5) * DAY_S;
-    midnight_utc_s + tdb_minus_utc_s(epoch_s + (midnight_utc_s - utc_s))
+    // A leap second comes before midnight.
+    midnight_utc_s + tdb_minus_utc_s(epoch_s + (midnight_utc_s - utc_s) + 2.0)
 }
 
 /// Day of the year, 1 on the first of January, and seconds of that day, UTC.
@@ -74,18 +75,19 @@ mod tests {
 
     #[test]
     fn universal_time_is_that_of_hifitime() {
-        for (date, seconds) in [
-            ("1972-07-01 UTC", 0.0),
-            ("1999-01-01 UTC", 0.0),
-            ("2009-04-06T12:34:56 UTC", 45_296.0),
-            ("2016-12-31T23:59:59 UTC", 86_399.0),
-            ("2017-01-01 UTC", 0.0),
-            ("2026-11-27T06:00:00 UTC", 21_600.0),
+        for (date, expected, seconds) in [
+            ("1972-07-01 UTC", 183, 0.0),
+            ("1999-01-01 UTC", 1, 0.0),
+            ("2009-04-06T12:34:56 UTC", 96, 45_296.0),
+            ("2016-12-31T23:59:59 UTC", 366, 86_399.0),
+            ("2017-01-01 UTC", 1, 0.0),
+            ("2026-11-27T06:00:00 UTC", 331, 21_600.0),
         ] {
             let epoch_s = dates::epoch_s(date).unwrap() + 1e-3;
             let (day, found_s) = day_and_seconds(epoch_s);
             assert!((found_s - seconds - 1e-3).abs() < 1e-4, "{date}: {found_s}");
-            let expected = Epoch::from_tdb_seconds(epoch_s).day_of_year().floor() as i32;
+            let (_, month, of_month, ..) = Epoch::from_tdb_seconds(epoch_s).to_gregorian(TimeScale::UTC);
+            assert!(date.contains(&format!("-{month:02}-{of_month:02}")), "{date}");
             assert_eq!(day, expected, "{date}");
         }
         let (year, ..) = Epoch::from_tdb_seconds(8e8).to_gregorian(TimeScale::UTC);
