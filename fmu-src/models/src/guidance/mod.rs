@@ -115,6 +115,7 @@ impl Model for Guidance {
         // Masters that connect inputs one by one look before all of them are set: the first step says what is missing.
         let mut shown = State { warned_unconnected: true, windows_are_checked: true, ..state.clone() };
         let mut fixed = Fixed::read(context, values)?;
+        fixed.tune(context, values);
         management::set_panels(context, values, &mut fixed.panels);
         let settings = inputs::settings(context, values, &fixed)?;
         shown.sample(context, values, &fixed, &settings, InputsOverTime::held())?;
@@ -133,6 +134,7 @@ impl Model for Guidance {
         step: &Step<'_>,
     ) -> Result<StepEnd, Failure> {
         let mut fixed = state.fixed.take().map_or_else(|| Fixed::read(context, values), Ok)?;
+        fixed.tune(context, values);
         management::set_panels(context, values, &mut fixed.panels);
         let settings = inputs::settings(context, values, &fixed)?;
         let limit = context.variables.solver.units(values);

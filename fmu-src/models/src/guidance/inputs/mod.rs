@@ -5,7 +5,7 @@ pub(super) mod management;
 use fmi_export::{Boolean, Choice, Enumeration, Failure, InputsOverTime, Integer, Real, RealVector, Values};
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
-use physics::bodies::Body;
+use physics::bodies::{Body, BodyData};
 use physics::enumeration::Enumerated;
 use physics::environment::CartesianState;
 use physics::environment::bodies_from_center::BodiesFromCenter;
@@ -30,6 +30,7 @@ use physics::guidance::pointing::command::{
 };
 use physics::guidance::pointing::scan::ScanCompatibility;
 use physics::guidance::pointing::scenario::GuidanceHardware;
+use physics::environment::orientation::Orientation;
 use physics::guidance::{EphemerisAtTime, TargetPlanet};
 use physics::plant::PanelSetting;
 
@@ -37,6 +38,7 @@ use super::setup::Plan;
 use super::variables::choices::{EphemerisSource, ModeRequest};
 use super::variables::commands::AimpointVariables;
 use crate::common::downlink::ZERO_KEEP_IN_AXIS;
+use crate::common::choices::PlanetOrientation;
 use crate::common::ephemeris;
 use crate::common::management::{NO_ANTENNA, check_windows_have_antenna};
 use crate::common::variables::NO_GIMBAL;
@@ -54,10 +56,18 @@ pub struct Fixed {
 }
 
 impl Fixed {
+    /// Takes the tunable parameters of the planet.
+    pub fn tune(&mut self, context: &Plan<'_>, values: &Values) {
+        if let Orientation::Iau { ut1_minus_utc_s } = &mut self.planet.orientation {
+            *ut1_minus_utc_s = values.real(context.variables.earth.ut1_offset);
+        }
+    }
+
     /// From the parameters.
     pub fn read(context: &Plan<'_>, values: &Values) -> Result<Self, Failure> {
         let v = context.variables;
-        let (body, planet) = target(context, values);
+        let target = Target::read(context, values);
+        let (body, planet) = (target.data.body, target.planet(context, values)?);
         let epoch_s = values.real(v.start.epoch);
         let source = values.choice(v.ephemeris.source);
         if source != EphemerisSource::Inputs {
@@ -91,48 +101,75 @@ impl Fixed {
     }
 }
 
-/// The target planet: what is given of `planet.*`, else its own.
-fn target(context: &Plan<'_>, values: &Values) -> (Body, TargetPlanet) {
-    let v = &context.variables.planet;
-    let body = values.choice(context.variables.target.planet).0;
-    let target = context.setup.bodies.body(body);
-    let own = TargetPlanet { radii_m: target.radii_m.into(), ..TargetPlanet::of(&target.data) };
-    let given = context.given(
-        values,
-        &[
-            v.radii.into(),
-            v.pole_right_ascension.into(),
-            v.pole_declination.into(),
-            v.rotation.prime_meridian.into(),
-            v.rotation.rotation_rate.into(),
-            v.gravitational_parameter.into(),
-        ],
-    );
-    let planet = TargetPlanet {
-        radii_m: Vector3::from([0, 1, 2].map(|i| given.real_or(v.radii.element(i), own.radii_m[i]))),
-        pole_right_ascension_rad: given.real_or(v.pole_right_ascension, own.pole_right_ascension_rad),
-        pole_declination_rad: given.real_or(v.pole_declination, own.pole_declination_rad),
-        prime_meridian_rad: given.real_or(v.rotation.prime_meridian, own.prime_meridian_rad),
-        rotation_rate_rad_s: given.real_or(v.rotation.rotation_rate, own.rotation_rate_rad_s),
-        gm_m3_s2: given.real_or(v.gravitational_parameter, own.gm_m3_s2),
-    };
-    (body, planet)
+/// The target planet as its parameters act.
+struct Target {
+    data: BodyData,
+    radii_m: Vector3<f64>,
+    orientation: PlanetOrientation,
+}
+
+impl Target {
+    /// What is given of `planet.*`, else the body's own.
+    fn read(context: &Plan<'_>, values: &Values) -> Self {
+        let v = &context.variables.planet;
+        let own = context.setup.bodies.body(values.choice(context.variables.target.planet).0);
+        let given = context.given(
+            values,
+            &[
+                v.radii.into(),
+                v.pole_right_ascension.into(),
+                v.pole_declination.into(),
+                v.rotation.prime_meridian.into(),
+                v.rotation.rotation_rate.into(),
+                v.rotation.orientation.into(),
+                v.gravitational_parameter.into(),
+            ],
+        );
+        let real = |parameter: Real, own: f64| given.real_or(parameter, own);
+        let data = own.data;
+        Self {
+            radii_m: Vector3::from([0, 1, 2].map(|i| real(v.radii.element(i), own.radii_m[i]))),
+            orientation: v.rotation.choice(&given, values, data.body),
+            data: BodyData {
+                pole_right_ascension_rad: real(v.pole_right_ascension, data.pole_right_ascension_rad),
+                pole_declination_rad: real(v.pole_declination, data.pole_declination_rad),
+                prime_meridian_rad: real(v.rotation.prime_meridian, data.prime_meridian_rad),
+                rotation_rate_rad_s: real(v.rotation.rotation_rate, data.rotation_rate_rad_s),
+                gm_m3_s2: real(v.gravitational_parameter, data.gm_m3_s2),
+                ..data
+            },
+        }
+    }
+
+    /// As pointing takes it.
+    ///
+    /// # Errors
+    /// The Earth's orientation requested of another body.
+    fn planet(&self, context: &Plan<'_>, values: &Values) -> Result<TargetPlanet, Failure> {
+        let ut1_minus_utc_s = values.real(context.variables.earth.ut1_offset);
+        Ok(TargetPlanet {
+            radii_m: self.radii_m,
+            orientation: self.orientation.about(&self.data, ut1_minus_utc_s)?,
+            gm_m3_s2: self.data.gm_m3_s2,
+        })
+    }
 }
 
 /// Writes the parameters that follow `target.planet` as they act.
 pub(super) fn resolve_start(context: &Plan<'_>, values: &mut Values) {
     let (v, ellipse) = (&context.variables.planet, &context.variables.ephemeris.ellipse);
-    let (body, planet) = target(context, values);
-    let elements = ellipse.read(context, values, &context.setup.bodies.body(body));
+    let Target { data, radii_m, orientation } = Target::read(context, values);
+    let elements = ellipse.read(context, values, &context.setup.bodies.body(data.body));
     ellipse.write(values, &elements);
-    values.set_vector(v.radii, planet.radii_m.into());
-    values.set_real(v.pole_right_ascension, planet.pole_right_ascension_rad);
-    values.set_real(v.pole_declination, planet.pole_declination_rad);
-    values.set_real(v.rotation.prime_meridian, planet.prime_meridian_rad);
-    values.set_real(v.rotation.rotation_rate, planet.rotation_rate_rad_s);
-    values.set_real(v.gravitational_parameter, planet.gm_m3_s2);
+    values.set_vector(v.radii, radii_m.into());
+    values.set_real(v.pole_right_ascension, data.pole_right_ascension_rad);
+    values.set_real(v.pole_declination, data.pole_declination_rad);
+    values.set_real(v.rotation.prime_meridian, data.prime_meridian_rad);
+    values.set_real(v.rotation.rotation_rate, data.rotation_rate_rad_s);
+    values.set_choice(v.rotation.orientation, orientation);
+    values.set_real(v.gravitational_parameter, data.gm_m3_s2);
     let guided = &context.variables.guided;
-    let phase = guided.phase(context, values, &context.setup.windows, body == Body::Sun);
+    let phase = guided.phase(context, values, &context.setup.windows, data.body == Body::Sun);
     values.set_choice(guided.phase, phase);
 }
 

@@ -6,6 +6,7 @@ use physics::bodies::{Body, BodyData};
 use physics::environment::atmosphere::{Air, AtmosphereModel, ExponentialAir, SpaceWeather};
 use physics::environment::geodetic::Ellipsoid;
 use physics::environment::magnetic_field::{self, MagneticField};
+use physics::environment::orientation::Orientation;
 use physics::loads::{Active, Effect};
 use physics::plant::{AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure};
 
@@ -16,17 +17,26 @@ use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::air_and_field::{AtmosphereMethod, MagneticFieldMethod};
 
+/// How a planet turns; `None` of the Sun.
+pub(super) fn orientation(
+    context: &Plan<'_>,
+    values: &Values,
+    planet: &BodyData,
+) -> Result<Option<Orientation>, Failure> {
+    if !planet.body.is_planet() {
+        return Ok(None);
+    }
+    let orientation = Followed::read(context, values, planet.body).orientation;
+    orientation.about(planet, values.real(context.variables.earth.ut1_offset)).map(Some)
+}
+
 /// Figure and rotation of the planet; `None` without one.
 pub(super) fn figure(
     context: &Plan<'_>,
     values: &Values,
     planet: &BodyData,
 ) -> Result<Option<PlanetFigure>, Failure> {
-    if !planet.body.is_planet() {
-        return Ok(None);
-    }
-    let orientation = Followed::read(context, values, planet.body).orientation;
-    let orientation = orientation.about(planet, values.real(context.variables.earth.ut1_offset))?;
+    let Some(orientation) = orientation(context, values, planet)? else { return Ok(None) };
     let ellipsoid = Ellipsoid { equatorial_radius_m: planet.equatorial_radius_m, flattening: planet.flattening };
     Ok(Some(PlanetFigure { orientation, ellipsoid }))
 }

@@ -110,7 +110,7 @@ pub(super) fn read(
         encounter,
         attitude: attitude(context, values, state, &orbit)?,
         timeline: followed
-            .map(|_| timeline(context.variables, values, data, clock_minus_time_s))
+            .map(|_| timeline(context, values, data, clock_minus_time_s))
             .transpose()?,
         orbit,
         motion: motion(
@@ -315,17 +315,20 @@ fn zone(variables: &PlantVariables, values: &Values) -> Result<KeepIn, Failure> 
 
 /// What the timeline goes by.
 fn timeline(
-    variables: &PlantVariables,
+    context: &Plan<'_>,
     values: &Values,
     center: &BodyData,
     clock_minus_time_s: f64,
 ) -> Result<TimelineSettings, Failure> {
+    let variables = context.variables;
     let v = &variables.keep_in;
+    let own = TargetPlanet::of(center);
+    let turned = air_and_field::orientation(context, values, center)?;
     Ok(TimelineSettings {
         keep_in: zone(variables, values)?,
         keep_in_is_enabled: values.boolean(v.enabled),
         keep_in_distance_m: values.real(v.distance),
-        planet: TargetPlanet::of(center),
+        planet: TargetPlanet { orientation: turned.unwrap_or(own.orientation), ..own },
         clock_minus_time_s,
     })
 }

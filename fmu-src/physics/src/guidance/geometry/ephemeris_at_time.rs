@@ -5,51 +5,37 @@ use nalgebra::Vector3;
 use super::moving::{Moving, MovingMatrix, MovingVector, fixed, moving, rate, value};
 use crate::bodies::{Body, BodyData};
 use crate::environment::CartesianState;
-use crate::environment::frames::{rotation_x, rotation_z};
+use crate::environment::orientation::{Equator, Orientation};
 use crate::math;
 
-/// Shape, pole and rotation of the planet that is observed (paper 001: triaxial ellipsoid, fixed pole).
+/// Shape, pole and rotation of the planet that is observed (paper 001: triaxial ellipsoid).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TargetPlanet {
     /// Radii of the ellipsoid along the planet's x, y and z, in m.
     pub radii_m: Vector3<f64>,
-    /// Right ascension of its north pole, in rad.
-    pub pole_right_ascension_rad: f64,
-    /// Declination of its north pole, in rad.
-    pub pole_declination_rad: f64,
-    /// Prime meridian at J2000, in rad.
-    pub prime_meridian_rad: f64,
-    /// Rotation rate, in rad/s.
-    pub rotation_rate_rad_s: f64,
+    /// How it is turned.
+    pub orientation: Orientation,
     /// Gravitational parameter, in m3/s2: the spacecraft's acceleration, which the rate of a frame tied to its velocity needs.
     pub gm_m3_s2: f64,
 }
 
 impl TargetPlanet {
-    /// A sphere of the mean radius, and the rotation of the IAU at J2000.
+    /// A sphere of the mean radius that turns uniformly, as the body's row says.
     pub fn of(data: &BodyData) -> Self {
         Self {
             radii_m: Vector3::repeat(data.radius_m),
-            pole_right_ascension_rad: data.pole_right_ascension_rad,
-            pole_declination_rad: data.pole_declination_rad,
-            prime_meridian_rad: data.prime_meridian_rad,
-            rotation_rate_rad_s: data.rotation_rate_rad_s,
+            orientation: Orientation::uniform(data),
             gm_m3_s2: data.gm_m3_s2,
         }
     }
 
-    /// From components in EME2000 to components along the planet's axes at `epoch_s` past J2000 TDB:
-    /// Rz(W) Rx(90 deg - dec) Rz(90 deg + ra), frame rotations.
+    /// From components in EME2000 to components along the planet's axes at `epoch_s` past J2000 TDB; the equator stands still.
     pub fn planet_from_inertial(&self, epoch_s: f64) -> MovingMatrix {
-        use core::f64::consts::{FRAC_PI_2, TAU};
-        let turned_rad = (self.prime_meridian_rad + self.rotation_rate_rad_s * epoch_s) % TAU;
-        // Rx and the first Rz stand still: their product is one of plain numbers.
-        let node = rotation_z(-(FRAC_PI_2 + self.pole_right_ascension_rad));
-        let equator_from_inertial = rotation_x(-(FRAC_PI_2 - self.pole_declination_rad)) * node;
+        let Equator { equator_from_eme2000, turned_rad, rate_rad_s } = self.orientation.equator(epoch_s);
         let (sine, cosine) = math::sin_cos(turned_rad);
-        let sine = Moving::new(sine, self.rotation_rate_rad_s * cosine);
-        let cosine = Moving::new(cosine, -self.rotation_rate_rad_s * sine.re);
-        let [x, y, z] = [0, 1, 2].map(|row| equator_from_inertial.row(row).into_owned());
+        let sine = Moving::new(sine, rate_rad_s * cosine);
+        let cosine = Moving::new(cosine, -rate_rad_s * sine.re);
+        let [x, y, z] = [0, 1, 2].map(|row| equator_from_eme2000.row(row).into_owned());
         let turned = |a: Moving, b: Moving| x.zip_map(&y, |x, y| a * x + b * y);
         MovingMatrix::from_rows(&[turned(cosine, sine), turned(-sine, cosine), z.map(Moving::from_re)])
     }

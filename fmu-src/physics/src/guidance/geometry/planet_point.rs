@@ -38,6 +38,7 @@ mod tests {
     use super::super::moving::{fixed, rate, value};
     use super::super::test_orbit::TestOrbit;
     use super::*;
+    use crate::bodies::Body;
     use approx::assert_relative_eq;
     use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -67,7 +68,7 @@ mod tests {
     #[test]
     fn a_point_turns_eastward_about_the_pole() {
         let surroundings = TestOrbit::new(12.0).surroundings(100.0);
-        let planet = &surroundings.planet;
+        let planet = Body::Mercury.data();
         let (sin_ra, cos_ra) = planet.pole_right_ascension_rad.sin_cos();
         let (sin_dec, cos_dec) = planet.pole_declination_rad.sin_cos();
         let pole = Vector3::new(cos_ra * cos_dec, sin_ra * cos_dec, sin_dec);

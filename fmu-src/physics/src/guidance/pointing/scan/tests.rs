@@ -143,8 +143,7 @@ fn each_frame_moves_what_it_says() {
     let shifted = moved(ScanFrame::InertialTranslation, 1, 1e4, &down, &s).unwrap();
     assert_relative_eq!(value(&(shifted.toward - down.toward)), Vector3::y() * 1e4, epsilon = 1e-8);
     let shifted = moved(ScanFrame::PlanetTranslation, 2, 1e4, &down, &s).unwrap();
-    let (ra, dec) = (s.planet.pole_right_ascension_rad, s.planet.pole_declination_rad);
-    let pole = crate::guidance::geometry::moving::spherical(ra, dec);
+    let pole = crate::bodies::Body::Mercury.data().pole();
     assert_relative_eq!(value(&(shifted.toward - down.toward)), pole * 1e4, epsilon = 1e-8);
     // About the reference by 90 deg: down goes to up x reference.
     let turned = moved(ScanFrame::LvlhRotation, 0, FRAC_PI_2, &down, &s).unwrap();
