@@ -37,8 +37,6 @@ pub mod guidance;
 
 pub mod momentum;
 
-pub mod aerodynamics;
-pub mod magnetics;
 pub mod plant;
 
 pub mod management;

@@ -16,11 +16,6 @@ pub fn gravity_gradient_n_m<T: Scalar>(
     toward.cross(&(inertia_body_kg_m2 * toward)) * scale
 }
 
-/// stub
-pub fn flattened_gravity_gradient_n_m<T: Scalar>(gm: T, _f: [T; 2], i: &Matrix3<T>, p: [&Vector3<T>; 2]) -> Vector3<T> {
-    gravity_gradient_n_m(gm, i, p[0])
-}
-
 #[cfg(test)]
 mod tests {
     //! A dumb-bell is pulled into line with the planet by the difference of the two pulls on its ends.
