@@ -6,6 +6,8 @@ pub const SPEED_OF_LIGHT_M_S: f64 = 299_792_458.0;
 pub const ASTRONOMICAL_UNIT_M: f64 = 149_597_870_700.0;
 /// Stefan-Boltzmann constant, W m-2 K-4 (exact in the SI of 2019, rounded to 10 digits).
 pub const STEFAN_BOLTZMANN_W_M2_K4: f64 = 5.670_374_419e-8;
+/// Molar gas constant, J mol-1 K-1 (exact in the SI of 2019, rounded to 15 digits).
+pub const GAS_CONSTANT_J_MOL_K: f64 = 8.314_462_618_153_24;
 /// Radians in a degree.
 pub const DEG_RAD: f64 = core::f64::consts::PI / 180.0;
 /// An arc second, in rad.

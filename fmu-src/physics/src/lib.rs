@@ -33,6 +33,10 @@ pub mod loads;
 
 pub mod radiation;
 
+pub mod aerodynamics;
+
+pub mod magnetics;
+
 pub mod guidance;
 
 pub mod momentum;

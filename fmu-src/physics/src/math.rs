@@ -54,6 +54,8 @@ functions! {
     hypot(x, y) = hypot;
     /// Cube root.
     cbrt(x) = cbrt;
+    /// Complement of the error function, 2 / sqrt(pi) times the integral of e^(-t^2) from `x` on.
+    erfc(x) = erfc;
 }
 
 /// Sine and cosine of an angle in rad.

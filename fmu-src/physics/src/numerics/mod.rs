@@ -4,6 +4,7 @@
 pub mod adaptive;
 pub mod chebyshev;
 pub mod collocation;
+pub mod error_function;
 pub mod events;
 pub mod intervals;
 pub mod noise;

@@ -10,10 +10,10 @@ use super::Beam;
 use super::cylinder::{cylinder_force_torque, lit_angle_rad};
 use super::flat_plate::force_per_area_pa;
 use crate::loads::ForceTorque;
-use crate::spacecraft::{Cylinder, Optics};
+use crate::spacecraft::{Cylinder, GasSurface, Optics};
 
 fn cylinder(half_angle_rad: f64, optics: Optics) -> Cylinder {
-    Cylinder { radius_m: 0.991, height_m: 2.489, half_angle_rad, optics }
+    Cylinder { radius_m: 0.991, height_m: 2.489, half_angle_rad, optics, gas_surface: GasSurface::ASSUMED }
 }
 
 fn shade() -> Cylinder {

@@ -1,15 +1,17 @@
-//! The spacecraft taken apart into faces.
+//! The spacecraft taken apart into faces, for light, heat and air.
 
 use nalgebra::Vector3;
 
 use super::cylinder::CylinderFace;
-use super::shadow::{Hinge, Outline};
+use super::shadow::{Hinge, Outline, ShadowScene};
 use super::thermal::balance::FaceEnvironment;
 use super::thermal::transient::HeatStore;
 use crate::math;
+use crate::numerics::scalar::{Scalar, constant_vector};
 use crate::refusal::Refusal;
 use crate::spacecraft::{
-    BusLink, Cylinder, Emission, FaceThermal, Optics, Plate, Spacecraft, SunshadeModel, Thermal,
+    BusLink, Cylinder, Emission, FaceThermal, GasSurface, Optics, Panel, Plate, Spacecraft, SunshadeModel,
+    Thermal,
 };
 
 /// Strips a cylindrical shade is cut into for planet light and heat; sunlight on it has a closed form.
@@ -17,7 +19,7 @@ const CYLINDER_STRIPS: u32 = 24;
 
 /// One side of a surface.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Face {
+pub(crate) struct Face {
     /// Which of the distinct normals.
     pub normal: usize,
     /// Which of the surfaces.
@@ -26,13 +28,15 @@ pub(super) struct Face {
     pub optics: Optics,
     /// Infrared optics and emission.
     pub thermal: FaceThermal,
+    /// The face in the air.
+    pub gas_surface: GasSurface,
     /// Heat from inside, in W.
     pub internal_heat_w: f64,
 }
 
 /// A plate, panel or strip with one or two faces.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Surface {
+pub(crate) struct Surface {
     pub name: String,
     pub area_m2: f64,
     pub center_body_m: Vector3<f64>,
@@ -93,7 +97,7 @@ impl Surface {
 
 /// Where a normal comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Normal {
+pub(crate) enum Normal {
     /// Fixed in the body.
     Fixed(Vector3<f64>),
     /// Cell side of a panel.
@@ -109,15 +113,16 @@ pub(super) fn no_such_sunshade(form: SunshadeModel) -> Refusal {
 
 /// Surfaces, faces and distinct normals of a spacecraft: plates, sunshade, panels, in this order.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Faces {
+pub(crate) struct Faces {
     pub surfaces: Vec<Surface>,
     pub faces: Vec<Face>,
     pub normals: Vec<Normal>,
     /// Temperature of the space that all of them see, in K.
     pub background_k: f64,
     pub outlines: Vec<Outline>,
+    pub panels: Vec<Panel>,
     /// A cylindrical shade, on which sunlight has a closed form.
-    pub cylinder: Option<CylinderFace>,
+    pub(super) cylinder: Option<CylinderFace>,
 }
 
 impl Faces {
@@ -125,7 +130,7 @@ impl Faces {
     ///
     /// # Errors
     /// The file has a sunshade but not in this form.
-    pub(super) fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, Refusal> {
+    pub(crate) fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, Refusal> {
         let mut faces = Self { background_k: spacecraft.background_k, ..Self::default() };
         for plate in &spacecraft.plates {
             faces.add_plate(plate);
@@ -147,11 +152,33 @@ impl Faces {
                 surface.closed_form_sun = cylinder.is_some();
             }
         }
+        faces.panels = spacecraft.panels.clone();
         for (index, panel) in spacecraft.panels.iter().enumerate() {
             let hinge = Hinge { panel: index, point_body_m: panel.center_body_m, axis_body: panel.axis_body };
             faces.add(&panel.plate_at_zero(), [Normal::Front(index), Normal::Rear(index)], Some(hinge));
         }
         Ok(faces)
+    }
+
+    /// The distinct normals with the panels at these angles, body frame; a panel without an angle stands at 0.
+    pub(crate) fn turn_normals<T: Scalar>(&self, panel_angles_rad: &[T], normals_body: &mut [Vector3<T>]) {
+        let turned = |panel: usize| {
+            let angle_rad = panel_angles_rad.get(panel).copied().unwrap_or(T::constant(0.0));
+            self.panels.get(panel).map_or(Vector3::zeros(), |panel| panel.normal_body(angle_rad))
+        };
+        for (normal, source) in normals_body.iter_mut().zip(&self.normals) {
+            *normal = match *source {
+                Normal::Fixed(fixed) => constant_vector(&fixed),
+                Normal::Front(panel) => turned(panel),
+                Normal::Rear(panel) => -turned(panel),
+            };
+        }
+    }
+
+    /// Shadows among the outlines, which it takes; none where no surface can shadow another.
+    pub(crate) fn take_scene(&mut self) -> Option<ShadowScene> {
+        let scene = ShadowScene::new(core::mem::take(&mut self.outlines));
+        scene.has_pairs().then_some(scene)
     }
 
     fn add_plate(&mut self, plate: &Plate) {
@@ -171,6 +198,7 @@ impl Faces {
                 surface,
                 optics,
                 thermal,
+                gas_surface: plate.gas_surface[side],
                 internal_heat_w: internal_heat_w[side],
             });
         }
@@ -206,6 +234,8 @@ fn strips(cylinder: &Cylinder) -> impl Iterator<Item = Plate> + '_ {
         let normal = Vector3::new(math::sin(angle_rad), -math::cos(angle_rad), 0.0);
         let name = format!("shade strip {}", i + 1);
         let area_m2 = cylinder.radius_m * width_rad * cylinder.height_m;
-        Plate::insulated(name, area_m2, normal * cylinder.radius_m, normal, cylinder.optics, None)
+        let center_m = normal * cylinder.radius_m;
+        let plate = Plate::insulated(name, area_m2, center_m, normal, cylinder.optics, None);
+        Plate { gas_surface: [cylinder.gas_surface; 2], ..plate }
     })
 }

@@ -6,7 +6,7 @@
 
 pub mod cylinder;
 pub mod disturbance;
-mod faces;
+pub(crate) mod faces;
 pub mod flat_plate;
 pub mod grid;
 pub mod planet_light;

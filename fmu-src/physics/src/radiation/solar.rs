@@ -44,14 +44,14 @@ impl SolarModel {
     /// # Errors
     /// The file has a sunshade but not in this form.
     pub fn new(spacecraft: &Spacecraft, form: Option<SunshadeModel>) -> Result<Self, Refusal> {
-        let Faces { surfaces, faces, normals, cylinder, .. } = Faces::new(spacecraft, form)?;
+        let Faces { surfaces, faces, normals, cylinder, panels, .. } = Faces::new(spacecraft, form)?;
         let fixed = faces.iter().filter_map(|face| match (normals[face.normal], &surfaces[face.surface]) {
             (Normal::Fixed(normal), surface) if !surface.closed_form_sun => {
                 Some(FixedFace::new(surface, normal, &face.optics))
             }
             _ => None,
         });
-        Ok(Self { fixed: fixed.collect(), cylinder, panels: spacecraft.panels.clone() })
+        Ok(Self { fixed: fixed.collect(), cylinder, panels })
     }
 
     /// Number of faces: those of plates, shade and panels, rear faces by themselves.

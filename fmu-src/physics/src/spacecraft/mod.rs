@@ -13,6 +13,7 @@ mod assembly;
 mod body;
 mod downlinks;
 mod file;
+mod gas_surface;
 mod hot_pole;
 mod instruments;
 mod mass;
@@ -41,6 +42,7 @@ pub use body::{BodyMotion, BodyOrbit, CustomBody, InertialFrame};
 pub use downlinks::{DownlinkWindows, TimeAfterPeriapsis};
 #[cfg(feature = "schema")]
 pub use file::schema;
+pub use gas_surface::GasSurface;
 pub use hot_pole::HotPoleZone;
 pub use instruments::{GimbalMount, Instrument};
 pub(crate) use mass::steiner;

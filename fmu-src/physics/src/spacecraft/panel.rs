@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use super::gas_surface::GasSurface;
 use super::mass::PanelMass;
 use super::optics::Optics;
 use super::polygon::Polygon;
@@ -51,6 +52,8 @@ pub struct Panel {
     pub optics: Optics,
     /// Optics of the back; `None` where no light can reach it.
     pub rear_optics: Option<Optics>,
+    /// Cell side and back in the air; the back counts where light can reach it.
+    pub gas_surface: [GasSurface; 2],
     /// Heat of both faces.
     pub thermal: Thermal,
     /// Outline at angle 0, body frame, counter-clockwise seen from the cell side; panels without one neither shadow
@@ -81,6 +84,7 @@ impl Panel {
             normal: self.zero_normal_body,
             optics: self.optics,
             rear_optics: self.rear_optics,
+            gas_surface: self.gas_surface,
             thermal: self.thermal,
             polygon: self.polygon.clone(),
         }

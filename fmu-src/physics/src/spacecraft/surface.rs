@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
+use super::gas_surface::GasSurface;
 use super::optics::Optics;
 use super::polygon::Polygon;
 use super::thermal::Thermal;
@@ -26,6 +27,8 @@ pub struct Plate {
     pub optics: Optics,
     /// Optics of the rear face; `None` where no light can reach it.
     pub rear_optics: Option<Optics>,
+    /// Front and rear in the air; the rear counts where light can reach it.
+    pub gas_surface: [GasSurface; 2],
     /// Heat of both faces.
     pub thermal: Thermal,
     /// Outline, counter-clockwise seen from the front; surfaces without one neither shadow nor are shadowed.
@@ -33,7 +36,7 @@ pub struct Plate {
 }
 
 impl Plate {
-    /// One whose faces are insulated, without an outline.
+    /// One whose faces are insulated and of assumed accommodation, without an outline.
     pub fn insulated(
         name: String,
         area_m2: f64,
@@ -43,7 +46,8 @@ impl Plate {
         rear_optics: Option<Optics>,
     ) -> Self {
         let thermal = Thermal::insulated(&optics, rear_optics.as_ref());
-        Self { name, area_m2, center_m, normal, optics, rear_optics, thermal, polygon: None }
+        let gas_surface = [GasSurface::ASSUMED; 2];
+        Self { name, area_m2, center_m, normal, optics, rear_optics, gas_surface, thermal, polygon: None }
     }
 
     /// One of this outline whose faces are insulated.
@@ -76,6 +80,8 @@ pub struct Cylinder {
     pub half_angle_rad: f64,
     /// Optics of the outside; the inside receives no light.
     pub optics: Optics,
+    /// The outside in the air.
+    pub gas_surface: GasSurface,
 }
 
 enumeration! {

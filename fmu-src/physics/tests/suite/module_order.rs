@@ -19,6 +19,8 @@ const ORDER: &[&str] = &[
     "environment",
     "loads",
     "radiation",
+    "aerodynamics",
+    "magnetics",
     "guidance",
     "momentum",
     "plant",

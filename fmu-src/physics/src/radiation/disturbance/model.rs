@@ -8,13 +8,13 @@ use super::planet_rule::{PlanetLightMethod, PlanetRule};
 use super::workspace::Workspace;
 use crate::bodies::surface::PlanetSurface;
 use crate::loads::{Effect, ForceTorque, Loads};
-use crate::numerics::scalar::{Scalar, constant_vector};
+use crate::numerics::scalar::Scalar;
 use crate::radiation::faces::{Faces, Normal};
 use crate::radiation::flat_plate::Beam;
 use crate::radiation::planet_light::PlanetLight;
 use crate::radiation::shadow::{DIRECTIONS, ShadowScene, SunDisc};
 use crate::refusal::Refusal;
-use crate::spacecraft::{Panel, Spacecraft, SunshadeModel};
+use crate::spacecraft::{Spacecraft, SunshadeModel};
 
 /// What an evaluation takes into account.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,7 +47,6 @@ impl Default for Options {
 #[derive(Clone, Debug)]
 pub struct DisturbanceModel {
     faces: Faces,
-    panels: Vec<Panel>,
     planet_light: PlanetRule,
     planet: Option<PlanetSurface>,
     /// Present only where some surface can shadow another.
@@ -65,11 +64,9 @@ impl DisturbanceModel {
             planet.validate()?;
         }
         let mut faces = Faces::new(spacecraft, options.sunshade_model)?;
-        let outlines = core::mem::take(&mut faces.outlines);
-        let scene = options.self_shadowing.then(|| ShadowScene::new(outlines)).filter(ShadowScene::has_pairs);
+        let scene = if options.self_shadowing { faces.take_scene() } else { None };
         Ok(Self {
             faces,
-            panels: spacecraft.panels.clone(),
             planet_light: PlanetRule::new(&options.planet_light)?,
             planet: options.planet,
             scene,
@@ -163,10 +160,10 @@ impl DisturbanceModel {
         recoil: Recoil<'_>,
         workspace: &mut Workspace<T>,
     ) -> Result<Loads<T>, Refusal> {
-        geometry.check(self.panels.len())?;
+        geometry.check(self.faces.panels.len())?;
         self.check_temperatures(recoil)?;
         workspace.prepare(self.faces.normals.len(), self.faces.faces.len());
-        self.turn_normals(geometry, workspace);
+        self.faces.turn_normals(geometry.panel_angles_rad, &mut workspace.normals);
         self.light_planet(surface, geometry, workspace)?;
         if let Some(scene) = &self.scene {
             let (sun, angles_rad) = (&geometry.sun_direction_body, geometry.panel_angles_rad);
@@ -247,20 +244,6 @@ impl DisturbanceModel {
 
     fn loads<'a, T: Scalar>(&'a self, geometry: &'a Geometry<'a, T>) -> FaceLoads<'a, T> {
         FaceLoads { faces: &self.faces, geometry, shadowing: self.scene.is_some() }
-    }
-
-    fn turn_normals<T: Scalar>(&self, geometry: &Geometry<'_, T>, workspace: &mut Workspace<T>) {
-        let turned = |panel: usize| match (self.panels.get(panel), geometry.panel_angles_rad.get(panel)) {
-            (Some(panel), Some(angle_rad)) => panel.normal_body(*angle_rad),
-            _ => Vector3::zeros(),
-        };
-        for (normal, source) in workspace.normals.iter_mut().zip(&self.faces.normals) {
-            *normal = match *source {
-                Normal::Fixed(fixed) => constant_vector(&fixed),
-                Normal::Front(panel) => turned(panel),
-                Normal::Rear(panel) => -turned(panel),
-            };
-        }
     }
 
     /// Planet light for every distinct normal.

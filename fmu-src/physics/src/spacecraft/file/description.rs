@@ -10,6 +10,7 @@ use super::describe_swinging::{FlexibleModeDescription, SloshDescription};
 use super::describe_thermal::{SurroundingsDescription, ThermalDescription};
 use super::written_time::WrittenTime;
 use crate::spacecraft::body::InertialFrame;
+use crate::spacecraft::gas_surface::GasSurface;
 use crate::spacecraft::panel::PanelControl;
 use crate::spacecraft::start::StartTable;
 use crate::spacecraft::sun_sensors::HALF_FIELD_OF_VIEW_DEG;
@@ -153,7 +154,7 @@ struct MassDescription {
     inertia_kg_m2: [[f64; 3]; 3],
 }
 
-/// What a surface does with sunlight: absorptivity + specular + diffuse = 1.
+/// What a surface does with sunlight (absorptivity + specular + diffuse = 1), heat and air.
 struct OpticsDescription {
     /// Mirrored fraction.
     specular: Fraction,
@@ -169,6 +170,16 @@ struct OpticsDescription {
     emissivity_temperature_k: Kelvin = EMISSIVITY_REFERENCE_TEMPERATURE_K,
     /// Absorbed fraction of the planet's infrared light; the absorptivity unless given.
     infrared_absorptivity: Option<Fraction>,
+    /// Drag coefficient for `aerodynamics.law` dragCoefficient, of the area across the flow; the default is assumed.
+    drag_coefficient: NotNegative = GasSurface::ASSUMED.drag_coefficient,
+    /// Energy accommodation for `aerodynamics.law` sentman; the default is assumed.
+    energy_accommodation: Fraction = GasSurface::ASSUMED.energy_accommodation,
+    /// Accommodation of normal momentum for `aerodynamics.law` schaafChambre; the default is assumed.
+    normal_accommodation: Fraction = GasSurface::ASSUMED.normal_accommodation,
+    /// Accommodation of tangential momentum for `aerodynamics.law` schaafChambre; the default is assumed.
+    tangential_accommodation: Fraction = GasSurface::ASSUMED.tangential_accommodation,
+    /// Temperature in the air where no heat balance gives it, in K; the default is assumed.
+    wall_temperature_k: Kelvin = GasSurface::ASSUMED.wall_temperature_k,
 }
 
 /// A flat surface.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::describe_thermal::SurroundingsDescription;
 use super::description::{Description, OpticsDescription};
+use crate::spacecraft::gas_surface::GasSurface;
 use crate::spacecraft::optics::Optics;
 use crate::spacecraft::thermal::{Emission, FaceThermal};
 use crate::toml::{Checker, Fraction, Place, hint, rounded};
@@ -13,6 +14,7 @@ use crate::toml::{Checker, Fraction, Place, hint, rounded};
 pub(crate) struct Material {
     pub optics: Optics,
     pub thermal: FaceThermal,
+    pub gas_surface: GasSurface,
 }
 
 impl Material {
@@ -20,7 +22,13 @@ impl Material {
     pub(crate) const BLACK: Self = Self {
         optics: Optics::from_reflectivities(0.0, 0.0),
         thermal: FaceThermal::like_sunlight(&Optics::from_reflectivities(0.0, 0.0)),
+        gas_surface: GasSurface::ASSUMED,
     };
+
+    /// Front and rear of a surface in the air.
+    pub(crate) fn in_air(front: Self, rear: Option<Self>) -> [GasSurface; 2] {
+        [front, rear.unwrap_or(front)].map(|material| material.gas_surface)
+    }
 }
 
 /// What every surface exchanges heat with.
@@ -50,7 +58,7 @@ impl Materials {
             let at = Place::root().key("optics").key(name);
             let optics = optics(check, &at, description);
             let thermal = face_thermal(check, &at, description, &optics);
-            (name.clone(), Material { optics, thermal })
+            (name.clone(), Material { optics, thermal, gas_surface: gas_surface(description) })
         });
         Self { by_name: materials.collect(), surroundings }
     }
@@ -90,6 +98,16 @@ fn optics(check: &mut Checker<'_>, at: &Place, description: &OpticsDescription) 
         check.report_across(at, &at.key("absorptivity"), found, "a sum of 1 within 1e-9");
     }
     Optics { absorptivity, specular, diffuse }
+}
+
+fn gas_surface(description: &OpticsDescription) -> GasSurface {
+    GasSurface {
+        drag_coefficient: description.drag_coefficient(),
+        energy_accommodation: description.energy_accommodation(),
+        normal_accommodation: description.normal_accommodation(),
+        tangential_accommodation: description.tangential_accommodation(),
+        wall_temperature_k: description.wall_temperature_k(),
+    }
 }
 
 fn face_thermal(

@@ -5,7 +5,7 @@ use super::description::{
     CylinderDescription, Description, PanelDescription, PlateDescription, SunshadeDescription,
 };
 use super::mass::panel_mass;
-use super::materials::Materials;
+use super::materials::{Material, Materials};
 use super::names::{Named, list};
 use super::outline::{checked_area, checked_center, checked_normal, checked_outline};
 use super::shapes::{box_plates, cylinder_plates, disc_plates, dish_plates, distinct_plates};
@@ -95,6 +95,7 @@ fn plate(
         normal: checked_normal(check, at, normal, outline.as_ref()),
         optics: front.optics,
         rear_optics: rear.map(|rear| rear.optics),
+        gas_surface: Material::in_air(front, rear),
         thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
         polygon: outline,
     }
@@ -135,11 +136,13 @@ fn cylinder(
     at: &Place,
     description: &CylinderDescription,
 ) -> Cylinder {
+    let material = materials.find(check, &at.key("optics"), &description.optics);
     Cylinder {
         radius_m: description.radius_m.0,
         height_m: description.height_m.0,
         half_angle_rad: description.subtended_angle_deg.0.to_radians() / 2.0,
-        optics: materials.find(check, &at.key("optics"), &description.optics).optics,
+        optics: material.optics,
+        gas_surface: material.gas_surface,
     }
 }
 
@@ -184,6 +187,7 @@ pub(crate) fn panel(
         zero_normal_body: dcm_body_from_panel * zero_normal,
         optics: front.optics,
         rear_optics: rear.map(|rear| rear.optics),
+        gas_surface: Material::in_air(front, rear),
         thermal: thermal(check, materials.surroundings, at, description.thermal.as_ref(), front, rear),
         polygon: outline.as_ref().map(|polygon| polygon.moved(|v| dcm_body_from_panel * v)),
         control: description.control(),

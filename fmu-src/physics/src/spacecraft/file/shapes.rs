@@ -213,7 +213,8 @@ impl Shape<'_> {
         thermal.front = front.thermal;
         let dot = if facet.name.is_empty() { "" } else { "." };
         let (name, rear) = (format!("{name}{dot}{}", facet.name), self.rear.map(|rear| rear.optics));
-        Plate { thermal, ..Plate::outlined(name, outline, front.optics, rear) }
+        let gas_surface = Material::in_air(front, self.rear);
+        Plate { thermal, gas_surface, ..Plate::outlined(name, outline, front.optics, rear) }
     }
 
     /// Heat from inside leaves through all plates alike.
