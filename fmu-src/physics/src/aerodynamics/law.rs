@@ -99,13 +99,13 @@ impl<'a, T: Scalar> LawAtFlow<'a, T> {
     pub(super) fn force_per_area_pa(
         &self,
         surface: &GasSurface,
-        wall_temperature_k: f64,
+        wall_temperature_k: T,
         normal_body: &Vector3<T>,
         received: &IncidentFlow<T>,
     ) -> Vector3<T> {
         let velocity = &self.flow.velocity_body_m_s;
         let mass = received.mass_flux_kg_m2_s;
-        let wall_m2_s2 = self.flow.speed_squared(T::constant(wall_temperature_k));
+        let wall_m2_s2 = self.flow.speed_squared(wall_temperature_k);
         let (pressure_pa, along) = match self.law {
             AerodynamicLaw::DragCoefficient => {
                 return -velocity * (mass * (0.5 * surface.drag_coefficient));

@@ -100,7 +100,7 @@ impl AerodynamicModel {
         flow: &AirFlow<T>,
         panel_angles_rad: &[T],
         center_of_mass_body_m: &Vector3<T>,
-        wall_temperature_k: Option<&[f64]>,
+        wall_temperature_k: Option<&[T]>,
         workspace: &mut AerodynamicWorkspace<T>,
     ) -> ForceTorque<T> {
         if flow.is_vacuum() {
@@ -122,7 +122,7 @@ impl AerodynamicModel {
         for (index, face) in self.faces.faces.iter().enumerate() {
             let surface = &self.faces.surfaces[face.surface];
             let normal = &workspace.normals[face.normal];
-            let own_k = face.gas_surface.wall_temperature_k;
+            let own_k = T::constant(face.gas_surface.wall_temperature_k);
             let wall_k = wall_temperature_k.and_then(|all| all.get(index).copied()).unwrap_or(own_k);
             let pressure = |received: &IncidentFlow<T>| {
                 law.force_per_area_pa(&face.gas_surface, wall_k, normal, received)

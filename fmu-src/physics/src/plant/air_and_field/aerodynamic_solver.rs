@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::aerodynamics::{AerodynamicModel, AerodynamicOptions, AirFlow, Workspace};
+use crate::aerodynamics::{AerodynamicModel, AerodynamicOptions, AerodynamicWorkspace, AirFlow};
 use crate::loads::ForceTorque;
 use crate::plant::light::radiation_segment::RadiationSegment;
 use crate::plant::settings::configuration::Configuration;
@@ -18,7 +18,7 @@ pub struct AerodynamicSolver {
     panels: Vec<usize>,
     panel_angles_rad: Vec<f64>,
     wall_temperatures_k: Vec<f64>,
-    workspace: Workspace<f64>,
+    workspace: AerodynamicWorkspace<f64>,
 }
 
 impl AerodynamicSolver {
@@ -36,7 +36,7 @@ impl AerodynamicSolver {
         Ok(Self {
             panel_angles_rad: vec![0.0; panels.len()],
             wall_temperatures_k: vec![0.0; model.face_count()],
-            workspace: Workspace::default(),
+            workspace: AerodynamicWorkspace::default(),
             panels,
             model,
         })

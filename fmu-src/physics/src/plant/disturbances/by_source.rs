@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::laws::{Laws, NearPlanet};
-use crate::aerodynamics::{self, AerodynamicModel, AirFlow};
+use crate::aerodynamics::{AerodynamicModel, AerodynamicWorkspace, AirFlow};
 use crate::bodies::surface::PlanetSurface;
 use crate::environment::eclipse::{EclipseError, Shadow};
 use crate::loads::{Active, Effect, ForceTorque, Loads};
@@ -68,12 +68,14 @@ pub struct Workspaces<T: Scalar> {
     /// In light.
     pub light: disturbance::Workspace<T>,
     /// In air.
-    pub air: aerodynamics::Workspace<T>,
+    pub air: AerodynamicWorkspace<T>,
+    /// Temperatures of the faces, in K.
+    walls_k: Vec<T>,
 }
 
 impl<T: Scalar> Default for Workspaces<T> {
     fn default() -> Self {
-        Self { light: Default::default(), air: Default::default() }
+        Self { light: Default::default(), air: Default::default(), walls_k: Vec::new() }
     }
 }
 
@@ -140,7 +142,7 @@ impl<T: Scalar> BySource<T> {
         shadow: Option<&Shadow>,
         parameters: &Parameters<T>,
         positions: &Positions<T>,
-        Workspaces { light: workspace, air: air_workspace }: &mut Workspaces<T>,
+        Workspaces { light: workspace, air: air_workspace, walls_k }: &mut Workspaces<T>,
     ) -> Result<Self, PositionError> {
         let sun_m = Vector3::from(positions.sun_m);
         if is_zero(&sun_m) {
@@ -180,7 +182,12 @@ impl<T: Scalar> BySource<T> {
         let flow = AirFlow { density_kg_m3, temperature_k, molar_mass_kg_mol, velocity_body_m_s };
         let air = air.filter(|_| density_kg_m3.value() > 0.0).map(|model| {
             let center = Vector3::from(positions.center_of_mass_m);
-            model.load(&flow, &positions.panel_angles_rad, &center, None, air_workspace)
+            let warmed = active.has(Effect::Thermal).then(|| {
+                walls_k.clear();
+                walls_k.extend(workspace.faces().iter().map(|face| face.temperature_k));
+                walls_k.as_slice()
+            });
+            model.load(&flow, &positions.panel_angles_rad, &center, warmed, air_workspace)
         });
         let at = NearPlanet {
             planet_body_m: planet_m,

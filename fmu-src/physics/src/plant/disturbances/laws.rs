@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::attitude::{flattened_gravity_gradient_n_m, gravity_gradient_n_m};
+use crate::attitude::{OblatePlanet, gravity_gradient_n_m, oblate_gravity_gradient_n_m};
 use crate::loads::{Active, Effect, ForceTorque, Loads};
 use crate::magnetics;
 use crate::numerics::scalar::Scalar;
@@ -49,12 +49,11 @@ impl<T: Scalar> Laws<T> {
         match effect {
             Effect::GravityGradient => torque(at.planet_body_m.map(|planet_body_m| match self.flattening {
                 None => gravity_gradient_n_m(self.gm_m3_s2, &at.inertia_body_kg_m2, &planet_body_m),
-                Some(flattening) => flattened_gravity_gradient_n_m(
-                    self.gm_m3_s2,
-                    flattening,
-                    &at.inertia_body_kg_m2,
-                    [&planet_body_m, &at.pole_body],
-                ),
+                Some([j2, j2_radius_m]) => {
+                    let (gm_m3_s2, pole_body) = (self.gm_m3_s2, at.pole_body);
+                    let planet = OblatePlanet { gm_m3_s2, j2, j2_radius_m, pole_body };
+                    oblate_gravity_gradient_n_m(&planet, &at.inertia_body_kg_m2, &planet_body_m)
+                }
             })),
             Effect::Aerodynamic => at.air,
             Effect::Magnetic => torque(Some(magnetics::torque_n_m(&self.dipole_body_a_m2, &at.field_body_t))),
