@@ -128,6 +128,16 @@ impl BodyData {
         [2e6, 3e6, 9e6].map(|along_m| along_m * radii)
     }
 
+    /// The same with another north pole, a unit vector in EME2000.
+    #[must_use]
+    pub fn with_pole(&self, pole: &Vector3<f64>) -> Self {
+        Self {
+            pole_right_ascension_rad: math::atan2(pole.y, pole.x),
+            pole_declination_rad: math::atan2(pole.z, math::hypot(pole.x, pole.y)),
+            ..*self
+        }
+    }
+
     /// Unit vector to the north pole, in EME2000.
     pub fn pole(&self) -> Vector3<f64> {
         let (sin_ra, cos_ra) = math::sin_cos(self.pole_right_ascension_rad);

@@ -30,6 +30,15 @@ pub(super) fn orientation(
     orientation.about(planet, values.real(context.variables.earth.ut1_offset)).map(Some)
 }
 
+/// A body whose gravity is flattened along the pole that it has where the flight starts.
+///
+/// # Errors
+/// The Earth's orientation requested of another body.
+pub(super) fn at_start(context: &Plan<'_>, values: &Values, body: &BodyData) -> Result<BodyData, Failure> {
+    let Some(turned @ Orientation::Iau { .. }) = orientation(context, values, body)? else { return Ok(*body) };
+    Ok(body.with_pole(&turned.pole_eme2000(values.real(context.variables.start.epoch))))
+}
+
 /// Figure and rotation of the planet; `None` without one.
 pub(super) fn figure(
     context: &Plan<'_>,

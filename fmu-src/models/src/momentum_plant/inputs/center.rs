@@ -15,6 +15,7 @@ use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::choices::OrbitFrame;
 
 /// The centre and the orbit's elements about it, as the parameters act.
+#[derive(Clone, Copy)]
 pub(super) struct Center {
     /// The body in the centre.
     pub data: BodyData,

@@ -116,7 +116,11 @@ pub(super) fn read(
         motion: motion(
             variables,
             values,
-            center,
+            &Center {
+                data: air_and_field::at_start(context, values, data)?,
+                planet: air_and_field::at_start(context, values, &center.planet)?,
+                ..*center
+            },
             time::epoch_at_s(state.orbit_since_s(), epoch_minus_time_s),
         ),
         ephemeris: ephemeris_source(&context.setup.bodies.body(data.body), context, values, state.waiting)?,

@@ -70,8 +70,7 @@ impl AtmosphereModel {
     /// # Errors
     /// A place too low.
     pub fn air_at(&self, epoch_s: f64, place: &Geodetic, weather: &SpaceWeather) -> Result<Air, AtmosphereError> {
-        // Written so that a height that is no number is refused.
-        if !(place.height_m >= FLOOR_M) {
+        if place.height_m < FLOOR_M || place.height_m.is_nan() {
             return Err(AtmosphereError::Height { found_m: place.height_m });
         }
         if place.height_m > CEILING_M {

@@ -118,7 +118,7 @@ impl AirAndFieldBuilder<'_, '_> {
 
     fn height_m(&mut self, time_s: f64) -> f64 {
         let epoch_s = time_s + self.kinematics.configuration.epoch_minus_time_s;
-        let from_planet = self.kinematics.from_planet(time_s);
+        let from_planet = self.kinematics.about_planet(time_s);
         self.figure.geodetic(epoch_s, &from_planet.position_m).height_m
     }
 
@@ -155,7 +155,7 @@ impl AirAndFieldBuilder<'_, '_> {
 
     fn node(&mut self, time_s: f64) -> Result<Node, PlantError> {
         let epoch_s = time_s + self.kinematics.configuration.epoch_minus_time_s;
-        let CartesianState { position_m, .. } = self.kinematics.from_planet(time_s);
+        let CartesianState { position_m, .. } = self.kinematics.about_planet(time_s);
         let orientation = &self.figure.orientation;
         let fixed_from_inertial = orientation.fixed_from_eme2000(epoch_s);
         let position_fixed_m = fixed_from_inertial * position_m;

@@ -504,6 +504,9 @@ impl TorqueModel for Plant<'_> {
             Effort::Dump => 16,
         };
         let faces = self.prepared.solar.face_count() as u32;
-        self.kinematics.spend_units(effort.into(), samples * (Self::SAMPLE_UNITS + faces / 50), time_s)
+        let acts = self.kinematics.configuration.effects.has(Effect::Aerodynamic);
+        let air = self.air.as_ref().filter(|_| acts).map_or(0, |air| air.evaluation_units());
+        let units = Self::SAMPLE_UNITS + faces / 50 + air;
+        self.kinematics.spend_units(effort.into(), samples * units, time_s)
     }
 }

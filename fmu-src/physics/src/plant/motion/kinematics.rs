@@ -134,7 +134,7 @@ impl Kinematics<'_> {
     }
 
     /// The spacecraft about the planet, or about the centre where no planet is, at `time_s`.
-    pub(crate) fn from_planet(&mut self, time_s: f64) -> CartesianState {
+    pub(crate) fn about_planet(&mut self, time_s: f64) -> CartesianState {
         let spacecraft = self.trajectory.state_at(self.configuration, time_s);
         let elsewhere = self.configuration.planet().filter(|planet| *planet != self.configuration.center);
         let Some(planet) = elsewhere else { return spacecraft };
