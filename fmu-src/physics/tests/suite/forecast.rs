@@ -4,12 +4,11 @@ use std::cell::RefCell;
 
 use nalgebra::Vector3;
 use physics::attitude::Attitude;
-use physics::constants::GM_MERCURY_M3_S2;
 use physics::guidance::ChosenPlace;
 use physics::guidance::timeline::{TimelineEvent, TimelineManeuver};
 use physics::loads::ForceTorque;
 use physics::plant::{
-    AttitudeSource, Command, DownlinkForecast, DynamicsInputs, Flight, IdealSettings, Laws, ModeSettings,
+    AttitudeSource, Command, DownlinkForecast, DynamicsInputs, Flight, IdealSettings, ModeSettings,
     PlantError, StepContext, ThrusterEventSettings, Thrusters, World,
 };
 

@@ -73,6 +73,13 @@ impl Cruise {
         };
         Configuration {
             encounter: None,
+            figure: None,
+            air_and_field: None,
+            laws: Laws {
+                gm_m3_s2: GM_SUN_M3_S2,
+                flattening: None,
+                dipole_body_a_m2: Vector3::zeros(),
+            },
             epoch_minus_time_s: EPOCH_S,
             center: Body::Sun,
             motion: Motion::TwoBody,
@@ -143,7 +150,7 @@ impl Flights for Cruise {
             timeline: None,
         };
         let mut propagator = PropagatorState::default();
-        let mut world = World::new(configuration, Laws { gm_m3_s2: GM_SUN_M3_S2 });
+        let mut world = World::new(configuration);
         let nothing = |_: f64| [ForceTorque::zero(); 2];
         let mut plant = Plant::new(prepared, &mut world, &mut propagator, &nothing);
         let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
