@@ -1,4 +1,12 @@
-//! Torque of a planet's gravity gradient.
+//! Torque of a planet's gravity gradient: of a point mass, and of an oblate planet.
+//!
+//! Equation: int rho x G rho dm = -eps_ijk (G J)_kj with G the gradient of the acceleration and J the inertia; G's part a b^T + b a^T
+//! gives a x J b + b x J a, a part along the identity nothing. Of the potential -(mu / r) J2 (R / r)^2 (3 w^2 - 1) / 2, with u the
+//! direction to the planet, p its pole and w = u.p,
+//! G = -(3/2) mu J2 R^2 / r^5 [2 p p^T - 10 w (p u^T + u p^T) + (35 w^2 - 5) u u^T + (1 - 5 w^2) 1].
+//! Error measure: terms of the next order in the spacecraft's size over its distance are left out.
+//! Reference: Wertz, Spacecraft Attitude Determination and Control, 17.2.1; Vallado, Fundamentals of Astrodynamics and Applications,
+//! 8.6 (potential).
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -16,11 +24,46 @@ pub fn gravity_gradient_n_m<T: Scalar>(
     toward.cross(&(inertia_body_kg_m2 * toward)) * scale
 }
 
+/// A planet with its flattening, as seen from the spacecraft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OblatePlanet<T: Scalar> {
+    /// Gravitational parameter, in m3/s2.
+    pub gm_m3_s2: T,
+    /// Second zonal harmonic J2, unnormalised.
+    pub j2: T,
+    /// Radius to which J2 refers, in m.
+    pub j2_radius_m: T,
+    /// Toward the north pole, body frame, of any length but 0.
+    pub pole_body: Vector3<T>,
+}
+
+/// As [`gravity_gradient_n_m`], of a planet with its flattening.
+pub fn oblate_gravity_gradient_n_m<T: Scalar>(
+    planet: &OblatePlanet<T>,
+    inertia_body_kg_m2: &Matrix3<T>,
+    to_planet_body_m: &Vector3<T>,
+) -> Vector3<T> {
+    let distance_m = to_planet_body_m.norm();
+    let toward = to_planet_body_m / distance_m;
+    let pole = planet.pole_body / planet.pole_body.norm();
+    let sin_latitude = toward.dot(&pole);
+    let (of_toward, of_pole) = (inertia_body_kg_m2 * toward, inertia_body_kg_m2 * pole);
+    let point = planet.gm_m3_s2 * 3.0 / (distance_m * distance_m * distance_m);
+    let ratio = planet.j2_radius_m / distance_m;
+    let oblate = planet.j2 * ratio * ratio * 0.5;
+    let along = (sin_latitude * sin_latitude * 35.0 - 5.0) * oblate;
+    let mixed = sin_latitude * oblate * 10.0;
+    let torque = toward.cross(&of_toward) * (-along + 1.0) - pole.cross(&of_pole) * (oblate * 2.0)
+        + (pole.cross(&of_toward) + toward.cross(&of_pole)) * mixed;
+    torque * point
+}
+
 #[cfg(test)]
 mod tests {
     //! A dumb-bell is pulled into line with the planet by the difference of the two pulls on its ends.
 
     use super::*;
+    use crate::environment::orbit::{Flattening, Gravity};
     use crate::numerics::scalar::Dual64;
 
     const GM: f64 = 2.2e13;
@@ -56,5 +99,62 @@ mod tests {
             .map(|t| t.eps);
         let slope = (at(10.0) - at(-10.0)) / 20.0;
         assert!((slope - exact).norm() < 1e-8 * exact.norm());
+    }
+
+    /// Six point masses about their common centre, in kg and m, with their inertia.
+    fn cluster() -> (Vec<(f64, Vector3<f64>)>, Matrix3<f64>) {
+        let arms =
+            [[9.0, -4.0, 2.0], [-3.0, 7.0, 5.0], [1.0, 2.0, -8.0]].map(|arm| Vector3::from(arm) * 10.0);
+        let masses: Vec<_> = arms.iter().flat_map(|arm| [(40.0, *arm), (40.0, -arm)]).collect();
+        let about =
+            |(m, p): &(f64, Vector3<f64>)| (Matrix3::identity() * p.norm_squared() - p * p.transpose()) * *m;
+        let inertia = masses.iter().map(about).sum();
+        (masses, inertia)
+    }
+
+    #[test]
+    fn the_torque_of_an_oblate_planet_is_that_of_point_masses() {
+        let (masses, inertia) = cluster();
+        let pole = Vector3::new(0.36, -0.48, 0.8);
+        // The Earth, then one so flat that the second harmonic counts as much as the first.
+        for j2 in [1.08263e-3, 0.3] {
+            let flattening = Flattening { j2, reference_radius_m: 6.378_137e6, pole };
+            let planet = OblatePlanet {
+                gm_m3_s2: 3.986e14,
+                j2,
+                j2_radius_m: flattening.reference_radius_m,
+                pole_body: pole * 3.0,
+            };
+            let gravity = Gravity { flattening: Some(flattening), ..Gravity::point_mass(planet.gm_m3_s2) };
+            for position in [[6.9e6, 1e5, -2e5], [-1e6, 4e6, 5.5e6], [2.5e6, -3.4e6, 5.6e6]] {
+                let position_m = Vector3::from(position);
+                let pull = |(mass_kg, arm_m): &(f64, Vector3<f64>)| {
+                    let place_m = position_m + arm_m;
+                    arm_m.cross(&(gravity.acceleration_m_s2(&place_m, &Vector3::x()) * *mass_kg))
+                };
+                let expected: Vector3<f64> = masses.iter().map(pull).sum();
+                let found = oblate_gravity_gradient_n_m(&planet, &inertia, &-position_m);
+                assert!((found - expected).norm() < 1e-8 * expected.norm(), "{j2}: {found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_of_the_oblate_torque_are_its_slopes() {
+        let (_, inertia) = cluster();
+        let torque = |seed: usize, x: Dual64| {
+            let mut numbers =
+                [3.986e14, 0.1, 6.378e6, 0.36, -0.48, 0.8, 2.5e6, -3.4e6, 5.6e6].map(Dual64::constant);
+            numbers[seed] *= x;
+            let [gm_m3_s2, j2, j2_radius_m, a, b, c, to_planet @ ..] = numbers;
+            let planet = OblatePlanet { gm_m3_s2, j2, j2_radius_m, pole_body: Vector3::new(a, b, c) };
+            oblate_gravity_gradient_n_m(&planet, &inertia.map(Dual64::constant), &Vector3::from(to_planet))
+        };
+        for seed in 0..9 {
+            let exact = torque(seed, Dual64::new(1.0, 1.0)).map(|t| t.eps);
+            let at = |x: f64| torque(seed, Dual64::constant(x)).map(Dual64::value);
+            let slope = (at(1.0 + 1e-5) - at(1.0 - 1e-5)) / 2e-5;
+            assert!((slope - exact).norm() < 1e-8 * exact.norm(), "{seed}: {slope} {exact}");
+        }
     }
 }

@@ -28,7 +28,7 @@ mod wheel;
 pub use angles::{SunAngles, angle_between_rad, direction_from_angles};
 pub use body_load::{BodyLoad, BodyMotion};
 pub use frame::{MovingFrame, MovingUnit};
-pub use gravity_gradient::gravity_gradient_n_m;
+pub use gravity_gradient::{OblatePlanet, gravity_gradient_n_m, oblate_gravity_gradient_n_m};
 pub use gyrostat::{Appendages, Gyrostat, GyrostatError};
 pub use gyrostat_motion::GyrostatMotion;
 pub use imbalance::RotorImbalance;
