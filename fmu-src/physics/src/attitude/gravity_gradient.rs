@@ -103,11 +103,11 @@ mod tests {
 
     /// Six point masses about their common centre, in kg and m, with their inertia.
     fn cluster() -> (Vec<(f64, Vector3<f64>)>, Matrix3<f64>) {
-        let arms = [[9.0, -4.0, 2.0], [-3.0, 7.0, 5.0], [1.0, 2.0, -8.0]].map(|arm| Vector3::from(arm) * 10.0);
+        let arms =
+            [[9.0, -4.0, 2.0], [-3.0, 7.0, 5.0], [1.0, 2.0, -8.0]].map(|arm| Vector3::from(arm) * 10.0);
         let masses: Vec<_> = arms.iter().flat_map(|arm| [(40.0, *arm), (40.0, -arm)]).collect();
-        let about = |(m, p): &(f64, Vector3<f64>)| {
-            (Matrix3::identity() * p.norm_squared() - p * p.transpose()) * *m
-        };
+        let about =
+            |(m, p): &(f64, Vector3<f64>)| (Matrix3::identity() * p.norm_squared() - p * p.transpose()) * *m;
         let inertia = masses.iter().map(about).sum();
         (masses, inertia)
     }
@@ -143,7 +143,8 @@ mod tests {
     fn derivatives_of_the_oblate_torque_are_its_slopes() {
         let (_, inertia) = cluster();
         let torque = |seed: usize, x: Dual64| {
-            let mut numbers = [3.986e14, 0.1, 6.378e6, 0.36, -0.48, 0.8, 2.5e6, -3.4e6, 5.6e6].map(Dual64::constant);
+            let mut numbers =
+                [3.986e14, 0.1, 6.378e6, 0.36, -0.48, 0.8, 2.5e6, -3.4e6, 5.6e6].map(Dual64::constant);
             numbers[seed] *= x;
             let [gm_m3_s2, j2, j2_radius_m, a, b, c, to_planet @ ..] = numbers;
             let planet = OblatePlanet { gm_m3_s2, j2, j2_radius_m, pole_body: Vector3::new(a, b, c) };
