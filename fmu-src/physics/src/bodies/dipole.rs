@@ -76,7 +76,8 @@ mod tests {
         assert!((570e3..620e3).contains(&off_m), "{off_m}");
         let longitude_deg = y.atan2(x).to_degrees();
         assert!((130.0..145.0).contains(&longitude_deg), "{longitude_deg}");
-        let pole_deg = (EARTH.moment_fixed_t_m3[2] / 6_371.2e3_f64.powi(3) / 29_735e-9).abs().acos().to_degrees();
+        let pole_deg =
+            (EARTH.moment_fixed_t_m3[2] / 6_371.2e3_f64.powi(3) / 29_735e-9).abs().acos().to_degrees();
         assert!((8.5..10.5).contains(&pole_deg), "the field's pole is 9.2 deg from the axis: {pole_deg}");
         assert!(JUPITER.place_fixed_m.iter().map(|it| it * it).sum::<f64>().sqrt() < 0.15 * 71_492e3);
     }

@@ -91,7 +91,8 @@ impl AtmosphereModel {
     pub fn breaks_m(&self) -> &'static [f64] {
         match self {
             Self::Exponential(_) => &[CEILING_M],
-            // The corrections of helium, of hydrogen and nitrogen end there.
+            // The correction of oxygen and the variation of the lower profile end at 300 km (density jumps by up to 3e-4),
+            // that of nitrogen at 450 km (6e-5).
             Self::Nrlmsise00 => &[300e3, 450e3, CEILING_M],
         }
     }

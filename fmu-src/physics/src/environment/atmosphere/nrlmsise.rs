@@ -2,7 +2,7 @@
 //!
 //! Equation: the model's number densities; density with anomalous oxygen, molar mass of the mixture with it as oxygen.
 //! Method: the crate `nrlmsise00`, computed in [`Portable`] numbers.
-//! Error measure: 1e-13 of the published cases.
+//! Error measure: the published cases to their seven digits.
 //! Reference: Picone et al. 2002.
 
 use std::sync::OnceLock;

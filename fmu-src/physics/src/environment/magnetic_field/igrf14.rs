@@ -12,7 +12,6 @@ use std::sync::OnceLock;
 
 use nalgebra::Vector3;
 
-
 /// First year that it has.
 pub const FIRST_YEAR: f64 = 1900.0;
 /// Last year that it has.
