@@ -1,10 +1,10 @@
 //! What a spacecraft flies about, and the parameters' defaults that follow from it.
 
 use fmi_export::SetupError;
+use physics::bodies::air::ExponentialAir;
 use physics::bodies::surface::{MERCURY, PlanetSurface};
 use physics::bodies::{Body, BodyData};
 use physics::enumeration::Enumerated;
-use physics::bodies::air::ExponentialAir;
 use physics::environment::frames::Frame;
 use physics::environment::kepler_planet::{KeplerPlanet, MERCURY_AS_PRINTED, MESSENGER_AS_PRINTED};
 use physics::environment::orbit::{self, Elements};

@@ -26,7 +26,11 @@ pub struct RotationVariables {
 impl RotationVariables {
     /// The orientation that is set, else that of a body.
     pub fn choice(&self, given: &Given<'_>, values: &Values, body: Body) -> PlanetOrientation {
-        if given.has(self.orientation) { values.choice(self.orientation) } else { PlanetOrientation::of(body) }
+        if given.has(self.orientation) {
+            values.choice(self.orientation)
+        } else {
+            PlanetOrientation::of(body)
+        }
     }
 }
 

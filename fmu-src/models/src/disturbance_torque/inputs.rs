@@ -3,10 +3,10 @@
 use std::cell::Cell;
 
 use fmi_export::{Failure, Real, Values};
+use physics::aerodynamics::AerodynamicModel;
 use physics::environment::eclipse::Shadow;
 use physics::loads::Active;
 use physics::numerics::scalar::Scalar;
-use physics::aerodynamics::AerodynamicModel;
 use physics::plant::{BySource, Parameters, PositionError, Positions, Surfaces, Workspaces};
 use physics::radiation::disturbance::{DisturbanceModel, Options, PlanetLightMethod};
 use physics::spacecraft::Spacecraft;
@@ -104,7 +104,8 @@ impl Prepared {
             ))
         })?;
         let laws = &variables.laws;
-        let [air_acts, field_acts] = [laws.aerodynamics.enabled, laws.magnetics.enabled].map(|it| values.boolean(it));
+        let [air_acts, field_acts] =
+            [laws.aerodynamics.enabled, laws.magnetics.enabled].map(|it| values.boolean(it));
         let air = match air_acts {
             true => Some(laws.aerodynamics.options(values, spacecraft, sunshade_model)?),
             false => None,

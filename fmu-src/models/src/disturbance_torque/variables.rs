@@ -77,7 +77,11 @@ impl DisturbanceVariables {
             sun_radius_m: read(self.sun.radius),
             inertia_body_kg_m2: Matrix3::from_fn(|i, j| read(self.spacecraft.inertia.element(i, j))),
             planet: planet.surface.read(values, planet.radius, &read),
-            laws: self.laws.read(values, [planet.gravitational_parameter, planet.j2, planet.j2_radius], &read),
+            laws: self.laws.read(
+                values,
+                [planet.gravitational_parameter, planet.j2, planet.j2_radius],
+                &read,
+            ),
         }
     }
 }

@@ -98,7 +98,15 @@ impl Parameters {
         let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
         // Guidance balances torques against the momentum.
         let air = &knowns![&v.atmosphere, &v.space_weather, &v.magnetic_field, v.earth.ut1_offset];
-        let aimed = &knowns![air, &v.laws, &v.guided, &v.momentum, &v.solar, &v.spacecraft, wheels.collect::<Knowns>()];
+        let aimed = &knowns![
+            air,
+            &v.laws,
+            &v.guided,
+            &v.momentum,
+            &v.solar,
+            &v.spacecraft,
+            wheels.collect::<Knowns>()
+        ];
         let panels = knowns![&v.panel, v.articulation.target_suns];
         let followed = knowns![&v.attitude, &v.command, &v.timeline, &v.keep_in];
         let turned = knowns![&orbit, followed, &v.sunshade, panels];

@@ -245,7 +245,8 @@ impl GyrostatMotion {
         let elapsed_s = time_s - self.start_s;
         let attitudes = self.attitudes_before(elapsed_s);
         let torques = GAUSS_3.into_iter().zip(attitudes).map(|((node, weight), attitude)| {
-            attitude.inertial_from_body(&dipole.torque_n_m(&attitude, node * elapsed_s)) * (weight * elapsed_s)
+            attitude.inertial_from_body(&dipole.torque_n_m(&attitude, node * elapsed_s))
+                * (weight * elapsed_s)
         });
         Some(torques.sum())
     }

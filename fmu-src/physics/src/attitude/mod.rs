@@ -6,8 +6,8 @@
 
 mod angles;
 mod body_load;
-mod dipole_in_field;
 pub mod control;
+mod dipole_in_field;
 mod frame;
 mod gravity_gradient;
 mod gyrostat;

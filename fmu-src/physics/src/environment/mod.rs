@@ -1,20 +1,20 @@
 //! Where everything is and what light falls there: time, ephemerides, orbits, eclipse.
 
+pub mod atmosphere;
 pub mod bodies_from_center;
 pub mod coarse_ephemeris;
 pub mod eclipse;
 pub mod ephemeris;
 pub mod frames;
-pub mod utc;
-pub mod orientation;
 pub mod geodetic;
-pub mod atmosphere;
-pub mod magnetic_field;
 pub mod kepler_planet;
+pub mod magnetic_field;
 pub mod onboard;
 pub mod orbit;
+pub mod orientation;
 pub mod sun;
 pub mod time;
+pub mod utc;
 
 pub use crate::toml::dates;
 

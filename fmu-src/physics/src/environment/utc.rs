@@ -25,7 +25,8 @@ fn tdb_minus_utc_s(epoch_s: f64) -> f64 {
     let begun = |leap: &LeapSecond| {
         leap.announced_by_iers && leap.timestamp_tai_s <= tai_s + J2000_SINCE_1900_S - leap.delta_at
     };
-    let leap_s = LatestLeapSeconds::default().rev().find(begun).map_or(FIRST_LEAP_SECONDS_S, |leap| leap.delta_at);
+    let leap_s =
+        LatestLeapSeconds::default().rev().find(begun).map_or(FIRST_LEAP_SECONDS_S, |leap| leap.delta_at);
     epoch_s - tai_s + leap_s
 }
 

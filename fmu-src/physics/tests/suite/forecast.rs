@@ -56,10 +56,7 @@ fn forecast_and_flight(events: &[TimelineEvent], behind_s: &[f64]) -> [History; 
         seed: 0,
         start_momentum_body_n_m_s: Vector3::new(0.3, -0.2, 0.1),
     };
-    flight.configure(
-        World::new(configured),
-        ModeSettings::Ideal(settings),
-    );
+    flight.configure(World::new(configured), ModeSettings::Ideal(settings));
     flight.begin(given, 0.0, &mut |_| {}).unwrap();
     let held = Command {
         attitude: Attitude::from_quaternion([0.0, 0.0, 0.0, 1.0]).unwrap(),

@@ -48,11 +48,7 @@ pub(crate) fn configuration(orbit: TwoBodyOrbit, attitude: AttitudeSource) -> Co
         encounter: None,
         figure: None,
         air_and_field: None,
-        laws: Laws {
-            gm_m3_s2: GM_MERCURY_M3_S2,
-            flattening: None,
-            dipole_body_a_m2: Vector3::zeros(),
-        },
+        laws: Laws { gm_m3_s2: GM_MERCURY_M3_S2, flattening: None, dipole_body_a_m2: Vector3::zeros() },
         epoch_minus_time_s: EPOCH_S,
         center: Body::Mercury,
         orbit,

@@ -12,6 +12,7 @@ use physics::environment::bodies_from_center::BodiesFromCenter;
 use physics::environment::coarse_ephemeris::CoarseEphemeris;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::onboard::OnboardTarget;
+use physics::environment::orientation::Orientation;
 use physics::guidance::burn::delta_v::BurnSettings;
 use physics::guidance::burn::nominal_thrust::NominalThrust;
 use physics::guidance::burn::velocity_path::VelocityPath;
@@ -30,15 +31,14 @@ use physics::guidance::pointing::command::{
 };
 use physics::guidance::pointing::scan::ScanCompatibility;
 use physics::guidance::pointing::scenario::GuidanceHardware;
-use physics::environment::orientation::Orientation;
 use physics::guidance::{EphemerisAtTime, TargetPlanet};
 use physics::plant::PanelSetting;
 
 use super::setup::Plan;
 use super::variables::choices::{EphemerisSource, ModeRequest};
 use super::variables::commands::AimpointVariables;
-use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::choices::PlanetOrientation;
+use crate::common::downlink::ZERO_KEEP_IN_AXIS;
 use crate::common::ephemeris;
 use crate::common::management::{NO_ANTENNA, check_windows_have_antenna};
 use crate::common::variables::NO_GIMBAL;

@@ -35,7 +35,9 @@ pub(super) fn orientation(
 /// # Errors
 /// The Earth's orientation requested of another body.
 pub(super) fn at_start(context: &Plan<'_>, values: &Values, body: &BodyData) -> Result<BodyData, Failure> {
-    let Some(turned @ Orientation::Iau { .. }) = orientation(context, values, body)? else { return Ok(*body) };
+    let Some(turned @ Orientation::Iau { .. }) = orientation(context, values, body)? else {
+        return Ok(*body);
+    };
     Ok(body.with_pole(&turned.pole_eme2000(values.real(context.variables.start.epoch))))
 }
 
@@ -46,7 +48,8 @@ pub(super) fn figure(
     planet: &BodyData,
 ) -> Result<Option<PlanetFigure>, Failure> {
     let Some(orientation) = orientation(context, values, planet)? else { return Ok(None) };
-    let ellipsoid = Ellipsoid { equatorial_radius_m: planet.equatorial_radius_m, flattening: planet.flattening };
+    let ellipsoid =
+        Ellipsoid { equatorial_radius_m: planet.equatorial_radius_m, flattening: planet.flattening };
     Ok(Some(PlanetFigure { orientation, ellipsoid }))
 }
 
@@ -108,7 +111,9 @@ fn field(v: &PlantVariables, values: &Values, planet: &BodyData) -> Result<Field
     match values.choice(v.magnetic_field.method) {
         MagneticFieldMethod::Dipole => match planet.dipole {
             Some(dipole) => Ok(FieldSource::Model(MagneticField::Dipole(dipole))),
-            None => refused("dipole", "given (3), as no dipole is known; Earth, Mercury and Jupiter have one"),
+            None => {
+                refused("dipole", "given (3), as no dipole is known; Earth, Mercury and Jupiter have one")
+            }
         },
         MagneticFieldMethod::Igrf14 if planet.body == Body::Earth => {
             let epoch_s = values.real(v.start.epoch);
@@ -117,7 +122,9 @@ fn field(v: &PlantVariables, values: &Values, planet: &BodyData) -> Result<Field
             Ok(FieldSource::Model(MagneticField::Igrf14))
         }
         MagneticFieldMethod::Igrf14 => refused("igrf14", "dipole (1), given (3); the model is the Earth's"),
-        MagneticFieldMethod::Given => Ok(FieldSource::Given(Vector3::from(values.vector(v.magnetic_field.given)))),
+        MagneticFieldMethod::Given => {
+            Ok(FieldSource::Given(Vector3::from(values.vector(v.magnetic_field.given))))
+        }
     }
 }
 
@@ -172,7 +179,9 @@ pub(super) fn report(context: &Plan<'_>, values: &Values, start_s: f64) {
     let Followed { acts, is_set, .. } = Followed::read(context, values, planet);
     for (k, name) in ["aerodynamics.enabled", "magnetics.enabled"].into_iter().enumerate() {
         if acts[k] && !planet.is_planet() {
-            context.log.warning(&format!("{name} = true is without effect: there is no planet about which it could act"));
+            context.log.warning(&format!(
+                "{name} = true is without effect: there is no planet about which it could act"
+            ));
         } else if acts[k] && !is_set[k] {
             context.log.event(start_s, &format!("{name} = true, as about the Earth unless it is set"));
         }

@@ -1,10 +1,10 @@
 //! What follows `orbit.center`: a parameter that nobody gave takes the centre's own value.
 
 use fmi_export::{Elements, Values};
+use physics::bodies::air::ExponentialAir;
 use physics::bodies::surface::PlanetSurface;
 use physics::bodies::{Body, BodyData};
 use physics::enumeration::Enumerated;
-use physics::bodies::air::ExponentialAir;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements as KeplerElements;
 

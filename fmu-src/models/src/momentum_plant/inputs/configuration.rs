@@ -109,9 +109,7 @@ pub(super) fn read(
         center: data.body,
         encounter,
         attitude: attitude(context, values, state, &orbit)?,
-        timeline: followed
-            .map(|_| timeline(context, values, data, clock_minus_time_s))
-            .transpose()?,
+        timeline: followed.map(|_| timeline(context, values, data, clock_minus_time_s)).transpose()?,
         orbit,
         motion: motion(
             variables,

@@ -16,8 +16,8 @@ use physics::guidance::ChosenPlace;
 use physics::loads::Effect;
 use physics::management::Manager;
 use physics::plant::{
-    AerodynamicSolver, Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError, PreparedSpacecraft,
-    RadiationSolver, ReactionControlSettings, StepContext, SunPlanner, Thrusters,
+    AerodynamicSolver, Changes, Configuration, DownlinkForecast, External, ModeSettings, PlantError,
+    PreparedSpacecraft, RadiationSolver, ReactionControlSettings, StepContext, SunPlanner, Thrusters,
 };
 
 use self::center::Center;

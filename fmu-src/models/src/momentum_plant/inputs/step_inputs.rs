@@ -156,7 +156,8 @@ impl StepInputs {
         self.light.push(f64::from(u8::from(values.boolean(downlink.alternate))));
         let (air, weather) = (&v.atmosphere, &v.space_weather);
         let given = [air.given_density, air.given_temperature, air.given_molar_mass, air.density_factor];
-        self.light.extend(given.into_iter().chain([weather.f107, weather.f107_average, weather.ap]).map(real));
+        self.light
+            .extend(given.into_iter().chain([weather.f107, weather.f107_average, weather.ap]).map(real));
         let vectors = [air.wind, v.magnetic_field.given, v.laws.dipole.residual];
         self.light.extend(vectors.into_iter().flat_map(|vector| values.vector(vector)));
         self.light.push(real(v.earth.ut1_offset));

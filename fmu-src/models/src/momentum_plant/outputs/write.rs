@@ -6,7 +6,8 @@ use physics::attitude::{Attitude, SunAngles};
 use physics::environment::time;
 use physics::loads::Effect;
 use physics::plant::{
-    AirAndField, Configuration, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report, ThrusterEvent,
+    AirAndField, Configuration, Cost, Evaluation, Flight, PlantError, PreparedSpacecraft, Report,
+    ThrusterEvent,
 };
 use physics::propulsion::surface_in_plume;
 use physics::radiation::{TorquePolynomial, polynomial_valid};

@@ -13,9 +13,7 @@ mod surroundings;
 
 use fmi_export::{Real, RealVector, Variables};
 
-use air_and_field::{
-    AtmosphereVariables, GeodeticVariables, MagneticFieldVariables, SpaceWeatherVariables,
-};
+use air_and_field::{AtmosphereVariables, GeodeticVariables, MagneticFieldVariables, SpaceWeatherVariables};
 use body::{
     ArticulationVariables, KeepInVariables, PanelVariables, SpacecraftVariables, SunshadeVariables,
     WheelVariables,

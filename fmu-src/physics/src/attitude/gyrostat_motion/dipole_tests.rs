@@ -60,8 +60,12 @@ fn energy_and_momentum_along_the_field_stay() {
     let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &rate, |_| 0.0);
     let invariants = |body: &BodyMotion| {
         let field_body = body.attitude.body_from_inertial(&Vector3::from(field));
-        let kinetic = 0.5 * body.rate_body_rad_s.component_mul(&Vector3::from(INERTIA)).dot(&body.rate_body_rad_s);
-        [kinetic - Vector3::from(dipole).dot(&field_body), body.momentum_inertial_n_m_s.dot(&Vector3::from(field))]
+        let kinetic =
+            0.5 * body.rate_body_rad_s.component_mul(&Vector3::from(INERTIA)).dot(&body.rate_body_rad_s);
+        [
+            kinetic - Vector3::from(dipole).dot(&field_body),
+            body.momentum_inertial_n_m_s.dot(&Vector3::from(field)),
+        ]
     };
     let before = invariants(&motion.at(&spacecraft, 0.0));
     fly(&mut motion, &spacecraft, &[], &load, 3600.0, 0.5);
@@ -76,8 +80,7 @@ fn a_field_that_grows_turns_the_body_by_as_much() {
     let (dipole, grown) = (0.4, 1e-12);
     let spacecraft = body();
     let load = load([dipole, 0.0, 0.0], [0.0; 3], [0.0, grown, 0.0]);
-    let mut motion =
-        GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &Vector3::zeros(), |_| 0.0);
+    let mut motion = GyrostatMotion::new(&spacecraft, 0.0, Quaternion::IDENTITY, &Vector3::zeros(), |_| 0.0);
     motion.advance(&spacecraft, &[], &load, 2.0);
     let found = motion.at(&spacecraft, 2.0);
     assert_relative_eq!(found.rate_body_rad_s.z, dipole * grown * 2.0 / INERTIA[2], max_relative = 1e-12);

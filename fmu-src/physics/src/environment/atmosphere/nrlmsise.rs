@@ -9,8 +9,8 @@ use std::sync::OnceLock;
 
 use nrlmsise00::{Input, MagneticActivity, Model, Output};
 
+use super::air::{Air, SpaceWeather};
 use super::portable::Portable;
-use super::{Air, SpaceWeather};
 use crate::environment::geodetic::Geodetic;
 use crate::environment::utc;
 

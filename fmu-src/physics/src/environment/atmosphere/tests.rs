@@ -5,6 +5,7 @@ use super::nrlmsise::air_of;
 use super::portable::Portable;
 use super::*;
 use crate::environment::dates;
+use crate::environment::geodetic::Geodetic;
 
 /// A published case: its number; day, seconds, height in km, latitude, longitude, local time in h, mean flux, flux, Ap; whether by the
 /// history of Ap, 100 throughout; He, O, N2, O2, Ar in 1/cm3, mass in g/cm3, H, N, anomalous O in 1/cm3; temperature in K.
@@ -36,8 +37,17 @@ const PUBLISHED: [Case; 17] = [
 const MOLAR_MASSES: [f64; 9] = [4.0, 16.0, 28.0, 32.0, 40.0, 0.0, 1.0, 14.0, 16.0];
 
 fn input<T: nrlmsise00::Scalar>(values: &[f64; 9], is_history: bool) -> Input<T> {
-    let [day, seconds_of_day, altitude_km, latitude_deg, longitude_deg, local_solar_time_h, average, f107, ap] =
-        values.map(T::lift);
+    let [
+        day,
+        seconds_of_day,
+        altitude_km,
+        latitude_deg,
+        longitude_deg,
+        local_solar_time_h,
+        average,
+        f107,
+        ap,
+    ] = values.map(T::lift);
     let _ = day;
     let magnetic = match is_history {
         true => MagneticActivity::History { ap: [T::lift(100.0); 7] },
@@ -73,10 +83,14 @@ fn density_and_molar_mass_are_those_of_the_published_mixture() {
     for (case, values, is_history, published, temperature_k) in PUBLISHED {
         let found = air_of(&input::<Portable>(&values, is_history));
         let grams: f64 = published.iter().zip(MOLAR_MASSES).map(|(number, mass)| number * mass).sum();
-        let number: f64 = published.iter().zip(MOLAR_MASSES).filter(|(_, mass)| *mass > 0.0).map(|(it, _)| it).sum();
+        let number: f64 =
+            published.iter().zip(MOLAR_MASSES).filter(|(_, mass)| *mass > 0.0).map(|(it, _)| it).sum();
         // The model's nucleon has 1.66e-24 g.
         assert!((found.density_kg_m3 / (grams * 1.66e-21) - 1.0).abs() < 1e-6, "case {case}: {found:?}");
-        assert!((found.molar_mass_kg_mol / (1e-3 * grams / number) - 1.0).abs() < 1e-6, "case {case}: {found:?}");
+        assert!(
+            (found.molar_mass_kg_mol / (1e-3 * grams / number) - 1.0).abs() < 1e-6,
+            "case {case}: {found:?}"
+        );
         assert!((found.temperature_k / temperature_k - 1.0).abs() < 6e-7, "case {case}: {found:?}");
     }
 }

@@ -13,9 +13,9 @@ use std::sync::OnceLock;
 use nalgebra::Vector3;
 
 /// First year that it has.
-pub const FIRST_YEAR: f64 = 1900.0;
+pub(super) const FIRST_YEAR: f64 = 1900.0;
 /// Last year that it has.
-pub const LAST_YEAR: f64 = 2030.0;
+pub(super) const LAST_YEAR: f64 = 2030.0;
 /// Radius to which the coefficients refer, in m.
 const RADIUS_M: f64 = 6_371.2e3;
 /// Highest degree.

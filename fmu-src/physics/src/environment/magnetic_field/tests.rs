@@ -1,6 +1,9 @@
 //! The reference field against an independent program, dipoles against their closed form, and what Maxwell says of both.
+use nalgebra::Vector3;
+
 use super::*;
 use crate::bodies::dipole;
+use crate::bodies::dipole::DipoleField;
 use crate::constants::DAY_S;
 use crate::environment::dates;
 
@@ -129,7 +132,8 @@ fn the_earths_dipole_is_most_of_its_field() {
         let off = (by_dipole - igrf_nt(8e8, &position_m)).norm() / by_dipole.norm();
         let centered = MagneticField::Dipole(DipoleField { place_fixed_m: [0.0; 3], ..dipole::EARTH });
         let off_centered =
-            (centered.field_fixed_t(8e8, &position_m).unwrap() * 1e9 - igrf_nt(8e8, &position_m)).norm() / by_dipole.norm();
+            (centered.field_fixed_t(8e8, &position_m).unwrap() * 1e9 - igrf_nt(8e8, &position_m)).norm()
+                / by_dipole.norm();
         assert!(off < 0.2, "{position_m:?}: {off}");
         squares[0] += off * off;
         squares[1] += off_centered * off_centered;
@@ -142,5 +146,7 @@ fn years_beyond_the_table_are_refused_by_their_number() {
     let refused = check_igrf14(dates::epoch_s("2031-01-01 UTC").unwrap()).unwrap_err().to_string();
     assert!(refused.contains("2031.000") && refused.contains("1900 to 2030"), "{refused}");
     assert_eq!(check_igrf14(dates::epoch_s("2029-12-31 UTC").unwrap()), Ok(()));
-    assert!(MagneticField::Dipole(dipole::MERCURY).field_fixed_t(0.0, &Vector3::new(0.0, 0.0, 479e3)).is_err());
+    assert!(
+        MagneticField::Dipole(dipole::MERCURY).field_fixed_t(0.0, &Vector3::new(0.0, 0.0, 479e3)).is_err()
+    );
 }

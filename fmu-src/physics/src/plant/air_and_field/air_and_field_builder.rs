@@ -110,7 +110,9 @@ impl AirAndFieldBuilder<'_, '_> {
         let rounding_s = self.kinematics.time_rounding_s(limit_s);
         let mut over = |at_s: f64| {
             let height_m = self.height_m(at_s);
-            SVector::<f64, 3>::from_fn(|k, _| breaks_m.get(k).map_or(f64::INFINITY, |edge_m| height_m - edge_m))
+            SVector::<f64, 3>::from_fn(|k, _| {
+                breaks_m.get(k).map_or(f64::INFINITY, |edge_m| height_m - edge_m)
+            })
         };
         let samples = Series::nodes(start_s, limit_s).map(&mut over);
         Ok(first_event(after_s, start_s, limit_s, rounding_s, &samples, over).unwrap_or(limit_s))
@@ -124,13 +126,17 @@ impl AirAndFieldBuilder<'_, '_> {
 
     /// The series over an interval, and their greatest last term relative to the tolerance's measure.
     fn fit(&mut self, start_s: f64, end_s: f64) -> Result<(AirAndFieldSegment, f64), PlantError> {
-        let mut nodes = [Node { air: Vector3::zeros(), air_velocity_m_s: Vector3::zeros(), field_t: Vector3::zeros() }; NODES];
+        let mut nodes =
+            [Node { air: Vector3::zeros(), air_velocity_m_s: Vector3::zeros(), field_t: Vector3::zeros() };
+                NODES];
         let mut has_air = true;
         for (node, at_s) in nodes.iter_mut().zip(Series::nodes(start_s, end_s)) {
             *node = self.node(at_s)?;
             has_air &= node.air[0].is_finite();
         }
-        let series = |of: fn(&Node) -> Vector3<f64>| Series::from_samples(start_s, end_s, &nodes.map(|node| of(&node)));
+        let series = |of: fn(&Node) -> Vector3<f64>| {
+            Series::from_samples(start_s, end_s, &nodes.map(|node| of(&node)))
+        };
         let AirAndFieldSettings { air, field, .. } = &self.settings;
         let by_model = matches!(air, Some(it) if matches!(it.source, AirSource::Model(_)));
         let fitted = AirAndFieldSegment {
@@ -171,13 +177,15 @@ impl AirAndFieldBuilder<'_, '_> {
             }
             air_velocity_m_s = orientation.rotation_rad_s_eme2000(epoch_s).cross(&position_m);
             if settings.wind_m_s != Vector3::zeros() {
-                air_velocity_m_s += fixed_from_inertial.inverse() * (geodetic.east_north_up() * settings.wind_m_s);
+                air_velocity_m_s +=
+                    fixed_from_inertial.inverse() * (geodetic.east_north_up() * settings.wind_m_s);
             }
         }
         let field_t = match &self.settings.field {
             Some(FieldSource::Model(model)) => {
                 let found = model.field_fixed_t(epoch_s, &position_fixed_m);
-                fixed_from_inertial.inverse() * found.map_err(|source| PlantError::Field { time_s, source })?
+                fixed_from_inertial.inverse()
+                    * found.map_err(|source| PlantError::Field { time_s, source })?
             }
             _ => Vector3::zeros(),
         };

@@ -16,7 +16,9 @@ use crate::environment::atmosphere::Air;
 use crate::math;
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::or_infinite;
-use crate::plant::settings::air_and_field_settings::{AirAndFieldSettings, AirSettings, AirSource, FieldSource};
+use crate::plant::settings::air_and_field_settings::{
+    AirAndFieldSettings, AirSettings, AirSource, FieldSource,
+};
 
 /// Chebyshev nodes a segment.
 pub(crate) const NODES: usize = 10;
@@ -98,7 +100,8 @@ impl AirAndFieldSegment {
 
     /// Air and field at `time_s`.
     pub(crate) fn at(&self, settings: &AirAndFieldSettings, time_s: f64) -> AirAndField {
-        let vector = |series: &Option<Series>| series.as_ref().map_or(Vector3::zeros(), |it| it.value(time_s));
+        let vector =
+            |series: &Option<Series>| series.as_ref().map_or(Vector3::zeros(), |it| it.value(time_s));
         AirAndField {
             air: settings.air.as_ref().map_or(Air::default(), |air| self.air_at(air, time_s)),
             air_velocity_m_s: vector(&self.air_velocity),

@@ -274,7 +274,8 @@ impl<'a> Plant<'a> {
     ) -> ForceTorque {
         let configuration = self.kinematics.configuration;
         let acts = configuration.effects.has(Effect::Aerodynamic) && found.air.density_kg_m3 > 0.0;
-        let Some((solver, moving)) = self.air.as_deref_mut().zip(instant.geometry.from_planet()).filter(|_| acts)
+        let Some((solver, moving)) =
+            self.air.as_deref_mut().zip(instant.geometry.from_planet()).filter(|_| acts)
         else {
             return ForceTorque::zero();
         };

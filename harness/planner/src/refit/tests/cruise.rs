@@ -75,11 +75,7 @@ impl Cruise {
             encounter: None,
             figure: None,
             air_and_field: None,
-            laws: Laws {
-                gm_m3_s2: GM_SUN_M3_S2,
-                flattening: None,
-                dipole_body_a_m2: Vector3::zeros(),
-            },
+            laws: Laws { gm_m3_s2: GM_SUN_M3_S2, flattening: None, dipole_body_a_m2: Vector3::zeros() },
             epoch_minus_time_s: EPOCH_S,
             center: Body::Sun,
             motion: Motion::TwoBody,
