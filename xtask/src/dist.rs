@@ -24,6 +24,7 @@ const SHIPPED: &[Shipped] = &[
         "--set attitude.source=controlled --set command.source=guidance --set shadowing.enabled=true \
          --set solver.dynamicsStep=10 --per-plate --set GUIDED_AT_START",
     ),
+    ("Cubesat", "MomentumPlant", "examples/cubesat-12u.toml", ""),
     ("MessengerLight", "DisturbanceTorque", "messenger-full.toml", "--set shadowing.enabled=true"),
 ];
 

@@ -18,7 +18,6 @@ mod info;
 mod instance;
 mod interrupt;
 mod kind;
-mod low_orbit;
 mod manual;
 mod map;
 mod mission;

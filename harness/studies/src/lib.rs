@@ -7,6 +7,7 @@ mod attitude;
 mod case;
 mod cells;
 mod control;
+mod earth;
 mod flight;
 mod flyby;
 mod momentum;
@@ -60,6 +61,10 @@ studies! {
         "momentum dumps by pulses of thrusters beside the same dumps at once";
     "control/jitter" of "000" by control::jitter:
         "attitude jitter of a flexible structure by a wheel out of balance, with its spectrum";
+    "earth/torques" of "-" by earth::torques:
+        "every torque on a CubeSat about the Earth against height, 180 to 36,000 km";
+    "earth/day" of "-" by earth::day:
+        "a day of a CubeSat at 500 km: torque and momentum by effect, air";
     "flyby/table1" of "003" by flyby::table1:
         "velocity change by each flyby of Mercury";
     "flyby/table2" of "003" by flyby::table2:

@@ -6,7 +6,7 @@ use loader::Collector;
 
 use super::options::Check;
 use crate::{
-    carried, epoch, low_orbit,
+    carried, epoch,
     outcome::{self, Outcome},
     pointing,
     run::{Prepared, Run, Settings, long_step},
@@ -32,12 +32,10 @@ fn summary(arguments: &Check) -> Result<String, Box<dyn std::error::Error>> {
     let short = terminal::short;
     let begin = simulated.mission.as_ref().and_then(|mission| epoch::date(mission.epoch_s.as_ref()?.it));
     let begin = begin.unwrap_or_else(|| format!("{} s", short(times.start_s)));
-    let low = low_orbit::warnings(subject.description(), sets);
     let windows = pointing::warnings(subject.description(), sets, &pointing::windows_in(&subject.parts()));
     let panels = carried::timeline::warnings(subject.description(), sets, &subject.parts());
-    let warnings = low
+    let warnings = windows
         .iter()
-        .chain(&windows)
         .chain(&panels)
         .chain(&long_step(times))
         .map(|it| format!("\nwarning: {it}"))

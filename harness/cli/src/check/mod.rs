@@ -19,7 +19,7 @@ use std::{
 use conformance::{Finding, PROBES, Probe as Probed, Trial, Verdict};
 use loader::Fmu;
 
-use crate::{carried, low_orbit, outcome::Outcome, pointing};
+use crate::{carried, outcome::Outcome, pointing};
 pub(crate) use child::{Probe, run_probe};
 pub(crate) use options::Check;
 
@@ -79,17 +79,12 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
         Section::new("archive", conformance::archive(&fmu)),
         Section::new("modelDescription.xml", conformance::description(&fmu)),
     ];
-    let mut low = low_orbit::warnings(fmu.description(), &[]);
-    low.extend(pointing::warnings(
-        fmu.description(),
-        &[],
-        &pointing::windows_in(&[(String::new(), fmu.folder().to_owned())]),
-    ));
-    if !low.is_empty() {
-        sections.push(Section::new("orbit", low.into_iter().map(Finding::note).collect()));
+    let folder = [(String::new(), fmu.folder().to_owned())];
+    let windows = pointing::warnings(fmu.description(), &[], &pointing::windows_in(&folder));
+    if !windows.is_empty() {
+        sections.push(Section::new("orbit", windows.into_iter().map(Finding::note).collect()));
     }
-    let panels =
-        carried::timeline::warnings(fmu.description(), &[], &[(String::new(), fmu.folder().to_owned())]);
+    let panels = carried::timeline::warnings(fmu.description(), &[], &folder);
     if !panels.is_empty() {
         sections.push(Section::new("panels", panels.into_iter().map(Finding::note).collect()));
     }

@@ -22,7 +22,6 @@ use crate::{
         Parts, Source, assemble, can_read_map, common_keys, description, reference_flight, unused_map,
     },
     draw::scene::dish_of,
-    low_orbit,
     outcome::{self, Outcome},
     pointing, variables,
 };
@@ -64,13 +63,12 @@ pub(super) fn run(arguments: &Check, file: &str, text: &str) -> Outcome {
         if let Err(reason) = reference_flight(&assembled.entries, &described.reference_inputs) {
             return refused(file, &described, &format!("{file}: {reason}"));
         }
-        let low = low_orbit::warnings(&description, &[]);
         let windows = pointing::windows_of(text);
         let points = pointing::sentence(&description, windows.as_slice())
             .map_or_else(String::new, |it| figures::row("points", &it));
         let windows = pointing::warnings(&description, &[], windows.as_slice());
         let warnings: String =
-            map.iter().chain(&low).chain(&windows).map(|warning| format!("\nwarning: {warning}")).collect();
+            map.iter().chain(&windows).map(|warning| format!("\nwarning: {warning}")).collect();
         return outcome::printed(&format!(
             "{file}: ok for {}: {}; the FMU will have {} variables{points}{}{warnings}",
             described.model,

@@ -22,7 +22,6 @@ use crate::{
     carried,
     child::Bounds,
     interrupt::INTERRUPTED,
-    low_orbit,
     outcome::Outcome,
     output::{self, Known, LimitChecks, Origin, Outputs},
     pointing, variables,
@@ -118,8 +117,7 @@ pub(crate) fn run(arguments: &Run) -> Outcome {
     let Prepared { simulated, subject, settings, points, mut outputs, input_copy, _scratch } = prepared;
     let arguments = &simulated.run;
     let described = subject.description();
-    let mut warnings = low_orbit::warnings(described, &settings.sets);
-    warnings.extend(pointing::warnings(described, &settings.sets, &pointing::windows_in(&subject.parts())));
+    let mut warnings = pointing::warnings(described, &settings.sets, &pointing::windows_in(&subject.parts()));
     warnings.extend(carried::timeline::warnings(described, &settings.sets, &subject.parts()));
     warnings.extend(variables::repeated("--set", &arguments.set));
     warnings.extend(long_step(&settings.times));
