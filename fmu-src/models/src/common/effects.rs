@@ -120,7 +120,7 @@ impl LawVariables {
         let flattened = values.boolean(self.gravity_gradient.flattening);
         Laws {
             gm_m3_s2: read(gravitational_parameter),
-            flattening: flattened.then(|| [read(j2), read(j2_radius)]),
+            flattening: Some([j2, j2_radius].map(&read)).filter(|_| flattened),
             dipole_body_a_m2: Vector3::from_fn(|i, _| read(self.dipole.residual.element(i))),
         }
     }

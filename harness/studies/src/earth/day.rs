@@ -11,14 +11,13 @@ use crate::report::{Outcome, Run};
 const DAY_S: f64 = 86_400.0;
 /// Communication step, in s.
 const STEP_S: f64 = 60.0;
-/// Torques are drawn for so long, in h: some three orbits.
-const SHOWN_H: f64 = 5.0;
+/// Columns of a [`Point`]: seven vectors and two numbers.
+const POINT_COLUMNS: usize = 23;
 
 recorded! {
     /// What the day leaves at one communication point.
     struct Point {
         @time_s,
-        torques: Torques,
         gravity_gradient_n_m_s: Vector = "momentum.gravityGradient",
         air_n_m_s: Vector = "momentum.aerodynamic",
         magnetic_n_m_s: Vector = "momentum.magnetic",
@@ -42,14 +41,17 @@ impl Point {
 /// A day in a low orbit of the Earth.
 pub(crate) fn day(run: &mut Run<'_>) -> Outcome {
     let fmu = run.options.fmu(CUBESAT)?;
-    let points: Vec<Point> = Case::new("a day at 500 km", DAY_S, STEP_S).simulate(&fmu, Point::NAMES)?.all(0);
+    let names = [Point::NAMES, Torques::NAMES].concat();
+    let recorded = Case::new("a day at 500 km", DAY_S, STEP_S).simulate(&fmu, &names)?;
+    let torques: Vec<Torques> = recorded.all(POINT_COLUMNS);
+    let points: Vec<(Point, Torques)> = recorded.all(0).into_iter().zip(torques).collect();
     run.line("A 12U CubeSat for a day at 500 km, pointing to the nadir, its wheels taking everything\n");
     let (count, last) = (points.len().max(1) as f64, points.last());
     let rows: Vec<Vec<String>> = (0..EFFECTS.len())
         .map(|k| {
-            let torques = || points.iter().map(|point| point.torques.by_effect_n_m()[k] * 1e6);
+            let torques = || points.iter().map(|(_, torques)| torques.by_effect_n_m()[k] * 1e6);
             let mean = torques().sum::<f64>() / count;
-            let after = last.map_or(f64::NAN, |point| point.momentum_n_m_s()[k] * 1e3);
+            let after = last.map_or(f64::NAN, |(point, _)| point.momentum_n_m_s()[k] * 1e3);
             vec![
                 EFFECTS[k].to_owned(),
                 format!("{mean:.3}"),
@@ -59,40 +61,42 @@ pub(crate) fn day(run: &mut Run<'_>) -> Outcome {
         })
         .collect();
     run.table("effect | mean torque [uN m] | greatest [uN m] | momentum after the day [mN m s]", &rows);
-    if let Some(last) = last {
+    if let Some((last, _)) = last {
         let total = last.total_n_m_s.norm() * 1e3;
-        let densities = points.iter().map(|point| point.density_kg_m3);
-        let (least, most) = densities.fold((f64::INFINITY, 0.0_f64), |(least, most), it| (least.min(it), most.max(it)));
+        let densities = points.iter().map(|(point, _)| point.density_kg_m3);
+        let (least, most) =
+            densities.fold((f64::INFINITY, 0.0_f64), |(least, most), it| (least.min(it), most.max(it)));
         run.line(&format!(
             "System momentum after the day {total:.3} mN m s; density {least:.2e} to {most:.2e} kg/m3, height {:.1} km at the end.",
             last.height_m / 1e3
         ));
     }
     let columns = EFFECTS.map(|it| format!("{it} torque [N m] | {it} momentum [N m s]")).join(" | ");
-    let rows = points.iter().map(|point| {
+    let rows = points.iter().map(|(point, torques)| {
         let mut cells = vec![format!("{}", point.time_s), format!("{:.6e}", point.density_kg_m3)];
-        let pairs = point.torques.by_effect_n_m().into_iter().zip(point.momentum_n_m_s());
-        cells.extend(pairs.flat_map(|(torque, momentum)| [format!("{torque:.6e}"), format!("{momentum:.6e}")]));
+        let pairs = torques.by_effect_n_m().into_iter().zip(point.momentum_n_m_s());
+        cells.extend(
+            pairs.flat_map(|(torque, momentum)| [format!("{torque:.6e}"), format!("{momentum:.6e}")]),
+        );
         cells
     });
     run.csv("day.csv", &format!("time [s] | density [kg/m3] | {columns}"), rows)?;
     run.picture("day.svg", &chart(&points))
 }
 
-fn chart(points: &[Point]) -> Chart {
+fn chart(points: &[(Point, Torques)]) -> Chart {
     let hours = |point: &Point| point.time_s / 3600.0;
-    let shown = || points.iter().filter(|point| hours(point) <= SHOWN_H);
     let torques = (0..EFFECTS.len()).map(|k| {
-        let places = shown().map(|point| (hours(point), point.torques.by_effect_n_m()[k] * 1e6));
+        let places = points.iter().map(|(point, torques)| (hours(point), torques.by_effect_n_m()[k] * 1e6));
         Series::line(EFFECTS[k], places.collect())
     });
     let momenta = (0..EFFECTS.len()).map(|k| {
-        let places = points.iter().map(|point| (hours(point), point.momentum_n_m_s()[k] * 1e3));
+        let places = points.iter().map(|(point, _)| (hours(point), point.momentum_n_m_s()[k] * 1e3));
         Series::line(EFFECTS[k], places.collect())
     });
-    let density = points.iter().map(|point| (hours(point), point.density_kg_m3 * 1e12)).collect();
+    let density = points.iter().map(|(point, _)| (hours(point), point.density_kg_m3 * 1e12)).collect();
     Chart::new("A 12U CubeSat for a day at 500 km", "time [h]").with([
-        Panel::new("torque [uN m]").titled("torque by effect, the first hours").with(torques),
+        Panel::new("torque [uN m]").titled("torque by effect").with(torques),
         Panel::new("momentum [mN m s]").titled("what each effect did to the momentum").with(momenta),
         Panel::new("density [1e-12 kg/m3]").titled("air").with([Series::line("density", density)]),
     ])

@@ -41,9 +41,10 @@ pub(crate) fn torques(run: &mut Run<'_>) -> Outcome {
     let found = run.all(&heights_m, |&height_m| {
         let points: Vec<Torques> = case(height_m).simulate(&fmu, Torques::NAMES)?.all(0);
         let of = |fold: fn(f64, f64) -> f64| {
-            points.iter().map(Torques::by_effect_n_m).fold([0.0; EFFECTS.len()], |sum, torque| {
-                core::array::from_fn(|k| fold(sum[k], torque[k]))
-            })
+            points
+                .iter()
+                .map(Torques::by_effect_n_m)
+                .fold([0.0; EFFECTS.len()], |sum, torque| core::array::from_fn(|k| fold(sum[k], torque[k])))
         };
         let count = points.len().max(1) as f64;
         Ok(AtHeight {
@@ -53,16 +54,16 @@ pub(crate) fn torques(run: &mut Run<'_>) -> Outcome {
         })
     })?;
     run.line(
-        "Torque on a 12U CubeSat that points to the nadir, on circular Sun-synchronous-like orbits (97.4 deg), mean magnitude over an\n\
+        "Torque on a 12U CubeSat that points to the nadir, on circular orbits of 97.4 deg, mean magnitude over an\n\
          orbit; air by NRLMSISE-00 at F10.7 150 and Ap 4, Sentman's law; field by IGRF-14, a residual dipole of 0.035 A m2\n",
     );
     let rows = found.iter().step_by(4).map(|orbit| {
         let mut cells = vec![format!("{:.0}", orbit.height_m / 1e3)];
-        cells.extend(orbit.mean_n_m.map(|torque_n_m| format!("{:.3}", torque_n_m * 1e6)));
+        cells.extend(orbit.mean_n_m.map(|torque_n_m| format!("{torque_n_m:.1e}")));
         cells
     });
     let rows: Vec<_> = rows.collect();
-    run.table(&format!("height [km] | {} [uN m]", EFFECTS.join(" [uN m] | ")), &rows);
+    run.table(&format!("height [km] | {} [N m]", EFFECTS.join(" [N m] | ")), &rows);
     if let Some(crossing_km) = crossing_km(&found) {
         run.line(&format!("Air is the greater of air and sunlight up to {crossing_km:.0} km."));
     }
@@ -97,7 +98,8 @@ fn chart(found: &[AtHeight]) -> Chart {
     });
     let panel = Panel::new("mean torque [N m]").with(series);
     let names = (LEAST_POWER..=-3).step_by(2).map(|power| (f64::from(power), format!("1e{power}"))).collect();
-    let mut chart = Chart::new("Torque on a 12U CubeSat by height", "height [km]").with([Panel { names, ..panel }]);
+    let mut chart =
+        Chart::new("Torque on a 12U CubeSat by height", "height [km]").with([Panel { names, ..panel }]);
     chart.x_names = TICKS_KM.map(|height_km| (height_km.log10(), format!("{height_km:.0}"))).to_vec();
     chart
 }

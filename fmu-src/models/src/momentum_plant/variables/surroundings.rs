@@ -30,7 +30,8 @@ pub struct PlanetVariables {
     /// Radius of the planet; a spacecraft below it is refused.
     #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data.radius_m)]
     pub radius: Real,
-    /// Flattening of the centre's gravity on a disturbed orbit: second zonal harmonic, unnormalised (HgM005); 0 = none.
+    /// Flattening of the planet's gravity, on a disturbed orbit and with gravityGradient.flattening: second zonal harmonic,
+    /// unnormalised (HgM005); 0 = none.
     #[parameter(unit = "1", min = -1.0, max = 1.0, start = setup.center.data.j2)]
     pub j2: Real,
     /// Radius to which planet.j2 refers.

@@ -17,6 +17,13 @@ pub(super) static LIBRARY: Library = Library {
     entries: &[Entry::of::<DisturbanceTorque>(), Entry::of::<MomentumPlant>(), Entry::of::<Guidance>()],
 };
 
+/// Air and field that random inputs are about.
+pub(crate) const DENSITY_KG_M3: f64 = 1e-13;
+pub(crate) const TEMPERATURE_K: f64 = 1000.0;
+pub(crate) const MOLAR_MASS_KG_MOL: f64 = 0.016;
+pub(crate) const SPEED_M_S: f64 = 7.6e3;
+pub(crate) const FIELD_T: f64 = 3e-5;
+
 /// What the spacecraft with shadows starts with.
 const SHADOWED: &str = r#"
 [start]
@@ -78,6 +85,19 @@ impl Disturbance {
         Self(instance("DisturbanceTorque", name, text))
     }
 
+    /// With air and a magnetic field acting, and the planet's flattening on the gravity gradient.
+    pub(crate) fn near_the_earth(mut self) -> Self {
+        for switch in ["aerodynamics.enabled", "magnetics.enabled", "gravityGradient.flattening"] {
+            self.put_boolean(switch, true);
+        }
+        // Sentman's law.
+        self.put_integer("aerodynamics.law", 2);
+        for (axis, dipole_a_m2) in [(1, 0.3), (2, -0.2), (3, 0.5)] {
+            self.put(&format!("dipole.residual[{axis}]"), dipole_a_m2);
+        }
+        self
+    }
+
     /// With light of the planet by cells in so many belts.
     pub(crate) fn by_cells(mut self, belts: i32) -> Self {
         self.put_integer("planetLight.method", 2);
@@ -134,7 +154,7 @@ impl Disturbance {
 }
 
 impl RandomNumbers {
-    /// Sun, planet, centre of mass, angles, in the order of the inputs' names.
+    /// Sun, planet, centre of mass, air, field, angles, in the order of the inputs' names.
     pub(crate) fn inputs(&mut self, fmu: &Disturbance, in_shadow: bool) -> (Vec<u32>, Vec<f64>) {
         let sun = self.direction();
         let altitude = 1.05 + 3.0 * self.next();
@@ -157,6 +177,15 @@ impl RandomNumbers {
             values.insert(fmu.at(&format!("planet.pole[{}]", i + 1)), self.next() - 0.5);
             values.insert(fmu.at(&format!("spacecraft.centerOfMass[{}]", i + 1)), self.next() - 0.5);
         }
+        // Air of a low orbit, at the speed of one, and a field as strong.
+        let (flow, field) = (self.direction(), self.direction());
+        for i in 0..3 {
+            values.insert(fmu.at(&format!("atmosphere.velocityBody[{}]", i + 1)), flow[i] * SPEED_M_S);
+            values.insert(fmu.at(&format!("magneticField.body[{}]", i + 1)), field[i] * FIELD_T);
+        }
+        values.insert(fmu.at("atmosphere.density"), DENSITY_KG_M3 * (0.5 + self.next()));
+        values.insert(fmu.at("atmosphere.temperature"), TEMPERATURE_K * (0.5 + self.next()));
+        values.insert(fmu.at("atmosphere.molarMass"), MOLAR_MASS_KG_MOL * (0.5 + self.next()));
         for k in 1.. {
             match fmu.find(&format!("panel[{k}].angle")) {
                 Some(angle) => values.insert(angle, 6.0 * self.next() - 3.0),

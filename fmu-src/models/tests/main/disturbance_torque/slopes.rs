@@ -6,7 +6,7 @@ use model_description::Causality;
 use model_description::Status;
 
 use super::super::random::RandomNumbers;
-use super::driver::Disturbance;
+use super::driver::{DENSITY_KG_M3, Disturbance, FIELD_T, MOLAR_MASS_KG_MOL, SPEED_M_S, TEMPERATURE_K};
 
 /// Slopes of every output along every input, against central differences over many geometries.
 fn check_slopes(mut fmu: Disturbance, seed: u64, in_shadow: bool) {
@@ -19,6 +19,13 @@ fn check_slopes(mut fmu: Disturbance, seed: u64, in_shadow: bool) {
         let (inputs, values) = random.inputs(&fmu, in_shadow);
         // A direction that moves everything by about a thousandth of what matters.
         let scale = |reference: u32| match fmu.name(reference).split('.').next().unwrap() {
+            "atmosphere" => match fmu.name(reference).trim_start_matches("atmosphere.") {
+                "density" => DENSITY_KG_M3,
+                "temperature" => TEMPERATURE_K,
+                "molarMass" => MOLAR_MASS_KG_MOL,
+                _ => SPEED_M_S,
+            },
+            "magneticField" => FIELD_T,
             "sun" => 5.8e10,
             "planet" if !fmu.name(reference).contains("pole") => 2.4e6,
             _ => 1.0,
@@ -56,22 +63,22 @@ fn check_slopes(mut fmu: Disturbance, seed: u64, in_shadow: bool) {
 
 #[test]
 fn directional_derivatives_are_slopes() {
-    check_slopes(Disturbance::messenger(), 1, false);
+    check_slopes(Disturbance::messenger().near_the_earth(), 1, false);
 }
 
 #[test]
 fn directional_derivatives_with_shadows_are_slopes() {
-    check_slopes(Disturbance::shadowed(), 2, false);
+    check_slopes(Disturbance::shadowed().near_the_earth(), 2, false);
 }
 
 #[test]
 fn directional_derivatives_by_cells_are_slopes() {
-    check_slopes(Disturbance::messenger().by_cells(12), 4, false);
+    check_slopes(Disturbance::messenger().near_the_earth().by_cells(12), 4, false);
 }
 
 #[test]
 fn directional_derivatives_in_the_penumbra_are_slopes() {
-    check_slopes(Disturbance::messenger(), 3, true);
+    check_slopes(Disturbance::messenger().near_the_earth(), 3, true);
 }
 
 /// Over many geometries, in light and penumbra, an output changes with an input only if it says so; and every
@@ -79,7 +86,10 @@ fn directional_derivatives_in_the_penumbra_are_slopes() {
 #[test]
 fn what_depends_is_declared() {
     // Cells of the planet have a pole, rings have none.
-    for mut fmu in [Disturbance::messenger().by_cells(6), Disturbance::shadowed().by_cells(6)] {
+    for mut fmu in [
+        Disturbance::messenger().near_the_earth().by_cells(6),
+        Disturbance::shadowed().near_the_earth().by_cells(6),
+    ] {
         fmu.start();
         let outputs = fmu.references(Causality::Output);
         let inputs = fmu.references(Causality::Input);
@@ -133,7 +143,7 @@ fn what_depends_is_declared() {
 
 #[test]
 fn derivatives_by_parameters_are_for_initialization_only() {
-    let mut fmu = Disturbance::messenger();
+    let mut fmu = Disturbance::messenger().near_the_earth();
     fmu.start();
     let (output, flux) = (fmu.at("force.solar[2]"), fmu.at("solar.flux"));
     let mut result = [0.0];
@@ -239,16 +249,16 @@ fn check_parameter_slopes(mut fmu: Disturbance, seed: u64, in_shadow: bool) {
 
 #[test]
 fn slopes_along_parameters_are_those_of_differences() {
-    check_parameter_slopes(Disturbance::messenger(), 11, false);
-    check_parameter_slopes(Disturbance::shadowed(), 12, false);
+    check_parameter_slopes(Disturbance::messenger().near_the_earth(), 11, false);
+    check_parameter_slopes(Disturbance::shadowed().near_the_earth(), 12, false);
 }
 
 #[test]
 fn slopes_along_parameters_by_cells_are_those_of_differences() {
-    check_parameter_slopes(Disturbance::messenger().by_cells(6), 13, false);
+    check_parameter_slopes(Disturbance::messenger().near_the_earth().by_cells(6), 13, false);
 }
 
 #[test]
 fn slopes_along_parameters_in_the_penumbra_are_those_of_differences() {
-    check_parameter_slopes(Disturbance::messenger(), 14, true);
+    check_parameter_slopes(Disturbance::messenger().near_the_earth(), 14, true);
 }

@@ -151,8 +151,14 @@ fn simulated<'a>(
         })
         .collect();
     let place: Vec<(&str, f64)> = place.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-    let orbit: Start<'_> =
-        &[("orbit.center", 4.0), ("orbit.source", 2.0), ("orbit.dynamics", 2.0), ("orbit.sunTide", 0.0)];
+    let orbit: Start<'_> = &[
+        ("orbit.center", 4.0),
+        ("orbit.source", 2.0),
+        ("orbit.dynamics", 2.0),
+        ("orbit.sunTide", 0.0),
+        // The pole stands still, as in the integration.
+        ("planet.orientation", 1.0),
+    ];
     let mut flight = fly(named, &[FREE, DARK, orbit, &place, more]);
     flight.set("thrust.request", 1.0);
     flight.set("thrust.command", 1.0);

@@ -19,7 +19,12 @@ type Flight<'a> = NamedInstance<'a, MomentumPlant>;
 type Start<'a> = &'a [(&'a str, f64)];
 
 /// Nothing acts.
-const DARK: Start<'_> = &[("solar.flux", 0.0), ("gravityGradient.enabled", 0.0)];
+const DARK: Start<'_> = &[
+    ("solar.flux", 0.0),
+    ("gravityGradient.enabled", 0.0),
+    ("aerodynamics.enabled", 0.0),
+    ("magnetics.enabled", 0.0),
+];
 const CONTROLLED: Start<'_> = &[("attitude.source", 3.0)];
 /// At rest in EME2000.
 const FREE: Start<'_> = &[("attitude.source", 4.0), ("start.q[4]", 1.0)];

@@ -8,6 +8,8 @@ use crate::math;
 
 /// Above this there is no air, in m.
 pub const CEILING_M: f64 = 2e6;
+/// Heights at which a model changes its form at most.
+pub const BREAKS: usize = 7;
 /// Below this molecules meet one another before they meet the spacecraft, in m.
 pub const FLOOR_M: f64 = 1e5;
 
@@ -61,13 +63,12 @@ impl AtmosphereModel {
         })
     }
 
-    /// Heights at which its form changes, in m.
-    pub fn breaks_m(&self) -> &'static [f64] {
+    /// Heights at which its form changes, in m, in rising order, as many as [`BREAKS`].
+    pub fn breaks_m(&self) -> [f64; BREAKS] {
         match self {
-            Self::Exponential(_) => &[CEILING_M],
-            // The correction of oxygen and the variation of the lower profile end at 300 km (density jumps by up to 3e-4),
-            // that of nitrogen at 450 km (6e-5).
-            Self::Nrlmsise00 => &[300e3, 450e3, CEILING_M],
+            Self::Exponential(_) => [CEILING_M; BREAKS],
+            // Where the profile of the temperature is joined, and where the corrections of O, Ar, O2, He, H and N end.
+            Self::Nrlmsise00 => [123.435e3, 160e3, 240e3, 250e3, 300e3, 450e3, CEILING_M],
         }
     }
 

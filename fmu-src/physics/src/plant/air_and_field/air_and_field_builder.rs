@@ -4,7 +4,7 @@ use nalgebra::{SVector, Vector3};
 
 use super::air_and_field_segment::{AirAndFieldSegment, NODES, Series};
 use crate::environment::CartesianState;
-use crate::environment::atmosphere::{Air, next_midnight_s};
+use crate::environment::atmosphere::{Air, BREAKS, next_midnight_s};
 use crate::math;
 use crate::momentum::after_event_s;
 use crate::numerics::adaptive::AdaptiveInterval;
@@ -110,9 +110,7 @@ impl AirAndFieldBuilder<'_, '_> {
         let rounding_s = self.kinematics.time_rounding_s(limit_s);
         let mut over = |at_s: f64| {
             let height_m = self.height_m(at_s);
-            SVector::<f64, 3>::from_fn(|k, _| {
-                breaks_m.get(k).map_or(f64::INFINITY, |edge_m| height_m - edge_m)
-            })
+            SVector::<f64, BREAKS>::from(breaks_m.map(|edge_m| height_m - edge_m))
         };
         let samples = Series::nodes(start_s, limit_s).map(&mut over);
         Ok(first_event(after_s, start_s, limit_s, rounding_s, &samples, over).unwrap_or(limit_s))
