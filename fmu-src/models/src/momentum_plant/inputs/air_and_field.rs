@@ -156,10 +156,13 @@ pub(super) struct Followed {
 impl Followed {
     /// About a body: as it is set, else air and field about the Earth, which turns as the IAU says.
     pub(super) fn read(context: &Plan<'_>, values: &Values, body: Body) -> Self {
-        let (laws, rotation) = (&context.variables.laws, &context.variables.planet.rotation);
+        let (laws, planet) = (&context.variables.laws, &context.variables.planet);
+        let rotation = &planet.rotation;
         let switches = [laws.aerodynamics.enabled, laws.magnetics.enabled];
         let [air, field] = switches.map(Elements::from);
-        let given = context.given(values, &[air, field, rotation.orientation.into()]);
+        // Tools that write everything write the planet too; who sets these three alone means them.
+        let written = [planet.gravitational_parameter, planet.radius].map(Elements::from);
+        let given = context.given(values, &[air, field, rotation.orientation.into(), written[0], written[1]]);
         let is_set = switches.map(|switch| given.has(switch));
         let acts = [0, 1].map(|i| if is_set[i] { values.boolean(switches[i]) } else { body == Body::Earth });
         Self { orientation: rotation.choice(&given, values, body), acts, is_set }
