@@ -49,7 +49,7 @@ enumeration! {
     }
 }
 
-/// Energy per degree of freedom: the incident temperature is V^2 M / R over this.
+/// The incident temperature is M V^2 / R over this.
 fn incident_divisor(reemission: Reemission) -> f64 {
     match reemission {
         Reemission::Effusive => 4.0,

@@ -125,9 +125,9 @@ fn strips_of_a_cylindrical_shade_are_within_a_thousandth_of_it() {
 }
 
 #[test]
-fn sixteen_facets_are_within_a_hundredth_of_a_cylinder() {
+fn sixteen_facets_are_within_15_thousandths_of_a_cylinder() {
     let cylinder = "[[cylinders]]\ncenter_m = [0, 0, 0]\nradius_m = 1.0\nheight_m = 2.0\noptics = \"black\"\n\
                     open_ends = [\"+axis\", \"-axis\"]\n";
     let found = off_a_cylinder(cylinder, PI);
-    assert!((5e-3..1e-2).contains(&found), "{found}");
+    assert!((1e-2..1.5e-2).contains(&found), "{found}");
 }

@@ -62,7 +62,7 @@ fn turned(panel: &Panel, angle_rad: f64) -> Polygon {
     panel.polygon.as_ref().unwrap().moved(|v| panel.center_body_m + turn * (v - panel.center_body_m))
 }
 
-/// Every molecule of a cold gas stops at the first face it meets.
+/// By the law dragCoefficient every ray exerts its force where it first meets a face.
 #[test]
 fn shadows_are_those_of_rays() {
     let spacecraft = spacecraft(WINGED);
@@ -73,39 +73,38 @@ fn shadows_are_those_of_rays() {
     // Drag coefficients of front and rear.
     let mut coefficients: Vec<_> = spacecraft.plates.iter().map(|plate| plate.gas_surface).collect();
     coefficients.push(spacecraft.panels[0].gas_surface);
-    const RAYS: u32 = 600;
-    for (upstream, has_shadow) in
-        [([1.0, 0.2, 0.1], true), ([0.5, -0.7, 0.6], true), ([-0.3, 0.5, 0.9], true)]
-    {
+    const RAYS: u32 = 400_000;
+    for upstream in [[1.0, 0.2, 0.1], [0.5, -0.7, 0.6], [-0.3, 0.5, 0.9]] {
         let upstream = Vector3::from(upstream).normalize();
         let flow = thin_air(upstream * 7600.0);
         let (east, half_m) = (upstream.cross(&Vector3::z()).normalize(), 3.5);
         let north = upstream.cross(&east);
-        let cell_m = 2.0 * half_m / f64::from(RAYS);
+        let cell_m2 = 4.0 * half_m * half_m / f64::from(RAYS);
         let mut expected = ForceTorque::zero();
-        for (i, j) in (0..RAYS).flat_map(|i| (0..RAYS).map(move |j| (i, j))) {
-            let [a, b] = [i, j].map(|k| (f64::from(k) + 0.5) * cell_m - half_m);
+        for k in 0..RAYS {
+            // The additive recurrence of the plastic number (Roberts 2018): no edge runs along a row of rays.
+            let [a, b] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2]
+                .map(|step| ((0.5 + f64::from(k) * step).fract() * 2.0 - 1.0) * half_m);
             let from = upstream * 10.0 + east * a + north * b;
             if let Some((index, distance)) = first_met(&outlines, &from, &-upstream) {
                 let is_rear = outlines[index].normal().dot(&upstream) < 0.0;
                 let coefficient = coefficients[index][usize::from(is_rear)].drag_coefficient;
                 let pressure_pa = 0.5 * flow.density_kg_m3 * 7600.0 * 7600.0 * coefficient;
-                let force_n = -upstream * (pressure_pa * cell_m * cell_m);
+                let force_n = -upstream * (pressure_pa * cell_m2);
                 expected += ForceTorque::at_arm(&(from - upstream * distance), force_n);
             }
         }
         let found = load(&model, &flow, &[angle_rad]);
-        let tolerance = 2e-3 * expected.force_body_n.norm();
+        let tolerance = 1e-3 * expected.force_body_n.norm();
         assert_relative_eq!(found.force_body_n, expected.force_body_n, epsilon = tolerance);
-        assert_relative_eq!(found.torque_body_n_m, expected.torque_body_n_m, epsilon = 2.0 * tolerance);
+        assert_relative_eq!(found.torque_body_n_m, expected.torque_body_n_m, epsilon = tolerance);
         let options = AerodynamicOptions {
             law: AerodynamicLaw::DragCoefficient,
             shadowing: false,
             ..AerodynamicOptions::default()
         };
         let open = load(&AerodynamicModel::new(&spacecraft, &options).unwrap(), &flow, &[angle_rad]);
-        let differs = (open.force_body_n - found.force_body_n).norm() > 10.0 * tolerance;
-        assert_eq!(differs, has_shadow, "{upstream}");
+        assert!((open.force_body_n - found.force_body_n).norm() > 10.0 * tolerance, "{upstream}");
     }
 }
 
