@@ -13,6 +13,7 @@ mod disturbance_degenerate;
 mod disturbance_torque;
 mod downlink_windows;
 mod dynamics;
+mod earth;
 mod fixed;
 mod guidance;
 mod management;

@@ -2,7 +2,7 @@
 
 use drawing::{Chart, Panel, Series};
 
-use super::{CUBESAT, EFFECTS, Torques};
+use super::cubesat::{CUBESAT, EFFECTS, Torques};
 use crate::attitude::Vector;
 use crate::case::{Case, recorded};
 use crate::report::{Outcome, Run};

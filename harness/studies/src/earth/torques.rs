@@ -2,7 +2,7 @@
 
 use drawing::{Chart, Panel, Series};
 
-use super::{CUBESAT, EFFECTS, EQUATOR_M, Torques, period_s};
+use super::cubesat::{CUBESAT, EFFECTS, EQUATOR_M, Torques, period_s};
 use crate::case::Case;
 use crate::report::{Outcome, Run};
 

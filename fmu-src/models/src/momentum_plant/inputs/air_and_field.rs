@@ -3,7 +3,7 @@
 use fmi_export::{Elements, Failure, Values};
 use nalgebra::Vector3;
 use physics::bodies::{Body, BodyData};
-use physics::environment::atmosphere::{Air, AtmosphereModel, ExponentialAir, SpaceWeather};
+use physics::environment::atmosphere::{Air, AtmosphereModel, SpaceWeather};
 use physics::environment::geodetic::Ellipsoid;
 use physics::environment::magnetic_field::{self, MagneticField};
 use physics::environment::orientation::Orientation;
@@ -11,7 +11,6 @@ use physics::loads::{Active, Effect};
 use physics::plant::{AirAndFieldSettings, AirSettings, AirSource, FieldSource, PlanetFigure};
 
 use super::center::Center;
-use crate::common::center::CenterBody;
 use crate::common::choices::PlanetOrientation;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
@@ -125,20 +124,6 @@ fn field(v: &PlantVariables, values: &Values, planet: &BodyData) -> Result<Field
         MagneticFieldMethod::Given => {
             Ok(FieldSource::Given(Vector3::from(values.vector(v.magnetic_field.given))))
         }
-    }
-}
-
-/// Values of the exponential model: what is given of `atmosphere.reference*` and `scaleHeight`, else the body's own.
-pub(super) fn exponential(context: &Plan<'_>, values: &Values, body: &CenterBody) -> ExponentialAir {
-    let v = &context.variables.atmosphere;
-    let own = body.air();
-    let group = [v.reference_density, v.reference_height, v.scale_height].map(Elements::from);
-    let given = context.given(values, &group);
-    ExponentialAir {
-        reference_density_kg_m3: given.real_or(v.reference_density, own.reference_density_kg_m3),
-        reference_height_m: given.real_or(v.reference_height, own.reference_height_m),
-        scale_height_m: given.real_or(v.scale_height, own.scale_height_m),
-        ..own
     }
 }
 

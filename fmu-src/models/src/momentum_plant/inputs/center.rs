@@ -8,7 +8,7 @@ use physics::enumeration::Enumerated;
 use physics::environment::frames::Frame;
 use physics::environment::orbit::Elements as KeplerElements;
 
-use super::air_and_field;
+use crate::common::center::CenterBody;
 use crate::common::elements::ElementHandles;
 use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
@@ -41,6 +41,20 @@ fn handles(variables: &PlantVariables) -> ElementHandles {
         orbit.periapsis_argument,
         orbit.true_anomaly,
     ])
+}
+
+/// Values of the exponential model: what is given of `atmosphere.reference*` and `scaleHeight`, else the body's own.
+fn exponential(context: &Plan<'_>, values: &Values, body: &CenterBody) -> ExponentialAir {
+    let v = &context.variables.atmosphere;
+    let own = body.air();
+    let group = [v.reference_density, v.reference_height, v.scale_height].map(Elements::from);
+    let given = context.given(values, &group);
+    ExponentialAir {
+        reference_density_kg_m3: given.real_or(v.reference_density, own.reference_density_kg_m3),
+        reference_height_m: given.real_or(v.reference_height, own.reference_height_m),
+        scale_height_m: given.real_or(v.scale_height, own.scale_height_m),
+        ..own
+    }
 }
 
 impl Center {
@@ -79,7 +93,7 @@ impl Center {
             surface: Some(surface),
             ..own
         };
-        let air = air_and_field::exponential(context, values, &near);
+        let air = exponential(context, values, &near);
         let handles = handles(context.variables);
         let [a, b, c, d, e, _] = handles.group();
         let given = context.given(values, &[a, b, c, d, e, orbit.frame.into()]);

@@ -113,7 +113,7 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
 fn write_air_and_field(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     let Report { time_s, configuration, evaluation, .. } = report;
     let Evaluation { instant, air_and_field, .. } = evaluation;
-    let AirAndField { air, air_velocity_m_s, field_inertial_t } = air_and_field;
+    let AirAndField { air, field_inertial_t, .. } = air_and_field;
     let v = context.variables;
     let from_planet = instant.geometry.from_planet();
     if let Some((figure, place)) = configuration.figure.as_ref().zip(from_planet) {
@@ -127,12 +127,11 @@ fn write_air_and_field(context: &Plan<'_>, values: &mut Values, report: &Report<
         values.set_real(v.atmosphere.density, air.density_kg_m3);
         values.set_real(v.atmosphere.temperature, air.temperature_k);
         values.set_real(v.atmosphere.molar_mass, air.molar_mass_kg_mol);
-        let relative_m_s = from_planet.map(|place| instant.to_body * (place.velocity_m_s - air_velocity_m_s));
-        values.set_vector(v.atmosphere.velocity_body, relative_m_s.unwrap_or_default().into());
+        values.set_vector(v.atmosphere.velocity_body, evaluation.velocity_in_air_body_m_s().into());
     }
     if configuration.effects.has(Effect::Magnetic) {
         values.set_vector(v.magnetic_field.inertial, (*field_inertial_t).into());
-        values.set_vector(v.magnetic_field.body, (instant.to_body * field_inertial_t).into());
+        values.set_vector(v.magnetic_field.body, evaluation.field_body_t().into());
     }
 }
 

@@ -10,17 +10,14 @@ use nalgebra::{Rotation3, Vector3};
 use crate::aerodynamics::AirFlow;
 use crate::attitude::MovingFrame;
 use crate::constants::RADIUS_SUN_M;
-use crate::environment::ephemeris::Ephemeris;
-use crate::environment::orbit::OrbitMethod;
-use crate::guidance::downlink::default_downlink::DefaultDownlink;
-use crate::guidance::timeline::TimelineLaw;
 use crate::loads::{Effect, ForceTorque, Loads};
 use crate::momentum::{Effort, EventValues, Sample, TorqueModel, torques_body_n_m};
 use crate::numerics::chebyshev::Segment;
-use crate::radiation::{Beam, SolarModel};
-use crate::spacecraft::{MassProperties, Panel};
+use crate::radiation::Beam;
+use crate::spacecraft::MassProperties;
 
 use super::laws::NearPlanet;
+use super::world::{PreparedSpacecraft, World};
 use crate::plant::air_and_field::aerodynamic_solver::AerodynamicSolver;
 use crate::plant::air_and_field::air_and_field_builder::AirAndFieldBuilder;
 use crate::plant::air_and_field::air_and_field_segment::{AirAndField, AirAndFieldSegment};
@@ -29,13 +26,12 @@ use crate::plant::flight::sun_choice::SunChoice;
 use crate::plant::light::light_and_heat::RadiationBuilder;
 use crate::plant::light::radiation_segment::RadiationSegment;
 use crate::plant::light::radiation_solver::RadiationSolver;
-use crate::plant::light::sunlit::SunlitCraft;
 use crate::plant::motion::instant::Instant;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::motion::panel_motion::Hinged;
 use crate::plant::settings::configuration::{AttitudeSource, Configuration};
 use crate::plant::settings::error::PlantError;
-use crate::plant::settings::work::{Cost, Work};
+use crate::plant::settings::work::Cost;
 
 /// Nodes at which the acceleration of a segment is taken.
 const NODES: usize = 8;
@@ -98,6 +94,19 @@ impl Evaluation {
         self.instant.frame.inertial_from_body * self.loads.total().force_body_n
     }
 
+    /// Velocity relative to the air, body frame, in m/s; zero without a planet.
+    pub fn velocity_in_air_body_m_s(&self) -> Vector3<f64> {
+        let moving = self.instant.geometry.from_planet();
+        moving.map_or(Vector3::zeros(), |it| {
+            self.instant.to_body * (it.velocity_m_s - self.air_and_field.air_velocity_m_s)
+        })
+    }
+
+    /// Magnetic field, body frame, in T.
+    pub fn field_body_t(&self) -> Vector3<f64> {
+        self.instant.to_body * self.air_and_field.field_inertial_t
+    }
+
     /// Acceleration of a spacecraft of this mass by all effects, EME2000, in m/s2.
     pub fn acceleration_inertial_m_s2(&self, mass_kg: f64) -> Vector3<f64> {
         self.force_inertial_n() / mass_kg
@@ -106,82 +115,6 @@ impl Evaluation {
 
 /// Force through the centre of mass and torque from outside at a time, body frame, and how they change per second.
 pub type External<'a> = dyn Fn(f64) -> [ForceTorque; 2] + 'a;
-
-/// Where a flight takes place, and what is known of it beside its state.
-#[derive(Clone, Debug)]
-pub struct World {
-    /// The spacecraft, and where it is; its attitude is set as the flight goes on.
-    pub configuration: Configuration,
-    /// With every panel at angle 0, of what is left of the propellant.
-    pub mass_at_zero: MassProperties,
-    /// Planets.
-    pub ephemeris: Ephemeris,
-    /// Light and heat beyond direct sunlight.
-    pub light: Option<RadiationSolver>,
-    /// Surfaces in air.
-    pub air: Option<AerodynamicSolver>,
-    /// What the step has cost so far.
-    pub work: Work,
-    /// Room of forks, kept from one to the next: they allocate nothing.
-    pub fork_room: [PropagatorState; 3],
-}
-
-impl World {
-    /// Of this configuration with full tanks, without light and heat beyond direct sunlight.
-    pub fn new(configuration: Configuration) -> Self {
-        let predictions = configuration.encounter.map(|encounter| encounter.prediction);
-        let ahead_s = predictions.filter(|it| it.refresh_s > 0.0).map_or(0.0, |it| it.horizon_s);
-        Self {
-            mass_at_zero: configuration.loaded(),
-            configuration,
-            ephemeris: Ephemeris::holding(ahead_s),
-            light: None,
-            air: None,
-            work: Work::new(u32::MAX, 0),
-            fork_room: Default::default(),
-        }
-    }
-
-    /// A step begins: nothing spent of `limit` units of about a microsecond.
-    pub fn begin_work(&mut self, limit: u32) {
-        self.ephemeris.count_from_here();
-        self.work = Work::new(limit, self.ephemeris.evaluations());
-    }
-}
-
-/// The spacecraft, prepared once.
-#[derive(Clone, Copy, Debug)]
-pub struct PreparedSpacecraft<'a> {
-    /// Its panels.
-    pub panels: &'a [Panel],
-    /// The whole of it in sunlight.
-    pub solar: &'a SolarModel,
-    /// How its orbit is integrated, if it is.
-    pub orbit_method: &'a OrbitMethod,
-    /// The default downlink of its antennas.
-    pub default_downlink: &'a DefaultDownlink,
-    /// Commands over time, which guided flight follows.
-    pub timeline: Option<TimelineLaw<'a>>,
-}
-
-impl PreparedSpacecraft<'_> {
-    /// The spacecraft as sunlight meets it at `time_s`, so far from the Sun.
-    pub(crate) fn sunlit<'c>(
-        &'c self,
-        configuration: &'c Configuration,
-        mass_at_zero: &MassProperties,
-        [time_s, sun_distance_m]: [f64; 2],
-    ) -> SunlitCraft<'c> {
-        SunlitCraft {
-            solar: self.solar,
-            panels: self.panels,
-            settings: &configuration.panels,
-            mass_at_zero: *mass_at_zero,
-            time_s,
-            sun_distance_m,
-        }
-    }
-}
 
 /// A configured flight, ready to be evaluated.
 pub struct Plant<'a> {

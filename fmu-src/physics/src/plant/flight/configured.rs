@@ -8,7 +8,8 @@ use crate::momentum::{TorqueModel, Totals};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 use super::propagator_state::PropagatorState;
-use crate::plant::disturbances::evaluation::{External, Plant, PreparedSpacecraft, World};
+use crate::plant::disturbances::evaluation::{External, Plant};
+use crate::plant::disturbances::world::{PreparedSpacecraft, World};
 use crate::plant::settings::configuration::{AttitudeSource, Command, DynamicAttitude};
 use crate::plant::settings::error::PlantError;
 use crate::plant::settings::thruster_events::ThrusterEvent;

@@ -10,7 +10,7 @@ use super::propagator_state::PropagatorState;
 use crate::guidance::{ChosenPlace, Guided, ScienceCourse};
 use crate::loads::ForceTorque;
 use crate::momentum::{Convention, DumpPolicy, Totals};
-use crate::plant::disturbances::evaluation::{PreparedSpacecraft, World};
+use crate::plant::disturbances::world::{PreparedSpacecraft, World};
 use crate::plant::light::sunlit::SunlitCraft;
 use crate::plant::settings::error::PlantError;
 

@@ -30,7 +30,8 @@ use crate::environment::ephemeris::Ephemeris;
 use crate::momentum::Totals;
 
 use crate::loads::ForceTorque;
-use crate::plant::disturbances::evaluation::{Evaluation, Plant, PreparedSpacecraft, World};
+use crate::plant::disturbances::evaluation::{Evaluation, Plant};
+use crate::plant::disturbances::world::{PreparedSpacecraft, World};
 use crate::plant::motion::instant::Instant;
 use crate::plant::settings::configuration::{Command, Configuration, PredictionSettings};
 use crate::plant::settings::dynamics_settings::{DynamicsInputs, DynamicsSettings};
@@ -134,7 +135,7 @@ impl Flight {
     pub fn uncovered(&self, time_s: f64) -> Option<&'static str> {
         let PropagatorState { light, trajectory, air_and_field, .. } = &self.propagator;
         let (is_covered, what) = match &self.mode {
-            _ if !light.as_ref().is_none_or(|light| light.covers(time_s)) => {
+            _ if light.as_ref().is_some_and(|it| !it.covers(time_s)) => {
                 (false, "light and heat were computed")
             }
             _ if !air_and_field.covers(time_s) => (false, "air and magnetic field were computed"),

@@ -1,0 +1,202 @@
+//! Air and magnetic field about the Earth through the plant: what acts by default, cuts, states, invariants, refusals.
+
+use models::MomentumPlant;
+use nalgebra::Vector3;
+
+use super::named_model::{NamedInstance, NamedModel, assert_cuts_change_nothing};
+
+const CUBESAT: &str = include_str!("../../../resources/examples/cubesat-12u.toml");
+
+fn cubesat() -> NamedModel<MomentumPlant> {
+    NamedModel::with("cubesat-12u.toml", CUBESAT)
+}
+
+/// Without the laws of the file, whose planet light takes most of the time.
+const PLAIN: &[(&str, f64)] = &[("planetLight.enabled", 0.0)];
+/// An ellipse of 180 x 2000 km: through every height at which the model of the air changes its form.
+const ELLIPSE: &[(&str, f64)] = &[
+    ("orbit.semiMajorAxis", 7_468_137.0),
+    ("orbit.eccentricity", 0.121_837),
+    ("orbit.periapsisArgument", 0.3),
+];
+const FREE: &[(&str, f64)] = &[("attitude.source", 4.0), ("start.q[4]", 1.0)];
+
+fn with(parts: &[&[(&'static str, f64)]]) -> Vec<(&'static str, f64)> {
+    parts.concat()
+}
+
+#[test]
+fn both_act_about_the_earth_unless_they_are_set() {
+    let messenger = NamedModel::<MomentumPlant>::shipped();
+    let switches = ["aerodynamics.enabled", "magnetics.enabled"];
+    let acts = |flight: &NamedInstance<'_, MomentumPlant>| switches.map(|name| flight.boolean(name));
+    let orbit = [("orbit.center", 4.0), ("orbit.semiMajorAxis", 6.9e6), ("orbit.eccentricity", 0.0)];
+    let flight = messenger.fly(0.0, &orbit).unwrap();
+    assert_eq!((acts(&flight), flight.integer("planet.orientation")), ([true; 2], 2));
+    assert!(flight.real("atmosphere.density") > 0.0);
+    // Set to the start value of the file's own centre it counts too.
+    let off = with(&[&orbit, &[("aerodynamics.enabled", 0.0)]]);
+    let flight = messenger.fly(0.0, &off).unwrap();
+    assert_eq!(acts(&flight), [false, true]);
+    assert_eq!(flight.real("atmosphere.density"), 0.0);
+    let about_mercury = messenger.fly(0.0, &[]).unwrap();
+    assert_eq!((acts(&about_mercury), about_mercury.integer("planet.orientation")), ([false; 2], 1));
+}
+
+#[test]
+fn neither_cuts_nor_saving_change_a_bit() {
+    let named = cubesat();
+    for (sets, end_s) in [
+        (with(&[PLAIN]), 9_000.0),
+        (with(&[PLAIN, ELLIPSE]), 9_000.0),
+        (with(&[PLAIN, ELLIPSE, &[("orbit.dynamics", 1.0)]]), 9_000.0),
+        (with(&[PLAIN, FREE]), 240.0),
+        (with(&[PLAIN, FREE, &[("orbit.dynamics", 1.0), ("solver.dynamicsStep", 60.0)]]), 900.0),
+    ] {
+        let ends_s = [0.4 * end_s, end_s];
+        assert_cuts_change_nothing(|| named.fly(0.0, &sets).unwrap(), ends_s, &[97.0, 600.0], |_| {});
+    }
+}
+
+#[test]
+fn the_fit_along_the_orbit_is_as_good_as_its_tolerance() {
+    // The coarse fit against one a thousand times as fine, over all heights.
+    let named = cubesat();
+    let at = |tolerance: f64| {
+        let sets = with(&[PLAIN, ELLIPSE, &[("orbit.dynamics", 1.0), ("atmosphere.tolerance", tolerance)]]);
+        let mut flight = named.fly(0.0, &sets).unwrap();
+        let mut found = Vec::new();
+        for k in 1..=240 {
+            flight.step_to(30.0 * f64::from(k)).unwrap();
+            found.push((flight.real("atmosphere.density"), flight.vector("magneticField.inertial")));
+        }
+        found
+    };
+    for ((density, field), (fine, fine_field)) in at(1e-6).into_iter().zip(at(1e-9)) {
+        assert!((density / fine - 1.0).abs() < 2e-5, "{density:e} {fine:e}");
+        assert!((field - fine_field).norm() < 1e-5 * field.norm());
+    }
+}
+
+#[test]
+fn air_takes_energy_from_the_orbit_as_its_force_says() {
+    let named = cubesat();
+    let sets = with(&[PLAIN, &[("magnetics.enabled", 0.0), ("atmosphere.densityFactor", 100.0)]]);
+    let mut flight = named.fly(0.0, &sets).unwrap();
+    let height_m = flight.real("geodetic.height");
+    let (mut work, mut now_s) = (0.0, 0.0);
+    let power = |flight: &NamedInstance<'_, MomentumPlant>| {
+        let force = flight.to_inertial("attitude.q") * flight.vector("force.aerodynamic");
+        force.dot(&flight.vector("velocity")) / flight.real("mass")
+    };
+    let energy = |flight: &NamedInstance<'_, MomentumPlant>| {
+        let (r, v) = (flight.vector("position"), flight.vector("velocity"));
+        let (gm, j2, radius_m) = (3.986_004_355_07e14, 1.082_635_9e-3, 6_378_136.3);
+        // The pole of the start epoch is 0.13 deg from Z: taken as Z here, within what is compared.
+        let sine = r.z / r.norm();
+        let flattening = gm / r.norm() * j2 * (radius_m / r.norm()).powi(2) * 0.5 * (3.0 * sine * sine - 1.0);
+        0.5 * v.norm_squared() - gm / r.norm() + flattening
+    };
+    let begin = energy(&flight);
+    let mut before = power(&flight);
+    while now_s < 17_000.0 {
+        now_s += 10.0;
+        flight.step_to(now_s).unwrap();
+        let next = power(&flight);
+        work += 0.5 * (before + next) * 10.0;
+        before = next;
+    }
+    let lost = energy(&flight) - begin;
+    assert!(lost < 0.0 && (lost / work - 1.0).abs() < 0.05, "{lost} {work}");
+    assert!(flight.real("geodetic.height") < height_m + 20e3);
+}
+
+#[test]
+fn a_free_dipole_swings_in_a_given_field_by_its_closed_form() {
+    // J theta'' = -m B sin theta about an axis of inertia: small swings of the period 2 pi sqrt(J / m B).
+    let text = CUBESAT.replace("[0.42, 0.001, -0.002]", "[0.42, 0.0, 0.0]");
+    let text = text
+        .replace("[0.001, 0.31, 0.0015]", "[0.0, 0.31, 0.0]")
+        .replace("[-0.002, 0.0015, 0.27]", "[0.0, 0.0, 0.27]");
+    let named = NamedModel::<MomentumPlant>::with("swing.toml", &text);
+    let (dipole, field, inertia) = (0.5, 4e-5, 0.27);
+    let quiet: &[(&str, f64)] = &[
+        ("solar.flux", 0.0),
+        ("planetLight.enabled", 0.0),
+        ("gravityGradient.enabled", 0.0),
+        ("aerodynamics.enabled", 0.0),
+        ("orbit.dynamics", 1.0),
+        ("magneticField.method", 3.0),
+        ("magneticField.given[1]", field * 0.02_f64.cos()),
+        ("magneticField.given[2]", field * 0.02_f64.sin()),
+        ("dipole.residual[1]", dipole),
+        ("dipole.residual[2]", 0.0),
+        ("dipole.residual[3]", 0.0),
+        // One interval of the grid is a fraction of a swing.
+        ("solver.dynamicsStep", 60.0),
+    ];
+    let mut flight = named.fly(0.0, &with(&[FREE, quiet])).unwrap();
+    let period_s = core::f64::consts::TAU * (inertia / (dipole * field)).sqrt();
+    // Wheels that rest on their bearings turn with the body; after half a period it is at twice the angle, at rest.
+    flight.fly_to(0.5 * period_s, 10.0).unwrap();
+    let turned = flight.to_inertial("attitude.q") * Vector3::x();
+    let angle = turned.y.atan2(turned.x);
+    assert!((angle - 0.04).abs() < 4e-5 * 0.04 * 30.0, "{angle}");
+    let by_field = flight.to_inertial("attitude.q") * flight.vector("momentum.magnetic");
+    let total = flight.vector("momentum.inertial");
+    assert!((by_field - total).norm() < 1e-9 * dipole * field * period_s, "{by_field} {total}");
+}
+
+#[test]
+fn the_momentum_of_all_effects_is_what_the_momentum_changed_by() {
+    let named = cubesat();
+    let mut flight = named.fly(0.0, &[]).unwrap();
+    flight.fly_to(20_000.0, 500.0).unwrap();
+    let names = ["solar", "albedo", "infrared", "thermal", "gravityGradient", "aerodynamic", "magnetic"];
+    let sum: Vector3<f64> = names.iter().map(|name| flight.vector(&format!("momentum.{name}"))).sum();
+    let total = flight.vector("momentum.body");
+    assert!((sum - total).norm() < 1e-9 && total.norm() > 1e-3, "{sum} {total}");
+}
+
+#[test]
+fn what_no_model_has_is_refused_by_name() {
+    let (cubesat, messenger) = (cubesat(), NamedModel::<MomentumPlant>::shipped());
+    let on = [("aerodynamics.enabled", 1.0), ("magnetics.enabled", 1.0)];
+    for (model, sets, words) in [
+        (
+            &messenger,
+            with(&[&on, &[("atmosphere.method", 2.0), ("magneticField.method", 3.0)]]),
+            ["atmosphere.method", "nrlmsise00", "Mercury"],
+        ),
+        (
+            &messenger,
+            with(&[&on, &[("atmosphere.method", 3.0), ("magneticField.method", 2.0)]]),
+            ["magneticField.method", "igrf14", "Mercury"],
+        ),
+        (
+            &messenger,
+            with(&[&on, &[("orbit.center", 6.0), ("magneticField.method", 1.0)]]),
+            ["magneticField.method", "dipole", "Mars"],
+        ),
+        (&messenger, with(&[&[("planet.orientation", 2.0)]]), ["planet.orientation", "iau", "Mercury"]),
+        (
+            &cubesat,
+            with(&[&[("orbit.semiMajorAxis", 6_470e3), ("orbit.eccentricity", 0.0)]]),
+            ["height", "m", "100 km"],
+        ),
+        (&cubesat, with(&[&[("start.epoch", 9.9e8)]]), ["magneticField.method", "start.epoch", "2030"]),
+    ] {
+        let refusal = model.refusal(&sets);
+        for word in words {
+            assert!(refusal.contains(word), "{word}: {refusal}");
+        }
+    }
+    for (name, value) in [("spaceWeather.f107", -1.0), ("spaceWeather.ap", 401.0)] {
+        assert!(
+            cubesat
+                .given()
+                .iter()
+                .any(|(known, (low, high), _)| *known == name && (value < *low || value > *high))
+        );
+    }
+}

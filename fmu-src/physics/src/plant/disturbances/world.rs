@@ -1,0 +1,90 @@
+//! Where a flight takes place, and the spacecraft prepared for it.
+
+use crate::environment::ephemeris::Ephemeris;
+use crate::environment::orbit::OrbitMethod;
+use crate::guidance::downlink::default_downlink::DefaultDownlink;
+use crate::guidance::timeline::TimelineLaw;
+use crate::plant::air_and_field::aerodynamic_solver::AerodynamicSolver;
+use crate::plant::flight::propagator_state::PropagatorState;
+use crate::plant::light::radiation_solver::RadiationSolver;
+use crate::plant::light::sunlit::SunlitCraft;
+use crate::plant::settings::configuration::Configuration;
+use crate::plant::settings::work::Work;
+use crate::radiation::SolarModel;
+use crate::spacecraft::{MassProperties, Panel};
+
+/// Where a flight takes place, and what is known of it beside its state.
+#[derive(Clone, Debug)]
+pub struct World {
+    /// The spacecraft, and where it is; its attitude is set as the flight goes on.
+    pub configuration: Configuration,
+    /// With every panel at angle 0, of what is left of the propellant.
+    pub mass_at_zero: MassProperties,
+    /// Planets.
+    pub ephemeris: Ephemeris,
+    /// Light and heat beyond direct sunlight.
+    pub light: Option<RadiationSolver>,
+    /// Surfaces in air.
+    pub air: Option<AerodynamicSolver>,
+    /// What the step has cost so far.
+    pub work: Work,
+    /// Room of forks, kept from one to the next: they allocate nothing.
+    pub fork_room: [PropagatorState; 3],
+}
+
+impl World {
+    /// Of this configuration with full tanks, without light and heat beyond direct sunlight.
+    pub fn new(configuration: Configuration) -> Self {
+        let predictions = configuration.encounter.map(|encounter| encounter.prediction);
+        let ahead_s = predictions.filter(|it| it.refresh_s > 0.0).map_or(0.0, |it| it.horizon_s);
+        Self {
+            mass_at_zero: configuration.loaded(),
+            configuration,
+            ephemeris: Ephemeris::holding(ahead_s),
+            light: None,
+            air: None,
+            work: Work::new(u32::MAX, 0),
+            fork_room: Default::default(),
+        }
+    }
+
+    /// A step begins: nothing spent of `limit` units of about a microsecond.
+    pub fn begin_work(&mut self, limit: u32) {
+        self.ephemeris.count_from_here();
+        self.work = Work::new(limit, self.ephemeris.evaluations());
+    }
+}
+
+/// The spacecraft, prepared once.
+#[derive(Clone, Copy, Debug)]
+pub struct PreparedSpacecraft<'a> {
+    /// Its panels.
+    pub panels: &'a [Panel],
+    /// The whole of it in sunlight.
+    pub solar: &'a SolarModel,
+    /// How its orbit is integrated, if it is.
+    pub orbit_method: &'a OrbitMethod,
+    /// The default downlink of its antennas.
+    pub default_downlink: &'a DefaultDownlink,
+    /// Commands over time, which guided flight follows.
+    pub timeline: Option<TimelineLaw<'a>>,
+}
+
+impl PreparedSpacecraft<'_> {
+    /// The spacecraft as sunlight meets it at `time_s`, so far from the Sun.
+    pub(crate) fn sunlit<'c>(
+        &'c self,
+        configuration: &'c Configuration,
+        mass_at_zero: &MassProperties,
+        [time_s, sun_distance_m]: [f64; 2],
+    ) -> SunlitCraft<'c> {
+        SunlitCraft {
+            solar: self.solar,
+            panels: self.panels,
+            settings: &configuration.panels,
+            mass_at_zero: *mass_at_zero,
+            time_s,
+            sun_distance_m,
+        }
+    }
+}
