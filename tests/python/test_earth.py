@@ -1,0 +1,196 @@
+"""The Earth about Cubesat.fmu: its orientation and heights by pyerfa, its magnetic field by ppigrf, a day's loads and studies."""
+
+from datetime import datetime
+
+import erfa
+import numpy as np
+import ppigrf
+import pytest
+from fmpy import extract
+
+from simulation import DAY_S, columns, simulate, stack, vector
+from spacecraft import RESOURCES, call, pack
+from studies import table
+
+ARCSECOND = np.radians(1.0 / 3600.0)
+# IERS Bulletin A's UT1 - UTC on each 1 January to 0.1 s: any value serves, so long as both have it.
+YEARS = {2015: -0.5, 2020: -0.2, 2025: 0.0, 2030: 0.3}
+GEODETIC = ["geodetic.latitude", "geodetic.longitude", "geodetic.height"]
+
+
+@pytest.fixture(scope="session")
+def cubesat(dist, tmp_path_factory):
+    return extract(str(dist / "Cubesat.fmu"), unzipdir=str(tmp_path_factory.mktemp("Cubesat")))
+
+
+def epoch(year):
+    """TDB seconds past J2000 of a 1 January, 00:00 UTC, and its UTC and TT as ERFA's two-part dates."""
+    utc = erfa.dtf2d("UTC", year, 1, 1, 0, 0, 0.0)
+    tt = erfa.taitt(*erfa.utctai(*utc))
+    # TDB by the annual term, within 50 us.
+    days = (tt[0] - erfa.DJ00) + tt[1]
+    anomaly = np.radians(357.53 + 0.985_600_28 * days)
+    return days * DAY_S + 0.001_657 * np.sin(anomaly), utc, tt
+
+
+def terrestrial(utc, tt, offset_s, time_s=0.0):
+    """The matrix from GCRS to ITRS by IAU 2006/2000A, without polar motion."""
+    ut1 = utc[0], utc[1] + (offset_s + time_s) / DAY_S
+    return erfa.c2t06a(tt[0], tt[1] + time_s / DAY_S, *ut1, 0.0, 0.0)
+
+
+def by_erfa(position, matrix):
+    """Geodetic longitude, latitude and height over WGS84."""
+    return erfa.gc2gd(erfa.WGS84, matrix @ position)
+
+
+@pytest.mark.filterwarnings("ignore:.*dubious year")
+@pytest.mark.parametrize("year", YEARS)
+def test_latitude_longitude_and_height_are_erfas_within_an_arcsecond(cubesat, year):
+    start_s, utc, tt = epoch(year)
+    names = vector("position") + GEODETIC
+    # The field's model ends in 2030.
+    start = {"start.epoch": start_s, "earth.ut1Offset": YEARS[year], "magnetics.enabled": False}
+    result = simulate(cubesat, days=0.5, start=start, output=names)
+    worst = 0.0
+    for row in result:
+        position = np.array([row[name] for name in names[:3]])
+        longitude, latitude, height = by_erfa(position, terrestrial(utc, tt, YEARS[year], row["time"]))
+        east = (row["geodetic.longitude"] - longitude + np.pi) % (2.0 * np.pi) - np.pi
+        away = np.hypot(row["geodetic.latitude"] - latitude, east * np.cos(latitude))
+        worst = max(worst, away / ARCSECOND)
+        # An arcsecond turns a place into another height by the flattening, some 0.2 m.
+        assert abs(row["geodetic.height"] - height) < 0.2
+    assert worst < 1.0, worst
+
+
+def test_a_second_of_ut1_turns_the_earth_by_fifteen_arcseconds(cubesat):
+    start_s, _, _ = epoch(2020)
+    longitudes = []
+    for offset_s in (0.0, 1.0):
+        start = {"start.epoch": start_s, "earth.ut1Offset": offset_s}
+        result = simulate(cubesat, days=0.0, start=start, output=GEODETIC)
+        longitudes.append(result["geodetic.longitude"][0])
+    assert abs((longitudes[0] - longitudes[1]) / ARCSECOND - 15.041_067) < 1e-3
+
+
+@pytest.mark.parametrize("year", (2015, 2020, 2025))
+def test_the_field_is_that_of_ppigrf(cubesat, year):
+    """At a 1 January of its table, where neither interpolates in time, all round an orbit over both poles.
+
+    Size and radial part do not depend on the frame, which leaves the direction in EME2000 to an arcsecond.
+    """
+    start_s, utc, tt = epoch(year)
+    to_inertial = terrestrial(utc, tt, 0.0).T
+    names = vector("position") + vector("magneticField.inertial") + GEODETIC
+    for anomaly in np.radians(np.arange(0.0, 360.0, 45.0)):
+        start = {"start.epoch": start_s, "orbit.trueAnomaly": anomaly, "atmosphere.tolerance": 1e-12}
+        row = simulate(cubesat, days=0.0, start=start, output=names)
+        position, field = stack(row, "position")[0], stack(row, "magneticField.inertial")[0]
+        latitude, longitude, height = (row[name][0] for name in GEODETIC)
+        fixed = erfa.gd2gc(erfa.WGS84, longitude, latitude, height)
+        radius = np.linalg.norm(fixed)
+        up = fixed / radius
+        place = radius / 1e3, np.degrees(np.arccos(up[2])), np.degrees(longitude)
+        radial, south, east = (1e-9 * part.item() for part in ppigrf.igrf_gc(*place, datetime(year, 1, 1)))
+        size = np.sqrt(radial**2 + south**2 + east**2)
+        assert abs(np.linalg.norm(field) - size) < 1e-9 * size
+        assert abs(field @ position / radius - radial) < 1e-9 * size
+        easterly = np.array([-np.sin(longitude), np.cos(longitude), 0.0])
+        expected = to_inertial @ (radial * up + south * np.cross(easterly, up) + east * easterly)
+        assert np.linalg.norm(field - expected) < ARCSECOND * size
+
+
+def test_a_day_has_the_same_bits_in_steps_of_ten_seconds_and_of_ten_minutes(heliotorque, dist, tmp_path):
+    recorded = [part for name in ("torque.*", "atmosphere.*", "magneticField.*", "geodetic.*") for part in ("--record", name)]
+    tables = []
+    for step in ("10s", "600s"):
+        file = tmp_path / f"{step}.csv"
+        fmu = (dist / "Cubesat.fmu").resolve()
+        done = call(heliotorque, "run", fmu, "--stop", "1d", "--step", step, *recorded, "--output", file, "--quiet")
+        assert done.returncode == 0, done.stderr
+        tables.append(file.read_text(encoding="utf-8").splitlines())
+    fine, coarse = tables
+    assert fine[0] == coarse[0] and "atmosphere.density" in fine[0]
+    assert len(fine) == 8642 and len(coarse) == 146
+    assert coarse[1:] == fine[1::60]
+
+
+def test_plant_and_disturbance_torque_joined_by_wire_have_equal_air_and_magnetism(heliotorque, dist, tmp_path):
+    """What the plant reports at one communication point DisturbanceTorque has in the next step, by its own surfaces and dipole."""
+    text = (RESOURCES / "examples" / "cubesat-12u.toml").read_text(encoding="utf-8")
+    light = pack(heliotorque, dist, tmp_path, text.partition("[start]")[0], "Light", "DisturbanceTorque.fmu")
+    ssp, file = tmp_path / "loop.ssp", tmp_path / "loop.csv"
+    wired = call(heliotorque, "wire", f"plant={(dist / 'Cubesat.fmu').resolve()}", f"light={light}", "--output", ssp)
+    assert wired.returncode == 0, wired.stderr
+    both = {"aerodynamics.law": "sentman", "aerodynamics.shadowing": "true", "dipole.residual": "0.02,-0.03,0.05"}
+    values = {f"{part}.{name}": value for part in ("plant", "light") for name, value in both.items()}
+    values |= {"light.aerodynamics.enabled": "true", "light.magnetics.enabled": "true"}
+    # No output joins the panels' angles.
+    values |= {f"plant.panel[{k}].{name}": value for k in (1, 2) for name, value in (("control", "angle"), ("angle", "0"))}
+    settings = [part for name, value in values.items() for part in ("--set", f"{name}={value}")]
+    names = [f"{part}.torque.{effect}" for part in ("plant", "light") for effect in ("aerodynamic", "magnetic")]
+    recorded = [part for name in names for part in ("--record", name)]
+    times = ("--stop", "6000", "--step", "60", "--master", "jacobi")
+    done = call(heliotorque, "run", ssp, *times, *settings, *recorded, "--output", file, "--quiet")
+    assert done.returncode == 0, done.stderr
+    result = np.genfromtxt(file, delimiter=",", names=True, deletechars="", encoding="utf-8")
+    for effect in ("aerodynamic", "magnetic"):
+        plant, light = (columns(result, vector(f"{part}.torque.{effect}")) for part in ("plant", "light"))
+        assert np.abs(plant).max() > 1e-7
+        assert np.abs(light[1:] - plant[:-1]).max() <= 1e-14 * np.abs(plant).max()
+
+
+EFFECTS = {
+    "gravity gradient": ["gravityGradient"], "air": ["aerodynamic"], "magnetic field": ["magnetic"], "sunlight": ["solar"],
+    "planet light (reflected and infrared)": ["albedo", "infrared"],
+}
+
+
+def test_the_study_of_a_day_is_what_fmpy_simulates(studied, cubesat):
+    text, files = studied("earth/day")
+    rows = table(files, "day.csv")
+    effects = [effect for together in EFFECTS.values() for effect in together]
+    names = [name for effect in effects for kind in ("torque", "momentum") for name in vector(f"{kind}.{effect}")]
+    result = simulate(cubesat, step_s=60.0, days=1.0, output=["atmosphere.density", *names])
+    assert [float(row["time [s]"]) for row in rows] == list(result["time"])
+
+    def same(column, expected):
+        found = np.array([float(row[column]) for row in rows])
+        assert np.abs(found - expected).max() < 1e-6 * np.abs(expected).max(), column
+
+    same("density [kg/m3]", result["atmosphere.density"])
+    for effect, together in EFFECTS.items():
+        sizes = [np.linalg.norm(sum(stack(result, f"{kind}.{it}") for it in together), axis=1) for kind in ("torque", "momentum")]
+        for (kind, unit), size in zip((("torque", "N m"), ("momentum", "N m s")), sizes):
+            same(f"{effect} {kind} [{unit}]", size)
+        line = next(line for line in text.splitlines() if line.strip().startswith(effect))
+        printed = [float(cell) for cell in line.replace(effect, "", 1).split()]
+        expected = [sizes[0].mean() * 1e6, sizes[0].max() * 1e6, sizes[1][-1] * 1e3]
+        assert np.abs(np.array(printed) - expected).max() < 0.000_51
+    assert files["day.svg"].startswith("<svg")
+
+
+def test_the_study_of_heights_follows_what_each_torque_depends_on(studied):
+    text, files = studied("earth/torques")
+    rows = table(files, "torques.csv")
+    column = lambda name: np.array([float(row[name]) for row in rows])
+    height_km = column("height [km]")
+    mean = {effect: column(f"{effect} mean [N m]") for effect in EFFECTS}
+    assert np.allclose(height_km[[0, -1]], [180.0, 36_000.0], rtol=1e-6) and len(rows) == 25
+    radius = height_km + 6378.137
+    # To the nadir on a circle nothing but the distance changes.
+    scaled = mean["gravity gradient"] * radius**3
+    assert np.ptp(scaled) < 1e-3 * scaled[0]
+    # A dipole's field falls as the gradient does; higher harmonics and the tilt to the orbit change its mean by less than a tenth.
+    scaled = mean["magnetic field"] * radius**3
+    assert np.ptp(scaled) < 0.1 * scaled[-1], scaled
+    assert (mean["air"][height_km > 2000.0] == 0.0).all() and (np.diff(mean["air"][height_km < 2000.0]) < 0.0).all()
+    # The planet shades half of a low orbit's sunlight at most.
+    assert 1.0 < mean["sunlight"][-1] / mean["sunlight"][0] < 2.0
+    excess = np.log(mean["air"] / mean["sunlight"], where=mean["air"] > 0.0, out=np.full(25, -np.inf))
+    k = int(np.argmax(excess < 0.0))
+    share = excess[k - 1] / (excess[k - 1] - excess[k])
+    crossing_km = np.exp(np.interp(share, [0.0, 1.0], np.log(height_km[k - 1 : k + 1])))
+    assert f"up to {crossing_km:.0f} km" in text
+    assert files["torques.svg"].startswith("<svg")
