@@ -73,7 +73,7 @@ fn the_fit_along_the_orbit_is_as_good_as_its_tolerance() {
         found
     };
     for ((density, field), (fine, fine_field)) in at(1e-6).into_iter().zip(at(1e-9)) {
-        assert!((density / fine - 1.0).abs() < 2e-5, "{density:e} {fine:e}");
+        assert!((density - fine).abs() <= 2e-5 * fine, "{density:e} {fine:e}");
         assert!((field - fine_field).norm() < 1e-5 * field.norm());
     }
 }
@@ -181,7 +181,7 @@ fn what_no_model_has_is_refused_by_name() {
         (&messenger, with(&[&[("planet.orientation", 2.0)]]), ["planet.orientation", "iau", "Mercury"]),
         (
             &cubesat,
-            with(&[&[("orbit.semiMajorAxis", 6_470e3), ("orbit.eccentricity", 0.0)]]),
+            with(&[&[("orbit.semiMajorAxis", 6_440e3), ("orbit.eccentricity", 0.0)]]),
             ["height", "m", "100 km"],
         ),
         (&cubesat, with(&[&[("start.epoch", 9.9e8)]]), ["magneticField.method", "start.epoch", "2030"]),

@@ -134,10 +134,9 @@ impl Flight {
     /// What was computed elsewhere than at `time_s`, if anything.
     pub fn uncovered(&self, time_s: f64) -> Option<&'static str> {
         let PropagatorState { light, trajectory, air_and_field, .. } = &self.propagator;
+        let is_lit = light.as_ref().is_none_or(|it| it.covers(time_s));
         let (is_covered, what) = match &self.mode {
-            _ if light.as_ref().is_some_and(|it| !it.covers(time_s)) => {
-                (false, "light and heat were computed")
-            }
+            _ if !is_lit => (false, "light and heat were computed"),
             _ if !air_and_field.covers(time_s) => (false, "air and magnetic field were computed"),
             _ if !trajectory.covers(time_s) => (false, "the orbit was integrated"),
             Mode::Waiting => (true, ""),
@@ -207,8 +206,7 @@ impl Flight {
         }
     }
 
-    /// Something changes at `time_s`: what was computed beyond it is void, and from there on the
-    /// configuration and settings are these, where they are others.
+    /// Something changes at `time_s`: what was computed beyond it is void, and from there on these configuration and settings count.
     ///
     /// # Errors
     /// A place that is given below the surface.
