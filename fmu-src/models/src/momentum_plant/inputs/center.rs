@@ -75,9 +75,9 @@ impl Center {
             planet.rotation.prime_meridian,
             planet.rotation.rotation_rate,
         ];
-        let group: Vec<Elements> =
-            numbers.into_iter().map(Elements::from).chain(planet.surface.group()).collect();
-        let given = context.given(values, &group);
+        let [a, b, c, d, e, f, g, h] = numbers.map(Elements::from);
+        let [i, j, k, l, m] = planet.surface.group();
+        let given = context.given(values, &[a, b, c, d, e, f, g, h, i, j, k, l, m]);
         let radius_m = given.real_or(planet.radius, own_surface.radius_m);
         let surface = planet.surface.read_or(values, given, radius_m, &own_surface);
         let planet = BodyData {
