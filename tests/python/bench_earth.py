@@ -35,8 +35,8 @@ def basilisk_s():
 def main(program, template, folder):
     (folder / "ten.toml").write_text(TEXT, encoding="utf-8")
     fmu = folder / "Ten.fmu"
-    packed = ["pack", "--spacecraft", folder / "ten.toml", "--template", template, "--name", "Ten", "--output", fmu, "--quiet"]
-    subprocess.run([program, *packed], check=True)
+    packed = ["pack", "--spacecraft", folder / "ten.toml", "--template", template, "--name", "Ten", "--output", fmu]
+    subprocess.run([program, *packed], check=True, capture_output=True)
 
     def own_s(values):
         settings = [part for name, value in values.items() for part in ("--set", f"{name}={value}")]

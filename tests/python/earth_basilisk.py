@@ -36,19 +36,17 @@ class Day:
         self.sim = SimulationBaseClass.SimBaseClass()
         self.sim.CreateNewProcess("process").addTask(self.sim.CreateNewTask("task", macros.sec2nano(STEP_S)))
         self.hub = spacecraft.Spacecraft()
-        self.hub.hub.mHub = mass["mass_kg"]
+        hub, center_of_mass = self.hub.hub, np.array(mass["center_of_mass_m"])
         # Its point B is the centre of mass.
-        self.hub.hub.r_BcB_B = [[0.0], [0.0], [0.0]]
-        self.hub.hub.IHubPntBc_B = mass["inertia_kg_m2"]
-        hub = self.hub.hub
+        hub.mHub, hub.r_BcB_B, hub.IHubPntBc_B = mass["mass_kg"], [[0.0], [0.0], [0.0]], mass["inertia_kg_m2"]
         hub.r_CN_NInit, hub.v_CN_NInit, hub.sigma_BNInit, hub.omega_BN_BInit = state
         sun, earth = messaging.SpicePlanetStateMsgPayload(), messaging.SpicePlanetStateMsgPayload()
         sun.PositionVector, sun.PlanetName, earth.PlanetName, earth.J20002Pfix = SUN_M, "sun", "earth", np.eye(3)
-        # A message that nothing holds is lost.
+        # What nothing holds is lost.
         self.kept = [messaging.SpicePlanetStateMsg().write(payload) for payload in (sun, earth)]
         self._gravity()
-        self._air_and_field(body, np.array(mass["center_of_mass_m"]))
-        self._sunlight(body, np.array(mass["center_of_mass_m"]))
+        self._air_and_field(body, center_of_mass)
+        self._sunlight(body, center_of_mass)
         self.sim.AddModelToTask("task", self.hub)
         self.sim.InitializeSimulation()
 
@@ -56,17 +54,15 @@ class Day:
         factory = simIncludeGravBody.gravBodyFactory()
         earth = factory.createEarth()
         earth.mu, earth.isCentralBody = GM, True
-        harmonics = [[1.0], [0.0, 0.0], [-J2 / np.sqrt(5.0), 0.0, 0.0]]
         gravity = sphericalHarmonicsGravityModel.SphericalHarmonicsGravityModel()
         gravity.maxDeg, gravity.radEquator, gravity.muBody = 2, RADIUS_M, GM
-        gravity.cBar = harmonics
+        gravity.cBar = [[1.0], [0.0, 0.0], [-J2 / np.sqrt(5.0), 0.0, 0.0]]
         gravity.sBar = [[0.0], [0.0, 0.0], [0.0, 0.0, 0.0]]
         earth.gravityModel = gravity
         factory.addBodiesTo(self.hub)
         self.factory = factory
-        self.gradient = gradient = GravityGradientEffector.GravityGradientEffector()
-        gradient.addPlanetName(earth.planetName)
-        self._effector(gradient)
+        self.gradient = self._effector(GravityGradientEffector.GravityGradientEffector())
+        self.gradient.addPlanetName(earth.planetName)
 
     def _effector(self, effector):
         self.hub.addDynamicEffector(effector)
@@ -123,8 +119,8 @@ class Day:
             light.addFacet(
                 plate["area_m2"], np.eye(3), plate["normal"], [0.0, 0.0, 0.0], place, optics["diffuse"], optics["specular"]
             )
-        self.light = self._effector(light)
-        self.shadow = shadow
+        self._effector(light)
+        self.kept += [shadow, light]
 
     def run_to(self, time_s):
         self.sim.ConfigureStopTime(macros.sec2nano(time_s))
@@ -153,7 +149,7 @@ def table():
     flight = Day()
     for time_s in np.arange(0.0, DAY_S + 1.0, EVERY_S):
         flight.run_to(time_s)
-        position, velocity, sigma, rate = state = flight.state()
+        position, velocity, sigma, _ = state = flight.state()
         here = Day(state)
         loads = here.loads()
         square = np.dot(sigma, sigma)
