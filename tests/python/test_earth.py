@@ -1,4 +1,4 @@
-"""The Earth about Cubesat.fmu: its orientation and heights by pyerfa, its magnetic field by ppigrf, a day's loads and studies."""
+"""The Earth about Cubesat.fmu: its orientation and heights by pyerfa, its magnetic field by ppigrf, a day's loads by Basilisk."""
 
 from datetime import datetime
 
@@ -8,8 +8,8 @@ import ppigrf
 import pytest
 from fmpy import extract
 
-from simulation import DAY_S, columns, simulate, stack, vector
-from spacecraft import RESOURCES, call, pack
+from simulation import DAY_S, basilisk_table, columns, simulate, stack, vector
+from spacecraft import RESOURCES, call, pack, urchin
 from studies import table
 
 ARCSECOND = np.radians(1.0 / 3600.0)
@@ -99,6 +99,35 @@ def test_the_field_is_that_of_ppigrf(cubesat, year):
         easterly = np.array([-np.sin(longitude), np.cos(longitude), 0.0])
         expected = to_inertial @ (radial * up + south * np.cross(easterly, up) + east * easterly)
         assert np.linalg.norm(field - expected) < ARCSECOND * size
+
+
+def test_loads_along_a_day_are_basilisks_at_equal_density_and_field(heliotorque, dist, tmp_path):
+    """`earth_basilisk.py` writes what it simulates: ten plates that tumble, the air co-rotating, a dipole in three torque bars."""
+    rows = basilisk_table("earth-basilisk")
+    fmu = pack(heliotorque, dist, tmp_path, urchin(10), "Urchin")
+    body = extract(fmu, unzipdir=str(tmp_path / "unpacked"))
+    start = {"orbit.center": 4, "orbit.source": 2, "attitude.source": 2, "aerodynamics.enabled": True, "magnetics.enabled": True}
+    start |= {"aerodynamics.law": 1, "atmosphere.method": 3, "magneticField.method": 3, "planet.orientation": 1}
+    # A pole along Z of EME2000, and Basilisk's constants.
+    start |= {"planet.poleDeclination": np.pi / 2.0, "planet.rotationRate": 7.292_115_373_194e-5}
+    start |= {"planet.gravitationalParameter": 3.986_004_355_07e14}
+    start |= dict(zip(vector("dipole.residual"), (0.5, -0.3, 0.8)))
+    loads = [vector(name) for name in ("force.aerodynamic", "torque.aerodynamic", "torque.magnetic", "torque.gravityGradient")]
+    given = [name for name in rows.dtype.names if name.startswith(("orbit.", "command.", "atmosphere.", "magneticField."))]
+    found = []
+    for row in rows:
+        at = start | {name: row[name] for name in given}
+        found.append(simulate(body, days=0.0, start=at, output=[*sum(loads, []), *GEODETIC])[0])
+    found = np.array(found)
+    for names in loads:
+        expected = columns(rows, names)
+        assert np.abs(expected).max() > 1e-6
+        assert np.abs(columns(found, names) - expected).max() < 1e-6 * np.abs(expected).max()
+    # Basilisk's heights count from a sphere of the equator's radius: over the poles its air is that of 21 km below.
+    expected = erfa.gc2gd(erfa.WGS84, columns(rows, vector("orbit.position")))[2]
+    assert np.abs(found["geodetic.height"] - expected).max() < 1e-3
+    higher_m = expected - rows["height"]
+    assert abs(higher_m.min()) < 1.0 and 20e3 < higher_m.max() < 21.4e3
 
 
 def test_a_day_has_the_same_bits_in_steps_of_ten_seconds_and_of_ten_minutes(heliotorque, dist, tmp_path):

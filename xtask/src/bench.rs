@@ -14,7 +14,7 @@ const EXAMPLES: &[&str] = &["bench_solar", "bench_radiation"];
 /// Studies and systems are simulated this often; the median counts.
 const RUNS: usize = 3;
 
-/// Kernels (Rust examples of `physics`), the C interface, a system, a whole study.
+/// Kernels (Rust examples of `physics`), the C interface, a system, a whole study, plans, a campaign, a day beside Basilisk.
 pub(crate) fn all() -> Outcome {
     let built = dist::dist()?;
     for example in EXAMPLES {
@@ -36,7 +36,17 @@ pub(crate) fn all() -> Outcome {
     study(&built)?;
     plans(&built)?;
     flybys(&built)?;
-    sweep(&built)
+    sweep(&built)?;
+    earth(&built)
+}
+
+/// A day of ten plates about the Earth beside Basilisk.
+fn earth(built: &Built) -> Outcome {
+    let script = root().join("tests").join("python").join("bench_earth.py");
+    run(command(python::basilisk()?)
+        .arg(script)
+        .arg(&built.heliotorque)
+        .arg(root().join("dist").join("MomentumPlant.fmu")))
 }
 
 /// Flights of ten days in one step each: `sweep` beside a C program with the same values, with one and two workers and its memory; then

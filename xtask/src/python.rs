@@ -1,4 +1,4 @@
-//! Pinned Python environments under `target/`: the tests', and the linker's for an older glibc.
+//! Pinned Python environments under `target/`: the tests', Basilisk's, and the linker's for an older glibc.
 
 use std::path::{Path, PathBuf};
 
@@ -7,6 +7,11 @@ use crate::shell::{self, command, output, root, run};
 /// Python interpreter of the tests' environment, set up on first use and again when the pins change.
 pub(crate) fn interpreter() -> Result<PathBuf, String> {
     environment("python", &root().join("tests/python/requirements.txt"))
+}
+
+/// Python interpreter with Basilisk, which the benchmarks alone need; it wants other packages than the tests do.
+pub(crate) fn basilisk() -> Result<PathBuf, String> {
+    environment("basilisk", &root().join("tests/python/basilisk-requirements.txt"))
 }
 
 /// Folder with the programs `cargo-zigbuild` and `python -m ziglang`, which link for an older glibc.
