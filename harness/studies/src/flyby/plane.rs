@@ -95,6 +95,8 @@ pub(super) struct Intercept {
     pub covariance_m2: Option<Matrix2<f64>>,
 }
 
+/// So many times as wide as the rest a reach is left to the second picture.
+const WIDER: f64 = 3.5;
 /// What sunlight can still reach.
 const IN_REACH: &str = "in reach of sunlight";
 
@@ -155,6 +157,8 @@ impl Plane<'_> {
         let is_near =
             |it: &&Series| !["impact", "altitude of the aim", IN_REACH].contains(&it.label.as_str());
         let close = series.iter().filter(is_near).map(|it| about(&it.points)).fold(1.0, f64::max);
+        let reach = series.iter().filter(|it| it.label == IN_REACH).map(|it| about(&it.points));
+        let close = reach.filter(|reach| *reach < WIDER * close).fold(close, f64::max);
         let wide = 1.3 * aim.0.hypot(aim.1) + close;
         let panel = |title: &str, centre, half_width| PlanePanel {
             title: title.to_owned(),

@@ -316,8 +316,9 @@ fn corrected(run: &mut Run<'_>, index: usize) -> Outcome {
         Some(along_m) => format!("{axis} {:.1}", along_m / 1e3),
         None => format!("{axis} none"),
     });
+    let farthest_km = reachable.polygon_m.iter().map(|corner_m| size_km(*corner_m)).fold(0.0, f64::max);
     run.line(&format!(
-        "Sunlight moves the last intercept by up to {} km from then on, the other component as it is; see the picture for all places.",
+        "Sunlight moves the last intercept by up to {} km from then on, the other component as it is, and by {farthest_km:.1} km at most.",
         moved.collect::<Vec<_>>().join(", ")
     ));
     run.line(ASSUMED);
@@ -346,4 +347,4 @@ fn corrected(run: &mut Run<'_>, index: usize) -> Outcome {
 /// Behind what is said of every correction.
 const DRIFTS: &str = "
 Assumed too: that orbit determination found a drift of 4 km along -T 18 d before, where the paper prints none, and that the drift of 4 km
-that it prints 7 d before was along T and R in equal parts: from there less light leads back.";
+that it prints 7 d before was along T and R in equal parts: sunlight moves it farthest nearly the other way.";
