@@ -175,10 +175,17 @@ def test_figure_6_misses_by_170_km(study):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(("name", "before_km"), [("figure7", 170.0)])
+@pytest.mark.parametrize(("name", "before_km"), [("figure7", 170.0), ("figure8", 4.0), ("figure9", 4.0)])
 def test_plans_lead_back_to_within_a_kilometre(study, name, before_km):
     text, rows = study(name)
     before, behind = (np.linalg.norm(vector(row, "miss_t_m miss_r_m")) / 1e3 for row in rows[1:3])
     # What the plan above left is before it too.
     assert abs(before - before_km) < 2.0 and behind < 1.0
+    # The flight ends among the places that the linear model reaches, which turn one way.
+    corners = np.array([vector(row, "miss_t_m miss_r_m") for row in rows if row["what"] == "in reach of sunlight"])
+    assert len(corners) > 6
+    sides, toward = np.roll(corners, -1, axis=0) - corners, vector(rows[2], "miss_t_m miss_r_m") - corners
+    lengths = np.linalg.norm(sides, axis=1)
+    inward = (sides[:, 0] * toward[:, 1] - sides[:, 1] * toward[:, 0])[lengths > 0.0] / lengths[lengths > 0.0]
+    assert inward.min() > -100.0
     assert "off" not in [line.split()[-1] for line in text.splitlines() if line.strip().endswith(("agrees", "off"))]

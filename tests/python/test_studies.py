@@ -11,6 +11,7 @@ from studies import study, table
 NAMES = [
     "control/slew", "control/safe-mode", "control/transition", "control/dump", "control/jitter",
     "flyby/table1", "flyby/table2", "flyby/table3", "flyby/figure3", "flyby/figure4", "flyby/figure5", "flyby/figure6", "flyby/figure7",
+    "flyby/figure8", "flyby/figure9",
     "momentum/tables", "momentum/table2", "momentum/table3", "momentum/table4", "momentum/table5", "momentum/figure4", "momentum/figure5",
     "momentum/assumptions", "momentum/dump-targets", "momentum/wheels", "momentum/sensitivity", "momentum/off-sun",
     "momentum/authority",
@@ -30,7 +31,7 @@ ALL = [name for name in NAMES if not re.fullmatch(r"momentum/table\d", name)]
 # Flown by the same means as momentum/figure5, for half a minute of one core and more.
 LONG = {"momentum/tables", "momentum/assumptions", "momentum/dump-targets", "momentum/wheels", "momentum/sensitivity"}
 # Planned anew from the departure on, by one means.
-LONG |= {"flyby/table3", "flyby/figure4", "flyby/figure6", "flyby/figure7"}
+LONG |= {"flyby/table3", "flyby/figure4", "flyby/figure6", "flyby/figure7", "flyby/figure8", "flyby/figure9"}
 # One of every means by which threads share the work.
 EVERY_RUN = {"control/slew", "momentum/figure4", "pointing/limb", "spin/figure3", "thermal/table7"}
 

@@ -81,6 +81,10 @@ studies! {
         "B-plane of the second flyby behind the departure, missed by 170 km";
     "flyby/figure7" of "003" by flyby::figure7:
         "the same 111 days before it, planned anew by sunlight";
+    "flyby/figure8" of "003" by flyby::figure8:
+        "the same 18 days before it, where orbit determination found a drift";
+    "flyby/figure9" of "003" by flyby::figure9:
+        "the same seven days before it";
     "momentum/tables" of "000" by momentum::tables:
         "Tables 2 to 5 from one set of simulations";
     "momentum/table2" of "000" by momentum::table2:

@@ -144,6 +144,37 @@ fn cells_of_a_day_and_of_two_hours_lead_to_the_same_encounter() {
     assert!(apart_m < 1.0);
 }
 
+/// Momentum that a flight goes on with, 4 N m s, which tilts of the first window must leave where it points.
+#[test]
+fn a_plan_that_tilts_from_the_start_on_leaves_the_momentum_there() {
+    let Some((_packed, template)) = template() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    flyby(folder, 2, &[]);
+    let mission = fs::read_to_string(folder.join("flyby.toml")).unwrap();
+    let with_momentum = mission.replace("[set]\n", "[set]\n\"start.momentum\" = [2.0, -2.0, 2.8]\n");
+    assert_ne!(mission, with_momentum);
+    fs::write(folder.join("flyby.toml"), with_momentum.replace("stop = ", "stop = \"20 d\" # ")).unwrap();
+    let text = "mission = \"flyby.toml\"\nfreeze = 0\nwindow = \"5 d\"\nalternation = 0\nwindmill = 0\n\
+                [momentum]\nlimit = \"4.1 N.m.s\"\n[tilt]\nazimuth = \"10 deg\"\nelevation = \"10 deg\"\n";
+    fs::write(folder.join("plan.toml"), text).unwrap();
+    let output = folder.join("out");
+    plan("momentum", &folder.join("plan.toml"), &output, &template, 0);
+    let names = ["momentum.inertial[1]", "momentum.inertial[2]", "momentum.inertial[3]", "sun.elevation"];
+    let first = |mission: &Path| {
+        let rows = mission.with_extension("first.csv");
+        let record = names.join(",");
+        let arguments = ["--every", "1d", "--record", &record, "--output", shown(&rows), "--quiet"];
+        run(&[&["run", shown(mission), "--template", shown(&template)][..], &arguments].concat(), 0);
+        columns(&rows, &names).remove(0)
+    };
+    let [untilted, tilted] = [folder.join("flyby.toml"), output.join("mission.toml")].map(|it| first(&it));
+    println!("{untilted:?} {tilted:?}");
+    let apart = (0..3).map(|axis| (tilted[axis] - untilted[axis]).abs()).fold(0.0, f64::max);
+    assert!((tilted[3] - untilted[3]).abs() > 1.0_f64.to_radians(), "the plan does not tilt");
+    assert!(apart < 1e-5, "{apart} N m s apart");
+}
+
 /// The lower root of a covariance: 3 km, 1 cm/s, the velocity along Y correlated with the position along X.
 fn root() -> Matrix6<f64> {
     let deviations = [3e3, 3e3, 3e3, 1e-2, 1e-2, 1e-2];

@@ -7,13 +7,9 @@ use nalgebra::{Matrix3, Matrix3x4, Vector3};
 use super::{
     simulated::FlightRow,
     target::Moves,
-    torque::{CONTROLS, Control, LinearTorque, SunlitSpacecraft},
+    torque::{ALL, CONTROLS, Control, LinearTorque, SunlitSpacecraft},
     windows::{Window, WindowKind},
 };
-
-/// All controls.
-pub(super) const ALL: [Control; CONTROLS] =
-    [Control::Offset, Control::Windmill, Control::Azimuth, Control::Elevation, Control::Alternate];
 
 /// From one row to the next.
 #[derive(Clone, Debug, PartialEq)]

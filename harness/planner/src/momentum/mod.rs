@@ -5,6 +5,7 @@ pub mod baseline;
 pub(crate) mod cell;
 mod counted;
 pub mod encountered;
+pub mod in_force;
 mod mission;
 mod model;
 pub mod places;

@@ -7,11 +7,11 @@
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, SymmetricEigen, Vector3};
 
 use super::{
-    cell::{ALL, At, Cell, cell},
+    cell::{At, Cell, cell},
     program::{Begin, Program, Step},
     simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
     target::{Aimed, LinearMiss, Target},
-    torque::{CONTROLS, Control, SunlitSpacecraft},
+    torque::{ALL, CONTROLS, Control, SunlitSpacecraft},
     windows::{Window, WindowKind},
 };
 
@@ -286,7 +286,8 @@ impl Model {
         }
     }
 
-    fn momentum_excess_n_m_s(&self) -> (f64, usize) {
+    /// The same of the momentum alone.
+    pub(super) fn momentum_excess_n_m_s(&self) -> (f64, usize) {
         let momentum = self.momentum_n_m_s();
         let over = momentum
             .iter()

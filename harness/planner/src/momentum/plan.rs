@@ -7,19 +7,18 @@
 
 use std::time::{Duration, Instant};
 
-use nalgebra::{Rotation3, Unit, Vector3};
+use nalgebra::Vector3;
 use physics::momentum::Convention;
 
 use super::{
     baseline::{NoOffset, OffsetStep},
-    cell::ALL,
     counted::{self, Groups},
     model::{Limit, Model, Part},
     program::{Goal, Program, Solution},
     simulated::{MomentumSize, SAME_S, SimulatedFlight},
     target::Target,
-    torque::{Control, Controls, SunlitSpacecraft},
-    windows::{Layout, Window, WindowKind},
+    torque::{ALL, Controls, SunlitSpacecraft},
+    windows::{Layout, Window},
 };
 
 /// Flight and plan agree where they differ by less than this share of the limit.
@@ -261,7 +260,7 @@ pub(super) fn refine(
             }
         }
     }
-    Ok(model.excess_n_m_s().0 <= 0.0)
+    Ok(is_kept(model))
 }
 
 /// What was counted in an earlier round.
@@ -269,6 +268,10 @@ struct Structure {
     groups: Groups,
     dumps_at_least: usize,
     exceeded: Option<Exceeded>,
+}
+
+fn is_kept(model: &Model) -> bool {
+    model.excess_n_m_s().0 <= 0.0
 }
 
 /// Counts dumps and changes about the model.
@@ -292,26 +295,39 @@ fn structure(
                 model.windows = first.1;
                 model.linearise(sunlit);
             }
-            let excess_n_m_s = model.excess_n_m_s().0;
-            simulates.progress("dumps");
-            let found = counted::fewest_dumps(model, GUARD, &mut || simulates.progress("dumps"));
-            let Some(found) = found else {
-                return Err(PlanError::Programme("the limit is exceeded between two instants"));
-            };
-            dumps_at_least = found.at_least;
-            if let Some(row) = found.rows.first() {
-                let first_s =
-                    counted::first_exceeded_s(model, GUARD).unwrap_or(model.simulated.rows[*row].time_s);
-                exceeded = Some(Exceeded { excess_n_m_s, first_s });
+            let excess_n_m_s = model.momentum_excess_n_m_s().0;
+            // A target that is missed needs no dump.
+            if excess_n_m_s > 0.0 {
+                simulates.progress("dumps");
+                let found = counted::fewest_dumps(model, GUARD, &mut || simulates.progress("dumps"));
+                let Some(found) = found else {
+                    return Err(PlanError::Programme("the limit is exceeded between two instants"));
+                };
+                dumps_at_least = found.at_least;
+                if let Some(row) = found.rows.first() {
+                    let first_s =
+                        counted::first_exceeded_s(model, GUARD).unwrap_or(model.simulated.rows[*row].time_s);
+                    exceeded = Some(Exceeded { excess_n_m_s, first_s });
+                }
+                model.dumps = found.rows.into_iter().map(|row| (row, Vector3::zeros())).collect();
+                refine(model, sunlit, &single, (goal, WHOLE), simulates)?;
             }
-            model.dumps = found.rows.into_iter().map(|row| (row, Vector3::zeros())).collect();
-            refine(model, sunlit, &single, (goal, WHOLE), simulates)?;
         }
     }
     simulates.progress("changes");
     let until = Instant::now() + Duration::from_secs_f64(task.budget_s.clamp(0.0, 1e6));
     let groups = counted::fewest_changes(model, GUARD, until, &mut || simulates.progress("changes"));
-    let groups = groups.unwrap_or_else(|| Groups { changes: single.len() - 1, at_least: 0, leaders: single });
+    let mut groups =
+        groups.unwrap_or_else(|| Groups { changes: single.len() - 1, at_least: 0, leaders: single.clone() });
+    if is_kept(model) && groups.leaders != single {
+        // What is linear says how few changes do; where they do not, every window has its own.
+        let mut grouped = model.clone();
+        if refine(&mut grouped, sunlit, &groups.leaders, (goal, WHOLE), simulates)? {
+            *model = grouped;
+        } else {
+            groups = Groups { changes: single.len() - 1, leaders: single, ..groups };
+        }
+    }
     Ok(Structure { groups, dumps_at_least, exceeded })
 }
 
@@ -391,21 +407,9 @@ pub fn body_momentum_n_m_s(
     }
     let Some(row) = simulated.at(dump.at_s) else { return dump.after_n_m_s };
     let holds = |window: &&Window| window.start_s <= dump.at_s && window.stop_s > dump.at_s;
-    let window = windows.iter().find(holds).filter(|window| window.kind == WindowKind::Free);
-    let mut inertial_from_body = row.inertial_from_body;
-    if let Some(window) = window {
-        let [azimuth_rad, elevation_rad] =
-            [Control::Azimuth, Control::Elevation].map(|it| window.controls.get(it));
-        if let Some(found) = sunlit.downlink_attitude(&row, azimuth_rad, elevation_rad) {
-            inertial_from_body = found;
-        }
-        let is_alternate = |[from_s, to_s]: &[f64; 2]| (*from_s..*to_s).contains(&dump.at_s);
-        if window.alternate_spans_s().iter().any(is_alternate) {
-            let axis = Unit::new_normalize(row.to_sun_m);
-            inertial_from_body =
-                Rotation3::from_axis_angle(&axis, core::f64::consts::PI) * inertial_from_body;
-        }
-    }
+    let window = windows.iter().find(holds);
+    let inertial_from_body =
+        window.map_or(row.inertial_from_body, |window| window.inertial_from_body(sunlit, &row, dump.at_s));
     inertial_from_body.inverse() * dump.after_n_m_s
 }
 

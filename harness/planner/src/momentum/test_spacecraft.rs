@@ -67,6 +67,7 @@ pub(super) fn task(limit_n_m_s: f64, reach: Reach) -> PlanTask {
             contacts_s: Vec::new(),
             contact_share: 0.0,
             reach,
+            in_force: Vec::new(),
             corridor: Articulation { min_suns: 0.0, max_suns: 1e3, target_suns: 1.0 },
             offset_sign: 1.0,
             frozen_offset_rad: 0.0,

@@ -42,6 +42,10 @@ pub enum Control {
     Alternate,
 }
 
+/// All controls, in their order.
+pub(super) const ALL: [Control; CONTROLS] =
+    [Control::Offset, Control::Windmill, Control::Azimuth, Control::Elevation, Control::Alternate];
+
 /// How arrays and attitude stand in a window.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Controls(pub [f64; CONTROLS]);

@@ -1,12 +1,14 @@
 //! The windows of a flight: what its mission holds fixed, and the free time between in pieces of one length.
 
+use nalgebra::{Rotation3, Unit};
 use physics::spacecraft::Articulation;
 
 use super::{
     baseline::{NoOffset, OffsetStep, allowed_rad, baseline},
+    in_force::{InForce, mean},
     places::{PlaceSide, places},
     simulated::{FlightRow, SAME_S, SimulatedFlight},
-    torque::{Attitude, CONTROLS, Control, Controls, LinearTorque, SunlitSpacecraft},
+    torque::{ALL, Attitude, CONTROLS, Control, Controls, LinearTorque, SunlitSpacecraft},
 };
 
 /// What a window is.
@@ -81,6 +83,26 @@ impl Window {
                 sunlit.linearised(row, Attitude::SimulatedFlight, &self.controls)
             }
         }
+    }
+
+    /// The attitude at a time where the geometry is a row's: that row's own where the window is not free.
+    pub fn inertial_from_body(
+        &self,
+        sunlit: &SunlitSpacecraft,
+        row: &FlightRow,
+        at_s: f64,
+    ) -> Rotation3<f64> {
+        let [azimuth_rad, elevation_rad] =
+            [Control::Azimuth, Control::Elevation].map(|it| self.controls.get(it));
+        let is_free = self.kind == WindowKind::Free;
+        let downlink = is_free.then(|| sunlit.downlink_attitude(row, azimuth_rad, elevation_rad)).flatten();
+        let inertial_from_body = downlink.unwrap_or(row.inertial_from_body);
+        let is_alternate = |[from_s, to_s]: &[f64; 2]| (*from_s..*to_s).contains(&at_s);
+        if !is_free || !self.alternate_spans_s().iter().any(is_alternate) {
+            return inertial_from_body;
+        }
+        let sun_line = Unit::new_normalize(row.to_sun_m);
+        Rotation3::from_axis_angle(&sun_line, core::f64::consts::PI) * inertial_from_body
     }
 
     fn free_s(&self) -> f64 {
@@ -177,6 +199,8 @@ pub struct Layout {
     pub contact_share: f64,
     /// How far controls go.
     pub reach: Reach,
+    /// The plan that the mission has so far, in order: windows begin with its controls, those before it on the baseline without tilt.
+    pub in_force: Vec<InForce>,
     /// Corridor of the light on the cells.
     pub corridor: Articulation,
     /// Sign of the offsets.
@@ -199,6 +223,7 @@ impl Layout {
             contacts_s: Vec::new(),
             contact_share: 0.0,
             reach,
+            in_force: Vec::new(),
             corridor: Articulation { min_suns: 0.0, max_suns: f64::INFINITY, target_suns: 1.0 },
             offset_sign: 1.0,
             frozen_offset_rad: sun_offset_rad,
@@ -349,6 +374,20 @@ impl Layout {
             bounds[Control::Elevation as usize] = [-elevation_rad, elevation_rad];
             bounds[Control::Alternate as usize] = [0.0, self.reach.alternate.min(share)];
         }
+        let mut controls = Controls::default().with(Control::Offset, offset_rad);
+        let in_force = (kind == WindowKind::Free).then(|| mean(&self.in_force, [start_s, stop_s])).flatten();
+        if let Some(in_force) = in_force {
+            // Off the baseline or as it is: that of a shorter flight may be another one.
+            if self.reach.offset_rad > 0.0 {
+                let present_rad = in_force.get(Control::Offset).min(offsets_rad[1]).max(offsets_rad[0]);
+                let [low, high] = &mut bounds[Control::Offset as usize];
+                (*low, *high) = (low.min(present_rad), high.max(present_rad));
+            }
+            for control in ALL {
+                let [low, high] = bounds[control as usize];
+                controls = controls.with(control, in_force.get(control).min(high).max(low));
+            }
+        }
         let mut allowed = Vec::new();
         if kind == WindowKind::Free && self.downlinks_s.is_some() {
             let all: Vec<&FlightRow> = rows().collect();
@@ -368,7 +407,7 @@ impl Layout {
             offsets_rad: [offsets_rad[0].min(offset_rad), offsets_rad[1].max(offset_rad)],
             baseline_rad: offset_rad,
             sides: self.sides.clone(),
-            controls: Controls::default().with(Control::Offset, offset_rad),
+            controls,
         }
     }
 

@@ -170,6 +170,7 @@ pub(crate) fn figure3(run: &mut Run<'_>) -> Outcome {
                 covariance_m2: Some(found.covariance_m2),
             },
         ],
+        reachable_m: Vec::new(),
         costs_m_s: &[1.5, 3.0, 4.5],
     };
     plane.write(run, "figure3")

@@ -8,6 +8,8 @@ use planner::{
     flyby::{Aim, Sensitivity, Surroundings},
     momentum::{
         Convention, Limit,
+        attainable::{Reachable, reachable},
+        in_force::InForce,
         plan::{Least, MomentumPlan, PlanTask, PlannedDump, Simulates, plan},
         plant::{self, StartValues},
         simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
@@ -123,10 +125,8 @@ impl<'a> Leg<'a> {
     /// The momentum that it goes on with, in the body frame as it stands in a window.
     fn momentum(&self, window: &Window) -> Settings {
         let Some(row) = &self.begun else { return Settings::new() };
-        let [azimuth_rad, elevation_rad] =
-            [Control::Azimuth, Control::Elevation].map(|it| window.controls.get(it));
-        let attitude = self.sunlit.downlink_attitude(row, azimuth_rad, elevation_rad);
-        set("start.momentum", attitude.unwrap_or(row.inertial_from_body).inverse() * row.momentum_n_m_s)
+        let inertial_from_body = window.inertial_from_body(&self.sunlit, row, window.start_s);
+        set("start.momentum", inertial_from_body.inverse() * row.momentum_n_m_s)
     }
 
     /// Arrays and place of the Sun of a window.
@@ -218,19 +218,13 @@ impl<'a> Leg<'a> {
         layout
     }
 
-    /// A plan whose momentum stays below the limit, and which meets an aim to a kilometre if there is one; `windows` are those before it.
-    pub(super) fn planned(
-        &self,
-        room: &Room,
-        windows: &[Window],
-        aim: Option<&Aim>,
-    ) -> Result<MomentumPlan, Failure> {
-        let mut sought = Sought { leg: self, aim };
-        let simulated = sought.simulate(windows, &[])?;
+    /// A plan's, which begins with windows in force.
+    fn task(&self, room: &Room, windows: &[Window], has_aim: bool) -> PlanTask {
+        let in_force = windows.iter().map(|it| InForce { at_s: it.start_s, controls: it.controls }).collect();
         // A square in the circle.
         let side_m = TOLERANCE_M * core::f64::consts::FRAC_1_SQRT_2;
-        let task = PlanTask {
-            layout: self.layout(room.window_s, room.reach),
+        PlanTask {
+            layout: Layout { in_force, ..self.layout(room.window_s, room.reach) },
             limit: Limit {
                 momentum_n_m_s: room.limit_n_m_s,
                 size: MomentumSize::Length,
@@ -240,8 +234,27 @@ impl<'a> Leg<'a> {
             dumps: 0,
             least: Least::Tilt,
             budget_s: 0.0,
-            target: aim.map(|_| Target { tolerance: [Some(side_m), Some(side_m), None] }),
-        };
+            target: has_aim.then_some(Target { tolerance: [Some(side_m), Some(side_m), None] }),
+        }
+    }
+
+    /// Where plans may move the encounter of these windows to.
+    pub(super) fn reachable(&self, room: &Room, windows: &[Window], aim: &Aim) -> Result<Reachable, Failure> {
+        let mut sought = Sought { leg: self, aim: Some(aim) };
+        let simulated = sought.simulate(windows, &[])?;
+        Ok(reachable(&self.task(room, windows, true), &self.sunlit, &simulated, &mut sought)?)
+    }
+
+    /// A plan whose momentum stays below the limit, and which meets an aim to a kilometre if there is one; `windows` are those before it.
+    pub(super) fn planned(
+        &self,
+        room: &Room,
+        windows: &[Window],
+        aim: Option<&Aim>,
+    ) -> Result<MomentumPlan, Failure> {
+        let mut sought = Sought { leg: self, aim };
+        let simulated = sought.simulate(windows, &[])?;
+        let task = self.task(room, windows, aim.is_some());
         let found = plan(&task, &self.sunlit, &simulated, &mut sought)?;
         // What counts is the flight, not how near the linear plan came to it.
         let miss_m = found.flight.encountered.as_ref().map_or(0.0, |it| it.miss.xy().norm());

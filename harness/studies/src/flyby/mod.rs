@@ -15,5 +15,5 @@ mod traditional;
 pub(crate) use corridor::figure4;
 pub(crate) use desired::figure5;
 pub(crate) use early::figure3;
-pub(crate) use steps::{figure6, figure7};
+pub(crate) use steps::{figure6, figure7, figure8, figure9};
 pub(crate) use tables::{table1, table2, table3};

@@ -95,11 +95,18 @@ pub(super) struct Intercept {
     pub covariance_m2: Option<Matrix2<f64>>,
 }
 
+/// So many times as wide as the rest a reach is left to the second picture.
+const WIDER: f64 = 3.5;
+/// What sunlight can still reach.
+const IN_REACH: &str = "in reach of sunlight";
+
 /// A picture of intercepts about the aim, with the planet and what misses cost.
 pub(super) struct Plane<'a> {
     pub target: &'a Target,
     pub title: String,
     pub intercepts: Vec<Intercept>,
+    /// Misses at the corners of what sunlight can still reach, where that is sought.
+    pub reachable_m: Vec<[f64; 2]>,
     /// Contours, in m/s.
     pub costs_m_s: &'a [f64],
 }
@@ -128,6 +135,10 @@ impl Plane<'_> {
             let points = ellipse(at(it.miss_m), axes_m.map(|axis_m| SIGMAS * axis_m / 1e3), -angle_rad);
             series.push(Series::dashed(format!("three deviations, {}", it.label), points));
         }
+        if let Some(first) = self.reachable_m.first() {
+            let corners = self.reachable_m.iter().chain([first]);
+            series.push(Series::line(IN_REACH, corners.map(|miss_m| at(*miss_m)).collect()));
+        }
         for cost_m_s in self.costs_m_s {
             let points = target.contour_m(*cost_m_s).into_iter().map(at).collect();
             series.push(Series::line(format!("{cost_m_s} m/s"), points));
@@ -143,8 +154,11 @@ impl Plane<'_> {
             points.iter().map(|(x, y)| (x - aim.0).abs().max((y - aim.1).abs())).fold(0.0, f64::max)
         };
         // Intercepts, ellipses and contours, without circles about the planet.
-        let is_near = |it: &&Series| it.label != "impact" && it.label != "altitude of the aim";
+        let is_near =
+            |it: &&Series| !["impact", "altitude of the aim", IN_REACH].contains(&it.label.as_str());
         let close = series.iter().filter(is_near).map(|it| about(&it.points)).fold(1.0, f64::max);
+        let reach = series.iter().filter(|it| it.label == IN_REACH).map(|it| about(&it.points));
+        let close = reach.filter(|reach| *reach < WIDER * close).fold(close, f64::max);
         let wide = 1.3 * aim.0.hypot(aim.1) + close;
         let panel = |title: &str, centre, half_width| PlanePanel {
             title: title.to_owned(),
@@ -169,6 +183,7 @@ impl Plane<'_> {
         };
         let mut rows = vec![cells("aim", [0.0; 2])];
         rows.extend(self.intercepts.iter().map(|it| cells(it.label, it.miss_m)));
+        rows.extend(self.reachable_m.iter().map(|miss_m| cells(IN_REACH, *miss_m)));
         for cost_m_s in self.costs_m_s {
             let label = format!("contour of {cost_m_s} m/s");
             rows.extend(target.contour_m(*cost_m_s).into_iter().map(|miss_m| cells(&label, miss_m)));

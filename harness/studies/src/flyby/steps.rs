@@ -27,27 +27,31 @@ const MOMENTUM: Room = Room {
     },
     limit_n_m_s: 4.5,
 };
+/// Of corrections: offsets of the arrays off the baseline of the rest of the leg, or as the plan before has them.
+const OFFSET_RAD: f64 = 5.0 * DEG;
 /// The paper's threshold of dumps, in N m s.
 const THRESHOLD_N_M_S: f64 = 5.5;
 
 /// A correction of the paper.
-struct Correction {
+pub(super) struct Correction {
     figure: &'static str,
     date: &'static str,
     /// Before the flyby, in days.
     before_d: f64,
     window_s: f64,
-    /// Offsets of the arrays off their baseline, in deg. The baseline of a short leg is another one.
-    offset_deg: f64,
+    /// Found by orbit determination since the plan before, along T and R, in m.
+    drift_m: [f64; 2],
     /// The earlier ones leave something of the threshold.
     limit_n_m_s: f64,
+    /// Contours, in m/s.
+    costs_m_s: &'static [f64],
 }
 
 impl Correction {
     /// With the keep-in zone of the paper.
     fn room(&self) -> Room {
         let reach = Reach {
-            offset_rad: self.offset_deg * DEG,
+            offset_rad: OFFSET_RAD,
             windmill_rad: 2.0 * DEG,
             azimuth_rad: 10.0 * DEG,
             elevation_rad: 12.0 * DEG,
@@ -57,14 +61,36 @@ impl Correction {
     }
 }
 
-const CORRECTIONS: [Correction; 1] = [Correction {
-    figure: "figure7",
-    date: "17 June 2008",
-    before_d: 111.0,
-    window_s: 10.0 * DAY_S,
-    offset_deg: 5.0,
-    limit_n_m_s: 5.0,
-}];
+pub(super) const CORRECTIONS: [Correction; 3] = [
+    Correction {
+        figure: "figure7",
+        date: "17 June 2008",
+        before_d: 111.0,
+        window_s: 10.0 * DAY_S,
+        drift_m: [0.0, 0.0],
+        limit_n_m_s: 5.0,
+        costs_m_s: &[20.0, 40.0, 80.0, 120.0],
+    },
+    Correction {
+        figure: "figure8",
+        date: "18 September 2008",
+        before_d: 18.0,
+        window_s: DAY_S,
+        drift_m: [-4e3, 0.0],
+        limit_n_m_s: 5.3,
+        costs_m_s: &[1.0, 2.0, 4.0],
+    },
+    // The printed 4 km.
+    Correction {
+        figure: "figure9",
+        date: "29 September 2008",
+        before_d: 7.0,
+        window_s: DAY_S,
+        drift_m: [2.83e3, 2.83e3],
+        limit_n_m_s: 5.45,
+        costs_m_s: &[1.0, 2.0, 4.0],
+    },
+];
 
 /// A leg that goes on by some windows.
 pub(super) struct Step<'a> {
@@ -124,7 +150,7 @@ impl<'a> Steps<'a> {
         for correction in &CORRECTIONS[..corrections] {
             let last = corrected.last().map_or(&departed, |[_, after]| after);
             let at_s = ((last.arrival_s() - correction.before_d * DAY_S) / STEP_S).round() * STEP_S;
-            let before = off(last, at_s, [0.0; 2])?;
+            let before = off(last, at_s, correction.drift_m)?;
             let room = correction.room();
             let free = Aim { arrival_s: None, ..aim };
             let windows = before.leg.planned(&room, &before.windows, Some(&free))?.windows;
@@ -201,6 +227,7 @@ pub(crate) fn figure6(run: &mut Run<'_>) -> Outcome {
             miss_m,
             covariance_m2: Some(covariance_m2),
         }],
+        reachable_m: Vec::new(),
         costs_m_s: &[20.0, 40.0, 80.0, 120.0],
     };
     plane.write(run, "figure6")
@@ -213,7 +240,17 @@ deviations by that alone.";
 
 /// Figure 7.
 pub(crate) fn figure7(run: &mut Run<'_>) -> Outcome {
-    corrected(run, 0, &[20.0, 40.0, 80.0, 120.0])
+    corrected(run, 0)
+}
+
+/// Figure 8.
+pub(crate) fn figure8(run: &mut Run<'_>) -> Outcome {
+    corrected(run, 1)
+}
+
+/// Figure 9.
+pub(crate) fn figure9(run: &mut Run<'_>) -> Outcome {
+    corrected(run, 2)
 }
 
 /// What one correction came to.
@@ -227,9 +264,9 @@ struct Corrected {
     windows: usize,
 }
 
-fn corrected(run: &mut Run<'_>, index: usize, costs_m_s: &[f64]) -> Outcome {
+fn corrected(run: &mut Run<'_>, index: usize) -> Outcome {
     let correction = &CORRECTIONS[index];
-    let (target, all) = steps(run, index + 1, |steps| {
+    let (target, all, reachable) = steps(run, index + 1, |steps| {
         let aimed_m = steps.aimed_altitude_m();
         let of = |[before, after]: &[Step<'_>; 2]| -> Result<Corrected, Failure> {
             Ok(Corrected {
@@ -241,7 +278,10 @@ fn corrected(run: &mut Run<'_>, index: usize, costs_m_s: &[f64]) -> Outcome {
             })
         };
         let all = steps.corrected.iter().map(of).collect::<Result<Vec<_>, _>>()?;
-        Ok((steps.target, all))
+        let Some([before, _]) = steps.corrected.last() else { return Err("found no correction".into()) };
+        let aim = Aim { b_m: steps.target.aim_m, arrival_s: None };
+        let reachable = before.leg.reachable(&correction.room(), &before.windows, &aim)?;
+        Ok((steps.target, all, reachable))
     })?;
     run.line(&format!(
         "Mercury flyby 2 planned anew on {}, {} days before it (paper 003, {})\n",
@@ -271,14 +311,26 @@ fn corrected(run: &mut Run<'_>, index: usize, costs_m_s: &[f64]) -> Outcome {
          windows | ellipse [km] | verdict",
         &rows,
     );
+    let moved = ["+T", "-T", "+R", "-R"].iter().zip(reachable.along_m);
+    let moved = moved.map(|(axis, along_m)| match along_m {
+        Some(along_m) => format!("{axis} {:.1}", along_m / 1e3),
+        None => format!("{axis} none"),
+    });
+    let farthest_km = reachable.polygon_m.iter().map(|corner_m| size_km(*corner_m)).fold(0.0, f64::max);
+    run.line(&format!(
+        "Sunlight moves the last intercept by up to {} km from then on, the other component as it is, and by {farthest_km:.1} km at most.",
+        moved.collect::<Vec<_>>().join(", ")
+    ));
     run.line(ASSUMED);
-    run.line(
-        "The plan goes on from the departure's miss. Windows hold arrays and place of the Sun; the FMU gets them as inputs.",
-    );
+    run.line(&format!(
+        "The plans go on from the departure's miss, each from the one before. Windows hold arrays and place of the Sun; the FMU gets them as inputs.{}",
+        if index > 0 { DRIFTS } else { "" }
+    ));
     let Some(Corrected { miss_m: [before_m, after_m], covariance_m2, .. }) = all.into_iter().next_back()
     else {
         return Ok(());
     };
+    let reached_m = reachable.polygon_m.iter().map(|[t_m, r_m]| [before_m[0] + t_m, before_m[1] + r_m]);
     let plane = Plane {
         target: &target,
         title: format!("B-plane at Mercury, {} days before flyby 2", correction.before_d),
@@ -286,7 +338,13 @@ fn corrected(run: &mut Run<'_>, index: usize, costs_m_s: &[f64]) -> Outcome {
             Intercept { label: "by the plan before", miss_m: before_m, covariance_m2: None },
             Intercept { label: "planned anew", miss_m: after_m, covariance_m2: Some(covariance_m2) },
         ],
-        costs_m_s,
+        reachable_m: reached_m.collect(),
+        costs_m_s: correction.costs_m_s,
     };
     plane.write(run, correction.figure)
 }
+
+/// Behind what is said of every correction.
+const DRIFTS: &str = "
+Assumed too: that orbit determination found a drift of 4 km along -T 18 d before, where the paper prints none, and that the drift of 4 km
+that it prints 7 d before was along T and R in equal parts: sunlight moves it farthest nearly the other way.";

@@ -128,6 +128,8 @@ pub(super) fn layout(
         }
         contacts_s.push([from_s, to_s]);
     }
+    // Of panels that take no part too: the timeline turns all.
+    let all_sides: Vec<f64> = sunlit.spacecraft.panels.iter().map(|panel| panel.windmill_side).collect();
     let zone_rad = mission.values().zone_rad();
     let offset_rad =
         timeline.arrays_rad.first().and_then(|(_, angles)| angles.first().copied()).unwrap_or_else(|| {
@@ -148,6 +150,7 @@ pub(super) fn layout(
             elevation_rad: file.elevation_rad.unwrap_or(0.0).min(zone_rad[1]),
             alternate: file.alternation,
         },
+        in_force: timeline.in_force(&all_sides),
         corridor: mission.corridor(),
         offset_sign: if offset_rad < 0.0 { -1.0 } else { 1.0 },
         frozen_offset_rad: offset_rad,

@@ -5,10 +5,11 @@ use std::{cell::RefCell, path::Path, time::Instant};
 use ::files::Scratch;
 use nalgebra::Vector3;
 use planner::momentum::{
+    Convention,
     plan::{PlanTask, PlannedDump, Simulates},
     simulated::SimulatedFlight,
     torque::SunlitSpacecraft,
-    windows::Window,
+    windows::{Window, WindowKind},
 };
 
 use super::super::flights::{Failure, SimulatedMission, Thresholds};
@@ -54,8 +55,22 @@ impl Planned<'_> {
         let text = self.timeline.text(&self.mission, (windows, dumps, frozen_s), &bodies, activity);
         // In an orbit phase the arrays stay as they are.
         let panels = if self.mission.is_in_orbit() { 0 } else { self.sunlit.panels.len() };
-        let mission = written::mission(&self.mission, folder, panels, &self.sets)?;
+        let start = self.start_momentum_body_n_m_s(windows);
+        let start = start.map(|it| ("start.momentum".to_owned(), it.as_slice().to_vec()));
+        let sets: Vec<_> = self.sets.iter().cloned().chain(start).collect();
+        let mission = written::mission(&self.mission, folder, panels, &sets)?;
         Ok([(NAMES[0], text), (NAMES[1], mission)])
+    }
+
+    /// Momentum of the mission's start in the body frame of a first window that is free, which the plan turns; in N m s.
+    fn start_momentum_body_n_m_s(&self, windows: &[Window]) -> Option<Vector3<f64>> {
+        let (row, window) = (self.simulated.rows.first()?, windows.first()?);
+        let is_turned = window.kind == WindowKind::Free
+            && self.sunlit.convention == Convention::Inertial
+            && row.momentum_n_m_s != Vector3::zeros();
+        let inertial_from_body =
+            is_turned.then(|| window.inertial_from_body(&self.sunlit, row, row.time_s))?;
+        Some(inertial_from_body.inverse() * row.momentum_n_m_s)
     }
 
     /// Simulates a plan.

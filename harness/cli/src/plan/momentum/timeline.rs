@@ -11,9 +11,10 @@ use physics::{
     guidance::timeline::{PlanStatus, Timeline, TimelineClock, TimelineEvent, simulation_time_s},
 };
 use planner::momentum::{
+    in_force::InForce,
     plan::PlannedDump,
     report::PlanEvent,
-    torque::Control,
+    torque::{Control, Controls},
     windows::{Occupied, Window, WindowKind},
 };
 use toml_edit::{DocumentMut, Item};
@@ -184,6 +185,31 @@ impl MissionTimeline {
             .collect()
     }
 
+    /// Controls of the plan that it has, where it commands both arrays and places of the Sun; `sides` is which way a windmill angle turns
+    /// each panel.
+    pub(super) fn in_force(&self, sides: &[f64]) -> Vec<InForce> {
+        let Some(turned) = sides.iter().position(|side| *side != 0.0) else { return Vec::new() };
+        // Panels on both sides stand at offset + windmill and offset - windmill.
+        let other = sides.iter().position(|side| *side == -sides[turned]).unwrap_or(turned);
+        let arrays = |time_s: f64| {
+            let (_, angles_rad) = self.arrays_rad.iter().rfind(|(at_s, _)| *at_s <= time_s + CLOCK_S)?;
+            let [one, other] = [*angles_rad.get(turned)?, *angles_rad.get(other)?];
+            Some([0.5 * (one + other), 0.5 * (one - other) * sides[turned]])
+        };
+        let place = |time_s: f64| self.sun_places.iter().rfind(|(at_s, ..)| *at_s <= time_s + CLOCK_S);
+        let mut times_s: Vec<f64> = self.arrays_rad.iter().map(|it| it.0).collect();
+        times_s.extend(self.sun_places.iter().map(|it| it.0));
+        times_s.sort_by(f64::total_cmp);
+        times_s.dedup();
+        let at = |at_s: f64| {
+            let ([offset_rad, windmill_rad], (_, sun_rad, alternate)) = (arrays(at_s)?, place(at_s)?);
+            let share = if *alternate { 1.0 } else { 0.0 };
+            let controls = Controls([offset_rad, windmill_rad, sun_rad[0], sun_rad[1], share]);
+            Some(InForce { at_s, controls })
+        };
+        times_s.into_iter().filter_map(at).collect()
+    }
+
     /// The timeline of a plan, as text; with an activity where one is given.
     pub(super) fn text(
         &self,
@@ -337,4 +363,33 @@ fn tables(document: &DocumentMut, name: &str) -> Vec<String> {
 fn without(table: &str, key: &str) -> String {
     let is_kept = |line: &&str| !line.starts_with(&format!("{key} ="));
     table.lines().filter(is_kept).map(|line| format!("{line}\n")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    //! The plan that a timeline commands, for panels on both sides.
+    use super::*;
+
+    #[test]
+    fn arrays_and_places_are_in_force_from_when_both_are_commanded() {
+        let timeline = MissionTimeline {
+            // Offset less and plus the windmill angle.
+            arrays_rad: vec![(0.0, vec![0.5, 0.7]), (20.0, vec![0.9, 0.9])],
+            sun_places: vec![(5.0, [0.1, -0.2], false), (10.0, [0.1, -0.2], true)],
+            ..MissionTimeline::default()
+        };
+        let found: Vec<_> =
+            timeline.in_force(&[-1.0, 1.0]).iter().map(|it| (it.at_s, it.controls.0)).collect();
+        let expected = [
+            (5.0, [0.6, 0.1, 0.1, -0.2, 0.0]),
+            (10.0, [0.6, 0.1, 0.1, -0.2, 1.0]),
+            (20.0, [0.9, 0.0, 0.1, -0.2, 1.0]),
+        ];
+        assert_eq!(found.len(), expected.len());
+        for ((at_s, controls), (expected_s, of)) in found.into_iter().zip(expected) {
+            assert_eq!(at_s, expected_s);
+            assert!(controls.iter().zip(of).all(|(a, b)| (a - b).abs() < 1e-15), "{controls:?} {of:?}");
+        }
+        assert_eq!(MissionTimeline { sun_places: Vec::new(), ..timeline }.in_force(&[-1.0, 1.0]), []);
+    }
 }

@@ -150,6 +150,8 @@ fn a_target_in_reach_is_met_and_one_beyond_is_not() {
             let left = found.flight.encountered.as_ref().unwrap().miss;
             assert_eq!(left.xy().amax() <= 100.0, is_met);
             assert!(!is_met || found.greatest_n_m_s()[1] <= LIMIT_N_M_S);
+            // No dump leads there.
+            assert!(found.dumps.is_empty() && found.exceeded.is_none());
         }
     }
 }

@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use super::*;
 use crate::momentum::{
     test_spacecraft::{DAY_S, simulated, sunlit, task},
-    torque::Attitude,
-    windows::Reach,
+    torque::{Attitude, Control},
+    windows::{Reach, WindowKind},
 };
 
 /// Simulates windows with the alternate attitude as it is timed, in steps of ten minutes, and one more torque.

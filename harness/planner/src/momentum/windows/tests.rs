@@ -29,6 +29,26 @@ fn windows_follow_one_another() {
     assert_eq!([windows[2].start_s, windows[2].stop_s], [5.0 * DAY_S, 7.25 * DAY_S]);
 }
 
+/// The arrays may stay where they are, however far off the baseline; tilts are kept within their reach.
+#[test]
+fn free_windows_begin_with_the_plan_in_force() {
+    let sunlit = sunlit([0.0; 3]);
+    let mut layout = layout();
+    layout.reach.offset_rad = 0.05;
+    let present = Controls([0.2, 0.01, 0.05, 0.3, 0.0]);
+    layout.in_force = vec![InForce { at_s: 0.0, controls: present }];
+    let (windows, steps) = layout.windows(&sunlit, &simulated(&sunlit, 20, 0.4)).unwrap();
+    let baseline_rad = steps[0].offset_rad;
+    assert!(baseline_rad > 0.3, "{baseline_rad}");
+    let controls = |kind| windows.iter().filter(move |it| it.kind == kind).map(|it| it.controls.0);
+    assert!(controls(WindowKind::Free).all(|it| it == [0.2, 0.01, 0.05, REACH.elevation_rad, 0.0]));
+    assert!(controls(WindowKind::Planned).all(|it| it == [baseline_rad, 0.0, 0.0, 0.0, 0.0]));
+    assert_eq!(windows[1].bounds[Control::Offset as usize], [0.2, baseline_rad + 0.05]);
+    layout.reach.offset_rad = 0.0;
+    let (kept, _) = layout.windows(&sunlit, &simulated(&sunlit, 20, 0.4)).unwrap();
+    assert_eq!(kept[1].controls.get(Control::Offset), baseline_rad);
+}
+
 #[test]
 fn alternation_has_its_share_outside_of_contacts() {
     let sunlit = sunlit([0.0; 3]);
