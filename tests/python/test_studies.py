@@ -10,6 +10,7 @@ from studies import study, table
 
 NAMES = [
     "control/slew", "control/safe-mode", "control/transition", "control/dump", "control/jitter",
+    "earth/torques", "earth/day",
     "flyby/table1", "flyby/table2", "flyby/table3", "flyby/figure3", "flyby/figure4", "flyby/figure5", "flyby/figure6", "flyby/figure7",
     "flyby/figure8", "flyby/figure9",
     "momentum/tables", "momentum/table2", "momentum/table3", "momentum/table4", "momentum/table5", "momentum/figure4", "momentum/figure5",
