@@ -71,6 +71,19 @@ pub struct Equator {
     pub rate_rad_s: f64,
 }
 
+impl Equator {
+    /// Components along the planet's axes of a vector in EME2000, `elapsed_s` later; the equator stands still.
+    pub fn fixed_from_eme2000_after(&self, elapsed_s: f64) -> Rotation3<f64> {
+        let turned_rad = self.turned_rad + self.rate_rad_s * elapsed_s;
+        Rotation3::from_matrix_unchecked(rotation_z(-turned_rad) * self.equator_from_eme2000)
+    }
+
+    /// Angular velocity, EME2000, in rad/s.
+    pub fn rotation_rad_s_eme2000(&self) -> Vector3<f64> {
+        self.equator_from_eme2000.row(2).transpose() * self.rate_rad_s
+    }
+}
+
 impl Orientation {
     /// Evenly, as a body's row or file says.
     pub fn uniform(body: &BodyData) -> Self {
@@ -104,8 +117,7 @@ impl Orientation {
 
     /// Components along the planet's axes of a vector in EME2000.
     pub fn fixed_from_eme2000(&self, epoch_s: f64) -> Rotation3<f64> {
-        let Equator { equator_from_eme2000, turned_rad, .. } = self.equator(epoch_s);
-        Rotation3::from_matrix_unchecked(rotation_z(-turned_rad) * equator_from_eme2000)
+        self.equator(epoch_s).fixed_from_eme2000_after(0.0)
     }
 
     /// Unit vector to the north pole, EME2000.
@@ -115,8 +127,7 @@ impl Orientation {
 
     /// Angular velocity, EME2000, in rad/s.
     pub fn rotation_rad_s_eme2000(&self, epoch_s: f64) -> Vector3<f64> {
-        let Equator { equator_from_eme2000, rate_rad_s, .. } = self.equator(epoch_s);
-        equator_from_eme2000.row(2).transpose() * rate_rad_s
+        self.equator(epoch_s).rotation_rad_s_eme2000()
     }
 }
 

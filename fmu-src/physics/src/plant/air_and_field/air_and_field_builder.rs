@@ -5,6 +5,7 @@ use nalgebra::{SVector, Vector3};
 use super::air_and_field_segment::{AirAndFieldSegment, NODES, Series};
 use crate::environment::CartesianState;
 use crate::environment::atmosphere::{Air, BREAKS, next_midnight_s};
+use crate::environment::orientation::Equator;
 use crate::math;
 use crate::momentum::after_event_s;
 use crate::numerics::adaptive::AdaptiveInterval;
@@ -24,9 +25,14 @@ const SHORTEST_S: f64 = 1.0;
 const AIR_UNITS: u32 = 15;
 const FIELD_UNITS: u32 = 3;
 
-/// What is fitted: air, its velocity, field.
+/// An orbit that is computed anew within this share of `atmosphere.tolerance` times a scale height of the air, in m, leaves the fit
+/// as it is.
+const SCALE_M: f64 = 5e3;
+
+/// What is fitted: place, air, its velocity, field.
 #[derive(Clone, Copy)]
 struct Node {
+    position_m: Vector3<f64>,
     air: Vector3<f64>,
     air_velocity_m_s: Vector3<f64>,
     field_t: Vector3<f64>,
@@ -37,6 +43,8 @@ pub(crate) struct AirAndFieldBuilder<'r, 'a> {
     pub settings: AirAndFieldSettings,
     pub figure: PlanetFigure,
     pub kinematics: &'r mut Kinematics<'a>,
+    /// Whether the orbit has been computed anew, with all that pushes it.
+    pub orbit_is_anew: bool,
 }
 
 impl AirAndFieldBuilder<'_, '_> {
@@ -50,10 +58,21 @@ impl AirAndFieldBuilder<'_, '_> {
         start_s: f64,
         limit_s: f64,
     ) -> Result<f64, PlantError> {
-        if !(segment.start_s <= start_s && start_s < segment.end_s) {
+        let is_known = segment.start_s <= start_s && start_s < segment.end_s;
+        if !is_known || (self.orbit_is_anew && self.has_moved(segment, limit_s)) {
             self.build(segment, start_s, limit_s)?;
         }
         Ok(segment.end_s.min(limit_s))
+    }
+
+    /// Whether the orbit, known up to `limit_s`, is no longer the one that the segment was fitted on.
+    fn has_moved(&mut self, segment: &AirAndFieldSegment, limit_s: f64) -> bool {
+        let last_s = segment.end_s.min(limit_s);
+        let allowed_m = self.settings.tolerance * SCALE_M;
+        segment.position.as_ref().is_none_or(|fitted| {
+            let off_m = self.kinematics.about_planet(last_s).position_m - fitted.value(last_s);
+            off_m.norm() > allowed_m
+        })
     }
 
     fn build(
@@ -124,12 +143,14 @@ impl AirAndFieldBuilder<'_, '_> {
 
     /// The series over an interval, and their greatest last term relative to the tolerance's measure.
     fn fit(&mut self, start_s: f64, end_s: f64) -> Result<(AirAndFieldSegment, f64), PlantError> {
-        let mut nodes =
-            [Node { air: Vector3::zeros(), air_velocity_m_s: Vector3::zeros(), field_t: Vector3::zeros() };
-                NODES];
+        // Within a segment the equator moves by 1e-3 arcsec.
+        let start_epoch_s = start_s + self.kinematics.configuration.epoch_minus_time_s;
+        let equator = self.figure.orientation.equator(start_epoch_s);
+        let [position_m, air, air_velocity_m_s, field_t] = [Vector3::zeros(); 4];
+        let mut nodes = [Node { position_m, air, air_velocity_m_s, field_t }; NODES];
         let mut has_air = true;
         for (node, at_s) in nodes.iter_mut().zip(Series::nodes(start_s, end_s)) {
-            *node = self.node(at_s)?;
+            *node = self.node(&equator, at_s - start_s, at_s)?;
             has_air &= node.air[0].is_finite();
         }
         let series = |of: fn(&Node) -> Vector3<f64>| {
@@ -138,6 +159,7 @@ impl AirAndFieldBuilder<'_, '_> {
         let AirAndFieldSettings { air, field, .. } = &self.settings;
         let by_model = matches!(air, Some(it) if matches!(it.source, AirSource::Model(_)));
         let fitted = AirAndFieldSegment {
+            position: Some(series(|node| node.position_m)),
             air: (by_model && has_air).then(|| series(|node| node.air)),
             air_velocity: air.is_some().then(|| series(|node| node.air_velocity_m_s)),
             field: matches!(field, Some(FieldSource::Model(_))).then(|| series(|node| node.field_t)),
@@ -157,11 +179,10 @@ impl AirAndFieldBuilder<'_, '_> {
         Ok((fitted, of_air.max(of_velocity).max(of_field)))
     }
 
-    fn node(&mut self, time_s: f64) -> Result<Node, PlantError> {
+    fn node(&mut self, equator: &Equator, elapsed_s: f64, time_s: f64) -> Result<Node, PlantError> {
         let epoch_s = time_s + self.kinematics.configuration.epoch_minus_time_s;
         let CartesianState { position_m, .. } = self.kinematics.about_planet(time_s);
-        let orientation = &self.figure.orientation;
-        let fixed_from_inertial = orientation.fixed_from_eme2000(epoch_s);
+        let fixed_from_inertial = equator.fixed_from_eme2000_after(elapsed_s);
         let position_fixed_m = fixed_from_inertial * position_m;
         let (mut air, mut air_velocity_m_s) = (Vector3::zeros(), Vector3::zeros());
         if let Some(settings) = &self.settings.air {
@@ -173,7 +194,7 @@ impl AirAndFieldBuilder<'_, '_> {
                 let logarithm = if density_kg_m3 > 0.0 { math::ln(density_kg_m3) } else { f64::NEG_INFINITY };
                 air = Vector3::new(logarithm, temperature_k, molar_mass_kg_mol);
             }
-            air_velocity_m_s = orientation.rotation_rad_s_eme2000(epoch_s).cross(&position_m);
+            air_velocity_m_s = equator.rotation_rad_s_eme2000().cross(&position_m);
             if settings.wind_m_s != Vector3::zeros() {
                 air_velocity_m_s +=
                     fixed_from_inertial.inverse() * (geodetic.east_north_up() * settings.wind_m_s);
@@ -187,7 +208,7 @@ impl AirAndFieldBuilder<'_, '_> {
             }
             _ => Vector3::zeros(),
         };
-        Ok(Node { air, air_velocity_m_s, field_t })
+        Ok(Node { position_m, air, air_velocity_m_s, field_t })
     }
 }
 

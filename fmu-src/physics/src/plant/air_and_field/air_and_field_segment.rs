@@ -48,6 +48,8 @@ pub struct AirAndFieldSegment {
     /// Length the tolerance will probably allow the next segment, in s.
     #[serde(with = "or_infinite")]
     pub(crate) next_longest_s: f64,
+    /// Where the spacecraft was taken to be about the planet, EME2000, in m; absent before the first segment.
+    pub(crate) position: Option<Series>,
     /// Logarithm of the density in kg/m3, temperature in K, molar mass in kg/mol; absent where a model has no air.
     pub(crate) air: Option<Series>,
     /// Velocity of the air, EME2000, in m/s.
@@ -63,6 +65,7 @@ impl Default for AirAndFieldSegment {
             start_s: f64::INFINITY,
             end_s: f64::NEG_INFINITY,
             next_longest_s: f64::INFINITY,
+            position: None,
             air: None,
             air_velocity: None,
             field: None,
@@ -75,7 +78,7 @@ impl AirAndFieldSegment {
     pub(crate) fn is_valid(&self) -> bool {
         let is_before = self.is_before();
         let (start_s, end_s) = (self.start_s, self.end_s.max(self.start_s));
-        let series = [&self.air, &self.air_velocity, &self.field];
+        let series = [&self.position, &self.air, &self.air_velocity, &self.field];
         let largest = |it: &Series| it.coefficients().row(0).iter().map(|c| c.abs()).sum::<f64>();
         (is_before || start_s.is_finite() && self.end_s.is_finite())
             && self.next_longest_s > 0.0

@@ -297,16 +297,27 @@ impl<'a> Plant<'a> {
     }
 
     /// Makes sure that light, heat, air and magnetic field are known from `start_s` on, and tells up to where, at most `limit_s`.
-    fn extend_disturbances(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
-        let known_s = self.extend_air_and_field(start_s, limit_s)?;
+    fn extend_disturbances(
+        &mut self,
+        start_s: f64,
+        limit_s: f64,
+        orbit_is_anew: bool,
+    ) -> Result<f64, PlantError> {
+        let known_s = self.extend_air_and_field(start_s, limit_s, orbit_is_anew)?;
         Ok(self.extend_radiation(start_s, limit_s)?.min(known_s))
     }
 
     /// Makes sure that air and magnetic field are known likewise.
-    fn extend_air_and_field(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
+    fn extend_air_and_field(
+        &mut self,
+        start_s: f64,
+        limit_s: f64,
+        orbit_is_anew: bool,
+    ) -> Result<f64, PlantError> {
         let Configuration { air_and_field, figure, .. } = self.kinematics.configuration;
         let Some((settings, figure)) = air_and_field.zip(*figure) else { return Ok(limit_s) };
-        let mut builder = AirAndFieldBuilder { settings, figure, kinematics: &mut self.kinematics };
+        let mut builder =
+            AirAndFieldBuilder { settings, figure, kinematics: &mut self.kinematics, orbit_is_anew };
         builder.extend(self.air_and_field, start_s, limit_s)
     }
 
@@ -335,7 +346,7 @@ impl<'a> Plant<'a> {
     /// What ends a flight.
     pub(crate) fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
         if self.kinematics.trajectory.end_s() > start_s {
-            return self.extend_disturbances(start_s, self.kinematics.trajectory.end_s());
+            return self.extend_disturbances(start_s, self.kinematics.trajectory.end_s(), false);
         }
         // Two integrations of some 40 evaluations, and the search for changes in between.
         self.kinematics.spend_units(Cost::Orbit, 60, start_s)?;
@@ -343,7 +354,7 @@ impl<'a> Plant<'a> {
         let before = *self.kinematics.trajectory;
         self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
         if self.kinematics.configuration.motion.is_pushed() {
-            let lit_s = self.extend_disturbances(start_s, self.kinematics.trajectory.end_s())?;
+            let lit_s = self.extend_disturbances(start_s, self.kinematics.trajectory.end_s(), false)?;
             let mut end_s = self.kinematics.smooth_until(start_s, lit_s);
             let acceleration_m_s2 = loop {
                 let fitted = Segment::<3, NODES>::fit(start_s, end_s, |at_s| {
@@ -358,13 +369,11 @@ impl<'a> Plant<'a> {
             let predicted = core::mem::replace(self.kinematics.trajectory, before);
             self.kinematics.trajectory.take_passages(&predicted, end_s);
             self.integrate(end_s, |at_s| acceleration_m_s2.value(at_s))?;
-            // The air pushes it by more than light does: it is that where the spacecraft really is.
-            self.air_and_field.cut(start_s);
         }
         let end_s = self.kinematics.trajectory.end_s();
         // Written so that a NaN is stuck too.
         if end_s > start_s {
-            self.extend_disturbances(start_s, end_s)
+            self.extend_disturbances(start_s, end_s, true)
         } else {
             Err(PlantError::Stuck { start_s, end_s })
         }

@@ -88,9 +88,6 @@ impl PropagatorState {
         let orbit_changes = configuration.motion.is_pushed();
         let taken_m_s = if orbit_changes { *jump_m_s } else { Vector3::zeros() };
         self.trajectory.cut(configuration, time_s, &taken_m_s);
-        if orbit_changes {
-            self.air_and_field.cut(time_s);
-        }
         if let Some(light) = self.light.as_mut().filter(|_| light_changes || orbit_changes) {
             light.cut(time_s);
         }
