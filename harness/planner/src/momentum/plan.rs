@@ -260,7 +260,7 @@ pub(super) fn refine(
             }
         }
     }
-    Ok(is_kept(model))
+    Ok(model.excess_n_m_s().0 <= 0.0)
 }
 
 /// What was counted in an earlier round.
@@ -268,10 +268,6 @@ struct Structure {
     groups: Groups,
     dumps_at_least: usize,
     exceeded: Option<Exceeded>,
-}
-
-fn is_kept(model: &Model) -> bool {
-    model.excess_n_m_s().0 <= 0.0
 }
 
 /// Counts dumps and changes about the model.
@@ -317,17 +313,7 @@ fn structure(
     simulates.progress("changes");
     let until = Instant::now() + Duration::from_secs_f64(task.budget_s.clamp(0.0, 1e6));
     let groups = counted::fewest_changes(model, GUARD, until, &mut || simulates.progress("changes"));
-    let mut groups =
-        groups.unwrap_or_else(|| Groups { changes: single.len() - 1, at_least: 0, leaders: single.clone() });
-    if is_kept(model) && groups.leaders != single {
-        // What is linear says how few changes do; where they do not, every window has its own.
-        let mut grouped = model.clone();
-        if refine(&mut grouped, sunlit, &groups.leaders, (goal, WHOLE), simulates)? {
-            *model = grouped;
-        } else {
-            groups = Groups { changes: single.len() - 1, leaders: single, ..groups };
-        }
-    }
+    let groups = groups.unwrap_or_else(|| Groups { changes: single.len() - 1, at_least: 0, leaders: single });
     Ok(Structure { groups, dumps_at_least, exceeded })
 }
 
