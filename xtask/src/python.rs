@@ -9,7 +9,7 @@ pub(crate) fn interpreter() -> Result<PathBuf, String> {
     environment("python", &root().join("tests/python/requirements.txt"))
 }
 
-/// Python interpreter with Basilisk, which the benchmarks alone need; it wants other packages than the tests do.
+/// Python interpreter with Basilisk, which the benchmarks alone need; its packages conflict with the tests'.
 pub(crate) fn basilisk() -> Result<PathBuf, String> {
     environment("basilisk", &root().join("tests/python/basilisk-requirements.txt"))
 }

@@ -119,17 +119,17 @@ choices! {
     Reemission(aerodynamics::Reemission);
 }
 
-/// How a planet turns.
+/// Rotation model of a planet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 pub enum PlanetOrientation {
-    /// Evenly about a pole that stands still.
+    /// Constant rotation rate about a fixed pole.
     Uniform = 1,
     /// The Earth by the IAU: precession of 2006, nutation to 1 arcsec, Earth rotation angle.
     Iau = 2,
 }
 
 impl PlanetOrientation {
-    /// That of a body unless somebody says otherwise.
+    /// Default of a body.
     pub fn of(body: Body) -> Self {
         if body == Body::Earth { Self::Iau } else { Self::Uniform }
     }

@@ -109,8 +109,7 @@ pub struct LawVariables {
 }
 
 impl LawVariables {
-    /// What the laws go by about a planet with this gravitational parameter, J2 and radius to which that refers, as `read` reads
-    /// them.
+    /// Parameters of the laws about a planet with this gravitational parameter, J2 and its reference radius, each read by `read`.
     pub fn read<T: Scalar>(
         &self,
         values: &Values,

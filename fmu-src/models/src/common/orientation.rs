@@ -1,4 +1,4 @@
-//! How a planet turns, as parameters say.
+//! Rotation model of a planet from its parameters.
 
 use fmi_export::{Choice, Failure, Given, Real, Values, Variables};
 use physics::bodies::{Body, BodyData};
@@ -17,8 +17,8 @@ pub struct RotationVariables {
     /// Rotation rate.
     #[parameter(unit = "rad/s", display = "deg/s", min = -1.0, max = 1.0, start = setup.data.rotation_rate_rad_s)]
     pub rotation_rate: Real,
-    /// How the planet turns: iau is the Earth's, by default, and the pole, prime meridian and rotation rate given here do not count
-    /// in it; other planets turn uniformly.
+    /// Rotation model: iau, the Earth's default and the Earth's alone, uses neither pole nor prime meridian nor rotation rate given
+    /// here; other planets rotate uniformly.
     #[parameter(start = PlanetOrientation::of(setup.data.body))]
     pub orientation: Choice<PlanetOrientation>,
 }
@@ -35,7 +35,7 @@ impl RotationVariables {
 }
 
 impl PlanetOrientation {
-    /// How a body turns whose `planet.*` are these, UT1 being so many seconds ahead of UTC.
+    /// Rotation of the body with these parameters and this UT1 - UTC in s.
     ///
     /// # Errors
     /// The Earth's orientation requested of another body.

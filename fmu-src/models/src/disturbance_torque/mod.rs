@@ -123,7 +123,7 @@ impl Model for DisturbanceTorque {
             if state.said_unset {
                 context.log.warning(&format!(
                     "inputs that are all zero count as not set yet: {}; without a Sun nothing acts, without a planet none of its light \
-                     and gravity does (planet.present = false says that there is none)",
+                     and gravity does (planet.present = false: there is none)",
                     unset.join(", ")
                 ));
             }

@@ -125,8 +125,8 @@ pub struct PlanetVariables {
     /// Radius to which planet.j2 refers.
     #[parameter(unit = "m", display = "km", min = 1.0, max = 1e9, start = setup.center.data.j2_radius_m)]
     pub j2_radius: Real,
-    /// North of the planet in the body frame, of any length; -Z as paper 004 flies: of its cells, and of the flattening of its
-    /// gravity. Without effect on rings.
+    /// North of the planet in the body frame, of any length; -Z in the attitude of paper 004. For its cells, and for the flattening of
+    /// its gravity. Without effect on rings.
     #[input(unit = "1", start = [0.0, 0.0, -1.0])]
     pub pole: RealVector<3>,
     #[group(name = "", setup = &setup.center)]

@@ -1,7 +1,7 @@
-//! Air that flows past the spacecraft, and what a face receives of it.
+//! Free molecular flow about the spacecraft: incident mass and momentum flux on a face.
 //!
-//! Equation: of a Maxwellian gas of density rho and most probable speed c = sqrt(2 R T / M) that drifts, a face with the normal n
-//! that moves at V through it meets, with x = n.V / c, mass and normal momentum (per area and time)
+//! Equation: on a face with the normal n that moves at V through a Maxwellian gas of density rho and most probable speed
+//! c = sqrt(2 R T / M), the incident mass and normal momentum (per area and time) are, with x = n.V / c,
 //! rho c / (2 sqrt(pi)) [e^(-x^2) + sqrt(pi) x (1 + erf x)] and
 //! rho c^2 / (2 sqrt(pi)) [x e^(-x^2) + sqrt(pi) (1/2 + x^2) (1 + erf x)]; tangential momentum is mass times tangential velocity.
 //! Method: the brackets are sqrt(pi) i1(-x) and 2 sqrt(pi) i2(-x), repeated integrals of erfc, which keep their digits on faces that
@@ -31,12 +31,12 @@ pub struct AirFlow<T: Scalar> {
 }
 
 impl<T: Scalar> AirFlow<T> {
-    /// Whether there is no air, and none for another value of the seed.
+    /// Whether the density is zero, its derivative included.
     pub(super) fn is_vacuum(&self) -> bool {
         self.density_kg_m3.same(T::constant(0.0))
     }
 
-    /// Unit vector the flow comes from; none at rest.
+    /// Unit vector against the flow; `None` at rest.
     pub(super) fn upstream(&self) -> Option<Vector3<T>> {
         let speed_m_s = self.velocity_body_m_s.dot(&self.velocity_body_m_s).sqrt();
         (speed_m_s.value() > 0.0).then(|| self.velocity_body_m_s / speed_m_s)
@@ -48,7 +48,7 @@ impl<T: Scalar> AirFlow<T> {
     }
 }
 
-/// What a face receives of the flow, per area.
+/// Incident flux on a face, per area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct IncidentFlow<T: Scalar> {
     /// Mass, in kg/m2/s.
@@ -58,7 +58,7 @@ pub(super) struct IncidentFlow<T: Scalar> {
 }
 
 impl<T: Scalar> IncidentFlow<T> {
-    /// On a face that moves toward the gas at this speed along its outward normal; `thermal_m_s` is the most probable speed.
+    /// Flux on a face with this velocity along its outward normal; `thermal_m_s` is the most probable speed.
     pub(super) fn new(density_kg_m3: T, thermal_m_s: T, normal_m_s: T) -> Self {
         let speed_ratio = normal_m_s / thermal_m_s;
         let root = PI.sqrt();

@@ -1,13 +1,13 @@
-//! Laws of gas on a surface: drag coefficient, Sentman, Schaaf and Chambre.
+//! Gas-surface interaction laws: drag coefficient, Sentman, Schaaf and Chambre.
 //!
-//! Equation: with p and m the received normal momentum and mass (per area and time, [`super::flow`]), V the velocity through the
-//! air, V_t its part along the face, and q(T) = m sqrt(pi) / 2 sqrt(2 R T / M) the pressure of the same mass sent out as a gas at
-//! rest of temperature T:
+//! Equation: with p and m the incident normal momentum and mass (per area and time, [`super::flow`]), V the velocity relative to
+//! the air, V_t its tangential part, and q(T) = m sqrt(pi) / 2 sqrt(2 R T / M) the pressure of the same mass re-emitted diffusely
+//! at the temperature T:
 //! dragCoefficient: F/A = -1/2 rho C_D (n.V) V where n.V > 0;
-//! sentman: F/A = -[p + q(T_r)] n - m V_t, all molecules sent out diffusely with T_r = (1 - alpha) T_i + alpha T_w;
+//! sentman: F/A = -[p + q(T_r)] n - m V_t, all molecules re-emitted diffusely with T_r = (1 - alpha) T_i + alpha T_w;
 //! schaafChambre: F/A = -[(2 - sigma_n) p + sigma_n q(T_w)] n - sigma_t m V_t.
-//! The incident energy as a temperature is T_i = M V^2 / (4 R) where it is set against the mean energy 2 k T of molecules that
-//! effuse (effusive), or M V^2 / (3 R) against the mean 3/2 k T in a gas at rest (moe).
+//! The temperature equivalent to the incident energy is T_i = M V^2 / (4 R) by the mean energy 2 k T of effusing molecules
+//! (effusive), or M V^2 / (3 R) by the mean 3/2 k T in a gas at rest (moe).
 //! Reference: Sentman, LMSC-448514, 1961; Schaaf and Chambre, Flow of Rarefied Gases, 1961, section 8; Koppenwallner, Satellite
 //! aerodynamics and determination of thermospheric density and wind, RGD 26, 2009, and Doornbos, Thermospheric density and wind
 //! determination from satellite dynamics, 2011, section 3.3 (effusive); Moe and Moe, Gas-surface interactions and satellite drag
@@ -28,9 +28,9 @@ enumeration! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(rename_all = "camelCase")]
     pub enum AerodynamicLaw {
-        /// Along the flow, by the area across it and the material's drag coefficient.
+        /// Drag along the flow, by projected area and the material's drag coefficient.
         1 => DragCoefficient,
-        /// Molecules sent out diffusely at a temperature by the material's energy accommodation.
+        /// Diffuse re-emission at a temperature by the material's energy accommodation.
         2 => Sentman,
         /// Normal and tangential momentum by the material's accommodation of each.
         3 => SchaafChambre,
@@ -38,7 +38,7 @@ enumeration! {
 }
 
 enumeration! {
-    /// Temperature that stands for the energy of incident molecules in the law sentman.
+    /// Temperature equivalent to the energy of incident molecules in the law sentman.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
     #[serde(rename_all = "camelCase")]
     pub enum Reemission {
@@ -57,7 +57,7 @@ fn incident_divisor(reemission: Reemission) -> f64 {
     }
 }
 
-/// A law at one flow: what all faces share.
+/// A law in one flow, common to all faces.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LawAtFlow<'a, T: Scalar> {
     law: AerodynamicLaw,
@@ -81,13 +81,13 @@ impl<'a, T: Scalar> LawAtFlow<'a, T> {
         Self { law, flow, thermal_m_s, incident_m2_s2 }
     }
 
-    /// What a face receives that moves toward the gas at this speed along its normal.
-    pub(super) fn received(&self, normal_m_s: T) -> IncidentFlow<T> {
+    /// Incident flux on a face with this velocity along its outward normal.
+    pub(super) fn incident(&self, normal_m_s: T) -> IncidentFlow<T> {
         match self.law {
             AerodynamicLaw::DragCoefficient => {
-                let met_m_s = if normal_m_s.value() > 0.0 { normal_m_s } else { T::constant(0.0) };
-                let mass_flux_kg_m2_s = self.flow.density_kg_m3 * met_m_s;
-                IncidentFlow { mass_flux_kg_m2_s, pressure_pa: mass_flux_kg_m2_s * met_m_s }
+                let incident_m_s = if normal_m_s.value() > 0.0 { normal_m_s } else { T::constant(0.0) };
+                let mass_flux_kg_m2_s = self.flow.density_kg_m3 * incident_m_s;
+                IncidentFlow { mass_flux_kg_m2_s, pressure_pa: mass_flux_kg_m2_s * incident_m_s }
             }
             AerodynamicLaw::Sentman | AerodynamicLaw::SchaafChambre => {
                 IncidentFlow::new(self.flow.density_kg_m3, self.thermal_m_s, normal_m_s)
@@ -95,16 +95,16 @@ impl<'a, T: Scalar> LawAtFlow<'a, T> {
         }
     }
 
-    /// Force per area on a face of this outward normal that receives so much, in Pa; `wall_temperature_k` is the face's own.
+    /// Force per area in Pa on a face of this outward normal and wall temperature under this incident flux.
     pub(super) fn force_per_area_pa(
         &self,
         surface: &GasSurface,
         wall_temperature_k: T,
         normal_body: &Vector3<T>,
-        received: &IncidentFlow<T>,
+        incident: &IncidentFlow<T>,
     ) -> Vector3<T> {
         let velocity = &self.flow.velocity_body_m_s;
-        let mass = received.mass_flux_kg_m2_s;
+        let mass = incident.mass_flux_kg_m2_s;
         let wall_m2_s2 = self.flow.speed_squared(wall_temperature_k);
         let (pressure_pa, along) = match self.law {
             AerodynamicLaw::DragCoefficient => {
@@ -112,13 +112,13 @@ impl<'a, T: Scalar> LawAtFlow<'a, T> {
             }
             AerodynamicLaw::Sentman => {
                 let alpha = surface.energy_accommodation;
-                let sent_m2_s2 = self.incident_m2_s2 * (1.0 - alpha) + wall_m2_s2 * alpha;
-                (received.pressure_pa + sent_pressure_pa(mass, sent_m2_s2), mass)
+                let reemitted_m2_s2 = self.incident_m2_s2 * (1.0 - alpha) + wall_m2_s2 * alpha;
+                (incident.pressure_pa + reemitted_pressure_pa(mass, reemitted_m2_s2), mass)
             }
             AerodynamicLaw::SchaafChambre => {
                 let (normal, tangential) = (surface.normal_accommodation, surface.tangential_accommodation);
-                let sent_pa = sent_pressure_pa(mass, wall_m2_s2) * normal;
-                (received.pressure_pa * (2.0 - normal) + sent_pa, mass * tangential)
+                let reemitted_pa = reemitted_pressure_pa(mass, wall_m2_s2) * normal;
+                (incident.pressure_pa * (2.0 - normal) + reemitted_pa, mass * tangential)
             }
         };
         let normal_m_s = normal_body.dot(velocity);
@@ -126,8 +126,8 @@ impl<'a, T: Scalar> LawAtFlow<'a, T> {
     }
 }
 
-/// Pressure of mass sent out as from a gas at rest with this square of its most probable speed.
-fn sent_pressure_pa<T: Scalar>(mass_flux_kg_m2_s: T, speed_squared: T) -> T {
+/// Pressure of diffusely re-emitted mass with this square of the most probable speed.
+fn reemitted_pressure_pa<T: Scalar>(mass_flux_kg_m2_s: T, speed_squared: T) -> T {
     // The root's slope at no speed is infinite.
     if speed_squared.value() <= 0.0 {
         return T::constant(0.0);

@@ -1,8 +1,8 @@
-//! Air on surfaces in free molecular flow: force and torque of a drifting Maxwellian gas on every face.
+//! Aerodynamic force and torque in free molecular flow of a drifting Maxwellian gas, face by face.
 //!
-//! The air that arrives ([`AirFlow`]), the surface that meets it ([`crate::spacecraft::GasSurface`]) and the law that turns one
-//! into force ([`AerodynamicLaw`]) are separate ideas. Everything is generic over [`crate::numerics::scalar::Scalar`], in the body
-//! frame, SI. Molecules meet the spacecraft once: none that a face sends out meets another face.
+//! The flow ([`AirFlow`]), the surface ([`crate::spacecraft::GasSurface`]) and the law of the force ([`AerodynamicLaw`]) are
+//! separate types. Everything is generic over [`crate::numerics::scalar::Scalar`], in the body
+//! frame, SI. No multiple reflections: re-emitted molecules leave the spacecraft.
 
 mod flow;
 mod law;

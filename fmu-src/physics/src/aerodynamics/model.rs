@@ -1,4 +1,4 @@
-//! A spacecraft prepared for the air; from flow to force and torque.
+//! Aerodynamic model of a spacecraft: force and torque from the flow.
 
 use nalgebra::Vector3;
 
@@ -35,7 +35,7 @@ impl Default for AerodynamicOptions {
     }
 }
 
-/// A spacecraft prepared for the air; whatever does not change is computed once.
+/// Aerodynamic model of a spacecraft, with everything constant computed once.
 #[derive(Clone, Debug)]
 pub struct AerodynamicModel {
     faces: Faces,
@@ -50,13 +50,13 @@ pub struct AerodynamicModel {
 #[derive(Clone, Debug)]
 pub struct AerodynamicWorkspace<T: Scalar> {
     normals: Vec<Vector3<T>>,
-    received: Vec<IncidentFlow<T>>,
+    incident: Vec<IncidentFlow<T>>,
     shadow: ShadowWorkspace<T>,
 }
 
 impl<T: Scalar> Default for AerodynamicWorkspace<T> {
     fn default() -> Self {
-        Self { normals: Vec::new(), received: Vec::new(), shadow: ShadowWorkspace::default() }
+        Self { normals: Vec::new(), incident: Vec::new(), shadow: ShadowWorkspace::default() }
     }
 }
 
@@ -91,10 +91,10 @@ impl AerodynamicModel {
     }
 
     /// Force, and torque about the centre of mass (body frame, m), of this flow with the panels at these angles (from 0 about
-    /// their axes, in rad; one that is not given stands at 0).
+    /// their axes, in rad; 0 for one that is not given).
     ///
     /// `wall_temperature_k` has a temperature for every face, in K, in the order of
-    /// [`crate::radiation::disturbance::DisturbanceModel::face_names`]; without it, and beyond it, the materials' own count.
+    /// [`crate::radiation::disturbance::DisturbanceModel::face_names`]; where it has none, the material's.
     pub fn load<T: Scalar>(
         &self,
         flow: &AirFlow<T>,
@@ -109,9 +109,9 @@ impl AerodynamicModel {
         let law = LawAtFlow::new(self.law, self.reemission, flow);
         workspace.normals.resize(self.faces.normals.len(), Vector3::zeros());
         self.faces.turn_normals(panel_angles_rad, &mut workspace.normals);
-        workspace.received.clear();
+        workspace.incident.clear();
         let speeds_m_s = workspace.normals.iter().map(|normal| normal.dot(&flow.velocity_body_m_s));
-        workspace.received.extend(speeds_m_s.map(|normal_m_s| law.received(normal_m_s)));
+        workspace.incident.extend(speeds_m_s.map(|normal_m_s| law.incident(normal_m_s)));
         let upstream = self.scene.as_ref().zip(flow.upstream());
         let has_shadows = upstream.is_some();
         if let Some((scene, upstream)) = upstream {
@@ -124,21 +124,21 @@ impl AerodynamicModel {
             let normal = &workspace.normals[face.normal];
             let own_k = T::constant(face.gas_surface.wall_temperature_k);
             let wall_k = wall_temperature_k.and_then(|all| all.get(index).copied()).unwrap_or(own_k);
-            let pressure = |received: &IncidentFlow<T>| {
-                law.force_per_area_pa(&face.gas_surface, wall_k, normal, received)
+            let pressure = |incident: &IncidentFlow<T>| {
+                law.force_per_area_pa(&face.gas_surface, wall_k, normal, incident)
             };
             let whole_m2 = T::constant(surface.area_m2);
             let center_m = constant_vector::<T>(&surface.center_body_m);
-            let open_pa = pressure(&workspace.received[face.normal]);
+            let open_pa = pressure(&workspace.incident[face.normal]);
             let normal_m_s = normal.dot(&flow.velocity_body_m_s);
             let outline = surface.outline.filter(|_| has_shadows && normal_m_s.value() > 0.0);
             let Some((open_m2, open_center_m)) = outline.and_then(|o| workspace.shadow.lit(o)) else {
                 sum += ForceTorque::at_arm(&center_m, open_pa * whole_m2);
                 continue;
             };
-            // Shadowed, a face receives what one receives that looks as far away from the flow as this one toward it: thermal
-            // motion alone, which vanishes head on and joins the open part's without a step where the face is along the flow.
-            let shadowed_pa = pressure(&law.received(-normal_m_s));
+            // The shadowed part has the incident flux of a face at the opposite angle to the flow: of thermal motion alone. It
+            // vanishes at normal incidence and is continuous with the open part's at grazing incidence.
+            let shadowed_pa = pressure(&law.incident(-normal_m_s));
             let open_moment = open_center_m * open_m2;
             let shadowed_moment = center_m * whole_m2 - open_moment;
             sum += ForceTorque {

@@ -67,6 +67,12 @@ pub fn rotation_x(angle_rad: f64) -> Matrix3<f64> {
     Matrix3::new(1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c)
 }
 
+/// Turns a vector by `angle_rad` about y.
+pub fn rotation_y(angle_rad: f64) -> Matrix3<f64> {
+    let (s, c) = math::sin_cos(angle_rad);
+    Matrix3::new(c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c)
+}
+
 /// Turns a vector by `angle_rad` about z.
 pub fn rotation_z(angle_rad: f64) -> Matrix3<f64> {
     let (s, c) = math::sin_cos(angle_rad);

@@ -2,17 +2,17 @@
 //!
 //! Equation: tan(latitude) = (z + e'^2 b sin^3(u)) / (p - e^2 a cos^3(u)), tan(u) = (1 - f) tan(latitude); height =
 //! p cos(latitude) + z sin(latitude) - a sqrt(1 - e^2 sin^2(latitude)).
-//! Method: Bowring's iteration for the reduced latitude u by its sine and cosine, so that the pole is no exception.
+//! Method: Bowring's iteration for the reduced latitude u by its sine and cosine, so that the pole is regular.
 //! Order: cubic convergence in e^2.
-//! Error measure: two turns that agree to rounding, or six; rounding from bodies half as high as wide to such as are long.
+//! Error measure: two iterates that agree to rounding, or six of them; at rounding for flattenings from -0.3 to 0.5.
 //! Reference: Bowring, The accuracy of geodetic latitude and height equations, Survey Review 28, 1985.
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::math;
 
-/// Turns of the iteration; on the Earth two do.
-const TURNS: usize = 6;
+/// Largest number of iterations; two suffice on the Earth.
+const ITERATIONS: usize = 6;
 
 /// An ellipsoid of revolution.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +23,7 @@ pub struct Ellipsoid {
     pub flattening: f64,
 }
 
-/// A place over an ellipsoid.
+/// Geodetic coordinates on an ellipsoid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Geodetic {
     /// Latitude of the normal, in rad.
@@ -35,7 +35,7 @@ pub struct Geodetic {
 }
 
 impl Ellipsoid {
-    /// The place of a position from the centre along the planet's axes, in m.
+    /// Geodetic coordinates of a position in the planet-fixed frame, in m.
     pub fn geodetic(&self, position_fixed_m: &Vector3<f64>) -> Geodetic {
         let [[x, y, z]] = position_fixed_m.data.0;
         let (axial_m, share) = (math::hypot(x, y), 1.0 - self.flattening);
@@ -47,7 +47,7 @@ impl Ellipsoid {
         };
         let mut reduced = unit(z, axial_m * share);
         let mut normal = reduced;
-        for _ in 0..TURNS {
+        for _ in 0..ITERATIONS {
             let [sine, cosine] = reduced;
             normal = unit(
                 z + outer_square * polar_m * sine * sine * sine,
@@ -68,27 +68,23 @@ impl Ellipsoid {
         }
     }
 
-    /// Where a place is from the centre along the planet's axes, in m.
+    /// Position in the planet-fixed frame, in m.
     pub fn position_fixed_m(&self, place: &Geodetic) -> Vector3<f64> {
-        let ([sine, cosine], share) = (sine_and_cosine(place.latitude_rad), 1.0 - self.flattening);
+        let ((sine, cosine), share) = (math::sin_cos(place.latitude_rad), 1.0 - self.flattening);
         let square = self.flattening * (2.0 - self.flattening);
         let across_m = self.equatorial_radius_m / (1.0 - square * sine * sine).sqrt();
-        let [sine_east, cosine_east] = sine_and_cosine(place.longitude_rad);
+        let (sine_east, cosine_east) = math::sin_cos(place.longitude_rad);
         let axial_m = (across_m + place.height_m) * cosine;
         let along_m = (across_m * share * share + place.height_m) * sine;
         Vector3::new(axial_m * cosine_east, axial_m * sine_east, along_m)
     }
 }
 
-fn sine_and_cosine(angle_rad: f64) -> [f64; 2] {
-    math::sin_cos(angle_rad).into()
-}
-
 impl Geodetic {
     /// East, north and up along the planet's axes, as columns.
     pub fn east_north_up(&self) -> Matrix3<f64> {
-        let [sine, cosine] = sine_and_cosine(self.latitude_rad);
-        let [sine_east, cosine_east] = sine_and_cosine(self.longitude_rad);
+        let (sine, cosine) = math::sin_cos(self.latitude_rad);
+        let (sine_east, cosine_east) = math::sin_cos(self.longitude_rad);
         Matrix3::from_columns(&[
             Vector3::new(-sine_east, cosine_east, 0.0),
             Vector3::new(-sine * cosine_east, -sine * sine_east, cosine),

@@ -1,18 +1,18 @@
-//! How a planet turns: evenly about a pole that stands still, or the Earth by the IAU's precession, nutation and rotation angle.
+//! Rotation of a planet: uniform about a fixed pole, or the Earth's by the IAU's precession, nutation and rotation angle.
 //!
 //! Equation: fixed from inertial = Rz(W) E, frame rotations; uniform: E = Rx(90 deg - dec) Rz(90 deg + ra), W = W0 + rate t; the
 //! Earth: E = N P with the precession angles of 2006 and the nutation of its greatest terms, W the apparent sidereal time by the
 //! Earth rotation angle. Without polar motion and the bias of the frame, 0.02 arcsec.
 //! Method: polynomials in time, ten terms of nutation.
-//! Error measure: angle from the whole theory, below 0.1 arcsec from 1950 to 2050.
+//! Error measure: angle from the full theory, below 0.1 arcsec from 1950 to 2050.
 //! Reference: IERS Conventions (2010), chapter 5; Capitaine, Wallace and Chapront 2003, Expressions for IAU 2000 precession
 //! quantities; Mathews, Herring and Buffett 2002 (terms of IAU 2000B).
 
-use core::f64::consts::{FRAC_PI_2, TAU};
+use core::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::frames::{rotation_x, rotation_z};
+use super::frames::{dcm_from_pole, rotation_x, rotation_y, rotation_z};
 use super::utc;
 use crate::bodies::BodyData;
 use crate::constants::{ARCSECOND_RAD, DAY_S};
@@ -20,10 +20,10 @@ use crate::math;
 
 /// Days of a Julian century.
 const CENTURY_D: f64 = 36_525.0;
-/// Rate of the Earth rotation angle, turns a day of UT1.
-const TURNS_A_DAY: f64 = 1.002_737_811_911_354_5;
-/// Its turn at J2000 UT1.
-const TURN_AT_J2000: f64 = 0.779_057_273_264;
+/// Rate of the Earth rotation angle, in revolutions per day of UT1.
+const REVOLUTIONS_A_DAY: f64 = 1.002_737_811_911_354_5;
+/// The angle at J2000 UT1, in revolutions.
+const REVOLUTIONS_AT_J2000: f64 = 0.779_057_273_264;
 
 /// Multiples of the arguments l, l', F, D and node; nutation in longitude by the sine and in obliquity by the cosine, in arcsec.
 const NUTATION: [([f64; 5], f64, f64); 10] = [
@@ -39,10 +39,10 @@ const NUTATION: [([f64; 5], f64, f64); 10] = [
     ([0.0, -1.0, 2.0, -2.0, 2.0], 0.021_582_9, -0.009_592_9),
 ];
 
-/// How a planet turns.
+/// Rotation model of a planet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Orientation {
-    /// Evenly about a pole that stands still.
+    /// Constant rotation rate about a fixed pole.
     Uniform {
         /// Right ascension of the north pole in EME2000, in rad.
         pole_right_ascension_rad: f64,
@@ -53,29 +53,29 @@ pub enum Orientation {
         /// About the north pole, in rad/s.
         rotation_rate_rad_s: f64,
     },
-    /// The Earth, by the IAU.
+    /// The Earth by the IAU's models.
     Iau {
         /// UT1 less UTC, in s.
         ut1_minus_utc_s: f64,
     },
 }
 
-/// A planet's equator at one time, and how the planet is turned in it.
+/// True equator of a planet at one time, and its rotation angle in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Equator {
     /// Components along the equator's axes of a vector in EME2000.
     pub equator_from_eme2000: Matrix3<f64>,
     /// Angle of the prime meridian about the pole, in rad.
-    pub turned_rad: f64,
-    /// How fast that grows, in rad/s.
+    pub rotation_angle_rad: f64,
+    /// Its rate, in rad/s.
     pub rate_rad_s: f64,
 }
 
 impl Equator {
-    /// Components along the planet's axes of a vector in EME2000, `elapsed_s` later; the equator stands still.
+    /// Components along the planet's axes of a vector in EME2000, `elapsed_s` later; the equator is kept.
     pub fn fixed_from_eme2000_after(&self, elapsed_s: f64) -> Rotation3<f64> {
-        let turned_rad = self.turned_rad + self.rate_rad_s * elapsed_s;
-        Rotation3::from_matrix_unchecked(rotation_z(-turned_rad) * self.equator_from_eme2000)
+        let rotation_angle_rad = self.rotation_angle_rad + self.rate_rad_s * elapsed_s;
+        Rotation3::from_matrix_unchecked(rotation_z(-rotation_angle_rad) * self.equator_from_eme2000)
     }
 
     /// Angular velocity, EME2000, in rad/s.
@@ -85,7 +85,7 @@ impl Equator {
 }
 
 impl Orientation {
-    /// Evenly, as a body's row or file says.
+    /// Uniform rotation with a body's pole, prime meridian and rate.
     pub fn uniform(body: &BodyData) -> Self {
         Self::Uniform {
             pole_right_ascension_rad: body.pole_right_ascension_rad,
@@ -95,7 +95,7 @@ impl Orientation {
         }
     }
 
-    /// Equator and turn at an epoch in s past J2000 TDB.
+    /// Equator and rotation angle at an epoch in s past J2000 TDB.
     pub fn equator(&self, epoch_s: f64) -> Equator {
         match *self {
             Self::Uniform {
@@ -103,14 +103,12 @@ impl Orientation {
                 pole_declination_rad,
                 prime_meridian_rad,
                 rotation_rate_rad_s,
-            } => {
-                let node = rotation_z(-(FRAC_PI_2 + pole_right_ascension_rad));
-                Equator {
-                    equator_from_eme2000: rotation_x(-(FRAC_PI_2 - pole_declination_rad)) * node,
-                    turned_rad: (prime_meridian_rad + rotation_rate_rad_s * epoch_s) % TAU,
-                    rate_rad_s: rotation_rate_rad_s,
-                }
-            }
+            } => Equator {
+                equator_from_eme2000: dcm_from_pole(pole_right_ascension_rad, pole_declination_rad)
+                    .transpose(),
+                rotation_angle_rad: (prime_meridian_rad + rotation_rate_rad_s * epoch_s) % TAU,
+                rate_rad_s: rotation_rate_rad_s,
+            },
             Self::Iau { ut1_minus_utc_s } => of_earth(epoch_s, ut1_minus_utc_s),
         }
     }
@@ -145,19 +143,20 @@ fn of_earth(epoch_s: f64, ut1_minus_utc_s: f64) -> Equator {
         polynomial([-2.650_545, 2_306.077_181, 1.092_734_8, 0.018_268_37, -2.859_6e-5, -2.904e-7], centuries);
     let theta =
         polynomial([0.0, 2_004.191_903, -0.429_493_4, -0.041_822_64, -7.089e-6, -1.274e-7], centuries);
-    let precession = rotation_z(arcseconds(z)) * rotation_y(arcseconds(theta)) * rotation_z(arcseconds(zeta));
+    let precession =
+        rotation_z(arcseconds(z)) * rotation_y(arcseconds(-theta)) * rotation_z(arcseconds(zeta));
     let obliquity = arcseconds(polynomial([84_381.406, -46.836_769, -1.831e-4, 2.003_4e-3], centuries));
     let (in_longitude, in_obliquity, node_rad) = nutation_rad(centuries);
     let nutation = rotation_x(obliquity + in_obliquity) * rotation_z(in_longitude) * rotation_x(-obliquity);
     let ut1_d = (utc::utc_s(epoch_s) + ut1_minus_utc_s) / DAY_S;
-    // The whole turns of whole days drop out.
-    let turns = ut1_d.fract() + TURN_AT_J2000 + (TURNS_A_DAY - 1.0) * ut1_d;
+    // Whole revolutions of whole days drop out.
+    let revolutions = ut1_d.fract() + REVOLUTIONS_AT_J2000 + (REVOLUTIONS_A_DAY - 1.0) * ut1_d;
     let accumulated = polynomial([0.014_506, 4_612.156_534, 1.391_581_7, -4.4e-7, -2.995_6e-5], centuries);
     let equinoxes = in_longitude * math::cos(obliquity) + arcseconds(0.002_64) * math::sin(node_rad);
     Equator {
         equator_from_eme2000: nutation * precession,
-        turned_rad: turns.fract() * TAU + arcseconds(accumulated) + equinoxes,
-        rate_rad_s: TURNS_A_DAY * TAU / DAY_S,
+        rotation_angle_rad: revolutions.fract() * TAU + arcseconds(accumulated) + equinoxes,
+        rate_rad_s: REVOLUTIONS_A_DAY * TAU / DAY_S,
     }
 }
 
@@ -182,15 +181,9 @@ fn nutation_rad(centuries: f64) -> (f64, f64, f64) {
     (longitude * ARCSECOND_RAD, obliquity * ARCSECOND_RAD, arguments[4])
 }
 
-/// Components along axes that are turned by an angle about y.
-fn rotation_y(angle_rad: f64) -> Matrix3<f64> {
-    let (sin, cos) = math::sin_cos(angle_rad);
-    Matrix3::new(cos, 0.0, -sin, 0.0, 1.0, 0.0, sin, 0.0, cos)
-}
-
 #[cfg(test)]
 mod tests {
-    //! The Earth against the SOFA library's whole theory; all planets against their own rates.
+    //! The Earth against the SOFA library's full theory; all planets against their own rates.
     use super::*;
     use crate::bodies::Body;
 
@@ -211,18 +204,18 @@ mod tests {
     ];
 
     #[test]
-    fn the_earth_is_turned_as_the_whole_theory_says() {
+    fn the_earth_is_oriented_as_by_the_full_theory() {
         let earth = Orientation::Iau { ut1_minus_utc_s: 0.0 };
         for (epoch_s, rows) in BY_ERFA {
             let found = earth.fixed_from_eme2000(epoch_s);
-            // A small turn by an angle changes three columns by the root of 2 times as much.
+            // A small rotation by an angle changes three columns by the root of 2 times as much.
             let off_rad = (found.matrix() - Matrix3::from_row_slice(&rows)).norm() * 0.5_f64.sqrt();
             assert!(off_rad < 0.1 * ARCSECOND_RAD, "{epoch_s}: {} arcsec", off_rad / ARCSECOND_RAD);
         }
     }
 
     #[test]
-    fn a_second_of_ut1_turns_it_by_fifteen_arc_seconds() {
+    fn a_second_of_ut1_rotates_it_by_fifteen_arc_seconds() {
         let at = |ut1_minus_utc_s: f64| Orientation::Iau { ut1_minus_utc_s }.fixed_from_eme2000(8e8);
         let turned_arcsec = at(1.0).angle_to(&at(0.0)) / ARCSECOND_RAD;
         assert!((turned_arcsec - 15.041).abs() < 1e-3, "{turned_arcsec}");

@@ -10,8 +10,10 @@
 //! Reference: Boyd, Chebyshev and Fourier Spectral Methods, 2.12 (the last coefficient as a measure of truncation);
 //! Press et al., Numerical Recipes, 17.2 (control of a step by the power of its error).
 
-use super::intervals::next_multiple_s;
+use serde::{Deserialize, Serialize};
 
+use super::intervals::next_multiple_s;
+use super::or_infinite;
 use crate::math;
 
 /// Of what the estimate allows, as much is used.
@@ -81,6 +83,56 @@ impl AdaptiveInterval {
         }
         let expected_s = length_s * if growth.is_finite() { growth.clamp(0.5, 4.0) } else { 4.0 };
         Some(if self.shortened { expected_s } else { expected_s.max(self.longest_s) })
+    }
+}
+
+/// Interval of a fitted segment, and the length expected of the next one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SegmentSpan {
+    /// Start, in s.
+    #[serde(with = "or_infinite")]
+    pub start_s: f64,
+    /// End, in s.
+    #[serde(with = "or_infinite")]
+    pub end_s: f64,
+    /// Length the tolerance will probably allow the next segment, in s.
+    #[serde(with = "or_infinite")]
+    pub next_longest_s: f64,
+}
+
+impl SegmentSpan {
+    /// Before the first segment.
+    pub const BEFORE: Self =
+        Self { start_s: f64::INFINITY, end_s: f64::NEG_INFINITY, next_longest_s: f64::INFINITY };
+
+    /// Whether it is the one before the first segment.
+    pub fn is_before(&self) -> bool {
+        self.start_s == f64::INFINITY
+    }
+
+    /// Whether a simulation can produce it.
+    pub fn is_valid(&self) -> bool {
+        (self.is_before() || self.start_s.is_finite() && self.end_s.is_finite()) && self.next_longest_s > 0.0
+    }
+
+    /// Start and end, in s; a segment that was cut before its start has no length.
+    pub fn bounds_s(&self) -> [f64; 2] {
+        [self.start_s, self.end_s.max(self.start_s)]
+    }
+
+    /// Whether the segment is valid from `time_s` on.
+    pub fn contains(&self, time_s: f64) -> bool {
+        self.start_s <= time_s && time_s < self.end_s
+    }
+
+    /// Whether the segment reaches `time_s`, its end included, up to rounding at its start.
+    pub fn covers(&self, time_s: f64) -> bool {
+        self.start_s <= time_s + 8.0 * f64::EPSILON * time_s.abs() && time_s <= self.end_s
+    }
+
+    /// Ends the segment at `time_s` if it is longer.
+    pub fn cut(&mut self, time_s: f64) {
+        self.end_s = self.end_s.min(time_s);
     }
 }
 

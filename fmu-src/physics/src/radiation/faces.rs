@@ -160,7 +160,7 @@ impl Faces {
         Ok(faces)
     }
 
-    /// The distinct normals with the panels at these angles, body frame; a panel without an angle stands at 0.
+    /// The distinct normals with the panels at these angles, body frame; 0 for a panel without an angle.
     pub(crate) fn turn_normals<T: Scalar>(&self, panel_angles_rad: &[T], normals_body: &mut [Vector3<T>]) {
         let turned = |panel: usize| {
             let angle_rad = panel_angles_rad.get(panel).copied().unwrap_or(T::constant(0.0));

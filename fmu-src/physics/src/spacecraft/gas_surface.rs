@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// What a face does with the molecules of the air that meet it; each law of [`crate::aerodynamics`] reads its own part.
+/// Parameters of a face in free molecular flow; each law of [`crate::aerodynamics`] reads its own part.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct GasSurface {
     /// Force along the flow over dynamic pressure and projected area.
@@ -18,7 +18,7 @@ pub struct GasSurface {
 }
 
 impl GasSurface {
-    /// Assumed where a file says nothing: usual values of low Earth orbits, of no particular material.
+    /// Assumed default: usual values in low Earth orbit, of no particular material.
     pub const ASSUMED: Self = Self {
         drag_coefficient: 2.2,
         energy_accommodation: 0.93,

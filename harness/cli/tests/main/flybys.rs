@@ -144,7 +144,7 @@ fn cells_of_a_day_and_of_two_hours_lead_to_the_same_encounter() {
     assert!(apart_m < 1.0);
 }
 
-/// Momentum that a flight goes on with, 4 N m s, which tilts of the first window must leave where it points.
+/// Tilts of the first window leave the direction of the initial momentum of 4 N m s.
 #[test]
 fn a_plan_that_tilts_from_the_start_on_leaves_the_momentum_there() {
     let Some((_packed, template)) = template() else { return };

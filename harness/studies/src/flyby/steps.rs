@@ -323,7 +323,7 @@ fn corrected(run: &mut Run<'_>, index: usize) -> Outcome {
     ));
     run.line(ASSUMED);
     run.line(&format!(
-        "The plans go on from the departure's miss, each from the one before. Windows hold arrays and place of the Sun; the FMU gets them as inputs.{}",
+        "The plans begin at the departure's miss, each at the one before. Windows hold arrays and position of the Sun; the FMU gets them as inputs.{}",
         if index > 0 { DRIFTS } else { "" }
     ));
     let Some(Corrected { miss_m: [before_m, after_m], covariance_m2, .. }) = all.into_iter().next_back()
@@ -344,7 +344,7 @@ fn corrected(run: &mut Run<'_>, index: usize) -> Outcome {
     plane.write(run, correction.figure)
 }
 
-/// Behind what is said of every correction.
+/// Assumptions appended to every correction but the first.
 const DRIFTS: &str = "
 Assumed too: that orbit determination found a drift of 4 km along -T 18 d before, where the paper prints none, and that the drift of 4 km
 that it prints 7 d before was along T and R in equal parts: sunlight moves it farthest nearly the other way.";

@@ -164,7 +164,7 @@ pub(crate) fn table3(run: &mut Run<'_>) -> Outcome {
         "Cost of the miss: of the paper its total penalty less the approach manoeuvre; ours of the manoeuvre 30 d behind the flyby that leads \
          back to the path for the next one. Two places have the printed miss and altitude. The paper's second flyby gained 0.7 m/s, as \
          its path was optimised anew; ours does not change. Simulated: as `flyby/figure3` three days early, as `flyby/figure9` \
-         planned anew at 111, 18 and 7 d; see there for what is assumed.",
+         replanned at 111, 18 and 7 d; see there for assumptions.",
     );
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Figure and rotation of the planet, its air and its magnetic field, as parameters and inputs say; refuses by name what no model has.
+//! Figure, rotation, atmosphere and magnetic field of the planet from parameters and inputs; rejects by name what no model covers.
 
 use fmi_export::{Elements, Failure, Values};
 use nalgebra::Vector3;
@@ -16,7 +16,7 @@ use crate::momentum_plant::setup::Plan;
 use crate::momentum_plant::variables::PlantVariables;
 use crate::momentum_plant::variables::air_and_field::{AtmosphereMethod, MagneticFieldMethod};
 
-/// How a planet turns; `None` of the Sun.
+/// Rotation of a planet; `None` for the Sun.
 pub(super) fn orientation(
     context: &Plan<'_>,
     values: &Values,
@@ -29,7 +29,7 @@ pub(super) fn orientation(
     orientation.about(planet, values.real(context.variables.earth.ut1_offset)).map(Some)
 }
 
-/// A body whose gravity is flattened along the pole that it has where the flight starts.
+/// A body with the pole of the start epoch as axis of its oblateness.
 ///
 /// # Errors
 /// The Earth's orientation requested of another body.
@@ -130,7 +130,7 @@ fn field(v: &PlantVariables, values: &Values, planet: &BodyData) -> Result<Field
 /// What follows the planet unless it is set.
 #[derive(Clone, Copy)]
 pub(super) struct Followed {
-    /// How it turns.
+    /// Rotation model.
     pub orientation: PlanetOrientation,
     /// Whether air acts, and whether the magnetic field does.
     pub acts: [bool; 2],
@@ -139,13 +139,13 @@ pub(super) struct Followed {
 }
 
 impl Followed {
-    /// About a body: as it is set, else air and field about the Earth, which turns as the IAU says.
+    /// Values set for a body; by default air, field and the rotation iau for the Earth alone.
     pub(super) fn read(context: &Plan<'_>, values: &Values, body: Body) -> Self {
         let (laws, planet) = (&context.variables.laws, &context.variables.planet);
         let rotation = &planet.rotation;
         let switches = [laws.aerodynamics.enabled, laws.magnetics.enabled];
         let [air, field] = switches.map(Elements::from);
-        // Tools that write everything write the planet too; who sets these three alone means them.
+        // Importers that write every start value write the planet too; these three set alone are a user's choice.
         let written = [planet.gravitational_parameter, planet.radius].map(Elements::from);
         let given = context.given(values, &[air, field, rotation.orientation.into(), written[0], written[1]]);
         let is_set = switches.map(|switch| given.has(switch));

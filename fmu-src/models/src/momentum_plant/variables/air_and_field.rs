@@ -8,7 +8,7 @@ use super::super::setup::PlantSetup;
 /// Where density, temperature and molar mass of the air come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 pub enum AtmosphereMethod {
-    /// A density that falls exponentially with the height.
+    /// Exponential decrease of the density with height.
     Exponential = 1,
     /// The model NRLMSISE-00 of the Earth.
     Nrlmsise00 = 2,
@@ -19,7 +19,7 @@ pub enum AtmosphereMethod {
 /// Where the magnetic field comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Enumeration)]
 pub enum MagneticFieldMethod {
-    /// A dipole, tilted and off the centre: Earth, Mercury, Jupiter.
+    /// Tilted, eccentric dipole: Earth, Mercury, Jupiter.
     Dipole = 1,
     /// The International Geomagnetic Reference Field, 14th generation: Earth, 1900 to 2030.
     Igrf14 = 2,
@@ -46,7 +46,7 @@ pub struct AtmosphereVariables {
     /// Factor of a model's density.
     #[parameter(tunable, unit = "1", min = 0.0, max = 1e6, start = 1.0)]
     pub density_factor: Real,
-    /// Largest last Chebyshev term of air and magnetic field over a stretch of the orbit, relative to their size; the stretch is
+    /// Largest last Chebyshev term of air and magnetic field over a segment of the orbit, relative to their size; segments are
     /// shortened until it holds.
     #[parameter(unit = "1", min = 1e-12, max = 1e-2, start = 1e-6)]
     pub tolerance: Real,
@@ -76,7 +76,7 @@ pub struct AtmosphereVariables {
     pub velocity_body: RealVector<3>,
 }
 
-/// Activity of Sun and Earth by which NRLMSISE-00 goes.
+/// Solar and geomagnetic activity, inputs of NRLMSISE-00.
 #[derive(Variables)]
 pub struct SpaceWeatherVariables {
     /// Flux of the Sun at 10.7 cm on the day before, in 1e-22 W/(m2 Hz).

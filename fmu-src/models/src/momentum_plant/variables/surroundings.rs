@@ -103,7 +103,7 @@ pub struct SunVariables {
 #[derive(Variables)]
 #[variables(setup = PlantSetup)]
 pub struct EarthVariables {
-    /// UT1 minus UTC, by which the Earth's orientation iau turns.
+    /// UT1 minus UTC, for the Earth's orientation iau.
     #[parameter(tunable, unit = "s", min = -1e3, max = 1e3, start = 0.0)]
     pub ut1_offset: Real,
     /// Earth's position from the orbit's centre in EME2000 when ephemeris.source is inputs.

@@ -156,7 +156,7 @@ fn simulated<'a>(
         ("orbit.source", 2.0),
         ("orbit.dynamics", 2.0),
         ("orbit.sunTide", 0.0),
-        // The pole stands still, as in the integration.
+        // The pole is fixed, as in the integration.
         ("planet.orientation", 1.0),
     ];
     let mut flight = fly(named, &[FREE, DARK, orbit, &place, more]);

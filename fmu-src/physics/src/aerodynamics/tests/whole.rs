@@ -176,7 +176,7 @@ fn a_shadowed_face_passes_the_flow_without_a_step() {
     }
 }
 
-/// Without panels' angles they stand at 0; a face's own temperature goes before its material's.
+/// Panels without an angle are at 0; a face's own temperature takes precedence over its material's.
 #[test]
 fn wall_temperatures_of_a_heat_balance_replace_those_of_the_materials() {
     let spacecraft = spacecraft(WINGED);

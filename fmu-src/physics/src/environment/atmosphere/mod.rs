@@ -15,6 +15,3 @@ mod tests;
 
 pub use air::{Air, SpaceWeather};
 pub use model::{AtmosphereError, AtmosphereModel, BREAKS, CEILING_M, FLOOR_M};
-
-pub use super::utc::next_midnight_s;
-pub use crate::bodies::air::ExponentialAir;

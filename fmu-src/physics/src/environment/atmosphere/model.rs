@@ -8,15 +8,15 @@ use crate::math;
 
 /// Above this there is no air, in m.
 pub const CEILING_M: f64 = 2e6;
-/// Heights at which a model changes its form at most.
+/// Largest number of heights at which a model is discontinuous.
 pub const BREAKS: usize = 7;
-/// Below this molecules meet one another before they meet the spacecraft, in m.
+/// Lower limit of free molecular flow, in m.
 pub const FLOOR_M: f64 = 1e5;
 
 /// Where the air comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AtmosphereModel {
-    /// Density that falls exponentially.
+    /// Exponential decrease with height.
     Exponential(ExponentialAir),
     /// NRLMSISE-00.
     Nrlmsise00,
@@ -25,10 +25,8 @@ pub enum AtmosphereModel {
 /// A place without a model.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum AtmosphereError {
-    /// Where air no longer flows as single molecules.
-    #[error(
-        "found a height of {found_m:.0} m, allowed: 100 km and more, where air is a flow of single molecules"
-    )]
+    /// Below free molecular flow.
+    #[error("found a height of {found_m:.0} m, allowed: 100 km and more, where the flow is free molecular")]
     Height {
         /// Height over the ellipsoid, in m.
         found_m: f64,
@@ -63,7 +61,7 @@ impl AtmosphereModel {
         })
     }
 
-    /// Heights at which its form changes, in m, in rising order, as many as [`BREAKS`].
+    /// Heights at which the model is discontinuous, in m, ascending; the last one repeated up to [`BREAKS`].
     pub fn breaks_m(&self) -> [f64; BREAKS] {
         match self {
             Self::Exponential(_) => [CEILING_M; BREAKS],
@@ -72,7 +70,7 @@ impl AtmosphereModel {
         }
     }
 
-    /// Whether it counts in whole days of UTC.
+    /// Whether it depends on the day of the year, and so is discontinuous at midnight UTC.
     pub fn changes_at_midnight(&self) -> bool {
         matches!(self, Self::Nrlmsise00)
     }

@@ -14,10 +14,10 @@ use super::portable::Portable;
 use crate::environment::geodetic::Geodetic;
 use crate::environment::utc;
 
-/// Avogadro's number as the model's molar masses and nucleons go by it: a nucleon of 1.66e-27 kg.
-const NUCLEON_KG: f64 = 1.66e-27;
-/// A nucleon's molar mass, in kg/mol.
-const NUCLEON_KG_MOL: f64 = 1e-3;
+/// Atomic mass constant of the model, in kg.
+const ATOMIC_MASS_KG: f64 = 1.66e-27;
+/// The same per mole, in kg/mol.
+const ATOMIC_MASS_KG_MOL: f64 = 1e-3;
 
 /// The air at an epoch in s past J2000 TDB.
 pub(super) fn air(epoch_s: f64, place: &Geodetic, weather: &SpaceWeather) -> Air {
@@ -39,7 +39,7 @@ pub(super) fn air(epoch_s: f64, place: &Geodetic, weather: &SpaceWeather) -> Air
     ))
 }
 
-/// The air at what the model goes by.
+/// The air for inputs of the model.
 pub(super) fn air_of(input: &Input<Portable>) -> Air {
     static MODEL: OnceLock<Model> = OnceLock::new();
     let found: Output<Portable> = MODEL.get_or_init(Model::new).gtd7d(input);
@@ -58,6 +58,6 @@ pub(super) fn air_of(input: &Input<Portable>) -> Air {
     Air {
         density_kg_m3,
         temperature_k: f64::from(found.temperature),
-        molar_mass_kg_mol: density_kg_m3 / number_1_m3 * (NUCLEON_KG_MOL / NUCLEON_KG),
+        molar_mass_kg_mol: density_kg_m3 / number_1_m3 * (ATOMIC_MASS_KG_MOL / ATOMIC_MASS_KG),
     }
 }

@@ -1,7 +1,7 @@
 //! A number whose elementary functions are those of [`crate::math`], for a library that takes any number.
 //!
-//! Error measure: the library takes the cosines of the day of the year of plain numbers, by the system's function, so that the last
-//! bits of its densities may differ from one platform to another; all else has the same bits everywhere.
+//! The library computes the cosines of the day of the year in plain numbers; the FMU's shared library links its own cosine for them
+//! (`component/trigonometry.rs`).
 
 use core::fmt;
 use core::iter::{Product, Sum};

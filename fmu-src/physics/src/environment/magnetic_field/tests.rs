@@ -1,4 +1,4 @@
-//! The reference field against an independent program, dipoles against their closed form, and what Maxwell says of both.
+//! The reference field against an independent program, dipoles against their closed form, and Maxwell's equations for both.
 use nalgebra::Vector3;
 
 use super::*;

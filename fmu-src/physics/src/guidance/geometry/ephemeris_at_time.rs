@@ -13,14 +13,14 @@ use crate::math;
 pub struct TargetPlanet {
     /// Radii of the ellipsoid along the planet's x, y and z, in m.
     pub radii_m: Vector3<f64>,
-    /// How it is turned.
+    /// Its rotation.
     pub orientation: Orientation,
     /// Gravitational parameter, in m3/s2: the spacecraft's acceleration, which the rate of a frame tied to its velocity needs.
     pub gm_m3_s2: f64,
 }
 
 impl TargetPlanet {
-    /// A sphere of the mean radius that turns uniformly, as the body's row says.
+    /// A sphere of the mean radius with the body's uniform rotation.
     pub fn of(data: &BodyData) -> Self {
         Self {
             radii_m: Vector3::repeat(data.radius_m),
@@ -29,10 +29,11 @@ impl TargetPlanet {
         }
     }
 
-    /// From components in EME2000 to components along the planet's axes at `epoch_s` past J2000 TDB; the equator stands still.
+    /// From components in EME2000 to components along the planet's axes at `epoch_s` past J2000 TDB; the equator's motion is left out of the rate.
     pub fn planet_from_inertial(&self, epoch_s: f64) -> MovingMatrix {
-        let Equator { equator_from_eme2000, turned_rad, rate_rad_s } = self.orientation.equator(epoch_s);
-        let (sine, cosine) = math::sin_cos(turned_rad);
+        let Equator { equator_from_eme2000, rotation_angle_rad, rate_rad_s } =
+            self.orientation.equator(epoch_s);
+        let (sine, cosine) = math::sin_cos(rotation_angle_rad);
         let sine = Moving::new(sine, rate_rad_s * cosine);
         let cosine = Moving::new(cosine, -rate_rad_s * sine.re);
         let [x, y, z] = [0, 1, 2].map(|row| equator_from_eme2000.row(row).into_owned());

@@ -1,4 +1,4 @@
-//! Aerodynamic solver of the plant: the spacecraft's surfaces prepared for air, with room for what they need at one time.
+//! Aerodynamic solver of the plant: the aerodynamic model with its workspace.
 
 use nalgebra::Vector3;
 
@@ -10,11 +10,11 @@ use crate::plant::settings::panel_setting::SunAt;
 use crate::refusal::Refusal;
 use crate::spacecraft::{Panel, Spacecraft};
 
-/// The spacecraft's surfaces prepared for air. All of it follows from the setup and the configuration: cache, not state.
+/// Aerodynamic model and workspace. All of it follows from setup and configuration: a cache, not state.
 #[derive(Clone, Debug)]
 pub struct AerodynamicSolver {
     model: AerodynamicModel,
-    /// Place among all panels of those that take part.
+    /// Indices of the enabled panels among all.
     panels: Vec<usize>,
     panel_angles_rad: Vec<f64>,
     wall_temperatures_k: Vec<f64>,
@@ -42,8 +42,8 @@ impl AerodynamicSolver {
         })
     }
 
-    /// Force and torque about the centre of mass, the panels standing to the Sun as their settings say; temperatures of the faces are
-    /// those of `light`, where it knows them, else those of their materials.
+    /// Force and torque about the centre of mass, panels at the angles of their settings; wall temperatures are those of `light`
+    /// where it has them, else the materials'.
     pub(crate) fn load(
         &mut self,
         (configuration, panels): (&Configuration, &[Panel]),

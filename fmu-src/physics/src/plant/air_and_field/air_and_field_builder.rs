@@ -1,14 +1,15 @@
-//! Builds the segments of air and magnetic field as the flight reaches them.
+//! Builds segments of air and magnetic field along the orbit.
 
 use nalgebra::{SVector, Vector3};
 
 use super::air_and_field_segment::{AirAndFieldSegment, NODES, Series};
 use crate::environment::CartesianState;
-use crate::environment::atmosphere::{Air, BREAKS, next_midnight_s};
+use crate::environment::atmosphere::{Air, BREAKS};
 use crate::environment::orientation::Equator;
+use crate::environment::utc::next_midnight_s;
 use crate::math;
 use crate::momentum::after_event_s;
-use crate::numerics::adaptive::AdaptiveInterval;
+use crate::numerics::adaptive::{AdaptiveInterval, SegmentSpan};
 use crate::numerics::events::first_event;
 use crate::plant::motion::kinematics::Kinematics;
 use crate::plant::settings::air_and_field_settings::{
@@ -25,11 +26,10 @@ const SHORTEST_S: f64 = 1.0;
 const AIR_UNITS: u32 = 15;
 const FIELD_UNITS: u32 = 3;
 
-/// An orbit that is computed anew within this share of `atmosphere.tolerance` times a scale height of the air, in m, leaves the fit
-/// as it is.
+/// Scale height, in m: a recomputed orbit within `atmosphere.tolerance` times this keeps the fit.
 const SCALE_M: f64 = 5e3;
 
-/// What is fitted: place, air, its velocity, field.
+/// Fitted quantities: position, air, its velocity, field.
 #[derive(Clone, Copy)]
 struct Node {
     position_m: Vector3<f64>,
@@ -43,12 +43,12 @@ pub(crate) struct AirAndFieldBuilder<'r, 'a> {
     pub settings: AirAndFieldSettings,
     pub figure: PlanetFigure,
     pub kinematics: &'r mut Kinematics<'a>,
-    /// Whether the orbit has been computed anew, with all that pushes it.
-    pub orbit_is_anew: bool,
+    /// Whether the orbit has been recomputed with the perturbing forces.
+    pub orbit_is_recomputed: bool,
 }
 
 impl AirAndFieldBuilder<'_, '_> {
-    /// Makes sure that air and field are known from `start_s` on, and tells up to where, at most `limit_s`.
+    /// Extends air and field from `start_s` on; returns up to where they are valid, at most `limit_s`.
     ///
     /// # Errors
     /// Where a model does not reach; work.
@@ -58,16 +58,15 @@ impl AirAndFieldBuilder<'_, '_> {
         start_s: f64,
         limit_s: f64,
     ) -> Result<f64, PlantError> {
-        let is_known = segment.start_s <= start_s && start_s < segment.end_s;
-        if !is_known || (self.orbit_is_anew && self.has_moved(segment, limit_s)) {
+        if !segment.span.contains(start_s) || (self.orbit_is_recomputed && self.has_moved(segment, limit_s)) {
             self.build(segment, start_s, limit_s)?;
         }
-        Ok(segment.end_s.min(limit_s))
+        Ok(segment.span.end_s.min(limit_s))
     }
 
-    /// Whether the orbit, known up to `limit_s`, is no longer the one that the segment was fitted on.
+    /// Whether the orbit, valid up to `limit_s`, differs from the one on which the segment was fitted.
     fn has_moved(&mut self, segment: &AirAndFieldSegment, limit_s: f64) -> bool {
-        let last_s = segment.end_s.min(limit_s);
+        let last_s = segment.span.end_s.min(limit_s);
         let allowed_m = self.settings.tolerance * SCALE_M;
         segment.position.as_ref().is_none_or(|fitted| {
             let off_m = self.kinematics.about_planet(last_s).position_m - fitted.value(last_s);
@@ -81,26 +80,25 @@ impl AirAndFieldBuilder<'_, '_> {
         start_s: f64,
         limit_s: f64,
     ) -> Result<(), PlantError> {
-        let longest_s = segment.next_longest_s.min(LONGEST_S);
+        let longest_s = segment.span.next_longest_s.min(LONGEST_S);
         let mut interval = AdaptiveInterval::new(start_s, f64::INFINITY, longest_s, limit_s, SHORTEST_S);
-        let smooth_s = self.smooth_until(start_s, interval.end_s())?;
-        interval.end_at(smooth_s);
+        // Within a segment the equator moves by 1e-3 arcsec.
+        let equator =
+            self.figure.orientation.equator(start_s + self.kinematics.configuration.epoch_minus_time_s);
+        interval.end_at(self.smooth_until(&equator, start_s, interval.end_s()));
         loop {
             self.spend(start_s)?;
-            let fitted = self.fit(start_s, interval.end_s());
+            let fitted = self.fit(&equator, start_s, interval.end_s());
             match fitted {
                 Ok((series, unresolved)) => {
                     if let Some(next_s) = interval.accept(unresolved, self.settings.tolerance, NODES) {
-                        *segment = AirAndFieldSegment {
-                            start_s,
-                            end_s: interval.end_s(),
-                            next_longest_s: next_s,
-                            ..series
-                        };
+                        let end_s = interval.end_s();
+                        let span = SegmentSpan { start_s, end_s, next_longest_s: next_s };
+                        *segment = AirAndFieldSegment { span, ..series };
                         return Ok(());
                     }
                 }
-                // The flight may be over before it comes to where a model does not reach.
+                // The simulation may end before the spacecraft leaves the model's range.
                 Err(error) if !interval.halve() => return Err(error),
                 Err(_) => {}
             }
@@ -108,16 +106,16 @@ impl AirAndFieldBuilder<'_, '_> {
     }
 
     fn spend(&mut self, start_s: f64) -> Result<(), PlantError> {
-        let AirAndFieldSettings { air, field, .. } = &self.settings;
-        let by_model = matches!(air, Some(it) if matches!(it.source, AirSource::Model(_)));
+        let AirAndFieldSettings { field, .. } = &self.settings;
+        let by_model = self.settings.atmosphere().is_some();
         let units = u32::from(by_model) * AIR_UNITS + u32::from(field.is_some()) * FIELD_UNITS;
         self.kinematics.spend_units(Cost::Air, NODES as u32 * (units + 1), start_s)
     }
 
     /// The latest time up to `limit_s` until which the model of the air is smooth from `start_s` on: midnight, and the heights at
     /// which its form changes.
-    fn smooth_until(&mut self, start_s: f64, limit_s: f64) -> Result<f64, PlantError> {
-        let Some(AirSource::Model(model)) = self.settings.air.map(|it| it.source) else { return Ok(limit_s) };
+    fn smooth_until(&mut self, equator: &Equator, start_s: f64, limit_s: f64) -> f64 {
+        let Some(model) = self.settings.atmosphere() else { return limit_s };
         let epoch_minus_time_s = self.kinematics.configuration.epoch_minus_time_s;
         let after_s = after_event_s(start_s).min(limit_s);
         let mut limit_s = limit_s;
@@ -128,36 +126,34 @@ impl AirAndFieldBuilder<'_, '_> {
         let breaks_m = model.breaks_m();
         let rounding_s = self.kinematics.time_rounding_s(limit_s);
         let mut over = |at_s: f64| {
-            let height_m = self.height_m(at_s);
+            let position_m = self.kinematics.about_planet(at_s).position_m;
+            let position_fixed_m = equator.fixed_from_eme2000_after(at_s - start_s) * position_m;
+            let height_m = self.figure.ellipsoid.geodetic(&position_fixed_m).height_m;
             SVector::<f64, BREAKS>::from(breaks_m.map(|edge_m| height_m - edge_m))
         };
         let samples = Series::nodes(start_s, limit_s).map(&mut over);
-        Ok(first_event(after_s, start_s, limit_s, rounding_s, &samples, over).unwrap_or(limit_s))
-    }
-
-    fn height_m(&mut self, time_s: f64) -> f64 {
-        let epoch_s = time_s + self.kinematics.configuration.epoch_minus_time_s;
-        let from_planet = self.kinematics.about_planet(time_s);
-        self.figure.geodetic(epoch_s, &from_planet.position_m).height_m
+        first_event(after_s, start_s, limit_s, rounding_s, &samples, over).unwrap_or(limit_s)
     }
 
     /// The series over an interval, and their greatest last term relative to the tolerance's measure.
-    fn fit(&mut self, start_s: f64, end_s: f64) -> Result<(AirAndFieldSegment, f64), PlantError> {
-        // Within a segment the equator moves by 1e-3 arcsec.
-        let start_epoch_s = start_s + self.kinematics.configuration.epoch_minus_time_s;
-        let equator = self.figure.orientation.equator(start_epoch_s);
+    fn fit(
+        &mut self,
+        equator: &Equator,
+        start_s: f64,
+        end_s: f64,
+    ) -> Result<(AirAndFieldSegment, f64), PlantError> {
         let [position_m, air, air_velocity_m_s, field_t] = [Vector3::zeros(); 4];
         let mut nodes = [Node { position_m, air, air_velocity_m_s, field_t }; NODES];
         let mut has_air = true;
         for (node, at_s) in nodes.iter_mut().zip(Series::nodes(start_s, end_s)) {
-            *node = self.node(&equator, at_s - start_s, at_s)?;
+            *node = self.node(equator, at_s - start_s, at_s)?;
             has_air &= node.air[0].is_finite();
         }
         let series = |of: fn(&Node) -> Vector3<f64>| {
             Series::from_samples(start_s, end_s, &nodes.map(|node| of(&node)))
         };
         let AirAndFieldSettings { air, field, .. } = &self.settings;
-        let by_model = matches!(air, Some(it) if matches!(it.source, AirSource::Model(_)));
+        let by_model = self.settings.atmosphere().is_some();
         let fitted = AirAndFieldSegment {
             position: Some(series(|node| node.position_m)),
             air: (by_model && has_air).then(|| series(|node| node.air)),

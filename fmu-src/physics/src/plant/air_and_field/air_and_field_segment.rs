@@ -14,8 +14,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::environment::atmosphere::Air;
 use crate::math;
+use crate::numerics::adaptive::SegmentSpan;
 use crate::numerics::chebyshev::Segment;
-use crate::numerics::or_infinite;
 use crate::plant::settings::air_and_field_settings::{
     AirAndFieldSettings, AirSettings, AirSource, FieldSource,
 };
@@ -41,14 +41,8 @@ pub struct AirAndField {
 /// Air and field over one interval; what is given needs no series.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AirAndFieldSegment {
-    #[serde(with = "or_infinite")]
-    pub(crate) start_s: f64,
-    #[serde(with = "or_infinite")]
-    pub(crate) end_s: f64,
-    /// Length the tolerance will probably allow the next segment, in s.
-    #[serde(with = "or_infinite")]
-    pub(crate) next_longest_s: f64,
-    /// Where the spacecraft was taken to be about the planet, EME2000, in m; absent before the first segment.
+    pub(crate) span: SegmentSpan,
+    /// Position relative to the planet on which the segment was fitted, EME2000, in m; absent before the first segment.
     pub(crate) position: Option<Series>,
     /// Logarithm of the density in kg/m3, temperature in K, molar mass in kg/mol; absent where a model has no air.
     pub(crate) air: Option<Series>,
@@ -61,44 +55,29 @@ pub struct AirAndFieldSegment {
 impl Default for AirAndFieldSegment {
     /// Before the first segment.
     fn default() -> Self {
-        Self {
-            start_s: f64::INFINITY,
-            end_s: f64::NEG_INFINITY,
-            next_longest_s: f64::INFINITY,
-            position: None,
-            air: None,
-            air_velocity: None,
-            field: None,
-        }
+        Self { span: SegmentSpan::BEFORE, position: None, air: None, air_velocity: None, field: None }
     }
 }
 
 impl AirAndFieldSegment {
     /// Whether a simulation can produce it.
     pub(crate) fn is_valid(&self) -> bool {
-        let is_before = self.is_before();
-        let (start_s, end_s) = (self.start_s, self.end_s.max(self.start_s));
+        let [start_s, end_s] = self.span.bounds_s();
         let series = [&self.position, &self.air, &self.air_velocity, &self.field];
         let largest = |it: &Series| it.coefficients().row(0).iter().map(|c| c.abs()).sum::<f64>();
-        (is_before || start_s.is_finite() && self.end_s.is_finite())
-            && self.next_longest_s > 0.0
+        self.span.is_valid()
             && series.into_iter().flatten().all(|it| it.is_valid() && it.spans(start_s, end_s))
             && self.air.as_ref().is_none_or(|it| largest(it) < 1e6)
     }
 
-    /// Whether it is the one before the first.
-    fn is_before(&self) -> bool {
-        self.start_s == f64::INFINITY
-    }
-
-    /// Whether it has come to `time_s` and no segment further; so in every flight, not in every sequence of bytes.
+    /// Whether it reaches `time_s`, if there is one: decoded states of a simulation do, others may not.
     pub(crate) fn covers(&self, time_s: f64) -> bool {
-        self.is_before() || self.start_s <= time_s + 8.0 * f64::EPSILON * time_s.abs() && time_s <= self.end_s
+        self.span.is_before() || self.span.covers(time_s)
     }
 
-    /// Ends at `time_s`: the flight changes there.
+    /// Ends the segment at `time_s`, where the orbit or the settings change.
     pub(crate) fn cut(&mut self, time_s: f64) {
-        self.end_s = self.end_s.min(time_s);
+        self.span.cut(time_s);
     }
 
     /// Air and field at `time_s`.

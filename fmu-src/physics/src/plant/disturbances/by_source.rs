@@ -62,7 +62,7 @@ pub struct Surfaces<'a> {
     pub active: Active,
 }
 
-/// Room for surfaces in light and in air.
+/// Scratch space of the models of light and air.
 #[derive(Clone, Debug)]
 pub struct Workspaces<T: Scalar> {
     /// In light.
@@ -182,12 +182,12 @@ impl<T: Scalar> BySource<T> {
         let flow = AirFlow { density_kg_m3, temperature_k, molar_mass_kg_mol, velocity_body_m_s };
         let air = air.filter(|_| density_kg_m3.value() > 0.0).map(|model| {
             let center = Vector3::from(positions.center_of_mass_m);
-            let warmed = active.has(Effect::Thermal).then(|| {
+            let wall_temperatures_k = active.has(Effect::Thermal).then(|| {
                 walls_k.clear();
                 walls_k.extend(workspace.faces().iter().map(|face| face.temperature_k));
                 walls_k.as_slice()
             });
-            model.load(&flow, &positions.panel_angles_rad, &center, warmed, air_workspace)
+            model.load(&flow, &positions.panel_angles_rad, &center, wall_temperatures_k, air_workspace)
         });
         let at = NearPlanet {
             planet_body_m: planet_m,

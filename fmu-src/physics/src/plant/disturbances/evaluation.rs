@@ -96,10 +96,7 @@ impl Evaluation {
 
     /// Velocity relative to the air, body frame, in m/s; zero without a planet.
     pub fn velocity_in_air_body_m_s(&self) -> Vector3<f64> {
-        let moving = self.instant.geometry.from_planet();
-        moving.map_or(Vector3::zeros(), |it| {
-            self.instant.to_body * (it.velocity_m_s - self.air_and_field.air_velocity_m_s)
-        })
+        velocity_in_air_body_m_s(&self.instant, &self.air_and_field).unwrap_or_else(Vector3::zeros)
     }
 
     /// Magnetic field, body frame, in T.
@@ -115,6 +112,12 @@ impl Evaluation {
 
 /// Force through the centre of mass and torque from outside at a time, body frame, and how they change per second.
 pub type External<'a> = dyn Fn(f64) -> [ForceTorque; 2] + 'a;
+
+/// Velocity relative to the air, body frame, in m/s; `None` without a planet.
+fn velocity_in_air_body_m_s(instant: &Instant, about: &AirAndField) -> Option<Vector3<f64>> {
+    let from_planet = instant.geometry.from_planet()?;
+    Some(instant.to_body * (from_planet.velocity_m_s - about.air_velocity_m_s))
+}
 
 /// A configured flight, ready to be evaluated.
 pub struct Plant<'a> {
@@ -197,7 +200,7 @@ impl<'a> Plant<'a> {
         figure.map_or(Vector3::z(), |it| it.orientation.pole_eme2000(time_s + epoch_minus_time_s))
     }
 
-    /// What the air does to the surfaces.
+    /// Aerodynamic force and torque.
     fn air_load(
         &mut self,
         time_s: f64,
@@ -207,16 +210,15 @@ impl<'a> Plant<'a> {
     ) -> ForceTorque {
         let configuration = self.kinematics.configuration;
         let acts = configuration.effects.has(Effect::Aerodynamic) && found.air.density_kg_m3 > 0.0;
-        let Some((solver, moving)) =
-            self.air.as_deref_mut().zip(instant.geometry.from_planet()).filter(|_| acts)
-        else {
+        let velocity = velocity_in_air_body_m_s(instant, found).filter(|_| acts);
+        let Some((solver, velocity_body_m_s)) = self.air.as_deref_mut().zip(velocity) else {
             return ForceTorque::zero();
         };
         let flow = AirFlow {
             density_kg_m3: found.air.density_kg_m3,
             temperature_k: found.air.temperature_k,
             molar_mass_kg_mol: found.air.molar_mass_kg_mol,
-            velocity_body_m_s: instant.to_body * (moving.velocity_m_s - found.air_velocity_m_s),
+            velocity_body_m_s,
         };
         let light = self.segment.as_ref().map(|segment| (segment, time_s));
         let sun = instant.sun_at(time_s);
@@ -296,28 +298,28 @@ impl<'a> Plant<'a> {
         builder.faces(light, self.segment.as_ref(), time_s, report)
     }
 
-    /// Makes sure that light, heat, air and magnetic field are known from `start_s` on, and tells up to where, at most `limit_s`.
+    /// Extends light, heat, air and magnetic field from `start_s` on; returns up to where they are valid, at most `limit_s`.
     fn extend_disturbances(
         &mut self,
         start_s: f64,
         limit_s: f64,
-        orbit_is_anew: bool,
+        orbit_is_recomputed: bool,
     ) -> Result<f64, PlantError> {
-        let known_s = self.extend_air_and_field(start_s, limit_s, orbit_is_anew)?;
+        let known_s = self.extend_air_and_field(start_s, limit_s, orbit_is_recomputed)?;
         Ok(self.extend_radiation(start_s, limit_s)?.min(known_s))
     }
 
-    /// Makes sure that air and magnetic field are known likewise.
+    /// Extends air and magnetic field likewise.
     fn extend_air_and_field(
         &mut self,
         start_s: f64,
         limit_s: f64,
-        orbit_is_anew: bool,
+        orbit_is_recomputed: bool,
     ) -> Result<f64, PlantError> {
         let Configuration { air_and_field, figure, .. } = self.kinematics.configuration;
         let Some((settings, figure)) = air_and_field.zip(*figure) else { return Ok(limit_s) };
         let mut builder =
-            AirAndFieldBuilder { settings, figure, kinematics: &mut self.kinematics, orbit_is_anew };
+            AirAndFieldBuilder { settings, figure, kinematics: &mut self.kinematics, orbit_is_recomputed };
         builder.extend(self.air_and_field, start_s, limit_s)
     }
 

@@ -29,7 +29,7 @@ pub struct NearPlanet<T: Scalar> {
     pub inertia_body_kg_m2: Matrix3<T>,
     /// Magnetic field, body frame, in T.
     pub field_body_t: Vector3<T>,
-    /// What the air does to the surfaces.
+    /// Aerodynamic force and torque.
     pub air: ForceTorque<T>,
 }
 

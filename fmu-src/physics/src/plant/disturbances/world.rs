@@ -1,4 +1,4 @@
-//! Where a flight takes place, and the spacecraft prepared for it.
+//! Environment of a simulation, and the spacecraft prepared for it.
 
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
@@ -13,12 +13,12 @@ use crate::plant::settings::work::Work;
 use crate::radiation::SolarModel;
 use crate::spacecraft::{MassProperties, Panel};
 
-/// Where a flight takes place, and what is known of it beside its state.
+/// Environment of a simulation: everything beside its state.
 #[derive(Clone, Debug)]
 pub struct World {
-    /// The spacecraft, and where it is; its attitude is set as the flight goes on.
+    /// Spacecraft and orbit; the attitude is set during the simulation.
     pub configuration: Configuration,
-    /// With every panel at angle 0, of what is left of the propellant.
+    /// Mass properties with every panel at angle 0 and the propellant left.
     pub mass_at_zero: MassProperties,
     /// Planets.
     pub ephemeris: Ephemeris,
@@ -28,7 +28,7 @@ pub struct World {
     pub air: Option<AerodynamicSolver>,
     /// What the step has cost so far.
     pub work: Work,
-    /// Room of forks, kept from one to the next: they allocate nothing.
+    /// Scratch states of forks, reused without allocation.
     pub fork_room: [PropagatorState; 3],
 }
 
@@ -71,7 +71,7 @@ pub struct PreparedSpacecraft<'a> {
 }
 
 impl PreparedSpacecraft<'_> {
-    /// The spacecraft as sunlight meets it at `time_s`, so far from the Sun.
+    /// The spacecraft in sunlight at `time_s` and this distance from the Sun.
     pub(crate) fn sunlit<'c>(
         &'c self,
         configuration: &'c Configuration,

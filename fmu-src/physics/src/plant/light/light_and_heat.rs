@@ -72,11 +72,11 @@ impl RadiationBuilder<'_, '_> {
         limit_s: f64,
     ) -> Result<f64, PlantError> {
         let segment = segment.get_or_insert_with(RadiationSegment::before);
-        if segment.start_s <= start_s && start_s < segment.end_s {
-            return Ok(segment.end_s.min(limit_s));
+        if segment.span.contains(start_s) {
+            return Ok(segment.span.end_s.min(limit_s));
         }
         self.build(light, segment, start_s, limit_s)?;
-        Ok(segment.end_s)
+        Ok(segment.span.end_s)
     }
 
     /// Builds the segment that begins at `start_s`. It ends at the next multiple of the grid or sooner: at `limit_s`, where
@@ -98,7 +98,7 @@ impl RadiationBuilder<'_, '_> {
         // Written so that a NaN from restored bytes is the shortest.
         let rate_rad_s = self.kinematics.instant(start_s).frame.rate_body_rad_s.norm();
         let shortest_s = SHORTEST_S.min(SHORTEST_TURN_RAD / rate_rad_s);
-        let longest_s = segment.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s).max(shortest_s);
+        let longest_s = segment.span.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s).max(shortest_s);
         let mut interval = AdaptiveInterval::new(start_s, effects.grid_s, longest_s, limit_s, shortest_s);
         interval.end_at(self.kinematics.smooth_until(start_s, interval.end_s()));
         let series = loop {
@@ -110,7 +110,7 @@ impl RadiationBuilder<'_, '_> {
                 Ok(series) => {
                     let unresolved = unresolved(&series, effects.shadowing);
                     if let Some(next_s) = interval.accept(unresolved, effects.tolerance, NODES) {
-                        segment.next_longest_s = next_s;
+                        segment.span.next_longest_s = next_s;
                         break series;
                     }
                 }
@@ -120,7 +120,7 @@ impl RadiationBuilder<'_, '_> {
             }
         };
         let end_s = interval.end_s();
-        (segment.start_s, segment.end_s, segment.loads) = (start_s, end_s, series);
+        (segment.span.start_s, segment.span.end_s, segment.loads) = (start_s, end_s, series);
         segment.temperatures_k.clear();
         if stores || self.needs_walls() {
             segment.temperatures_k.extend((0..light.face_count()).map(|face| {
@@ -141,7 +141,7 @@ impl RadiationBuilder<'_, '_> {
         segment: &mut RadiationSegment,
         start_s: f64,
     ) -> Result<(), PlantError> {
-        if segment.is_before() && segment.end_k.is_empty() {
+        if segment.span.is_before() && segment.end_k.is_empty() {
             let RadiationSolver { model, panels, nodes, .. } = light;
             if let Some(node) = nodes.first_mut() {
                 self.view(start_s, panels, node);

@@ -13,8 +13,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::loads::{ByEffect, ForceTorque, Loads};
+use crate::numerics::adaptive::SegmentSpan;
 use crate::numerics::chebyshev::Segment;
-use crate::numerics::or_infinite;
 
 /// Chebyshev nodes a segment.
 pub(crate) const NODES: usize = 6;
@@ -26,13 +26,7 @@ pub(crate) const HOTTEST_K: f64 = 1e5;
 /// Light and heat over one interval, and the heat stored at its end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RadiationSegment {
-    #[serde(with = "or_infinite")]
-    pub(crate) start_s: f64,
-    #[serde(with = "or_infinite")]
-    pub(crate) end_s: f64,
-    /// Length the tolerance will probably allow the next segment, in s.
-    #[serde(with = "or_infinite")]
-    pub(crate) next_longest_s: f64,
+    pub(crate) span: SegmentSpan,
     /// Absent for effects that do not act, and before the first segment for all.
     pub(crate) loads: ByEffect<Option<LoadSeries>>,
     /// Temperature of every face in K; empty where no heat is stored and no air meets the faces.
@@ -45,9 +39,7 @@ impl RadiationSegment {
     /// Before the first segment.
     pub(crate) fn before() -> Self {
         Self {
-            start_s: f64::INFINITY,
-            end_s: f64::NEG_INFINITY,
-            next_longest_s: f64::INFINITY,
+            span: SegmentSpan::BEFORE,
             loads: ByEffect::default(),
             temperatures_k: Vec::new(),
             end_k: Vec::new(),
@@ -60,36 +52,26 @@ impl RadiationSegment {
             (core::mem::take(&mut self.temperatures_k), core::mem::take(&mut self.end_k));
         temperatures_k.clone_from(&other.temperatures_k);
         end_k.clone_from(&other.end_k);
-        let Self { start_s, end_s, next_longest_s, loads, .. } = *other;
-        *self = Self { start_s, end_s, next_longest_s, loads, temperatures_k, end_k };
-    }
-
-    /// Whether it is the one before the first.
-    pub(crate) fn is_before(&self) -> bool {
-        self.loads.present().next().is_none()
+        let Self { span, loads, .. } = *other;
+        *self = Self { span, loads, temperatures_k, end_k };
     }
 
     /// Whether a simulation can produce it.
     pub fn is_valid(&self) -> bool {
         let hot = |kelvin: &f64| (0.0..=HOTTEST_K).contains(kelvin);
-        (self.is_before() || self.start_s.is_finite() && self.end_s.is_finite())
-            && self.next_longest_s > 0.0
-            && self
-                .loads
-                .present()
-                .all(|(_, it)| it.is_valid() && it.spans(self.start_s, self.end_s.max(self.start_s)))
+        let [start_s, end_s] = self.span.bounds_s();
+        self.span.is_valid()
+            && self.loads.present().all(|(_, it)| it.is_valid() && it.spans(start_s, end_s))
             && self.temperatures_k.iter().all(|it| {
                 let most_k: f64 = it.coefficients().iter().map(|c| c.abs()).sum();
-                it.is_valid()
-                    && it.spans(self.start_s, self.end_s.max(self.start_s))
-                    && most_k <= 10.0 * HOTTEST_K
+                it.is_valid() && it.spans(start_s, end_s) && most_k <= 10.0 * HOTTEST_K
             })
             && self.end_k.iter().all(hot)
     }
 
     /// Whether it has come to `time_s` and no segment further; so in every flight, not in every sequence of bytes.
     pub fn covers(&self, time_s: f64) -> bool {
-        self.start_s <= time_s + 8.0 * f64::EPSILON * time_s.abs() && time_s <= self.end_s
+        self.span.covers(time_s)
     }
 
     /// Force and torque at `time_s`.
@@ -108,7 +90,7 @@ impl RadiationSegment {
     /// Temperatures in K of the faces at `time_s`; leaves `temperatures_k` alone where no heat is stored.
     pub(crate) fn temperatures_at(&self, time_s: f64, temperatures_k: &mut [f64]) {
         for (face, kelvin) in temperatures_k.iter_mut().enumerate() {
-            let inside = self.temperatures_k.get(face).filter(|_| time_s < self.end_s);
+            let inside = self.temperatures_k.get(face).filter(|_| time_s < self.span.end_s);
             if let Some(known_k) =
                 inside.map(|series| series.value(time_s)[0]).or(self.end_k.get(face).copied())
             {
@@ -130,11 +112,11 @@ impl RadiationSegment {
 
     /// Ends at `time_s`: the flight changes there.
     pub(crate) fn cut(&mut self, time_s: f64) {
-        if time_s > self.start_s && time_s < self.end_s {
+        if time_s > self.span.start_s && time_s < self.span.end_s {
             for (kelvin, series) in self.end_k.iter_mut().zip(&self.temperatures_k) {
                 *kelvin = series.value(time_s)[0];
             }
         }
-        self.end_s = self.end_s.min(time_s);
+        self.span.cut(time_s);
     }
 }

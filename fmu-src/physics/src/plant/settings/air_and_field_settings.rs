@@ -10,14 +10,14 @@ use crate::environment::orientation::Orientation;
 /// Figure and rotation of the planet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanetFigure {
-    /// How it is turned.
+    /// Rotation.
     pub orientation: Orientation,
-    /// What heights count from.
+    /// Reference ellipsoid of heights.
     pub ellipsoid: Ellipsoid,
 }
 
 impl PlanetFigure {
-    /// Where a position about its centre, EME2000, in m, is over its surface.
+    /// Geodetic coordinates of a position from its centre, EME2000, in m.
     pub fn geodetic(&self, epoch_s: f64, position_m: &Vector3<f64>) -> Geodetic {
         self.ellipsoid.geodetic(&(self.orientation.fixed_from_eme2000(epoch_s) * position_m))
     }
@@ -32,6 +32,16 @@ pub struct AirAndFieldSettings {
     pub field: Option<FieldSource>,
     /// Last Chebyshev terms of both relative to their size.
     pub tolerance: f64,
+}
+
+impl AirAndFieldSettings {
+    /// Model of the atmosphere, where the air acts and is not given.
+    pub(crate) fn atmosphere(&self) -> Option<AtmosphereModel> {
+        match self.air?.source {
+            AirSource::Model(model) => Some(model),
+            AirSource::Given(_) => None,
+        }
+    }
 }
 
 /// The air about the planet.
@@ -52,7 +62,7 @@ pub struct AirSettings {
 pub enum AirSource {
     /// A model.
     Model(AtmosphereModel),
-    /// The same everywhere until it is given anew; without density there is none.
+    /// Constant until the inputs change; no air at zero density.
     Given(Air),
 }
 
@@ -61,6 +71,6 @@ pub enum AirSource {
 pub enum FieldSource {
     /// A model.
     Model(MagneticField),
-    /// The same everywhere until it is given anew, EME2000, in T.
+    /// Constant until the input changes, EME2000, in T.
     Given(Vector3<f64>),
 }

@@ -318,7 +318,7 @@ impl Configuration {
         self.light_and_heat.shadowing || self.effects.light().any(|effect| effect != Effect::Solar)
     }
 
-    /// The panels that take part, by their places among all of them, and the spacecraft with those alone.
+    /// Indices of the enabled panels, and the spacecraft with those alone.
     pub(crate) fn taking_part(&self, spacecraft: &Spacecraft) -> (Vec<usize>, Spacecraft) {
         let takes_part = |index: &usize| self.panels.get(*index) != Some(&PanelSetting::Disabled);
         let panels: Vec<usize> = (0..spacecraft.panels.len()).filter(takes_part).collect();
@@ -327,7 +327,7 @@ impl Configuration {
         (panels, simulated)
     }
 
-    /// Writes the angles in rad at which these panels stand with the Sun there.
+    /// Writes the angles in rad of these panels for this position of the Sun.
     pub(crate) fn panel_angles_rad(
         &self,
         panels: &[Panel],
@@ -430,7 +430,7 @@ pub struct Configuration {
     pub inertia_body_kg_m2: Matrix3<f64>,
     /// Which effects act.
     pub effects: Active,
-    /// What effects in closed form go by.
+    /// Parameters of effects in closed form.
     pub laws: Laws,
     /// Integration of momentum.
     pub momentum: Settings,

@@ -189,7 +189,7 @@ impl MissionTimeline {
     /// each panel.
     pub(super) fn in_force(&self, sides: &[f64]) -> Vec<InForce> {
         let Some(turned) = sides.iter().position(|side| *side != 0.0) else { return Vec::new() };
-        // Panels on both sides stand at offset + windmill and offset - windmill.
+        // Panels on both sides are at offset + windmill and offset - windmill.
         let other = sides.iter().position(|side| *side == -sides[turned]).unwrap_or(turned);
         let arrays = |time_s: f64| {
             let (_, angles_rad) = self.arrays_rad.iter().rfind(|(at_s, _)| *at_s <= time_s + CLOCK_S)?;
