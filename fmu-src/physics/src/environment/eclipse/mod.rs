@@ -123,6 +123,11 @@ impl Shadow {
         Ok(Self { model, planet_radius_m, sun_radius_m })
     }
 
+    /// Radius of the planet, in m.
+    pub fn planet_radius_m(&self) -> f64 {
+        self.planet_radius_m
+    }
+
     /// Radius of the Sun, in m.
     pub fn sun_radius_m(&self) -> f64 {
         self.sun_radius_m
@@ -216,6 +221,16 @@ impl Shadow {
             ShadowModel::AllOrNothingCylinder => all_or_nothing(self.cylinder_gap_rad(spacecraft_m, sun_m)),
             ShadowModel::Off => (1.0, [none; 2]),
         }
+    }
+
+    /// Greatest rate of the gaps, in rad/s, at this least distance in m and greatest speed in m/s relative to the planet, and to the
+    /// Sun; infinite at the surface.
+    pub fn greatest_gap_rate_rad_s(&self, planet: [f64; 2], sun: [f64; 2]) -> f64 {
+        let rate_rad_s = |[distance_m, speed_m_s]: [f64; 2], radius_m: f64| {
+            let to_limb_m = (distance_m * distance_m - radius_m * radius_m).max(0.0).sqrt();
+            speed_m_s / distance_m * (1.0 + radius_m / to_limb_m)
+        };
+        rate_rad_s(planet, self.planet_radius_m) + rate_rad_s(sun, self.sun_radius_m)
     }
 
     /// Angle between the antisolar direction and the spacecraft, seen from the planet's centre, beyond the shadow

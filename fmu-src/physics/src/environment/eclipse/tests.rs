@@ -199,6 +199,28 @@ proptest! {
         prop_assert!((d.lit_fraction() - by_rings(&d)).abs() < 1e-9, "{} {}", d.lit_fraction(), by_rings(&d));
     }
 
+    /// Along any straight path the gaps change no faster than the bound for its least distance and its speed says.
+    #[test]
+    fn gaps_change_no_faster_than_their_bound(
+        start in prop::array::uniform3(-2e7..2e7f64), velocity in prop::array::uniform3(-1e4..1e4f64), span_s in 0.1..300.0f64,
+    ) {
+        let (start, velocity) = (Vector3::from(start), Vector3::from(velocity));
+        let (sun, radius_m) = (Vector3::new(6e10, 1e9, -2e9), RADIUS_MERCURY_M);
+        let path = |share: f64| start + velocity * (span_s * share);
+        let nearest_m = (0..=100).map(|k| path(f64::from(k) / 100.0).norm()).fold(f64::INFINITY, f64::min);
+        prop_assume!(nearest_m > 1.01 * radius_m);
+        let speed_m_s = velocity.norm();
+        let sun_m = (sun - start).norm() - speed_m_s * span_s;
+        for model in [ShadowModel::DiscOverlap, ShadowModel::AllOrNothingCone, ShadowModel::AllOrNothingCylinder] {
+            let shadow = Shadow::new(model, radius_m).unwrap();
+            let most_rad = shadow.greatest_gap_rate_rad_s([0.99 * nearest_m, speed_m_s], [sun_m, speed_m_s]) * span_s;
+            let [first, last] = [0.0, 1.0].map(|share| shadow.fraction_and_gaps(&path(share), &sun).1);
+            for (first, last) in first.into_iter().zip(last).filter(|(first, _)| first.is_finite()) {
+                prop_assert!((last - first).abs() <= most_rad, "{first} {last} {most_rad}");
+            }
+        }
+    }
+
     #[test]
     fn thin_lenses_do_not_cancel(sun in 1e-3..0.02f64, planet in 1e-3..1.5f64, log_depth in -9.0..-3.0f64) {
         // The planet's limb dips by d into the Sun's: covered 4/3 d^1.5 sqrt(2 r) / (pi a^2), with the curvatures

@@ -1,64 +1,107 @@
-//! Deviation of a spacecraft from its integrated orbit by thrust that becomes known only while it acts.
+//! Deviation of a spacecraft from its integrated orbit by forces that become known only while they act.
 //!
-//! Equation: d'' = a(t) + g(r + d) - g(r), r on the reference orbit, which has every other acceleration, a by thrust.
-//! Method: Encke's; Gauss collocation of the orbit's own order over each interval on which a is smooth. The orbit is rectified,
-//! that is takes the deviation, wherever its own segments are computed anew.
-//! Order: 16 at the ends of the intervals.
-//! Error measure: none; intervals are those of the attitude, which are short to the orbit.
+//! Equation: d'' = a(t) + g(r + d) - g(r), r on the reference orbit, which has every other acceleration, a by those forces.
+//! Method: Encke's. The acceleration is interpolated at the Chebyshev nodes of an interval on which a is smooth and integrated
+//! twice exactly; what gravity adds follows by Picard's iteration, which gains (w h)^2 / 12 a time, w the orbit's mean motion. The
+//! orbit is rectified, that is takes the deviation, wherever its own segments are computed anew.
+//! Order: 6 in the length h of the interval.
+//! Error measure: the iteration ends where the next one would change the deviation by rounding; the truncation is not estimated:
+//! intervals are those of the attitude, which are short to the orbit.
 //! Reference: Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 10.3.
 
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::numerics::chebyshev::Segment;
-use crate::numerics::collocation::{Collocation, IntegrationError};
+use crate::numerics::collocation::IntegrationError;
 
-/// Nodes of a segment.
-pub(super) const NODES: usize = 8;
-/// Coefficients of a segment's dense output.
-pub(super) const TERMS: usize = NODES + 1;
+/// Nodes of an interval.
+const NODES: usize = 6;
+/// Iterations until they count as diverging.
+const ITERATIONS: usize = 40;
 
-/// Deviation in position (m) and velocity (m/s), EME2000, with dense output over the last interval.
+/// Deviation in position and velocity, EME2000, with dense output over the last interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Deviation {
     start_s: f64,
     end_s: f64,
-    end: SVector<f64, 6>,
-    segment: Segment<6, TERMS>,
+    position_m: Segment<3, { NODES + 2 }>,
+    velocity_m_s: Segment<3, { NODES + 1 }>,
 }
 
 impl Deviation {
-    /// Integrates from `start_s`, where the deviation so far is `before`, to `end_s`; `acceleration_m_s2(t, d)` is d'' in m/s2.
+    /// Integrates from `start_s`, where the deviation so far is `before` (m and m/s), to `end_s`, under `extra_m_s2(t)` and the
+    /// difference of `gravity_m_s2(r)` off the path `reference_m(t)`.
     ///
     /// # Errors
-    /// See [`Collocation::solve`].
+    /// [`IntegrationError`].
     pub(super) fn integrate(
-        method: &Collocation<NODES, TERMS>,
         before: &SVector<f64, 6>,
         [start_s, end_s]: [f64; 2],
-        mut acceleration_m_s2: impl FnMut(f64, &Vector3<f64>) -> Vector3<f64>,
+        reference_m: impl Fn(f64) -> Vector3<f64>,
+        gravity_m_s2: impl Fn(&Vector3<f64>) -> Vector3<f64>,
+        extra_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
     ) -> Result<Self, IntegrationError> {
-        let (segment, end) = method.solve(start_s, end_s, before, None, |at_s, y| {
-            let acceleration = acceleration_m_s2(at_s, &Vector3::new(y[0], y[1], y[2]));
-            SVector::from([y[3], y[4], y[5], acceleration.x, acceleration.y, acceleration.z])
-        })?;
-        Ok(Self { start_s, end_s, end, segment })
+        let [position_m, velocity_m_s] = [0, 3].map(|row| before.fixed_rows::<3>(row).clone_owned());
+        let node_s = Segment::<3, NODES>::nodes(start_s, end_s);
+        let known = node_s.map(|at_s| {
+            let reference_m = reference_m(at_s);
+            let extra_m_s2 = extra_m_s2.as_ref().map_or(Vector3::zeros(), |extra| extra(at_s));
+            (reference_m, extra_m_s2 - gravity_m_s2(&reference_m))
+        });
+        let mut off_m = node_s.map(|at_s| position_m + velocity_m_s * (at_s - start_s));
+        let mut last_m = None;
+        for _ in 0..ITERATIONS {
+            let mut rates = [Vector3::zeros(); NODES];
+            for ((rate, (reference_m, apart_m_s2)), off_m) in rates.iter_mut().zip(&known).zip(&off_m) {
+                *rate = gravity_m_s2(&(reference_m + off_m)) + apart_m_s2;
+            }
+            let acceleration = Segment::from_samples(start_s, end_s, &rates);
+            let velocity = acceleration.integral(velocity_m_s);
+            let position = velocity.integral(position_m);
+            let (mut change_m, mut size_m) = (0.0_f64, 0.0_f64);
+            for (off_m, &at_s) in off_m.iter_mut().zip(&node_s) {
+                let next_m = position.value(at_s);
+                change_m = change_m.max((next_m - *off_m).amax());
+                size_m = size_m.max(next_m.amax());
+                *off_m = next_m;
+            }
+            if !size_m.is_finite() {
+                return Err(IntegrationError::NotFinite { at_s: start_s });
+            }
+            // What the next iteration would change, by what this one has gained.
+            let gain = last_m.map_or(1.0, |last_m: f64| (change_m / last_m).min(1.0));
+            if change_m * gain <= 4.0 * f64::EPSILON * size_m {
+                return Ok(Self { start_s, end_s, position_m: position, velocity_m_s: velocity });
+            }
+            last_m = Some(change_m);
+        }
+        Err(IntegrationError::NotConverged {
+            from_s: start_s,
+            to_s: end_s,
+            change: last_m.unwrap_or(f64::INFINITY),
+        })
     }
 
     /// Position and velocity off the reference orbit at `at_s`; beyond the interval as at its start, or going on evenly.
     pub(super) fn value(&self, at_s: f64) -> SVector<f64, 6> {
-        if at_s < self.end_s {
-            return self.segment.value(at_s.max(self.start_s));
-        }
-        let mut value = self.end;
-        for i in 0..3 {
-            value[i] += self.end[i + 3] * (at_s - self.end_s);
-        }
-        value
+        let within_s = at_s.clamp(self.start_s, self.end_s);
+        let velocity_m_s = self.velocity_m_s.value(within_s);
+        let position_m = self.position_m.value(within_s) + velocity_m_s * (at_s - within_s).max(0.0);
+        SVector::from_iterator(position_m.iter().chain(&velocity_m_s).copied())
+    }
+
+    /// End of the last interval, s.
+    pub(super) fn end_s(&self) -> f64 {
+        self.end_s
     }
 
     /// Rejects decoded states that no simulation can produce.
     pub(super) fn is_valid(&self) -> bool {
-        self.segment.is_valid() && self.segment.spans(self.start_s, self.end_s)
+        self.start_s <= self.end_s
+            && self.position_m.is_valid()
+            && self.position_m.spans(self.start_s, self.end_s)
+            && self.velocity_m_s.is_valid()
+            && self.velocity_m_s.spans(self.start_s, self.end_s)
     }
 }

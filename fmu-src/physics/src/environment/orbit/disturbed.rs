@@ -1,21 +1,19 @@
 //! An orbit integrated under gravity with its disturbances: the planet's flattening, the Sun's tide, and whatever
-//! acceleration the caller adds: of light and heat ahead, of thrust while it acts (`deviation`).
+//! acceleration the caller adds: of forces known ahead, or of forces known only while they act (`deviation`).
 
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::deviation::{Deviation, NODES, TERMS};
+use super::deviation::Deviation;
 use super::elements::{OrbitError, check, check_mu};
 use super::gravity::Gravity;
 use super::n_body::{BodyPlaces, Collision, IntegrationCenter, NBodyGravity, Reached, pack, unpack};
+use super::orbit_method::{OrbitMethod, TERMS};
 use crate::{
     bodies::Body,
     environment::CartesianState,
-    numerics::{
-        chebyshev::Segment,
-        collocation::{Collocation, IntegrationError, SegmentChain, edge_after_s},
-    },
+    numerics::collocation::{IntegrationError, SegmentChain, edge_after_s},
 };
 
 /// Why an integrated orbit ends.
@@ -44,10 +42,6 @@ pub enum OrbitIntegrationError {
     },
 }
 
-/// The integration method of a [`DisturbedOrbit`]: computed once, shared, no state.
-#[derive(Clone, Debug, Default)]
-pub struct OrbitMethod(pub(super) Collocation<NODES, TERMS>);
-
 /// A spacecraft's orbit as a chain of integrated segments with edges at whole multiples of their length: serialisable
 /// state with dense output. Positions relative to the central body, in EME2000; times on the caller's clock.
 ///
@@ -57,7 +51,7 @@ pub struct OrbitMethod(pub(super) Collocation<NODES, TERMS>);
 pub struct DisturbedOrbit {
     chain: SegmentChain<6, TERMS>,
     radius_m: f64,
-    /// By thrust within the present segment; absent without.
+    /// By forces known only while they act, within the present segment; absent without.
     deviation: Option<Deviation>,
     /// The body that the segments count from, between several of them; absent where that never changes.
     center: Option<IntegrationCenter>,
@@ -148,38 +142,37 @@ impl DisturbedOrbit {
         unpack(&self.deviation.map_or(reference, |deviation| reference + deviation.value(at_s)))
     }
 
-    /// Whether thrust has acted within the present segment.
+    /// Whether forces have moved the spacecraft off the orbit within the present segment.
     pub fn is_deviated(&self) -> bool {
         self.deviation.is_some()
     }
 
-    /// Thrust accelerates the spacecraft by `thrust_m_s2(t)`, EME2000, smooth from `start_s` to `end_s`, within the present
-    /// segment and from where the last thrust ended or later; none = it coasts on. The Sun's tide is that of the segment.
+    /// Up to when they have, s.
+    pub fn deviated_until_s(&self) -> f64 {
+        self.deviation.as_ref().map_or(f64::NEG_INFINITY, Deviation::end_s)
+    }
+
+    /// Forces accelerate the spacecraft by `extra_m_s2(t)`, EME2000, smooth from `start_s` to `end_s`, within the present segment and
+    /// not before the last such interval; none = it coasts on. The Sun's tide is that of the segment.
     ///
     /// # Errors
     /// [`OrbitIntegrationError`]; the orbit stays as it was.
     pub fn accelerate(
         &mut self,
-        method: &OrbitMethod,
         gravity: &Gravity,
         [start_s, end_s]: [f64; 2],
-        thrust_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
+        extra_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
     ) -> Result<(), OrbitIntegrationError> {
-        if end_s <= start_s || (thrust_m_s2.is_none() && self.deviation.is_none()) {
+        if end_s <= start_s || (extra_m_s2.is_none() && self.deviation.is_none()) {
             return Ok(());
         }
         // Over a deviation the tide changes by less than 1e-10 m/s2 a kilometre.
         let gravity = Gravity { tide_mu_m3_s2: None, ..*gravity };
         let near_m_s2 = |position_m: &Vector3<f64>| gravity.acceleration_m_s2(position_m, &Vector3::zeros());
-        let thrust_m_s2 = thrust_m_s2.map(|thrust| Segment::<3, NODES>::fit(start_s, end_s, thrust));
         let before = self.deviation.map_or(SVector::zeros(), |deviation| deviation.value(start_s));
-        let next = Deviation::integrate(&method.0, &before, [start_s, end_s], |at_s, off_m| {
-            let reference_m = unpack(&self.chain.value(at_s)).position_m;
-            let fall = near_m_s2(&(reference_m + off_m)) - near_m_s2(&reference_m);
-            thrust_m_s2.as_ref().map_or(fall, |thrust| fall + thrust.value(at_s))
-        })?;
-        let distance_m =
-            (unpack(&self.chain.value(end_s)).position_m + unpack(&next.value(end_s)).position_m).norm();
+        let reference_m = |at_s: f64| unpack(&self.chain.value(at_s)).position_m;
+        let next = Deviation::integrate(&before, [start_s, end_s], reference_m, near_m_s2, extra_m_s2)?;
+        let distance_m = (reference_m(end_s) + unpack(&next.value(end_s)).position_m).norm();
         check_above(distance_m, end_s, self.radius_m)?;
         self.deviation = Some(next);
         Ok(())

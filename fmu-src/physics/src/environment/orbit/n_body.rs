@@ -14,9 +14,9 @@ use nalgebra::{Matrix3, SVector, Vector3};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::deviation::TERMS;
 use super::first_fall::{EDGE_M, first_fall};
 use super::gravity::{Flattening, Gravity, gradient_per_s2};
+use super::orbit_method::TERMS;
 use crate::{
     bodies::{Body, BodyData},
     constants::{GM_MOON_M3_S2, GM_SUN_M3_S2, SPEED_OF_LIGHT_M_S},

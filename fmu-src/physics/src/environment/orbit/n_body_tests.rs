@@ -2,8 +2,9 @@
 
 use nalgebra::{SVector, Vector3};
 
-use super::disturbed::{DisturbedOrbit, OrbitIntegrationError, OrbitMethod};
+use super::disturbed::{DisturbedOrbit, OrbitIntegrationError};
 use super::n_body::{BodyPlaces, Collision, NBodyGravity, NBodySettings};
+use super::orbit_method::OrbitMethod;
 use crate::bodies::{Body, BodyData};
 use crate::constants::{DAY_S, GM_MERCURY_M3_S2, GM_SUN_M3_S2, RADIUS_MERCURY_M};
 use crate::environment::CartesianState;

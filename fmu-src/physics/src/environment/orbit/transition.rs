@@ -10,8 +10,7 @@
 
 use nalgebra::{Matrix3, Matrix6, SMatrix, SVector, Vector3, Vector6};
 
-use super::deviation::TERMS;
-use super::disturbed::OrbitMethod;
+use super::orbit_method::{OrbitMethod, TERMS};
 use crate::numerics::{chebyshev::Segment, collocation::IntegrationError};
 
 /// Partials of `R` quantities by position (m) and velocity (m/s), EME2000, at all times of an interval.

@@ -2,9 +2,10 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use super::disturbed::{DisturbedOrbit, OrbitMethod};
+use super::disturbed::DisturbedOrbit;
 use super::gravity::gradient_per_s2;
 use super::n_body::{BodyPlaces, NBodyGravity, NBodySettings};
+use super::orbit_method::OrbitMethod;
 use super::transition::{partials_over, transition};
 use super::two_body::TwoBodyOrbit;
 use crate::bodies::{Body, BodyData};

@@ -29,6 +29,8 @@ use crate::numerics::quadrature::GAUSS_2;
 
 use super::evaluation::{Evaluation, Plant};
 use crate::plant::light::light_and_heat::LEAST_ARM_M;
+use crate::plant::motion::kinematics::Kinematics;
+use crate::plant::settings::configuration::AttitudeSource;
 use crate::plant::settings::error::PlantError;
 
 /// Nodes of Gauss-Legendre quadrature of order 4 on [0, 1].
@@ -89,7 +91,10 @@ impl DisturbanceInterval {
     pub(crate) fn next(&self, plant: &mut Plant<'_>, start_s: f64, grid_s: f64) -> Result<Self, PlantError> {
         plant.spend(Effort::Segment, start_s)?;
         let (known_s, begin) = plant.begin(start_s, next_multiple_s(start_s, grid_s))?;
-        let limit_s = plant.kinematics.smooth_until(start_s, known_s);
+        let limit_s = match plant.kinematics.excludes_events(&begin, known_s - start_s) {
+            true => known_s,
+            false => plant.kinematics.smooth_until(start_s, known_s),
+        };
         let rate_rad_s = begin.frame.rate_body_rad_s.norm();
         let turning_rad_s = rate_rad_s + orbital_rate_rad_s(&begin.geometry.spacecraft);
         let longest_s = self.next_longest_s.min(LONGEST_TURN_RAD / rate_rad_s);
@@ -135,6 +140,25 @@ impl DisturbanceInterval {
         let to_sun = [to_sun, (to_sun_then - to_sun) / elapsed_s];
         let lit_fraction = [now.lit_fraction, (then.lit_fraction - now.lit_fraction) / elapsed_s];
         Ok(Self { start_s, end_s, next_longest_s, loads, field_inertial_t, to_sun, lit_fraction })
+    }
+
+    /// Moves the spacecraft of `plant` off its orbit by the force over the interval, the body turning on as it does, where forces do so.
+    ///
+    /// # Errors
+    /// What ends a flight.
+    pub(crate) fn deviate(&self, plant: &mut Plant<'_>) -> Result<(), PlantError> {
+        let [applied, slope] = plant.external(self.start_s);
+        let Kinematics { configuration, trajectory, mass_at_zero, .. } = &mut plant.kinematics;
+        let AttitudeSource::Dynamic(attitude) = &configuration.attitude else { return Ok(()) };
+        if !configuration.motion.deviates_by_interval() {
+            return Ok(());
+        }
+        let acceleration_m_s2 = |time_s: f64| {
+            let applied_n = applied.force_body_n + slope.force_body_n * (time_s - self.start_s);
+            let force_body_n = self.force_at_n(time_s) + applied_n;
+            attitude.frame_at(time_s).inertial_from_body * (force_body_n / mass_at_zero.mass_kg)
+        };
+        Ok(trajectory.accelerate(configuration, [self.start_s, self.end_s], Some(acceleration_m_s2))?)
     }
 
     /// Whether a simulation can produce it.
@@ -188,6 +212,12 @@ impl DisturbanceInterval {
             }
         }
         total
+    }
+
+    /// Sum of the forces of the effects at `time_s`, body frame, in N.
+    pub(crate) fn force_at_n(&self, time_s: f64) -> Vector3<f64> {
+        let [[force_body_n, _], _] = self.total_at(time_s);
+        force_body_n
     }
 
     /// Unit vector to the Sun, EME2000, and the visible part of its disc at `time_s`.

@@ -3,7 +3,9 @@
 //! A span of the propagator is one on which the orbit is known and attitude law and shadow keep their branch.
 //! An orbit that light and heat act on has to be known before they can be computed, and they before it. A segment begins
 //! with the orbit under gravity alone. Within a segment it is off by centimetres, which changes light and heat by less than
-//! 1e-7 of themselves; with their acceleration the orbit is then integrated anew, up to the segment's end.
+//! 1e-7 of themselves; with their acceleration the orbit is then integrated anew, up to the segment's end. Where the attitude becomes
+//! known only while it comes about, the orbit stays the one under gravity, and forces move the spacecraft off it interval by interval
+//! of the disturbances (Encke's method).
 
 use nalgebra::{Rotation3, Vector3};
 
@@ -187,6 +189,11 @@ impl<'a> Plant<'a> {
         Evaluation { instant, loads, mass, panels_body_n_m_s, air_and_field }
     }
 
+    /// Force and torque from outside at `time_s` and their slopes per second.
+    pub(crate) fn external(&self, time_s: f64) -> [ForceTorque; 2] {
+        (self.external)(time_s)
+    }
+
     /// Air and magnetic field at `time_s`, which the propagator must have reached.
     pub(crate) fn air_and_field(&self, time_s: f64) -> AirAndField {
         let settings = &self.kinematics.configuration.air_and_field;
@@ -303,9 +310,9 @@ impl<'a> Plant<'a> {
         &mut self,
         start_s: f64,
         limit_s: f64,
-        orbit_is_recomputed: bool,
+        orbit_has_moved: bool,
     ) -> Result<f64, PlantError> {
-        let known_s = self.extend_air_and_field(start_s, limit_s, orbit_is_recomputed)?;
+        let known_s = self.extend_air_and_field(start_s, limit_s, orbit_has_moved)?;
         Ok(self.extend_radiation(start_s, limit_s)?.min(known_s))
     }
 
@@ -314,12 +321,12 @@ impl<'a> Plant<'a> {
         &mut self,
         start_s: f64,
         limit_s: f64,
-        orbit_is_recomputed: bool,
+        orbit_has_moved: bool,
     ) -> Result<f64, PlantError> {
         let Configuration { air_and_field, figure, .. } = self.kinematics.configuration;
         let Some((settings, figure)) = air_and_field.zip(*figure) else { return Ok(limit_s) };
         let mut builder =
-            AirAndFieldBuilder { settings, figure, kinematics: &mut self.kinematics, orbit_is_recomputed };
+            AirAndFieldBuilder { settings, figure, kinematics: &mut self.kinematics, orbit_has_moved };
         builder.extend(self.air_and_field, start_s, limit_s)
     }
 
@@ -347,15 +354,16 @@ impl<'a> Plant<'a> {
     /// # Errors
     /// What ends a flight.
     pub(crate) fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
+        let by_interval = self.kinematics.configuration.deviates_by_interval();
         if self.kinematics.trajectory.end_s() > start_s {
-            return self.extend_disturbances(start_s, self.kinematics.trajectory.end_s(), false);
+            return self.extend_disturbances(start_s, self.kinematics.trajectory.end_s(), by_interval);
         }
         // Two integrations of some 40 evaluations, and the search for changes in between.
         self.kinematics.spend_units(Cost::Orbit, 60, start_s)?;
         self.kinematics.trajectory.leave(self.kinematics.configuration, start_s);
         let before = *self.kinematics.trajectory;
         self.integrate(f64::INFINITY, |_| Vector3::zeros())?;
-        if self.kinematics.configuration.motion.is_pushed() {
+        if self.kinematics.configuration.motion.is_pushed() && !by_interval {
             let lit_s = self.extend_disturbances(start_s, self.kinematics.trajectory.end_s(), false)?;
             let mut end_s = self.kinematics.smooth_until(start_s, lit_s);
             let acceleration_m_s2 = loop {

@@ -8,6 +8,7 @@ use crate::momentum::{TorqueModel, Totals};
 
 use super::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 use super::propagator_state::PropagatorState;
+use crate::plant::disturbances::disturbance_interval::DisturbanceInterval;
 use crate::plant::disturbances::evaluation::{External, Plant};
 use crate::plant::disturbances::world::{PreparedSpacecraft, World};
 use crate::plant::settings::configuration::{AttitudeSource, Command, DynamicAttitude};
@@ -157,15 +158,35 @@ impl ConfiguredFlight<'_> {
         Ok(())
     }
 
-    /// Thrust over the present segment of the motion moves the spacecraft off the orbit that was computed ahead.
-    pub(super) fn take_thrust(&mut self, motion: &GyrostatMotion) -> Result<(), PlantError> {
-        let load = self.thrusters.load();
-        let thrust_m_s2 = (!load.law.is_none()).then_some(|time_s: f64| {
-            motion.attitude_at(time_s).inertial_from_body(&load.acceleration_body_m_s2(time_s))
-        });
-        let (trajectory, method) = (&mut self.propagator.trajectory, self.given.prepared.orbit_method);
+    /// Thrust over the present segment of the motion moves the spacecraft off the orbit that was computed ahead; where disturbances do
+    /// so by interval, with those of `interval`, at this mass.
+    pub(super) fn take_thrust(
+        &mut self,
+        motion: &GyrostatMotion,
+        interval: &DisturbanceInterval,
+        mass_kg: f64,
+    ) -> Result<(), PlantError> {
+        let (load, configuration) = (self.thrusters.load(), &self.world.configuration);
+        let trajectory = &mut self.propagator.trajectory;
         let span_s = [motion.start_s(), motion.end_s()];
-        Ok(trajectory.accelerate(&self.world.configuration, method, span_s, thrust_m_s2)?)
+        let (thrusts, disturbed) = (!load.law.is_none(), configuration.motion.deviates_by_interval());
+        if !thrusts && disturbed && trajectory.is_deviated_until(span_s[1]) {
+            return Ok(());
+        }
+        let [applied, slope] = (self.given.external)(span_s[0]);
+        let acceleration_m_s2 = (thrusts || disturbed).then_some(|time_s: f64| {
+            let mut acceleration_body_m_s2 = Vector3::zeros();
+            if thrusts {
+                acceleration_body_m_s2 += load.acceleration_body_m_s2(time_s);
+            }
+            if disturbed {
+                let applied_n = applied.force_body_n + slope.force_body_n * (time_s - span_s[0]);
+                let force_body_n = interval.force_at_n(time_s) + applied_n;
+                acceleration_body_m_s2 += force_body_n / mass_kg;
+            }
+            motion.attitude_at(time_s).inertial_from_body(&acceleration_body_m_s2)
+        });
+        Ok(trajectory.accelerate(configuration, span_s, acceleration_m_s2)?)
     }
 
     /// The plant in the attitude of its configuration.

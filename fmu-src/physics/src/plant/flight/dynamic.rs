@@ -177,7 +177,7 @@ impl AttitudeDynamics {
             load.internal = self.panels.internal(flight.given.prepared.panels, &self.mass.now, time_s);
             self.dumps.torques = self.torques_by_source(&external, time_s);
             self.motion.advance(&settings.gyrostat, self.control.wheels.motors(), &load, limit_s);
-            flight.take_thrust(&self.motion)?;
+            flight.take_thrust(&self.motion, &self.disturbance, self.mass.now.mass_kg)?;
         }
         Ok(())
     }
@@ -258,7 +258,12 @@ impl AttitudeDynamics {
         let loaded = world.configuration.loaded();
         self.mass.left = flight.thrusters.left(&loaded, time_s);
         world.mass_at_zero = self.mass.left.unwrap_or(loaded);
-        flight.propagator.cut(&world.configuration, time_s, true);
+        let begins = self.disturbance == DisturbanceInterval::before();
+        if begins || !world.configuration.motion.deviates_by_interval() {
+            flight.propagator.cut(&world.configuration, time_s, true);
+        } else {
+            flight.propagator.cut_light(time_s);
+        }
         // A controller's torque lasts for a sample, and holds the rate.
         let rate_terms_body = match &settings.control {
             Some(_) => [Vector3::zeros(); 2],
@@ -275,6 +280,7 @@ impl AttitudeDynamics {
             plant = flight.turning_plant(time_s, &body, rate_terms_body);
         }
         self.disturbance = self.disturbance.next(&mut plant, time_s, settings.grid_s)?;
+        self.disturbance.deviate(&mut plant)?;
         if settings.panels_have_mass || self.mass.left.is_some() || has_thrusters {
             let instant = plant.instant(time_s);
             self.set_known_mass(settings, plant.mass_properties(&instant, time_s));

@@ -93,6 +93,13 @@ impl PropagatorState {
         }
     }
 
+    /// Forgets light and heat ahead of `time_s`, where the attitude is another than they were computed for.
+    pub(crate) fn cut_light(&mut self, time_s: f64) {
+        if let Some(light) = &mut self.light {
+            light.cut(time_s);
+        }
+    }
+
     /// The velocity jumps by `delta_v_m_s`, EME2000, at `time_s` in a maneuver, whatever else acts on the orbit.
     ///
     /// # Errors

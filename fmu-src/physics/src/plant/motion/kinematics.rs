@@ -17,6 +17,7 @@ use crate::guidance::{
     Activity, CoursePoint, DownlinkStatus, EphemerisAtTime, Guided, GuidedAttitude, ScienceCourse, SunPlace,
     Window,
 };
+use crate::math;
 use crate::momentum::{EventValues, after_event_s};
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
@@ -348,6 +349,30 @@ impl Kinematics<'_> {
             return limit_s;
         }
         first_change_s(before_s, behind_s, |at_s| same(self, at_s)).min(limit_s)
+    }
+
+    /// Whether the gaps of the shadow at `instant` are too wide to close within `span_s` and the attitude law has no margins.
+    pub(crate) fn excludes_events(&self, instant: &Instant, span_s: f64) -> bool {
+        let Geometry { to_planet, to_sun, .. } = &instant.geometry;
+        let [outer_rad, inner_rad, first_margin, second_margin] = instant.events.into();
+        if first_margin != f64::INFINITY || second_margin != f64::INFINITY {
+            return false;
+        }
+        let Some(to_planet) = to_planet else {
+            return outer_rad == f64::INFINITY && inner_rad == f64::INFINITY;
+        };
+        let Configuration { shadow, .. } = self.configuration;
+        // Gravity is nowhere stronger than at the surface; twice that is more than all other forces add.
+        let gm_m3_s2 = self.configuration.planet_gm_m3_s2();
+        let gained_m_s = 2.0 * gm_m3_s2 / math::powi(shadow.planet_radius_m(), 2) * span_s;
+        let bound = |to: &CartesianState| {
+            let speed_m_s = to.velocity_m_s.norm() + gained_m_s;
+            [to.position_m.norm() - speed_m_s * span_s, speed_m_s]
+        };
+        let (planet, sun) = (bound(to_planet), bound(to_sun));
+        let most_rad = shadow.greatest_gap_rate_rad_s(planet, sun) * span_s;
+        // Written so that a NaN excludes nothing.
+        planet[0] > 0.0 && sun[0] > 0.0 && outer_rad.abs().min(inner_rad.abs()) > most_rad
     }
 
     /// The latest time up to `limit_s` until which attitude and light are smooth from `start_s` on.

@@ -210,7 +210,7 @@ impl Trajectory {
             };
         }
         match (&self.orbit, &self.window_start) {
-            // Where thrust acts the present segment knows the way of its last interval alone.
+            // Off its orbit the present segment knows the way of its last interval alone.
             (Some(orbit), Some((since_s, state)))
                 if orbit.is_deviated() && is_same_window(configuration, *since_s, time_s) =>
             {
@@ -232,7 +232,7 @@ impl Trajectory {
 
     /// Leaves the present segment, which ends at `time_s`: remembers what the next one cannot know.
     pub(crate) fn leave(&mut self, configuration: &Configuration, time_s: f64) {
-        // What thrust has moved is remembered while it does.
+        // What forces move off the orbit is remembered while they do.
         if let Some(orbit) = self.orbit.filter(|orbit| !orbit.is_deviated()) {
             self.remember_window(configuration, [orbit.start_s(), time_s]);
         }
@@ -248,17 +248,21 @@ impl Trajectory {
         }
     }
 
-    /// Thrust accelerates the spacecraft by `thrust_m_s2(t)`, EME2000, over `span_s` of the present segment; none = it coasts
-    /// on. An orbit that forces do not act on stays.
+    /// Whether what is known of the forces has moved the spacecraft off its orbit up to `time_s`.
+    pub(crate) fn is_deviated_until(&self, time_s: f64) -> bool {
+        self.orbit.as_ref().is_some_and(|orbit| orbit.deviated_until_s() >= time_s)
+    }
+
+    /// Forces that become known only while they act accelerate the spacecraft by `extra_m_s2(t)`, EME2000, over `span_s` of the
+    /// present segment; none = it coasts on. An orbit that forces do not act on stays.
     ///
     /// # Errors
     /// See [`OrbitIntegrationError`].
     pub(crate) fn accelerate(
         &mut self,
         configuration: &Configuration,
-        method: &OrbitMethod,
         span_s: [f64; 2],
-        thrust_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
+        extra_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
     ) -> Result<(), OrbitIntegrationError> {
         let Some(mut orbit) = self.orbit.filter(|_| configuration.motion.is_pushed()) else { return Ok(()) };
         let gravity = match &configuration.motion {
@@ -266,13 +270,17 @@ impl Trajectory {
             Motion::NBody { gravity, .. } => gravity.near(orbit.integration_center()),
             Motion::TwoBody | Motion::Held { .. } => return Ok(()),
         };
-        if thrust_m_s2.is_none() && !orbit.is_deviated() {
+        if extra_m_s2.is_none() && !orbit.is_deviated() {
             return Ok(());
         }
         if !orbit.is_deviated() {
             self.remember_window(configuration, [orbit.start_s(), span_s[0]]);
         }
-        orbit.accelerate(method, &gravity, span_s, thrust_m_s2)?;
+        orbit.accelerate(&gravity, span_s, extra_m_s2)?;
+        if configuration.motion.deviates_by_interval() {
+            self.periapses.forget_after(span_s[0], radial(&orbit.state_at(span_s[0])));
+            self.periapses.detect_periapsis(&orbit, configuration, span_s);
+        }
         self.orbit = Some(orbit);
         self.remember_window(configuration, span_s);
         Ok(())
@@ -391,7 +399,9 @@ impl Trajectory {
             }
             Motion::TwoBody | Motion::Held { .. } => return Ok(0),
         };
-        self.periapses.detect_periapsis(&orbit, configuration);
+        if !configuration.deviates_by_interval() {
+            self.periapses.detect_periapsis(&orbit, configuration, [orbit.start_s(), orbit.end_s()]);
+        }
         self.orbit = Some(orbit);
         Ok(shortened)
     }
@@ -416,10 +426,14 @@ impl Periapses {
         }
     }
 
-    /// Takes note of a periapsis in the present segment.
-    fn detect_periapsis(&mut self, orbit: &DisturbedOrbit, configuration: &Configuration) {
+    /// Takes note of a periapsis within this span of the present segment.
+    fn detect_periapsis(
+        &mut self,
+        orbit: &DisturbedOrbit,
+        configuration: &Configuration,
+        [from_s, to_s]: [f64; 2],
+    ) {
         let period_s = configuration.orbit.period_s();
-        let (from_s, to_s) = (orbit.start_s(), orbit.end_s());
         let radial_at = |at_s: f64| radial(&orbit.state_at(at_s));
         if !period_s.is_finite() || radial_at(from_s) >= 0.0 || radial_at(to_s) < 0.0 {
             return;

@@ -235,6 +235,12 @@ impl Motion {
         matches!(self, Self::Disturbed { feedback: true, .. } | Self::NBody { feedback: true, .. })
     }
 
+    /// Whether forces that become known only while the attitude comes about move the spacecraft off its orbit interval by interval;
+    /// between several bodies, where a segment of the orbit is long, it is integrated anew with them instead.
+    pub(crate) fn deviates_by_interval(&self) -> bool {
+        matches!(self, Self::Disturbed { feedback: true, .. })
+    }
+
     /// Whether the acceleration by light and heat over a segment is as good as the orbit is to be, in m/s2; one about a single body has
     /// no tolerance.
     pub(crate) fn resolves<const N: usize>(&self, acceleration_m_s2: &Segment<3, N>) -> bool {
@@ -311,6 +317,16 @@ impl Configuration {
     pub fn planet(&self) -> Option<Body> {
         let center = Some(self.center).filter(|body| body.is_planet());
         self.encounter.map(|encounter| encounter.body).or(center)
+    }
+
+    /// Gravitational parameter of that planet, in m3/s2.
+    pub(crate) fn planet_gm_m3_s2(&self) -> f64 {
+        self.encounter.map_or(self.orbit.mu_m3_s2(), |encounter| encounter.gm_m3_s2)
+    }
+
+    /// Whether the attitude is one of dynamics and forces move the spacecraft off its orbit interval by interval of the disturbances.
+    pub(crate) fn deviates_by_interval(&self) -> bool {
+        matches!(self.attitude, AttitudeSource::Dynamic(_)) && self.motion.deviates_by_interval()
     }
 
     /// Whether there is more of light and heat than sunlight that nothing shadows.
