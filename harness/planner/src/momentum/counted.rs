@@ -8,12 +8,14 @@
 //! windows that cannot share a windmill angle whatever the momentum before them have a change among them; such spans that share no edge
 //! are counted. From above: each group goes on as long as a plan for the rest exists in which every later window is a group by itself.
 //! Where both differ, branch and bound over the places of the changes, depth first: a branch ends where even single windows
-//! behind it find no plan, or where the count from below exceeds what is left. It stops by the clock; the gap is reported.
+//! behind it find no plan, or where the count from below exceeds what is left. It stops by the clock; the gap is reported. All of it is
+//! within a range about the model's controls: programmes are linear, and a group that they find may keep no limit where controls go far.
 
 use std::{collections::HashMap, time::Instant};
 
 use super::{
     model::{Model, Part},
+    plan::WHOLE,
     program::Goal,
     simulated::SAME_S,
     torque::Control,
@@ -48,8 +50,8 @@ pub(super) fn single(model: &Model) -> Vec<usize> {
     (0..model.windows.len()).collect()
 }
 
-fn is_kept(model: &Model, leaders: &[usize], part: Part, guard: f64, scale: f64) -> bool {
-    let mut program = model.program(leaders, part, [guard, 1.0]);
+fn is_kept(model: &Model, leaders: &[usize], part: Part, [guard, trust]: [f64; 2], scale: f64) -> bool {
+    let mut program = model.program(leaders, part, [guard, trust]);
     program.steps.iter_mut().for_each(|step| step.limit *= scale);
     let found = program.solve(Goal::LeastExcess);
     found.is_some_and(|it| it.excess <= KEPT * model.limit.momentum_n_m_s)
@@ -87,7 +89,7 @@ fn parts(model: &Model, guard: f64, scale: f64, most: usize) -> Option<Vec<usize
         }
         let holds = |to: usize| {
             let part = Part { steps: [from, to], free: from > 0 };
-            is_kept(model, &leaders, part, guard, scale)
+            is_kept(model, &leaders, part, [guard, WHOLE], scale)
         };
         // Where the limit is exceeded at once nothing is to be dumped yet.
         let to = farthest(from, count, holds);
@@ -125,15 +127,17 @@ pub(super) fn fewest_dumps(model: &Model, guard: f64, progress: &mut dyn FnMut()
 pub(super) fn first_exceeded_s(model: &Model, guard: f64) -> Option<f64> {
     let leaders = single(model);
     let count = model.instants().len();
-    let kept =
-        farthest(0, count, |to| is_kept(model, &leaders, Part { steps: [0, to], free: false }, guard, 1.0));
+    let kept = farthest(0, count, |to| {
+        is_kept(model, &leaders, Part { steps: [0, to], free: false }, [guard, WHOLE], 1.0)
+    });
     model.instants().get(kept).map(|row| model.simulated.rows[*row].time_s)
 }
 
 /// Searches the places of the changes.
 struct Search<'m> {
     model: &'m Model,
-    guard: f64,
+    /// Share of the limit that is left, and of every control's range about its present value.
+    ranges: [f64; 2],
     /// Windows that begin a group in any case.
     forced: Vec<bool>,
     /// First step of every window, and behind the last.
@@ -163,7 +167,7 @@ impl Search<'_> {
 
     /// Whether a plan exists with these changes, all windows from one on by themselves.
     fn is_open(&self, changes: &[usize], single_from: usize) -> bool {
-        is_kept(self.model, &self.leaders(changes, single_from), self.whole(), self.guard, 1.0)
+        is_kept(self.model, &self.leaders(changes, single_from), self.whole(), self.ranges, 1.0)
     }
 
     /// The window up to which those from `from` on can share their arrays, whatever comes before and after.
@@ -174,7 +178,7 @@ impl Search<'_> {
         let leaders = self.leaders(&[from], usize::MAX);
         let to = farthest(from, self.forced.len(), |to| {
             let part = Part { steps: [self.steps[from], self.steps[to]], free: from > 0 };
-            part.steps[0] >= part.steps[1] || is_kept(self.model, &leaders, part, self.guard, 1.0)
+            part.steps[0] >= part.steps[1] || is_kept(self.model, &leaders, part, self.ranges, 1.0)
         });
         let to = to.max(from + 1);
         self.reached.insert(from, to);
@@ -245,11 +249,11 @@ impl Search<'_> {
     }
 }
 
-/// The fewest changes of the arrays with which the limits are kept about the model's controls, sought until a time; `None` where not
-/// even a change at every window keeps them.
+/// The fewest changes of the arrays with which the limits are kept within a range about the model's controls, sought until a time;
+/// `None` where not even a change at every window keeps them.
 pub(super) fn fewest_changes(
     model: &Model,
-    guard: f64,
+    ranges: [f64; 2],
     until: Instant,
     progress: &mut dyn FnMut(),
 ) -> Option<Groups> {
@@ -276,7 +280,7 @@ pub(super) fn fewest_changes(
             steps[window] = step + 1;
         }
     }
-    let mut search = Search { model, guard, forced, steps, until, reached: HashMap::new() };
+    let mut search = Search { model, ranges, forced, steps, until, reached: HashMap::new() };
     let moves = (0..windows.len())
         .any(|window| is_moved(window, Control::Windmill) || is_moved(window, Control::Offset));
     if !moves {

@@ -287,7 +287,7 @@ impl Model {
     }
 
     /// The same of the momentum alone.
-    pub(super) fn momentum_excess_n_m_s(&self) -> (f64, usize) {
+    fn momentum_excess_n_m_s(&self) -> (f64, usize) {
         let momentum = self.momentum_n_m_s();
         let over = momentum
             .iter()

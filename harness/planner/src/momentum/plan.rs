@@ -270,13 +270,13 @@ struct Structure {
     exceeded: Option<Exceeded>,
 }
 
-/// Counts dumps and changes about the model.
+/// Counts dumps and changes about the model, which gets controls by them; whether those keep the limits.
 fn structure(
     model: &mut Model,
     sunlit: &SunlitSpacecraft,
     task: &PlanTask,
     simulates: &mut dyn Simulates,
-) -> Result<Structure, PlanError> {
+) -> Result<(Structure, bool), PlanError> {
     let single = counted::single(model);
     let goal = task.least.goal();
     let (mut dumps_at_least, mut exceeded) = (0, None);
@@ -291,18 +291,23 @@ fn structure(
                 model.windows = first.1;
                 model.linearise(sunlit);
             }
-            let excess_n_m_s = model.momentum_excess_n_m_s().0;
             // A target that is missed needs no dump.
+            let mut alone = model.clone();
+            if task.target.is_some() {
+                alone.aim(sunlit, None);
+                refine(&mut alone, sunlit, &single, (Goal::LeastExcess, WHOLE), simulates)?;
+            }
+            let excess_n_m_s = alone.excess_n_m_s().0;
             if excess_n_m_s > 0.0 {
                 simulates.progress("dumps");
-                let found = counted::fewest_dumps(model, GUARD, &mut || simulates.progress("dumps"));
+                let found = counted::fewest_dumps(&alone, GUARD, &mut || simulates.progress("dumps"));
                 let Some(found) = found else {
                     return Err(PlanError::Programme("the limit is exceeded between two instants"));
                 };
                 dumps_at_least = found.at_least;
                 if let Some(row) = found.rows.first() {
                     let first_s =
-                        counted::first_exceeded_s(model, GUARD).unwrap_or(model.simulated.rows[*row].time_s);
+                        counted::first_exceeded_s(&alone, GUARD).unwrap_or(model.simulated.rows[*row].time_s);
                     exceeded = Some(Exceeded { excess_n_m_s, first_s });
                 }
                 model.dumps = found.rows.into_iter().map(|row| (row, Vector3::zeros())).collect();
@@ -310,11 +315,24 @@ fn structure(
             }
         }
     }
-    simulates.progress("changes");
     let until = Instant::now() + Duration::from_secs_f64(task.budget_s.clamp(0.0, 1e6));
-    let groups = counted::fewest_changes(model, GUARD, until, &mut || simulates.progress("changes"));
-    let groups = groups.unwrap_or_else(|| Groups { changes: single.len() - 1, at_least: 0, leaders: single });
-    Ok(Structure { groups, dumps_at_least, exceeded })
+    let mut at_least = None;
+    // Linear programmes count too few changes where controls go far: anew in narrower ranges about those that keep the limits.
+    for trust in [WHOLE].into_iter().chain(LITTLE.into_iter().rev()) {
+        simulates.progress("changes");
+        let groups =
+            counted::fewest_changes(model, [GUARD, trust], until, &mut || simulates.progress("changes"));
+        let Some(groups) = groups else { break };
+        let at_least = *at_least.get_or_insert(groups.at_least);
+        let mut grouped = model.clone();
+        if refine(&mut grouped, sunlit, &groups.leaders, (goal, WHOLE), simulates)? {
+            *model = grouped;
+            return Ok((Structure { groups: Groups { at_least, ..groups }, dumps_at_least, exceeded }, true));
+        }
+    }
+    let groups = Groups { changes: single.len() - 1, at_least: at_least.unwrap_or(0), leaders: single };
+    let is_kept = model.excess_n_m_s().0 <= 0.0;
+    Ok((Structure { groups, dumps_at_least, exceeded }, is_kept))
 }
 
 /// The optimal plan of a mission whose flight is given.
@@ -334,17 +352,18 @@ pub fn plan(
     let mut rounds = 0;
     loop {
         rounds += 1;
-        let is_counted_now = counts.is_none();
-        if is_counted_now {
-            counts = Some(structure(&mut model, sunlit, task, simulates)?);
-        }
-        let Some(found) = &counts else { continue };
-        let leaders = found.groups.leaders.clone();
-        let mut kept = false;
-        let ranges: &[f64] = if is_counted_now { &[WHOLE] } else { &LITTLE };
-        for trust in ranges {
-            kept = kept || refine(&mut model, sunlit, &leaders, (task.least.goal(), *trust), simulates)?;
-        }
+        let (found, kept) = match counts.take() {
+            None => structure(&mut model, sunlit, task, simulates)?,
+            Some(found) => {
+                let mut kept = false;
+                for trust in LITTLE {
+                    let goal = task.least.goal();
+                    kept =
+                        kept || refine(&mut model, sunlit, &found.groups.leaders, (goal, trust), simulates)?;
+                }
+                (found, kept)
+            }
+        };
         let dumps = planned_dumps(&model);
         simulates.progress("flight");
         let flight = simulates.simulate(&model.windows, &dumps).map_err(PlanError::Flight)?;
@@ -373,10 +392,11 @@ pub fn plan(
         }
         model.take(sunlit, &flight);
         model.look_between();
-        if !kept {
+        if kept {
+            counts = Some(found);
+        } else {
             // What was counted does not do about the flight.
             model.dumps.clear();
-            counts = None;
         }
     }
 }

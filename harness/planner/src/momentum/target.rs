@@ -10,6 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::{
     encountered::Encountered,
+    plan::GUARD,
     program::TargetRow,
     simulated::FlightRow,
     torque::{CONTROLS, SunlitSpacecraft},
@@ -17,10 +18,8 @@ use super::{
 
 /// B.T in m, B.R in m, arrival in s.
 pub const QUANTITIES: usize = 3;
-/// Share of a tolerance that programmes allow; the rest is for what is not linear.
+/// Share of a tolerance that programmes allow; the rest is for what is not linear, as [`GUARD`] is of the momentum's limit.
 const ALLOWED: f64 = 0.5;
-/// Excess of a programme, as a share of the momentum's limit, that a miss of twice what is allowed counts as.
-const WORTH: f64 = 1e-4;
 
 /// How near a plan comes to its aim.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,15 +47,17 @@ impl Target {
                 constant: constant[row],
                 terms: terms.iter().map(|(index, by)| (*index, by[row])).collect(),
                 within: ALLOWED * tolerance,
-                per_excess: ALLOWED * tolerance / (WORTH * limit_n_m_s),
+                per_excess: (1.0 - ALLOWED) * tolerance / (GUARD * limit_n_m_s),
             })
             .collect()
     }
 
-    /// By how much a miss exceeds what programmes allow, as their excess, in N m s.
+    /// By how much a miss exceeds its tolerance, as the excess of a programme, in N m s.
     pub(super) fn excess_n_m_s(&self, miss: &Vector3<f64>, limit_n_m_s: f64) -> f64 {
         let linear = LinearMiss { constant: *miss, terms: Vec::new() };
-        self.rows(&linear, limit_n_m_s).iter().map(|row| row.excess(&[])).fold(f64::NEG_INFINITY, f64::max)
+        let rows = self.rows(&linear, limit_n_m_s);
+        let of_programme = rows.iter().map(|row| row.excess(&[])).fold(f64::NEG_INFINITY, f64::max);
+        of_programme - GUARD * limit_n_m_s
     }
 }
 
@@ -101,5 +102,33 @@ impl AddAssign for Moves {
     fn add_assign(&mut self, other: Self) {
         self.at += other.at;
         self.by_control.iter_mut().zip(other.by_control).for_each(|(sum, by)| *sum += by);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! Programmes leave the same of the target's tolerance and of the momentum's limit, by one excess.
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    const LIMIT_N_M_S: f64 = 5.0;
+
+    #[test]
+    fn an_excess_that_reaches_the_limit_of_the_momentum_reaches_the_tolerance() {
+        let target = Target { tolerance: [Some(700.0), Some(400.0), None] };
+        let of = |miss: [f64; 3]| target.excess_n_m_s(&Vector3::from(miss), LIMIT_N_M_S);
+        assert_relative_eq!(of([-700.0, 100.0, 1e9]), 0.0, epsilon = 1e-12);
+        assert_relative_eq!(of([100.0, 400.0, 1e9]), 0.0, epsilon = 1e-12);
+        let linear = LinearMiss { constant: Vector3::new(-700.0, 0.0, 0.0), terms: Vec::new() };
+        let found = target.rows(&linear, LIMIT_N_M_S).iter().map(|row| row.excess(&[])).fold(0.0, f64::max);
+        assert_relative_eq!(found, GUARD * LIMIT_N_M_S, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn a_programme_at_its_bound_is_within_the_tolerance() {
+        let target = Target { tolerance: [Some(700.0), None, None] };
+        let found = target.excess_n_m_s(&Vector3::new(ALLOWED * 700.0, 0.0, 0.0), LIMIT_N_M_S);
+        assert_relative_eq!(found, -GUARD * LIMIT_N_M_S, epsilon = 1e-12);
     }
 }

@@ -67,7 +67,7 @@ fn changes_are_the_fewest_of_all_choices() {
             simulated
         });
         let until = Instant::now() + std::time::Duration::from_secs(60);
-        let found = fewest_changes(&model, 0.0, until, &mut || {});
+        let found = fewest_changes(&model, [0.0, WHOLE], until, &mut || {});
         let mut fewest = None;
         for places in 0_u32..1 << 6 {
             let mut leader = 0;
@@ -80,7 +80,7 @@ fn changes_are_the_fewest_of_all_choices() {
                 })
                 .collect();
             let part = Part { steps: [0, model.instants().len()], free: false };
-            if is_kept(&model, &leaders, part, 0.0, 1.0) {
+            if is_kept(&model, &leaders, part, [0.0, WHOLE], 1.0) {
                 let count = places.count_ones() as usize;
                 fewest = Some(fewest.map_or(count, |least: usize| least.min(count)));
             }
