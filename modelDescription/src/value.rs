@@ -52,6 +52,15 @@ impl Value {
             Self::Text(_) => f64::NAN,
         }
     }
+
+    /// Of a type that is no text, from what [`Self::to_f64`] gives.
+    pub fn of_f64(base: BaseType, number: f64) -> Self {
+        match base {
+            BaseType::Integer => Self::Integer(number as i32),
+            BaseType::Boolean => Self::Boolean(number != 0.0),
+            BaseType::Real | BaseType::String => Self::Real(number),
+        }
+    }
 }
 
 /// Why a value does not fit its variable.

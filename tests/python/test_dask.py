@@ -55,6 +55,7 @@ if value("--output") == "-":
     sys.stdout.write(text)
 else:
     open(value("--output"), "w").write(text)
+    open(value("--output") + ".toml", "w").write(f"runs = {{runs}}\\n")
 '''
 
 
@@ -91,7 +92,8 @@ def test_pieces_are_joined_in_order(client, stand_in, tmp_path, pieces):
     output = tmp_path / "runs.csv"
     assert sweep(client, tmp_path / "campaign.toml", output, pieces, str(program)) == RUNS
     assert output.read_bytes() == expected
-    assert not (tmp_path / "runs.csv.part").exists()
+    assert (tmp_path / "runs.csv.toml").read_text(encoding="utf-8") == "runs = 23\n"
+    assert not list(tmp_path.glob("runs.csv.part*"))
 
 
 @pytest.mark.parametrize(
@@ -108,7 +110,7 @@ def test_what_goes_wrong_is_named_and_the_table_not_replaced(client, stand_in, t
     output.write_text("earlier", encoding="utf-8")
     with pytest.raises(SweepError, match=said):
         sweep(client, tmp_path / campaign, output, 4, str(program))
-    assert output.read_text(encoding="utf-8") == "earlier"
+    assert output.read_text(encoding="utf-8") == "earlier" and not pathlib.Path(f"{output}.toml").exists()
 
 
 def module(*arguments, **environment):
@@ -175,11 +177,17 @@ def test_a_campaign_of_the_plant_is_the_same_byte_for_byte(client, heliotorque, 
     subprocess.run([heliotorque, "sweep", campaign, "--output", alone], check=True)
     output = tmp_path / "runs.csv"
     assert sweep(client, campaign, output, 4, str(heliotorque)) == RUNS
-    assert output.read_bytes() == alone.read_bytes()
+    beside = [pathlib.Path(f"{table}.toml").read_bytes() for table in (alone, output)]
+    assert output.read_bytes() == alone.read_bytes() and beside[0] == beside[1]
     header, *rows = output.read_text(encoding="utf-8").splitlines()
     assert header.startswith("run,solar.flux,spacecraft.centerOfMass[3],") and len(rows) == RUNS
     same = subprocess.run([heliotorque, "compare", alone, output, "--tolerance", "0"], capture_output=True, text=True)
     assert same.returncode == 0 and "no difference" in same.stdout, same.stdout
+    for suffix in ("", ".toml"):
+        os.replace(f"{output}{suffix}", f"{output}.part{suffix}")
+    os.truncate(f"{output}.part", alone.stat().st_size // 2)
+    subprocess.run([heliotorque, "sweep", campaign, "--output", output, "--resume"], check=True)
+    assert output.read_bytes() == alone.read_bytes()
     folder = tmp_path / "jobs"
     folder.mkdir()
     program = tmp_path / "bin" / "heliotorque"

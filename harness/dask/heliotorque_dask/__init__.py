@@ -6,6 +6,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 import cloudpickle
 
@@ -23,9 +24,9 @@ class SweepError(RuntimeError):
     """A campaign that could not be run, with what was found and what is allowed."""
 
 
-def table(arguments, program=PROGRAM):
-    """What `heliotorque sweep` prints for these arguments, as bytes."""
-    command = [program, "sweep", *arguments, "--output", "-"]
+def table(arguments, program=PROGRAM, output="-"):
+    """What `heliotorque sweep` prints for these arguments, as bytes; nothing with a file as output."""
+    command = [program, "sweep", *arguments, "--output", str(output)]
     try:
         done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True)
     except OSError as error:
@@ -45,10 +46,13 @@ def rows_of(text, of):
     return header + end, rest, [line[0] for line in lines if line]
 
 
-def count_runs(campaign, program=PROGRAM):
-    """How many runs a campaign has."""
-    _, _, runs = rows_of(table([str(campaign), "--dry-run"], program), f"{campaign}, --dry-run")
-    return len(runs)
+def planned(campaign, program=PROGRAM):
+    """How many runs a campaign has, and the text beside their table: units, seed, versions, digests."""
+    with tempfile.TemporaryDirectory() as folder:
+        values = pathlib.Path(folder, "values.csv")
+        table([str(campaign), "--dry-run"], program, values)
+        _, _, runs = rows_of(values.read_bytes(), f"{campaign}, --dry-run")
+        return len(runs), pathlib.Path(f"{values}.toml").read_bytes()
 
 
 def cut(runs, pieces):
@@ -86,10 +90,11 @@ def joined(tables, pieces, of):
 def sweep(client, campaign, output, pieces=None, program=PROGRAM):
     """Runs a campaign on a client's cluster and writes its table; gives the number of runs.
 
-    Until the table is complete it is `OUTPUT.part`; `-` is the standard output. Raises SweepError.
+    Until the table is complete it is `OUTPUT.part`, with which `heliotorque sweep --resume` goes on; beside it stands the `.toml` of
+    `heliotorque sweep`. `-` is the standard output. Raises SweepError.
     """
     campaign = str(pathlib.Path(campaign).resolve())
-    runs = count_runs(campaign, program)
+    runs, origin = planned(campaign, program)
     if pieces is None:
         pieces = PIECES_PER_THREAD * max(1, sum(client.nthreads().values()))
     if runs == 0:
@@ -104,10 +109,12 @@ def sweep(client, campaign, output, pieces=None, program=PROGRAM):
             sys.stdout.buffer.flush()
             return runs
         unfinished = pathlib.Path(f"{output}.part")
+        pathlib.Path(f"{unfinished}.toml").write_bytes(origin)
         with open(unfinished, "wb") as file:
             for part in rows:
                 file.write(part)
         os.replace(unfinished, output)
+        os.replace(f"{unfinished}.toml", f"{output}.toml")
         return runs
     finally:
         client.cancel([future for future in futures if future is not None])

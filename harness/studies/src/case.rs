@@ -1,5 +1,8 @@
 //! One simulation of a study: what is set, how long and how finely, and its recorded columns.
 
+use std::error::Error;
+
+use campaign::{Design, Distribution, Sampling, Varied};
 use loader::{Fmu, Rows, Value};
 use model_description::{BaseType, Description};
 use nalgebra::SVector;
@@ -263,6 +266,27 @@ impl Case {
     /// Sets a variable, by its item's name an Enumeration, a vector or a quaternion.
     pub(crate) fn set(self, name: &str, value: impl Setting) -> Self {
         self.with(value.of(name))
+    }
+
+    /// The runs of a campaign of it: every combination of these numbers, the last variable changing first.
+    pub(crate) fn campaign(
+        &self,
+        model: &dyn Model,
+        varied: &[(&str, &[f64])],
+    ) -> Result<Vec<Self>, Box<dyn Error + Send + Sync>> {
+        let of = |(name, values): &(&str, &[f64])| Varied {
+            name: (*name).to_owned(),
+            distribution: Distribution::Values(values.to_vec()),
+        };
+        let design = Design::new(varied.iter().map(of).collect(), (Sampling::Grid, None), &[], 0)?;
+        let names: Vec<&str> = varied.iter().map(|(name, _)| *name).collect();
+        let positions = positions(model, &names)?;
+        let variables = || positions.iter().map(|it| &model.description().variables[*it]);
+        let of_run = |run| {
+            let sets = variables().zip(design.values(run));
+            sets.map(|(it, number)| (it.name.clone(), Value::of_f64(it.kind.base_type(), number)))
+        };
+        Ok((0..design.runs()).map(|run| self.clone().with(of_run(run))).collect())
     }
 
     /// What is set, in order.

@@ -5,6 +5,7 @@ use std::{
     fs::File,
     io::{self, Read},
     process::{Child, Stdio},
+    time::Duration,
 };
 
 /// How much of what an FMU prints is shown.
@@ -43,6 +44,7 @@ impl<'a> Shown<'a> {
 /// Both streams of a child.
 pub(super) struct Printed {
     streams: Vec<Stream>,
+    buffer: Box<[u8]>,
     last: VecDeque<String>,
     bytes: u64,
 }
@@ -74,19 +76,29 @@ impl Printed {
         }
         #[cfg(not(unix))]
         let _ = child;
-        Ok(Self { streams, last: VecDeque::new(), bytes: 0 })
+        Ok(Self { streams, buffer: vec![0; 1 << 14].into(), last: VecDeque::new(), bytes: 0 })
     }
 
-    /// Reads what is there and hands each line on; gives whether there was anything.
+    /// Waits until the child prints or ends, at most this long.
+    pub(super) fn wait(&self, longest: Duration) {
+        #[cfg(unix)]
+        super::system::wait_for(self.streams.iter().map(|stream| &stream.pipe), longest);
+        #[cfg(not(unix))]
+        std::thread::sleep(longest);
+    }
+
+    /// Reads what is there and hands each line on; gives whether there was anything, the end of a stream too.
     pub(super) fn read(&mut self, line: &mut dyn FnMut(&str)) -> bool {
-        let mut buffer = [0; 1 << 14];
         let mut some = false;
-        let Self { streams, last, bytes } = self;
+        let Self { streams, buffer, last, bytes } = self;
         streams.retain_mut(|stream| {
             let mut left = AT_ONCE;
             while left > 0 {
-                match stream.pipe.read(&mut buffer) {
-                    Ok(0) => return false,
+                match stream.pipe.read(buffer) {
+                    Ok(0) => {
+                        some = true;
+                        return false;
+                    }
                     Ok(count) => {
                         (some, left) = (true, left.saturating_sub(count));
                         *bytes += count as u64;

@@ -17,8 +17,9 @@ use super::{
 };
 use crate::interrupt;
 
-/// Shortest and longest pause between two readings of the child; short while many words come.
-const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(5)];
+/// Shortest and longest pause between two readings of the child; short while many words come. What is printed, and the child's end,
+/// end it: the longest one is that of frames, cancellation and the bounds of calls, and each costs the child a part of its core.
+const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(25)];
 /// So many words at a time are many.
 const MANY: usize = RING_WORDS / 8;
 /// How long a child that has reported its end may take to exit.
@@ -253,7 +254,12 @@ impl ChildProcess {
             if cancelled.is_some_and(|from| now - from > CANCEL_GRACE) {
                 return Some(EndReason::Interrupted);
             }
-            std::thread::sleep(pause);
+            if printed {
+                // A stream ends shortly before its process, and lines come in crowds.
+                std::thread::sleep(often);
+            } else {
+                self.printed.wait(pause);
+            }
             pause = if came > MANY || printed { (pause / 2).max(often) } else { (pause * 2).min(seldom) };
         }
     }

@@ -238,6 +238,15 @@ pub(super) fn never_wait(pipe: &impl std::os::fd::AsFd) -> io::Result<()> {
     Ok(rustix::io::ioctl_fionbio(pipe, true)?)
 }
 
+/// Waits until one of the pipes has something to read or is closed, at most this long.
+#[cfg(unix)]
+pub(super) fn wait_for<'p>(pipes: impl Iterator<Item = &'p File>, longest: std::time::Duration) {
+    use rustix::event::{PollFd, PollFlags, Timespec, poll};
+    let mut pipes: Vec<_> = pipes.map(|pipe| PollFd::new(pipe, PollFlags::IN)).collect();
+    // A signal ends the wait early, which does no harm.
+    let _ = poll(&mut pipes, Timespec::try_from(longest).ok().as_ref());
+}
+
 /// How a process ended, for people.
 pub(super) fn how(status: ExitStatus) -> String {
     #[cfg(unix)]

@@ -74,24 +74,8 @@ pub(crate) fn run(arguments: &Sweep) -> Outcome {
     let campaign = Campaign::resolve(&file, simulated, &subject)?;
     let runs = resolved::range(arguments, &campaign)?;
     campaign.check(&file, described, &runs)?;
-    if arguments.dry_run {
-        return print_values(arguments, &campaign, runs);
-    }
     let sweep = Started { arguments, file: &file, campaign: &campaign, described, runs };
-    sweep.carry_out(fmu.folder())
-}
-
-/// The table of the runs' values.
-fn print_values(arguments: &Sweep, campaign: &Campaign, runs: Range<u64>) -> Outcome {
-    let is_given = arguments.output != Path::new(options::OUTPUT);
-    let output = if is_given { arguments.output.as_path() } else { Path::new("-") };
-    let names = campaign.design.varied().iter().map(|it| csv::field(&it.name).into_owned());
-    let header: Vec<String> = ["run".to_owned()].into_iter().chain(names).collect();
-    Destination::open(output, OPTION, &[arguments.campaign.as_path()])?.fill(|file| {
-        writeln!(file, "{}", header.join(","))?;
-        runs.into_iter().try_for_each(|run| writeln!(file, "{}", table::values(campaign, run)))
-    })?;
-    Ok(ExitCode::SUCCESS)
+    if arguments.dry_run { sweep.print_values(fmu.folder()) } else { sweep.carry_out(fmu.folder()) }
 }
 
 /// A campaign of which everything was accepted.
@@ -107,12 +91,35 @@ struct Started<'a> {
 #[derive(Default)]
 struct Counts([u64; 4]);
 
+/// The file beside a table.
+fn beside(path: &Path) -> PathBuf {
+    PathBuf::from(format!("{}.toml", path.display()))
+}
+
 impl Started<'_> {
+    /// The table of the runs' values.
+    fn print_values(&self, folder: &Path) -> Outcome {
+        let Self { arguments, file, campaign, runs, .. } = self;
+        let is_given = arguments.output != Path::new(options::OUTPUT);
+        let output = if is_given { arguments.output.as_path() } else { Path::new("-") };
+        let names = campaign.design.varied().iter().map(|it| csv::field(&it.name).into_owned());
+        let header: Vec<String> = ["run".to_owned()].into_iter().chain(names).collect();
+        let destination = Destination::open(output, OPTION, &self.inputs())?;
+        let is_stdout = destination.is_stdout();
+        destination.fill(|to| {
+            writeln!(to, "{}", header.join(","))?;
+            runs.clone().try_for_each(|run| writeln!(to, "{}", table::values(campaign, run)))
+        })?;
+        if !is_stdout {
+            self.write_beside(&beside(output), &Digests::of(file, campaign, folder)?)?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
     fn carry_out(&self, folder: &Path) -> Outcome {
         let Self { arguments, file, campaign, described, runs } = self;
         let output = arguments.output.as_path();
         let digests = Digests::of(file, campaign, folder)?;
-        let beside = |path: &Path| PathBuf::from(format!("{}.toml", path.display()));
         let part = part_of(output);
         let inputs = self.inputs();
         let destination = Destination::open(output, OPTION, &inputs)?;

@@ -34,7 +34,8 @@ pub(crate) struct Sweep {
     /// Go on where an earlier sweep of the same campaign was interrupted: with what <CSV>.part holds
     #[arg(long)]
     pub resume: bool,
-    /// Simulate nothing: write the table of the runs' values, to the standard output unless --output is given
+    /// Simulate nothing: write the table of the runs' values, to the standard output unless --output is given, then with its
+    /// <CSV>.toml
     #[arg(long, conflicts_with = "resume")]
     pub dry_run: bool,
     /// For a mission with a spacecraft only: the FMU whose library shall simulate it, as for `run`

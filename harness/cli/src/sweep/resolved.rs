@@ -127,7 +127,7 @@ impl Campaign {
         values
             .map(|(position, number)| {
                 let variable = &described.variables[*position];
-                (variable.name.clone(), of_number(variable, number))
+                (variable.name.clone(), Value::of_f64(variable.kind.base_type(), number))
             })
             .collect()
     }
@@ -153,7 +153,9 @@ impl Campaign {
         for run in runs.clone() {
             for (variable, number) in self.varied.iter().zip(self.design.values(run)) {
                 let variable = &described.variables[*variable];
-                if let Err(misfit) = value::check(described, variable, &of_number(variable, number)) {
+                if let Err(misfit) =
+                    value::check(described, variable, &Value::of_f64(variable.kind.base_type(), number))
+                {
                     let at = file.vary.iter().find(|at| at.it.name == variable.name);
                     let place = at.map_or_else(
                         || format!("{}: {}", file.file.display(), variable.name),
@@ -164,15 +166,6 @@ impl Campaign {
             }
         }
         Ok(())
-    }
-}
-
-/// A number as the value of a variable.
-fn of_number(variable: &ScalarVariable, number: f64) -> Value {
-    match variable.kind.base_type() {
-        BaseType::Integer => Value::Integer(number as i32),
-        BaseType::Boolean => Value::Boolean(number != 0.0),
-        _ => Value::Real(number),
     }
 }
 

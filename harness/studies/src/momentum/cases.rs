@@ -9,7 +9,7 @@ use crate::case;
 use crate::report::Run;
 use crate::settings::Settings;
 
-const DAY_S: f64 = 86_400.0;
+pub(super) const DAY_S: f64 = 86_400.0;
 const STEP_S: f64 = 600.0;
 /// 2009-04-06, in s past J2000 TDB: the FMU's default `start.epoch`.
 const START_S: f64 = 292_248_000.0;

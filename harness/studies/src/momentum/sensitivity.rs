@@ -2,16 +2,27 @@
 
 use loader::Fmu;
 
-use super::cases::{Case, Convention, DumpsTo, SPAN_D, Shade, Strategy};
-use super::lists::with_every_strategy;
+use super::cases::{Case, Choice, Convention, DAY_S, DumpsTo, SPAN_D, Shade, Strategy};
 use super::variant::{Edit, Variant};
 use crate::StudyError;
 use crate::attitude::Vector;
 use crate::report::{Outcome, Run};
 
-const THRESHOLD_N_M_S: f64 = 5.5;
 /// Above all that gathers.
 const NO_DUMP_N_M_S: f64 = 1e6;
+/// The paper's plates and panels without targets; what changes and the campaign differ from it.
+const CASE: Case = Case {
+    strategy: Strategy::DumpsOnly,
+    threshold_n_m_s: 5.5,
+    dumps_to: DumpsTo::OWN,
+    shade: Shade::PlatesAndPanels,
+    convention: Convention::BodyIntegral,
+    offset_in: [0, 0, -1],
+    choice: Choice::Study,
+};
+/// What the campaign of every change varies, by item: bodyIntegral and inertial; dumpsOnly, reactive, predictive.
+const CONVENTIONS: (&str, &[f64]) = ("momentum.convention", &[2.0, 1.0]);
+const STRATEGIES: (&str, &[f64]) = ("momentum.strategy", &[1.0, 2.0, 3.0]);
 const DEG: f64 = std::f64::consts::PI / 180.0;
 
 /// A change of file and parameters.
@@ -111,25 +122,19 @@ Z = -2.54 cm. Momentum a day: mean magnitude of what each of the 90 days adds wi
 fn simulated(change: &Change, template: &Fmu) -> Result<Found, StudyError> {
     let failed = |source| StudyError::Simulation { case: change.what.to_owned(), source };
     let variant = Variant::of(template, change.edits).map_err(failed)?;
-    let simulate = |case: &Case, name: &str| {
-        let settings = change.sets.iter().fold(case.settings(), |case, (name, value)| case.set(name, *value));
-        settings.simulate(&variant.fmu, &[name])
-    };
+    let fmu = &variant.fmu;
+    let case = change.sets.iter().fold(CASE.settings(), |case, (name, value)| case.set(name, *value));
     let mut found = Found { what: change.what, dumps: [[0; 3]; 2], daily_n_m_s: [f64::NAN; 2] };
-    let conventions =
-        [(Convention::BodyIntegral, "momentum.body"), (Convention::Inertial, "momentum.inertial")];
-    for (number, (convention, name)) in conventions.into_iter().enumerate() {
-        let group = [(DumpsTo::OWN, Shade::PlatesAndPanels, convention)];
-        let cases = with_every_strategy(&group, &[THRESHOLD_N_M_S], &[[0, 0, -1]]);
-        for (count, case) in found.dumps[number].iter_mut().zip(&cases) {
-            *count = simulate(case, "dump.count")?.last(0) as i64;
-        }
-        let Some(alone) = cases.iter().find(|case| case.strategy == Strategy::DumpsOnly) else { continue };
-        let undumped = simulate(&Case { threshold_n_m_s: NO_DUMP_N_M_S, ..*alone }, name)?.all::<Vector>(0);
-        let a_day = (undumped.len() - 1) / SPAN_D as usize;
-        let days =
-            (0..SPAN_D as usize).map(|day| (undumped[(day + 1) * a_day] - undumped[day * a_day]).norm());
-        found.daily_n_m_s[number] = days.sum::<f64>() / SPAN_D;
+    let runs = case.campaign(fmu, &[CONVENTIONS, STRATEGIES]).map_err(failed)?;
+    for (count, run) in found.dumps.as_flattened_mut().iter_mut().zip(&runs) {
+        *count = run.simulate(fmu, &["dump.count"])?.last(0) as i64;
+    }
+    let undumped =
+        case.set("dump.threshold", [NO_DUMP_N_M_S; 3]).campaign(fmu, &[CONVENTIONS]).map_err(failed)?;
+    let names = ["momentum.body", "momentum.inertial"];
+    for ((daily_n_m_s, run), name) in found.daily_n_m_s.iter_mut().zip(&undumped).zip(names) {
+        let ends = run.clone().every(DAY_S).simulate(fmu, &[name])?.all::<Vector>(0);
+        *daily_n_m_s = ends.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum::<f64>() / SPAN_D;
     }
     Ok(found)
 }
