@@ -9,8 +9,8 @@ use rayon::prelude::*;
 use super::{
     counted,
     model::Model,
-    plan::{GUARD, PlanError, PlanTask, PlannedDump, Simulates, WHOLE, give, refine, whole},
-    program::{Goal, TargetRow},
+    plan::{PlanError, PlanTask, PlannedDump, Simulates, give, refine, whole},
+    program::{GUARD, Goal, TargetRow, WHOLE},
     region::Region,
     simulated::{FlightRow, SAME_S, SimulatedFlight},
     target::{LinearMiss, Target},

@@ -15,8 +15,7 @@ use std::{collections::HashMap, time::Instant};
 
 use super::{
     model::{Model, Part},
-    plan::WHOLE,
-    program::Goal,
+    program::{Goal, WHOLE},
     simulated::SAME_S,
     torque::Control,
     windows::WindowKind,

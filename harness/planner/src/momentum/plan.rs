@@ -14,7 +14,7 @@ use super::{
     baseline::{NoOffset, OffsetStep},
     counted::{self, Groups},
     model::{Limit, Model, Part},
-    program::{Goal, Program, Solution},
+    program::{GUARD, Goal, Program, Solution, WHOLE},
     simulated::{MomentumSize, SAME_S, SimulatedFlight},
     target::Target,
     torque::{ALL, Controls, SunlitSpacecraft},
@@ -23,8 +23,6 @@ use super::{
 
 /// Flight and plan agree where they differ by less than this share of the limit.
 pub const AGREED: f64 = 0.02;
-/// Share of the limit that a plan leaves, for what it cannot know before the flight.
-pub(super) const GUARD: f64 = 0.01;
 /// Rounds at most.
 const MOST_ROUNDS: usize = 8;
 /// Solutions within a round at most.
@@ -34,8 +32,7 @@ const NARROWED: f64 = 0.4;
 const LEAST_TRUST: f64 = 2e-3;
 /// What a N m s over the limit costs, against a day with a radian of tilt.
 const PENALTY: f64 = 1e3;
-/// Share of the range at the beginning, and behind a flight, from which little is left to correct.
-pub(super) const WHOLE: f64 = 1.0;
+/// Shares of the range behind a flight, from which little is left to correct.
 const LITTLE: [f64; 3] = [0.05, 0.15, 0.5];
 /// A gain in merit below this share is none.
 const TAKEN: f64 = 1e-4;

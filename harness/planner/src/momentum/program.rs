@@ -19,6 +19,11 @@ use nalgebra::Vector3;
 
 use super::simulated::MomentumSize;
 
+/// Share of the limit that a plan leaves, for what it cannot know before the flight.
+pub(super) const GUARD: f64 = 0.01;
+/// Share of every control's range about its present value: all of it.
+pub(super) const WHOLE: f64 = 1.0;
+
 /// How a step's momentum begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Begin {

@@ -10,8 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::{
     encountered::Encountered,
-    plan::GUARD,
-    program::TargetRow,
+    program::{GUARD, TargetRow},
     simulated::FlightRow,
     torque::{CONTROLS, SunlitSpacecraft},
 };
