@@ -112,13 +112,13 @@ fn air_takes_energy_from_the_orbit_as_its_force_says() {
 }
 
 #[test]
-fn drag_moves_a_free_body_as_one_of_the_same_held_attitude() {
-    // One takes its forces by Encke's method while the attitude comes about, the other has them in its orbit from the start.
+fn drag_is_the_same_in_free_and_in_commanded_attitude() {
+    // The orbit of the free body is by Encke's method, that of the other is integrated with the forces.
     let text = CUBESAT.replace("[0.42, 0.001, -0.002]", "[4e9, 0.0, 0.0]");
     let text = text.replace("[0.001, 0.31, 0.0015]", "[0.0, 4e9, 0.0]");
     let text = text.replace("[-0.002, 0.0015, 0.27]", "[0.0, 0.0, 4e9]");
     let named = NamedModel::<MomentumPlant>::with("heavy.toml", &text);
-    // With fits far better than what is compared.
+    // The fit's error is far below the tolerance here.
     let position_m = |parts: &[(&'static str, f64)], factor: f64| {
         let sets =
             with(&[PLAIN, parts, &[("atmosphere.densityFactor", factor), ("atmosphere.tolerance", 1e-10)]]);
@@ -126,11 +126,15 @@ fn drag_moves_a_free_body_as_one_of_the_same_held_attitude() {
         flight.fly_to(6_000.0, 100.0).unwrap();
         flight.vector("position")
     };
-    let held = &[("attitude.source", 2.0), ("command.q[4]", 1.0)];
-    let [free_m, held_m] = [FREE, held].map(|parts| position_m(parts, 100.0));
-    let by_drag_m = (held_m - position_m(held, 0.0)).norm();
+    let commanded = &[("attitude.source", 2.0), ("command.q[4]", 1.0)];
+    let [free_m, commanded_m] = [FREE, commanded].map(|parts| position_m(parts, 100.0));
+    let by_drag_m = (commanded_m - position_m(commanded, 0.0)).norm();
     assert!(by_drag_m > 1e3, "{by_drag_m}");
-    assert!((free_m - held_m).norm() < 2e-6 * by_drag_m, "{} of {by_drag_m}", (free_m - held_m).norm());
+    assert!(
+        (free_m - commanded_m).norm() < 2e-6 * by_drag_m,
+        "{} of {by_drag_m}",
+        (free_m - commanded_m).norm()
+    );
 }
 
 #[test]

@@ -17,8 +17,8 @@ use super::{
 };
 use crate::interrupt;
 
-/// Shortest and longest pause between two readings of the child; short while many words come. What is printed, and the child's end,
-/// end it: the longest one is that of frames, cancellation and the bounds of calls, and each costs the child a part of its core.
+/// Shortest and longest pause between two readings of the child; short while many words come. Output and exit of the child end a pause
+/// early; frames, cancellation and timeouts wait for its end.
 const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(25)];
 /// So many words at a time are many.
 const MANY: usize = RING_WORDS / 8;
@@ -255,7 +255,7 @@ impl ChildProcess {
                 return Some(EndReason::Interrupted);
             }
             if printed {
-                // A stream ends shortly before its process, and lines come in crowds.
+                // More output, or the exit of the process, usually follows at once.
                 std::thread::sleep(often);
             } else {
                 self.printed.wait(pause);

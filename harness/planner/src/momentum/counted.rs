@@ -8,8 +8,8 @@
 //! windows that cannot share a windmill angle whatever the momentum before them have a change among them; such spans that share no edge
 //! are counted. From above: each group goes on as long as a plan for the rest exists in which every later window is a group by itself.
 //! Where both differ, branch and bound over the places of the changes, depth first: a branch ends where even single windows
-//! behind it find no plan, or where the count from below exceeds what is left. It stops by the clock; the gap is reported. All of it is
-//! within a range about the model's controls: programmes are linear, and a group that they find may keep no limit where controls go far.
+//! behind it find no plan, or where the count from below exceeds what is left. It stops by the clock; the gap is reported. Controls stay
+//! within a range about the model's: the programmes are linear, and over a wide range their groups may not keep the limits.
 
 use std::{collections::HashMap, time::Instant};
 

@@ -267,7 +267,7 @@ struct Structure {
     exceeded: Option<Exceeded>,
 }
 
-/// Counts dumps and changes about the model, which gets controls by them; whether those keep the limits.
+/// Counts dumps and changes about the model and sets its controls by them; returns whether these keep the limits.
 fn structure(
     model: &mut Model,
     sunlit: &SunlitSpacecraft,
@@ -314,7 +314,7 @@ fn structure(
     }
     let until = Instant::now() + Duration::from_secs_f64(task.budget_s.clamp(0.0, 1e6));
     let mut at_least = None;
-    // Linear programmes count too few changes where controls go far: anew in narrower ranges about those that keep the limits.
+    // Linear programmes count too few changes over wide ranges: count again in narrower ones about controls that keep the limits.
     for trust in [WHOLE].into_iter().chain(LITTLE.into_iter().rev()) {
         simulates.progress("changes");
         let groups =

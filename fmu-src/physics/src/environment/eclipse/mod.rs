@@ -223,8 +223,8 @@ impl Shadow {
         }
     }
 
-    /// Greatest rate of the gaps, in rad/s, at this least distance in m and greatest speed in m/s relative to the planet, and to the
-    /// Sun; infinite at the surface.
+    /// Upper bound of the gaps' rates, in rad/s, by least distance in m and greatest speed in m/s relative to planet and Sun; infinite at
+    /// the surface.
     pub fn greatest_gap_rate_rad_s(&self, planet: [f64; 2], sun: [f64; 2]) -> f64 {
         let rate_rad_s = |[distance_m, speed_m_s]: [f64; 2], radius_m: f64| {
             let to_limb_m = (distance_m * distance_m - radius_m * radius_m).max(0.0).sqrt();

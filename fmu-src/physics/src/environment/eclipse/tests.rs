@@ -199,9 +199,9 @@ proptest! {
         prop_assert!((d.lit_fraction() - by_rings(&d)).abs() < 1e-9, "{} {}", d.lit_fraction(), by_rings(&d));
     }
 
-    /// Along any straight path the gaps change no faster than the bound for its least distance and its speed says.
+    /// On straight paths the change of the gaps is within the bound.
     #[test]
-    fn gaps_change_no_faster_than_their_bound(
+    fn the_bound_of_their_rates_bounds_the_gaps(
         start in prop::array::uniform3(-2e7..2e7f64), velocity in prop::array::uniform3(-1e4..1e4f64), span_s in 0.1..300.0f64,
     ) {
         let (start, velocity) = (Vector3::from(start), Vector3::from(velocity));

@@ -1,12 +1,12 @@
-//! Deviation of a spacecraft from its integrated orbit by forces that become known only while they act.
+//! Deviation of a spacecraft from its integrated orbit by forces that depend on the simulated attitude.
 //!
-//! Equation: d'' = a(t) + g(r + d) - g(r), r on the reference orbit, which has every other acceleration, a by those forces.
+//! Equation: d'' = a(t) + g(r + d) - g(r), r on the reference orbit, which includes all other accelerations, a by those forces.
 //! Method: Encke's. The acceleration is interpolated at the Chebyshev nodes of an interval on which a is smooth and integrated
-//! twice exactly; what gravity adds follows by Picard's iteration, which gains (w h)^2 / 12 a time, w the orbit's mean motion. The
-//! orbit is rectified, that is takes the deviation, wherever its own segments are computed anew.
+//! twice exactly; the difference of gravity is solved by Picard iteration, which converges by (w h)^2 / 12 per iteration, w the mean
+//! motion. The orbit is rectified at the start of each of its own segments.
 //! Order: 6 in the length h of the interval.
-//! Error measure: the iteration ends where the next one would change the deviation by rounding; the truncation is not estimated:
-//! intervals are those of the attitude, which are short to the orbit.
+//! Error measure: the iteration stops when the predicted next change is rounding; the truncation error is not estimated: intervals of
+//! the attitude are short compared with the orbital period.
 //! Reference: Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 10.3.
 
 use nalgebra::{SVector, Vector3};
@@ -17,7 +17,7 @@ use crate::numerics::collocation::IntegrationError;
 
 /// Nodes of an interval.
 const NODES: usize = 6;
-/// Iterations until they count as diverging.
+/// Largest number of iterations.
 const ITERATIONS: usize = 40;
 
 /// Deviation in position and velocity, EME2000, with dense output over the last interval.
@@ -30,8 +30,8 @@ pub(super) struct Deviation {
 }
 
 impl Deviation {
-    /// Integrates from `start_s`, where the deviation so far is `before` (m and m/s), to `end_s`, under `extra_m_s2(t)` and the
-    /// difference of `gravity_m_s2(r)` off the path `reference_m(t)`.
+    /// Integrates the deviation from its value `before` (m and m/s) at `start_s` to `end_s`, under `perturbation_m_s2(t)` and the
+    /// difference of `gravity_m_s2(r)` from that on the reference orbit `reference_m(t)`.
     ///
     /// # Errors
     /// [`IntegrationError`].
@@ -40,14 +40,15 @@ impl Deviation {
         [start_s, end_s]: [f64; 2],
         reference_m: impl Fn(f64) -> Vector3<f64>,
         gravity_m_s2: impl Fn(&Vector3<f64>) -> Vector3<f64>,
-        extra_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
+        perturbation_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
     ) -> Result<Self, IntegrationError> {
         let [position_m, velocity_m_s] = [0, 3].map(|row| before.fixed_rows::<3>(row).clone_owned());
         let node_s = Segment::<3, NODES>::nodes(start_s, end_s);
         let known = node_s.map(|at_s| {
             let reference_m = reference_m(at_s);
-            let extra_m_s2 = extra_m_s2.as_ref().map_or(Vector3::zeros(), |extra| extra(at_s));
-            (reference_m, extra_m_s2 - gravity_m_s2(&reference_m))
+            let perturbation_m_s2 =
+                perturbation_m_s2.as_ref().map_or(Vector3::zeros(), |perturbation| perturbation(at_s));
+            (reference_m, perturbation_m_s2 - gravity_m_s2(&reference_m))
         });
         let mut off_m = node_s.map(|at_s| position_m + velocity_m_s * (at_s - start_s));
         let mut last_m = None;
@@ -69,7 +70,7 @@ impl Deviation {
             if !size_m.is_finite() {
                 return Err(IntegrationError::NotFinite { at_s: start_s });
             }
-            // What the next iteration would change, by what this one has gained.
+            // Predicted change of the next iteration.
             let gain = last_m.map_or(1.0, |last_m: f64| (change_m / last_m).min(1.0));
             if change_m * gain <= 4.0 * f64::EPSILON * size_m {
                 return Ok(Self { start_s, end_s, position_m: position, velocity_m_s: velocity });
@@ -83,7 +84,7 @@ impl Deviation {
         })
     }
 
-    /// Position and velocity off the reference orbit at `at_s`; beyond the interval as at its start, or going on evenly.
+    /// Position and velocity off the reference orbit at `at_s`; before the interval its start value, after it linear motion.
     pub(super) fn value(&self, at_s: f64) -> SVector<f64, 6> {
         let within_s = at_s.clamp(self.start_s, self.end_s);
         let velocity_m_s = self.velocity_m_s.value(within_s);

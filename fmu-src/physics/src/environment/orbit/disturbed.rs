@@ -1,5 +1,5 @@
 //! An orbit integrated under gravity with its disturbances: the planet's flattening, the Sun's tide, and whatever
-//! acceleration the caller adds: of forces known ahead, or of forces known only while they act (`deviation`).
+//! acceleration the caller adds: of forces known in advance, or of forces that depend on the simulated attitude (`deviation`).
 
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
@@ -51,7 +51,7 @@ pub enum OrbitIntegrationError {
 pub struct DisturbedOrbit {
     chain: SegmentChain<6, TERMS>,
     radius_m: f64,
-    /// By forces known only while they act, within the present segment; absent without.
+    /// By forces that depend on the simulated attitude, within the present segment.
     deviation: Option<Deviation>,
     /// The body that the segments count from, between several of them; absent where that never changes.
     center: Option<IntegrationCenter>,
@@ -142,18 +142,18 @@ impl DisturbedOrbit {
         unpack(&self.deviation.map_or(reference, |deviation| reference + deviation.value(at_s)))
     }
 
-    /// Whether forces have moved the spacecraft off the orbit within the present segment.
+    /// Whether the present segment has a deviation.
     pub fn is_deviated(&self) -> bool {
         self.deviation.is_some()
     }
 
-    /// Up to when they have, s.
+    /// End of the deviation, s.
     pub fn deviated_until_s(&self) -> f64 {
         self.deviation.as_ref().map_or(f64::NEG_INFINITY, Deviation::end_s)
     }
 
-    /// Forces accelerate the spacecraft by `extra_m_s2(t)`, EME2000, smooth from `start_s` to `end_s`, within the present segment and
-    /// not before the last such interval; none = it coasts on. The Sun's tide is that of the segment.
+    /// Integrates the deviation under the perturbing acceleration `extra_m_s2(t)`, EME2000, smooth from `start_s` to `end_s`, within the
+    /// present segment and not before the last such interval; `None`: none acts. The Sun's tide is that of the segment.
     ///
     /// # Errors
     /// [`OrbitIntegrationError`]; the orbit stays as it was.

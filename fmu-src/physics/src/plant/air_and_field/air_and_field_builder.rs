@@ -26,9 +26,9 @@ const SHORTEST_S: f64 = 1.0;
 const AIR_UNITS: u32 = 15;
 const FIELD_UNITS: u32 = 3;
 
-/// Within `atmosphere.tolerance` times this, in m, of where the segment was fitted it holds: in height, over which the air thins out,
-/// and in any direction, by the size of the magnetic field and of the bulge of the air that follows the Sun.
+/// Least scale height of the air, in m: the fit is valid within `atmosphere.tolerance` times this of the orbit on which it was made.
 const SCALE_HEIGHT_M: f64 = 5e3;
+/// Least horizontal scale of air and field, in m, likewise.
 const SCALE_M: f64 = 5e5;
 
 /// Fitted quantities: position, air, its velocity, field.
@@ -45,7 +45,7 @@ pub(crate) struct AirAndFieldBuilder<'r, 'a> {
     pub settings: AirAndFieldSettings,
     pub figure: PlanetFigure,
     pub kinematics: &'r mut Kinematics<'a>,
-    /// Whether perturbing forces have moved the orbit since a segment may have been fitted.
+    /// Whether the orbit may differ from the one on which the segment was fitted.
     pub orbit_has_moved: bool,
 }
 
@@ -60,21 +60,21 @@ impl AirAndFieldBuilder<'_, '_> {
         start_s: f64,
         limit_s: f64,
     ) -> Result<f64, PlantError> {
-        if !segment.span.contains(start_s) || (self.orbit_has_moved && self.is_elsewhere(segment, limit_s)) {
+        if !segment.span.contains(start_s) || (self.orbit_has_moved && self.orbit_differs(segment, limit_s)) {
             self.build(segment, start_s, limit_s)?;
         }
         Ok(segment.span.end_s.min(limit_s))
     }
 
     /// Whether the orbit, valid up to `limit_s`, differs from the one on which the segment was fitted.
-    fn is_elsewhere(&mut self, segment: &AirAndFieldSegment, limit_s: f64) -> bool {
+    fn orbit_differs(&mut self, segment: &AirAndFieldSegment, limit_s: f64) -> bool {
         let last_s = segment.span.end_s.min(limit_s);
         let tolerance = self.settings.tolerance;
         segment.position.as_ref().is_none_or(|fitted| {
             let position_m = self.kinematics.about_planet(last_s).position_m;
             let off_m = position_m - fitted.value(last_s);
-            let higher_m = off_m.dot(&position_m) / position_m.norm();
-            higher_m.abs() > tolerance * SCALE_HEIGHT_M || off_m.norm() > tolerance * SCALE_M
+            let radial_m = off_m.dot(&position_m) / position_m.norm();
+            radial_m.abs() > tolerance * SCALE_HEIGHT_M || off_m.norm() > tolerance * SCALE_M
         })
     }
 

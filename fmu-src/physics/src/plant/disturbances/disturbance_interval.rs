@@ -142,20 +142,19 @@ impl DisturbanceInterval {
         Ok(Self { start_s, end_s, next_longest_s, loads, field_inertial_t, to_sun, lit_fraction })
     }
 
-    /// Moves the spacecraft of `plant` off its orbit by the force over the interval, the body turning on as it does, where forces do so.
+    /// Integrates the deviation of the orbit under the forces of the interval, at the predicted attitude (Encke's method).
     ///
     /// # Errors
     /// What ends a flight.
     pub(crate) fn deviate(&self, plant: &mut Plant<'_>) -> Result<(), PlantError> {
-        let [applied, slope] = plant.external(self.start_s);
+        let applied = plant.external(self.start_s);
         let Kinematics { configuration, trajectory, mass_at_zero, .. } = &mut plant.kinematics;
         let AttitudeSource::Dynamic(attitude) = &configuration.attitude else { return Ok(()) };
-        if !configuration.motion.deviates_by_interval() {
+        if !configuration.motion.uses_encke() {
             return Ok(());
         }
         let acceleration_m_s2 = |time_s: f64| {
-            let applied_n = applied.force_body_n + slope.force_body_n * (time_s - self.start_s);
-            let force_body_n = self.force_at_n(time_s) + applied_n;
+            let force_body_n = self.force_body_n(&applied, self.start_s, time_s);
             attitude.frame_at(time_s).inertial_from_body * (force_body_n / mass_at_zero.mass_kg)
         };
         Ok(trajectory.accelerate(configuration, [self.start_s, self.end_s], Some(acceleration_m_s2))?)
@@ -214,10 +213,10 @@ impl DisturbanceInterval {
         total
     }
 
-    /// Sum of the forces of the effects at `time_s`, body frame, in N.
-    pub(crate) fn force_at_n(&self, time_s: f64) -> Vector3<f64> {
-        let [[force_body_n, _], _] = self.total_at(time_s);
-        force_body_n
+    /// Total force at `time_s`, body frame, in N: the disturbances and the `applied` load, given with its slope at `since_s`.
+    pub(crate) fn force_body_n(&self, applied: &[ForceTorque; 2], since_s: f64, time_s: f64) -> Vector3<f64> {
+        let ([[disturbance_n, _], _], [load, slope]) = (self.total_at(time_s), applied);
+        disturbance_n + load.force_body_n + slope.force_body_n * (time_s - since_s)
     }
 
     /// Unit vector to the Sun, EME2000, and the visible part of its disc at `time_s`.

@@ -3,9 +3,9 @@
 //! A span of the propagator is one on which the orbit is known and attitude law and shadow keep their branch.
 //! An orbit that light and heat act on has to be known before they can be computed, and they before it. A segment begins
 //! with the orbit under gravity alone. Within a segment it is off by centimetres, which changes light and heat by less than
-//! 1e-7 of themselves; with their acceleration the orbit is then integrated anew, up to the segment's end. Where the attitude becomes
-//! known only while it comes about, the orbit stays the one under gravity, and forces move the spacecraft off it interval by interval
-//! of the disturbances (Encke's method).
+//! 1e-7 of themselves; with their acceleration the orbit is then integrated again, up to the segment's end. With an
+//! attitude simulated by dynamics the reference orbit is the one under gravity, and forces perturb it interval by interval of the
+//! disturbances (Encke's method).
 
 use nalgebra::{Rotation3, Vector3};
 
@@ -354,7 +354,7 @@ impl<'a> Plant<'a> {
     /// # Errors
     /// What ends a flight.
     pub(crate) fn orbit_and_light(&mut self, start_s: f64) -> Result<f64, PlantError> {
-        let by_interval = self.kinematics.configuration.deviates_by_interval();
+        let by_interval = self.kinematics.configuration.uses_encke();
         if self.kinematics.trajectory.end_s() > start_s {
             return self.extend_disturbances(start_s, self.kinematics.trajectory.end_s(), by_interval);
         }

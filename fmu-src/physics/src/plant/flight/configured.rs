@@ -158,8 +158,8 @@ impl ConfiguredFlight<'_> {
         Ok(())
     }
 
-    /// Thrust over the present segment of the motion moves the spacecraft off the orbit that was computed ahead; where disturbances do
-    /// so by interval, with those of `interval`, at this mass.
+    /// Integrates the deviation of the orbit under thrust over the present segment of the motion, and with Encke's method under the
+    /// disturbances of `interval` at this mass.
     pub(super) fn take_thrust(
         &mut self,
         motion: &GyrostatMotion,
@@ -169,20 +169,18 @@ impl ConfiguredFlight<'_> {
         let (load, configuration) = (self.thrusters.load(), &self.world.configuration);
         let trajectory = &mut self.propagator.trajectory;
         let span_s = [motion.start_s(), motion.end_s()];
-        let (thrusts, disturbed) = (!load.law.is_none(), configuration.motion.deviates_by_interval());
+        let (thrusts, disturbed) = (!load.law.is_none(), configuration.motion.uses_encke());
         if !thrusts && disturbed && trajectory.is_deviated_until(span_s[1]) {
             return Ok(());
         }
-        let [applied, slope] = (self.given.external)(span_s[0]);
+        let applied = (self.given.external)(span_s[0]);
         let acceleration_m_s2 = (thrusts || disturbed).then_some(|time_s: f64| {
             let mut acceleration_body_m_s2 = Vector3::zeros();
             if thrusts {
                 acceleration_body_m_s2 += load.acceleration_body_m_s2(time_s);
             }
             if disturbed {
-                let applied_n = applied.force_body_n + slope.force_body_n * (time_s - span_s[0]);
-                let force_body_n = interval.force_at_n(time_s) + applied_n;
-                acceleration_body_m_s2 += force_body_n / mass_kg;
+                acceleration_body_m_s2 += interval.force_body_n(&applied, span_s[0], time_s) / mass_kg;
             }
             motion.attitude_at(time_s).inertial_from_body(&acceleration_body_m_s2)
         });

@@ -259,7 +259,7 @@ impl AttitudeDynamics {
         self.mass.left = flight.thrusters.left(&loaded, time_s);
         world.mass_at_zero = self.mass.left.unwrap_or(loaded);
         let begins = self.disturbance == DisturbanceInterval::before();
-        if begins || !world.configuration.motion.deviates_by_interval() {
+        if begins || !world.configuration.motion.uses_encke() {
             flight.propagator.cut(&world.configuration, time_s, true);
         } else {
             flight.propagator.cut_light(time_s);

@@ -93,7 +93,7 @@ impl PropagatorState {
         }
     }
 
-    /// Forgets light and heat ahead of `time_s`, where the attitude is another than they were computed for.
+    /// Discards light and heat after `time_s`, computed for another attitude.
     pub(crate) fn cut_light(&mut self, time_s: f64) {
         if let Some(light) = &mut self.light {
             light.cut(time_s);

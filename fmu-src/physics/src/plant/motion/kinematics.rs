@@ -351,7 +351,7 @@ impl Kinematics<'_> {
         first_change_s(before_s, behind_s, |at_s| same(self, at_s)).min(limit_s)
     }
 
-    /// Whether the gaps of the shadow at `instant` are too wide to close within `span_s` and the attitude law has no margins.
+    /// Whether a bound of their rates excludes a root of the shadow's gaps within `span_s` of `instant`; never with margins of an attitude law.
     pub(crate) fn excludes_events(&self, instant: &Instant, span_s: f64) -> bool {
         let Geometry { to_planet, to_sun, .. } = &instant.geometry;
         let [outer_rad, inner_rad, first_margin, second_margin] = instant.events.into();
@@ -362,7 +362,7 @@ impl Kinematics<'_> {
             return outer_rad == f64::INFINITY && inner_rad == f64::INFINITY;
         };
         let Configuration { shadow, .. } = self.configuration;
-        // Gravity is nowhere stronger than at the surface; twice that is more than all other forces add.
+        // Twice the gravity at the surface bounds the acceleration.
         let gm_m3_s2 = self.configuration.planet_gm_m3_s2();
         let gained_m_s = 2.0 * gm_m3_s2 / math::powi(shadow.planet_radius_m(), 2) * span_s;
         let bound = |to: &CartesianState| {
@@ -371,7 +371,7 @@ impl Kinematics<'_> {
         };
         let (planet, sun) = (bound(to_planet), bound(to_sun));
         let most_rad = shadow.greatest_gap_rate_rad_s(planet, sun) * span_s;
-        // Written so that a NaN excludes nothing.
+        // False for NaN.
         planet[0] > 0.0 && sun[0] > 0.0 && outer_rad.abs().min(inner_rad.abs()) > most_rad
     }
 

@@ -210,7 +210,7 @@ impl Trajectory {
             };
         }
         match (&self.orbit, &self.window_start) {
-            // Off its orbit the present segment knows the way of its last interval alone.
+            // With a deviation the present segment holds the path of its last interval only.
             (Some(orbit), Some((since_s, state)))
                 if orbit.is_deviated() && is_same_window(configuration, *since_s, time_s) =>
             {
@@ -232,7 +232,7 @@ impl Trajectory {
 
     /// Leaves the present segment, which ends at `time_s`: remembers what the next one cannot know.
     pub(crate) fn leave(&mut self, configuration: &Configuration, time_s: f64) {
-        // What forces move off the orbit is remembered while they do.
+        // With a deviation the window is stored at each interval.
         if let Some(orbit) = self.orbit.filter(|orbit| !orbit.is_deviated()) {
             self.remember_window(configuration, [orbit.start_s(), time_s]);
         }
@@ -248,13 +248,13 @@ impl Trajectory {
         }
     }
 
-    /// Whether what is known of the forces has moved the spacecraft off its orbit up to `time_s`.
+    /// Whether the deviation from the reference orbit is integrated up to `time_s`.
     pub(crate) fn is_deviated_until(&self, time_s: f64) -> bool {
         self.orbit.as_ref().is_some_and(|orbit| orbit.deviated_until_s() >= time_s)
     }
 
-    /// Forces that become known only while they act accelerate the spacecraft by `extra_m_s2(t)`, EME2000, over `span_s` of the
-    /// present segment; none = it coasts on. An orbit that forces do not act on stays.
+    /// Integrates the deviation under the perturbing acceleration `extra_m_s2(t)`, EME2000, over `span_s` of the present segment;
+    /// `None`: none acts. Without `orbit.radiationFeedback` nothing changes.
     ///
     /// # Errors
     /// See [`OrbitIntegrationError`].
@@ -277,7 +277,7 @@ impl Trajectory {
             self.remember_window(configuration, [orbit.start_s(), span_s[0]]);
         }
         orbit.accelerate(&gravity, span_s, extra_m_s2)?;
-        if configuration.motion.deviates_by_interval() {
+        if configuration.motion.uses_encke() {
             self.periapses.forget_after(span_s[0], radial(&orbit.state_at(span_s[0])));
             self.periapses.detect_periapsis(&orbit, configuration, span_s);
         }
@@ -399,7 +399,7 @@ impl Trajectory {
             }
             Motion::TwoBody | Motion::Held { .. } => return Ok(0),
         };
-        if !configuration.deviates_by_interval() {
+        if !configuration.uses_encke() {
             self.periapses.detect_periapsis(&orbit, configuration, [orbit.start_s(), orbit.end_s()]);
         }
         self.orbit = Some(orbit);

@@ -235,9 +235,9 @@ impl Motion {
         matches!(self, Self::Disturbed { feedback: true, .. } | Self::NBody { feedback: true, .. })
     }
 
-    /// Whether forces that become known only while the attitude comes about move the spacecraft off its orbit interval by interval;
-    /// between several bodies, where a segment of the orbit is long, it is integrated anew with them instead.
-    pub(crate) fn deviates_by_interval(&self) -> bool {
+    /// Whether forces in simulated attitude perturb the orbit by Encke's method, interval by interval; the long segments of n-body motion
+    /// are integrated again with the forces instead.
+    pub(crate) fn uses_encke(&self) -> bool {
         matches!(self, Self::Disturbed { feedback: true, .. })
     }
 
@@ -324,9 +324,9 @@ impl Configuration {
         self.encounter.map_or(self.orbit.mu_m3_s2(), |encounter| encounter.gm_m3_s2)
     }
 
-    /// Whether the attitude is one of dynamics and forces move the spacecraft off its orbit interval by interval of the disturbances.
-    pub(crate) fn deviates_by_interval(&self) -> bool {
-        matches!(self.attitude, AttitudeSource::Dynamic(_)) && self.motion.deviates_by_interval()
+    /// Whether the attitude is simulated by dynamics and forces perturb the orbit by Encke's method.
+    pub(crate) fn uses_encke(&self) -> bool {
+        matches!(self.attitude, AttitudeSource::Dynamic(_)) && self.motion.uses_encke()
     }
 
     /// Whether there is more of light and heat than sunlight that nothing shadows.
