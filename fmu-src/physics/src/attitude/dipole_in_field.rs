@@ -56,7 +56,7 @@ impl FieldSeries {
         let torque = dipole_body_a_m2.cross(&self.field[j]);
         if j + 1 < TERMS {
             let turned = |series: &[Vector3<f64>; TERMS]| -> Vector3<f64> {
-                (0..=j).map(|i| series[i].cross(&rates[j - i])).sum()
+                (0..=j).fold(Vector3::zeros(), |sum, i| sum + series[i].cross(&rates[j - i]))
             };
             let divisor = (j + 1) as f64;
             self.field[j + 1] = (self.rate[j] + turned(&self.field)) / divisor;

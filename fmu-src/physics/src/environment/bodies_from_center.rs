@@ -21,13 +21,12 @@ pub struct BodiesFromCenter {
 impl BodiesFromCenter {
     /// Sun and Earth at `epoch_s` past J2000 TDB, from the centre, in EME2000.
     pub fn sun_and_earth(&self, ephemeris: &mut Ephemeris, epoch_s: f64) -> (CartesianState, CartesianState) {
-        let earth = ephemeris.state(Body::Earth, epoch_s);
         if self.center == Body::Sun {
-            return (CartesianState::default(), earth);
+            return (CartesianState::default(), ephemeris.state(Body::Earth, epoch_s));
         }
         let center = self.center_state(ephemeris, epoch_s);
         // About the Earth there is one Earth, on whatever orbit.
-        let earth = if self.center == Body::Earth { center } else { earth };
+        let earth = if self.center == Body::Earth { center } else { ephemeris.state(Body::Earth, epoch_s) };
         (CartesianState::default() - center, earth - center)
     }
 

@@ -136,14 +136,13 @@ impl<const D: usize, const N: usize> Segment<D, N> {
     /// The function at `at`.
     pub fn value(&self, at: f64) -> SVector<f64, D> {
         let x = (at - self.center) / self.half_length;
-        let columns = &self.coefficients.data.0;
+        let (first, others) = constant_and_others(&self.coefficients.data.0);
         let (mut b1, mut b2) = ([0.0; D], [0.0; D]);
-        for column in columns.iter().skip(1).rev() {
+        for column in others.iter().rev() {
             for i in 0..D {
                 (b1[i], b2[i]) = (2.0 * x * b1[i] + (column[i] - b2[i]), b1[i]);
             }
         }
-        let first = columns.first().copied().unwrap_or([0.0; D]);
         SVector::from_fn(|i, _| x * b1[i] + (first[i] - b2[i]))
     }
 
@@ -209,23 +208,28 @@ impl<const N: usize> Segment<1, N> {
 #[inline]
 pub fn series_at<const D: usize>(coefficients: &[[f64; D]], x: f64) -> ([f64; D], [f64; D]) {
     let (mut b1, mut b2, mut d1, mut d2) = ([0.0; D], [0.0; D], [0.0; D], [0.0; D]);
-    for column in coefficients.iter().skip(1).rev() {
+    let (first, others) = constant_and_others(coefficients);
+    for column in others.iter().rev() {
         for i in 0..D {
             (d1[i], d2[i]) = (2.0 * x * d1[i] + (2.0 * b1[i] - d2[i]), d1[i]);
             (b1[i], b2[i]) = (2.0 * x * b1[i] + (column[i] - b2[i]), b1[i]);
         }
     }
-    let first = coefficients.first().copied().unwrap_or([0.0; D]);
     let value = core::array::from_fn(|i| x * b1[i] + (first[i] - b2[i]));
     let derivative = core::array::from_fn(|i| x * d1[i] + (b1[i] - d2[i]));
     (value, derivative)
+}
+
+/// The coefficient of `T_0` and the others.
+fn constant_and_others<const D: usize>(coefficients: &[[f64; D]]) -> ([f64; D], &[[f64; D]]) {
+    coefficients.split_first().map_or(([0.0; D], &[]), |(first, others)| (*first, others))
 }
 
 /// The second derivative of the series with these coefficients at `x` in -1 to 1 (Clenshaw's recurrence, differentiated twice).
 pub fn curvature_at<const D: usize>(coefficients: &[[f64; D]], x: f64) -> [f64; D] {
     let (mut b1, mut b2, mut d1, mut d2) = ([0.0; D], [0.0; D], [0.0; D], [0.0; D]);
     let (mut c1, mut c2) = ([0.0; D], [0.0; D]);
-    for column in coefficients.iter().skip(1).rev() {
+    for column in constant_and_others(coefficients).1.iter().rev() {
         for i in 0..D {
             (c1[i], c2[i]) = (2.0 * x * c1[i] + (4.0 * d1[i] - c2[i]), c1[i]);
             (d1[i], d2[i]) = (2.0 * x * d1[i] + (2.0 * b1[i] - d2[i]), d1[i]);

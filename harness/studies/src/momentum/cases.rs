@@ -255,17 +255,19 @@ impl Case {
         fmu: &Fmu,
         steer: &mut dyn FnMut(case::Row<'_>) -> Settings,
     ) -> Result<Simulated, StudyError> {
-        let recorded = self.settings().apart("dump.count").steer(fmu, &NAMES, steer)?;
-        Ok(Simulated {
-            case: *self,
-            times_d: recorded.times_s.iter().map(|time_s| time_s / DAY_S).collect(),
-            count: recorded.last(1) as i64,
-            momentum_x_n_m_s: recorded.columns[0].clone(),
-            dumps: dumps(&recorded),
-        })
+        Ok(Simulated::of(*self, &self.settings().apart(APART).steer(fmu, &NAMES, steer)?))
+    }
+
+    /// Whether another differs in the offset alone.
+    pub(super) fn is_of_setting(&self, other: &Self) -> bool {
+        *self == Self { offset_in: self.offset_in, ..*other }
     }
 }
 
+/// Dumps stand apart in what is recorded.
+const APART: &str = "dump.count";
+/// What campaigns vary.
+const HEIGHT: &str = "spacecraft.centerOfMass[3]";
 /// What is recorded.
 const NAMES: [&str; 4] = ["momentum.body[1]", "dump.count", "dump.lastTime", "dump.impulse"];
 
@@ -303,6 +305,16 @@ pub(super) struct Simulated {
 }
 
 impl Simulated {
+    fn of(case: Case, recorded: &case::Recorded) -> Self {
+        Self {
+            case,
+            times_d: recorded.times_s.iter().map(|time_s| time_s / DAY_S).collect(),
+            count: recorded.last(1) as i64,
+            momentum_x_n_m_s: recorded.columns[0].clone(),
+            dumps: dumps(recorded),
+        }
+    }
+
     /// Statistics of the time between its dumps.
     pub(super) fn spacing(&self) -> Spacing {
         Spacing::of(&self.dumps.iter().map(|dump| dump.time_d).collect::<Vec<f64>>())
@@ -314,4 +326,22 @@ pub(super) fn simulate_all(run: &Run<'_>, cases: Vec<Case>) -> Result<Vec<Simula
     let cases = run.chosen(cases, Case::label)?;
     let fmu = run.options.fmu("MomentumPlant.fmu")?;
     run.all(&cases, |case| case.simulate(&fmu, &mut |_| Settings::new()))
+}
+
+/// The same of cases with offsets along Z, those of a setting as a campaign.
+pub(super) fn simulate_campaigns(run: &Run<'_>, cases: Vec<Case>) -> Result<Vec<Simulated>, StudyError> {
+    let cases = run.chosen(cases, Case::label)?;
+    let fmu = run.options.fmu("MomentumPlant.fmu")?;
+    let settings: Vec<&[Case]> = cases.chunk_by(Case::is_of_setting).collect();
+    let simulated = run.all(&settings, |cases| {
+        let heights_m: Vec<f64> = cases.iter().map(|case| INCH_M * f64::from(case.offset_in[2])).collect();
+        let campaign = cases[0].settings().apart(APART).campaign(&fmu, &[(HEIGHT, &heights_m)]);
+        let runs = campaign.map_err(|source| StudyError::Simulation { case: cases[0].label(), source })?;
+        let simulated = cases.iter().zip(runs).map(|(case, mut run)| {
+            run.label = case.label();
+            Ok(Simulated::of(*case, &run.simulate(&fmu, &NAMES)?))
+        });
+        simulated.collect::<Result<Vec<_>, StudyError>>()
+    })?;
+    Ok(simulated.concat())
 }

@@ -9,9 +9,10 @@
 //! the attitude are short compared with the orbital period.
 //! Reference: Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 10.3.
 
-use nalgebra::{SVector, Vector3};
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::environment::CartesianState;
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::collocation::IntegrationError;
 
@@ -30,19 +31,19 @@ pub(super) struct Deviation {
 }
 
 impl Deviation {
-    /// Integrates the deviation from its value `before` (m and m/s) at `start_s` to `end_s`, under `perturbation_m_s2(t)` and the
+    /// Integrates the deviation from its value `before` at `start_s` to `end_s`, under `perturbation_m_s2(t)` and the
     /// difference of `gravity_m_s2(r)` from that on the reference orbit `reference_m(t)`.
     ///
     /// # Errors
     /// [`IntegrationError`].
     pub(super) fn integrate(
-        before: &SVector<f64, 6>,
+        before: &CartesianState,
         [start_s, end_s]: [f64; 2],
         reference_m: impl Fn(f64) -> Vector3<f64>,
         gravity_m_s2: impl Fn(&Vector3<f64>) -> Vector3<f64>,
         perturbation_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
     ) -> Result<Self, IntegrationError> {
-        let [position_m, velocity_m_s] = [0, 3].map(|row| before.fixed_rows::<3>(row).clone_owned());
+        let CartesianState { position_m, velocity_m_s } = *before;
         let node_s = Segment::<3, NODES>::nodes(start_s, end_s);
         let known = node_s.map(|at_s| {
             let reference_m = reference_m(at_s);
@@ -85,11 +86,11 @@ impl Deviation {
     }
 
     /// Position and velocity off the reference orbit at `at_s`; before the interval its start value, after it linear motion.
-    pub(super) fn value(&self, at_s: f64) -> SVector<f64, 6> {
+    pub(super) fn value(&self, at_s: f64) -> CartesianState {
         let within_s = at_s.clamp(self.start_s, self.end_s);
         let velocity_m_s = self.velocity_m_s.value(within_s);
         let position_m = self.position_m.value(within_s) + velocity_m_s * (at_s - within_s).max(0.0);
-        SVector::from_iterator(position_m.iter().chain(&velocity_m_s).copied())
+        CartesianState { position_m, velocity_m_s }
     }
 
     /// End of the last interval, s.

@@ -84,6 +84,11 @@ impl DisturbanceInterval {
         }
     }
 
+    /// Whether none has begun.
+    pub(crate) fn is_before(&self) -> bool {
+        self.end_s == f64::NEG_INFINITY
+    }
+
     /// The interval of `plant` that begins at `start_s`, after `self`, and lasts to the next multiple of `grid_s` at most.
     ///
     /// # Errors
@@ -103,23 +108,26 @@ impl DisturbanceInterval {
         let (active, tolerance) = (configuration.effects, configuration.light_and_heat.tolerance);
         let mut interval = AdaptiveInterval::new(start_s, grid_s, longest_s, limit_s, shortest_s);
         let mut next_longest_s = f64::INFINITY;
-        let [first, second] = loop {
+        // Not an array that the loop breaks with: an evaluation is large.
+        let (mut first, mut second);
+        loop {
             let span_s = interval.end_s() - start_s;
-            let nodes = NODES.map(|node| plant.evaluate(start_s + node * span_s));
-            nodes[0].check(start_s)?;
+            first = plant.evaluate(start_s + NODES[0] * span_s);
+            second = plant.evaluate(start_s + NODES[1] * span_s);
+            first.check(start_s)?;
             if turning_rad_s * span_s < SHORTEST_TURN_RAD {
-                break nodes;
+                break;
             }
             let last_s = plant.kinematics.configuration.last_of_panels_s(start_s, interval.end_s());
             let ends = [start_s, last_s].map(|at_s| plant.evaluate(at_s));
-            let left_out = left_out(active, &nodes, &ends);
+            let left_out = left_out(active, [&first, &second], &ends);
             let unresolved = left_out * left_out.max(math::powi(rate_rad_s * span_s, 2) / 12.0);
             if let Some(longest_s) = interval.accept(unresolved, tolerance, ORDER) {
                 next_longest_s = longest_s;
-                break nodes;
+                break;
             }
             plant.spend(Effort::Refinement, start_s)?;
-        };
+        }
         let end_s = interval.end_s();
         let span_s = end_s - start_s;
         let line = |of: &dyn Fn(&Evaluation) -> Vector3<f64>| -> Linear {
@@ -162,7 +170,7 @@ impl DisturbanceInterval {
 
     /// Whether a simulation can produce it.
     pub(crate) fn is_valid(&self) -> bool {
-        let is_before = self.start_s == f64::NEG_INFINITY && self.end_s == f64::NEG_INFINITY;
+        let is_before = self.start_s == f64::NEG_INFINITY && self.is_before();
         (is_before || self.start_s.is_finite() && self.end_s.is_finite())
             && self.start_s <= self.end_s
             && self.next_longest_s > 0.0
@@ -235,11 +243,11 @@ fn orbital_rate_rad_s(spacecraft: &CartesianState) -> f64 {
 
 /// Largest distance at the two ends of force, torque and magnetic field from the line through those at the two nodes, relative to the
 /// largest force and torque of all effects there, and the field; a torque counts against the largest force at an arm of 1 cm at least.
-fn left_out(active: Active, nodes: &[Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
+fn left_out(active: Active, nodes: [&Evaluation; 2], ends: &[Evaluation; 2]) -> f64 {
     let (mut scale, mut most) = ([0.0_f64; 2], [0.0_f64; 2]);
     let beyond = NODES[0] / (NODES[1] - NODES[0]);
     for effect in active.disturbances().filter(|effect| !effect.is_in_field()) {
-        let [a, b, start, end] = [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.loads[effect]);
+        let [a, b, start, end] = [nodes[0], nodes[1], &ends[0], &ends[1]].map(|it| it.loads[effect]);
         let kinds = [
             [a.force_body_n, b.force_body_n, start.force_body_n, end.force_body_n],
             [a.torque_body_n_m, b.torque_body_n_m, start.torque_body_n_m, end.torque_body_n_m],
@@ -254,7 +262,7 @@ fn left_out(active: Active, nodes: &[Evaluation; 2], ends: &[Evaluation; 2]) -> 
     let torque_n_m = torque_n_m.max(force_n * LEAST_ARM_M);
     let share = |most: f64, scale: f64| if scale > 0.0 { most / scale } else { 0.0 };
     let [a, b, start, end] =
-        [&nodes[0], &nodes[1], &ends[0], &ends[1]].map(|it| it.air_and_field.field_inertial_t);
+        [nodes[0], nodes[1], &ends[0], &ends[1]].map(|it| it.air_and_field.field_inertial_t);
     let slope = (b - a) * beyond;
     let field_most_t = (start - (a - slope)).amax().max((end - (b + slope)).amax());
     let of_field = share(field_most_t, a.amax().max(b.amax()));

@@ -258,7 +258,7 @@ impl AttitudeDynamics {
         let loaded = world.configuration.loaded();
         self.mass.left = flight.thrusters.left(&loaded, time_s);
         world.mass_at_zero = self.mass.left.unwrap_or(loaded);
-        let begins = self.disturbance == DisturbanceInterval::before();
+        let begins = self.disturbance.is_before();
         if begins || !world.configuration.motion.uses_encke() {
             flight.propagator.cut(&world.configuration, time_s, true);
         } else {

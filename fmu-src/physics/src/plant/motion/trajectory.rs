@@ -264,24 +264,26 @@ impl Trajectory {
         span_s: [f64; 2],
         extra_m_s2: Option<impl Fn(f64) -> Vector3<f64>>,
     ) -> Result<(), OrbitIntegrationError> {
-        let Some(mut orbit) = self.orbit.filter(|_| configuration.motion.is_pushed()) else { return Ok(()) };
+        let Some(orbit) = self.orbit.as_ref().filter(|_| configuration.motion.is_pushed()) else {
+            return Ok(());
+        };
         let gravity = match &configuration.motion {
             Motion::Disturbed { gravity, .. } => *gravity,
             Motion::NBody { gravity, .. } => gravity.near(orbit.integration_center()),
             Motion::TwoBody | Motion::Held { .. } => return Ok(()),
         };
-        if extra_m_s2.is_none() && !orbit.is_deviated() {
-            return Ok(());
-        }
         if !orbit.is_deviated() {
+            if extra_m_s2.is_none() {
+                return Ok(());
+            }
             self.remember_window(configuration, [orbit.start_s(), span_s[0]]);
         }
+        let Some(orbit) = &mut self.orbit else { return Ok(()) };
         orbit.accelerate(&gravity, span_s, extra_m_s2)?;
         if configuration.motion.uses_encke() {
-            self.periapses.forget_after(span_s[0], radial(&orbit.state_at(span_s[0])));
-            self.periapses.detect_periapsis(&orbit, configuration, span_s);
+            self.periapses.forget_after(span_s[0], || radial(&orbit.state_at(span_s[0])));
+            self.periapses.detect_periapsis(orbit, configuration, span_s);
         }
-        self.orbit = Some(orbit);
         self.remember_window(configuration, span_s);
         Ok(())
     }
@@ -292,7 +294,7 @@ impl Trajectory {
         let Some(orbit) = &mut self.orbit else { return };
         orbit.cut(time_s, jump_m_s);
         self.approaches.forget_after(time_s);
-        self.periapses.forget_after(time_s, radial(&orbit.state_at(time_s)));
+        self.periapses.forget_after(time_s, || radial(&orbit.state_at(time_s)));
     }
 
     /// The velocity jumps by `delta_v_m_s`, EME2000, at `time_s`: an integrated orbit goes on from there, two-body motion on
@@ -458,8 +460,8 @@ impl Periapses {
     }
 
     /// Forgets a passage found beyond `time_s`, where `radial` is position times velocity: it will be met again.
-    fn forget_after(&mut self, time_s: f64, radial: f64) {
-        if self.last_s[0] <= time_s || radial >= 0.0 {
+    fn forget_after(&mut self, time_s: f64, radial: impl FnOnce() -> f64) {
+        if self.last_s[0] <= time_s || radial() >= 0.0 {
             return;
         }
         if self.scheduled_s[0] == self.last_s[0] {
