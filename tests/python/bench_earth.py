@@ -14,7 +14,7 @@ import time
 
 from earth_basilisk import DAY_S, DENSITY_KG_M3, DIPOLE_A_M2, HEIGHT_M, SCALE_M, TEXT, Day
 
-TURNS = 5
+TURNS = 9
 # The same effects, from an orbit of the same size; the Sun's tide and light from the Earth Basilisk's flight does not have.
 FLIGHT = {
     "orbit.center": "earth", "orbit.frame": "eme2000", "orbit.dynamics": "disturbed", "orbit.sunTide": "false",
