@@ -155,8 +155,6 @@ def test_plant_and_disturbance_torque_joined_by_wire_have_equal_air_and_magnetis
     both = {"aerodynamics.law": "sentman", "aerodynamics.shadowing": "true", "dipole.residual": "0.02,-0.03,0.05"}
     values = {f"{part}.{name}": value for part in ("plant", "light") for name, value in both.items()}
     values |= {"light.aerodynamics.enabled": "true", "light.magnetics.enabled": "true"}
-    # No output joins the panels' angles.
-    values |= {f"plant.panel[{k}].{name}": value for k in (1, 2) for name, value in (("control", "angle"), ("angle", "0"))}
     settings = [part for name, value in values.items() for part in ("--set", f"{name}={value}")]
     names = [f"{part}.torque.{effect}" for part in ("plant", "light") for effect in ("aerodynamic", "magnetic")]
     recorded = [part for name in names for part in ("--record", name)]

@@ -16,12 +16,38 @@ const RUNS: usize = 3;
 /// Where processor times are compared, so many times by turns.
 const TURNS: usize = 5;
 
+type Part = fn(&Built) -> Outcome;
+
 /// Kernels (Rust examples of `physics`), the C interface, a system, a whole study, plans, a campaign, a day beside Basilisk.
-pub(crate) fn all() -> Outcome {
-    let built = dist::dist()?;
-    for example in EXAMPLES {
-        run(cargo("run --locked --quiet --release -p physics --example").arg(example))?;
+const PARTS: &[(&str, Part)] = &[
+    ("kernels", kernels),
+    ("c", c_interface),
+    ("system", system),
+    ("study", study),
+    ("plans", plans),
+    ("flybys", flybys),
+    ("sweep", sweep),
+    ("earth", earth),
+];
+
+/// The benchmarks of these parts; of all without any.
+pub(crate) fn parts(names: &[String]) -> Outcome {
+    let known = || PARTS.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+    if let Some(name) = names.iter().find(|name| PARTS.iter().all(|(known, _)| known != name)) {
+        return Err(format!("unknown part `{name}` of bench; there are {}", known()));
     }
+    let built = dist::dist()?;
+    let is_chosen = |name: &str| names.is_empty() || names.iter().any(|it| it == name);
+    PARTS.iter().filter(|(name, _)| is_chosen(name)).try_for_each(|(_, part)| part(&built))
+}
+
+fn kernels(_: &Built) -> Outcome {
+    EXAMPLES.iter().try_for_each(|example| {
+        run(cargo("run --locked --quiet --release -p physics --example").arg(example))
+    })
+}
+
+fn c_interface(built: &Built) -> Outcome {
     if need("gcc", "the benchmark through the C interface")? {
         let scratch = build::scratch("bench")?;
         let program = compile_c(&scratch, "bench")?;
@@ -34,12 +60,7 @@ pub(crate) fn all() -> Outcome {
         let program = compile_c(&scratch, "bench_dynamics")?;
         run(command(&program).arg(&built.library).current_dir(&scratch))?;
     }
-    system(&built)?;
-    study(&built)?;
-    plans(&built)?;
-    flybys(&built)?;
-    sweep(&built)?;
-    earth(&built)
+    Ok(())
 }
 
 /// A day of ten plates about the Earth beside Basilisk.
@@ -79,8 +100,7 @@ fn sweep(built: &Built) -> Outcome {
         let (mut all_s, mut ratios) = (Vec::new(), Vec::new());
         for _ in 0..TURNS {
             let mut by_c = command(&program);
-            let by_c_s =
-                processor_of(by_c.arg(&built.library).arg("values.csv").current_dir(&folder.path))?;
+            let by_c_s = processor_of(by_c.arg(&built.library).arg("values.csv").current_dir(&folder.path))?;
             let own_s = processor_of(&mut swept("--workers 1"))?;
             all_s.push(own_s);
             ratios.push(own_s / by_c_s);

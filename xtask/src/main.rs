@@ -1,4 +1,4 @@
-//! `cargo xtask demo | test [--long | NAME] | bless | env | dist | install | bench | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
+//! `cargo xtask demo | test [--long | NAME] | bless | env | dist | install | bench [PART...] | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
 
 mod bench;
 mod build;
@@ -38,7 +38,9 @@ cargo xtask <task>
   dist    build for Linux with glibc 2.17 or later and pack every shipped FMU and system into dist/
   install build and pack everything, then put the program, its library and the FMUs below a prefix: ~/.local or
           --prefix FOLDER; the program then works in any folder; --built takes what target/ and dist/ have
-  bench   measure speed and memory; prints `bench <name> <value> <unit>` lines
+  bench [PART...]
+          measure speed and memory; prints `bench <name> <value> <unit>` lines. Parts: kernels, c, system, study, plans, flybys,
+          sweep, earth
   guide   build the guide of docs/ into target/guide
   notices write anew what licences the linked crates have, after Cargo.lock has changed
 ";
@@ -61,7 +63,7 @@ fn main() -> ExitCode {
         "env" => test::print_environment(),
         "dist" => dist::shipped().map(|_| ()),
         "install" => install::install(arguments.get(1..).unwrap_or_default()),
-        "bench" => bench::all(),
+        "bench" => bench::parts(arguments.get(1..).unwrap_or_default()),
         "guide" => guide::build(),
         "notices" => notices::write(),
         "" | "help" | "--help" | "-h" => {

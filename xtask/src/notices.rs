@@ -30,6 +30,10 @@ Apache licence; its text is given below.
 The crate hifitime is under the Mozilla Public License 2.0, given below; its source code is at
 https://crates.io/crates/hifitime.
 
+The coefficients of the International Geomagnetic Reference Field, 14th generation, are compiled in unchanged: by the
+International Association of Geomagnetism and Aeronomy (2024), https://doi.org/10.5281/zenodo.14012302, Creative Commons
+Attribution 4.0 International, https://creativecommons.org/licenses/by/4.0/.
+
 On Linux an unwinder is linked in too. In libraries for glibc 2.17 and later it is LLVM's (libunwind and compiler-rt):
 Apache-2.0 WITH LLVM-exception, by the LLVM project's contributors; the text of the Apache licence is given below. In
 others it is GCC's (libgcc_eh and libgcc): GPL-3.0-or-later WITH GCC-exception-3.1, by the Free Software Foundation; the

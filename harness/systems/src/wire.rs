@@ -25,6 +25,7 @@ const RENAMED: &[(&str, &str)] = &[
     ("earth.position", "earth.positionInertial"),
     ("earth.velocity", "earth.velocityInertial"),
     ("panel[k].sunOffsetCommand", "panel[k].sunOffset"),
+    ("panel[k].angle", "panel[k].angleActual"),
 ];
 
 /// An input that was left open.

@@ -38,11 +38,11 @@ impl Ellipsoid {
     /// Geodetic coordinates of a position in the planet-fixed frame, in m.
     pub fn geodetic(&self, position_fixed_m: &Vector3<f64>) -> Geodetic {
         let [[x, y, z]] = position_fixed_m.data.0;
-        let (axial_m, share) = (math::hypot(x, y), 1.0 - self.flattening);
+        let (axial_m, share) = ((x * x + y * y).sqrt(), 1.0 - self.flattening);
         let square = self.flattening * (2.0 - self.flattening);
         let (polar_m, outer_square) = (self.equatorial_radius_m * share, square / (share * share));
         let unit = |sine: f64, cosine: f64| {
-            let length = math::hypot(sine, cosine);
+            let length = (sine * sine + cosine * cosine).sqrt();
             if length > 0.0 { [sine / length, cosine / length] } else { [0.0, 1.0] }
         };
         let mut reduced = unit(z, axial_m * share);

@@ -44,10 +44,8 @@ const NUTATION: [([f64; 5], f64, f64); 10] = [
 pub enum Orientation {
     /// Constant rotation rate about a fixed pole.
     Uniform {
-        /// Right ascension of the north pole in EME2000, in rad.
-        pole_right_ascension_rad: f64,
-        /// Its declination, in rad.
-        pole_declination_rad: f64,
+        /// Components along the equator's axes of a vector in EME2000.
+        equator_from_eme2000: Matrix3<f64>,
         /// Prime meridian at J2000 TDB from the ascending node of the equator, in rad.
         prime_meridian_rad: f64,
         /// About the north pole, in rad/s.
@@ -88,8 +86,8 @@ impl Orientation {
     /// Uniform rotation with a body's pole, prime meridian and rate.
     pub fn uniform(body: &BodyData) -> Self {
         Self::Uniform {
-            pole_right_ascension_rad: body.pole_right_ascension_rad,
-            pole_declination_rad: body.pole_declination_rad,
+            equator_from_eme2000: dcm_from_pole(body.pole_right_ascension_rad, body.pole_declination_rad)
+                .transpose(),
             prime_meridian_rad: body.prime_meridian_rad,
             rotation_rate_rad_s: body.rotation_rate_rad_s,
         }
@@ -98,14 +96,8 @@ impl Orientation {
     /// Equator and rotation angle at an epoch in s past J2000 TDB.
     pub fn equator(&self, epoch_s: f64) -> Equator {
         match *self {
-            Self::Uniform {
-                pole_right_ascension_rad,
-                pole_declination_rad,
-                prime_meridian_rad,
-                rotation_rate_rad_s,
-            } => Equator {
-                equator_from_eme2000: dcm_from_pole(pole_right_ascension_rad, pole_declination_rad)
-                    .transpose(),
+            Self::Uniform { equator_from_eme2000, prime_meridian_rad, rotation_rate_rad_s } => Equator {
+                equator_from_eme2000,
                 rotation_angle_rad: (prime_meridian_rad + rotation_rate_rad_s * epoch_s) % TAU,
                 rate_rad_s: rotation_rate_rad_s,
             },

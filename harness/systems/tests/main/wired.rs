@@ -148,6 +148,7 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
             "output sun.positionInertial[2] Real unit=\"m\"",
             "output earth.velocityInertial[1] Real unit=\"m\"",
             "output panel[7].sunOffset Real unit=\"rad\"",
+            "output panel[7].angleActual Real unit=\"rad\"",
             // Its own output is no candidate.
             "input earth.velocity[1] Real unit=\"m\" start=\"0\"",
         ],
@@ -159,12 +160,13 @@ fn positions_of_sun_and_earth_and_panels_have_their_other_names() {
             "input sun.position[2] Real unit=\"m\" start=\"0\"",
             "input earth.velocity[1] Real unit=\"m\" start=\"0\"",
             "input panel[7].sunOffsetCommand Real unit=\"rad\" start=\"0\"",
+            "input panel[7].angle Real unit=\"rad\" start=\"0\"",
             "input sun.positionBody[2] Real unit=\"m\" start=\"0\"",
         ],
     );
     let components = [opened(folder.path(), "one", &one), opened(folder.path(), "two", &two)];
     let wired = wire("Pair", &components, Experiment::default(), &Wiring::default()).unwrap();
-    assert_eq!(wired.structure.connections.len(), 3);
+    assert_eq!(wired.structure.connections.len(), 4);
     let left: Vec<&str> = wired.left.iter().map(|it| it.input.as_str()).collect();
     assert_eq!(left, ["earth.velocity[1]", "sun.positionBody[2]"]);
     // What is written of transformations is read, too.

@@ -175,11 +175,15 @@ impl<'a> Plant<'a> {
         let mut loads = self.radiation(time_s, &instant, &mass.center_of_mass_body_m);
         let air_and_field = self.air_and_field(time_s);
         if let Some(planet_body_m) = instant.planet_body_m {
+            let is_magnetic = configuration.effects.has(Effect::Magnetic);
             let at = NearPlanet {
                 planet_body_m: Some(planet_body_m),
                 pole_body: instant.to_body * self.pole_inertial(time_s),
                 inertia_body_kg_m2: mass.inertia_body_kg_m2,
-                field_body_t: instant.to_body * air_and_field.field_inertial_t,
+                field_body_t: match is_magnetic {
+                    true => instant.to_body * air_and_field.field_inertial_t,
+                    false => Vector3::zeros(),
+                },
                 air: self.air_load(time_s, &instant, &air_and_field, &mass.center_of_mass_body_m),
             };
             configuration.laws.exert(configuration.effects, &at, &mut loads);
