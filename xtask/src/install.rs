@@ -7,8 +7,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use crate::build::Built;
 use crate::shell::{self, Outcome, root, run};
 use crate::{build, dist};
+
+/// Where the program stands below the prefix.
+const PROGRAM_FOLDER: &str = "bin";
 
 /// Where the library and the FMUs stand below the prefix; the program looks there from its own folder.
 const LIBRARY_FOLDER: [&str; 2] = ["lib", "heliotorque"];
@@ -26,17 +30,10 @@ pub(crate) fn install(options: &[String]) -> Outcome {
     let others: Vec<String> = options.iter().filter(|option| *option != BUILT).cloned().collect();
     let prefix = prefix(&others)?;
     let built = if is_built { build::built() } else { dist::dist()? };
-    let binaries = prefix.join("bin");
-    let folder = LIBRARY_FOLDER.iter().fold(prefix.clone(), |path, part| path.join(part));
-    let program = built.heliotorque.clone();
-    let mut files = vec![(built.heliotorque, &binaries), (built.library, &folder)];
-    files.extend(packed()?.into_iter().map(|path| (path, &folder)));
-    let manual = MANUAL_FOLDER.iter().fold(prefix.clone(), |path, part| path.join(part));
-    files.extend(pages(&program)?.into_iter().map(|path| (path, &manual)));
-    for (from, to) in files {
-        let installed = copy(&from, to)?;
+    for installed in below(&prefix, &built, Some(&*built.heliotorque))? {
         println!("{}", installed.display());
     }
+    let binaries = prefix.join(PROGRAM_FOLDER);
     let is_on_path = env::var_os("PATH").is_some_and(|path| env::split_paths(&path).any(|it| it == binaries));
     if !is_on_path {
         eprintln!(
@@ -45,6 +42,23 @@ pub(crate) fn install(options: &[String]) -> Outcome {
         );
     }
     Ok(())
+}
+
+/// Copies program, library, FMUs and systems of a platform below a prefix, and the manual if a program of this computer is given
+/// that writes it.
+pub(crate) fn below(
+    prefix: &Path,
+    built: &Built,
+    writes_manual: Option<&Path>,
+) -> Result<Vec<PathBuf>, String> {
+    let under = |parts: &[&str]| parts.iter().fold(prefix.to_owned(), |path, part| path.join(part));
+    let [binaries, folder, manual] = [&[PROGRAM_FOLDER], &LIBRARY_FOLDER[..], &MANUAL_FOLDER[..]].map(under);
+    let mut files = vec![(built.heliotorque.clone(), &binaries), (built.library.clone(), &folder)];
+    files.extend(packed()?.into_iter().map(|path| (path, &folder)));
+    if let Some(program) = writes_manual {
+        files.extend(pages(program)?.into_iter().map(|path| (path, &manual)));
+    }
+    files.iter().map(|(from, to)| copy(from, to)).collect()
 }
 
 fn prefix(options: &[String]) -> Result<PathBuf, String> {
@@ -97,7 +111,7 @@ fn files_in(folder: &Path, extensions: &[&str]) -> Result<Vec<PathBuf>, String> 
 }
 
 /// Copies a file into a folder under its own name: whole or not at all, also over a program that runs.
-fn copy(from: &Path, folder: &Path) -> Result<PathBuf, String> {
+pub(crate) fn copy(from: &Path, folder: &Path) -> Result<PathBuf, String> {
     let name = from.file_name().ok_or_else(|| format!("{} is no file", from.display()))?;
     let to = folder.join(name);
     let mut part = name.to_owned();

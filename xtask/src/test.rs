@@ -140,8 +140,29 @@ pub(crate) fn compile_c_with(
     called: &str,
     flags: &[&str],
 ) -> Result<PathBuf, String> {
+    compile_c_for(&CCompiler::HERE, scratch, (name, called), flags)
+}
+
+/// A compiler of C and how it links.
+pub(crate) struct CCompiler {
+    pub program: &'static str,
+    pub libraries: &'static [&'static str],
+}
+
+impl CCompiler {
+    /// For this computer.
+    pub(crate) const HERE: Self = Self { program: "gcc", libraries: &["-ldl", "-lm", "-pthread"] };
+}
+
+/// The same by another compiler.
+pub(crate) fn compile_c_for(
+    compiler: &CCompiler,
+    scratch: &Path,
+    (name, called): (&str, &str),
+    flags: &[&str],
+) -> Result<PathBuf, String> {
     let program = scratch.join(called);
-    run(command("gcc")
+    run(command(compiler.program)
         .args(["-std=c11", "-O2", "-g", "-Wall", "-Wextra", "-Werror"])
         .args(flags)
         .arg("-I")
@@ -149,6 +170,6 @@ pub(crate) fn compile_c_with(
         .arg(root().join("tests").join("c").join(format!("{name}.c")))
         .arg("-o")
         .arg(&program)
-        .args(["-ldl", "-lm", "-pthread"]))?;
+        .args(compiler.libraries))?;
     Ok(program)
 }

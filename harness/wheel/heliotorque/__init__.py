@@ -1,0 +1,49 @@
+"""The program heliotorque, its FMUs and systems, as paths."""
+
+import os
+import subprocess
+import sys
+from importlib.metadata import version
+from pathlib import Path
+
+__version__ = version("heliotorque")
+
+_FOLDER = Path(__file__).resolve().parent
+_FILES = _FOLDER / "lib" / "heliotorque"
+
+
+def program():
+    """The path of the program."""
+    return str(_FOLDER / "bin" / ("heliotorque.exe" if os.name == "nt" else "heliotorque"))
+
+
+def fmu(name):
+    """The path of a shipped FMU, such as "MomentumPlant"."""
+    return _shipped(name, ".fmu")
+
+
+def ssp(name):
+    """The path of a shipped system, such as "MessengerLoop"."""
+    return _shipped(name, ".ssp")
+
+
+def _shipped(name, suffix):
+    path = _FILES / (name + suffix)
+    if not path.is_file():
+        names = ", ".join(sorted(other.stem for other in _FILES.glob("*" + suffix)))
+        raise ValueError(f"found the unknown name {name!r}, allowed: {names}")
+    return str(path)
+
+
+def main():
+    """The command heliotorque."""
+    command = [program(), *sys.argv[1:]]
+    if os.name != "nt":
+        os.execv(command[0], ["heliotorque", *command[1:]])
+    with subprocess.Popen(command) as child:
+        while True:
+            try:
+                sys.exit(child.wait())
+            except KeyboardInterrupt:
+                # The program got it too, and ends in its own way.
+                pass
