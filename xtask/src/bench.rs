@@ -79,8 +79,7 @@ fn sweep(built: &Built) -> Outcome {
         let (mut all_s, mut ratios) = (Vec::new(), Vec::new());
         for _ in 0..TURNS {
             let mut by_c = command(&program);
-            let by_c_s =
-                processor_of(by_c.arg(&built.library).arg("values.csv").current_dir(&folder.path))?;
+            let by_c_s = processor_of(by_c.arg(&built.library).arg("values.csv").current_dir(&folder.path))?;
             let own_s = processor_of(&mut swept("--workers 1"))?;
             all_s.push(own_s);
             ratios.push(own_s / by_c_s);

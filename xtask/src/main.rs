@@ -1,4 +1,4 @@
-//! `cargo xtask demo | test [--long | NAME] | bless | env | dist | install | bench | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
+//! `cargo xtask demo | test [--long | --all-platforms | NAME] | bless | env | dist | install | bench | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
 
 mod bench;
 mod build;
@@ -13,6 +13,7 @@ mod selected;
 mod shell;
 mod systems;
 mod test;
+mod windows;
 
 use std::process::ExitCode;
 
@@ -30,6 +31,8 @@ cargo xtask <task>
           allocation, a full disk from the n-th write on; what this machine lacks is named and skipped.
           HELIOTORQUE_LONG picks parts alone (fuzz,sanitizers,miri,allocations,writes,models,suite,python);
           HELIOTORQUE_FUZZ_SECONDS is another time per target
+  test --all-platforms
+          the program on Windows: built with mingw's linker, its tests under Wine; what this machine lacks is named
   test NAME
           the tests in Rust and Python that have NAME in their name, with what they need built first
   bless golden|reference|schema|mistakes|legs|guide
@@ -50,10 +53,11 @@ fn main() -> ExitCode {
     let outcome = match task.as_str() {
         "demo" => demo(),
         "test" if option == Some("--long") => long::all(),
+        "test" if option == Some("--all-platforms") => windows::test(),
         "test" => match option {
             None => test::all(),
             Some(option) if option.starts_with('-') => {
-                Err(format!("unknown option `{option}` of test; there is --long"))
+                Err(format!("unknown option `{option}` of test; there are --long and --all-platforms"))
             }
             Some(name) => selected::named(name),
         },
