@@ -13,7 +13,7 @@ use crate::dist;
 use crate::platforms::{ALL, ARM, Platform, WINDOWS};
 use crate::shell::{Outcome, command, output, root, run};
 use crate::test::{CCompiler, compile_c_for};
-use crate::{archives, tools};
+use crate::{archives, tools, windows};
 use flights::{Flight, SAVED};
 
 /// Where the C library of Arm stands.
@@ -33,7 +33,7 @@ pub(crate) fn all() -> Outcome {
         return Err(missing.join("\n"));
     }
     let built = dist::all_platforms()?;
-    let outcomes = [same_bits(), programs(&built), wheels(&built)];
+    let outcomes = [same_bits(), programs(&built), windows::test(&built), wheels(&built)];
     let failures: Vec<String> = outcomes.into_iter().filter_map(Outcome::err).collect();
     if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }
@@ -65,17 +65,17 @@ impl Machine {
     }
 
     /// A program of this platform, as it is started here.
-    fn start(&self, program: &Path) -> Result<Command, String> {
+    fn start(&self, program: &Path) -> Command {
         if self.platform.folder == WINDOWS.folder {
             let mut started = command(tools::WINE.program);
-            started.arg(program).env("WINEPREFIX", scratch("wine")?).env("WINEDEBUG", "-all");
-            return Ok(started);
+            started.arg(program).envs(windows::wine());
+            return started;
         }
         let mut started = command(program);
         if self.platform.folder == ARM.folder {
             started.env(ARM_LIBRARIES.0, ARM_LIBRARIES.1);
         }
-        Ok(started)
+        started
     }
 
     /// A path as programs of this platform take it.
@@ -90,7 +90,7 @@ impl Machine {
         let suffix = self.platform.library_suffix();
         let library = fmu.join("binaries").join(self.platform.folder).join(format!("{}{suffix}", flight.fmu));
         let drive = if self.platform.folder == WINDOWS.folder { "/Z:" } else { "" };
-        let mut master = self.start(&self.master)?;
+        let mut master = self.start(&self.master);
         master.arg(self.path(&library)).arg(self.path(&fmu.join("modelDescription.xml")));
         master.arg(format!("file://{drive}{}", fmu.join("resources").display()));
         for (option, value) in flight.options(&fmu)? {
@@ -218,7 +218,7 @@ fn programs(built: &Built) -> Outcome {
         let recording = folder.join(format!("{}.csv", machine.platform.folder));
         let options = ["--stop", "10d", "--quiet", "--output"];
         run(machine
-            .start(&it.heliotorque)?
+            .start(&it.heliotorque)
             .arg("run")
             .arg(machine.path(&fmu))
             .args(options)
@@ -227,7 +227,7 @@ fn programs(built: &Built) -> Outcome {
         if bytes != *first.get_or_insert_with(|| bytes.clone()) {
             return Err(format!("{}: not what this computer's program recorded", recording.display()));
         }
-        run(machine.start(&it.heliotorque)?.arg("check").arg(machine.path(&fmu)))?;
+        run(machine.start(&it.heliotorque).arg("check").arg(machine.path(&fmu)))?;
     }
     Ok(())
 }

@@ -78,7 +78,7 @@ impl Platform {
     fn build(&self) -> Result<Built, String> {
         let build = || match self.glibc {
             Some(version) => zig_build(&format!("{}.{version}", self.target)),
-            None => Ok(mingw_build(self.target)),
+            None => Ok(mingw("build", self.target)),
         };
         run(build()?.args(LIBRARIES))?;
         run(build()?.args(PROGRAM))?;
@@ -108,12 +108,17 @@ fn path_with(folder: &Path) -> Result<std::ffi::OsString, String> {
     std::env::join_paths(folders).map_err(|error| format!("PATH: {error}"))
 }
 
-/// `cargo build` with a standard library of its own, which nobody offers built.
-fn mingw_build(target: &str) -> Command {
-    let linker = format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace('-', "_"));
-    let mut build = cargo("build -Zbuild-std=std,panic_unwind");
-    build.args(["--target", target]).env("RUSTC_BOOTSTRAP", "1").env(linker, tools::MINGW.program);
-    build
+/// A command of cargo for Windows, with a standard library built too: none is distributed for this target.
+pub(crate) fn mingw(arguments: &str, target: &str) -> Command {
+    let variable = |name: &str| format!("CARGO_TARGET_{}_{name}", target.to_uppercase().replace('-', "_"));
+    let mut cargo = cargo(arguments);
+    cargo
+        .args(["-Zbuild-std=std,panic_unwind", "--target", target])
+        // That takes a feature which the released compiler hides.
+        .env("RUSTC_BOOTSTRAP", "1")
+        .env(variable("LINKER"), tools::MINGW.program)
+        .env(variable("RUNNER"), tools::WINE.program);
+    cargo
 }
 
 /// Builds for Linux with glibc 2.17 or later; where that cannot be had, for this machine, and says so.

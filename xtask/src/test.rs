@@ -1,5 +1,6 @@
 //! `cargo xtask test`: format, lints, Rust tests, the guide, FMPy, C client.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use crate::build::{self, Built, TESTS};
@@ -84,6 +85,18 @@ pub(crate) fn python(environment: Vec<(&'static str, PathBuf)>, mark: &str) -> O
     run(command(python::interpreter()?)
         .args(["-m", "pytest", "-q", "--numprocesses=auto", "--maxprocesses=4", "--dist=loadgroup"])
         .args(["-m", mark, "tests/python"])
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .envs(environment))
+}
+
+/// Runs the tests of one file in Python, with more in the environment.
+pub(crate) fn python_file(
+    name: &str,
+    environment: impl IntoIterator<Item = (&'static str, OsString)>,
+) -> Outcome {
+    run(command(python::interpreter()?)
+        .args(["-m", "pytest", "-q"])
+        .arg(Path::new("tests/python").join(name))
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .envs(environment))
 }
