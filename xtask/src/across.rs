@@ -14,7 +14,7 @@ use crate::platforms::{ALL, ARM, Platform, WINDOWS};
 use crate::shell::{Outcome, command, output, root, run};
 use crate::test::{CCompiler, compile_c_for};
 use crate::{archives, tools, windows};
-use flights::{Flight, SAVED};
+use flights::{Flight, SAVED, Value};
 
 /// Where the C library of Arm stands.
 const ARM_LIBRARIES: (&str, &str) = ("QEMU_LD_PREFIX", "/usr/aarch64-linux-gnu");
@@ -84,17 +84,20 @@ impl Machine {
         if self.platform.folder == WINDOWS.folder { format!("Z:{}", path.replace('/', "\\")) } else { path }
     }
 
-    /// What the C master prints of a simulation of an unpacked FMU.
-    fn fly(&self, flight: &Flight, state: Option<(&str, &Path)>) -> Result<String, String> {
-        let fmu = unpacked(flight.fmu)?;
-        let suffix = self.platform.library_suffix();
-        let library = fmu.join("binaries").join(self.platform.folder).join(format!("{}{suffix}", flight.fmu));
+    /// What the C master prints of a simulation.
+    fn fly(&self, flight: &Prepared, state: Option<(&str, &Path)>) -> Result<String, String> {
+        let Prepared { name, folder, options } = flight;
+        let library = format!("{name}{}", self.platform.library_suffix());
+        let library = folder.join("binaries").join(self.platform.folder).join(library);
         let drive = if self.platform.folder == WINDOWS.folder { "/Z:" } else { "" };
         let mut master = self.start(&self.master);
-        master.arg(self.path(&library)).arg(self.path(&fmu.join("modelDescription.xml")));
-        master.arg(format!("file://{drive}{}", fmu.join("resources").display()));
-        for (option, value) in flight.options(&fmu)? {
-            master.arg(option).arg(if option == "--inputs" { self.path(Path::new(&value)) } else { value });
+        master.arg(self.path(&library)).arg(self.path(&folder.join("modelDescription.xml")));
+        master.arg(format!("file://{drive}{}", folder.join("resources").display()));
+        for (option, value) in options {
+            master.arg(option).arg(match value {
+                Value::Text(text) => text.clone(),
+                Value::File(path) => self.path(path),
+            });
         }
         if let Some((option, file)) = state {
             master.arg(option).arg(self.path(file));
@@ -103,12 +106,29 @@ impl Machine {
     }
 }
 
-/// The folder of an FMU of `dist/`.
+/// A simulation whose files stand ready.
+struct Prepared {
+    name: &'static str,
+    folder: PathBuf,
+    options: Vec<(&'static str, Value)>,
+}
+
+impl Prepared {
+    fn new(flight: &Flight) -> Result<Self, String> {
+        let folder = unpacked(flight.fmu)?;
+        Ok(Self { name: flight.fmu, options: flight.options(&folder)?, folder })
+    }
+}
+
+/// The folder of an FMU of `dist/`, unpacked anew if that has changed.
 fn unpacked(fmu: &str) -> Result<PathBuf, String> {
     let archive = root().join("dist").join(format!("{fmu}.fmu"));
     let folder = scratch("unpacked")?.join(fmu);
     let changed = |path: &Path| fs::metadata(path).and_then(|file| file.modified()).ok();
     if changed(&folder) < changed(&archive) {
+        if folder.exists() {
+            fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        }
         run(command("python3").args(["-m", "zipfile", "-e"]).arg(&archive).arg(&folder))?;
     }
     Ok(folder)
@@ -124,17 +144,19 @@ fn same_bits() -> Outcome {
     let machines = machines()?;
     let mut table = Table::new();
     for flight in flights::all() {
-        let found = each(&machines, |machine| machine.fly(&flight, None))?;
+        let prepared = Prepared::new(&flight)?;
+        let found = each(&machines, |machine| machine.fly(&prepared, None))?;
         table.add(&flight.shown(), &machines, &found);
     }
     let folder = scratch("across")?;
     for flight in SAVED {
+        let prepared = Prepared::new(flight)?;
         let state =
             |machine: &Machine| folder.join(format!("{}-{}.state", flight.fmu, machine.platform.folder));
-        let onward = each(&machines, |machine| machine.fly(flight, Some(("--save", &state(machine)))))?;
+        let onward = each(&machines, |machine| machine.fly(&prepared, Some(("--save", &state(machine)))))?;
         for writer in &machines {
             let mut found =
-                each(&machines, |reader| reader.fly(flight, Some(("--restore", &state(writer)))))?;
+                each(&machines, |reader| reader.fly(&prepared, Some(("--restore", &state(writer)))))?;
             // Against the simulation that was never interrupted.
             found.insert(0, onward[0].clone());
             let shown = format!("{}, state of {}", flight.shown(), writer.platform.folder);

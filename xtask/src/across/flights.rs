@@ -1,7 +1,7 @@
 //! The simulations whose bits are compared between platforms.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::build::scratch;
 
@@ -13,6 +13,12 @@ enum Inputs {
     OfReference,
     /// A CSV.
     Rows(&'static str),
+}
+
+/// What stands behind an option of the C master.
+pub(super) enum Value {
+    Text(String),
+    File(PathBuf),
 }
 
 /// A simulation of an FMU of `dist/` to the stop of its default experiment.
@@ -84,20 +90,21 @@ impl Flight {
         format!("{}, {}", self.fmu, self.what)
     }
 
-    /// Options of the C master for the FMU in a folder.
-    pub(super) fn options(&self, fmu: &Path) -> Result<Vec<(&'static str, String)>, String> {
-        let mut options: Vec<_> = self.sets.iter().map(|set| ("--set", (*set).to_owned())).collect();
+    /// Options of the C master for the FMU in a folder; writes the file of inputs that one names.
+    pub(super) fn options(&self, fmu: &Path) -> Result<Vec<(&'static str, Value)>, String> {
+        let mut options: Vec<_> =
+            self.sets.iter().map(|set| ("--set", Value::Text((*set).to_owned()))).collect();
         match self.inputs {
             Inputs::None => {}
             Inputs::OfReference => {
                 let file = format!("extra/org.fmi-standard.fmi-ls-ref/{}_in.csv", self.fmu);
-                options.push(("--inputs", fmu.join(file).display().to_string()));
-                options.push(("--steps", REFERENCE_STEPS.to_string()));
+                options.push(("--inputs", Value::File(fmu.join(file))));
+                options.push(("--steps", Value::Text(REFERENCE_STEPS.to_string())));
             }
             Inputs::Rows(text) => {
                 let path = scratch("across")?.join("inputs.csv");
                 fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
-                options.push(("--inputs", path.display().to_string()));
+                options.push(("--inputs", Value::File(path)));
             }
         }
         Ok(options)
