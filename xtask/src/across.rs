@@ -33,14 +33,23 @@ pub(crate) fn all() -> Outcome {
         return Err(missing.join("\n"));
     }
     let built = dist::all_platforms()?;
-    let outcomes = [same_bits(), programs(&built), windows::test(&built), wheels(&built)];
+    let machines = machines()?;
+    let outcomes =
+        [same_bits(&machines), programs(&machines, &built), windows::test(&built), wheels(&machines, &built)];
     let failures: Vec<String> = outcomes.into_iter().filter_map(Outcome::err).collect();
     if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }
 
-fn wheels(built: &Built) -> Outcome {
+/// The wheels install each on its platform, and their programs simulate their FMUs.
+fn wheels(machines: &[Machine], built: &Built) -> Outcome {
     archives::write_wheels(built)?;
-    archives::try_wheel()
+    archives::try_wheel()?;
+    machines.iter().try_for_each(|machine| {
+        let package = archives::installed(machine.platform)?.join("heliotorque");
+        let program = package.join("bin").join(format!("heliotorque{}", machine.platform.program_suffix));
+        let fmu = package.join("lib").join("heliotorque").join(format!("{SIMULATED}.fmu"));
+        run(machine.start(&program).arg("run").arg(machine.path(&fmu)).args(["--stop", "1d", "--quiet"]))
+    })
 }
 
 /// A platform on which programs run here, and its build of the C master.
@@ -140,27 +149,26 @@ fn machines() -> Result<Vec<Machine>, String> {
 }
 
 /// Every flight on every platform, then states of each on each; prints a table.
-fn same_bits() -> Outcome {
-    let machines = machines()?;
+fn same_bits(machines: &[Machine]) -> Outcome {
     let mut table = Table::new();
     for flight in flights::all() {
         let prepared = Prepared::new(&flight)?;
-        let found = each(&machines, |machine| machine.fly(&prepared, None))?;
-        table.add(&flight.shown(), &machines, &found);
+        let found = each(machines, |machine| machine.fly(&prepared, None))?;
+        table.add(&flight.shown(), machines, &found);
     }
     let folder = scratch("across")?;
     for flight in SAVED {
         let prepared = Prepared::new(flight)?;
         let state =
             |machine: &Machine| folder.join(format!("{}-{}.state", flight.fmu, machine.platform.folder));
-        let onward = each(&machines, |machine| machine.fly(&prepared, Some(("--save", &state(machine)))))?;
-        for writer in &machines {
+        let onward = each(machines, |machine| machine.fly(&prepared, Some(("--save", &state(machine)))))?;
+        for writer in machines {
             let mut found =
-                each(&machines, |reader| reader.fly(&prepared, Some(("--restore", &state(writer)))))?;
+                each(machines, |reader| reader.fly(&prepared, Some(("--restore", &state(writer)))))?;
             // Against the simulation that was never interrupted.
             found.insert(0, onward[0].clone());
             let shown = format!("{}, state of {}", flight.shown(), writer.platform.folder);
-            table.add(&shown, &machines, &found);
+            table.add(&shown, machines, &found);
         }
     }
     table.finish()
@@ -231,8 +239,7 @@ fn differences(expected: &[&str], found: &str) -> Vec<String> {
 }
 
 /// The program of each platform simulates and checks an FMU; its recording is this computer's, byte for byte.
-fn programs(built: &Built) -> Outcome {
-    let machines = machines()?;
+fn programs(machines: &[Machine], built: &Built) -> Outcome {
     let fmu = root().join("dist").join(format!("{SIMULATED}.fmu"));
     let folder = scratch("across")?;
     let mut first: Option<Vec<u8>> = None;

@@ -80,6 +80,17 @@ pub(crate) fn try_wheel() -> Outcome {
     run(command(python::interpreter()?).arg("tests/python/wheel.py").arg(&fmu).arg(&own))
 }
 
+/// The folder that the wheel of a platform was installed into, as pip does it for that platform.
+pub(crate) fn installed(platform: &Platform) -> Result<PathBuf, String> {
+    let folder = emptied(&format!("installed-{}", platform.folder))?;
+    run(command(python::interpreter()?)
+        .args("-m pip install --quiet --no-index --no-deps --only-binary :all: --platform".split(' '))
+        .args([platform.wheel_tag, "--target"])
+        .arg(&folder)
+        .arg(wheel(platform)))?;
+    Ok(folder)
+}
+
 /// The wheel of a platform.
 fn wheel(platform: &Platform) -> PathBuf {
     root().join("dist").join(format!("heliotorque-{VERSION}-py3-none-{}.whl", platform.wheel_tag))
