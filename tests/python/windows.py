@@ -4,7 +4,6 @@ import os
 import pathlib
 import re
 import shutil
-import signal
 import subprocess
 import time
 import zipfile
@@ -12,6 +11,8 @@ import zipfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HOSTILE = ROOT / "harness" / "cli" / "tests" / "hostile"
 COMPILER = "x86_64-w64-mingw32-gcc"
+# Neither .NET nor a browser is offered, and nothing is shown.
+QUIET = {"WINEDEBUG": "-all", "WINEDLLOVERRIDES": "mscoree,mshtml=", "DISPLAY": ""}
 # Far beyond what any command of the tests takes.
 LONG_S = 300
 
@@ -21,27 +22,25 @@ def path(file):
     return "Z:" + str(pathlib.Path(file).resolve()).replace("/", "\\")
 
 
+def share(folder):
+    """A folder as another computer's, by the link that Wine looks for such names at."""
+    link = pathlib.Path(os.environ["WINEPREFIX"]) / "dosdevices" / "unc" / "server" / "share"
+    link.parent.mkdir(parents=True, exist_ok=True)
+    link.unlink(missing_ok=True)
+    link.symlink_to(folder)
+    return "\\\\server\\share"
+
+
 class Program:
-    """heliotorque.exe under Wine, each call with a folder of its own for temporary files."""
+    """heliotorque.exe under Wine."""
 
-    def __init__(self, folder, temporary):
-        self.folder, self.temporary = folder, temporary
+    def __init__(self, folder):
         self.program = folder / "heliotorque.exe"
-
-    def environment(self):
-        return os.environ | {
-            "WINEDEBUG": "-all",
-            # Neither .NET nor a browser is offered, and nothing is shown.
-            "WINEDLLOVERRIDES": "mscoree,mshtml=",
-            "DISPLAY": "",
-            "TMP": path(self.temporary),
-            "TEMP": path(self.temporary),
-        }
 
     def start(self, *arguments, program=None, **more):
         streams = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | more
         words = ["wine", str(program or self.program), *map(str, arguments)]
-        return subprocess.Popen(words, env=self.environment(), **streams)
+        return subprocess.Popen(words, env=os.environ | QUIET, **streams)
 
     def call(self, *arguments, **more):
         """Runs it to its end: status, and what it printed."""
@@ -106,6 +105,12 @@ def processes(folder):
     return [int(entry) for entry in os.listdir("/proc") if entry.isdigit() and names_it(entry)]
 
 
+def temporaries():
+    """Temporary folders of the program, where Wine's registry has them whatever the environment says."""
+    users = pathlib.Path(os.environ["WINEPREFIX"]) / "drive_c" / "users"
+    return [found for folder in ("Temp", "AppData/Local/Temp") for found in users.glob(f"*/{folder}/heliotorque-*")]
+
+
 def until(is_so, seconds=60.0):
     """Waits until something is so."""
     end = time.monotonic() + seconds
@@ -113,6 +118,3 @@ def until(is_so, seconds=60.0):
         assert time.monotonic() < end, "it does not come to that"
         time.sleep(0.01)
 
-
-def interrupt(child):
-    child.send_signal(signal.SIGINT)

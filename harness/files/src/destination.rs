@@ -273,7 +273,7 @@ fn check(target: &Path, inputs: &[&Path]) -> Result<(), String> {
     match OpenOptions::new().write(true).open(target) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => {
             // A file that is protected against writing is not replaced.
-            Err(error.to_string())
+            Err(system::explained(error).to_string())
         }
         _ => Ok(()),
     }

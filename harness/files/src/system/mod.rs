@@ -8,11 +8,15 @@ mod windows;
 #[cfg(unix)]
 pub use unix::canonical;
 #[cfg(unix)]
-pub(crate) use unix::{identity, identity_of_link, identity_of_open, lock_folder, open_alone, rename};
+pub(crate) use unix::{
+    explained, identity, identity_of_link, identity_of_open, lock_folder, open_alone, rename,
+};
 #[cfg(windows)]
 pub use windows::canonical;
 #[cfg(windows)]
-pub(crate) use windows::{identity, identity_of_link, identity_of_open, lock_folder, open_alone, rename};
+pub(crate) use windows::{
+    explained, identity, identity_of_link, identity_of_open, lock_folder, open_alone, rename,
+};
 
 /// A file, under whatever name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

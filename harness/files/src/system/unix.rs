@@ -50,6 +50,11 @@ pub fn canonical(path: &Path) -> io::Result<PathBuf> {
     fs::canonicalize(path)
 }
 
+/// An error with what a person can do about it: the system's own text says it.
+pub(crate) fn explained(error: io::Error) -> io::Error {
+    error
+}
+
 /// Gives a file the name of another, which it replaces; who has that open keeps it.
 pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)

@@ -77,12 +77,20 @@ pub fn canonical(path: &Path) -> io::Result<PathBuf> {
     Ok(plain.map_or_else(|| whole.clone(), PathBuf::from))
 }
 
+/// An error with what a person can do about it, where another program is the reason.
+pub(crate) fn explained(error: io::Error) -> io::Error {
+    match error.raw_os_error() {
+        Some(code) if IN_USE.contains(&code) => io::Error::new(
+            error.kind(),
+            format!(
+                "another program has it open, or it is protected ({error}): close it there, then try again"
+            ),
+        ),
+        _ => error,
+    }
+}
+
 /// Gives a file the name of another, which it replaces; refused where a program has that open and does not share its name.
 pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
-    fs::rename(from, to).map_err(|error| match error.raw_os_error() {
-        Some(code) if IN_USE.contains(&code) => io::Error::other(format!(
-            "another program has it open or it is protected ({error}): close it there, then try again"
-        )),
-        _ => error,
-    })
+    fs::rename(from, to).map_err(explained)
 }
