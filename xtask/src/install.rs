@@ -44,8 +44,8 @@ pub(crate) fn install(options: &[String]) -> Outcome {
     Ok(())
 }
 
-/// Copies program, library, FMUs and systems of a platform below a prefix, and the manual if a program of this computer is given
-/// that writes it.
+/// Copies program, library and FMUs of a platform below a prefix, with a program of this computer also systems and the manual that it
+/// writes.
 pub(crate) fn below(
     prefix: &Path,
     built: &Built,
@@ -54,8 +54,9 @@ pub(crate) fn below(
     let under = |parts: &[&str]| parts.iter().fold(prefix.to_owned(), |path, part| path.join(part));
     let [binaries, folder, manual] = [&[PROGRAM_FOLDER], &LIBRARY_FOLDER[..], &MANUAL_FOLDER[..]].map(under);
     let mut files = vec![(built.heliotorque.clone(), &binaries), (built.library.clone(), &folder)];
-    files.extend(packed()?.into_iter().map(|path| (path, &folder)));
+    files.extend(packed("fmu")?.into_iter().map(|path| (path, &folder)));
     if let Some(program) = writes_manual {
+        files.extend(packed("ssp")?.into_iter().map(|path| (path, &folder)));
         files.extend(pages(program)?.into_iter().map(|path| (path, &manual)));
     }
     files.iter().map(|(from, to)| copy(from, to)).collect()
@@ -83,26 +84,25 @@ fn prefix(options: &[String]) -> Result<PathBuf, String> {
     std::path::absolute(&folder).map_err(|error| format!("{}: {error}", folder.display()))
 }
 
-/// The FMUs and systems of `dist/`, by name.
-fn packed() -> Result<Vec<PathBuf>, String> {
-    files_in(&root().join("dist"), &["fmu", "ssp"])
+/// The FMUs or systems of `dist/`, by name.
+fn packed(extension: &str) -> Result<Vec<PathBuf>, String> {
+    files_in(&root().join("dist"), extension)
 }
 
 /// The manual's pages, as the program writes them.
 fn pages(program: &Path) -> Result<Vec<PathBuf>, String> {
     let folder = build::scratch("man")?;
     run(shell::command(program).args(["man", "--output"]).arg(&folder))?;
-    files_in(&folder, &["1"])
+    files_in(&folder, "1")
 }
 
-/// The files of a folder with one of these extensions, by name.
-fn files_in(folder: &Path, extensions: &[&str]) -> Result<Vec<PathBuf>, String> {
+/// The files of a folder with this extension, by name.
+fn files_in(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
     let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
     let mut paths = Vec::new();
     for entry in fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
-        let extension = path.extension().and_then(OsStr::to_str);
-        if path.is_file() && extension.is_some_and(|extension| extensions.contains(&extension)) {
+        if path.is_file() && path.extension() == Some(OsStr::new(extension)) {
             paths.push(path);
         }
     }

@@ -1,4 +1,4 @@
-"""The program heliotorque, its FMUs and systems, as paths."""
+"""The program heliotorque and its FMUs, as paths."""
 
 import os
 import subprocess
@@ -19,18 +19,9 @@ def program():
 
 def fmu(name):
     """The path of a shipped FMU, such as "MomentumPlant"."""
-    return _shipped(name, ".fmu")
-
-
-def ssp(name):
-    """The path of a shipped system, such as "MessengerLoop"."""
-    return _shipped(name, ".ssp")
-
-
-def _shipped(name, suffix):
-    path = _FILES / (name + suffix)
+    path = _FILES / f"{name}.fmu"
     if not path.is_file():
-        names = ", ".join(sorted(other.stem for other in _FILES.glob("*" + suffix)))
+        names = ", ".join(sorted(other.stem for other in _FILES.glob("*.fmu")))
         raise ValueError(f"found the unknown name {name!r}, allowed: {names}")
     return str(path)
 
