@@ -260,3 +260,19 @@ fn programs(machines: &[Machine], built: &Built) -> Outcome {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    //! A difference in one bit is found and named.
+
+    use super::*;
+
+    #[test]
+    fn an_output_with_other_bits_is_named() {
+        let expected = ["2 communication points", "a 00000000000000ff 1", "b 0000000000000001 2"];
+        assert!(differences(&expected, &expected.join("\n")).is_empty());
+        let found = expected.join("\n").replace("ff", "fe");
+        assert_eq!(differences(&expected, &found), ["a 00000000000000fe 1, expected a 00000000000000ff 1"]);
+        assert_eq!(differences(&expected, "2 communication points"), ["1 lines, expected 3"]);
+    }
+}

@@ -85,7 +85,7 @@ fn libraries_of_other_platforms_stand_in_their_folders() {
     assert_eq!(binaries(&fmu), [own.clone(), "binaries/win64/AllTypes.dll".to_owned()]);
     let text = run(&["info", shown(&fmu)], 0);
     says(&text, &["platforms", &format!("{}, win64", loader::platform_folders()[0]), "PE x86-64; needs no library"]);
-    says(&run(&["check", shown(&fmu), "--static"], 0), &["binaries/win64/AllTypes.dll: PE x86-64", "0 wrong"]);
+    says(&run(&["check", shown(&fmu), "--static"], 0), &["0 wrong"]);
 
     // A template keeps them all.
     run(&["pack", "--template", shown(&fmu), "--name", "Next", "--output", shown(&next)], 0);
