@@ -1,8 +1,13 @@
-/* A small C master: the standard's own headers, dlopen, and a description read with strstr. */
+/* A small C master: the standard's own headers, the system's loader, and a description read with strstr. */
 #ifndef HELIOTORQUE_TESTS_FMU_H
 #define HELIOTORQUE_TESTS_FMU_H
 #define _GNU_SOURCE
+#ifdef _WIN32
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+#else
 #include <dlfcn.h>
+#endif
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,23 +42,34 @@ typedef struct {
         }                                                                                      \
     } while (0)
 
+static inline void *symbol_of(void *handle, const char *name) {
+#ifdef _WIN32
+    return (void *)GetProcAddress(handle, name);
+#else
+    return dlsym(handle, name);
+#endif
+}
+
 static inline Library open_library(const char *path) {
+#ifdef _WIN32
+    void *handle = LoadLibraryA(path);
+    if (!handle) fprintf(stderr, "%s: LoadLibrary failed with %lu\n", path, GetLastError());
+#else
     void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-    if (!handle) {
-        fprintf(stderr, "%s\n", dlerror());
-        exit(1);
-    }
+    if (!handle) fprintf(stderr, "%s\n", dlerror());
+#endif
+    if (!handle) exit(1);
     Library library;
     library.handle = handle;
 #define BIND(name)                                                      \
-    *(void **)&library.name = dlsym(handle, "fmi2" #name);              \
+    *(void **)&library.name = symbol_of(handle, "fmi2" #name);          \
     if (!library.name) {                                                \
         fprintf(stderr, "%s: no symbol fmi2%s\n", path, #name);         \
         exit(1);                                                        \
     }
     FUNCTIONS(BIND)
 #undef BIND
-    *(void **)&library.describe = dlsym(handle, "fmi_export_describe");
+    *(void **)&library.describe = symbol_of(handle, "fmi_export_describe");
     CHECK(library.describe);
     return library;
 }

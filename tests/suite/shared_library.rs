@@ -70,18 +70,29 @@ fn the_unwinder_is_part_of_the_library() {
     }
 }
 
-/// Where the library for old systems is, if `cargo xtask dist` has built it: in a folder of its own beside that of this machine.
-fn portable(library: &Path) -> Option<PathBuf> {
-    let (profile, target) = (library.parent()?, library.parent()?.parent()?);
-    let path = target.join("x86_64-unknown-linux-gnu").join(profile.file_name()?).join(library.file_name()?);
+/// Where the library of a platform is, if `cargo xtask dist` has built it: in a folder of its own beside that of this machine.
+fn of_platform(library: &Path, target: &str, name: &str) -> Option<PathBuf> {
+    let (profile, folder) = (library.parent()?, library.parent()?.parent()?);
+    let path = folder.join(target).join(profile.file_name()?).join(name);
+    if !path.exists() {
+        eprintln!("skipped: {} is not built: `cargo xtask dist --all-platforms`", path.display());
+    }
     path.exists().then_some(path)
 }
+
+const OF_LINUX: [(&str, &str); 2] = [
+    ("x86_64-unknown-linux-gnu", "libheliotorque.so"),
+    ("aarch64-unknown-linux-gnu", "libheliotorque.so"),
+];
+const OF_WINDOWS: (&str, &str) = ("x86_64-win7-windows-gnu", "heliotorque.dll");
 
 /// The rounding of these is the system's own: with one of them, results would hang on the platform.
 #[test]
 fn the_library_takes_no_elementary_function_from_the_system() {
     let Some(library) = built("HELIOTORQUE_LIBRARY") else { return };
-    for library in [Some(library.clone()), portable(&library)].into_iter().flatten() {
+    let others = OF_LINUX.into_iter().chain([OF_WINDOWS]);
+    let others = others.filter_map(|(target, name)| of_platform(&library, target, name));
+    for library in others.chain([library.clone()]) {
         let requirements = Requirements::read(&library).unwrap();
         assert!(!requirements.imports.is_empty(), "{}", library.display());
         let found: Vec<&str> = requirements.elementary_functions().collect();
@@ -90,16 +101,28 @@ fn the_library_takes_no_elementary_function_from_the_system() {
 }
 
 #[test]
-fn the_library_for_old_systems_asks_for_no_later_glibc() {
+fn the_libraries_for_old_systems_ask_for_no_later_glibc() {
     let Some(library) = built("HELIOTORQUE_LIBRARY") else { return };
-    let Some(library) = portable(&library) else {
-        eprintln!("skipped: `cargo xtask dist` has built no library for old systems");
-        return;
-    };
+    for library in OF_LINUX.iter().filter_map(|(target, name)| of_platform(&library, target, name)) {
+        let requirements = Requirements::read(&library).unwrap();
+        let version: Vec<u32> =
+            requirements.glibc.as_ref().unwrap().split('.').map(|part| part.parse().unwrap()).collect();
+        assert!(version[..] <= [2, 17][..], "{}: {requirements}", library.display());
+    }
+}
+
+/// What Windows 7 has, without anything of mingw.
+#[test]
+fn the_library_for_windows_needs_windows_alone() {
+    const OF_THE_SYSTEM: [&str; 7] =
+        ["advapi32.dll", "kernel32.dll", "msvcrt.dll", "ntdll.dll", "user32.dll", "userenv.dll", "ws2_32.dll"];
+    let Some(library) = built("HELIOTORQUE_LIBRARY") else { return };
+    let Some(library) = of_platform(&library, OF_WINDOWS.0, OF_WINDOWS.1) else { return };
     let requirements = Requirements::read(&library).unwrap();
-    let version: Vec<u32> =
-        requirements.glibc.as_ref().unwrap().split('.').map(|part| part.parse().unwrap()).collect();
-    assert!(version[..] <= [2, 17][..], "{requirements}");
+    assert_eq!(requirements.platform_folders().first(), Some(&"win64"));
+    let foreign = |name: &&String| !OF_THE_SYSTEM.contains(&&*name.to_lowercase());
+    let found: Vec<&String> = requirements.libraries.iter().filter(foreign).collect();
+    assert!(!requirements.libraries.is_empty() && found.is_empty(), "{found:?}");
 }
 
 #[test]

@@ -1,11 +1,12 @@
 //! Packing the shipped FMUs and systems into `dist/`.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::build::{Built, build, portable, scratch};
+use crate::build::{Built, build, scratch};
 use crate::shell::{Outcome, command, root, run, target};
-use crate::systems;
+use crate::{archives, platforms, systems};
 
 /// An FMU: file name, model, spacecraft, further options of `pack`.
 type Shipped = (&'static str, &'static str, &'static str, &'static str);
@@ -51,8 +52,16 @@ pub(crate) fn pack_all(built: &Built) -> Outcome {
 
 /// Builds what is shipped, for old systems where that is possible, and packs it.
 pub(crate) fn shipped() -> Result<Built, String> {
-    let built = portable()?;
+    let built = platforms::portable()?;
     pack_all(&built)?;
+    Ok(built)
+}
+
+/// Builds for every platform, packs FMUs with all their libraries, and archives what is installed on each.
+pub(crate) fn all_platforms() -> Result<Built, String> {
+    let built = platforms::all()?;
+    pack_all(&built)?;
+    archives::write(&built)?;
     Ok(built)
 }
 
@@ -70,11 +79,16 @@ fn stamp() -> PathBuf {
     target().join("dist.stamp")
 }
 
+/// The options of `pack` that name a library of each platform.
+pub(crate) fn libraries(built: &Built, of: fn(&Built) -> &PathBuf) -> impl Iterator<Item = OsString> {
+    built.each().flat_map(move |it| ["--library".into(), of(it).into()])
+}
+
 fn pack(built: &Built) -> Outcome {
     SHIPPED.iter().try_for_each(|(name, model, spacecraft, options)| {
         run(command(&built.heliotorque)
-            .args(["pack", "--name", name, "--model", model, "--library"])
-            .arg(&built.library)
+            .args(["pack", "--name", name, "--model", model])
+            .args(libraries(built, |it| &it.library))
             .arg("--spacecraft")
             .arg(root().join("fmu-src").join("resources").join(spacecraft))
             .args(systems::options(options))

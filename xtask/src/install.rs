@@ -7,8 +7,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use crate::build::Built;
 use crate::shell::{self, Outcome, root, run};
 use crate::{build, dist};
+
+/// Where the program stands below the prefix.
+const PROGRAM_FOLDER: &str = "bin";
 
 /// Where the library and the FMUs stand below the prefix; the program looks there from its own folder.
 const LIBRARY_FOLDER: [&str; 2] = ["lib", "heliotorque"];
@@ -26,17 +30,10 @@ pub(crate) fn install(options: &[String]) -> Outcome {
     let others: Vec<String> = options.iter().filter(|option| *option != BUILT).cloned().collect();
     let prefix = prefix(&others)?;
     let built = if is_built { build::built() } else { dist::dist()? };
-    let binaries = prefix.join("bin");
-    let folder = LIBRARY_FOLDER.iter().fold(prefix.clone(), |path, part| path.join(part));
-    let program = built.heliotorque.clone();
-    let mut files = vec![(built.heliotorque, &binaries), (built.library, &folder)];
-    files.extend(packed()?.into_iter().map(|path| (path, &folder)));
-    let manual = MANUAL_FOLDER.iter().fold(prefix.clone(), |path, part| path.join(part));
-    files.extend(pages(&program)?.into_iter().map(|path| (path, &manual)));
-    for (from, to) in files {
-        let installed = copy(&from, to)?;
+    for installed in below(&prefix, &built, Some(&*built.heliotorque))? {
         println!("{}", installed.display());
     }
+    let binaries = prefix.join(PROGRAM_FOLDER);
     let is_on_path = env::var_os("PATH").is_some_and(|path| env::split_paths(&path).any(|it| it == binaries));
     if !is_on_path {
         eprintln!(
@@ -45,6 +42,24 @@ pub(crate) fn install(options: &[String]) -> Outcome {
         );
     }
     Ok(())
+}
+
+/// Copies program, library and FMUs of a platform below a prefix, with a program of this computer also systems and the manual that it
+/// writes.
+pub(crate) fn below(
+    prefix: &Path,
+    built: &Built,
+    writes_manual: Option<&Path>,
+) -> Result<Vec<PathBuf>, String> {
+    let under = |parts: &[&str]| parts.iter().fold(prefix.to_owned(), |path, part| path.join(part));
+    let [binaries, folder, manual] = [&[PROGRAM_FOLDER], &LIBRARY_FOLDER[..], &MANUAL_FOLDER[..]].map(under);
+    let mut files = vec![(built.heliotorque.clone(), &binaries), (built.library.clone(), &folder)];
+    files.extend(packed("fmu")?.into_iter().map(|path| (path, &folder)));
+    if let Some(program) = writes_manual {
+        files.extend(packed("ssp")?.into_iter().map(|path| (path, &folder)));
+        files.extend(pages(program)?.into_iter().map(|path| (path, &manual)));
+    }
+    files.iter().map(|(from, to)| copy(from, to)).collect()
 }
 
 fn prefix(options: &[String]) -> Result<PathBuf, String> {
@@ -69,26 +84,25 @@ fn prefix(options: &[String]) -> Result<PathBuf, String> {
     std::path::absolute(&folder).map_err(|error| format!("{}: {error}", folder.display()))
 }
 
-/// The FMUs and systems of `dist/`, by name.
-fn packed() -> Result<Vec<PathBuf>, String> {
-    files_in(&root().join("dist"), &["fmu", "ssp"])
+/// The FMUs or systems of `dist/`, by name.
+fn packed(extension: &str) -> Result<Vec<PathBuf>, String> {
+    files_in(&root().join("dist"), extension)
 }
 
 /// The manual's pages, as the program writes them.
 fn pages(program: &Path) -> Result<Vec<PathBuf>, String> {
     let folder = build::scratch("man")?;
     run(shell::command(program).args(["man", "--output"]).arg(&folder))?;
-    files_in(&folder, &["1"])
+    files_in(&folder, "1")
 }
 
-/// The files of a folder with one of these extensions, by name.
-fn files_in(folder: &Path, extensions: &[&str]) -> Result<Vec<PathBuf>, String> {
+/// The files of a folder with this extension, by name.
+fn files_in(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, String> {
     let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
     let mut paths = Vec::new();
     for entry in fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
-        let extension = path.extension().and_then(OsStr::to_str);
-        if path.is_file() && extension.is_some_and(|extension| extensions.contains(&extension)) {
+        if path.is_file() && path.extension() == Some(OsStr::new(extension)) {
             paths.push(path);
         }
     }
@@ -97,7 +111,7 @@ fn files_in(folder: &Path, extensions: &[&str]) -> Result<Vec<PathBuf>, String> 
 }
 
 /// Copies a file into a folder under its own name: whole or not at all, also over a program that runs.
-fn copy(from: &Path, folder: &Path) -> Result<PathBuf, String> {
+pub(crate) fn copy(from: &Path, folder: &Path) -> Result<PathBuf, String> {
     let name = from.file_name().ok_or_else(|| format!("{} is no file", from.display()))?;
     let to = folder.join(name);
     let mut part = name.to_owned();

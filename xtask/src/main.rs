@@ -1,5 +1,7 @@
-//! `cargo xtask demo | test [--long | NAME] | bless | env | dist | install | bench [PART...] | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
+//! `cargo xtask demo | test [--long | --all-platforms | NAME] | bless | env | dist | wheel | install | bench [PART...] | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
 
+mod across;
+mod archives;
 mod bench;
 mod build;
 mod dist;
@@ -8,15 +10,21 @@ mod install;
 mod locale;
 mod long;
 mod notices;
+mod platforms;
 mod python;
 mod selected;
 mod shell;
 mod systems;
 mod test;
+mod tools;
+mod windows;
 
 use std::process::ExitCode;
 
 use shell::Outcome;
+
+/// Builds for, or tests on, every platform.
+const ALL_PLATFORMS: &str = "--all-platforms";
 
 const HELP: &str = "\
 cargo xtask <task>
@@ -30,12 +38,20 @@ cargo xtask <task>
           allocation, a full disk from the n-th write on; what this machine lacks is named and skipped.
           HELIOTORQUE_LONG picks parts alone (fuzz,sanitizers,miri,allocations,writes,models,suite,python);
           HELIOTORQUE_FUZZ_SECONDS is another time per target
+  test --all-platforms
+          the program on Windows: built with mingw's linker, its tests under Wine; what this machine lacks is named
   test NAME
           the tests in Rust and Python that have NAME in their name, with what they need built first
   bless golden|reference|schema|mistakes|legs|guide
           write anew what tests compare with, after a change that is meant
   env     build everything, then print the variables that the tests read, as `export NAME='value'`
+  test --all-platforms
+          the same bits on Linux, Windows (wine) and Arm (qemu), states of one restored on another, the programs and the wheels;
+          apart from the others, after `dist --all-platforms`; what this machine lacks is named with what brings it
   dist    build for Linux with glibc 2.17 or later and pack every shipped FMU and system into dist/
+  dist --all-platforms
+          the same with libraries for linux64, win64 and aarch64-linux in every FMU, and archives of the program for each
+  wheel   the same, then a wheel of program, library and FMUs for each platform into dist/; this computer's is tried
   install build and pack everything, then put the program, its library and the FMUs below a prefix: ~/.local or
           --prefix FOLDER; the program then works in any folder; --built takes what target/ and dist/ have
   bench [PART...]
@@ -52,16 +68,22 @@ fn main() -> ExitCode {
     let outcome = match task.as_str() {
         "demo" => demo(),
         "test" if option == Some("--long") => long::all(),
+        "test" if option == Some(ALL_PLATFORMS) => across::all(),
         "test" => match option {
             None => test::all(),
             Some(option) if option.starts_with('-') => {
-                Err(format!("unknown option `{option}` of test; there is --long"))
+                Err(format!("unknown option `{option}` of test; there are --long, {ALL_PLATFORMS}"))
             }
             Some(name) => selected::named(name),
         },
         "bless" => selected::bless(option.unwrap_or_default()),
         "env" => test::print_environment(),
-        "dist" => dist::shipped().map(|_| ()),
+        "dist" => match option {
+            None => dist::shipped().map(|_| ()),
+            Some(ALL_PLATFORMS) => dist::all_platforms().map(|_| ()),
+            Some(option) => Err(format!("unknown option `{option}` of dist; there is {ALL_PLATFORMS}")),
+        },
+        "wheel" => archives::wheels(),
         "install" => install::install(arguments.get(1..).unwrap_or_default()),
         "bench" => bench::parts(arguments.get(1..).unwrap_or_default()),
         "guide" => guide::build(),
@@ -71,7 +93,7 @@ fn main() -> ExitCode {
             Ok(())
         }
         other => Err(format!(
-            "unknown task `{other}`; there are demo, test, bless, env, dist, install, bench, guide and notices"
+            "unknown task `{other}`; there are demo, test, bless, env, dist, wheel, install, bench, guide and notices"
         )),
     };
     match outcome {

@@ -34,12 +34,18 @@ The coefficients of the International Geomagnetic Reference Field, 14th generati
 International Association of Geomagnetism and Aeronomy (2024), https://doi.org/10.5281/zenodo.14012302, Creative Commons
 Attribution 4.0 International, https://creativecommons.org/licenses/by/4.0/.
 
-On Linux an unwinder is linked in too. In libraries for glibc 2.17 and later it is LLVM's (libunwind and compiler-rt):
+An unwinder is linked in too. In libraries for Linux with glibc 2.17 and later it is LLVM's (libunwind and compiler-rt):
 Apache-2.0 WITH LLVM-exception, by the LLVM project's contributors; the text of the Apache licence is given below. In
-others it is GCC's (libgcc_eh and libgcc): GPL-3.0-or-later WITH GCC-exception-3.1, by the Free Software Foundation; the
-exception lets it be passed on as part of this library under the licences of this folder.
+those for Windows, and in others for Linux, it is GCC's (libgcc_eh and libgcc): GPL-3.0-or-later WITH GCC-exception-3.1, by
+the Free Software Foundation; the exception lets it be passed on as part of this library under the licences of this folder.
+
+In libraries for Windows start-up code and functions of mingw-w64 are linked in, copyright 2009 to 2016 by the mingw-w64
+project: in the public domain, and under the Zope Public License 2.1, given below.
 
 ";
+
+/// The licence of what mingw-w64 brings.
+const MINGW: &str = include_str!("mingw-w64.txt");
 
 /// A crate and the licences it is offered under.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -74,6 +80,7 @@ fn text() -> Result<String, String> {
             texts.entry(notice).or_default().push(it);
         }
     }
+    let _ = write!(text, "\n\n{0}\nmingw-w64\n{0}\n\n{MINGW}", "-".repeat(80));
     // In the order of the first crate of each, not of the texts.
     let mut texts: Vec<(String, Vec<&Crate>)> = texts.into_iter().collect();
     texts.sort_by(|a, b| a.1.cmp(&b.1));

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::build::Built;
+use crate::dist::libraries;
 use crate::shell::{Beside, Outcome, command, root, run};
 
 /// The attitude that the orbit phase's guidance commands at the start of `MessengerLoop.ssp`: from any other the first slew would
@@ -125,9 +126,10 @@ fn record(built: &Built, file: &str) -> Command {
 fn pack_component(built: &Built, component: &Component, scratch: &Path) -> Result<PathBuf, String> {
     let (name, model, spacecraft, further) = component;
     let fmu = scratch.join(format!("{name}.fmu"));
-    let library = if spacecraft.is_some() { &built.library } else { &built.probe };
+    let library: fn(&Built) -> &PathBuf =
+        if spacecraft.is_some() { |it| &it.library } else { |it| &it.probe };
     let mut pack = command(&built.heliotorque);
-    pack.args(["pack", "--model", model, "--library"]).arg(library);
+    pack.args(["pack", "--model", model]).args(libraries(built, library));
     if let Some(spacecraft) = spacecraft {
         pack.arg("--spacecraft").arg(root().join("fmu-src").join("resources").join(spacecraft));
     }

@@ -1,5 +1,6 @@
 //! `cargo xtask test`: format, lints, Rust tests, the guide, FMPy, C client.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use crate::build::{self, Built, TESTS};
@@ -88,6 +89,18 @@ pub(crate) fn python(environment: Vec<(&'static str, PathBuf)>, mark: &str) -> O
         .envs(environment))
 }
 
+/// Runs the tests of one file in Python, with more in the environment.
+pub(crate) fn python_file(
+    name: &str,
+    environment: impl IntoIterator<Item = (&'static str, OsString)>,
+) -> Outcome {
+    run(command(python::interpreter()?)
+        .args(["-m", "pytest", "-q"])
+        .arg(Path::new("tests/python").join(name))
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .envs(environment))
+}
+
 /// An FMU whose library others built: FMPy's container around our plant.
 fn foreign_fmu() -> Result<PathBuf, String> {
     let fmu = build::scratch("foreign")?.join("container.fmu");
@@ -140,8 +153,29 @@ pub(crate) fn compile_c_with(
     called: &str,
     flags: &[&str],
 ) -> Result<PathBuf, String> {
+    compile_c_for(&CCompiler::HERE, scratch, (name, called), flags)
+}
+
+/// A compiler of C and how it links.
+pub(crate) struct CCompiler {
+    pub program: &'static str,
+    pub libraries: &'static [&'static str],
+}
+
+impl CCompiler {
+    /// For this computer.
+    pub(crate) const HERE: Self = Self { program: "gcc", libraries: &["-ldl", "-lm", "-pthread"] };
+}
+
+/// The same by another compiler.
+pub(crate) fn compile_c_for(
+    compiler: &CCompiler,
+    scratch: &Path,
+    (name, called): (&str, &str),
+    flags: &[&str],
+) -> Result<PathBuf, String> {
     let program = scratch.join(called);
-    run(command("gcc")
+    run(command(compiler.program)
         .args(["-std=c11", "-O2", "-g", "-Wall", "-Wextra", "-Werror"])
         .args(flags)
         .arg("-I")
@@ -149,6 +183,6 @@ pub(crate) fn compile_c_with(
         .arg(root().join("tests").join("c").join(format!("{name}.c")))
         .arg("-o")
         .arg(&program)
-        .args(["-ldl", "-lm", "-pthread"]))?;
+        .args(compiler.libraries))?;
     Ok(program)
 }

@@ -131,7 +131,7 @@ fn loading(command: &Command) -> Option<Relayed> {
             let bounds = Bounds { deadline: Some(it.deadline()), ..Bounds::default() };
             return Some(Relayed { name: of_template(it.template.as_ref()), bounds, limits: SMALL });
         }
-        Command::Pack(it) => (of_template(it.library.as_ref().or(it.template.as_ref())), it.patience, SMALL),
+        Command::Pack(it) => (of_template(it.library.first().or(it.template.as_ref())), it.patience, SMALL),
         Command::Map(it) => (shown(it.template.as_ref().unwrap_or(&it.spacecraft)), it.patience, SMALL),
         Command::Size(it) => (of_template(it.template.as_ref()), it.patience, LARGE),
         Command::Ephemeris(it) => (shown(&it.simulated()), it.patience, LARGE),

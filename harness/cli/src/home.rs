@@ -24,9 +24,9 @@ pub(crate) fn is_ours(description: &Description) -> bool {
 /// The folder beside the program, if the program is installed.
 pub(crate) fn installed() -> Option<PathBuf> {
     // Behind links: a link to the program in another folder leads to its own.
-    let program = std::env::current_exe().and_then(std::fs::canonicalize).ok()?;
+    let program = std::env::current_exe().and_then(|program| files::canonical(&program)).ok()?;
     let folder = program.parent()?.join(FROM_PROGRAM);
-    library_in(&folder).is_file().then(|| std::fs::canonicalize(&folder).unwrap_or(folder))
+    library_in(&folder).is_file().then(|| files::canonical(&folder).unwrap_or(folder))
 }
 
 /// The shared library of all models, if the program is installed.

@@ -2,7 +2,7 @@
 
 use std::path::{Component, Path};
 
-use loader::Fmu;
+use loader::{Fmu, Requirements};
 use model_description::Severity;
 
 use crate::{Finding, Verdict};
@@ -36,7 +36,10 @@ pub fn archive(fmu: &Fmu) -> Vec<Finding> {
         Err(error) => findings.push(Finding::bad(error.to_string())),
     }
     findings.extend(fmu.requirements().into_iter().map(|(path, read)| match read {
-        Ok(requirements) => Finding::good(format!("{}: {requirements}", path.display())),
+        Ok(requirements) if requirements.is_in_its_folder() => {
+            Finding::good(format!("{}: {requirements}", path.display()))
+        }
+        Ok(requirements) => Finding::bad(misplaced(&path, &requirements)),
         Err(error) => Finding::note(error.to_string()),
     }));
     separators(fmu, &mut findings);
@@ -46,6 +49,16 @@ pub fn archive(fmu: &Fmu) -> Vec<Finding> {
     findings.push(presence(has("documentation"), "documentation"));
     findings.push(presence(LICENSE_ENTRIES.into_iter().any(has), &LICENSE_ENTRIES.join(" or ")));
     findings
+}
+
+/// Where a library in another platform's folder belongs.
+fn misplaced(path: &Path, requirements: &Requirements) -> String {
+    let suffix = requirements.suffix();
+    let allowed = match requirements.platform_folders().first() {
+        Some(folder) => format!("binaries/{folder}/*{suffix}"),
+        None => format!("*{suffix} in a folder of its own platform"),
+    };
+    format!("{}: found {requirements}; allowed for it: {allowed} (2.3)", path.display())
 }
 
 fn presence(there: bool, what: &str) -> Finding {

@@ -2,14 +2,14 @@
 
 use std::{
     ffi::OsString,
-    fs::{self, File, Metadata, OpenOptions, TryLockError},
+    fs::{self, File, OpenOptions},
     io::{self, BufWriter, Seek, Write},
     path::{Path, PathBuf},
 };
 
 use tempfile::NamedTempFile;
 
-use crate::{input::kind, temporary::Registered};
+use crate::{input::kind, system, temporary::Registered};
 
 /// The name that stands for the standard output, and the system's own for it.
 const STDOUT: &str = "-";
@@ -99,8 +99,10 @@ impl Destination {
         buffered.flush()?;
         drop(buffered);
         keep_permissions(temporary.as_file(), target)?;
-        temporary.persist(target).map_err(|error| error.error)?;
-        Ok(())
+        let temporary = temporary.into_temp_path().keep()?;
+        system::rename(&temporary, target).inspect_err(|_| {
+            let _ = fs::remove_file(&temporary);
+        })
     }
 
     /// A new file in the folder of the target.
@@ -177,7 +179,7 @@ impl Growing {
         let (Some(part), Some(target)) = (&mut self.part, &self.destination.target) else { return Ok(()) };
         part.append(&[])?;
         keep_permissions(&part.file, target)?;
-        fs::rename(&part.path, target)
+        system::rename(&part.path, target)
     }
 }
 
@@ -198,27 +200,24 @@ impl Part {
 
     /// Opens and locks it; what it holds of an earlier recording stays until something is appended.
     fn open(path: &Path, inputs: &[&Path]) -> Result<Self, String> {
-        let text = |error: io::Error| error.to_string();
+        let text = |error: io::Error| match error.kind() {
+            io::ErrorKind::ResourceBusy => "another run is writing it".to_owned(),
+            _ => error.to_string(),
+        };
         for _ in 0..Self::ATTEMPTS {
-            check(path, inputs)?;
-            let (file, is_new) = match File::create_new(path) {
-                Ok(file) => (file, true),
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                    match OpenOptions::new().write(true).open(path) {
-                        Ok(file) => (file, false),
-                        Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
-                        Err(error) => return Err(text(error)),
+            check_place(path, inputs)?;
+            let (file, is_new) =
+                match system::open_alone(OpenOptions::new().write(true).create_new(true), path) {
+                    Ok(file) => (file, true),
+                    Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                        match system::open_alone(OpenOptions::new().write(true), path) {
+                            Ok(file) => (file, false),
+                            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                            Err(error) => return Err(text(error)),
+                        }
                     }
-                }
-                Err(error) => return Err(text(error)),
-            };
-            match file.try_lock() {
-                Err(TryLockError::WouldBlock) => return Err("another run is writing it".to_owned()),
-                Err(TryLockError::Error(error)) if error.kind() != io::ErrorKind::Unsupported => {
-                    return Err(text(error));
-                }
-                _ => {}
-            }
+                    Err(error) => return Err(text(error)),
+                };
             // Until it was locked, another run may have given it its name, and a link may lead elsewhere.
             if is_at(&file, path) {
                 return Ok(Self { path: path.to_owned(), file, is_new, is_begun: false });
@@ -257,35 +256,31 @@ impl Drop for Part {
 
 /// Whether an open file is the one at this path, under no other name and behind no link.
 fn is_at(file: &File, path: &Path) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        let (Ok(open), Ok(there)) = (file.metadata(), fs::symlink_metadata(path)) else { return false };
-        (open.dev(), open.ino()) == (there.dev(), there.ino()) && open.nlink() == 1
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = (file, path);
-        true
-    }
+    let (Ok(open), Ok(there)) = (system::identity_of_open(file), system::identity_of_link(path)) else {
+        return false;
+    };
+    open.place == there.place && open.names == 1
 }
 
 /// Whether an open file has more names than one.
 fn has_other_names(file: &File) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        file.metadata().is_ok_and(|metadata| metadata.nlink() > 1)
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = file;
-        false
-    }
+    system::identity_of_open(file).is_ok_and(|identity| identity.names > 1)
 }
 
 /// Why a file cannot be the target: it is of another kind, not to be written, or an input.
 fn check(target: &Path, inputs: &[&Path]) -> Result<(), String> {
+    check_place(target, inputs)?;
+    match OpenOptions::new().write(true).open(target) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            // A file that is protected against writing is not replaced.
+            Err(system::explained(error).to_string())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Why a file cannot be the target whoever writes it: it is of another kind or an input.
+fn check_place(target: &Path, inputs: &[&Path]) -> Result<(), String> {
     let metadata = match fs::symlink_metadata(target) {
         Ok(metadata) => Some(metadata),
         Err(error) if error.kind() == io::ErrorKind::NotFound => None,
@@ -298,10 +293,6 @@ fn check(target: &Path, inputs: &[&Path]) -> Result<(), String> {
         if is_one_file(target, input) || is_inside(target, input) {
             return Err(format!("it is an input too, {}", input.display()));
         }
-    }
-    if metadata.is_some() {
-        // A file that is protected against writing is not replaced.
-        OpenOptions::new().write(true).open(target).map_err(|error| error.to_string())?;
     }
     Ok(())
 }
@@ -339,20 +330,10 @@ fn is_beside(one: &Path, two: &Path) -> bool {
     whole(one).is_some_and(|place| whole(two) == Some(place))
 }
 
-/// Whether both exist and are one file, by device and number where the system has them.
+/// Whether both exist and are one file.
 fn is_one_file(one: &Path, two: &Path) -> bool {
-    let (Ok(first), Ok(second)) = (fs::metadata(one), fs::metadata(two)) else { return false };
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        let identity = |metadata: &Metadata| (metadata.dev(), metadata.ino());
-        identity(&first) == identity(&second)
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = (first, second);
-        fs::canonicalize(one).is_ok_and(|one| fs::canonicalize(two).is_ok_and(|two| one == two))
-    }
+    let (Ok(one), Ok(two)) = (system::identity(one), system::identity(two)) else { return false };
+    one.place == two.place
 }
 
 /// Whether a file is one of a folder's files, or would become one.

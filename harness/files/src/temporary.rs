@@ -1,7 +1,7 @@
 //! Temporary files and folders, removed when they are dropped and when a signal ends the program; folders of a program that was
 //! killed are removed by the next one.
 //!
-//! On Unix a folder is locked as long as its program runs. One that can be locked has nobody any more.
+//! A folder is locked as long as its program runs. One that can be locked has nobody any more.
 
 use std::{
     fs::{self, File, TryLockError},
@@ -13,6 +13,8 @@ use std::{
 };
 
 use tempfile::TempDir;
+
+use crate::system;
 
 static KNOWN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
@@ -91,7 +93,7 @@ impl Scratch {
             let make =
                 || tempfile::Builder::new().prefix(prefix).suffix(suffix).rand_bytes(LETTERS).tempdir();
             let (folder, _registered) = Registered::with(make, TempDir::path)?;
-            let lock = lock(folder.path());
+            let lock = system::lock_folder(folder.path());
             // Another program may have taken it for an abandoned one until it was locked.
             if folder.path().is_dir() && !matches!(lock, Err(TryLockError::WouldBlock)) {
                 return Ok(Self { folder, _registered, _lock: lock.ok() });
@@ -103,13 +105,6 @@ impl Scratch {
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
-}
-
-/// The folder, locked; where folders cannot be locked, the error says so.
-fn lock(folder: &Path) -> Result<File, TryLockError> {
-    let file = File::open(folder).map_err(TryLockError::Error)?;
-    file.try_lock()?;
-    Ok(file)
 }
 
 /// Removes the folders of killed programs. What cannot be removed belongs to somebody else.
@@ -124,13 +119,13 @@ fn sweep(temporaries: &Path) {
         if !is_folder || !entry.file_name().to_str().is_some_and(is_ours) {
             continue;
         }
-        if let Ok(_locked) = lock(&entry.path()) {
+        if let Ok(_locked) = system::lock_folder(&entry.path()) {
             let _ = fs::remove_dir_all(entry.path());
         }
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests {
     //! Folders of killed programs go, those in use and those of others stay.
 
@@ -152,7 +147,7 @@ mod tests {
             fs::write(at(name).join("deep/file"), "x").unwrap();
         }
         fs::write(at("heliotorque-aFile0.scratch"), "x").unwrap();
-        let in_use = lock(&at(names[1])).unwrap();
+        let in_use = system::lock_folder(&at(names[1])).unwrap();
         sweep(place.path());
         let left: Vec<bool> = names.iter().map(|name| at(name).join("deep/file").exists()).collect();
         assert_eq!(left, [false, true, true, true, true]);

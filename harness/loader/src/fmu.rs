@@ -205,19 +205,38 @@ impl Fmu {
     }
 }
 
-/// Folders under `binaries/` that may hold the library for this computer, best first.
+/// A platform: operating system and architecture as Rust names them, kind of shared library and machine, folders under `binaries/`
+/// that may hold its library, best first.
 ///
 /// FMI 2.0.4 lets platforms beyond its own list use the tuples of FMI 3.0.
+type Platform = (&'static str, &'static str, &'static str, &'static [&'static str]);
+
+const PLATFORMS: [Platform; 8] = [
+    ("linux", "x86_64", "ELF x86-64", &["linux64", "x86_64-linux"]),
+    ("linux", "x86", "ELF x86", &["linux32", "x86-linux"]),
+    ("linux", "aarch64", "ELF AArch64", &["aarch64-linux", "linux64"]),
+    ("macos", "aarch64", "Mach-O AArch64", &["aarch64-darwin", "darwin64"]),
+    ("macos", "x86_64", "Mach-O x86-64", &["darwin64", "x86_64-darwin"]),
+    ("windows", "x86_64", "PE x86-64", &["win64", "x86_64-windows"]),
+    ("windows", "x86", "PE x86", &["win32", "x86-windows"]),
+    ("windows", "aarch64", "PE AArch64", &["aarch64-windows"]),
+];
+
+fn folders(is_meant: impl Fn(&Platform) -> bool) -> &'static [&'static str] {
+    PLATFORMS.iter().find(|it| is_meant(it)).map_or(&[], |(.., folders)| folders)
+}
+
+/// Folders under `binaries/` that may hold the library for this computer, best first.
 pub fn platform_folders() -> &'static [&'static str] {
-    match (std::env::consts::OS, std::env::consts::ARCH) {
-        ("linux", "x86_64") => &["linux64", "x86_64-linux"],
-        ("linux", "x86") => &["linux32", "x86-linux"],
-        ("linux", "aarch64") => &["aarch64-linux", "linux64"],
-        ("macos", "aarch64") => &["aarch64-darwin", "darwin64"],
-        ("macos", _) => &["darwin64", "x86_64-darwin"],
-        ("windows", "x86_64") => &["win64", "x86_64-windows"],
-        ("windows", "x86") => &["win32", "x86-windows"],
-        ("windows", "aarch64") => &["aarch64-windows"],
-        _ => &[],
-    }
+    folders(|(os, arch, ..)| (*os, *arch) == (std::env::consts::OS, std::env::consts::ARCH))
+}
+
+/// Folders under `binaries/` that may hold a library of this kind and machine, as in [`crate::Requirements::format`], best first.
+pub(crate) fn folders_of_format(format: &str) -> &'static [&'static str] {
+    folders(|(_, _, known, _)| *known == format)
+}
+
+/// Whether importers of some platform look there for its library.
+pub(crate) fn is_platform_folder(folder: &str) -> bool {
+    PLATFORMS.iter().any(|(.., folders)| folders.contains(&folder))
 }

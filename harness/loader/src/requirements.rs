@@ -9,7 +9,10 @@ use goblin::{
     pe::PE,
 };
 
-use crate::{Error, Fmu};
+use crate::{
+    Error, Fmu,
+    fmu::{folders_of_format, is_platform_folder},
+};
 
 /// A library is read into memory up to this size.
 const MAX_BYTES: u64 = 1 << 30;
@@ -70,6 +73,31 @@ impl Requirements {
         let is_elementary = |name: &str| ELEMENTARY.contains(&name);
         let imports = self.imports.iter().map(String::as_str);
         imports.filter(move |name| is_elementary(name) || name.strip_suffix('f').is_some_and(is_elementary))
+    }
+
+    /// Folders under `binaries/` that may hold such a library, best first; none where FMI names no such platform.
+    #[must_use]
+    pub fn platform_folders(&self) -> &'static [&'static str] {
+        folders_of_format(&self.format)
+    }
+
+    /// Ending of such a library's name.
+    #[must_use]
+    pub fn suffix(&self) -> &'static str {
+        if self.format.starts_with("PE ") { ".dll" } else { ".so" }
+    }
+
+    /// Whether importers that this library is for look for it where it stands in the FMU; of a platform that FMI 2.0 does not
+    /// name, whether no other platform's importers do.
+    #[must_use]
+    pub fn is_in_its_folder(&self) -> bool {
+        let folder = self.path.parent().and_then(Path::file_name).and_then(|name| name.to_str());
+        let own = self.platform_folders();
+        let belongs = folder.is_some_and(|folder| match own.is_empty() {
+            true => !is_platform_folder(folder),
+            false => own.contains(&folder),
+        });
+        belongs && self.path.to_string_lossy().ends_with(self.suffix())
     }
 
     fn of_elf(elf: &Elf<'_>) -> Self {
@@ -227,6 +255,33 @@ mod tests {
         let path = folder.path().join("library.dll");
         std::fs::write(&path, bytes).unwrap();
         assert_eq!(Requirements::read(&path).unwrap().to_string(), "PE x86-64; needs no library");
+    }
+
+    #[test]
+    fn a_library_in_the_folder_of_another_platform_is_told() {
+        let requirements = |format: &str, path: &str| Requirements {
+            format: format.to_owned(),
+            path: path.into(),
+            ..Requirements::default()
+        };
+        for (format, path) in [
+            ("ELF x86-64", "binaries/linux64/X.so"),
+            ("ELF AArch64", "binaries/aarch64-linux/X.so"),
+            // FMPy on Arm.
+            ("ELF AArch64", "binaries/linux64/X.so"),
+            ("PE x86-64", "binaries/win64/X.dll"),
+            ("ELF RISCV", "binaries/riscv64-linux/X.so"),
+        ] {
+            assert!(requirements(format, path).is_in_its_folder(), "{format} {path}");
+        }
+        for (format, path) in [
+            ("ELF x86-64", "binaries/win64/X.dll"),
+            ("PE x86-64", "binaries/win64/X.so"),
+            ("PE x86", "binaries/win64/X.dll"),
+            ("PE of another machine", "binaries/win64/X.dll"),
+        ] {
+            assert!(!requirements(format, path).is_in_its_folder(), "{format} {path}");
+        }
     }
 
     #[test]

@@ -18,8 +18,13 @@ fn windows_drives_and_shares() {
     for location in ["file:///C:/a%20b", "file:/C:/a%20b", "file://C:/a%20b", "C:/a b"] {
         assert_eq!(first(location, true), "C:/a b", "{location}");
     }
-    assert_eq!(first("file://server/share/x", true), "//server/share/x");
-    assert_eq!(first("\\\\server\\share", true), "\\\\server\\share");
+    assert_eq!(first("file://LOCALHOST/c:/%E7%81%AB", true), "c:/火");
+    for location in ["file://server/my%20share/x", "file:////server/my%20share/x", "//server/my share/x"] {
+        assert_eq!(first(location, true), "//server/my share/x", "{location}");
+    }
+    for location in ["\\\\server\\share", "\\\\?\\C:\\a b", "C:\\a b"] {
+        assert_eq!(first(location, true), location);
+    }
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! Where a new FMU's libraries and licences come from.
 
-use std::{error::Error, fs, path::Path, path::PathBuf, sync::Arc};
+use std::{error::Error, fs, iter, path::Path, path::PathBuf, sync::Arc};
 
 use files::Entries;
-use loader::{Binary, Described, Fmu};
+use loader::{Binary, Described, Fmu, Requirements};
 use model_description::{Description, ReadError};
 use physics::spacecraft::Spacecraft;
 use toml::de::DeTable;
@@ -20,41 +20,80 @@ const LICENSES: [(&str, &[u8]); 4] = [
 /// Where FMI 2.0.5 keeps them (2.3); `license.txt` there is the entry.
 const FOLDER: &str = "documentation/licenses";
 
-/// A shared library, or an FMU that has one for each of its platforms.
+/// Shared libraries, one a platform, or an FMU that has them.
 pub(crate) struct Source {
     binary: Arc<Binary>,
     from: From,
 }
 
+/// A platform's library.
+struct Platform {
+    /// Folder below `binaries/`.
+    folder: &'static str,
+    suffix: &'static str,
+    path: PathBuf,
+}
+
+impl Platform {
+    /// This computer, whose library is loaded.
+    fn here(path: PathBuf) -> Result<Self, String> {
+        let folder = loader::platform_folders().first().ok_or("FMI names no platform like this one")?;
+        Ok(Self { folder, suffix: std::env::consts::DLL_SUFFIX, path })
+    }
+
+    /// What the file is for.
+    fn of_file(path: PathBuf) -> Result<Self, Box<dyn Error>> {
+        let requirements = Requirements::read(&path)?;
+        let folder = requirements.platform_folders().first().ok_or_else(|| {
+            format!(
+                "{}: found {}, allowed: a platform that FMI names: see --library",
+                path.display(),
+                requirements.format
+            )
+        })?;
+        Ok(Self { folder, suffix: requirements.suffix(), path })
+    }
+}
+
 enum From {
-    /// A library, and the model that is meant unless another is named.
-    Library(PathBuf, Option<&'static str>),
+    /// Libraries, this computer's first, and the model that is meant unless another is named.
+    Libraries(Vec<Platform>, Option<&'static str>),
     Template(Fmu),
 }
 
 impl Source {
     /// Opens what `--template` or `--library` names, otherwise the installed program's own library, otherwise a shipped FMU in
     /// `dist`.
-    pub(crate) fn open(
-        template: Option<&Path>,
-        library: Option<&Path>,
-    ) -> Result<Self, Box<dyn std::error::Error>> {
-        let own = || home::library().map(|path| (path, Some(home::DEFAULT_MODEL)));
-        let library = match (template, library) {
-            (None, None) => own(),
-            (_, library) => library.map(|path| (path.to_owned(), None)),
-        };
-        let Some((path, model)) = library else {
+    pub(crate) fn open(template: Option<&Path>, libraries: &[PathBuf]) -> Result<Self, Box<dyn Error>> {
+        let own = || home::library().filter(|_| template.is_none());
+        let given = libraries.first().map(|path| (path.clone(), None));
+        let Some((first, model)) = given.or_else(|| own().map(|path| (path, Some(home::DEFAULT_MODEL))))
+        else {
             let fallback = home::fmu(home::DEFAULT_MODEL);
             return Ok(Self::of_template(open_template(template.unwrap_or(&fallback))?)?);
         };
-        // A bare file name would be searched in the system's library folders.
-        let path = std::path::absolute(path)?;
-        if let Some(found) = fs::metadata(&path).ok().as_ref().and_then(files::kind) {
-            let path = path.display();
-            return Err(format!("{path}: found {found}, allowed: a regular file: see --library").into());
+        for path in iter::once(&first).chain(libraries) {
+            if let Some(found) = fs::metadata(path).ok().as_ref().and_then(files::kind) {
+                let path = path.display();
+                return Err(format!("{path}: found {found}, allowed: a regular file: see --library").into());
+            }
         }
-        Ok(Self { binary: Arc::new(Binary::load(&path)?), from: From::Library(path, model) })
+        // A bare file name would be searched in the system's library folders.
+        let first = std::path::absolute(first)?;
+        let binary = Arc::new(Binary::load(&first)?);
+        let mut platforms = vec![Platform::here(first)?];
+        for path in libraries.iter().skip(1) {
+            let platform = Platform::of_file(path.clone())?;
+            if let Some(other) = platforms.iter().find(|other| other.folder == platform.folder) {
+                let (path, other, folder) = (path.display(), other.path.display(), platform.folder);
+                return Err(format!(
+                    "{path} is for {folder}, as {other} is, allowed: one a platform: see --library"
+                )
+                .into());
+            }
+            platforms.push(platform);
+        }
+        Ok(Self { binary, from: From::Libraries(platforms, model) })
     }
 
     /// The library of an FMU.
@@ -62,11 +101,21 @@ impl Source {
         Ok(Self { binary: fmu.binary()?, from: From::Template(fmu) })
     }
 
-    /// The library or template.
+    /// This computer's library, or the template.
     pub(crate) fn path(&self) -> &Path {
         match &self.from {
-            From::Library(path, _) => path,
+            From::Libraries(platforms, _) => &platforms[0].path,
             From::Template(fmu) => fmu.source(),
+        }
+    }
+
+    /// The libraries or the template.
+    pub(crate) fn paths(&self) -> Vec<&Path> {
+        match &self.from {
+            From::Libraries(platforms, _) => {
+                platforms.iter().map(|platform| platform.path.as_path()).collect()
+            }
+            From::Template(fmu) => vec![fmu.source()],
         }
     }
 
@@ -85,8 +134,8 @@ impl Source {
     pub(crate) fn own_model(&self) -> Result<String, String> {
         match &self.from {
             From::Template(fmu) => model_of(fmu, &self.binary),
-            From::Library(_, Some(model)) => Ok((*model).to_owned()),
-            From::Library(_, None) => Err(which(&self.binary.models()?)),
+            From::Libraries(_, Some(model)) => Ok((*model).to_owned()),
+            From::Libraries(_, None) => Err(which(&self.binary.models()?)),
         }
     }
 
@@ -115,12 +164,11 @@ impl Source {
         identifier: &str,
     ) -> Result<(), Box<dyn std::error::Error>> {
         match &self.from {
-            From::Library(path, _) => {
-                let bytes = files::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
-                let platform =
-                    loader::platform_folders().first().ok_or("FMI names no platform like this one")?;
-                let file = format!("binaries/{platform}/{identifier}{}", std::env::consts::DLL_SUFFIX);
-                entries.add(&file, bytes)?;
+            From::Libraries(platforms, _) => {
+                for Platform { folder, suffix, path } in platforms {
+                    let bytes = files::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+                    entries.add(&format!("binaries/{folder}/{identifier}{suffix}"), bytes)?;
+                }
             }
             From::Template(fmu) => {
                 let old = &fmu.co_simulation()?.model_identifier;
@@ -140,7 +188,7 @@ impl Source {
     /// Adds the licences.
     pub(crate) fn add_licenses(&self, entries: &mut Entries) -> Result<(), Box<dyn std::error::Error>> {
         match &self.from {
-            From::Library(..) => {
+            From::Libraries(..) => {
                 for (name, bytes) in LICENSES {
                     entries.add(&format!("{FOLDER}/{name}"), bytes.to_vec())?;
                 }

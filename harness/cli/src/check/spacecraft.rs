@@ -28,7 +28,7 @@ use crate::{
 
 /// Has the models of the template's library read the file, the template's own first.
 pub(super) fn run(arguments: &Check, file: &str, text: &str) -> Outcome {
-    let source = Source::open(arguments.template.as_deref(), None)?;
+    let source = Source::open(arguments.template.as_deref(), &[])?;
     let binary = source.binary();
     let own = source.own_model().ok();
     let mut refusals = Vec::new();

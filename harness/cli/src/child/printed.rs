@@ -2,11 +2,12 @@
 
 use std::{
     collections::VecDeque,
-    fs::File,
     io::{self, Read},
-    process::{Child, Stdio},
+    process::Child,
     time::Duration,
 };
+
+use super::system::{Pipe, wait_for};
 
 /// How much of what an FMU prints is shown.
 const BYTES_SHOWN: u64 = 1 << 20;
@@ -50,41 +51,22 @@ pub(super) struct Printed {
 }
 
 struct Stream {
-    pipe: File,
+    pipe: Pipe,
     line: Vec<u8>,
 }
 
 impl Printed {
-    /// How a stream has to be set up before the child is started.
-    pub(super) fn stdio() -> Stdio {
-        // Elsewhere pipes cannot be read without waiting.
-        if cfg!(unix) { Stdio::piped() } else { Stdio::null() }
-    }
-
     /// Takes the streams of a child.
     pub(super) fn of(child: &mut Child) -> io::Result<Self> {
-        let mut streams = Vec::new();
-        #[cfg(unix)]
-        {
-            use std::os::fd::OwnedFd;
-            let (stdout, stderr) =
-                (child.stdout.take().map(OwnedFd::from), child.stderr.take().map(OwnedFd::from));
-            for pipe in stdout.into_iter().chain(stderr).map(File::from) {
-                super::system::never_wait(&pipe)?;
-                streams.push(Stream { pipe, line: Vec::new() });
-            }
-        }
-        #[cfg(not(unix))]
-        let _ = child;
+        let pipes = [child.stdout.take().map(Pipe::new), child.stderr.take().map(Pipe::new)];
+        let streams = pipes.into_iter().flatten().map(|pipe| Ok(Stream { pipe: pipe?, line: Vec::new() }));
+        let streams = streams.collect::<io::Result<_>>()?;
         Ok(Self { streams, buffer: vec![0; 1 << 14].into(), last: VecDeque::new(), bytes: 0 })
     }
 
     /// Waits until the child prints or ends, at most this long.
     pub(super) fn wait(&self, longest: Duration) {
-        #[cfg(unix)]
-        super::system::wait_for(self.streams.iter().map(|stream| &stream.pipe), longest);
-        #[cfg(not(unix))]
-        std::thread::sleep(longest);
+        wait_for(self.streams.iter().map(|stream| &stream.pipe), longest);
     }
 
     /// Reads what is there and hands each line on; gives whether there was anything, the end of a stream too.
@@ -105,6 +87,10 @@ impl Printed {
                         for byte in &buffer[..count] {
                             if *byte != b'\n' {
                                 stream.line.push(*byte);
+                            }
+                            // A line of Windows ends with CR LF.
+                            if *byte == b'\n' {
+                                stream.line.pop_if(|last| *last == b'\r');
                             }
                             if *byte == b'\n' || stream.line.len() >= LINE {
                                 keep(last, &mut stream.line, line);

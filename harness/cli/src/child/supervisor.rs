@@ -4,7 +4,7 @@ use std::{
     ffi::OsString,
     io,
     path::Path,
-    process::{Child, Command, ExitStatus},
+    process::{Child, Command, ExitStatus, Stdio},
     time::{Duration, Instant},
 };
 
@@ -72,6 +72,8 @@ pub(crate) enum EndReason {
     DoesNotExit,
     /// It printed more bytes than it may.
     Prints(u64),
+    /// It allocated more bytes than it may.
+    Allocates(u64),
     /// It was requested to end.
     Interrupted,
     /// What it sent could not be taken.
@@ -136,6 +138,7 @@ fn describe(how: &EndReason) -> String {
         }
         EndReason::DoesNotExit => "its process does not exit".to_owned(),
         EndReason::Prints(bytes) => format!("prints without end: more than {} MiB", bytes >> 20),
+        EndReason::Allocates(bytes) => format!("allocates without end: more than {} MiB", bytes >> 20),
         EndReason::Interrupted => "interrupted".to_owned(),
         EndReason::Refused(why) => why.clone(),
     }
@@ -146,6 +149,7 @@ pub(crate) struct ChildProcess {
     child: Child,
     inbox: Inbox,
     printed: Printed,
+    memory: Option<u64>,
 }
 
 impl ChildProcess {
@@ -157,12 +161,12 @@ impl ChildProcess {
     ) -> io::Result<Self> {
         let (file, inbox) = Inbox::create(limits.memory, limits.files)?;
         let mut command = Command::new(std::env::current_exe()?);
-        command.args(arguments).stdin(file).stdout(Printed::stdio()).stderr(Printed::stdio());
+        command.args(arguments).stdin(file).stdout(Stdio::piped()).stderr(Stdio::piped());
         command
             .envs(temporary.iter().flat_map(|folder| ["TMPDIR", "TMP", "TEMP"].map(|name| (name, folder))));
-        let mut child = system::spawn(&mut command)?;
+        let mut child = system::spawn(&mut command, limits)?;
         match Printed::of(&mut child) {
-            Ok(printed) => Ok(Self { child, inbox, printed }),
+            Ok(printed) => Ok(Self { child, inbox, printed, memory: limits.memory }),
             Err(error) => {
                 let _ = system::end(&mut child)?;
                 Err(error)
@@ -226,6 +230,11 @@ impl ChildProcess {
             }
             if let Some(allowed) = bounds.printed.filter(|allowed| self.printed.bytes() > *allowed) {
                 return Some(EndReason::Prints(allowed));
+            }
+            if let Some(allowed) =
+                self.memory.filter(|allowed| system::committed_bytes(&self.child) > Some(*allowed))
+            {
+                return Some(EndReason::Allocates(allowed));
             }
             let now = Instant::now();
             // The call under way and its number.

@@ -4,7 +4,7 @@ mod coefficients;
 mod experiment;
 mod system;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use loader::{Fmu, Value};
@@ -118,15 +118,17 @@ fn summary(fmu: &Fmu) -> String {
     if let Some(experiment) = description.default_experiment {
         row("default experiment", Some(times(&experiment)));
     }
-    let platforms = match fmu.binary_path() {
+    let library = match fmu.binary_path() {
         Ok(path) => {
             let shown = path.strip_prefix(fmu.folder()).unwrap_or(&path).display().to_string();
             format!("{shown} (for this computer)")
         }
         Err(error) => error.to_string(),
     };
-    row("library", Some(platforms));
-    for (path, read) in fmu.requirements() {
+    row("library", Some(library));
+    let requirements = fmu.requirements();
+    row("platforms", Some(platforms(requirements.iter().map(|(path, _)| path.as_path()))));
+    for (path, read) in requirements {
         let requirements = read.map_or_else(|error| error.to_string(), |it| it.to_string());
         row(&path.display().to_string(), Some(requirements));
     }
@@ -139,6 +141,14 @@ fn summary(fmu: &Fmu) -> String {
         row("also", Some("model exchange, which is not used here".to_owned()));
     }
     table.to_string()
+}
+
+/// The platforms of libraries, by the names of their folders.
+fn platforms<'a>(libraries: impl Iterator<Item = &'a Path>) -> String {
+    let folders = libraries.filter_map(|path| path.parent().and_then(Path::file_name));
+    let mut names: Vec<_> = folders.map(|folder| folder.to_string_lossy().into_owned()).collect();
+    names.dedup();
+    names.join(", ")
 }
 
 /// Causalities in reading order, in words.

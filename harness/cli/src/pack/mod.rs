@@ -63,9 +63,9 @@ pub(crate) struct Pack {
     /// Take libraries and licences from this FMU; otherwise the installed program's own, or dist/MomentumPlant.fmu
     #[arg(long, value_name = "FMU")]
     pub template: Option<PathBuf>,
-    /// Take this shared library, just built, instead of a template's
+    /// Take this shared library, just built, instead of a template's; repeatable, one a platform, this computer's first
     #[arg(long, value_name = "FILE", conflicts_with = "template", requires = "model")]
-    pub library: Option<PathBuf>,
+    pub library: Vec<PathBuf>,
     /// The model: MomentumPlant, ...; otherwise the template's or MomentumPlant, where it takes the file, or the one that does:
     /// SpinPlant for a spinner's
     #[arg(long, value_name = "MODEL")]
@@ -99,7 +99,7 @@ pub(crate) fn run(arguments: &Pack) -> Outcome {
         Some(mission) => given.with_files_of(mission)?,
         None => given,
     };
-    let source = Source::open(arguments.template.as_deref(), arguments.library.as_deref())?;
+    let source = Source::open(arguments.template.as_deref(), &arguments.library)?;
     let Assembled { mut entries, identifier, described, description, setup } = assemble(&source, &parts)?;
     source.add_licenses(&mut entries)?;
     let drawing = draw::svg(&setup);
@@ -121,7 +121,7 @@ pub(crate) fn run(arguments: &Pack) -> Outcome {
     }
     let files = [parts.spacecraft, parts.timeline, parts.ephemeris].into_iter().flatten();
     let of_mission = arguments.mission.as_deref();
-    let inputs: Vec<&Path> = [source.path()].into_iter().chain(files).chain(of_mission).collect();
+    let inputs: Vec<&Path> = source.paths().into_iter().chain(files).chain(of_mission).collect();
     let windows = pointing::warnings(&description, &[], pointing::windows_of(&setup).as_slice());
     let timeline = parts.timeline.map(files::read_text).transpose()?;
     let panels = timeline.and_then(|text| panels_without_effect(&text, &description, &[], ""));

@@ -122,7 +122,7 @@ pub(crate) fn assemble_into(arguments: &Assemble) -> Outcome {
 fn assemble_files(mission: &Mission, template: Option<&Path>, into: &Path) -> Result<(), Box<dyn Error>> {
     let name = identifier(&mission.file);
     let parts = Parts { name: name.as_deref(), ..Parts::default() }.with_files_of(mission)?;
-    let assembled = assemble(&Source::open(template, None)?, &parts)?;
+    let assembled = assemble(&Source::open(template, &[])?, &parts)?;
     assembled.entries.write_below(into).map_err(|error| format!("{}: {error}", into.display()))?;
     Ok(())
 }

@@ -51,7 +51,7 @@ impl SizedSpacecraft {
         let (fmu, mut sets, inputs, [start_s, stop_s], folders) = match is_mission {
             false => {
                 FileKind::Spacecraft.check(&file, &text)?;
-                let source = Source::open(arguments.template.as_deref(), None)?;
+                let source = Source::open(arguments.template.as_deref(), &[])?;
                 let parts =
                     Parts { spacecraft: Some(&arguments.file), model: Some(MODEL), ..Parts::default() };
                 let folder = Scratch::new()?;

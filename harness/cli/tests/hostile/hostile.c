@@ -11,6 +11,9 @@
 #include <string.h>
 #include <sys/types.h>
 #include <unistd.h>
+#ifdef _WIN32
+#include <windows.h>
+#endif
 
 #define EXITS 1
 #define CRASHES 2
@@ -27,6 +30,7 @@
 #define ABORTS 13
 #define FAILS 14
 #define DETACHES 15
+#define TOUCHES 16
 
 typedef void *Component;
 typedef void (*Logger)(void *, const char *, int, const char *, const char *, ...);
@@ -44,6 +48,17 @@ static Callbacks callbacks;
 static volatile int forever = 1;
 static int *volatile nowhere = NULL;
 
+#ifdef _WIN32
+/* A process that never runs, so it does not end by itself either: this program, suspended. It keeps what it inherits. */
+static int leave_process(DWORD flags) {
+    char program[MAX_PATH];
+    STARTUPINFOA start = {sizeof start};
+    PROCESS_INFORMATION made;
+    GetModuleFileNameA(NULL, program, sizeof program);
+    return CreateProcessA(program, NULL, NULL, NULL, TRUE, CREATE_SUSPENDED | flags, NULL, NULL, &start, &made);
+}
+#endif
+
 static int behaviour(void) {
     switch (BEHAVIOUR) {
     case EXITS: exit(0);
@@ -53,30 +68,24 @@ static int behaviour(void) {
     case SLEEPS: for (;;) sleep(1000);
     case SPINS: while (forever) {} break;
     case PRINTS: for (;;) { puts("and on and on and on and on and on and on and on and on and on"); }
+#ifdef _WIN32
+    case FORKS:
+        if (!leave_process(0)) abort();
+        break;
+    case DETACHES:
+        /* Out of its job, if it may. */
+        if (!leave_process(DETACHED_PROCESS | CREATE_BREAKAWAY_FROM_JOB) && !leave_process(DETACHED_PROCESS)) abort();
+        break;
+#else
     case FORKS:
         /* The grandchild keeps every file open, also those that its parent would be waited for by. */
         if (fork() == 0) { for (;;) sleep(1000); }
         break;
-    case ALLOCATES:
-        for (long blocks = 0;; blocks++) {
-            if (!malloc((size_t)64 << 20)) {
-                fprintf(stderr, "it could allocate %ld blocks\n", blocks);
-                abort();
-            }
-        }
     case OPENS: {
         int count = 0;
         while (open("/dev/zero", O_RDONLY) >= 0) count++;
         fprintf(stderr, "it could open %d files\n", count);
         abort();
-    }
-    case LIES: {
-        const char *lie = "ok everything is fine\nfinished\n";
-        /* Into every file that is open, so also into whatever tells results. */
-        for (int file = 1; file < 256; file++) {
-            if (write(file, lie, strlen(lie)) < 0) continue;
-        }
-        _exit(0);
     }
     case DETACHES:
         /* A daemon: in a session of its own, its parent gone. */
@@ -88,6 +97,31 @@ static int behaviour(void) {
         usleep(100000);
         break;
     case RETURNS_TWICE: if (fork() < 0) abort(); break;
+#endif
+    case ALLOCATES:
+        for (long blocks = 0;; blocks++) {
+            if (!malloc((size_t)64 << 20)) {
+                fprintf(stderr, "it could allocate %ld blocks\n", blocks);
+                abort();
+            }
+        }
+    case TOUCHES:
+        for (long blocks = 0;; blocks++) {
+            char *block = malloc((size_t)64 << 20);
+            if (!block) {
+                fprintf(stderr, "it could allocate %ld blocks\n", blocks);
+                abort();
+            }
+            memset(block, 1, (size_t)64 << 20);
+        }
+    case LIES: {
+        const char *lie = "ok everything is fine\nfinished\n";
+        /* Into every file that is open, so also into whatever tells results. */
+        for (int file = 1; file < 256; file++) {
+            if (write(file, lie, strlen(lie)) < 0) continue;
+        }
+        _exit(0);
+    }
     case STAINS:
         printf("\033[2Jcleared\a\n");
         fflush(stdout);

@@ -56,6 +56,63 @@ fn the_same_input_gives_the_same_archive() {
     assert_eq!(libraries, [&format!("binaries/{platform}/AllTypes{}", std::env::consts::DLL_SUFFIX)]);
 }
 
+/// The head of a library of Windows, which is enough to tell its platform.
+fn head_of_dll(path: &Path) {
+    let mut bytes = vec![0; 0x400];
+    bytes[..2].copy_from_slice(b"MZ");
+    bytes[0x3c] = 0x80;
+    bytes[0x80..0x84].copy_from_slice(b"PE\0\0");
+    bytes[0x84..0x86].copy_from_slice(&0x8664_u16.to_le_bytes());
+    fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn libraries_of_other_platforms_stand_in_their_folders() {
+    let Some(library) = probe_library() else { return };
+    let scratch = tempfile::tempdir().unwrap();
+    let [dll, fmu, next] = ["probe.dll", "All.fmu", "Next.fmu"].map(|name| scratch.path().join(name));
+    head_of_dll(&dll);
+    let pack = |libraries: &[&Path], status: i32| {
+        let mut arguments = vec!["pack", "--model", "AllTypes", "--output", shown(&fmu)];
+        libraries.iter().for_each(|library| arguments.extend(["--library", shown(library)]));
+        run(&arguments, status)
+    };
+    pack(&[&library, &dll], 0);
+    let binaries = |path: &Path| -> Vec<String> {
+        entries(path).into_iter().map(|(name, _)| name).filter(|name| name.starts_with("binaries/")).collect()
+    };
+    let own = format!("binaries/{}/AllTypes{}", loader::platform_folders()[0], std::env::consts::DLL_SUFFIX);
+    assert_eq!(binaries(&fmu), [own.clone(), "binaries/win64/AllTypes.dll".to_owned()]);
+    let text = run(&["info", shown(&fmu)], 0);
+    says(&text, &["platforms", &format!("{}, win64", loader::platform_folders()[0]), "PE x86-64; needs no library"]);
+    says(&run(&["check", shown(&fmu), "--static"], 0), &["0 wrong"]);
+
+    // A template keeps them all.
+    run(&["pack", "--template", shown(&fmu), "--name", "Next", "--output", shown(&next)], 0);
+    assert_eq!(binaries(&next), [own.replace("AllTypes", "Next"), "binaries/win64/Next.dll".to_owned()]);
+
+    says(&pack(&[&library, &dll, &dll], 1), &["probe.dll is for win64, as", "one a platform", "--library"]);
+    // The first is loaded.
+    says(&pack(&[&dll, &library], 1), &["does not load"]);
+}
+
+#[test]
+fn a_library_in_the_folder_of_another_platform_is_wrong() {
+    let Some((scratch, fmu)) = packed("AllTypes") else { return };
+    let folder = scratch.path().join("unpacked");
+    for (name, content) in entries(&fmu) {
+        let path = folder.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, content).unwrap();
+    }
+    run(&["check", shown(&folder), "--static"], 0);
+    let strange = folder.join("binaries/linux32");
+    fs::create_dir(&strange).unwrap();
+    head_of_dll(&strange.join("AllTypes.so"));
+    let text = run(&["check", shown(&folder), "--static"], 1);
+    says(&text, &["binaries/linux32/AllTypes.so: found PE x86-64", "allowed for it: binaries/win64/*.dll"]);
+}
+
 #[test]
 fn the_page_and_the_licences_lead_to_files_that_are_there() {
     let Some((_room, path)) = packed("AllTypes") else { return };

@@ -18,6 +18,31 @@ use libloading::os::unix::Library;
 #[cfg(windows)]
 use libloading::os::windows::Library;
 
+/// Loads a library with its symbols to itself.
+///
+/// # Safety
+/// The library's initialisers may be run.
+#[cfg(unix)]
+unsafe fn open(path: &Path) -> Result<Library, libloading::Error> {
+    use libloading::os::unix::{RTLD_LOCAL, RTLD_NOW};
+    // SAFETY: the caller's promise.
+    unsafe { Library::open(Some(path), RTLD_NOW | RTLD_LOCAL) }
+}
+
+/// Loads a library and those that it needs from its own folder first, however long its path is.
+///
+/// # Safety
+/// The library's initialisers may be run.
+#[cfg(windows)]
+unsafe fn open(path: &Path) -> Result<Library, libloading::Error> {
+    use libloading::os::windows::LOAD_WITH_ALTERED_SEARCH_PATH;
+    // LoadLibraryEx has MAX_PATH (260), but for paths as `canonicalize` gives them: `\\?\C:\...`.
+    const MAX_PATH: usize = 260;
+    let long = (path.as_os_str().len() >= MAX_PATH).then(|| std::fs::canonicalize(path).ok()).flatten();
+    // SAFETY: the caller's promise.
+    unsafe { Library::load_with_flags(long.as_deref().unwrap_or(path), LOAD_WITH_ALTERED_SEARCH_PATH) }
+}
+
 macro_rules! bind {
     ($($name:ident $symbol:ident $parameters:tt -> $result:ty: $access:expr;)*) => {
         /// Every function of an FMI 2.0 co-simulation FMU, `None` where the library lacks it.
@@ -67,17 +92,7 @@ impl Binary {
     pub fn load(path: &Path) -> Result<Self, Error> {
         let _under_way = call_record::enter(call_record::LOADING);
         // SAFETY: loading runs the library's initialisers; an FMU is code its user chose to run.
-        let opened = unsafe {
-            #[cfg(unix)]
-            {
-                use libloading::os::unix::{RTLD_LOCAL, RTLD_NOW};
-                Library::open(Some(path), RTLD_NOW | RTLD_LOCAL)
-            }
-            #[cfg(windows)]
-            {
-                Library::load_with_flags(path, libloading::os::windows::LOAD_WITH_ALTERED_SEARCH_PATH)
-            }
-        };
+        let opened = unsafe { open(path) };
         let library =
             opened.map_err(|error| Error::Library { path: path.to_owned(), chain: Error::chain(&error) })?;
         let library: &'static Library = Box::leak(Box::new(library));

@@ -18,20 +18,7 @@ use tempfile::TempDir;
 
 use crate::{built, heliotorque, run, says, shown, text};
 
-const DESCRIPTION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
-<fmiModelDescription fmiVersion="2.0" modelName="Hostile" guid="{hostile}">
-  <CoSimulation modelIdentifier="Hostile" canHandleVariableCommunicationStepSize="true"/>
-  <LogCategories><Category name="logStatusError"/></LogCategories>
-  <DefaultExperiment startTime="0" stopTime="10" stepSize="1"/>
-  <ModelVariables>
-    <ScalarVariable name="x" valueReference="0" causality="output" initial="calculated"><Real/></ScalarVariable>
-  </ModelVariables>
-  <ModelStructure>
-    <Outputs><Unknown index="1"/></Outputs>
-    <InitialUnknowns><Unknown index="1"/></InitialUnknowns>
-  </ModelStructure>
-</fmiModelDescription>
-"#;
+const DESCRIPTION: &str = include_str!("../../hostile/modelDescription.xml");
 
 /// The time after which the test counts a command as hanging: far beyond what any of these takes.
 const LONG: Duration = Duration::from_secs(60);

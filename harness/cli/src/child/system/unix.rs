@@ -1,15 +1,26 @@
-//! What only the operating system does: process groups, orphans, limits, ends of processes.
+//! Unix: process groups, resource limits, signals.
 //!
 //! On Linux this process takes over what a child leaves behind, also in a session of its own (PR_SET_CHILD_SUBREAPER): once the
 //! child has ended, its descendants are children of this process, which ends them one generation after the other.
 
 use std::{
     fs::File,
-    io, mem,
+    io::{self, Read},
+    mem,
+    os::{
+        fd::{AsFd, OwnedFd},
+        unix::process::{CommandExt, ExitStatusExt},
+    },
     process::{Child, Command, ExitStatus},
     sync::{Mutex, MutexGuard, PoisonError},
     time::Duration,
 };
+
+use rustix::process::{
+    Pid, Resource, Rlimit, Signal, WaitId, WaitIdOptions, getrlimit, kill_process_group, setrlimit, waitid,
+};
+
+use crate::child::supervisor::Limits;
 
 /// How long the end of what a child left behind is waited for.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -21,13 +32,9 @@ fn groups() -> MutexGuard<'static, Vec<u32>> {
     GROUPS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Starts a child as the first of a process group of its own.
-pub(super) fn spawn(command: &mut Command) -> io::Result<Child> {
-    #[cfg(unix)]
-    {
-        use std::os::unix::process::CommandExt;
-        command.process_group(0);
-    }
+/// Starts a child as the first of a process group of its own; it takes its limits itself, by [`restrict`].
+pub(crate) fn spawn(command: &mut Command, _limits: Limits) -> io::Result<Child> {
+    command.process_group(0);
     // Held meanwhile, so that a signal finds every child.
     let mut groups = groups();
     orphans::adopt();
@@ -37,7 +44,7 @@ pub(super) fn spawn(command: &mut Command) -> io::Result<Child> {
 }
 
 /// Ends a child with all that it started and takes its exit status; also gives the processes that it left behind.
-pub(super) fn end(child: &mut Child) -> io::Result<(ExitStatus, Vec<String>)> {
+pub(crate) fn end(child: &mut Child) -> io::Result<(ExitStatus, Vec<String>)> {
     let mut groups = groups();
     // It may have ended by itself. While it is not waited for, its number is nobody else's.
     let _ = child.kill();
@@ -61,15 +68,9 @@ pub(crate) fn end_all() {
 
 /// Waits until a child that was killed has ended, without taking its exit status.
 fn wait_for_end(child: &Child) {
-    #[cfg(unix)]
-    {
-        use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
-        if let Some(pid) = i32::try_from(child.id()).ok().and_then(Pid::from_raw) {
-            let _ = waitid(WaitId::Pid(pid), WaitIdOptions::EXITED | WaitIdOptions::NOWAIT);
-        }
+    if let Some(pid) = i32::try_from(child.id()).ok().and_then(Pid::from_raw) {
+        let _ = waitid(WaitId::Pid(pid), WaitIdOptions::EXITED | WaitIdOptions::NOWAIT);
     }
-    #[cfg(not(unix))]
-    let _ = child;
 }
 
 /// Processes that lost their parent, a child of this one.
@@ -153,54 +154,32 @@ mod orphans {
     }
 }
 
-#[cfg(unix)]
 fn end_group(leader: u32) {
-    use rustix::process::{Pid, Signal, kill_process_group};
     if let Some(group) = i32::try_from(leader).ok().and_then(Pid::from_raw) {
         // Nobody of the group may be left.
         let _ = kill_process_group(group, Signal::KILL);
     }
 }
 
-#[cfg(not(unix))]
-fn end_group(_leader: u32) {}
-
 /// Whether a child has ended; its number stays its own until [`end`].
-#[cfg(unix)]
-pub(super) fn has_ended(child: &mut Child) -> io::Result<bool> {
-    use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
+pub(crate) fn has_ended(child: &mut Child) -> io::Result<bool> {
     let Some(pid) = i32::try_from(child.id()).ok().and_then(Pid::from_raw) else { return Ok(true) };
     let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
     Ok(waitid(WaitId::Pid(pid), options)?.is_some())
 }
 
-/// Whether a child has ended.
-#[cfg(not(unix))]
-pub fn has_ended(child: &mut Child) -> io::Result<bool> {
-    Ok(child.try_wait()?.is_some())
-}
-
 /// Takes the file that is the standard input; there is nothing to read then.
-pub(super) fn take_stdin() -> io::Result<File> {
-    #[cfg(unix)]
-    {
-        use std::os::fd::AsFd;
-        let file = File::from(io::stdin().as_fd().try_clone_to_owned()?);
-        rustix::stdio::dup2_stdin(File::open("/dev/null")?)?;
-        Ok(file)
-    }
-    #[cfg(not(unix))]
-    {
-        use std::os::windows::io::AsHandle;
-        Ok(File::from(io::stdin().as_handle().try_clone_to_owned()?))
-    }
+pub(crate) fn take_stdin() -> io::Result<File> {
+    let file = File::from(io::stdin().as_fd().try_clone_to_owned()?);
+    rustix::stdio::dup2_stdin(File::open("/dev/null")?)?;
+    Ok(file)
 }
 
 /// Ends this process when its parent ends, however that happens.
-pub(super) fn end_with_parent(parent: u64) -> io::Result<()> {
+pub(crate) fn end_with_parent(parent: u64) -> io::Result<()> {
     #[cfg(target_os = "linux")]
     {
-        use rustix::process::{Signal, getppid, set_parent_process_death_signal};
+        use rustix::process::{getppid, set_parent_process_death_signal};
         set_parent_process_death_signal(Some(Signal::KILL))?;
         let now = getppid().map(|pid| pid.as_raw_nonzero().get());
         if now.and_then(|pid| u64::try_from(pid).ok()) != Some(parent) {
@@ -212,58 +191,65 @@ pub(super) fn end_with_parent(parent: u64) -> io::Result<()> {
 }
 
 /// Limits what this process may allocate, in bytes, and how many files it may keep open; 0 is no limit.
-pub(super) fn restrict(memory: u64, files: u64) -> io::Result<()> {
-    #[cfg(unix)]
-    {
-        use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
-        for (resource, limit) in [(Resource::Data, memory), (Resource::Nofile, files)] {
-            let before = getrlimit(resource);
-            let within = |bound: Option<u64>| bound.is_none_or(|bound| limit < bound);
-            if limit > 0 && within(before.maximum) {
-                setrlimit(resource, Rlimit { current: Some(limit), maximum: Some(limit) })?;
-            }
-        }
-        if memory > 0 {
-            // What is expected to crash leaves no image of its memory.
-            setrlimit(Resource::Core, Rlimit { current: Some(0), maximum: Some(0) })?;
+pub(crate) fn restrict(memory: u64, files: u64) -> io::Result<()> {
+    for (resource, limit) in [(Resource::Data, memory), (Resource::Nofile, files)] {
+        let before = getrlimit(resource);
+        let within = |bound: Option<u64>| bound.is_none_or(|bound| limit < bound);
+        if limit > 0 && within(before.maximum) {
+            setrlimit(resource, Rlimit { current: Some(limit), maximum: Some(limit) })?;
         }
     }
-    let _ = (memory, files);
+    if memory > 0 {
+        // What is expected to crash leaves no image of its memory.
+        setrlimit(Resource::Core, Rlimit { current: Some(0), maximum: Some(0) })?;
+    }
     Ok(())
 }
 
-/// Makes reading from a child's pipe return at once when there is nothing.
-#[cfg(unix)]
-pub(super) fn never_wait(pipe: &impl std::os::fd::AsFd) -> io::Result<()> {
-    Ok(rustix::io::ioctl_fionbio(pipe, true)?)
+/// What a child has allocated: not looked at, for the child's own limit holds it back.
+pub(crate) fn committed_bytes(_child: &Child) -> Option<u64> {
+    None
+}
+
+/// What a child prints; reading returns at once when there is nothing.
+pub(crate) struct Pipe(File);
+
+impl Pipe {
+    /// Takes a stream of a child.
+    pub(crate) fn new(stream: impl Into<OwnedFd>) -> io::Result<Self> {
+        let pipe = File::from(stream.into());
+        rustix::io::ioctl_fionbio(&pipe, true)?;
+        Ok(Self(pipe))
+    }
+}
+
+impl Read for Pipe {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.0.read(buffer)
+    }
 }
 
 /// Waits until one of the pipes has something to read or is closed, at most this long.
-#[cfg(unix)]
-pub(super) fn wait_for<'p>(pipes: impl Iterator<Item = &'p File>, longest: std::time::Duration) {
+pub(crate) fn wait_for<'p>(pipes: impl Iterator<Item = &'p Pipe>, longest: Duration) {
     use rustix::event::{PollFd, PollFlags, Timespec, poll};
-    let mut pipes: Vec<_> = pipes.map(|pipe| PollFd::new(pipe, PollFlags::IN)).collect();
+    let mut pipes: Vec<_> = pipes.map(|pipe| PollFd::new(&pipe.0, PollFlags::IN)).collect();
     // A signal ends the wait early, which does no harm.
     let _ = poll(&mut pipes, Timespec::try_from(longest).ok().as_ref());
 }
 
 /// How a process ended, for people.
-pub(super) fn how(status: ExitStatus) -> String {
-    #[cfg(unix)]
-    {
-        use std::os::unix::process::ExitStatusExt;
-        if let Some(signal) = status.signal() {
-            let name = match signal {
-                4 => " (illegal instruction)",
-                6 => " (abort)",
-                7 | 10 => " (bus error)",
-                8 => " (arithmetic)",
-                9 => " (killed)",
-                11 => " (segmentation fault)",
-                _ => "",
-            };
-            return format!("signal {signal}{name}");
-        }
+pub(crate) fn how(status: ExitStatus) -> String {
+    if let Some(signal) = status.signal() {
+        let name = match signal {
+            4 => " (illegal instruction)",
+            6 => " (abort)",
+            7 | 10 => " (bus error)",
+            8 => " (arithmetic)",
+            9 => " (killed)",
+            11 => " (segmentation fault)",
+            _ => "",
+        };
+        return format!("signal {signal}{name}");
     }
     match status.code() {
         Some(code) => format!("it exited with status {code}"),

@@ -1,0 +1,46 @@
+//! The program on Windows, tested under Wine.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use crate::build::Built;
+use crate::platforms::{WINDOWS, mingw};
+use crate::shell::{Outcome, run, target};
+use crate::test;
+
+/// Crates whose unit tests ask the operating system for something.
+const OF_THE_SYSTEM: &str = "-p files -p loader -p fmi-export -p heliotorque";
+
+/// Runs the tests of program and libraries for Windows under Wine; everything is built and packed.
+pub(crate) fn test(built: &Built) -> Outcome {
+    run(mingw(
+        &format!("test --locked --release --all-features --lib --bins {OF_THE_SYSTEM}"),
+        WINDOWS.target,
+    )
+    .envs(wine()))?;
+    let environment = test::environment(built)?.into_iter().map(|(name, it)| (name, it.into()));
+    let windows = [("HELIOTORQUE_WINDOWS", shipped()?.into())];
+    test::python_file("test_windows.py", environment.chain(windows).chain(wine()))
+}
+
+/// Program and libraries in one folder.
+fn shipped() -> Result<PathBuf, String> {
+    let folder = target().join("windows");
+    let Built { heliotorque, library, probe, .. } = WINDOWS.built();
+    std::fs::create_dir_all(&folder)
+        .map_err(|error| format!("cannot create {}: {error}", folder.display()))?;
+    for from in [heliotorque, library, probe] {
+        let to = folder.join(from.file_name().unwrap_or_default());
+        std::fs::copy(&from, to).map_err(|error| format!("{}: {error}", from.display()))?;
+    }
+    Ok(folder)
+}
+
+/// Wine with a registry of its own, which is silent and offers nothing to install.
+pub(crate) fn wine() -> [(&'static str, OsString); 3] {
+    [
+        ("WINEPREFIX", target().join("wine").into()),
+        ("WINEDEBUG", "-all".into()),
+        ("WINEDLLOVERRIDES", "mscoree,mshtml=".into()),
+    ]
+}
