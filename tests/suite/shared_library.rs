@@ -80,10 +80,8 @@ fn of_platform(library: &Path, target: &str, name: &str) -> Option<PathBuf> {
     path.exists().then_some(path)
 }
 
-const OF_LINUX: [(&str, &str); 2] = [
-    ("x86_64-unknown-linux-gnu", "libheliotorque.so"),
-    ("aarch64-unknown-linux-gnu", "libheliotorque.so"),
-];
+const OF_LINUX: [(&str, &str); 2] =
+    [("x86_64-unknown-linux-gnu", "libheliotorque.so"), ("aarch64-unknown-linux-gnu", "libheliotorque.so")];
 const OF_WINDOWS: (&str, &str) = ("x86_64-win7-windows-gnu", "heliotorque.dll");
 
 /// The rounding of these is the system's own: with one of them, results would hang on the platform.
@@ -114,8 +112,15 @@ fn the_libraries_for_old_systems_ask_for_no_later_glibc() {
 /// What Windows 7 has, without anything of mingw.
 #[test]
 fn the_library_for_windows_needs_windows_alone() {
-    const OF_THE_SYSTEM: [&str; 7] =
-        ["advapi32.dll", "kernel32.dll", "msvcrt.dll", "ntdll.dll", "user32.dll", "userenv.dll", "ws2_32.dll"];
+    const OF_THE_SYSTEM: [&str; 7] = [
+        "advapi32.dll",
+        "kernel32.dll",
+        "msvcrt.dll",
+        "ntdll.dll",
+        "user32.dll",
+        "userenv.dll",
+        "ws2_32.dll",
+    ];
     let Some(library) = built("HELIOTORQUE_LIBRARY") else { return };
     let Some(library) = of_platform(&library, OF_WINDOWS.0, OF_WINDOWS.1) else { return };
     let requirements = Requirements::read(&library).unwrap();

@@ -84,7 +84,10 @@ fn libraries_of_other_platforms_stand_in_their_folders() {
     let own = format!("binaries/{}/AllTypes{}", loader::platform_folders()[0], std::env::consts::DLL_SUFFIX);
     assert_eq!(binaries(&fmu), [own.clone(), "binaries/win64/AllTypes.dll".to_owned()]);
     let text = run(&["info", shown(&fmu)], 0);
-    says(&text, &["platforms", &format!("{}, win64", loader::platform_folders()[0]), "PE x86-64; needs no library"]);
+    says(
+        &text,
+        &["platforms", &format!("{}, win64", loader::platform_folders()[0]), "PE x86-64; needs no library"],
+    );
     says(&run(&["check", shown(&fmu), "--static"], 0), &["0 wrong"]);
 
     // A template keeps them all.

@@ -1,4 +1,4 @@
-//! The C interface of FMI 2.0, seen from the importer: the only unsafe code of the harness.
+//! The C interface of FMI 2.0, seen from the importer: the only unsafe code of the harness beside the program's calls of Win32.
 //!
 //! [`Binary`] is a loaded shared library with its functions bound to their types; [`Component`] is one instance
 //! in it; [`SharedWords`] is memory shared with another process. All are safe to use from outside this folder: lengths are
