@@ -41,6 +41,9 @@ def server(built):
     # It waits for one that runs already, which serves as well.
     with contextlib.suppress(subprocess.TimeoutExpired):
         subprocess.run(["wineserver", "-p120"], check=False, env=os.environ | windows.QUIET, timeout=5)
+    # Wine's services keep the streams of the first program, so nobody may wait for their end.
+    nothing = subprocess.DEVNULL
+    subprocess.run(["wine", "cmd", "/c", "ver"], check=False, env=os.environ | windows.QUIET, stdin=nothing, stdout=nothing, stderr=nothing)
 
 
 @pytest.fixture
