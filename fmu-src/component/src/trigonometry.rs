@@ -6,24 +6,36 @@
 
 use core::arch::global_asm;
 
+#[cfg(target_arch = "x86_64")]
+macro_rules! jump {
+    () => {
+        "jmp {function}"
+    };
+}
+#[cfg(target_arch = "aarch64")]
+macro_rules! jump {
+    () => {
+        "b {function}"
+    };
+}
+
 macro_rules! functions {
     ($($symbol:literal = $function:ident($of_physics:path);)+) => {$(
-        #[cfg(target_arch = "x86_64")]
+        #[cfg(target_os = "linux")]
         global_asm!(
             concat!(".globl ", $symbol),
             concat!(".hidden ", $symbol),
             concat!(".type ", $symbol, ", @function"),
             concat!($symbol, ":"),
-            "jmp {function}",
+            jump!(),
             function = sym $function,
         );
-        #[cfg(target_arch = "aarch64")]
+        // A DLL shows what it exports alone.
+        #[cfg(target_os = "windows")]
         global_asm!(
             concat!(".globl ", $symbol),
-            concat!(".hidden ", $symbol),
-            concat!(".type ", $symbol, ", @function"),
             concat!($symbol, ":"),
-            "b {function}",
+            jump!(),
             function = sym $function,
         );
 
