@@ -9,6 +9,7 @@ pub const ANNOTATION: &str = "io.github.heliotorque";
 
 mod destination;
 mod entries;
+mod identity;
 mod input;
 mod system;
 mod temporary;

@@ -5,6 +5,7 @@
 //! FMU prints goes through pipes of its own and is never taken for a frame.
 
 mod channel;
+mod limits;
 mod printed;
 mod relayed;
 mod supervisor;
@@ -13,9 +14,10 @@ mod system;
 use std::{ffi::OsString, path::Path};
 
 pub(crate) use channel::{Link, NOT_REQUESTED, Payload, push_text};
+pub(crate) use limits::{LARGE, SMALL};
 pub(crate) use printed::Shown;
 pub(crate) use relayed::{Relayed, is_child, serve};
-pub(crate) use supervisor::{Bounds, ChildProcess, EndReason, LARGE, SMALL};
+pub(crate) use supervisor::{Bounds, ChildProcess, EndReason};
 pub(crate) use system::end_all;
 
 /// An option with a path, which may hold any bytes.

@@ -15,8 +15,9 @@ use terminal::{Relay, Screen};
 
 use super::{
     channel::{Link, NOT_REQUESTED, Payload, push_bytes, push_text},
+    limits::Limits,
     printed::Shown,
-    supervisor::{Bounds, ChildProcess, Limits},
+    supervisor::{Bounds, ChildProcess},
 };
 use crate::{interrupt::INTERRUPTED, outcome::Outcome};
 

@@ -12,6 +12,7 @@ use loader::{CallRecord, RecordedCalls};
 
 use super::{
     channel::{Inbox, Payload, RING_WORDS},
+    limits::Limits,
     printed::Printed,
     system,
 };
@@ -26,20 +27,6 @@ const MANY: usize = RING_WORDS / 8;
 const GRACE: Duration = Duration::from_secs(2);
 /// How long a child that was requested to end may take: who presses Ctrl-C waits less than a second.
 const CANCEL_GRACE: Duration = Duration::from_millis(500);
-
-/// What the child's process may take of the computer.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Limits {
-    /// Bytes that it may allocate.
-    pub memory: Option<u64>,
-    /// Files that it may keep open.
-    pub files: Option<u64>,
-}
-
-/// Enough for every FMU that is looked at and not simulated long: memory in bytes, open files.
-pub(crate) const SMALL: Limits = Limits { memory: Some(4 << 30), files: Some(1024) };
-/// For flights of any length, of systems too: what allocates without end ends before the computer does.
-pub(crate) const LARGE: Limits = Limits { memory: Some(16 << 30), files: None };
 
 /// What the parent ends the child for.
 #[derive(Clone, Copy, Debug, Default)]

@@ -17,12 +17,3 @@ pub use windows::canonical;
 pub(crate) use windows::{
     explained, identity, identity_of_link, identity_of_open, lock_folder, open_alone, rename,
 };
-
-/// A file, under whatever name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Identity {
-    /// The disk and the number on it.
-    pub place: (u64, u64),
-    /// How many names it has.
-    pub names: u64,
-}

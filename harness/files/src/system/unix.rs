@@ -7,7 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::Identity;
+use crate::identity::Identity;
 
 fn of(metadata: &Metadata) -> Identity {
     Identity { place: (metadata.dev(), metadata.ino()), names: metadata.nlink() }

@@ -9,7 +9,7 @@ use std::{
 
 use winapi_util::file::information;
 
-use super::Identity;
+use crate::identity::Identity;
 
 /// CreateFileW's share modes, and its flags to open folders and links themselves.
 const FILE_SHARE_READ: u32 = 0x1;

@@ -50,9 +50,9 @@ fn write_motion(context: &Plan<'_>, values: &mut Values, report: &Report<'_>) {
     values.set_vector(variables.force.thruster, own.force_body_n.into());
     values.set_vector(variables.torque.total, total.torque_body_n_m.into());
     values.set_vector(variables.force.total, total.force_body_n.into());
-    let force_inertial_n = rotation * total.force_body_n;
+    let [force_inertial_n, acceleration_inertial_m_s2] = evaluation.force_and_acceleration_inertial();
     values.set_vector(variables.force.inertial, force_inertial_n.into());
-    values.set_vector(variables.acceleration, (force_inertial_n / mass.mass_kg).into());
+    values.set_vector(variables.acceleration, acceleration_inertial_m_s2.into());
 
     let sun = SunAngles::of(&instant.sun_body);
     let planet_body_m = instant.planet_body_m.unwrap_or_default();

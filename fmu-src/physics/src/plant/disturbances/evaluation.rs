@@ -91,9 +91,10 @@ impl Evaluation {
         self.mass.inertia_body_kg_m2 * self.instant.frame.rate_body_rad_s + self.panels_body_n_m_s
     }
 
-    /// Force of all effects, EME2000, in N.
-    pub fn force_inertial_n(&self) -> Vector3<f64> {
-        self.instant.frame.inertial_from_body * self.loads.total().force_body_n
+    /// Force of all effects in N and the acceleration of the spacecraft by it in m/s2, EME2000.
+    pub fn force_and_acceleration_inertial(&self) -> [Vector3<f64>; 2] {
+        let force_inertial_n = self.instant.frame.inertial_from_body * self.loads.total().force_body_n;
+        [force_inertial_n, force_inertial_n / self.mass.mass_kg]
     }
 
     /// Velocity relative to the air, body frame, in m/s; zero without a planet.
@@ -104,11 +105,6 @@ impl Evaluation {
     /// Magnetic field, body frame, in T.
     pub fn field_body_t(&self) -> Vector3<f64> {
         self.instant.to_body * self.air_and_field.field_inertial_t
-    }
-
-    /// Acceleration of a spacecraft of this mass by all effects, EME2000, in m/s2.
-    pub fn acceleration_inertial_m_s2(&self, mass_kg: f64) -> Vector3<f64> {
-        self.force_inertial_n() / mass_kg
     }
 }
 
@@ -430,13 +426,14 @@ impl TorqueModel for Plant<'_> {
 
     fn sample(&mut self, time_s: f64) -> Sample {
         let evaluation = self.evaluate(time_s);
+        let [_, acceleration_inertial_m_s2] = evaluation.force_and_acceleration_inertial();
         Sample {
             inertial_from_body: evaluation.instant.frame.inertial_from_body,
             rate_body_rad_s: evaluation.instant.frame.rate_body_rad_s,
             structure_body_n_m_s: self.has_panel_mass().then(|| evaluation.structure_body_n_m_s()),
             torque_body_n_m: evaluation.loads.total().torque_body_n_m,
             by_source_body_n_m: torques_body_n_m(&evaluation.loads, self.kinematics.configuration.effects),
-            acceleration_inertial_m_s2: evaluation.acceleration_inertial_m_s2(evaluation.mass.mass_kg),
+            acceleration_inertial_m_s2,
             events: evaluation.instant.events,
         }
     }

@@ -20,7 +20,7 @@ use rustix::process::{
     Pid, Resource, Rlimit, Signal, WaitId, WaitIdOptions, getrlimit, kill_process_group, setrlimit, waitid,
 };
 
-use crate::child::supervisor::Limits;
+use crate::child::limits::Limits;
 
 /// How long the end of what a child left behind is waited for.
 const PATIENCE: Duration = Duration::from_millis(500);

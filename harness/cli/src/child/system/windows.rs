@@ -49,7 +49,7 @@ use windows_sys::Win32::{
     },
 };
 
-use crate::child::supervisor::Limits;
+use crate::child::limits::Limits;
 
 /// How long the end of what a child left behind is waited for, and the time between two looks.
 const PATIENCE: Duration = Duration::from_millis(500);
