@@ -419,6 +419,11 @@ BENCHMARKS = {
     "`plan momentum` of these 200 days: tilt and alternation alone, with the fewest changes of the arrays too": [
         "plan_cruise_200_days_convex", "plan_cruise_200_days_counted_changes",
     ],
+    "200 days between planets (`orbit.dynamics` nBody), `heliotorque run` of the mission": ["n_body_200_days", "n_body_200_days_peak"],
+    "`plan flyby` of the leg to the second flyby of Mercury, an aim 170 km off: offsets and tilts of 11 windows from 111 days before on, with its flights": [
+        "plan_flyby_170_km",
+    ],
+    "the same with 1,000 dispersed flights of 201 days each": ["plan_flyby_1000_dispersed_legs"],
     "`refit` of ten days, 1,441 rows, nine flights": ["refit_10_days_1441_rows"],
     "`sweep` of `examples/campaign.toml`, 1,000 flights of ten days in one step each": [
         "sweep_1000_flights_of_10_days_processor_time", "sweep_over_c_loop_processor_time", "sweep_two_workers_over_one",
