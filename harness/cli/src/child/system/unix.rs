@@ -48,7 +48,7 @@ pub(crate) fn end(child: &mut Child) -> io::Result<(ExitStatus, Vec<String>)> {
     let mut groups = groups();
     // It may have ended by itself. While it is not waited for, its number is nobody else's.
     let _ = child.kill();
-    wait_for_end(child);
+    wait_for_end(child.id());
     groups.retain(|group| *group != child.id());
     let left = orphans::end(PATIENCE, |number| number == child.id() || groups.contains(&number));
     end_group(child.id());
@@ -60,6 +60,8 @@ pub(crate) fn end_all() {
     let mut groups = groups();
     let leaders = mem::take(&mut *groups);
     leaders.iter().for_each(|leader| end_group(*leader));
+    // Only then do those that left a group become orphans.
+    leaders.iter().for_each(|leader| wait_for_end(*leader));
     if !leaders.is_empty() {
         orphans::end(PATIENCE, |_| false);
     }
@@ -67,8 +69,8 @@ pub(crate) fn end_all() {
 }
 
 /// Waits until a child that was killed has ended, without taking its exit status.
-fn wait_for_end(child: &Child) {
-    if let Some(pid) = i32::try_from(child.id()).ok().and_then(Pid::from_raw) {
+fn wait_for_end(child: u32) {
+    if let Some(pid) = i32::try_from(child).ok().and_then(Pid::from_raw) {
         let _ = waitid(WaitId::Pid(pid), WaitIdOptions::EXITED | WaitIdOptions::NOWAIT);
     }
 }
