@@ -29,6 +29,11 @@ const SHIPPED: &[Shipped] = &[
     ("MessengerLight", "DisturbanceTorque", "messenger-full.toml", "--set shadowing.enabled=true"),
 ];
 
+/// Names of the shipped FMUs.
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
+    SHIPPED.iter().map(|(name, ..)| *name)
+}
+
 /// Builds, then packs everything that is shipped.
 pub(crate) fn dist() -> Result<Built, String> {
     let built = build()?;

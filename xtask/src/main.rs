@@ -1,6 +1,5 @@
 //! `cargo xtask demo | test [--long | --all-platforms | NAME] | bless | env | dist | wheel | install | bench [PART...] | guide | notices`: the project's own chores. No dependencies; spawns cargo and python.
 
-mod across;
 mod archives;
 mod bench;
 mod build;
@@ -10,6 +9,7 @@ mod install;
 mod locale;
 mod long;
 mod notices;
+mod platform_tests;
 mod platforms;
 mod python;
 mod selected;
@@ -68,7 +68,7 @@ fn main() -> ExitCode {
     let outcome = match task.as_str() {
         "demo" => demo(),
         "test" if option == Some("--long") => long::all(),
-        "test" if option == Some(ALL_PLATFORMS) => across::all(),
+        "test" if option == Some(ALL_PLATFORMS) => platform_tests::all(),
         "test" => match option {
             None => test::all(),
             Some(option) if option.starts_with('-') => {

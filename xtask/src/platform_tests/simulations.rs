@@ -4,18 +4,19 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::build::scratch;
+use crate::dist;
 
 /// Inputs of a simulation.
 #[derive(Clone, Copy)]
 enum Inputs {
     None,
-    /// Those of the reference flight that the FMU carries, for its time.
+    /// Inputs of the reference trajectory in the FMU, for its duration.
     OfReference,
     /// A CSV.
     Rows(&'static str),
 }
 
-/// What stands behind an option of the C master.
+/// Argument of an option of the C master.
 pub(super) enum Value {
     Text(String),
     File(PathBuf),
@@ -23,26 +24,14 @@ pub(super) enum Value {
 
 /// A simulation of an FMU of `dist/` to the stop of its default experiment.
 #[derive(Clone, Copy)]
-pub(super) struct Flight {
+pub(super) struct Simulation {
     pub fmu: &'static str,
     inputs: Inputs,
     sets: &'static [&'static str],
     what: &'static str,
 }
 
-/// The shipped FMUs.
-const SHIPPED: [&str; 8] = [
-    "MomentumPlant",
-    "SpinPlant",
-    "DisturbanceTorque",
-    "Guidance",
-    "FlexibleCraft",
-    "MessengerFull",
-    "Cubesat",
-    "MessengerLight",
-];
-
-/// Steps of a reference flight.
+/// Steps of a reference trajectory.
 const REFERENCE_STEPS: u32 = 40;
 
 /// Two burns in 90 days.
@@ -55,7 +44,7 @@ time,maneuver.request,maneuver.deltaV[1],maneuver.deltaV[2],maneuver.deltaV[3]
 5187600,0,0,0,0
 ";
 
-const WITH_EVERYTHING: Flight = Flight {
+const WITH_EVERYTHING: Simulation = Simulation {
     fmu: "MomentumPlant",
     inputs: Inputs::Rows(BURNS),
     sets: &[
@@ -69,24 +58,24 @@ const WITH_EVERYTHING: Flight = Flight {
     what: "90 days with dumps, burns, planet light and heat",
 };
 
-/// Those whose state goes on on another platform.
-pub(super) const SAVED: &[Flight] = &[of_default("SpinPlant"), of_reference("Guidance")];
+/// Simulations whose state is restored on another platform.
+pub(super) const SAVED: &[Simulation] = &[of_default("SpinPlant"), of_reference("Guidance")];
 
-const fn of_default(fmu: &'static str) -> Flight {
-    Flight { fmu, inputs: Inputs::None, sets: &[], what: "default experiment" }
+const fn of_default(fmu: &'static str) -> Simulation {
+    Simulation { fmu, inputs: Inputs::None, sets: &[], what: "default experiment" }
 }
 
-const fn of_reference(fmu: &'static str) -> Flight {
-    Flight { fmu, inputs: Inputs::OfReference, sets: &[], what: "inputs of its reference flight" }
+const fn of_reference(fmu: &'static str) -> Simulation {
+    Simulation { fmu, inputs: Inputs::OfReference, sets: &[], what: "inputs of its reference flight" }
 }
 
 /// All simulations.
-pub(super) fn all() -> impl Iterator<Item = Flight> {
-    SHIPPED.into_iter().flat_map(|fmu| [of_default(fmu), of_reference(fmu)]).chain([WITH_EVERYTHING])
+pub(super) fn all() -> impl Iterator<Item = Simulation> {
+    dist::names().flat_map(|fmu| [of_default(fmu), of_reference(fmu)]).chain([WITH_EVERYTHING])
 }
 
-impl Flight {
-    pub(super) fn shown(&self) -> String {
+impl Simulation {
+    pub(super) fn label(&self) -> String {
         format!("{}, {}", self.fmu, self.what)
     }
 
@@ -102,7 +91,7 @@ impl Flight {
                 options.push(("--steps", Value::Text(REFERENCE_STEPS.to_string())));
             }
             Inputs::Rows(text) => {
-                let path = scratch("across")?.join("inputs.csv");
+                let path = scratch("platforms")?.join("inputs.csv");
                 fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
                 options.push(("--inputs", Value::File(path)));
             }

@@ -1,8 +1,8 @@
 //! `cargo xtask test --all-platforms`: the same bits on every platform, states of one on another, programs and wheels of each.
 //!
-//! Windows is wine here, Arm is qemu: neither is the real machine.
+//! Windows is emulated by Wine, Arm by QEMU.
 
-mod flights;
+mod simulations;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,15 +14,15 @@ use crate::platforms::{ALL, ARM, Platform, WINDOWS};
 use crate::shell::{Outcome, command, output, root, run};
 use crate::test::{CCompiler, compile_c_for};
 use crate::{archives, tools, windows};
-use flights::{Flight, SAVED, Value};
+use simulations::{SAVED, Simulation, Value};
 
-/// Where the C library of Arm stands.
+/// Folder of the C library for Arm.
 const ARM_LIBRARIES: (&str, &str) = ("QEMU_LD_PREFIX", "/usr/aarch64-linux-gnu");
 
-/// An FMU that the program of each platform simulates and checks.
+/// FMU that the program of each platform simulates and checks.
 const SIMULATED: &str = "MomentumPlant";
 
-/// Builds for all platforms and runs everything; what this machine lacks is named before anything is built.
+/// Builds for all platforms and runs all tests; missing tools are reported first.
 pub(crate) fn all() -> Outcome {
     let missing = [
         tools::need(&[&tools::MINGW, &tools::WINE, &tools::ARM_GCC, &tools::QEMU]),
@@ -40,7 +40,7 @@ pub(crate) fn all() -> Outcome {
     if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }
 
-/// The wheels install each on its platform, and their programs simulate their FMUs.
+/// Installs the wheel of each platform and simulates with its program.
 fn wheels(machines: &[Machine], built: &Built) -> Outcome {
     archives::write_wheels(built)?;
     archives::try_wheel()?;
@@ -52,7 +52,7 @@ fn wheels(machines: &[Machine], built: &Built) -> Outcome {
     })
 }
 
-/// A platform on which programs run here, and its build of the C master.
+/// A platform and its build of the C master.
 struct Machine {
     platform: &'static Platform,
     master: PathBuf,
@@ -73,7 +73,7 @@ impl Machine {
         Ok(Self { platform, master: compile_c_for(&compiler, scratch, ("flight", &called), &[])? })
     }
 
-    /// A program of this platform, as it is started here.
+    /// Command that runs a program of this platform on the host.
     fn start(&self, program: &Path) -> Command {
         if self.platform.folder == WINDOWS.folder {
             let mut started = command(tools::WINE.program);
@@ -87,15 +87,15 @@ impl Machine {
         started
     }
 
-    /// A path as programs of this platform take it.
+    /// A path in the notation of this platform.
     fn path(&self, path: &Path) -> String {
         let path = path.display().to_string();
         if self.platform.folder == WINDOWS.folder { format!("Z:{}", path.replace('/', "\\")) } else { path }
     }
 
-    /// What the C master prints of a simulation.
-    fn fly(&self, flight: &Prepared, state: Option<(&str, &Path)>) -> Result<String, String> {
-        let Prepared { name, folder, options } = flight;
+    /// Runs the C master and returns its output.
+    fn simulate(&self, simulation: &Prepared, state: Option<(&str, &Path)>) -> Result<String, String> {
+        let Prepared { name, folder, options } = simulation;
         let library = format!("{name}{}", self.platform.library_suffix());
         let library = folder.join("binaries").join(self.platform.folder).join(library);
         let drive = if self.platform.folder == WINDOWS.folder { "/Z:" } else { "" };
@@ -115,7 +115,7 @@ impl Machine {
     }
 }
 
-/// A simulation whose files stand ready.
+/// A simulation with its FMU unpacked.
 struct Prepared {
     name: &'static str,
     folder: PathBuf,
@@ -123,13 +123,13 @@ struct Prepared {
 }
 
 impl Prepared {
-    fn new(flight: &Flight) -> Result<Self, String> {
-        let folder = unpacked(flight.fmu)?;
-        Ok(Self { name: flight.fmu, options: flight.options(&folder)?, folder })
+    fn new(simulation: &Simulation) -> Result<Self, String> {
+        let folder = unpacked(simulation.fmu)?;
+        Ok(Self { name: simulation.fmu, options: simulation.options(&folder)?, folder })
     }
 }
 
-/// The folder of an FMU of `dist/`, unpacked anew if that has changed.
+/// Folder with an FMU of `dist/`, unpacked again where that has changed.
 fn unpacked(fmu: &str) -> Result<PathBuf, String> {
     let archive = root().join("dist").join(format!("{fmu}.fmu"));
     let folder = scratch("unpacked")?.join(fmu);
@@ -144,37 +144,38 @@ fn unpacked(fmu: &str) -> Result<PathBuf, String> {
 }
 
 fn machines() -> Result<Vec<Machine>, String> {
-    let scratch = scratch("across")?;
+    let scratch = scratch("platforms")?;
     ALL.iter().map(|platform| Machine::new(platform, &scratch)).collect()
 }
 
-/// Every flight on every platform, then states of each on each; prints a table.
+/// Every simulation on every platform, then the states of each restored on each; prints a table.
 fn same_bits(machines: &[Machine]) -> Outcome {
     let mut table = Table::new();
-    for flight in flights::all() {
-        let prepared = Prepared::new(&flight)?;
-        let found = each(machines, |machine| machine.fly(&prepared, None))?;
-        table.add(&flight.shown(), machines, &found);
+    for simulation in simulations::all() {
+        let prepared = Prepared::new(&simulation)?;
+        let found = each(machines, |machine| machine.simulate(&prepared, None))?;
+        table.add(&simulation.label(), machines, &found);
     }
-    let folder = scratch("across")?;
-    for flight in SAVED {
-        let prepared = Prepared::new(flight)?;
+    let folder = scratch("platforms")?;
+    for simulation in SAVED {
+        let prepared = Prepared::new(simulation)?;
         let state =
-            |machine: &Machine| folder.join(format!("{}-{}.state", flight.fmu, machine.platform.folder));
-        let onward = each(machines, |machine| machine.fly(&prepared, Some(("--save", &state(machine)))))?;
+            |machine: &Machine| folder.join(format!("{}-{}.state", simulation.fmu, machine.platform.folder));
+        let uninterrupted =
+            each(machines, |machine| machine.simulate(&prepared, Some(("--save", &state(machine)))))?;
         for writer in machines {
             let mut found =
-                each(machines, |reader| reader.fly(&prepared, Some(("--restore", &state(writer)))))?;
+                each(machines, |reader| reader.simulate(&prepared, Some(("--restore", &state(writer)))))?;
             // Against the simulation that was never interrupted.
-            found.insert(0, onward[0].clone());
-            let shown = format!("{}, state of {}", flight.shown(), writer.platform.folder);
-            table.add(&shown, machines, &found);
+            found.insert(0, uninterrupted[0].clone());
+            let label = format!("{}, state of {}", simulation.label(), writer.platform.folder);
+            table.add(&label, machines, &found);
         }
     }
     table.finish()
 }
 
-/// The same on every machine at a time.
+/// Runs `work` for all machines in parallel.
 fn each<T: Send>(
     machines: &[Machine],
     work: impl Fn(&Machine) -> Result<T, String> + Sync,
@@ -203,17 +204,17 @@ impl Table {
     }
 
     /// Compares the last of `found`, one a machine, with the first of all.
-    fn add(&mut self, shown: &str, machines: &[Machine], found: &[String]) {
+    fn add(&mut self, label: &str, machines: &[Machine], found: &[String]) {
         let expected: Vec<&str> = found[0].lines().collect();
         let points = expected[0].split(' ').next().unwrap_or_default();
-        let mut row = format!("| {shown} | {points} | {} |", expected.len() - 1);
+        let mut row = format!("| {label} | {points} | {} |", expected.len() - 1);
         for (machine, found) in machines.iter().zip(&found[found.len() - machines.len()..]) {
             let different: Vec<String> = differences(&expected, found);
             let verdict =
                 if different.is_empty() { "equal".to_owned() } else { format!("{} differ", different.len()) };
             row.push_str(&format!(" {verdict} |"));
             self.different
-                .extend(different.iter().map(|it| format!("{shown}, {}: {it}", machine.platform.folder)));
+                .extend(different.iter().map(|it| format!("{label}, {}: {it}", machine.platform.folder)));
         }
         eprintln!("{row}");
         self.text.push_str(&row);
@@ -223,7 +224,7 @@ impl Table {
     fn finish(self) -> Outcome {
         println!("{}", self.text);
         let failed = |error: std::io::Error| format!("the table of bits: {error}");
-        fs::write(scratch("across")?.join("bits.md"), &self.text).map_err(failed)?;
+        fs::write(scratch("platforms")?.join("bits.md"), &self.text).map_err(failed)?;
         if self.different.is_empty() { Ok(()) } else { Err(self.different.join("\n")) }
     }
 }
@@ -238,10 +239,10 @@ fn differences(expected: &[&str], found: &str) -> Vec<String> {
     pairs.map(|(expected, found)| format!("{found}, expected {expected}")).collect()
 }
 
-/// The program of each platform simulates and checks an FMU; its recording is this computer's, byte for byte.
+/// The program of each platform simulates and checks an FMU; its recording equals the host's byte for byte.
 fn programs(machines: &[Machine], built: &Built) -> Outcome {
     let fmu = root().join("dist").join(format!("{SIMULATED}.fmu"));
-    let folder = scratch("across")?;
+    let folder = scratch("platforms")?;
     let mut first: Option<Vec<u8>> = None;
     for (machine, it) in machines.iter().zip(built.each()) {
         let recording = folder.join(format!("{}.csv", machine.platform.folder));
@@ -254,7 +255,7 @@ fn programs(machines: &[Machine], built: &Built) -> Outcome {
             .arg(machine.path(&recording)))?;
         let bytes = fs::read(&recording).map_err(|error| format!("{}: {error}", recording.display()))?;
         if bytes != *first.get_or_insert_with(|| bytes.clone()) {
-            return Err(format!("{}: not what this computer's program recorded", recording.display()));
+            return Err(format!("{}: differs from the recording of the host's program", recording.display()));
         }
         run(machine.start(&it.heliotorque).arg("check").arg(machine.path(&fmu)))?;
     }
