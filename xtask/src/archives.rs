@@ -1,4 +1,4 @@
-//! What is installed on each platform, as archives and as wheels in `dist/`.
+//! Installation of each platform, as archives and as wheels in `dist/`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ pub(crate) fn write(built: &Built) -> Outcome {
     Ok(())
 }
 
-/// Builds for every platform and writes a wheel of each, then tries this computer's.
+/// Builds for every platform, writes the wheels, then tests the host's.
 pub(crate) fn wheels() -> Outcome {
     let built = dist::all_platforms()?;
     write_wheels(&built)?;
@@ -57,14 +57,14 @@ pub(crate) fn write_wheels(built: &Built) -> Outcome {
     Ok(())
 }
 
-/// Installs this computer's wheel into a fresh virtual environment and simulates an FMU of it, by its own command and by FMPy.
+/// Installs the host's wheel into a fresh virtual environment and simulates an FMU of it, by its own command and by FMPy.
 pub(crate) fn try_wheel() -> Outcome {
     let folder = emptied("wheel-environment")?;
     run(command("python3").args(["-m", "venv"]).arg(&folder))?;
     let [python, program] = ["python", "heliotorque"].map(|name| folder.join("bin").join(name));
     run(command(&python).args("-m pip install --quiet --no-index".split(' ')).arg(wheel(&ALL[0])))?;
     let code = "import heliotorque; print(heliotorque.fmu('MomentumPlant'))";
-    // From another folder, where there is no dist/.
+    // In a folder without dist/.
     let fmu = output(command(&python).args(["-c", code]).current_dir(&folder))?;
     let fmu = PathBuf::from(fmu.trim());
     if !fmu.starts_with(&folder) {
@@ -100,7 +100,7 @@ fn add_licenses(folder: &Path) -> Outcome {
     LICENSES.iter().try_for_each(|name| install::copy(&root().join(name), folder).map(|_| ()))
 }
 
-/// A folder of the task's own with nothing in it.
+/// An empty scratch folder.
 fn emptied(name: &str) -> Result<PathBuf, String> {
     let folder = scratch(name)?;
     let failed = |error: std::io::Error| format!("{}: {error}", folder.display());

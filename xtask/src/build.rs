@@ -18,7 +18,7 @@ pub(crate) struct Built {
 }
 
 impl Built {
-    /// That of this computer, then those for other platforms.
+    /// The build for the host, then those for other platforms.
     pub(crate) fn each(&self) -> impl Iterator<Item = &Built> {
         std::iter::once(self).chain(&self.others)
     }

@@ -44,8 +44,7 @@ pub(crate) fn install(options: &[String]) -> Outcome {
     Ok(())
 }
 
-/// Copies program, library and FMUs of a platform below a prefix, with a program of this computer also systems and the manual that it
-/// writes.
+/// Copies program, library and FMUs of a platform below a prefix, for the host also systems and the manual.
 pub(crate) fn below(
     prefix: &Path,
     built: &Built,

@@ -9,17 +9,17 @@ use crate::{python, tools};
 
 /// A platform.
 pub(crate) struct Platform {
-    /// Its folder below `binaries/` of an FMU (FMI 2.0.5, 2.3).
+    /// Folder below `binaries/` of an FMU (FMI 2.0.5, 2.3).
     pub folder: &'static str,
-    /// Its name for the compiler.
+    /// Rust's target triple.
     pub target: &'static str,
-    /// Its oldest glibc.
+    /// Oldest supported glibc.
     glibc: Option<&'static str>,
-    /// Around the name of a shared library.
+    /// Prefix and suffix of a shared library.
     library_affixes: (&'static str, &'static str),
-    /// Behind the name of a program.
+    /// Suffix of a program.
     pub program_suffix: &'static str,
-    /// Its tag in the name of a wheel.
+    /// Platform tag of a wheel.
     pub wheel_tag: &'static str,
 }
 
@@ -49,14 +49,14 @@ pub(crate) const ARM: Platform = Platform {
     ..LINUX
 };
 
-/// This computer's first.
+/// The host first.
 pub(crate) const ALL: [Platform; 3] = [LINUX, WINDOWS, ARM];
 
 const LIBRARIES: [&str; 7] = ["--profile", "fmu", "-p", "component", "-p", "probe", "--locked"];
 const PROGRAM: [&str; 5] = ["--release", "-p", "heliotorque", "--all-features", "--locked"];
 
 impl Platform {
-    /// Where a build leaves what it made.
+    /// Files of a build.
     pub(crate) fn built(&self) -> Built {
         let folder = target().join(self.target);
         let (prefix, suffix) = self.library_affixes;
@@ -85,7 +85,7 @@ impl Platform {
         Ok(self.built())
     }
 
-    /// Names everything that is missing.
+    /// Checks that all tools are available.
     fn need(&self) -> Outcome {
         match self.glibc {
             Some(_) => tools::need_library_for(self.target).and_then(|()| python::zig_programs().map(|_| ())),
@@ -114,7 +114,7 @@ pub(crate) fn mingw(arguments: &str, target: &str) -> Command {
     let mut cargo = cargo(arguments);
     cargo
         .args(["-Zbuild-std=std,panic_unwind", "--target", target])
-        // That takes a feature which the released compiler hides.
+        // `-Zbuild-std` is an unstable feature.
         .env("RUSTC_BOOTSTRAP", "1")
         .env(variable("LINKER"), tools::MINGW.program)
         .env(variable("RUNNER"), tools::WINE.program);

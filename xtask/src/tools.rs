@@ -1,47 +1,47 @@
-//! The tools that other platforms need: what was tried, what brings them. Those of Python stand in `zig-requirements.txt`.
+//! Tools for other platforms, with tested versions and how to install them; those from PyPI are in `zig-requirements.txt`.
 
 use std::path::PathBuf;
 
 use crate::shell::{self, Outcome, available, command};
 
-/// A program, its version that everything was tried with as the first line of its `--version` has it, and what brings it.
+/// A program, its tested version as in the first line of `--version`, and how to install it.
 pub(crate) struct Tool {
     pub program: &'static str,
-    tried: &'static str,
-    brought_by: &'static str,
+    tested: &'static str,
+    install: &'static str,
 }
 
 /// Compiles C for Windows and links Rust for it.
 pub(crate) const MINGW: Tool = Tool {
     program: "x86_64-w64-mingw32-gcc",
-    tried: "12-win32",
-    brought_by: "apt-get install gcc-mingw-w64-x86-64",
+    tested: "12-win32",
+    install: "apt-get install gcc-mingw-w64-x86-64",
 };
 /// Runs programs for Windows.
 pub(crate) const WINE: Tool =
-    Tool { program: "wine", tried: "wine-8.0", brought_by: "apt-get install wine wine64" };
+    Tool { program: "wine", tested: "wine-8.0", install: "apt-get install wine wine64" };
 /// Compiles C for Arm; its C library is what programs under qemu load.
 pub(crate) const ARM_GCC: Tool = Tool {
     program: "aarch64-linux-gnu-gcc",
-    tried: "12.2.0",
-    brought_by: "apt-get install gcc-aarch64-linux-gnu libc6-dev-arm64-cross",
+    tested: "12.2.0",
+    install: "apt-get install gcc-aarch64-linux-gnu libc6-dev-arm64-cross",
 };
 /// Runs programs for Arm.
 pub(crate) const QEMU: Tool = Tool {
     program: "qemu-aarch64",
-    tried: "version 7.2",
-    brought_by: "apt-get install qemu-user qemu-user-binfmt",
+    tested: "version 7.2",
+    install: "apt-get install qemu-user qemu-user-binfmt",
 };
 
 /// The compiler; standard libraries of other platforms are of its version, whichever it is.
-const RUSTC: Tool = Tool { program: "rustc", tried: "1.95.0", brought_by: "rustup toolchain install 1.95" };
+const RUSTC: Tool = Tool { program: "rustc", tested: "1.95.0", install: "rustup toolchain install 1.95" };
 
-/// Expects tools; those that are missing are named together. Another version than was tried is taken, and said.
+/// Checks that tools are available; another version than the tested one is accepted with a note.
 pub(crate) fn need(tools: &[&Tool]) -> Outcome {
     let missing: Vec<String> = tools
         .iter()
         .filter(|tool| !available(tool.program))
-        .map(|tool| format!("{} is missing: {}", tool.program, tool.brought_by))
+        .map(|tool| format!("{} is missing: {}", tool.program, tool.install))
         .collect();
     if !missing.is_empty() {
         return Err(missing.join("\n"));
@@ -49,14 +49,14 @@ pub(crate) fn need(tools: &[&Tool]) -> Outcome {
     for tool in tools {
         let version = shell::output(command(tool.program).arg("--version"))?;
         let version = version.lines().next().unwrap_or_default();
-        if !version.contains(tool.tried) {
-            eprintln!("note: {}: found {version:?}, tried with {}", tool.program, tool.tried);
+        if !version.contains(tool.tested) {
+            eprintln!("note: {}: found {version:?}, tested with {}", tool.program, tool.tested);
         }
     }
     Ok(())
 }
 
-/// Expects the compiler's standard library for a target.
+/// Checks that the standard library for a target is installed.
 pub(crate) fn need_library_for(target: &str) -> Outcome {
     need(&[&RUSTC])?;
     let folder = shell::output(command("rustc").args(["--print", "target-libdir", "--target", target]))?;
@@ -66,7 +66,7 @@ pub(crate) fn need_library_for(target: &str) -> Outcome {
     }
 }
 
-/// Expects the sources of the compiler's standard library.
+/// Checks that the sources of the standard library are installed.
 pub(crate) fn need_library_sources() -> Outcome {
     need(&[&RUSTC])?;
     let sysroot = shell::output(command("rustc").args(["--print", "sysroot"]))?;
@@ -79,7 +79,7 @@ pub(crate) fn need_library_sources() -> Outcome {
     }
 }
 
-/// Expects programs for Arm to start as others do, also from one another.
+/// Checks that programs for Arm can be executed, also by one another.
 pub(crate) fn need_arm_programs() -> Outcome {
     let registered = PathBuf::from("/proc/sys/fs/binfmt_misc/qemu-aarch64");
     match registered.exists() {

@@ -30,7 +30,7 @@ macro_rules! functions {
             jump!(),
             function = sym $function,
         );
-        // A DLL shows what it exports alone.
+        // COFF has no visibility: a DLL exports only listed symbols.
         #[cfg(target_os = "windows")]
         global_asm!(
             concat!(".globl ", $symbol),

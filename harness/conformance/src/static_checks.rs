@@ -36,7 +36,7 @@ pub fn archive(fmu: &Fmu) -> Vec<Finding> {
         Err(error) => findings.push(Finding::bad(error.to_string())),
     }
     findings.extend(fmu.requirements().into_iter().map(|(path, read)| match read {
-        Ok(requirements) if requirements.is_in_its_folder() => {
+        Ok(requirements) if requirements.is_in_platform_folder() => {
             Finding::good(format!("{}: {requirements}", path.display()))
         }
         Ok(requirements) => Finding::bad(misplaced(&path, &requirements)),

@@ -207,10 +207,10 @@ impl Part {
         for _ in 0..Self::ATTEMPTS {
             check_place(path, inputs)?;
             let (file, is_new) =
-                match system::open_alone(OpenOptions::new().write(true).create_new(true), path) {
+                match system::open_exclusively(OpenOptions::new().write(true).create_new(true), path) {
                     Ok(file) => (file, true),
                     Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                        match system::open_alone(OpenOptions::new().write(true), path) {
+                        match system::open_exclusively(OpenOptions::new().write(true), path) {
                             Ok(file) => (file, false),
                             Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
                             Err(error) => return Err(text(error)),
@@ -259,12 +259,12 @@ fn is_at(file: &File, path: &Path) -> bool {
     let (Ok(open), Ok(there)) = (system::identity_of_open(file), system::identity_of_link(path)) else {
         return false;
     };
-    open.place == there.place && open.names == 1
+    open.device_and_inode == there.device_and_inode && open.hard_links == 1
 }
 
 /// Whether an open file has more names than one.
 fn has_other_names(file: &File) -> bool {
-    system::identity_of_open(file).is_ok_and(|identity| identity.names > 1)
+    system::identity_of_open(file).is_ok_and(|identity| identity.hard_links > 1)
 }
 
 /// Why a file cannot be the target: it is of another kind, not to be written, or an input.
@@ -273,7 +273,7 @@ fn check(target: &Path, inputs: &[&Path]) -> Result<(), String> {
     match OpenOptions::new().write(true).open(target) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => {
             // A file that is protected against writing is not replaced.
-            Err(system::explained(error).to_string())
+            Err(system::with_advice(error).to_string())
         }
         _ => Ok(()),
     }
@@ -333,7 +333,7 @@ fn is_beside(one: &Path, two: &Path) -> bool {
 /// Whether both exist and are one file.
 fn is_one_file(one: &Path, two: &Path) -> bool {
     let (Ok(one), Ok(two)) = (system::identity(one), system::identity(two)) else { return false };
-    one.place == two.place
+    one.device_and_inode == two.device_and_inode
 }
 
 /// Whether a file is one of a folder's files, or would become one.

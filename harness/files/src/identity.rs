@@ -1,10 +1,10 @@
-//! Which file it is.
+//! Identity of a file, independent of its path.
 
-/// A file, under whatever name.
+/// Identity of a file and its number of hard links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Identity {
-    /// The disk and the number on it.
-    pub place: (u64, u64),
-    /// How many names it has.
-    pub names: u64,
+    /// Device and inode; volume serial number and file index on Windows.
+    pub device_and_inode: (u64, u64),
+    /// Number of hard links.
+    pub hard_links: u64,
 }

@@ -90,7 +90,7 @@ impl Requirements {
     /// Whether importers that this library is for look for it where it stands in the FMU; of a platform that FMI 2.0 does not
     /// name, whether no other platform's importers do.
     #[must_use]
-    pub fn is_in_its_folder(&self) -> bool {
+    pub fn is_in_platform_folder(&self) -> bool {
         let folder = self.path.parent().and_then(Path::file_name).and_then(|name| name.to_str());
         let own = self.platform_folders();
         let belongs = folder.is_some_and(|folder| match own.is_empty() {
@@ -272,7 +272,7 @@ mod tests {
             ("PE x86-64", "binaries/win64/X.dll"),
             ("ELF RISCV", "binaries/riscv64-linux/X.so"),
         ] {
-            assert!(requirements(format, path).is_in_its_folder(), "{format} {path}");
+            assert!(requirements(format, path).is_in_platform_folder(), "{format} {path}");
         }
         for (format, path) in [
             ("ELF x86-64", "binaries/win64/X.dll"),
@@ -280,7 +280,7 @@ mod tests {
             ("PE x86", "binaries/win64/X.dll"),
             ("PE of another machine", "binaries/win64/X.dll"),
         ] {
-            assert!(!requirements(format, path).is_in_its_folder(), "{format} {path}");
+            assert!(!requirements(format, path).is_in_platform_folder(), "{format} {path}");
         }
     }
 

@@ -20,13 +20,13 @@ const LICENSES: [(&str, &[u8]); 4] = [
 /// Where FMI 2.0.5 keeps them (2.3); `license.txt` there is the entry.
 const FOLDER: &str = "documentation/licenses";
 
-/// Shared libraries, one a platform, or an FMU that has them.
+/// Shared libraries, one per platform, or an FMU with them.
 pub(crate) struct Source {
     binary: Arc<Binary>,
     from: From,
 }
 
-/// A platform's library.
+/// Library for a platform.
 struct Platform {
     /// Folder below `binaries/`.
     folder: &'static str,
@@ -35,13 +35,13 @@ struct Platform {
 }
 
 impl Platform {
-    /// This computer, whose library is loaded.
-    fn here(path: PathBuf) -> Result<Self, String> {
+    /// The host, whose library is loaded.
+    fn host(path: PathBuf) -> Result<Self, String> {
         let folder = loader::platform_folders().first().ok_or("FMI names no platform like this one")?;
         Ok(Self { folder, suffix: std::env::consts::DLL_SUFFIX, path })
     }
 
-    /// What the file is for.
+    /// Platform of a library file.
     fn of_file(path: PathBuf) -> Result<Self, Box<dyn Error>> {
         let requirements = Requirements::read(&path)?;
         let folder = requirements.platform_folders().first().ok_or_else(|| {
@@ -56,7 +56,7 @@ impl Platform {
 }
 
 enum From {
-    /// Libraries, this computer's first, and the model that is meant unless another is named.
+    /// Libraries, the host's first, and the default model.
     Libraries(Vec<Platform>, Option<&'static str>),
     Template(Fmu),
 }
@@ -81,7 +81,7 @@ impl Source {
         // A bare file name would be searched in the system's library folders.
         let first = std::path::absolute(first)?;
         let binary = Arc::new(Binary::load(&first)?);
-        let mut platforms = vec![Platform::here(first)?];
+        let mut platforms = vec![Platform::host(first)?];
         for path in libraries.iter().skip(1) {
             let platform = Platform::of_file(path.clone())?;
             if let Some(other) = platforms.iter().find(|other| other.folder == platform.folder) {
@@ -101,7 +101,7 @@ impl Source {
         Ok(Self { binary: fmu.binary()?, from: From::Template(fmu) })
     }
 
-    /// This computer's library, or the template.
+    /// The host's library, or the template.
     pub(crate) fn path(&self) -> &Path {
         match &self.from {
             From::Libraries(platforms, _) => &platforms[0].path,

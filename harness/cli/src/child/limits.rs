@@ -1,15 +1,15 @@
-//! Bounds of a child process that the operating system keeps.
+//! Resource limits of a child process.
 
-/// What the child's process may take of the computer.
+/// Resource limits of a child process.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Limits {
-    /// Bytes that it may allocate.
+    /// Memory, in bytes.
     pub memory: Option<u64>,
-    /// Files that it may keep open.
+    /// Number of open files.
     pub files: Option<u64>,
 }
 
-/// Enough for every FMU that is looked at and not simulated long: memory in bytes, open files.
+/// For inspecting an FMU and short simulations.
 pub(crate) const SMALL: Limits = Limits { memory: Some(4 << 30), files: Some(1024) };
-/// For flights of any length, of systems too: what allocates without end ends before the computer does.
+/// For simulations of any length, of systems too: unbounded allocation is stopped before the host runs out.
 pub(crate) const LARGE: Limits = Limits { memory: Some(16 << 30), files: None };

@@ -59,7 +59,7 @@ pub(crate) enum EndReason {
     DoesNotExit,
     /// It printed more bytes than it may.
     Prints(u64),
-    /// It allocated more bytes than it may.
+    /// It exceeded its memory limit, in bytes.
     Allocates(u64),
     /// It was requested to end.
     Interrupted,

@@ -63,7 +63,7 @@ pub(crate) struct Pack {
     /// Take libraries and licences from this FMU; otherwise the installed program's own, or dist/MomentumPlant.fmu
     #[arg(long, value_name = "FMU")]
     pub template: Option<PathBuf>,
-    /// Take this shared library, just built, instead of a template's; repeatable, one a platform, this computer's first
+    /// Take this shared library, just built, instead of a template's; repeatable, one per platform, the host's first
     #[arg(long, value_name = "FILE", conflicts_with = "template", requires = "model")]
     pub library: Vec<PathBuf>,
     /// The model: MomentumPlant, ...; otherwise the template's or MomentumPlant, where it takes the file, or the one that does:

@@ -1,4 +1,4 @@
-//! What only the operating system says of files: which file it is, who has it open, how it takes another's name.
+//! Files by operating system: identity, exclusive access, renaming.
 
 #[cfg(unix)]
 mod unix;
@@ -6,14 +6,11 @@ mod unix;
 mod windows;
 
 #[cfg(unix)]
-pub use unix::canonical;
-#[cfg(unix)]
-pub(crate) use unix::{
-    explained, identity, identity_of_link, identity_of_open, lock_folder, open_alone, rename,
-};
+use unix as own;
 #[cfg(windows)]
-pub use windows::canonical;
-#[cfg(windows)]
-pub(crate) use windows::{
-    explained, identity, identity_of_link, identity_of_open, lock_folder, open_alone, rename,
+use windows as own;
+
+pub use own::canonical;
+pub(crate) use own::{
+    identity, identity_of_link, identity_of_open, lock_folder, open_exclusively, rename, with_advice,
 };

@@ -10,26 +10,26 @@ use std::{
 use crate::identity::Identity;
 
 fn of(metadata: &Metadata) -> Identity {
-    Identity { place: (metadata.dev(), metadata.ino()), names: metadata.nlink() }
+    Identity { device_and_inode: (metadata.dev(), metadata.ino()), hard_links: metadata.nlink() }
 }
 
-/// The file that a path leads to.
+/// Identity of the file at a path, following links.
 pub(crate) fn identity(path: &Path) -> io::Result<Identity> {
     fs::metadata(path).map(|metadata| of(&metadata))
 }
 
-/// What stands at a path, itself if it is a link.
+/// Identity of the entry at a path, without following a link.
 pub(crate) fn identity_of_link(path: &Path) -> io::Result<Identity> {
     fs::symlink_metadata(path).map(|metadata| of(&metadata))
 }
 
-/// An open file.
+/// Identity of an open file.
 pub(crate) fn identity_of_open(file: &File) -> io::Result<Identity> {
     file.metadata().map(|metadata| of(&metadata))
 }
 
-/// Opens a file that no other run writes as long as it is open; [`io::ErrorKind::ResourceBusy`] where one does.
-pub(crate) fn open_alone(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
+/// Opens a file that no other run can write while it is open; [`io::ErrorKind::ResourceBusy`] where one does.
+pub(crate) fn open_exclusively(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
     let file = options.open(path)?;
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(io::ErrorKind::ResourceBusy.into()),
@@ -38,24 +38,24 @@ pub(crate) fn open_alone(options: &mut OpenOptions, path: &Path) -> io::Result<F
     }
 }
 
-/// A folder, locked; where folders cannot be locked, the error says so.
+/// Locks a folder; an error where folders cannot be locked.
 pub(crate) fn lock_folder(folder: &Path) -> Result<File, TryLockError> {
     let file = File::open(folder).map_err(TryLockError::Error)?;
     file.try_lock()?;
     Ok(file)
 }
 
-/// The whole path, behind all links.
+/// Absolute path with links resolved.
 pub fn canonical(path: &Path) -> io::Result<PathBuf> {
     fs::canonicalize(path)
 }
 
-/// An error with what a person can do about it: the system's own text says it.
-pub(crate) fn explained(error: io::Error) -> io::Error {
+/// Error with advice for the user; none is needed here.
+pub(crate) fn with_advice(error: io::Error) -> io::Error {
     error
 }
 
-/// Gives a file the name of another, which it replaces; who has that open keeps it.
+/// Renames a file, replacing the target; programs that have the target open keep the old content.
 pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)
 }

@@ -22,33 +22,36 @@ const SHARING_VIOLATION: i32 = 32;
 
 fn of(file: &File) -> io::Result<Identity> {
     let found = information(file)?;
-    Ok(Identity { place: (found.volume_serial_number(), found.file_index()), names: found.number_of_links() })
+    Ok(Identity {
+        device_and_inode: (found.volume_serial_number(), found.file_index()),
+        hard_links: found.number_of_links(),
+    })
 }
 
-/// Opens what a path leads to without access, which whoever has it open allows.
-fn look(path: &Path, flags: u32) -> io::Result<File> {
+/// Opens a path for its attributes only, which succeeds whatever the share modes of others.
+fn open_for_attributes(path: &Path, flags: u32) -> io::Result<File> {
     OpenOptions::new().access_mode(0).custom_flags(FILE_FLAG_BACKUP_SEMANTICS | flags).open(path)
 }
 
-/// The file that a path leads to.
+/// Identity of the file at a path, following links.
 pub(crate) fn identity(path: &Path) -> io::Result<Identity> {
-    of(&look(path, 0)?)
+    of(&open_for_attributes(path, 0)?)
 }
 
-/// What stands at a path, itself if it is a link.
+/// Identity of the entry at a path, without following a link.
 pub(crate) fn identity_of_link(path: &Path) -> io::Result<Identity> {
-    of(&look(path, FILE_FLAG_OPEN_REPARSE_POINT)?)
+    of(&open_for_attributes(path, FILE_FLAG_OPEN_REPARSE_POINT)?)
 }
 
-/// An open file.
+/// Identity of an open file.
 pub(crate) fn identity_of_open(file: &File) -> io::Result<Identity> {
     of(file)
 }
 
-/// Opens a file that no other program writes as long as it is open; [`io::ErrorKind::ResourceBusy`] where one does.
+/// Opens a file that no other program can write while it is open; [`io::ErrorKind::ResourceBusy`] where one does.
 ///
 /// No lock: that would keep readers out too.
-pub(crate) fn open_alone(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
+pub(crate) fn open_exclusively(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
     options.share_mode(FILE_SHARE_READ | FILE_SHARE_DELETE).open(path).map_err(|error| {
         if error.raw_os_error() == Some(SHARING_VIOLATION) {
             io::ErrorKind::ResourceBusy.into()
@@ -58,17 +61,17 @@ pub(crate) fn open_alone(options: &mut OpenOptions, path: &Path) -> io::Result<F
     })
 }
 
-/// A folder that nobody else locks as long as it is open; files in it come and go, and it may be removed.
+/// Locks a folder while the handle is open; its files can change and it can be removed.
 pub(crate) fn lock_folder(folder: &Path) -> Result<File, TryLockError> {
     let mut options = OpenOptions::new();
     options.read(true).write(true).custom_flags(FILE_FLAG_BACKUP_SEMANTICS);
-    open_alone(&mut options, folder).map_err(|error| match error.kind() {
+    open_exclusively(&mut options, folder).map_err(|error| match error.kind() {
         io::ErrorKind::ResourceBusy => TryLockError::WouldBlock,
         _ => TryLockError::Error(error),
     })
 }
 
-/// The whole path, behind all links, as people write it: without `\\?\` where it is short enough for every program.
+/// Absolute path with links resolved, without `\\?\` where it is short enough for every program.
 pub fn canonical(path: &Path) -> io::Result<PathBuf> {
     const MAX_PATH: usize = 260;
     let whole = fs::canonicalize(path)?;
@@ -77,8 +80,8 @@ pub fn canonical(path: &Path) -> io::Result<PathBuf> {
     Ok(plain.map_or_else(|| whole.clone(), PathBuf::from))
 }
 
-/// An error with what a person can do about it, where another program is the reason.
-pub(crate) fn explained(error: io::Error) -> io::Error {
+/// Error with advice for the user where another program has the file open.
+pub(crate) fn with_advice(error: io::Error) -> io::Error {
     match error.raw_os_error() {
         Some(code) if IN_USE.contains(&code) => io::Error::new(
             error.kind(),

@@ -258,16 +258,16 @@ impl Case {
         Ok(Simulated::of(*self, &self.settings().apart(APART).steer(fmu, &NAMES, steer)?))
     }
 
-    /// Whether another differs in the offset alone.
-    pub(super) fn is_of_setting(&self, other: &Self) -> bool {
+    /// Whether another differs only in the offset.
+    pub(super) fn differs_only_in_offset(&self, other: &Self) -> bool {
         *self == Self { offset_in: self.offset_in, ..*other }
     }
 }
 
-/// Dumps stand apart in what is recorded.
+/// Counter whose every increment is recorded.
 const APART: &str = "dump.count";
-/// What campaigns vary.
-const HEIGHT: &str = "spacecraft.centerOfMass[3]";
+/// Parameter that campaigns vary.
+const OFFSET_Z: &str = "spacecraft.centerOfMass[3]";
 /// What is recorded.
 const NAMES: [&str; 4] = ["momentum.body[1]", "dump.count", "dump.lastTime", "dump.impulse"];
 
@@ -328,14 +328,14 @@ pub(super) fn simulate_all(run: &Run<'_>, cases: Vec<Case>) -> Result<Vec<Simula
     run.all(&cases, |case| case.simulate(&fmu, &mut |_| Settings::new()))
 }
 
-/// The same of cases with offsets along Z, those of a setting as a campaign.
+/// Simulates cases with offsets along Z, one campaign per setting.
 pub(super) fn simulate_campaigns(run: &Run<'_>, cases: Vec<Case>) -> Result<Vec<Simulated>, StudyError> {
     let cases = run.chosen(cases, Case::label)?;
     let fmu = run.options.fmu("MomentumPlant.fmu")?;
-    let settings: Vec<&[Case]> = cases.chunk_by(Case::is_of_setting).collect();
+    let settings: Vec<&[Case]> = cases.chunk_by(Case::differs_only_in_offset).collect();
     let simulated = run.all(&settings, |cases| {
-        let heights_m: Vec<f64> = cases.iter().map(|case| INCH_M * f64::from(case.offset_in[2])).collect();
-        let campaign = cases[0].settings().apart(APART).campaign(&fmu, &[(HEIGHT, &heights_m)]);
+        let offsets_m: Vec<f64> = cases.iter().map(|case| INCH_M * f64::from(case.offset_in[2])).collect();
+        let campaign = cases[0].settings().apart(APART).campaign(&fmu, &[(OFFSET_Z, &offsets_m)]);
         let runs = campaign.map_err(|source| StudyError::Simulation { case: cases[0].label(), source })?;
         let simulated = cases.iter().zip(runs).map(|(case, mut run)| {
             run.label = case.label();

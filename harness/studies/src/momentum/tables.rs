@@ -131,7 +131,7 @@ fn finish(run: &mut Run<'_>, simulated: &[Simulated]) -> Outcome {
 
 /// Simulations that differ in the offset alone.
 fn by_setting(simulated: &[Simulated]) -> impl Iterator<Item = &[Simulated]> {
-    simulated.chunk_by(|a, b| a.case.is_of_setting(&b.case))
+    simulated.chunk_by(|a, b| a.case.differs_only_in_offset(&b.case))
 }
 
 fn setting_cells(case: &Case) -> Vec<String> {

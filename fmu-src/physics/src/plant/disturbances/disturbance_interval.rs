@@ -84,7 +84,7 @@ impl DisturbanceInterval {
         }
     }
 
-    /// Whether none has begun.
+    /// Whether no interval has begun.
     pub(crate) fn is_before(&self) -> bool {
         self.end_s == f64::NEG_INFINITY
     }
@@ -108,7 +108,7 @@ impl DisturbanceInterval {
         let (active, tolerance) = (configuration.effects, configuration.light_and_heat.tolerance);
         let mut interval = AdaptiveInterval::new(start_s, grid_s, longest_s, limit_s, shortest_s);
         let mut next_longest_s = f64::INFINITY;
-        // Not an array that the loop breaks with: an evaluation is large.
+        // Written in place: an array as the value of the loop would be copied.
         let (mut first, mut second);
         loop {
             let span_s = interval.end_s() - start_s;

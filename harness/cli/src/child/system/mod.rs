@@ -1,4 +1,4 @@
-//! What only the operating system does: groups of processes, orphans, limits, ends of processes, pipes that are read without waiting.
+//! Processes by operating system: groups, orphans, limits, exit statuses, pipes that are read without blocking.
 
 #[cfg(unix)]
 mod unix;
@@ -6,14 +6,11 @@ mod unix;
 mod windows;
 
 #[cfg(unix)]
-pub(crate) use unix::end_all;
-#[cfg(unix)]
-pub(super) use unix::{
-    Pipe, committed_bytes, end, end_with_parent, has_ended, how, restrict, spawn, take_stdin, wait_for,
-};
+use unix as own;
 #[cfg(windows)]
-pub(crate) use windows::end_all;
-#[cfg(windows)]
-pub(super) use windows::{
+use windows as own;
+
+pub(crate) use own::end_all;
+pub(super) use own::{
     Pipe, committed_bytes, end, end_with_parent, has_ended, how, restrict, spawn, take_stdin, wait_for,
 };

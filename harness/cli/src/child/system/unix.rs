@@ -60,7 +60,7 @@ pub(crate) fn end_all() {
     let mut groups = groups();
     let leaders = mem::take(&mut *groups);
     leaders.iter().for_each(|leader| end_group(*leader));
-    // Only then do those that left a group become orphans.
+    // Processes that left a group become orphans when the leader has ended.
     leaders.iter().for_each(|leader| wait_for_end(*leader));
     if !leaders.is_empty() {
         orphans::end(PATIENCE, |_| false);
@@ -208,12 +208,12 @@ pub(crate) fn restrict(memory: u64, files: u64) -> io::Result<()> {
     Ok(())
 }
 
-/// What a child has allocated: not looked at, for the child's own limit holds it back.
+/// Memory of a child; not measured, as resource limits bound it.
 pub(crate) fn committed_bytes(_child: &Child) -> Option<u64> {
     None
 }
 
-/// What a child prints; reading returns at once when there is nothing.
+/// Output stream of a child; reading does not block.
 pub(crate) struct Pipe(File);
 
 impl Pipe {

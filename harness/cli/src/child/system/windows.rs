@@ -259,7 +259,7 @@ pub(crate) fn restrict(_memory: u64, _files: u64) -> io::Result<()> {
     Ok(())
 }
 
-/// What a child has allocated, in bytes.
+/// Committed memory of a child, in bytes.
 ///
 /// Windows lets no allocation pass the job's limit; Wine takes the limit and does not enforce it.
 pub(crate) fn committed_bytes(child: &Child) -> Option<u64> {
@@ -270,7 +270,7 @@ pub(crate) fn committed_bytes(child: &Child) -> Option<u64> {
     succeeded(answer).ok().map(|()| counters.PagefileUsage as u64)
 }
 
-/// What a child prints; reading returns at once when there is nothing.
+/// Output stream of a child; reading does not block.
 pub(crate) struct Pipe(File);
 
 impl Pipe {
@@ -312,7 +312,7 @@ pub(crate) fn wait_for<'p>(pipes: impl Iterator<Item = &'p Pipe>, longest: Durat
     }
 }
 
-/// How a process ended, for people: a status of a failure is an exception's (NTSTATUS).
+/// How a process ended: exit status or the name of the exception (NTSTATUS).
 pub(crate) fn how(status: ExitStatus) -> String {
     let Some(code) = status.code() else { return status.to_string() };
     let name = match code as u32 {
