@@ -95,5 +95,5 @@ pub(crate) fn with_advice(error: io::Error) -> io::Error {
 
 /// Gives a file the name of another, which it replaces; refused where a program has that open and does not share its name.
 pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
-    fs::rename(from, to).map_err(explained)
+    fs::rename(from, to).map_err(with_advice)
 }
