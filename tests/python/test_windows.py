@@ -1,4 +1,4 @@
-"""The program on Windows, under Wine: FMUs fly, hostile ones are survived and named, files and children are kept as on Linux.
+"""The program on Windows, under Wine: simulations, failures of FMUs, files and child processes as on Linux.
 
 Wine is no Windows: it enforces no limit of memory of a Job Object (the program looks itself), replaces no file that is open, and its share
 `\\\\server\\share` is a link in its registry's folder.
@@ -72,7 +72,7 @@ def rows(file):
 
 
 @pytest.mark.parametrize("name", MODELS)
-def test_an_fmu_flies_as_on_linux(program, heliotorque, fmus, tmp_path, name):
+def test_an_fmu_is_simulated_as_on_linux(program, heliotorque, fmus, tmp_path, name):
     here, there = tmp_path / "linux.csv", tmp_path / "windows.csv"
     simulated = call(heliotorque, "run", fmus[name], "--stop", "2h", "--output", here)
     assert simulated.returncode == 0, simulated.stderr
@@ -191,8 +191,8 @@ def test_text_files_may_have_lines_of_windows(program, heliotorque, fmus, tmp_pa
     assert results[0] == results[1] and all(b"\n" in result for result in results[0])
 
 
-@pytest.mark.parametrize(("share", "flies"), [(READ | WRITE | DELETE, True), (READ | WRITE, True), (READ, False)])
-def test_a_file_that_is_open_is_replaced_or_named(program, holder, fmus, tmp_path, share, flies):
+@pytest.mark.parametrize(("share", "completes"), [(READ | WRITE | DELETE, True), (READ | WRITE, True), (READ, False)])
+def test_a_file_that_is_open_is_replaced_or_named(program, holder, fmus, tmp_path, share, completes):
     table = tmp_path / "a.csv"
     table.write_text("old")
     with program.start(path(table), share, program=holder) as held:
@@ -208,7 +208,7 @@ def test_a_file_that_is_open_is_replaced_or_named(program, holder, fmus, tmp_pat
     else:
         assert "a.csv: another program has it open" in printed and "see --output" in printed, printed
         # Refused before the flight, or its rows stay.
-        assert table.read_text() == "old" and (len(part) > 1) == flies
+        assert table.read_text() == "old" and (len(part) > 1) == completes
 
 
 def test_two_runs_into_one_file_do_not_mix(program, tmp_path):
