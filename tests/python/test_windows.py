@@ -167,7 +167,7 @@ def test_resources_are_found_wherever_the_fmu_is(program, fmus, tmp_path, form):
 
 
 def test_text_files_may_have_lines_of_windows(program, heliotorque, fmus, tmp_path):
-    """Mission, timeline, spacecraft, table: what they give with CR LF is what they give with LF."""
+    """Mission, timeline, spacecraft, tables, campaign, plan: what they give with CR LF is what they give with LF."""
     results = []
     for kind, ending in (("lf", "\n"), ("crlf", "\r\n")):
         folder = tmp_path / kind
@@ -176,6 +176,10 @@ def test_text_files_may_have_lines_of_windows(program, heliotorque, fmus, tmp_pa
         shutil.copy(RESOURCES / "messenger.toml", folder / "craft.toml")
         (folder / "mission.toml").write_text("")
         program.good("new", "mission", path(folder / "mission.toml"), "--force")
+        program.good("new", "plan", path(folder / "plan.toml"))
+        (folder / "campaign.toml").write_text(
+            'mission = "mission.toml"\nstep = "1 h"\nsampling = "file"\nfile = "values.csv"\n[keep]\nfinal = ["momentum.body"]\n')
+        (folder / "values.csv").write_text("run,spacecraft.centerOfMass[3]\n0,-0.02\n1,-0.03\n")
         (folder / "in.csv").write_text("# an input\ntime,panel[1].sunOffsetCommand\n0,0.1\n3600,0.2\n")
         for file in folder.iterdir():
             text = file.read_text(encoding="utf-8").replace("\r\n", "\n").replace("\n", ending)
@@ -187,7 +191,10 @@ def test_text_files_may_have_lines_of_windows(program, heliotorque, fmus, tmp_pa
         program.good("run", path(folder / "mission.toml"), "--template", template, "--stop", "1h", "--output", path(folder / "mission.csv"))
         program.good("run", path(folder / "Own.fmu"), "--stop", "1h", "--output", path(folder / "own.csv"))
         program.good("run", template, "--stop", "1h", "--input", path(folder / "in.csv"), "--output", path(folder / "table.csv"))
-        results.append([(folder / name).read_bytes() for name in ("mission.csv", "own.csv", "table.csv")])
+        program.good("sweep", path(folder / "campaign.toml"), "--template", template, "--output", path(folder / "runs.csv"))
+        program.good("plan", "momentum", path(folder / "plan.toml"), "--template", template, "--output", path(folder / "plan"))
+        named = ("mission.csv", "own.csv", "table.csv", "runs.csv", "plan/plan.csv")
+        results.append([(folder / name).read_bytes() for name in named])
     assert results[0] == results[1] and all(b"\n" in result for result in results[0])
 
 

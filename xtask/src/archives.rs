@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use crate::build::{Built, scratch};
 use crate::platforms::{ALL, Platform, WINDOWS};
 use crate::shell::{Outcome, command, output, root, run};
-use crate::{dist, install, python};
+use crate::{dist, install, notices, python};
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// The project's licences, and those of the crates that the library links.
+/// The project's licences, and those of the crates that the library links; those of the program are found by platform.
 const LICENSES: [&str; 3] = ["LICENSE-APACHE", "LICENSE-MIT", "fmu-src/component/THIRD-PARTY.txt"];
 
 /// Writes `dist/heliotorque-<version>-<platform>.tar.gz`, for Windows `.zip`.
@@ -20,7 +20,7 @@ pub(crate) fn write(built: &Built) -> Outcome {
         let name = format!("heliotorque-{VERSION}-{}", platform.folder);
         let prefix = folder.join(&name);
         install::below(&prefix, it, Some(&built.heliotorque))?;
-        add_licenses(&prefix)?;
+        add_licenses(&prefix, platform)?;
         let format = if platform.folder == WINDOWS.folder { "zip" } else { "gztar" };
         let code = "import shutil, sys; base, format, folder, name = sys.argv[1:]; \
                     print(shutil.make_archive(base, format, folder, name))";
@@ -46,7 +46,7 @@ pub(crate) fn write_wheels(built: &Built) -> Outcome {
         let whole = folder.join(platform.wheel_tag);
         let package = whole.join("heliotorque");
         install::below(&package, it, None)?;
-        add_licenses(&package.join("licenses"))?;
+        add_licenses(&package.join("licenses"), platform)?;
         install::copy(&source.join("heliotorque").join("__init__.py"), &package)?;
         run(command("python3")
             .arg(source.join("build.py"))
@@ -96,8 +96,11 @@ fn wheel(platform: &Platform) -> PathBuf {
     root().join("dist").join(format!("heliotorque-{VERSION}-py3-none-{}.whl", platform.wheel_tag))
 }
 
-fn add_licenses(folder: &Path) -> Outcome {
-    LICENSES.iter().try_for_each(|name| install::copy(&root().join(name), folder).map(|_| ()))
+fn add_licenses(folder: &Path, platform: &Platform) -> Outcome {
+    LICENSES.iter().try_for_each(|name| install::copy(&root().join(name), folder).map(|_| ()))?;
+    let file = folder.join("THIRD-PARTY-PROGRAM.txt");
+    let text = notices::of_program(platform.target)?;
+    fs::write(&file, text).map_err(|error| format!("{}: {error}", file.display()))
 }
 
 /// An empty scratch folder.

@@ -38,8 +38,6 @@ cargo xtask <task>
           allocation, a full disk from the n-th write on; what this machine lacks is named and skipped.
           HELIOTORQUE_LONG picks parts alone (fuzz,sanitizers,miri,allocations,writes,models,suite,python);
           HELIOTORQUE_FUZZ_SECONDS is another time per target
-  test --all-platforms
-          the program on Windows: built with mingw's linker, its tests under Wine; what this machine lacks is named
   test NAME
           the tests in Rust and Python that have NAME in their name, with what they need built first
   bless golden|reference|schema|mistakes|legs|guide

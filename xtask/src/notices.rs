@@ -1,6 +1,7 @@
-//! `cargo xtask notices`: the licences of the crates linked into the shared library, as every FMU carries them.
+//! `cargo xtask notices`: the licences of the crates linked into the shared library, as every FMU carries them; those of the program
+//! for its archives and wheels.
 //!
-//! The text is committed, so that packing needs no sources, and a test compares it with what `Cargo.lock` lists.
+//! The library's text is committed, so that packing needs no sources, and a test compares it with what `Cargo.lock` lists.
 //!
 //! Why not `cargo-about`: it is a program to install, from the network and in minutes, before the test could run on a
 //! fresh machine; and it knows neither the Rust standard library nor GCC's unwinder, whose notices stand here too.
@@ -14,10 +15,23 @@ use std::{
 
 use crate::shell::{self, Outcome, cargo};
 
-/// The same crates wherever the notices are made.
+/// The same crates wherever the notices of the library are made.
 const TARGET: &str = "x86_64-unknown-linux-gnu";
 
-const HEAD: &str = "\
+const OF_PROGRAM: &str = "\
+Third-party notices of the program
+==================================
+
+The program heliotorque, whose own licences are the other files of this folder, is made from the crates below. Where a crate
+offers a choice that includes the MIT licence, that is the one taken. What is said in THIRD-PARTY.txt of the Rust standard library,
+the geomagnetic field, the unwinder and mingw-w64 holds for the program too.
+
+The crates anise and hifitime are under the Mozilla Public License 2.0, given below; their source code is at
+https://crates.io/crates/anise and https://crates.io/crates/hifitime.
+
+";
+
+const OF_LIBRARY: &str = "\
 Third-party notices
 ===================
 
@@ -63,24 +77,45 @@ fn path() -> PathBuf {
 /// Writes the notices anew.
 pub(crate) fn write() -> Outcome {
     let path = path();
-    fs::write(&path, text()?).map_err(|error| format!("cannot write {}: {error}", path.display()))
+    fs::write(&path, of_library()?).map_err(|error| format!("cannot write {}: {error}", path.display()))
 }
 
-/// The notices as the lock file and the crates' own files give them.
-fn text() -> Result<String, String> {
-    let crates = linked()?;
-    let metadata = "metadata --locked --format-version 1 --filter-platform";
-    let metadata = shell::output(cargo(metadata).arg(TARGET))?;
-    let mut text = HEAD.to_owned();
-    let mut texts: BTreeMap<String, Vec<&Crate>> = BTreeMap::new();
+/// The notices of the library as the lock file and the crates' own files give them.
+fn of_library() -> Result<String, String> {
+    let mingw = format!("\n\n{0}\nmingw-w64\n{0}\n\n{MINGW}", "-".repeat(80));
+    text("component", TARGET, OF_LIBRARY, &mingw)
+}
+
+/// The same of the program for a target triple.
+pub(crate) fn of_program(target: &str) -> Result<String, String> {
+    text("heliotorque", target, OF_PROGRAM, "")
+}
+
+/// The notices of a package and its crates: the head, their list, what else is linked, the licences' texts.
+fn text(package: &str, target: &str, head: &str, more: &str) -> Result<String, String> {
+    let crates = linked(package, target)?;
+    let metadata = "metadata --locked --all-features --format-version 1 --filter-platform";
+    let metadata = shell::output(cargo(metadata).arg(target))?;
+    let mut text = head.to_owned();
+    let (mut texts, mut without_text) = (BTreeMap::<String, Vec<&Crate>>::new(), Vec::new());
     for it in &crates {
         let _ = writeln!(text, "{} {}: {}", it.name, it.version, it.license);
         let folder = folder(&metadata, it).ok_or_else(|| format!("cargo knows no folder of {it:?}"))?;
-        for notice in notices(&folder, &it.license)? {
+        let notices = notices(&folder, &it.license)?;
+        if notices.is_empty() {
+            without_text.push((it, folder));
+        }
+        for notice in notices {
             texts.entry(notice).or_default().push(it);
         }
     }
-    let _ = write!(text, "\n\n{0}\nmingw-w64\n{0}\n\n{MINGW}", "-".repeat(80));
+    // Their licence's text is that of another crate under it.
+    for (it, folder) in without_text {
+        let same = texts.values_mut().find(|crates| crates.iter().any(|other| other.license == it.license));
+        let missing = || format!("{}: no file with its licence ({})", folder.display(), it.license);
+        same.ok_or_else(missing)?.push(it);
+    }
+    text.push_str(more);
     // In the order of the first crate of each, not of the texts.
     let mut texts: Vec<(String, Vec<&Crate>)> = texts.into_iter().collect();
     texts.sort_by(|a, b| a.1.cmp(&b.1));
@@ -91,11 +126,10 @@ fn text() -> Result<String, String> {
     Ok(text)
 }
 
-/// Crates in the library that are not ours, by name.
-fn linked() -> Result<Vec<Crate>, String> {
-    let tree =
-        "tree --locked --package component --edges normal,no-proc-macro --prefix none --format {p}|{l}";
-    let tree = shell::output(cargo(tree).args(["--target", TARGET]))?;
+/// Crates in a package that are not ours, by name.
+fn linked(package: &str, target: &str) -> Result<Vec<Crate>, String> {
+    let tree = "tree --locked --all-features --edges normal,no-proc-macro --prefix none --format {p}|{l}";
+    let tree = shell::output(cargo(tree).args(["--package", package, "--target", target]))?;
     let mut crates: Vec<Crate> = tree.lines().filter_map(crate_of).collect();
     crates.sort();
     crates.dedup();
@@ -123,15 +157,21 @@ fn folder(metadata: &str, it: &Crate) -> Option<PathBuf> {
     Path::new(&path.replace("\\\\", "\\")).parent().map(Path::to_owned)
 }
 
-/// The texts that a crate's licence requires to be passed on.
+/// The texts that a crate's licence requires to be passed on, as far as they are files of the crate.
 fn notices(folder: &Path, license: &str) -> Result<Vec<String>, String> {
     let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
     let mut names = Vec::new();
-    for entry in fs::read_dir(folder).map_err(failed)? {
-        let name = entry.map_err(failed)?.file_name().to_string_lossy().into_owned();
+    for name in names_in(folder).map_err(failed)? {
         let upper = name.to_uppercase();
-        if ["LICENSE", "LICENCE", "COPYING", "NOTICE"].iter().any(|start| upper.starts_with(start)) {
-            names.push(name);
+        if !["LICENSE", "LICENCE", "COPYING", "NOTICE"].iter().any(|start| upper.starts_with(start)) {
+            continue;
+        }
+        match folder.join(&name).is_dir() {
+            true => {
+                let within = names_in(&folder.join(&name)).map_err(failed)?;
+                names.extend(within.iter().map(|file| format!("{name}/{file}")));
+            }
+            false => names.push(name),
         }
     }
     names.sort();
@@ -140,13 +180,15 @@ fn notices(folder: &Path, license: &str) -> Result<Vec<String>, String> {
     if choice && !license.contains(" AND ") && names.iter().any(mit) {
         names.retain(|name| mit(name) || name.to_uppercase().starts_with("NOTICE"));
     }
-    if names.is_empty() {
-        return Err(format!("{}: no file with its licence ({license})", folder.display()));
-    }
     names
         .iter()
         .map(|name| fs::read_to_string(folder.join(name)).map(|text| tidy(&text)).map_err(failed))
         .collect()
+}
+
+/// Names of what a folder holds.
+fn names_in(folder: &Path) -> std::io::Result<Vec<String>> {
+    fs::read_dir(folder)?.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned())).collect()
 }
 
 /// Lines end alike and without blanks, whatever the crate's authors use.
@@ -164,7 +206,18 @@ mod tests {
     #[test]
     fn the_committed_notices_are_those_of_the_lock_file() {
         let committed = fs::read_to_string(path()).unwrap_or_default().replace("\r\n", "\n");
-        assert!(committed == text().unwrap(), "other crates are linked now: run `cargo xtask notices`");
+        assert!(committed == of_library().unwrap(), "other crates are linked now: run `cargo xtask notices`");
+    }
+
+    #[test]
+    fn the_program_has_more_notices_than_the_library() {
+        let (program, library) = (of_program(TARGET).unwrap(), of_library().unwrap());
+        let names = |text: &str, name: &str| text.lines().any(|line| line.starts_with(name));
+        // anise comes without a text of its own.
+        for name in ["clap ", "rustix ", "anise "] {
+            assert!(names(&program, name) && !names(&library, name), "{name}");
+        }
+        assert!(program.contains("\nanise, hifitime\n") || program.contains("\nhifitime, anise\n"));
     }
 
     #[test]

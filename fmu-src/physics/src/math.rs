@@ -4,6 +4,8 @@
 //! of these functions: each system's library rounds them in its own way. All code inside the FMU calls them here
 //! (`clippy::disallowed_methods` holds it so), and nalgebra takes them from `libm` as well (its feature `libm-force`).
 
+use core::f64::consts::{PI, TAU};
+
 macro_rules! functions {
     ($($(#[$meta:meta])* $name:ident($($argument:ident),+) = $of_libm:ident;)+) => {$(
         $(#[$meta])*
@@ -63,6 +65,13 @@ functions! {
 #[must_use]
 pub fn sin_cos(angle_rad: f64) -> (f64, f64) {
     libm::sincos(angle_rad)
+}
+
+/// The angle in -pi..pi.
+#[inline]
+#[must_use]
+pub fn wrapped_rad(angle_rad: f64) -> f64 {
+    if angle_rad.abs() <= PI { angle_rad } else { angle_rad - TAU * (angle_rad / TAU).round() }
 }
 
 /// `base` to a whole power, by repeated squaring: the compiler's own leaves open in which order it multiplies.

@@ -176,7 +176,18 @@ impl Times {
 ///
 /// Communication points are `start + k*step`; the last step ends at the stop time. Inputs are set at the start
 /// of each step, and only if their value changed. A recorded Real that is NaN is an error.
-pub fn simulate(fmu: &Fmu, mut options: Options<'_>) -> Result<Simulation, Box<Stopped>> {
+pub fn simulate(fmu: &Fmu, options: Options<'_>) -> Result<Simulation, Box<Stopped>> {
+    let mut instance = Instance::new(fmu, "run", &options.instance)?;
+    let (recording, ended) = simulate_by(&mut instance, options)?;
+    Ok(Simulation { recording, ended, messages: instance.messages() })
+}
+
+/// As [`simulate`], with an instance that was just made or reset.
+pub fn simulate_by(
+    instance: &mut Instance,
+    mut options: Options<'_>,
+) -> Result<(Recording, Ended), Box<Stopped>> {
+    let fmu = &instance.fmu().clone();
     let positions = options.record.take().unwrap_or_else(|| outputs(fmu.description()));
     let mut collector = Collector::new(fmu.description(), &positions);
     let times = Times::of(fmu, options.start_s, options.stop_s, options.step_s)?;
@@ -186,8 +197,8 @@ pub fn simulate(fmu: &Fmu, mut options: Options<'_>) -> Result<Simulation, Box<S
     };
     collector.fits(points)?;
     options.record = Some(positions);
-    match simulate_into(fmu, options, &mut collector) {
-        Ok((ended, messages)) => Ok(Simulation { recording: collector.into_recording(), ended, messages }),
+    match simulate_with(instance, options, &mut collector) {
+        Ok(ended) => Ok((collector.into_recording(), ended)),
         Err(error) => Err(Box::new(Stopped { error, partial: collector.into_recording() })),
     }
 }

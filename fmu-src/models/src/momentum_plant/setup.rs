@@ -1,9 +1,9 @@
 //! The model and its immutable setup: the spacecraft and what is computed from it once.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use fmi_export::{Context, Failure, Model, SetupError};
-use physics::environment::ephemeris::Ephemeris;
+use physics::environment::ephemeris::Evaluated;
 use physics::environment::onboard::OnboardEphemeris;
 use physics::environment::orbit::OrbitMethod;
 use physics::guidance::geometry::lighting::SubsolarMethod;
@@ -70,10 +70,9 @@ pub struct PlantSetup {
     /// How disturbed orbits are integrated.
     #[serde(skip)]
     orbit_method: OrbitMethod,
-    /// Where planets are about the start of the first flight: a flight that starts there again need not compute it. A function of
-    /// time alone, so no state.
+    /// What VSOP87 was evaluated for: a simulation after a reset need not do it again.
     #[serde(skip)]
-    pub planets_at_start: OnceLock<Ephemeris>,
+    pub evaluated: Evaluated,
 }
 
 impl PlantSetup {
@@ -98,7 +97,7 @@ impl PlantSetup {
             timeline: None,
             panel_steps: Vec::new(),
             orbit_method: OrbitMethod::default(),
-            planets_at_start: OnceLock::new(),
+            evaluated: Evaluated::default(),
             spacecraft,
         })
     }

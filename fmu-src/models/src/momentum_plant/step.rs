@@ -1,6 +1,7 @@
 //! A flight of the model begins, steps, and waits for inputs that are not set yet.
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
+use physics::environment::ephemeris::Ephemeris;
 use physics::plant::{Undo, World};
 
 use super::inputs::{self, FixedParameters, Reading, propulsion};
@@ -60,10 +61,8 @@ fn configure(
         match (read.fixed, read.settings) {
             (Some(fixed), Some(settings)) => {
                 let FixedParameters { light, air, thrusters } = fixed;
-                let mut world = World { light, air, ..World::new(read.configuration) };
-                if let Some(planets) = context.setup.planets_at_start.get() {
-                    world.ephemeris.learn(planets);
-                }
+                let ephemeris = Ephemeris::sharing(&context.setup.evaluated);
+                let world = World { ephemeris, light, air, ..World::new(read.configuration) };
                 state.flight.thrusters.settings = thrusters;
                 state.flight.configure(world, settings);
             }
@@ -97,9 +96,6 @@ fn begin(
     let given = reading.given(&external, &planner);
     let log = &mut |event: &_| log_event(context, event);
     state.flight.begin(given, time_s, log).map_err(failure)?;
-    if let Some(planets) = state.flight.ephemeris() {
-        context.setup.planets_at_start.get_or_init(|| planets.clone());
-    }
     if let Some(estimate) = state.flight.estimate_at(time_s) {
         state.take_first_command(estimate.attitude, time_s)?;
     }

@@ -17,10 +17,11 @@
 //!
 //! A Julian date resolves 4e-5 s, in which Mercury moves by 2 m: what is evaluated is moved to the date itself.
 //!
-//! Two neighbouring segments of each layer are held, so that looking back and forth over an edge costs no refill; of what VSOP87
-//! itself is evaluated for, as many as a span of time needs that is looked at again and again ([`Ephemeris::holding`]).
+//! Two neighbouring segments of each layer are held, so that looking back and forth over an edge costs no refill. What VSOP87
+//! itself was evaluated for is kept in [`Evaluated`], which forecasts and repeated simulations of one instance share.
 
 use core::f64::consts::TAU;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::{Matrix3, SVector, Vector3};
 
@@ -94,16 +95,44 @@ impl Theory {
     }
 }
 
-/// Longest span whose segments are held, in s.
-const LONGEST_HELD_S: f64 = 1000.0 * DAY_S;
+/// Span of time whose segments are kept for all who share them, in s.
+const SHARED_S: f64 = 1000.0 * DAY_S;
 
-/// Planet positions, a cache over VSOP87 whose size is chosen once: looking up never allocates, and the same epoch always gives
-/// the same bits. It is no state: skip it when serialising and start from the default.
+/// The segments that VSOP87 was evaluated for, of each body about a thousand days. A function of time alone, so no state.
+#[derive(Clone, Debug, Default)]
+pub struct Evaluated(Arc<Mutex<Segments>>);
+
+/// Room of a body is allocated with its first segment.
+#[derive(Debug, Default)]
+struct Segments {
+    elements: [Option<Slots<6, ELEMENT_TERMS>>; Body::COUNT],
+    earth: Option<Slots<3, EARTH_TERMS>>,
+    moon: Option<Slots<3, MOON_TERMS>>,
+}
+
+impl Evaluated {
+    /// The segment about `epoch_s` of those that `of` chooses.
+    fn segment<const D: usize, const N: usize>(
+        &self,
+        of: impl FnOnce(&mut Segments) -> &mut Option<Slots<D, N>>,
+        (epoch_s, length_s): (f64, f64),
+        fit: impl FnOnce(f64, f64) -> Segment<D, N>,
+    ) -> Segment<D, N> {
+        // A panic leaves only whole segments.
+        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let slots = of(&mut all).get_or_insert_with(|| Slots::holding(SHARED_S, length_s));
+        *slots.segment(epoch_s, length_s, fit)
+    }
+}
+
+/// Planet positions, a cache over VSOP87: the same epoch always gives the same bits. It is no state: skip it when serialising and
+/// start from the default.
 #[derive(Clone, Debug, Default)]
 pub struct Ephemeris {
     planets: [TwoLayers; Body::COUNT],
     earth: Slots<3, EARTH_TERMS>,
     moon: Slots<3, MOON_TERMS>,
+    evaluated: Evaluated,
     entered: [Entered; Body::COUNT],
     moon_entered: Entered,
 }
@@ -129,25 +158,9 @@ impl Entered {
 }
 
 impl Ephemeris {
-    /// One that evaluates VSOP87 once for whatever is requested within `span_s`, up to a thousand days, however often: for those who
-    /// look that far ahead at every turn.
-    pub fn holding(span_s: f64) -> Self {
-        let mut all = Self::default();
-        let span_s = span_s.clamp(0.0, LONGEST_HELD_S);
-        all.planets.iter_mut().for_each(|planet| planet.elements = Slots::holding(span_s, LONG_S));
-        all.earth = Slots::holding(span_s, MIDDLE_S);
-        all.moon = Slots::holding(span_s, MIDDLE_S);
-        all
-    }
-
-    /// Takes over the segments that another one holds; allocates nothing.
-    pub fn learn(&mut self, other: &Self) {
-        for (own, others) in self.planets.iter_mut().zip(&other.planets) {
-            own.elements.learn(&others.elements);
-            own.position.learn(&others.position);
-        }
-        self.earth.learn(&other.earth);
-        self.moon.learn(&other.moon);
+    /// One that shares what VSOP87 was evaluated for.
+    pub fn sharing(evaluated: &Evaluated) -> Self {
+        Self { evaluated: evaluated.clone(), ..Self::default() }
     }
 
     /// Heliocentric position and velocity in EME2000 at `epoch_s` past J2000 TDB, geometric (no light time).
@@ -182,12 +195,19 @@ impl Ephemeris {
     /// Position and velocity of the Moon from the Earth in EME2000 at `epoch_s`, geometric; see [`Ephemeris::state`].
     pub fn moon_from_earth(&mut self, epoch_s: f64) -> CartesianState {
         self.moon_entered.enter((epoch_s / MIDDLE_S).floor() as i64);
-        let segment = self.moon.segment(epoch_s, MIDDLE_S, |start_s, end_s| {
-            fit_rectangular(start_s, end_s, |date| {
-                let barycentre_m = from_rectangular(vsop87::vsop87a::earth_moon(date));
-                let earth_m = from_rectangular(vsop87::vsop87a::earth(date));
-                (barycentre_m - earth_m) * (1.0 + EARTH_TO_MOON_MASS)
-            })
+        let evaluated = &self.evaluated;
+        let segment = self.moon.segment(epoch_s, MIDDLE_S, |_, _| {
+            evaluated.segment(
+                |all| &mut all.moon,
+                (epoch_s, MIDDLE_S),
+                |start_s, end_s| {
+                    fit_rectangular(start_s, end_s, |date| {
+                        let barycentre_m = from_rectangular(vsop87::vsop87a::earth_moon(date));
+                        let earth_m = from_rectangular(vsop87::vsop87a::earth(date));
+                        (barycentre_m - earth_m) * (1.0 + EARTH_TO_MOON_MASS)
+                    })
+                },
+            )
         });
         let (position_m, velocity_m_s) = segment.value_and_derivative(epoch_s);
         CartesianState { position_m, velocity_m_s }
@@ -195,14 +215,21 @@ impl Ephemeris {
 
     fn earth(&mut self, epoch_s: f64) -> &Segment<3, EARTH_TERMS> {
         self.entered[Body::Earth as usize].enter((epoch_s / MIDDLE_S).floor() as i64);
-        self.earth.segment(epoch_s, MIDDLE_S, |start_s, end_s| {
-            fit_rectangular(start_s, end_s, |date| from_rectangular(vsop87::vsop87a::earth(date)))
+        let evaluated = &self.evaluated;
+        self.earth.segment(epoch_s, MIDDLE_S, |_, _| {
+            evaluated.segment(
+                |all| &mut all.earth,
+                (epoch_s, MIDDLE_S),
+                |start_s, end_s| {
+                    fit_rectangular(start_s, end_s, |date| from_rectangular(vsop87::vsop87a::earth(date)))
+                },
+            )
         })
     }
 
     fn planet(&mut self, body: Body, theory: &Theory, epoch_s: f64) -> &Segment<3, PLANET_TERMS> {
         self.entered[body as usize].enter((epoch_s / LONG_S).floor() as i64);
-        self.planets[body as usize].segment(epoch_s, theory)
+        self.planets[body as usize].segment(epoch_s, (body, theory), &self.evaluated)
     }
 
     /// Begins a count of work: of each body the segment that is requested first counts as held.
@@ -240,7 +267,7 @@ struct Slots<const D: usize, const N: usize> {
 
 impl<const D: usize, const N: usize> Default for Slots<D, N> {
     fn default() -> Self {
-        Self::holding(0.0, 1.0)
+        Self { held: Box::new([None; 2]) }
     }
 }
 
@@ -253,13 +280,6 @@ impl<const D: usize, const N: usize> Slots<D, N> {
 
     fn place(&self, number: i64) -> usize {
         number.rem_euclid(self.held.len() as i64) as usize
-    }
-
-    fn learn(&mut self, other: &Self) {
-        for held in other.held.iter().flatten() {
-            let place = self.place(held.0);
-            self.held[place] = Some(*held);
-        }
     }
 
     fn segment(
@@ -292,14 +312,23 @@ struct TwoLayers {
 impl TwoLayers {
     /// The positions about `epoch_s`. Only the slow remainder of the longitude is fitted: any value near gives the same
     /// positions.
-    fn segment(&mut self, epoch_s: f64, theory: &Theory) -> &Segment<3, PLANET_TERMS> {
+    fn segment(
+        &mut self,
+        epoch_s: f64,
+        (body, theory): (Body, &Theory),
+        evaluated: &Evaluated,
+    ) -> &Segment<3, PLANET_TERMS> {
         let mean_motion_rad_s = theory.mean_motion_rad_s();
         let elements = &mut self.elements;
         self.position.segment(epoch_s, SHORT_S, |start_s, end_s| {
             // Nodes lie inside the segment that `epoch_s` chose, and that inside one segment of elements.
             let middle_s = ((epoch_s / LONG_S).floor() + 0.5) * LONG_S;
-            let slow = elements.segment(epoch_s, LONG_S, |start_s, end_s| {
-                fit_elements(theory, mean_motion_rad_s, [start_s, middle_s, end_s])
+            let slow = elements.segment(epoch_s, LONG_S, |_, _| {
+                evaluated.segment(
+                    |all| &mut all.elements[body as usize],
+                    (epoch_s, LONG_S),
+                    |start_s, end_s| fit_elements(theory, mean_motion_rad_s, [start_s, middle_s, end_s]),
+                )
             });
             Segment::fit(start_s, end_s, |node_s| {
                 let [[a, longitude_rad, k, h, q, p]] = slow.value(node_s).data.0;

@@ -47,7 +47,8 @@ impl Ellipsoid {
         };
         let mut reduced = unit(z, axial_m * share);
         let mut normal = reduced;
-        for _ in 0..ITERATIONS {
+        // On a sphere both are one.
+        for _ in 0..if square == 0.0 { 0 } else { ITERATIONS } {
             let [sine, cosine] = reduced;
             normal = unit(
                 z + outer_square * polar_m * sine * sine * sine,

@@ -1,9 +1,13 @@
 //! Flights of a planned mission through its FMU: as it is, by the timeline of a plan, with other values at the start.
 
-use std::{error::Error, path::Path, sync::atomic::AtomicBool};
+use std::{
+    error::Error,
+    path::Path,
+    sync::{Mutex, PoisonError, atomic::AtomicBool},
+};
 
 use files::Scratch;
-use loader::{Fmu, InputTable, Options, Recording, Value};
+use loader::{Fmu, InputTable, Instance, InstanceOptions, Options, Recording, Value};
 use physics::{
     environment::dates,
     guidance::timeline::{Timeline, simulation_time_s},
@@ -76,6 +80,8 @@ pub(super) struct SimulatedMission {
     pub stop_s: f64,
     /// Epoch of time 0 in s past J2000 TDB, where the mission begins at a date.
     pub zero_epoch_s: Option<f64>,
+    // Instances that wait for their next simulation: at most as many as ran at once.
+    instances: Mutex<Vec<Instance>>,
     // The FMU's folder, as long as it is in use.
     _folder: Option<Scratch>,
 }
@@ -114,6 +120,7 @@ impl SimulatedMission {
             zero_epoch_s: simulated.zero_epoch_s(settings.times.start_s),
             sets: settings.sets,
             inputs: settings.inputs,
+            instances: Mutex::default(),
             _folder: folder,
         })
     }
@@ -287,16 +294,29 @@ impl SimulatedMission {
             cancel: Some(&cancel),
             ..Options::default()
         };
-        let simulated = loader::simulate(&self.fmu, options);
+        let mut instance = self.instance()?;
+        let simulated = loader::simulate_by(&mut instance, options);
+        if simulated.is_ok() {
+            self.instances.lock().unwrap_or_else(PoisonError::into_inner).push(instance);
+        }
         if interrupt::raised() {
             return Err("interrupted".into());
         }
         Ok(match simulated {
-            Ok(simulation) => (simulation.recording, None),
+            Ok((recording, _)) => (recording, None),
             Err(stopped) => {
                 let error = loader::Error::chain(&stopped);
                 (stopped.partial, Some(error))
             }
         })
+    }
+
+    /// An instance as freshly made: what its last simulation evaluated VSOP87 for, it knows.
+    fn instance(&self) -> Result<Instance, loader::Error> {
+        let waiting = self.instances.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        match waiting {
+            Some(mut instance) => instance.reset().map(|()| instance),
+            None => Instance::new(&self.fmu, "run", &InstanceOptions::default()),
+        }
     }
 }

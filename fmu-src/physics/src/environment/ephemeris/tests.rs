@@ -244,28 +244,42 @@ fn history_leaves_no_trace() {
 }
 
 #[test]
-fn a_span_is_held_whole_and_changes_no_bit() {
+fn what_was_evaluated_is_shared_and_changes_no_bit() {
     let (start_s, days) = (-1e8, 400);
-    let mut other = Ephemeris::default();
-    let _ = other.state(Body::Venus, start_s);
-    let mut holding = Ephemeris::holding(f64::from(days) * DAY_S);
-    holding.learn(&other);
+    let evaluated = Evaluated::default();
+    let [mut first, mut second] = [(); 2].map(|()| Ephemeris::sharing(&evaluated));
+    let mut alone = Ephemeris::default();
     for day in (0..=days).chain((0..=days).rev()) {
         let epoch_s = start_s + f64::from(day) * DAY_S;
-        for body in Body::ALL {
-            assert_eq!(holding.state(body, epoch_s), other.state(body, epoch_s));
+        let sharing = if day % 100 < 50 { &mut first } else { &mut second };
+        for body in Body::ALL.into_iter().filter(|body| *body != Body::Custom) {
+            assert_eq!(sharing.state(body, epoch_s), alone.state(body, epoch_s));
         }
-        assert_eq!(holding.moon_from_earth(epoch_s), other.moon_from_earth(epoch_s));
+        assert_eq!(sharing.moon_from_earth(epoch_s), alone.moon_from_earth(epoch_s));
     }
     let touched = |length_s: f64| {
         let [first, last] =
             [start_s, start_s + f64::from(days) * DAY_S].map(|at_s| (at_s / length_s).floor());
         1 + (last - first) as usize
     };
-    for body in [Body::Mercury, Body::Venus, Body::Mars, Body::Jupiter] {
-        let held = &holding.planets[body as usize].elements.held;
-        assert_eq!(held.iter().flatten().count(), touched(LONG_S));
+    fn held<const D: usize, const N: usize>(slots: &Option<Slots<D, N>>) -> usize {
+        slots.iter().flat_map(|slots| &slots.held).flatten().count()
     }
-    assert_eq!(holding.earth.held.iter().flatten().count(), touched(MIDDLE_S));
-    assert_eq!(holding.moon.held.iter().flatten().count(), touched(MIDDLE_S));
+    let all = evaluated.0.lock().unwrap();
+    for body in [Body::Mercury, Body::Venus, Body::Mars, Body::Jupiter] {
+        assert_eq!(held(&all.elements[body as usize]), touched(LONG_S));
+    }
+    assert_eq!([held(&all.earth), held(&all.moon)], [touched(MIDDLE_S); 2]);
+}
+
+#[test]
+fn a_segment_of_others_is_taken_and_not_evaluated() {
+    let evaluated = Evaluated::default();
+    let _ = Ephemeris::sharing(&evaluated).state(Body::Earth, 0.0);
+    // Falsified, so that it shows whose it is.
+    let falsified =
+        Segment::<3, EARTH_TERMS>::from_samples(0.0, MIDDLE_S, &[Vector3::repeat(7.0); EARTH_TERMS]);
+    evaluated.0.lock().unwrap().earth.as_mut().unwrap().held[0] = Some((0, falsified));
+    let taken_m = Ephemeris::sharing(&evaluated).position_m(Body::Earth, 0.0);
+    assert!((taken_m - Vector3::repeat(7.0)).norm() < 1e-12, "{taken_m}");
 }

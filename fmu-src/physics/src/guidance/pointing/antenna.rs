@@ -1,12 +1,10 @@
 //! Antennas as guidance steers them: fans in the XY plane by azimuth, others fixed along an axis.
 
-use core::f64::consts::{PI, TAU};
-
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::{SunAngles, angle_between_rad, direction_from_angles};
-use crate::math;
+use crate::math::{self, wrapped_rad};
 use crate::spacecraft::{Antenna, AntennaRange, FanAzimuths, NamedAntenna};
 
 /// An azimuth this little outside a range counts as inside, in rad.
@@ -160,14 +158,9 @@ fn fan_at(row: AntennaRow, fan: &FanAzimuths, azimuth_rad: f64) -> AntennaAzimut
     let nearest_rad = fan.middle_rad + off_rad.clamp(-fan.half_rad, fan.half_rad);
     AntennaAzimuth {
         antenna: Some(row),
-        azimuth_rad: if nearest_rad.abs() > PI { wrapped_rad(nearest_rad) } else { nearest_rad },
+        azimuth_rad: wrapped_rad(nearest_rad),
         outside_rad: (off_rad.abs() - fan.half_rad).max(0.0),
     }
-}
-
-/// The angle in -pi..pi.
-fn wrapped_rad(angle_rad: f64) -> f64 {
-    (angle_rad + PI).rem_euclid(TAU) - PI
 }
 
 impl AntennaAzimuth {
@@ -183,7 +176,7 @@ impl AntennaAzimuth {
 
     /// How far a body-frame azimuth is from it, in rad.
     pub fn off_rad(&self, azimuth_rad: f64) -> f64 {
-        ((azimuth_rad - self.azimuth_rad + PI).rem_euclid(TAU) - PI).abs()
+        wrapped_rad(azimuth_rad - self.azimuth_rad).abs()
     }
 
     /// Whether it is the azimuth that was requested.

@@ -1,7 +1,5 @@
 //! The boresight options of paper 001's Table 1: vectors, the instrument on the gimbal, the phased-array antennas.
 
-use core::f64::consts::{PI, TAU};
-
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +7,7 @@ use super::antenna::{AntennaAzimuth, Antennas};
 use super::command::{BoresightCommand, BoresightOption};
 use crate::attitude::{SunAngles, direction_from_angles};
 use crate::guidance::geometry::moving::{Moving, MovingVector, fixed};
-use crate::math;
+use crate::math::{self, wrapped_rad};
 use crate::numerics::scalar::sin_cos;
 use crate::spacecraft::Instrument;
 
@@ -85,11 +83,6 @@ impl Gimbal {
         let (sine, cosine) = sin_cos(angle);
         fixed(self.zero_body) * cosine + fixed(self.quarter_body) * sine
     }
-}
-
-/// The angle in -pi..pi.
-fn wrapped_rad(angle_rad: f64) -> f64 {
-    if angle_rad.abs() <= PI { angle_rad } else { angle_rad - TAU * (angle_rad / TAU).round() }
 }
 
 /// A boresight and what it asks of its device.

@@ -35,12 +35,10 @@ pub struct World {
 impl World {
     /// Of this configuration with full tanks, without light and heat beyond direct sunlight.
     pub fn new(configuration: Configuration) -> Self {
-        let predictions = configuration.encounter.map(|encounter| encounter.prediction);
-        let ahead_s = predictions.filter(|it| it.refresh_s > 0.0).map_or(0.0, |it| it.horizon_s);
         Self {
             mass_at_zero: configuration.loaded(),
             configuration,
-            ephemeris: Ephemeris::holding(ahead_s),
+            ephemeris: Ephemeris::default(),
             light: None,
             air: None,
             work: Work::new(u32::MAX, 0),

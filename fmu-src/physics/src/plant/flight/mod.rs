@@ -26,7 +26,6 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::attitude::control::{Estimate, sample_number, sensed_sun};
-use crate::environment::ephemeris::Ephemeris;
 use crate::momentum::Totals;
 
 use crate::loads::ForceTorque;
@@ -154,11 +153,6 @@ impl Flight {
     /// The configuration that is simulated.
     pub fn configuration(&self) -> Option<&Configuration> {
         self.setup.as_ref().map(|setup| &setup.world.configuration)
-    }
-
-    /// The planets as far as they were looked up.
-    pub fn ephemeris(&self) -> Option<&Ephemeris> {
-        self.setup.as_ref().map(|setup| &setup.world.ephemeris)
     }
 
     /// Whether it waits.

@@ -6,6 +6,7 @@ use crate::environment::atmosphere::{Air, AtmosphereModel, SpaceWeather};
 use crate::environment::geodetic::{Ellipsoid, Geodetic};
 use crate::environment::magnetic_field::MagneticField;
 use crate::environment::orientation::Orientation;
+use crate::math::wrapped_rad;
 
 /// Figure and rotation of the planet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +20,10 @@ pub struct PlanetFigure {
 impl PlanetFigure {
     /// Geodetic coordinates of a position from its centre, EME2000, in m.
     pub fn geodetic(&self, epoch_s: f64, position_m: &Vector3<f64>) -> Geodetic {
-        self.ellipsoid.geodetic(&(self.orientation.fixed_from_eme2000(epoch_s) * position_m))
+        let equator = self.orientation.equator(epoch_s);
+        let from_node = self.ellipsoid.geodetic(&(equator.equator_from_eme2000 * position_m));
+        let longitude_rad = wrapped_rad(from_node.longitude_rad - equator.rotation_angle_rad);
+        Geodetic { longitude_rad, ..from_node }
     }
 }
 
