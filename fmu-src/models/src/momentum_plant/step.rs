@@ -18,8 +18,8 @@ pub(super) fn start(
     time_s: f64,
 ) -> Result<(), Failure> {
     let start = Step { start_s: time_s, end_s: time_s, changed: true, inputs: InputsOverTime::held() };
-    let mut reading = inputs::read(context, values, state, &start)?;
-    configure(context, state, &mut reading, time_s)?;
+    let reading = inputs::read(context, values, state, &start)?;
+    configure(context, values, state, (&reading, &start))?;
     // Samples at the start are taken anew by the first step, with its inputs.
     let undo = if reading.begins { Some(begin(context, state, &reading, time_s)?) } else { None };
     show(context, values, state, &reading, time_s)?;
@@ -36,9 +36,9 @@ pub(super) fn step(
     state: &mut PlantState,
     step: &Step<'_>,
 ) -> Result<(), Failure> {
-    let mut reading = inputs::read(context, values, state, step)?;
+    let reading = inputs::read(context, values, state, step)?;
     state.warn_unset_inputs(context);
-    configure(context, state, &mut reading, step.start_s)?;
+    configure(context, values, state, (&reading, step))?;
     if reading.begins {
         let undo = begin(context, state, &reading, step.start_s)?;
         state.flight.undo(undo);
@@ -49,15 +49,16 @@ pub(super) fn step(
     show(context, values, state, &reading, step.end_s)
 }
 
-/// The flight takes what was read, from `time_s` on.
+/// The flight takes what was read, from the step's start on.
 fn configure(
     context: &Plan<'_>,
+    values: &Values,
     state: &mut PlantState,
-    reading: &mut Reading<'_>,
-    time_s: f64,
+    (reading, step): (&Reading<'_>, &Step<'_>),
 ) -> Result<(), Failure> {
     let (mut configuration, mut settings) = (None, None);
-    if let Some(read) = reading.configured.take() {
+    if reading.is_reconfigured {
+        let read = inputs::configured(context, values, state, step.inputs, reading)?;
         match (read.fixed, read.settings) {
             (Some(fixed), Some(settings)) => {
                 let FixedParameters { light, air, thrusters } = fixed;
@@ -70,7 +71,7 @@ fn configure(
         }
     }
     match reading.changes.filter(|_| !state.waiting && !reading.begins) {
-        Some(changes) => state.flight.apply(changes, configuration, settings, time_s).map_err(failure),
+        Some(changes) => state.flight.apply(changes, configuration, settings, step.start_s).map_err(failure),
         None => Ok(()),
     }
 }
@@ -137,7 +138,11 @@ fn show(
     let (external, planner) = (reading.external(), reading.planner());
     let given = reading.given(&external, &planner);
     let PlantState { flight, inputs, command, waiting, warned, .. } = state;
-    let report = flight.report(given, &inputs.dynamics, command, time_s).map_err(failure)?;
+    // Not `map_err`, which would copy the report.
+    let report = match flight.report(given, &inputs.dynamics, command, time_s) {
+        Ok(report) => report,
+        Err(error) => return Err(failure(error)),
+    };
     if !*waiting {
         outputs::flyable(&report)?;
     }

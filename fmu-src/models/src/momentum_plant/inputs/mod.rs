@@ -35,17 +35,17 @@ pub(super) struct Reading<'a> {
     pub changes: Option<Changes>,
     /// Whether the flight begins, everything it needs being known.
     pub begins: bool,
-    /// What flies, where that is another or not known yet.
-    pub configured: Option<Configured>,
-    /// Whether it is.
+    /// Whether the configuration is another than at the last step, or not known yet.
     pub is_reconfigured: bool,
+    /// Whether all of it is to be read: the flight begins, was restored or waits for inputs.
+    is_anew: bool,
     applied: AppliedLoad<'a>,
     manager: Manager<'a>,
     prepared: PreparedSpacecraft<'a>,
     work_limit: u32,
 }
 
-/// What flies.
+/// What a flight is configured by.
 pub(super) struct Configured {
     /// What follows from inputs and tunable parameters, among others.
     pub configuration: Configuration,
@@ -107,12 +107,14 @@ pub(super) fn read<'a>(
     let limits_rad = [variables.keep_in.azimuth, variables.keep_in.elevation].map(|limit| values.real(limit));
     let (management, spacecraft) = (&variables.momentum.management, &context.setup.spacecraft);
     let strategy = values.choice(management.strategy).0;
-    let configured = configured(context, values, state, step.inputs, (begins, changes))?;
+    let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
+    let is_anew = begins || !state.flight.is_configured() || (state.waiting && changes.is_some());
+    let is_changed = changes.is_some_and(|it| !is_dynamic || it.orbit || it.light || it.tunables);
     Ok(Reading {
         changes,
         begins,
-        is_reconfigured: configured.is_some(),
-        configured,
+        is_reconfigured: is_anew || is_changed,
+        is_anew,
         applied: state.inputs.applied_load(variables, step.inputs),
         manager: management.aim.manager(
             values,
@@ -125,20 +127,16 @@ pub(super) fn read<'a>(
     })
 }
 
-/// What flies: anew where the flight begins, was restored or waits for inputs, changed where inputs or tunables say so.
-fn configured(
+/// The configuration by inputs and tunable parameters, all that is fixed too where it is read anew.
+pub(super) fn configured(
     context: &Plan<'_>,
     values: &Values,
     state: &mut PlantState,
     over_time: InputsOverTime<'_>,
-    (begins, changes): (bool, Option<Changes>),
-) -> Result<Option<Configured>, Failure> {
+    reading: &Reading<'_>,
+) -> Result<Configured, Failure> {
     let is_dynamic = state.inputs.source.is_dynamic && !state.waiting;
-    let is_anew = begins || !state.flight.is_configured() || (state.waiting && changes.is_some());
-    let is_changed = changes.is_some_and(|it| !is_dynamic || it.orbit || it.light || it.tunables);
-    if !is_anew && !is_changed {
-        return Ok(None);
-    }
+    let is_anew = reading.is_anew;
     let center = Center::read(context, values);
     let moving = (over_time, state.flight.take_panels());
     let configuration = configuration::read(context, values, state, &center, moving)?;
@@ -162,7 +160,7 @@ fn configured(
     } else {
         None
     };
-    Ok(Some(Configured { configuration, settings, fixed }))
+    Ok(Configured { configuration, settings, fixed })
 }
 
 /// Reads what a flight begins with.
