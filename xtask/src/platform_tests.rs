@@ -257,7 +257,12 @@ fn programs(machines: &[Machine], built: &Built) -> Outcome {
         if bytes != *first.get_or_insert_with(|| bytes.clone()) {
             return Err(format!("{}: differs from the recording of the host's program", recording.display()));
         }
-        run(machine.start(&it.heliotorque).arg("check").arg(machine.path(&fmu)))?;
+        // An emulated machine is slow.
+        run(machine
+            .start(&it.heliotorque)
+            .arg("check")
+            .arg(machine.path(&fmu))
+            .args(["--timeout", "10 min"]))?;
     }
     Ok(())
 }

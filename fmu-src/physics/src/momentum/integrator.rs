@@ -155,7 +155,6 @@ impl MomentumIntegrator {
             if flight.must_choose(start_s) {
                 return Ok(Stop::Choice { at_s: start_s });
             }
-            let longest_s = self.segment.next_longest_s();
             let (totals, by_source) = (self.segment.totals(start_s), self.segment.by_source(start_s));
             let (horizon_s, inertial_from_body) =
                 flight.prepare(start_s, next_multiple_s(start_s, settings.grid_s).min(scheduled_s))?;
@@ -165,6 +164,7 @@ impl MomentumIntegrator {
             exceeded.iter_mut().zip(self.segment.at_threshold()).for_each(|(it, reached)| *it |= reached);
             if dumped_s != Some(start_s) && exceeded.contains(&true) {
                 flight.spend(Effort::Dump, start_s)?;
+                let longest_s = self.segment.next_longest_s();
                 let event = self.dump(settings.convention, start_s, totals, &inertial_from_body, |before| {
                     settings.policy.reinitialised(before, &exceeded)
                 });
@@ -172,8 +172,7 @@ impl MomentumIntegrator {
                 self.dumps.check()?;
                 return Ok(Stop::Dump(event));
             }
-            self.segment =
-                MomentumSegment::build(flight, settings, start_s, horizon_s, (totals, by_source), longest_s)?;
+            self.segment.advance(flight, settings, horizon_s, (totals, by_source))?;
         }
         Ok(Stop::Reached)
     }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::loads::ByEffect;
+use crate::loads::{ByEffect, Effect};
 use crate::numerics::adaptive::AdaptiveInterval;
 use crate::numerics::chebyshev::Segment;
 use crate::numerics::events::first_event;
@@ -93,25 +93,22 @@ impl MomentumSegment {
         Self { next_longest_s, ..self }
     }
 
-    /// Builds the segment that begins at `start_s` with `first`, the sample there. It ends at the next multiple of
-    /// the grid step or sooner: at `horizon_s`, up to where the flight is prepared, at an event, where the last Chebyshev
-    /// terms of a total or of the momentum of body and panels would exceed the tolerance, or where momentum exceeds a dump threshold.
-    ///
-    /// `longest_s` is the length that the segment before expects the tolerance to allow: trying more would be work for
-    /// nothing.
+    /// Becomes the next segment, with these totals at its start. It ends at the next multiple of the grid step or sooner: at
+    /// `horizon_s`, up to where the flight is prepared, at an event, where the last Chebyshev terms of a total or of the momentum of
+    /// body and panels would exceed the tolerance, or where momentum exceeds a dump threshold. Longer than this segment expects the
+    /// tolerance to allow is not tried.
     ///
     /// # Errors
-    /// More work than the flight may take.
-    pub(super) fn build<F: TorqueModel>(
+    /// More work than the flight may take; the segment is as before.
+    pub(super) fn advance<F: TorqueModel>(
+        &mut self,
         flight: &mut F,
         settings: &Settings,
-        start_s: f64,
         horizon_s: f64,
-        at_start: (Totals, SourceMomenta),
-        longest_s: f64,
-    ) -> Result<Self, F::Failure> {
+        (at_start, by_source_at_start): (Totals, SourceMomenta),
+    ) -> Result<(), F::Failure> {
+        let (start_s, longest_s) = (self.end_s, self.next_longest_s);
         flight.spend(Effort::Segment, start_s)?;
-        let (at_start, by_source_at_start) = at_start;
         let mut interval = AdaptiveInterval::new(start_s, settings.grid_s, longest_s, horizon_s, SHORTEST_S);
         let mut watched = false;
         let (nodes, samples, totals, structure_body_n_m_s, next_longest_s) = loop {
@@ -156,34 +153,28 @@ impl MomentumSegment {
             flight.spend(Effort::Refinement, start_s)?;
         };
         let end_s = interval.end_s();
-        let by_source = ByEffect::of(|effect| {
+        let rate_body_rad_s =
+            Segment::from_samples(start_s, end_s, &samples.each_ref().map(|s| s.rate_body_rad_s));
+        (self.start_s, self.end_s, self.next_longest_s) = (start_s, end_s, next_longest_s);
+        (self.at_start, self.totals) = (at_start, Some(totals));
+        self.by_source_at_start = by_source_at_start;
+        (self.rate_body_rad_s, self.structure_body_n_m_s) = (Some(rate_body_rad_s), structure_body_n_m_s);
+        self.at_threshold = [false; 3];
+        for effect in Effect::ALL {
             let of = |sample: &Sample| {
                 let torque_body_n_m = sample.by_source_body_n_m[effect]?;
                 Some(rate(settings.convention, &sample.inertial_from_body, &torque_body_n_m))
             };
-            of(&samples[0])?;
-            let rates = samples.each_ref().map(|sample| of(sample).unwrap_or_default());
-            let segment = Segment::<3, NODES>::from_samples(start_s, end_s, &rates);
-            Some(segment.integral(by_source_at_start.0[effect]))
-        });
-        let rate_body_rad_s =
-            Segment::from_samples(start_s, end_s, &samples.each_ref().map(|s| s.rate_body_rad_s));
-        let mut segment = Self {
-            start_s,
-            end_s,
-            at_start,
-            next_longest_s,
-            totals: Some(totals),
-            by_source_at_start,
-            by_source,
-            rate_body_rad_s: Some(rate_body_rad_s),
-            structure_body_n_m_s,
-            at_threshold: [false; 3],
-        };
-        if let Some(excess) = segment.first_excess(flight, settings, &nodes, &samples) {
-            (segment.end_s, segment.at_threshold) = (excess.time_s, excess.components);
+            self.by_source[effect] = of(&samples[0]).map(|_| {
+                let rates = samples.each_ref().map(|sample| of(sample).unwrap_or_default());
+                let segment = Segment::<3, NODES>::from_samples(start_s, end_s, &rates);
+                segment.integral(by_source_at_start.0[effect])
+            });
         }
-        Ok(segment)
+        if let Some(excess) = self.first_excess(flight, settings, &nodes, &samples) {
+            (self.end_s, self.at_threshold) = (excess.time_s, excess.components);
+        }
+        Ok(())
     }
 
     /// Start, in s.

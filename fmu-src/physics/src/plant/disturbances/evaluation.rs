@@ -165,11 +165,18 @@ impl<'a> Plant<'a> {
 
     /// Everything at `time_s`, which the propagator must have reached ([`TorqueModel::prepare`]).
     pub fn evaluate(&mut self, time_s: f64) -> Evaluation {
-        let instant = self.kinematics.instant(time_s);
+        // In place, for it is large.
+        let mut evaluation = Evaluation {
+            instant: self.kinematics.instant(time_s),
+            loads: Loads::zero(),
+            mass: self.kinematics.mass_at_zero,
+            panels_body_n_m_s: Vector3::zeros(),
+            air_and_field: self.air_and_field(time_s),
+        };
+        let Evaluation { instant, loads, mass, panels_body_n_m_s, air_and_field } = &mut evaluation;
         let configuration = self.kinematics.configuration;
-        let mass = self.mass_properties(&instant, time_s);
-        let mut loads = self.radiation(time_s, &instant, &mass.center_of_mass_body_m);
-        let air_and_field = self.air_and_field(time_s);
+        *mass = self.mass_properties(instant, time_s);
+        self.radiation(time_s, instant, &mass.center_of_mass_body_m, loads);
         if let Some(planet_body_m) = instant.planet_body_m {
             let is_magnetic = configuration.effects.has(Effect::Magnetic);
             let at = NearPlanet {
@@ -180,13 +187,13 @@ impl<'a> Plant<'a> {
                     true => instant.to_body * air_and_field.field_inertial_t,
                     false => Vector3::zeros(),
                 },
-                air: self.air_load(time_s, &instant, &air_and_field, &mass.center_of_mass_body_m),
+                air: self.air_load(time_s, instant, air_and_field, &mass.center_of_mass_body_m),
             };
-            configuration.laws.exert(configuration.effects, &at, &mut loads);
+            configuration.laws.exert(configuration.effects, &at, loads);
         }
         [loads[Effect::Applied], _] = (self.external)(time_s);
-        let panels_body_n_m_s = self.panel_momentum_body_n_m_s(&instant, &mass, time_s);
-        Evaluation { instant, loads, mass, panels_body_n_m_s, air_and_field }
+        *panels_body_n_m_s = self.panel_momentum_body_n_m_s(instant, mass, time_s);
+        evaluation
     }
 
     /// Force and torque from outside at `time_s` and their slopes per second.
@@ -271,16 +278,21 @@ impl<'a> Plant<'a> {
         self.kinematics.trajectory.time_since_periapsis_s(self.kinematics.configuration, time_s)
     }
 
-    /// Light and heat: slow effects from their segment, plain sunlight in closed form.
-    fn radiation(&self, time_s: f64, instant: &Instant, center_of_mass_body_m: &Vector3<f64>) -> Loads {
+    /// Writes light and heat: slow effects from their segment, plain sunlight in closed form.
+    fn radiation(
+        &self,
+        time_s: f64,
+        instant: &Instant,
+        center_of_mass_body_m: &Vector3<f64>,
+        loads: &mut Loads,
+    ) {
         let configuration = self.kinematics.configuration;
-        let mut loads = Loads::zero();
         let mut shadowed = false;
         if let (Some(segment), Some(light)) = (&*self.segment, &self.light)
             && configuration.has_light_and_heat()
         {
             shadowed = configuration.light_and_heat.shadowing && light.model.can_shadow();
-            loads = segment.loads(time_s);
+            *loads = segment.loads(time_s);
             loads[Effect::Solar] = loads[Effect::Solar].scaled(configuration.light.scale);
         }
         if !shadowed {
@@ -291,7 +303,6 @@ impl<'a> Plant<'a> {
             let sunlit = self.prepared.sunlit(configuration, &self.kinematics.mass_at_zero, at);
             loads[Effect::Solar] = sunlit.load(&beam, center_of_mass_body_m);
         }
-        loads
     }
 
     /// Reports temperature in K and force in N, body frame, of every face of the light model at `time_s`, in its order; the
