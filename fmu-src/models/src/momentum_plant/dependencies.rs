@@ -98,7 +98,7 @@ impl Parameters {
         let wheels = v.wheel.iter().map(|wheel| knowns![wheel.axis, wheel.start_momentum]);
         // Guidance balances torques against the momentum.
         let air = &knowns![&v.atmosphere, &v.space_weather, &v.magnetic_field, v.earth.ut1_offset];
-        let aimed = &knowns![
+        let solution = &knowns![
             air,
             &v.laws,
             &v.guided,
@@ -110,7 +110,7 @@ impl Parameters {
         let panels = knowns![&v.panel, v.articulation.target_suns];
         let followed = knowns![&v.attitude, &v.command, &v.timeline, &v.keep_in];
         let turned = knowns![&orbit, followed, &v.sunshade, panels];
-        let attitude = knowns![turned, aimed.clone().only_if(choice.guided || choice.begins_guided)];
+        let attitude = knowns![turned, solution.clone().only_if(choice.guided || choice.begins_guided)];
         let sensors = knowns![&v.star_tracker, &v.gyro, &v.sun_sensor, &v.noise, v.control.rate];
         // In free flight they are fitted along the torque-free turn ahead, which goes by the rotors' inertia.
         let rotors = v.wheel.iter().map(|wheel| wheel.inertia).collect::<Knowns>();
@@ -127,7 +127,7 @@ impl Parameters {
             &v.spacecraft,
             &v.tank,
         ];
-        let momentum = knowns![&attitude, aimed, &v.dump];
+        let momentum = knowns![&attitude, solution, &v.dump];
         Self {
             // A dump at once takes propellant, which moves the centre of mass, and may move it at random.
             light: knowns![light, knowns![&momentum, &v.thruster, &v.noise].only_if(choice.ideal)],

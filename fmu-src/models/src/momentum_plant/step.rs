@@ -2,7 +2,7 @@
 
 use fmi_export::{Failure, InputsOverTime, Step, Values};
 use physics::environment::ephemeris::Ephemeris;
-use physics::plant::{Undo, World};
+use physics::plant::{SimulationContext, Undo};
 
 use super::inputs::{self, FixedParameters, Reading, propulsion};
 use super::outputs::{self, failure, log_event};
@@ -62,9 +62,10 @@ fn configure(
             (Some(fixed), Some(settings)) => {
                 let FixedParameters { light, air, thrusters } = fixed;
                 let ephemeris = Ephemeris::sharing(&context.setup.evaluated);
-                let world = World { ephemeris, light, air, ..World::new(read.configuration) };
+                let simulation =
+                    SimulationContext { ephemeris, light, air, ..SimulationContext::new(read.configuration) };
                 state.flight.thrusters.settings = thrusters;
-                state.flight.configure(world, settings);
+                state.flight.configure(simulation, settings);
             }
             (_, changed) => (configuration, settings) = (Some(read.configuration), changed),
         }

@@ -10,7 +10,7 @@ use physics::constants::{DAY_S, GM_MERCURY_M3_S2, RADIUS_MERCURY_M};
 use physics::environment::CartesianState;
 use physics::environment::ephemeris::Ephemeris;
 use physics::environment::orbit::{
-    BodyPlaces, DisturbedOrbit, Elements, NBodyGravity, NBodySettings, OrbitMethod,
+    BodyEphemeris, DisturbedOrbit, Elements, NBodyGravity, NBodySettings, OrbitMethod,
 };
 
 use super::named_model::{NamedModel, assert_cuts_change_nothing};
@@ -25,7 +25,7 @@ const BODIES: [Body; 5] = [Body::Mercury, Body::Venus, Body::Earth, Body::Mars, 
 /// The planets, time running back from the flyby.
 struct Backward(Ephemeris);
 
-impl BodyPlaces for Backward {
+impl BodyEphemeris for Backward {
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         let state = self.0.state(body, FLYBY_S - at_s);
         CartesianState { velocity_m_s: -state.velocity_m_s, ..state }

@@ -129,8 +129,8 @@ fn the_suns_tide_moves_an_aim_of_200_km_to_223_km() {
     let inward_m_s = (speed_squared - along_m_s * along_m_s).sqrt();
     let excess_m_s = across * along_m_s - outward * inward_m_s - mercury.velocity_m_s;
     assert!((excess_m_s.norm() - 5.2e3).abs() < 100.0, "{}", excess_m_s.norm());
-    let aimed = hyperbola(&excess_m_s, RADIUS_MERCURY_M + 2e5, -lead_s);
-    let mut sets = sets(&(aimed + ephemeris.state(Body::Mercury, FLYBY_S - lead_s)), true);
+    let solution = hyperbola(&excess_m_s, RADIUS_MERCURY_M + 2e5, -lead_s);
+    let mut sets = sets(&(solution + ephemeris.state(Body::Mercury, FLYBY_S - lead_s)), true);
     sets.extend([("start.epoch", FLYBY_S - lead_s), ("prediction.refresh", DAY_S)]);
     let mut flight = named.fly(0.0, &sets).unwrap();
     let aimed_m = ["encounter.bT", "encounter.bR"].map(|name| flight.real(name));

@@ -28,7 +28,7 @@ pub use air_and_field::air_and_field_segment::AirAndField;
 pub use disturbances::by_source::{BySource, Parameters, PositionError, Positions, Surfaces, Workspaces};
 pub use disturbances::evaluation::{Evaluation, External, Plant};
 pub use disturbances::laws::{Laws, NearPlanet};
-pub use disturbances::world::{PreparedSpacecraft, World};
+pub use disturbances::simulation_context::{PreparedSpacecraft, SimulationContext};
 pub use flight::downlink_forecast::{DownlinkForecast, StartMomentum, SunPlanner};
 pub use flight::ideal::Maneuvers;
 pub use flight::propagator_state::PropagatorState;
@@ -40,7 +40,7 @@ pub use flight::{
 };
 pub use light::radiation_segment::RadiationSegment;
 pub use light::radiation_solver::RadiationSolver;
-pub use light::sunlit::SunlitCraft;
+pub use light::sunlit::SunlitConfiguration;
 pub use motion::approaches::Approach;
 pub use motion::geometry::Geometry;
 pub use motion::instant::{Instant, Regime};

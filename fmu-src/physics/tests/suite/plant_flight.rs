@@ -21,7 +21,7 @@ use physics::numerics::quadrature;
 use physics::plant::{
     AttitudeSource, Command, Configuration, EphemerisSource, External, Laws, LightSource, Motion,
     PanelSetting, PanelStep, Plant, PreparedSpacecraft, PropagatorState, RadiationSettings, RadiationSolver,
-    Ramp, SunLight, ThrusterEventSettings, World, orbit_from_elements,
+    Ramp, SimulationContext, SunLight, ThrusterEventSettings, orbit_from_elements,
 };
 use physics::radiation::SolarModel;
 use physics::spacecraft::{MESSENGER_TOML, Spacecraft, SunshadeModel};
@@ -116,7 +116,7 @@ pub(crate) struct Rig {
     method: OrbitMethod,
     default_downlink: DefaultDownlink,
     pub(crate) propagator: PropagatorState,
-    world: Option<World>,
+    context: Option<SimulationContext>,
 }
 
 impl Rig {
@@ -128,7 +128,7 @@ impl Rig {
             method: OrbitMethod::default(),
             default_downlink: DefaultDownlink::default(),
             propagator: PropagatorState::default(),
-            world: None,
+            context: None,
         }
     }
 
@@ -137,7 +137,7 @@ impl Rig {
     }
 
     fn plant_in_light(&mut self, configuration: &Configuration, light: RadiationSolver) -> Plant<'_> {
-        self.world_of(configuration).light = Some(light);
+        self.context_of(configuration).light = Some(light);
         self.plant_now(&|_| [ForceTorque::zero(); 2])
     }
 
@@ -153,8 +153,8 @@ impl Rig {
     }
 
     /// Goes on under this configuration.
-    fn world_of(&mut self, configuration: &Configuration) -> &mut World {
-        self.world.insert(World::new(configuration.clone()))
+    fn context_of(&mut self, configuration: &Configuration) -> &mut SimulationContext {
+        self.context.insert(SimulationContext::new(configuration.clone()))
     }
 
     pub(crate) fn plant_with<'a>(
@@ -162,7 +162,7 @@ impl Rig {
         configuration: &Configuration,
         load: &'a External<'a>,
     ) -> Plant<'a> {
-        self.world_of(configuration);
+        self.context_of(configuration);
         self.plant_now(load)
     }
 
@@ -174,7 +174,7 @@ impl Rig {
             default_downlink: &self.default_downlink,
             timeline: None,
         };
-        Plant::new(prepared, self.world.as_mut().unwrap(), &mut self.propagator, load)
+        Plant::new(prepared, self.context.as_mut().unwrap(), &mut self.propagator, load)
     }
 }
 

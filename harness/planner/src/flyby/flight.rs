@@ -6,7 +6,7 @@ use physics::{
     environment::{
         CartesianState,
         ephemeris::Ephemeris,
-        orbit::{BodyPlaces, NBodyGravity, NBodySettings},
+        orbit::{BodyEphemeris, NBodyGravity, NBodySettings},
     },
 };
 
@@ -23,7 +23,7 @@ const TOLERANCE_M: f64 = 1e-3;
 
 /// What attracts a spacecraft on its way, and the planet that it meets.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Surroundings {
+pub struct ForceModel {
     /// The planet of the encounter.
     pub body: Body,
     /// Its gravitational parameter, in m3/s2.
@@ -38,7 +38,7 @@ pub struct Surroundings {
     pub lead_s: f64,
 }
 
-impl Surroundings {
+impl ForceModel {
     /// By the values of a MomentumPlant at the start of a flight, which begins at `start_s`.
     ///
     /// # Errors
@@ -110,7 +110,7 @@ pub(super) struct Planets {
     epoch_minus_time_s: f64,
 }
 
-impl BodyPlaces for Planets {
+impl BodyEphemeris for Planets {
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         self.ephemeris.state(body, at_s + self.epoch_minus_time_s)
     }
@@ -188,7 +188,7 @@ pub(super) struct Recorded<'a> {
     pub planets: Planets,
 }
 
-impl BodyPlaces for Recorded<'_> {
+impl BodyEphemeris for Recorded<'_> {
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState {
         if body == self.body {
             self.path.at(at_s).body_from_sun

@@ -20,7 +20,7 @@ use physics::{
 };
 
 use super::{
-    aim::{Aim, impact_parameter_m},
+    aimpoint::{FlybyAimpoint, impact_parameter_m},
     approach::{Approach, Encounter},
 };
 
@@ -47,7 +47,7 @@ pub struct LegTask {
     /// When the closest approach shall be, s of the flight.
     pub arrival_s: f64,
     /// Where it shall pass the body.
-    pub aim: Aim,
+    pub aimpoint: FlybyAimpoint,
     /// How long before the closest approach the hyperbola of B osculates, s.
     pub lead_s: f64,
     /// Whole revolutions about the Sun, and which of both arcs where there are any.
@@ -167,8 +167,8 @@ impl LegTask {
     }
 
     /// Refuses an aim whose path ends in the body.
-    fn check_aim(&self, excess_speed_m_s: f64) -> Result<(), LegError> {
-        let found_m = self.aim.b_m(excess_speed_m_s, self.mu_m3_s2, self.radius_m).norm();
+    fn check_aimpoint(&self, excess_speed_m_s: f64) -> Result<(), LegError> {
+        let found_m = self.aimpoint.b_m(excess_speed_m_s, self.mu_m3_s2, self.radius_m).norm();
         let least_m = impact_parameter_m(self.radius_m, excess_speed_m_s, self.mu_m3_s2);
         let [found_km, least_km] = [found_m, least_m].map(|size_m| 1e-3 * size_m);
         // Not a number is no aim either.
@@ -181,11 +181,11 @@ impl LegTask {
 
     /// What an encounter lacks to the aim along T and R, and along S by its time, m.
     fn lacks_m(&self, found: &Encounter) -> Vector3<f64> {
-        let lacks = match self.aim {
-            Aim::Plane { .. } => {
-                self.aim.b_m(found.excess_speed_m_s, self.mu_m3_s2, self.radius_m) - found.b_m
+        let lacks = match self.aimpoint {
+            FlybyAimpoint::Plane { .. } => {
+                self.aimpoint.b_m(found.excess_speed_m_s, self.mu_m3_s2, self.radius_m) - found.b_m
             }
-            Aim::Altitude { altitude_m, angle_rad } => {
+            FlybyAimpoint::Altitude { altitude_m, angle_rad } => {
                 // The altitude is that of the flight, which is not the hyperbola's of the lead time.
                 let size_m = found.b_m.norm();
                 let speed_m_s = found.excess_speed_m_s;
@@ -226,13 +226,13 @@ pub fn shoot(task: &LegTask, flights: &mut dyn SimulatesLeg) -> Result<Leg, LegE
     let body = flights.body(task.arrival_s).map_err(LegError::Flight)?;
     let [lambert_m_s, end_m_s] = task.lambert_m_s(body.position_m)?;
     let mut excess_m_s = end_m_s - body.velocity_m_s;
-    task.check_aim(excess_m_s.norm())?;
+    task.check_aimpoint(excess_m_s.norm())?;
 
     let mut velocity_m_s = lambert_m_s;
     let mut offset_m = Vector3::zeros();
     let mut unattracted = 0;
     while unattracted < UNATTRACTED_ROUNDS {
-        let b_m = task.aim.b_m(excess_m_s.norm(), task.mu_m3_s2, task.radius_m);
+        let b_m = task.aimpoint.b_m(excess_m_s.norm(), task.mu_m3_s2, task.radius_m);
         let place_m = body.position_m + axes(&excess_m_s).transpose() * b_m.push(0.0);
         let [from_m_s, to_m_s] = task.lambert_m_s(place_m + offset_m)?;
         (velocity_m_s, excess_m_s) = (from_m_s, to_m_s - body.velocity_m_s);

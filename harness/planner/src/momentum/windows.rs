@@ -154,7 +154,7 @@ const SHORTEST_S: f64 = 60.0;
 
 /// How far controls go.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Reach {
+pub struct ControlBounds {
     /// Largest change of the offset off the baseline, in rad; 0 where it is kept.
     pub offset_rad: f64,
     /// Largest windmill angle, in rad.
@@ -198,7 +198,7 @@ pub struct Layout {
     /// Share of each window that contacts take where none is listed.
     pub contact_share: f64,
     /// How far controls go.
-    pub reach: Reach,
+    pub reach: ControlBounds,
     /// The plan that the mission has so far, in order: windows begin with its controls, those before it on the baseline without tilt.
     pub in_force: Vec<InForce>,
     /// Corridor of the light on the cells.
@@ -213,7 +213,7 @@ pub struct Layout {
 
 impl Layout {
     /// Of an orbit phase: downlinks are free as far as `reach` lets the Sun off -Y, everything else stays, the arrays so far off the Sun.
-    pub fn of_downlinks(downlinks_s: Vec<[f64; 2]>, reach: Reach, sun_offset_rad: f64) -> Self {
+    pub fn of_downlinks(downlinks_s: Vec<[f64; 2]>, reach: ControlBounds, sun_offset_rad: f64) -> Self {
         Self {
             frozen_until_s: f64::NEG_INFINITY,
             arrays_are_frozen: true,

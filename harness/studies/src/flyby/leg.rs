@@ -5,7 +5,7 @@
 
 use loader::Fmu;
 use planner::{
-    flyby::{Aim, Sensitivity, Surroundings},
+    flyby::{BPlaneAimpoint, ForceModel, Sensitivity},
     momentum::{
         Convention, Limit,
         attainable::{Reachable, reachable},
@@ -15,7 +15,7 @@ use planner::{
         simulated::{FlightRow, MomentumSize, SAME_S, SimulatedFlight},
         target::Target,
         torque::{Control, SunlitSpacecraft},
-        windows::{Layout, Reach, Window},
+        windows::{ControlBounds, Layout, Window},
     },
 };
 
@@ -48,7 +48,7 @@ pub(super) struct Leg<'a> {
     case: Case,
     stop_s: f64,
     kind: FlightKind,
-    pub surroundings: Surroundings,
+    pub force_model: ForceModel,
     pub sunlit: SunlitSpacecraft,
     /// Radius of the planet, in m.
     pub radius_m: f64,
@@ -67,7 +67,7 @@ pub(super) struct Met {
 #[derive(Clone, Copy)]
 pub(super) struct Room {
     pub window_s: f64,
-    pub reach: Reach,
+    pub reach: ControlBounds,
     /// Greatest |H|, in N m s.
     pub limit_n_m_s: f64,
 }
@@ -84,11 +84,11 @@ impl<'a> Leg<'a> {
         let text = files::read_text(&fmu.folder().join("resources/spacecraft.toml"))?;
         let sunlit =
             plant::sunlit(plant::spacecraft("spacecraft.toml", &text)?, &values, Convention::Inertial)?;
-        let surroundings = Surroundings::of(&values, 0.0)?;
+        let force_model = ForceModel::of(&values, 0.0)?;
         let radius_m = values.real("planet.radius");
         let kind =
             FlightKind { convention: Convention::Inertial, panels: sunlit.panels.len(), has_encounter: true };
-        Ok(Self { fmu, case, stop_s, kind, surroundings, sunlit, radius_m, begun: None })
+        Ok(Self { fmu, case, stop_s, kind, force_model, sunlit, radius_m, begun: None })
     }
 
     fn values(&self) -> StartValues<'_> {
@@ -97,7 +97,7 @@ impl<'a> Leg<'a> {
 
     /// Its time of an epoch in s past J2000 TDB.
     pub(super) fn time_s(&self, epoch_s: f64) -> f64 {
-        epoch_s - self.surroundings.epoch_minus_time_s
+        epoch_s - self.force_model.epoch_minus_time_s
     }
 
     /// With another velocity at the start.
@@ -175,7 +175,7 @@ impl<'a> Leg<'a> {
         if !windows.is_empty() {
             sunlit.followed_suns.fill(None);
         }
-        Ok(Sensitivity::new(flight, &self.surroundings, &sunlit)?)
+        Ok(Sensitivity::new(flight, &self.force_model, &sunlit)?)
     }
 
     /// Time (s) and altitude (m) of the closest approach of a flight past the planet, as the FMU reports them.
@@ -188,11 +188,11 @@ impl<'a> Leg<'a> {
     }
 
     /// With the velocity at the start that leads these windows to an aim with its time of arrival.
-    pub(super) fn led(&self, windows: &[Window], aim: &Aim) -> Result<(Self, Met), Failure> {
+    pub(super) fn led(&self, windows: &[Window], aimpoint: &BPlaneAimpoint) -> Result<(Self, Met), Failure> {
         let mut leg = self.clone();
         for _ in 0..ROUNDS {
             let met = leg.met(windows)?;
-            let miss = aim.miss(&met.sensitivity.encounter);
+            let miss = aimpoint.miss(&met.sensitivity.encounter);
             if miss.xy().norm() < LED_M && miss.z.abs() < LED_S {
                 return Ok((leg, met));
             }
@@ -203,7 +203,7 @@ impl<'a> Leg<'a> {
     }
 
     /// Windows of its time, on the baseline of the arrays.
-    pub(super) fn layout(&self, window_s: f64, reach: Reach) -> Layout {
+    pub(super) fn layout(&self, window_s: f64, reach: ControlBounds) -> Layout {
         let values = self.values();
         let whole = Layout::of_downlinks(Vec::new(), reach, 0.0);
         let mut layout = Layout {
@@ -239,8 +239,13 @@ impl<'a> Leg<'a> {
     }
 
     /// Where plans may move the encounter of these windows to.
-    pub(super) fn reachable(&self, room: &Room, windows: &[Window], aim: &Aim) -> Result<Reachable, Failure> {
-        let mut sought = Sought { leg: self, aim: Some(aim) };
+    pub(super) fn reachable(
+        &self,
+        room: &Room,
+        windows: &[Window],
+        aimpoint: &BPlaneAimpoint,
+    ) -> Result<Reachable, Failure> {
+        let mut sought = Sought { leg: self, aimpoint: Some(aimpoint) };
         let simulated = sought.simulate(windows, &[])?;
         Ok(reachable(&self.task(room, windows, true), &self.sunlit, &simulated, &mut sought)?)
     }
@@ -250,11 +255,11 @@ impl<'a> Leg<'a> {
         &self,
         room: &Room,
         windows: &[Window],
-        aim: Option<&Aim>,
+        aimpoint: Option<&BPlaneAimpoint>,
     ) -> Result<MomentumPlan, Failure> {
-        let mut sought = Sought { leg: self, aim };
+        let mut sought = Sought { leg: self, aimpoint };
         let simulated = sought.simulate(windows, &[])?;
-        let task = self.task(room, windows, aim.is_some());
+        let task = self.task(room, windows, aimpoint.is_some());
         let found = plan(&task, &self.sunlit, &simulated, &mut sought)?;
         // What counts is the flight, not how near the linear plan came to it.
         let miss_m = found.flight.encountered.as_ref().map_or(0.0, |it| it.miss.xy().norm());
@@ -279,15 +284,15 @@ impl<'a> Leg<'a> {
 /// A plan of a leg that is sought.
 struct Sought<'a, 'f> {
     leg: &'a Leg<'f>,
-    aim: Option<&'a Aim>,
+    aimpoint: Option<&'a BPlaneAimpoint>,
 }
 
 impl Simulates for Sought<'_, '_> {
     fn simulate(&mut self, windows: &[Window], _: &[PlannedDump]) -> Result<SimulatedFlight, Failure> {
         let mut flight = self.leg.simulated(windows)?;
-        if let Some(aim) = self.aim {
+        if let Some(aimpoint) = self.aimpoint {
             let sensitivity = self.leg.sensitivity(&flight, windows)?;
-            flight.encountered = Some(aim.encountered(&sensitivity, &flight.rows));
+            flight.encountered = Some(aimpoint.encountered(&sensitivity, &flight.rows));
         }
         Ok(flight)
     }

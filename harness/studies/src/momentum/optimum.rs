@@ -14,7 +14,7 @@ use planner::momentum::{
     plant::{self, StartValues},
     simulated::{MomentumSize, SAME_S, SimulatedFlight},
     torque::{Control, SunlitSpacecraft},
-    windows::{Layout, Reach, Window, WindowKind},
+    windows::{ControlBounds, Layout, Window, WindowKind},
 };
 
 use super::cases::{Case, Convention, Simulated, Strategy};
@@ -60,7 +60,7 @@ struct Sought<'a> {
     sunlit: SunlitSpacecraft,
     /// As it is without a plan.
     simulated: SimulatedFlight,
-    reach: Reach,
+    reach: ControlBounds,
     sun_offset_rad: f64,
 }
 
@@ -77,7 +77,7 @@ impl<'a> Sought<'a> {
         let spacecraft = plant::spacecraft("spacecraft.toml", &text)?;
         let sunlit = plant::sunlit(spacecraft, &values, convention)?;
         let [azimuth_rad, elevation_rad] = values.zone_rad();
-        let reach = Reach { azimuth_rad, elevation_rad, ..Reach::default() };
+        let reach = ControlBounds { azimuth_rad, elevation_rad, ..ControlBounds::default() };
         let mut sought = Self {
             fmu,
             panels: sunlit.panels.len(),

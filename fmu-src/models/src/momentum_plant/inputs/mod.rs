@@ -114,7 +114,7 @@ pub(super) fn read<'a>(
         is_reconfigured: configured.is_some(),
         configured,
         applied: state.inputs.applied_load(variables, step.inputs),
-        manager: management.aim.manager(
+        manager: management.targeting.manager(
             values,
             strategy,
             limits_rad,

@@ -14,12 +14,13 @@ const DOWN: &[(&str, f64)] = &[("pointing.scenario", 3.0)];
 fn a_sample_reads_the_inputs_of_the_step_that_begins_at_it() {
     let named = NamedModel::<Guidance>::shipped();
     let mut flight = named.fly(0.0, &with(&[PLACED, FREE, AT_VECTOR])).unwrap();
-    for (end_s, aim) in [(1.0, Vector3::x()), (1.5, Vector3::y()), (2.5, -Vector3::x()), (4.0, Vector3::z())]
+    for (end_s, direction) in
+        [(1.0, Vector3::x()), (1.5, Vector3::y()), (2.5, -Vector3::x()), (4.0, Vector3::z())]
     {
         // The sample at 1.0 belongs to the step from 1.0, those at 2.0 and 3.0 to the steps that hold them.
-        flight.set_elements("aimpoint.vector", &aim);
+        flight.set_elements("aimpoint.vector", &direction);
         flight.step_to(end_s).unwrap();
-        assert!((to_inertial(&flight) * Vector3::z() - aim).norm() < 1e-6, "{end_s}");
+        assert!((to_inertial(&flight) * Vector3::z() - direction).norm() < 1e-6, "{end_s}");
     }
     // Without a sample inside, a step does not read them.
     let before = flight.quaternion("command.q");

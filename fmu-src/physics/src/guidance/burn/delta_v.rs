@@ -109,7 +109,7 @@ pub enum BurnPhase {
 
 /// Where a burn wants its thrust.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BurnAim {
+pub struct BurnPointing {
     /// Unit vector of the estimated thrust in the body frame.
     pub boresight_body: Vector3<f64>,
     /// Where it is to point, EME2000.
@@ -277,7 +277,7 @@ impl BurnState {
     }
 
     /// Where the thrust is to point; `None` without a path.
-    pub fn aim(&self, settings: &BurnSettings) -> Option<BurnAim> {
+    pub fn pointing(&self, settings: &BurnSettings) -> Option<BurnPointing> {
         let path = settings.path.as_ref()?;
         let here = path.point(self.magnitude_m_s);
         let measured_m_s2 = self.measured_m_s2(settings);
@@ -290,7 +290,7 @@ impl BurnState {
         };
         let is_burning = matches!(self.phase, BurnPhase::Burning { .. });
         let speed_m_s2 = measured_m_s2.filter(|_| is_burning).unwrap_or(0.0);
-        Some(BurnAim {
+        Some(BurnPointing {
             boresight_body: self.thrust_body(settings),
             direction: moving(turn * here.tangent, turn * here.curvature_s_m * speed_m_s2),
         })
@@ -298,9 +298,9 @@ impl BurnState {
 
     /// Whether the attitude estimated at the last sample has the thrust on its aim.
     fn is_reached(&self, settings: &BurnSettings) -> bool {
-        self.last.zip(self.aim(settings)).is_some_and(|(motion, aim)| {
-            let thrust = motion.attitude.to_inertial(&aim.boresight_body);
-            angle_between_rad(&thrust, &value(&aim.direction)) <= ATTITUDE_REACHED_RAD
+        self.last.zip(self.pointing(settings)).is_some_and(|(motion, pointing)| {
+            let thrust = motion.attitude.to_inertial(&pointing.boresight_body);
+            angle_between_rad(&thrust, &value(&pointing.direction)) <= ATTITUDE_REACHED_RAD
         })
     }
 

@@ -19,7 +19,7 @@ use crate::radiation::Beam;
 use crate::spacecraft::MassProperties;
 
 use super::laws::NearPlanet;
-use super::world::{PreparedSpacecraft, World};
+use super::simulation_context::{PreparedSpacecraft, SimulationContext};
 use crate::plant::air_and_field::aerodynamic_solver::AerodynamicSolver;
 use crate::plant::air_and_field::air_and_field_builder::AirAndFieldBuilder;
 use crate::plant::air_and_field::air_and_field_segment::{AirAndField, AirAndFieldSegment};
@@ -136,11 +136,11 @@ impl<'a> Plant<'a> {
     /// `propagator` belongs to this world; `external` gives the load from outside at any time.
     pub fn new(
         prepared: PreparedSpacecraft<'a>,
-        world: &'a mut World,
+        context: &'a mut SimulationContext,
         propagator: &'a mut PropagatorState,
         external: &'a External<'a>,
     ) -> Self {
-        let World { configuration, mass_at_zero, ephemeris, light, air, work, .. } = world;
+        let SimulationContext { configuration, mass_at_zero, ephemeris, light, air, work, .. } = context;
         let PropagatorState { trajectory, light: segment, air_and_field, sun_choice, .. } = propagator;
         let kinematics = Kinematics {
             configuration,

@@ -240,13 +240,13 @@ impl Kinematics<'_> {
     ) -> Option<TimelineAttitude> {
         let epoch_s = time_s + self.configuration.epoch_minus_time_s;
         let (sun_state, earth) = (geometry.sun_from_center(), geometry.earth_from_center());
-        let mut surroundings =
+        let mut ephemeris_at_time =
             EphemerisAtTime::new(epoch_s, settings.planet, &geometry.spacecraft, &sun_state, &earth);
         for body in bodies_of(&entry.command) {
             let place = geometry::body(self.configuration, self.ephemeris, body, epoch_s);
-            surroundings.place_body(body, &place);
+            ephemeris_at_time.place_body(body, &place);
         }
-        law.attitude(settings, entry, time_s, &surroundings, sun)
+        law.attitude(settings, entry, time_s, &ephemeris_at_time, sun)
     }
 
     /// What the orbit phase's own guidance commands at `time_s`.

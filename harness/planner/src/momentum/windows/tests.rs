@@ -3,8 +3,13 @@
 use super::*;
 use crate::momentum::test_spacecraft::{DAY_S, simulated, sunlit, task};
 
-const REACH: Reach =
-    Reach { offset_rad: 0.0, windmill_rad: 0.03, azimuth_rad: 0.1, elevation_rad: 0.1, alternate: 0.5 };
+const REACH: ControlBounds = ControlBounds {
+    offset_rad: 0.0,
+    windmill_rad: 0.03,
+    azimuth_rad: 0.1,
+    elevation_rad: 0.1,
+    alternate: 0.5,
+};
 
 fn layout() -> Layout {
     let mut layout = task(5.0, REACH).layout;

@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 
 /// Where a path shall pass a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Aim {
+pub enum FlybyAimpoint {
     /// By the altitude of its closest approach, and the angle of B from T toward R.
     Altitude {
         /// Above the body's radius, m.
@@ -35,7 +35,7 @@ pub fn closest_distance_m(b_m: f64, excess_speed_m_s: f64, mu_m3_s2: f64) -> f64
     b_m * b_m / (axis_m + axis_m.hypot(b_m))
 }
 
-impl Aim {
+impl FlybyAimpoint {
     /// B along T and R, in m, on a hyperbola without tides about a body of this gravitational parameter and radius.
     pub fn b_m(&self, excess_speed_m_s: f64, mu_m3_s2: f64, radius_m: f64) -> Vector2<f64> {
         match *self {

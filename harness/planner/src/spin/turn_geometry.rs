@@ -29,7 +29,7 @@ const NO_CLOSER_RAD: f64 = 1e-9;
 
 /// What a turn goes from and to, unit vectors in EME2000.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Aim {
+pub struct TurnGeometry {
     /// Spin axis at the start.
     pub axis_inertial: Vector3<f64>,
     /// Where it shall point.
@@ -53,13 +53,13 @@ pub struct Way {
     pub heading_rad: (f64, f64),
 }
 
-impl Aim {
+impl TurnGeometry {
     /// From the flags and the spacecraft's file.
     ///
     /// # Errors
     /// Flags that leave a direction open, or that contradict each other.
     pub fn new(options: &Options, spinner: &Spinner) -> Result<Self, PlanError> {
-        let refuse = |flag, what: &str| PlanError::Aim { flag, what: what.to_owned() };
+        let refuse = |flag, what: &str| PlanError::Direction { flag, what: what.to_owned() };
         let date = options.date.map(|epoch_s| seen_from_l1(&spinner.l1_orbit, epoch_s));
         let given_sun = options.sun.map(inertial).or(date.map(|(sun, _)| sun));
         let earth_inertial = options.earth.map(inertial).or(date.map(|(_, earth)| earth));
