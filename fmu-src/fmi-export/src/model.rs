@@ -88,7 +88,7 @@ pub trait Model: Sized + 'static {
 
     /// Writes the parameters that the importer left to the model as they act, so that they read back. Called once, when
     /// initialization ends: [`Model::initialize`] may run again before, and goes by what was set.
-    fn settle_parameters(_context: &Context<'_, Self>, _values: &mut Values) {}
+    fn resolve_parameters(_context: &Context<'_, Self>, _values: &mut Values) {}
 
     /// Checks a length or index inside a decoded state against the setup; an error refuses the blob.
     fn check_state(_setup: &Self::Setup, _state: &Self::State) -> Result<(), Failure> {

@@ -173,7 +173,7 @@ impl Model for Guidance {
         Ok(StepEnd::at(step.end_s))
     }
 
-    fn settle_parameters(context: &Plan<'_>, values: &mut Values) {
+    fn resolve_parameters(context: &Plan<'_>, values: &mut Values) {
         inputs::resolve_start(context, values);
     }
 

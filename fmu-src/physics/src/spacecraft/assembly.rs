@@ -204,7 +204,7 @@ impl Spacecraft {
                 .as_ref()
                 .map(|momentum| Vector3::from(momentum.dump_threshold_n_m_s.map(f64::from))),
             per_plate_outputs: description.per_plate_outputs(),
-            background_k: materials.surroundings.background_k,
+            background_k: materials.environment.background_k,
             planet_map: description
                 .planet_map
                 .as_ref()

@@ -277,7 +277,7 @@ fn a_given_sun_is_where_it_was_given() {
 
 /// What a planner asks changes nothing in the flight, whatever it assumes of the time ahead.
 #[test]
-fn a_span_ahead_is_asked_of_a_clone() {
+fn a_clone_predicts_the_span_ahead() {
     let orbit = orbit();
     let configuration = configuration(orbit, guided(&orbit));
     let torques = |rig: &mut Rig, times_s: &[f64]| -> Vec<Vector3<f64>> {
@@ -316,7 +316,7 @@ fn light_follows_an_attitude_that_is_known_only_up_to_now() {
     };
     let spacecraft = spacecraft();
     let light = RadiationSolver::new(&spacecraft, &with(truth), &MERCURY, 6).unwrap();
-    let fly = |sample_s: Option<f64>| {
+    let simulate = |sample_s: Option<f64>| {
         let (mut rig, mut command) = (Rig::new(), truth);
         let mut loads = Vec::new();
         for k in 0..=60 {
@@ -332,7 +332,7 @@ fn light_follows_an_attitude_that_is_known_only_up_to_now() {
         }
         loads
     };
-    for (continuous, sampled) in fly(None).into_iter().zip(fly(Some(10.0))) {
+    for (continuous, sampled) in simulate(None).into_iter().zip(simulate(Some(10.0))) {
         let scale_n = continuous.force_body_n.norm();
         assert!(scale_n > 0.0);
         assert!((continuous.force_body_n - sampled.force_body_n).norm() < 1e-9 * scale_n);
@@ -367,7 +367,7 @@ fn spans_end_at_the_number_where_a_panel_goes_elsewhere() {
             tilt_sign: 1.0,
         };
         let stepped = Configuration { panels: vec![timeline(0), timeline(1)], ..whole.clone() };
-        let fly = |cut_s: f64| {
+        let simulate = |cut_s: f64| {
             let mut rig = Rig::new();
             let mut plant = rig.plant(&stepped);
             let mut integrator = MomentumIntegrator::new(0.0, Totals::default());
@@ -378,9 +378,9 @@ fn spans_end_at_the_number_where_a_panel_goes_elsewhere() {
             }
             integrator.totals(END_S).momentum_inertial_n_m_s
         };
-        let found = fly(END_S);
+        let found = simulate(END_S);
         for cut_s in [100.0, 617.284, 86_400.0] {
-            assert_eq!(fly(cut_s), found, "{cut_s}");
+            assert_eq!(simulate(cut_s), found, "{cut_s}");
         }
         let mut totals = Totals::default();
         for (k, &start_s) in EDGES_S.iter().enumerate() {

@@ -62,7 +62,7 @@ fn axis_deg(csv: &Path) -> [f64; 3] {
 
 /// What the plan states of where it ends is where the FMU ends, by the printed options and by the `[start]` table.
 #[test]
-fn the_printed_start_values_fly_to_where_the_plan_says() {
+fn the_printed_start_values_lead_to_where_the_plan_says() {
     let Some(library) = library() else { return };
     let scratch = tempfile::tempdir().unwrap();
     let at = |name: &str| scratch.path().join(name);

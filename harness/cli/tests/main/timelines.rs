@@ -84,8 +84,8 @@ fn a_spacecraft_with_antennas_about_the_sun_is_in_downlink_throughout() {
     let file = scratch.path().join("cruise.toml");
     let spacecraft = include_str!("../../../../fmu-src/resources/messenger.toml");
     fs::write(&file, spacecraft.replace("[start]", "[start]\n\"orbit.center\" = \"sun\"")).unwrap();
-    let said = run(&["check", shown(&file), "--template", shown(&template)], 0);
-    says(&said, &["points               downlink throughout (guided.phase cruise), the Sun on -Y"]);
+    let printed = run(&["check", shown(&file), "--template", shown(&template)], 0);
+    says(&printed, &["points               downlink throughout (guided.phase cruise), the Sun on -Y"]);
 }
 
 /// Attitudes, panels, events; two lines are Guidance's alone.
@@ -136,16 +136,16 @@ fn a_file_is_judged_for_both_models() {
     );
     // What only one of them reads is judged too.
     fs::write(file, BOTH.replace("\"55 deg\"", "\"5 km\"").replace("N.m.s\"]", "N.m\"]")).unwrap();
-    let said = run(&["check", file], 1);
+    let printed = run(&["check", file], 1);
     says(
-        &said,
+        &printed,
         &[
             "both.toml:13: panels[1].sunOffset[2]: found \"5 km\"",
             "both.toml:20: event[1].dump[3]: found \"0.5 N.m\"",
         ],
     );
     says(
-        &said,
+        &printed,
         &["an angular momentum: a number in N.m.s or a string with a unit: N.m.s, mN.m.s", "2 problems"],
     );
 }
@@ -172,10 +172,10 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
     };
     let arguments = pack("MomentumPlant");
     let arguments = arguments.each_ref().map(String::as_str);
-    let said = run(&arguments, 1);
-    says(&said, &["both.toml:7: command[2].scenario: found the scenario burn, allowed: another scenario"]);
+    let printed = run(&arguments, 1);
+    says(&printed, &["both.toml:7: command[2].scenario: found the scenario burn, allowed: another scenario"]);
     says(
-        &said,
+        &printed,
         &[
             "both.toml:10: command[3].mode: found the mode safeHold, allowed: no such key",
             "[[event]] with `maneuver`",
@@ -196,15 +196,15 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
     says(&run(&["check", shown(&fmu), "--static"], 0), &[without]);
     let chosen = [&arguments[..], &["--set", "panel[1].control=timeline"]].concat();
     assert!(!run(&chosen, 0).contains("warning"));
-    let said = run(&["info", shown(&fmu)], 0);
+    let printed = run(&["info", shown(&fmu)], 0);
     says(
-        &said,
+        &printed,
         &[
             "3 commands from 0 s to the end, 2 positions of the panels from 0 s to the end, 2 events from 10800 s",
         ],
     );
-    let said = run(&["check", shown(&fmu), "--only", "simulation", "--verbose"], 0);
-    says(&said, &["2 events from 10800 s to 14400 s"]);
+    let printed = run(&["check", shown(&fmu), "--only", "simulation", "--verbose"], 0);
+    says(&printed, &["2 events from 10800 s to 14400 s"]);
 
     // A mission names it; what flies is told its commands.
     let mission = scratch.path().join("timed.toml");

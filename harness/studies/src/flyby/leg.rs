@@ -67,7 +67,7 @@ pub(super) struct Met {
 #[derive(Clone, Copy)]
 pub(super) struct Room {
     pub window_s: f64,
-    pub reach: ControlBounds,
+    pub control_bounds: ControlBounds,
     /// Greatest |H|, in N m s.
     pub limit_n_m_s: f64,
 }
@@ -203,9 +203,9 @@ impl<'a> Leg<'a> {
     }
 
     /// Windows of its time, on the baseline of the arrays.
-    pub(super) fn layout(&self, window_s: f64, reach: ControlBounds) -> Layout {
+    pub(super) fn layout(&self, window_s: f64, control_bounds: ControlBounds) -> Layout {
         let values = self.values();
-        let whole = Layout::of_downlinks(Vec::new(), reach, 0.0);
+        let whole = Layout::of_downlinks(Vec::new(), control_bounds, 0.0);
         let mut layout = Layout {
             arrays_are_frozen: false,
             window_s,
@@ -224,7 +224,7 @@ impl<'a> Leg<'a> {
         // A square in the circle.
         let side_m = TOLERANCE_M * core::f64::consts::FRAC_1_SQRT_2;
         PlanTask {
-            layout: Layout { in_force, ..self.layout(room.window_s, room.reach) },
+            layout: Layout { in_force, ..self.layout(room.window_s, room.control_bounds) },
             limit: Limit {
                 momentum_n_m_s: room.limit_n_m_s,
                 size: MomentumSize::Length,

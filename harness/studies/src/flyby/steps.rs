@@ -18,7 +18,7 @@ const DEPARTURE_MISS_M: [f64; 2] = [-170e3, 0.0];
 /// Of the plan of momentum alone: tilts and momentum leave room for what corrects later.
 const MOMENTUM: Room = Room {
     window_s: 10.0 * DAY_S,
-    reach: ControlBounds {
+    control_bounds: ControlBounds {
         offset_rad: 0.0,
         windmill_rad: 2.0 * DEG,
         azimuth_rad: 5.0 * DEG,
@@ -50,14 +50,14 @@ pub(super) struct Correction {
 impl Correction {
     /// With the keep-in zone of the paper.
     fn room(&self) -> Room {
-        let reach = ControlBounds {
+        let control_bounds = ControlBounds {
             offset_rad: OFFSET_RAD,
             windmill_rad: 2.0 * DEG,
             azimuth_rad: 10.0 * DEG,
             elevation_rad: 12.0 * DEG,
             alternate: 0.0,
         };
-        Room { window_s: self.window_s, reach, limit_n_m_s: self.limit_n_m_s }
+        Room { window_s: self.window_s, control_bounds, limit_n_m_s: self.limit_n_m_s }
     }
 }
 

@@ -133,7 +133,8 @@ fn a_direction_too_short_or_too_long_is_refused_where_it_is_used() {
 fn a_tank_that_no_pulse_can_empty_is_refused() {
     let named = NamedModel::<SpinPlant>::shipped();
     let on_board_kg = 123.456;
-    let mut flight = named.fly(0.0, &[("burn.plan", 4.0), ("propellant.loaded", on_board_kg)]).unwrap();
+    let mut flight =
+        named.initialize(0.0, &[("burn.plan", 4.0), ("propellant.loaded", on_board_kg)]).unwrap();
     flight.set("thruster[8].fire", 1.0);
     flight.step_to(3.0).unwrap();
     let state = flight.state_bytes();

@@ -24,13 +24,13 @@ fn targeting() -> Targeting<'static> {
     }
 }
 
-struct Craft {
+struct TestSpacecraft {
     spacecraft: Spacecraft,
     solar: SolarModel,
     center_of_mass_m: Vector3<f64>,
 }
 
-impl Craft {
+impl TestSpacecraft {
     fn new(center_of_mass_m: Vector3<f64>, shade_turn_rad: f64) -> Self {
         let mut spacecraft = Spacecraft::from_toml("messenger.toml", MESSENGER_TOML).unwrap();
         if let Some(shade) = &mut spacecraft.sunshade {
@@ -88,11 +88,11 @@ fn aims() -> Vec<(f64, StartMomentum)> {
 fn an_attainable_target_is_hit_to_rounding() {
     let mut reached = [0; 3];
     for turn_rad in [0.0, 0.05] {
-        let craft = Craft::new(Vector3::new(0.01, -0.01, 0.02), turn_rad);
-        let torque = |sun: &Vector3<f64>| craft.torque(sun);
+        let test_spacecraft = TestSpacecraft::new(Vector3::new(0.01, -0.01, 0.02), turn_rad);
+        let torque = |sun: &Vector3<f64>| test_spacecraft.torque(sun);
         for (degrees, momentum) in aims() {
             let (to_sun, to_earth) = (Vector3::y(), earth(degrees));
-            let linear = Some(craft.linear());
+            let linear = Some(test_spacecraft.linear());
             let state = DownlinkState {
                 to_sun,
                 to_earth,
@@ -118,7 +118,7 @@ fn an_attainable_target_is_hit_to_rounding() {
                     StartMomentum::Inertial(momentum) => body * momentum,
                     StartMomentum::Body(momentum) => momentum,
                 };
-                let end = start + craft.torque(&(body * to_sun)) * SPAN_S;
+                let end = start + test_spacecraft.torque(&(body * to_sun)) * SPAN_S;
                 for (component, requested) in [(0, axes.requested()[0]), (2, axes.requested()[1])] {
                     if requested {
                         assert_relative_eq!(end[component], target[component], epsilon = 1e-11);
@@ -139,8 +139,8 @@ fn an_attainable_target_is_hit_to_rounding() {
 
 #[test]
 fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
-    let craft = Craft::new(Vector3::new(0.0, 0.0, 0.05), 0.0);
-    let torque = |sun: &Vector3<f64>| craft.torque(sun);
+    let test_spacecraft = TestSpacecraft::new(Vector3::new(0.0, 0.0, 0.05), 0.0);
+    let torque = |sun: &Vector3<f64>| test_spacecraft.torque(sun);
     let mut clamped = 0;
     for (degrees, momentum) in aims() {
         let (to_sun, to_earth) = (Vector3::y(), earth(degrees));
@@ -180,13 +180,13 @@ fn no_admissible_place_comes_nearer_to_a_target_out_of_reach() {
 
 #[test]
 fn the_linear_formula_falls_short_by_a_few_per_cent() {
-    let craft = Craft::new(Vector3::new(0.0, 0.0, 0.0), 0.0);
+    let test_spacecraft = TestSpacecraft::new(Vector3::new(0.0, 0.0, 0.0), 0.0);
     let shade = |sun: &Vector3<f64>| {
         let beam = Beam { source_body: *sun, pressure_pa: PRESSURE_PA };
-        craft.solar.load(&beam, |_| None, &craft.center_of_mass_m).torque_body_n_m
+        test_spacecraft.solar.load(&beam, |_| None, &test_spacecraft.center_of_mass_m).torque_body_n_m
     };
     let (to_sun, to_earth) = (Vector3::y(), earth(60.0));
-    let linear = Some(craft.linear());
+    let linear = Some(test_spacecraft.linear());
     let momentum = StartMomentum::Body(Vector3::zeros());
     let state = DownlinkState {
         to_sun,

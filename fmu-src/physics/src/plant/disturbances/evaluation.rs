@@ -18,7 +18,7 @@ use crate::numerics::chebyshev::Segment;
 use crate::radiation::Beam;
 use crate::spacecraft::MassProperties;
 
-use super::laws::NearPlanet;
+use super::laws::LocalEnvironment;
 use super::simulation_context::{PreparedSpacecraft, SimulationContext};
 use crate::plant::air_and_field::aerodynamic_solver::AerodynamicSolver;
 use crate::plant::air_and_field::air_and_field_builder::AirAndFieldBuilder;
@@ -172,7 +172,7 @@ impl<'a> Plant<'a> {
         let air_and_field = self.air_and_field(time_s);
         if let Some(planet_body_m) = instant.planet_body_m {
             let is_magnetic = configuration.effects.has(Effect::Magnetic);
-            let at = NearPlanet {
+            let at = LocalEnvironment {
                 planet_body_m: Some(planet_body_m),
                 pole_body: instant.to_body * self.pole_inertial(time_s),
                 inertia_body_kg_m2: mass.inertia_body_kg_m2,

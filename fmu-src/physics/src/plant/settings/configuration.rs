@@ -335,9 +335,9 @@ impl Configuration {
     }
 
     /// Indices of the enabled panels, and the spacecraft with those alone.
-    pub(crate) fn taking_part(&self, spacecraft: &Spacecraft) -> (Vec<usize>, Spacecraft) {
-        let takes_part = |index: &usize| self.panels.get(*index) != Some(&PanelSetting::Disabled);
-        let panels: Vec<usize> = (0..spacecraft.panels.len()).filter(takes_part).collect();
+    pub(crate) fn enabled_panels(&self, spacecraft: &Spacecraft) -> (Vec<usize>, Spacecraft) {
+        let is_enabled = |index: &usize| self.panels.get(*index) != Some(&PanelSetting::Disabled);
+        let panels: Vec<usize> = (0..spacecraft.panels.len()).filter(is_enabled).collect();
         let mut simulated = spacecraft.clone();
         simulated.panels = panels.iter().map(|&index| spacecraft.panels[index].clone()).collect();
         (panels, simulated)
@@ -347,11 +347,11 @@ impl Configuration {
     pub(crate) fn panel_angles_rad(
         &self,
         panels: &[Panel],
-        taking_part: &[usize],
+        enabled_panels: &[usize],
         sun: &SunAt,
         angles_rad: &mut [f64],
     ) {
-        for (angle_rad, &index) in angles_rad.iter_mut().zip(taking_part) {
+        for (angle_rad, &index) in angles_rad.iter_mut().zip(enabled_panels) {
             let setting = self.panels.get(index).zip(panels.get(index));
             *angle_rad = setting.and_then(|(setting, panel)| setting.angle_rad(panel, sun)).unwrap_or(0.0);
         }

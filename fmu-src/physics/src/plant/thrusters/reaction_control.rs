@@ -443,10 +443,10 @@ impl Thrusters {
         let given = if longest_s > period_s { period_s / longest_s } else { 1.0 };
         for (k, full_s) in times {
             let shortest_s = settings.thrusters[k].valve.min_on_s;
-            let wanted_s = feed.opens_for_s(k, full_s * given).min(period_s);
-            let opens_s = if wanted_s >= shortest_s {
-                wanted_s
-            } else if wanted_s >= 0.5 * shortest_s {
+            let commanded_s = feed.opens_for_s(k, full_s * given).min(period_s);
+            let opens_s = if commanded_s >= shortest_s {
+                commanded_s
+            } else if commanded_s >= 0.5 * shortest_s {
                 shortest_s
             } else {
                 0.0

@@ -86,10 +86,10 @@ fn tilts() -> ControlBounds {
     ControlBounds { azimuth_rad: 0.1, elevation_rad: 0.1, windmill_rad: 0.05, ..ControlBounds::default() }
 }
 
-fn targeting(limit_n_m_s: f64, reach: ControlBounds) -> PlanTask {
+fn targeting(limit_n_m_s: f64, control_bounds: ControlBounds) -> PlanTask {
     PlanTask {
         target: Some(Target { tolerance: [Some(100.0), Some(100.0), None] }),
-        ..task(limit_n_m_s, reach)
+        ..task(limit_n_m_s, control_bounds)
     }
 }
 

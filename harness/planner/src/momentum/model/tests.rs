@@ -10,10 +10,10 @@ use crate::momentum::{
     windows::ControlBounds,
 };
 
-fn model(reach: ControlBounds, limit: Limit) -> (SunlitSpacecraft, Model) {
+fn model(control_bounds: ControlBounds, limit: Limit) -> (SunlitSpacecraft, Model) {
     let sunlit = sunlit([0.01, 0.02, 0.03]);
     let simulated = simulated(&sunlit, 10, 0.4);
-    let (windows, _) = task(5.0, reach).layout.windows(&sunlit, &simulated).unwrap();
+    let (windows, _) = task(5.0, control_bounds).layout.windows(&sunlit, &simulated).unwrap();
     let model = Model::new(&sunlit, simulated, windows, limit);
     (sunlit, model)
 }

@@ -134,7 +134,7 @@ impl Cruise {
 }
 
 impl Flights for Cruise {
-    fn fly(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, Failure> {
+    fn simulate(&self, parameters: &Parameters, times_s: &[f64]) -> Result<History, Failure> {
         let configuration = self.configuration(parameters);
         let settings = configuration.momentum;
         let (method, default_downlink) = (OrbitMethod::default(), DefaultDownlink::default());

@@ -26,7 +26,7 @@ fn assert_normal(draws: &[f64], sigma: f64) {
 }
 
 #[test]
-fn a_thousand_maneuvers_have_the_errors_asked_for() {
+fn a_thousand_maneuvers_have_the_requested_errors() {
     let delta_v = Vector3::new(3.0, -4.0, 12.0);
     let along = delta_v / 13.0;
     let one = along.cross(&Vector3::z()).normalize();
@@ -48,7 +48,7 @@ fn a_thousand_maneuvers_have_the_errors_asked_for() {
 }
 
 #[test]
-fn a_thousand_shifts_have_the_deviations_asked_for() {
+fn a_thousand_shifts_have_the_requested_deviations() {
     let shifts: Vec<_> = (0..DRAWS).filter_map(|k| settings().shift_body_m(k)).collect();
     for (axis, sigma) in [1e-3, 2e-3].into_iter().enumerate() {
         assert_normal(&shifts.iter().map(|it| it[axis]).collect::<Vec<_>>(), sigma);
