@@ -1,4 +1,4 @@
-//! What a spacecraft flies about, and the parameters' defaults that follow from it.
+//! The centre of a spacecraft's orbit, and the parameters' defaults that follow from it.
 
 use fmi_export::SetupError;
 use physics::bodies::air::ExponentialAir;

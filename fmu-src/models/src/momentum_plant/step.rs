@@ -107,7 +107,7 @@ fn begin(
     Ok(undo)
 }
 
-/// The flight goes on to the step's end.
+/// The flight continues to the step's end.
 fn advance(
     context: &Plan<'_>,
     state: &mut PlantState,

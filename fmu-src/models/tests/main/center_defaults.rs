@@ -1,4 +1,4 @@
-//! What follows the body that a spacecraft flies about: start values by the file's, and what is left at them by another's.
+//! What follows the centre of a spacecraft's orbit: start values by the file's, and what is left at them by another's.
 
 use fmi_export::{Entry, Library, Model};
 use model_description::{Description, VariableKind};

@@ -135,9 +135,12 @@ impl<M: Model> NamedModel<M> {
         self
     }
 
-    /// What refuses to fly with these start values says.
+    /// The error of an initialization that refuses these start values.
     pub(crate) fn refusal(&self, sets: &[(&str, f64)]) -> String {
-        self.initialize(0.0, sets).err().unwrap_or_else(|| panic!("it flies with {sets:?}")).to_string()
+        self.initialize(0.0, sets)
+            .err()
+            .unwrap_or_else(|| panic!("it is initialized with {sets:?}"))
+            .to_string()
     }
 
     /// What a master may set, with its limits and whether it is a whole number.
@@ -283,7 +286,7 @@ impl Tables {
 pub(crate) struct NamedInstance<'a, M: Model> {
     named: &'a NamedModel<M>,
     values: Values,
-    /// The same, once somebody asked.
+    /// The same, once read.
     tables: OnceCell<Tables>,
     state: M::State,
     time_s: f64,

@@ -179,7 +179,7 @@ fn a_torque_from_outside_leaves_light_and_heat_alone() {
         for flight in [&mut pushed, &mut relay] {
             flight.set("torque.applied[2]", 1e-7 * f64::from(step));
         }
-        // Whether a cell goes on must not depend on what is not saved.
+        // Whether a cell continues must not depend on what is not saved.
         relay = relay.restored();
         for flight in [&mut still, &mut pushed, &mut relay] {
             flight.step_to(f64::from(step) * 50.0).unwrap();
@@ -253,7 +253,7 @@ fn a_flight_that_ends_in_the_planet_says_where() {
         text.contains("1000000") && text.contains("more than its radius") && text.contains("orbit.*"),
         "{text}"
     );
-    // Falls from 10,000 km: it flies while it is above the surface, and no cell ahead ends it early.
+    // Falls from 10,000 km: it is simulated while it is above the surface, and no cell ahead ends it early.
     let mut falling = place(1e7, 100.0).unwrap();
     let failure = loop {
         match falling.step_to(falling.time_s() + 5.0) {

@@ -24,7 +24,7 @@ fn orbits_inside_planet_or_sun() {
         let named = NamedModel::<MomentumPlant>::shipped();
         named.initialize(0.0, &[("orbit.center", center)]).unwrap().step_to(86_400.0).unwrap();
     }
-    // Above the Sun's surface it flies.
+    // Above the Sun's surface it is simulated.
     let named = NamedModel::<MomentumPlant>::shipped();
     let far = [("orbit.center", 2.0), ("orbit.semiMajorAxis", 6e10), ("orbit.eccentricity", 0.2)];
     named.initialize(0.0, &far).unwrap().step_to(86_400.0).unwrap();

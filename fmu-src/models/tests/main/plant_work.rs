@@ -152,6 +152,6 @@ fn any_legal_parameters_get_an_answer() {
         exhausted += u32::from(answer.contains("solver.workLimit ="));
         worst = worst.max(took);
     }
-    println!("{trials} trials: {simulated} flown, {exhausted} out of work, the longest {worst:?}");
+    println!("{trials} trials: {simulated} simulated, {exhausted} out of work, the longest {worst:?}");
     assert!(simulated > 0 && exhausted > 0);
 }

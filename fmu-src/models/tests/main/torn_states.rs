@@ -67,7 +67,7 @@ fn scattered(state: &[u8], count: usize) -> Vec<Vec<u8>> {
     (0..count).map(|_| tear()).collect()
 }
 
-/// Goes on from what `tear` makes of the state at `at_s` to `ends_s`; some are refused or fail, some go on.
+/// Continues from what `tear` makes of the state at `at_s` to `ends_s`; some are refused or fail, some continue.
 fn goes_on_or_fails<M: Model>(
     named: &NamedModel<M>,
     sets: &[(&str, f64)],

@@ -58,7 +58,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Flies a case from `start_s` on; what was open, by the propellant, in s.
+/// Simulates a case from `start_s` on; what was open, by the propellant, in s.
 fn open_s<M: Model>(flight: &mut NamedInstance<'_, M>, case: &Case, start_s: f64, flow_kg_s: f64) -> f64 {
     let mut time_s = start_s;
     for ([step_s, delay_s, on_s], too_short) in case.commanded.iter().zip(&case.too_short) {
@@ -113,7 +113,7 @@ fn valves_of_the_spinner_open_by_the_law() {
     }
 }
 
-/// A pulse that scatters is one pulse, however many steps it goes on through.
+/// A pulse that scatters is one pulse, however many steps it continues through.
 #[test]
 fn a_pulse_over_many_steps_of_the_spinner_scatters_once() {
     let named = NamedModel::<SpinPlant>::shipped();

@@ -126,7 +126,7 @@ fn masses(figures: &Figures, found: &mut Vec<String>) {
             extents_m.max()
         ));
     }
-    // One slip in the inertia is told once.
+    // One error in the inertia is reported once.
     if found.len() == reported {
         gyration(figures, found);
     }

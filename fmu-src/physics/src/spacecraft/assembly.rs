@@ -80,7 +80,7 @@ pub struct Spacecraft {
     pub per_plate_outputs: bool,
     /// Temperature of the space that surfaces see, in K.
     pub background_k: f64,
-    /// The planet it flies about, cell by cell.
+    /// The planet it orbits, cell by cell.
     pub planet_map: Option<PlanetMap>,
     /// A body of the user's own.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -141,7 +141,7 @@ impl Rig {
         self.plant_now(&|_| [ForceTorque::zero(); 2])
     }
 
-    /// What flies.
+    /// The spacecraft.
     pub(crate) fn prepared(&self) -> PreparedSpacecraft<'_> {
         PreparedSpacecraft {
             panels: &self.spacecraft.panels,
@@ -152,7 +152,7 @@ impl Rig {
         }
     }
 
-    /// Goes on under this configuration.
+    /// Continues under this configuration.
     fn context_of(&mut self, configuration: &Configuration) -> &mut SimulationContext {
         self.context.insert(SimulationContext::new(configuration.clone()))
     }

@@ -28,7 +28,7 @@ fn at_rest() -> AttitudeSource {
     })
 }
 
-/// Flies to rising times and gives what `look` sees there.
+/// Simulates to rising times and gives what `look` sees there.
 fn simulate<T>(
     configuration: &Configuration,
     force_n: Vector3<f64>,
@@ -208,7 +208,7 @@ fn downlinks_begin_and_end_to_the_second_after_a_periapsis_that_was_met() {
     assert_eq!(down, [false, true, true, false].repeat(3));
 }
 
-/// A slew that lasts longer than the cells of the orbit goes on from where it began.
+/// A slew that lasts longer than the cells of the orbit continues from where it began.
 #[test]
 fn a_long_slew_turns_as_its_rate_says() {
     let flattening = Flattening { j2: 5e-3, ..Flattening::of(Body::Mercury.data()) };

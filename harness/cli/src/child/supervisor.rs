@@ -55,7 +55,7 @@ pub(crate) enum EndReason {
     Hangs(f64),
     /// A call took longer than it may, in s.
     CallHangs(f64),
-    /// It reported its end and went on.
+    /// It reported its end and continued.
     DoesNotExit,
     /// It printed more bytes than it may.
     Prints(u64),

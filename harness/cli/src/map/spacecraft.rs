@@ -199,7 +199,7 @@ fn panels_left_out(simulated: &Description) -> bool {
     (1..).map_while(enabled).any(|enabled| enabled == Value::Boolean(false))
 }
 
-/// Where the file puts the Sun, otherwise the mean distance of the body it flies around.
+/// Where the file puts the Sun, otherwise the mean distance of the body it orbits.
 fn distance_m(described: &Description, simulated: &Description, default: &Description) -> f64 {
     let sun_m = |description: &Description| {
         Vector3::from(

@@ -1,4 +1,4 @@
-//! Processes that simulate the runs of a campaign: each takes every n-th run, another one goes on where one crashes or hangs.
+//! Processes that simulate the runs of a campaign: each takes every n-th run, another one continues where one crashes or hangs.
 
 use std::{
     cell::RefCell,

@@ -1,4 +1,4 @@
-//! An ephemeris is fitted from an FMU's flight, reported, packed and flown; what is wrong is reported by name.
+//! An ephemeris is fitted from an FMU's flight, reported, packed and used; what is wrong is reported by name.
 
 use std::fs;
 
@@ -102,7 +102,7 @@ fn a_flight_is_fitted_to_the_tolerance_and_simulated_by_another_fmu() {
     placed_by_theory(&planets, &[Body::Venus, Body::Jupiter], 600.0);
     let moon = run(&[&make[..], &["moon"]].concat(), 1);
     assert!(moon.contains("--bodies moon: allowed with --kernel"), "{moon}");
-    // Another FMU flies by it within its span and nowhere else.
+    // Another FMU uses it within its span alone.
     let set = ["--set", "ephemeris.source=chebyshev", "--ephemeris", shown(&file)];
     let refusal = run(&[&pack[..], &[shown(&fitted)], &set].concat(), 1);
     says(&refusal, &["the FMU is not written", "start.epoch: found"]);

@@ -1,4 +1,4 @@
-//! `plan leg`: the shipped missions come from it, what it writes meets its aim as it is simulated, and what cannot be is refused.
+//! `plan leg`: the shipped missions come from it, what it writes meets its aimpoint as it is simulated, and what cannot be is refused.
 
 use std::{fs, path::Path};
 
@@ -157,7 +157,7 @@ fn the_second_flyby_is_that_of_its_mission() {
     assert!((200.0 - osculating_km - 25.0).abs() < 2.0, "{osculating_km}");
 }
 
-/// An aim by components is met by the hyperbola six hours before the flyby, on a mission with other values and another start.
+/// An aimpoint by components is met by the hyperbola six hours before the flyby, on a mission with other values and another start.
 #[test]
 fn components_of_b_are_met_where_the_mission_that_was_written_passes() {
     let Some((scratch, template)) = template() else { return };
@@ -185,7 +185,7 @@ fn components_of_b_are_met_where_the_mission_that_was_written_passes() {
     assert!((found[0] + 4000.0).hypot(found[1] - 1500.0) < 2e-3, "{found:?}");
 }
 
-/// A path through the Sun ends there, whatever the aim.
+/// A path through the Sun ends there, whatever the aimpoint.
 #[test]
 fn a_path_into_a_body_is_named_with_time_and_speed() {
     let Some((scratch, template)) = template() else { return };

@@ -1,4 +1,4 @@
-//! Missions: what they name is simulated, drawn, judged and packed; options win; the examples fly.
+//! Missions: what they name is simulated, drawn, judged and packed; options win; the examples are simulated.
 
 use std::{fs, path::Path};
 
@@ -114,7 +114,7 @@ fn a_packed_mission_starts_as_the_mission_does() {
     assert!(of_fmu.iter().all(|row| row[5] == 5.0));
     let same: Vec<Vec<f64>> = of_fmu.into_iter().map(|row| row[..5].to_vec()).collect();
     assert_eq!(of_mission, same);
-    // It flies an FMU too, and then packs nothing.
+    // It simulates an FMU too, and then packs nothing.
     let text = text.replace("model = \"MomentumPlant\"", "fmu = \"Mine.fmu\"");
     fs::write(folder.join("of-fmu.toml"), text).unwrap();
     printed(folder, &["run", "of-fmu.toml", "--output", "again.csv"], 0);
@@ -208,7 +208,7 @@ fn the_missions_of_the_examples_are_simulated() {
     for mission in &missions {
         let reported = printed(&folder, &[&["check", mission], &template[..]].concat(), 0);
         assert!(reported.contains(".toml: ok: "), "{reported}");
-        // ACE's train is over after half an hour; the others fly for an hour of days.
+        // ACE's train is over after half an hour; the others last days.
         let stop: &[&str] = if mission == "ace.toml" { &[] } else { &["--stop", "2h"] };
         let reported = printed(&folder, &[&["run", mission], &template[..], stop].concat(), 0);
         for kind in ["csv", "svg"] {

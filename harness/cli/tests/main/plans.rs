@@ -1,4 +1,4 @@
-//! A plan is simulated again through the shipped FMU where there is one, and what it prints and writes flies there.
+//! A plan is simulated again through the shipped FMU where there is one, and what it prints and writes is simulated there.
 
 use std::{
     path::Path,

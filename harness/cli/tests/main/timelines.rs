@@ -206,7 +206,7 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
     let printed = run(&["check", shown(&fmu), "--only", "simulation", "--verbose"], 0);
     says(&printed, &["2 events from 10800 s to 14400 s"]);
 
-    // A mission names it; what flies is told its commands.
+    // A mission names it; the FMU reads its commands.
     let mission = scratch.path().join("timed.toml");
     let text = "model = \"MomentumPlant\"\ntimeline = \"both.toml\"\nstop = \"5 h\"\nstep = \"10 min\"\n\
                 record = [\"timeline.command\", \"sun.azimuth\"]\noutput = \"timed.csv\"\n";
@@ -226,7 +226,7 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
     };
     let commands = [1, 7, 13, 31].map(|number| row(number)[1]);
     assert_eq!(commands, [1.0, 2.0, 3.0, 3.0], "{rows}");
-    // A mission's mistakes are told by the timeline's lines.
+    // A mission's mistakes are reported by the timeline's lines.
     fs::write(&file, plant.replace("\"90 min\"", "0")).unwrap();
     says(&run(&check, 1), &["both.toml:16: panels[2].at: found 0, when panels[1] begins"]);
 }

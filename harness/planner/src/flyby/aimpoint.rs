@@ -1,4 +1,4 @@
-//! Aim of a flight in the B-plane of its encounter, and by how much it is missed.
+//! Aimpoint in the B-plane of an encounter, and by how much a flight misses it.
 //!
 //! Equation: B = r_p sqrt(1 + 2 mu / (r_p v^2)), r_p the periapsis of the hyperbola, v the speed far from the planet.
 

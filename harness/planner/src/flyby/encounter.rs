@@ -41,7 +41,7 @@ pub struct Encounter {
 }
 
 impl Encounter {
-    /// Of a recorded flight that comes to its encounter, or comes near and would go on to it.
+    /// Of a recorded flight that comes to its encounter, or comes near and would continue to it.
     ///
     /// # Errors
     /// A flight without motion, one that does not come near, an osculating orbit that is no hyperbola.
@@ -130,7 +130,7 @@ fn first_guess_s(path: &Path<'_>, force_model: &ForceModel) -> Result<f64, Strin
     })
 }
 
-/// A path propagated on from a recorded one.
+/// A path predicted from a recorded one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PredictedPath<'a> {
     pub force_model: &'a ForceModel,

@@ -1,4 +1,4 @@
-//! Surroundings of a flight between planets, and its recorded path from row to row.
+//! Force model of a flight between planets, and its recorded path from row to row.
 
 use nalgebra::Vector3;
 use physics::{
@@ -21,7 +21,7 @@ const PLANETS: [Body; 5] = [Body::Mercury, Body::Venus, Body::Earth, Body::Mars,
 const CELL_S: f64 = 86_400.0;
 const TOLERANCE_M: f64 = 1e-3;
 
-/// What attracts a spacecraft on its way, and the planet that it meets.
+/// Bodies that attract a spacecraft between planets, and the planet of its encounter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForceModel {
     /// The planet of the encounter.
@@ -172,7 +172,7 @@ impl<'a> Path<'a> {
         self.rows[if off_s(after) < off_s(before) { after } else { before }]
     }
 
-    /// Motion at a time, beyond the rows as the first or the last two go on.
+    /// Motion at a time, beyond the rows as the first or the last two continue.
     pub(super) fn at(&self, time_s: f64) -> Motion {
         let before = self.index_before(time_s).min(self.rows.len() - 2);
         let [from, to] = [self.rows[before], self.rows[before + 1]];

@@ -1,11 +1,11 @@
-//! Aims in the B-plane, and the hyperbola that turns the path there.
+//! Aimpoints in the B-plane, and the hyperbola that turns the path there.
 //!
 //! Equation: with v the speed far from the body, r the distance of its closest approach: B^2 = r^2 + 2 r mu / v^2; e = 1 + r v^2 / mu,
 //! turn = 2 asin(1 / e), delta-v = 2 v / e.
 
 use nalgebra::Vector2;
 
-/// Where a path shall pass a body.
+/// Aimpoint of a flyby: where a path passes a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FlybyAimpoint {
     /// By the altitude of its closest approach, and the angle of B from T toward R.

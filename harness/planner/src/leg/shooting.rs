@@ -5,7 +5,7 @@
 //! Method: Lambert's arc to the body's centre and B. Without the body's gravity its end is moved by what the flight misses it by.
 //! With it, Newton's method; the first matrix is that of two bodies, d(r)/d(v) along T, R and the asymptote S, each later one has
 //! what the last flight was different by (Broyden's rank one).
-//! Error measure: B and w (t* - t) of a flight against the aim.
+//! Error measure: B and w (t* - t) of a flight against the aimpoint.
 //! Reference: Battin, Introduction to the Mathematics and Methods of Astrodynamics, 1999, ch. 9; Broyden, Mathematics of Computation 19,
 //! 1965.
 
@@ -58,7 +58,7 @@ pub struct LegTask {
     pub mu_m3_s2: f64,
     /// Its radius, m.
     pub radius_m: f64,
-    /// How near B comes to the aim, m; the time of arrival comes so near in the way of that time.
+    /// How near B comes to the aimpoint, m; the time of arrival comes so near in the way of that time.
     pub tolerance_m: f64,
 }
 
@@ -97,7 +97,7 @@ pub struct Leg {
     pub body: CartesianState,
     /// What the last flight did.
     pub encounter: Encounter,
-    /// What that flight misses the aim by along T and R, m.
+    /// What that flight misses the aimpoint by along T and R, m.
     pub miss_m: [f64; 2],
     /// Flights, those without the body's gravity first.
     pub rounds: [u32; 2],
@@ -109,7 +109,7 @@ pub enum LegError {
     /// No arc.
     #[error(transparent)]
     Lambert(#[from] LambertError),
-    /// An aim inside the body.
+    /// An aimpoint inside the body.
     #[error(
         "found |B| of {found_km:.1} km, with {excess_speed_m_s:.1} m/s far from the body: the path ends in it, allowed: above {least_km:.1} km"
     )]
@@ -166,7 +166,7 @@ impl LegTask {
         Ok([found.from_m_s, found.to_m_s])
     }
 
-    /// Refuses an aim whose path ends in the body.
+    /// Refuses an aimpoint whose path ends in the body.
     fn check_aimpoint(&self, excess_speed_m_s: f64) -> Result<(), LegError> {
         let found_m = self.aimpoint.b_m(excess_speed_m_s, self.mu_m3_s2, self.radius_m).norm();
         let least_m = impact_parameter_m(self.radius_m, excess_speed_m_s, self.mu_m3_s2);
@@ -179,7 +179,7 @@ impl LegTask {
         }
     }
 
-    /// What an encounter lacks to the aim along T and R, and along S by its time, m.
+    /// What an encounter lacks to the aimpoint along T and R, and along S by its time, m.
     fn lacks_m(&self, found: &Encounter) -> Vector3<f64> {
         let lacks = match self.aimpoint {
             FlybyAimpoint::Plane { .. } => {
@@ -217,10 +217,10 @@ impl LegTask {
     }
 }
 
-/// Finds the velocity at the start with which the flight meets the aim.
+/// Finds the velocity at the start with which the flight meets the aimpoint.
 ///
 /// # Errors
-/// No arc, an aim inside the body, flights that are refused or do not come near.
+/// No arc, an aimpoint inside the body, flights that are refused or do not come near.
 pub fn shoot(task: &LegTask, flights: &mut dyn SimulatesLeg) -> Result<Leg, LegError> {
     flights.progress("Lambert's arc");
     let body = flights.body(task.arrival_s).map_err(LegError::Flight)?;

@@ -20,7 +20,7 @@ pub const QUANTITIES: usize = 3;
 /// Share of a tolerance that programmes allow; the rest is for what is not linear, as [`GUARD`] is of the momentum's limit.
 const ALLOWED: f64 = 0.5;
 
-/// How near a plan comes to its aim.
+/// How near a plan comes to its aimpoint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
     /// Greatest miss either way; `None`: it is free.

@@ -152,7 +152,7 @@ const CYCLE_S: f64 = 86_400.0;
 /// Less of the alternate attitude in a window is none, in s.
 const SHORTEST_S: f64 = 60.0;
 
-/// How far controls go.
+/// Bounds of the controls.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ControlBounds {
     /// Largest change of the offset off the baseline, in rad; 0 where it is kept.
@@ -197,7 +197,7 @@ pub struct Layout {
     pub contacts_s: Vec<[f64; 2]>,
     /// Share of each window that contacts take where none is listed.
     pub contact_share: f64,
-    /// How far controls go.
+    /// Bounds of the controls.
     pub control_bounds: ControlBounds,
     /// The plan that the mission has so far, in order: windows begin with its controls, those before it on the baseline without tilt.
     pub in_force: Vec<InForce>,

@@ -123,7 +123,7 @@ fn start(spinner: &Spinner, task: &Task, row: &Row) -> Start {
     }
 }
 
-/// Flies `row` to a few turns after its last pulse.
+/// Simulates `row` to a few turns after its last pulse.
 ///
 /// # Errors
 /// A burn that the plant refuses, or that does not end.

@@ -133,13 +133,13 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
     }
     simulations.into_iter().for_each(&mut line);
     line(format!(
-        "Flown pulse by pulse it ends at {}, {:.4} deg from the target, with {:.5} deg of nutation",
+        "Simulated pulse by pulse it ends at {}, {:.4} deg from the target, with {:.5} deg of nutation",
         place(&flight.end_axis_inertial()),
         flight.miss_rad(&task).to_degrees(),
         flight.samples.last().map_or(f64::NAN, |sample| sample.nutation_rad).to_degrees(),
     ));
     let great_circle = task.geometry.great_circle();
-    line(format!("Great circle, as flown: {}", way(&great_circle)));
+    line(format!("Great circle, as simulated: {}", way(&great_circle)));
     line(match task.geometry.rhumb_line() {
         Some(rhumb_line) => format!(
             "Rhumb line about the Sun, with one delay after each Sun crossing: {}, {:+.2} % of way and propellant",
@@ -149,7 +149,7 @@ fn one_manoeuvre(options: &Options, spinner: &Spinner, task: Task) -> Result<Ans
         None => "No rhumb line: the Sun stands on the spin axis".to_owned(),
     });
     line(
-        "Limits of the spacecraft's file, as flown, and of the flags, at their worst over the range:"
+        "Limits of the spacecraft's file, as simulated, and of the flags, at their worst over the range:"
             .to_owned(),
     );
     line(tables::limits(&checks));

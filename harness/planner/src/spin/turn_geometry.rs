@@ -159,7 +159,7 @@ impl TurnGeometry {
         Quaternion::turn(&axis, angle_rad)
     }
 
-    /// The great circle: the shortest way, flown by delays that change from pulse to pulse.
+    /// The great circle: the shortest way, by delays that change from pulse to pulse.
     pub fn great_circle(&self) -> Way {
         let length_rad = self.angle_rad();
         let mut seen = (f64::INFINITY, 0.0_f64);
@@ -173,7 +173,7 @@ impl TurnGeometry {
         Way { length_rad, sun_angle_rad: seen, heading_rad }
     }
 
-    /// The rhumb line about the Sun: one way from the Sun all along, flown by one delay after each Sun crossing. `None` where
+    /// The rhumb line about the Sun: one way from the Sun all along, by one delay after each Sun crossing. `None` where
     /// the Sun is on the axis.
     pub fn rhumb_line(&self) -> Option<Way> {
         let course = self.rhumb_course()?;

@@ -75,7 +75,7 @@ pub(super) struct Simulated {
 }
 
 impl Kind {
-    /// Flies one from the attitude that is commanded first, in steps of `step_s`, otherwise of a second.
+    /// Simulates one from the attitude that is commanded first, in steps of `step_s`, otherwise of a second.
     pub(super) fn simulated(
         &self,
         both: &Loop,

@@ -24,7 +24,7 @@ pub(super) struct Early {
     pub target: Target,
     /// Misses along T and R in m: before, behind.
     pub miss_m: [[f64; 2]; 2],
-    /// Of the closest approach against the aim's, in m, as the FMU reports it.
+    /// Of the closest approach against the aimpoint's, in m, as the FMU reports it.
     pub altitude_offset_m: [f64; 2],
     /// Direction along T and R that a place nearer to the Sun is moved to.
     sunward: [f64; 2],
@@ -50,7 +50,7 @@ fn miss_m(aimpoint: &BPlaneAimpoint, met: &Met) -> [f64; 2] {
 }
 
 /// A miss of the first printed size that moves by `moved_m` to one of the second: of both that at which the altitude changes most to that of
-/// the aim.
+/// the aimpoint.
 fn before_m(target: &Target, moved_m: [f64; 2]) -> Option<[f64; 2]> {
     let size_m = moved_m[0].hypot(moved_m[1]);
     let along = moved_m.map(|part_m| part_m / size_m);

@@ -1,4 +1,4 @@
-//! A leg to a flyby through MomentumPlant: simulated as its mission is or by a plan's inputs, led to an aim, planned anew.
+//! A leg to a flyby through MomentumPlant: simulated as its mission is or by a plan's inputs, led to an aimpoint, planned anew.
 //!
 //! Flights end seven hours and more before the closest approach: what follows is propagated by the planner, so that a path into the
 //! planet is one like others. [`Leg::passed`] simulates it to the end.
@@ -29,11 +29,11 @@ use crate::report::Run;
 use crate::settings::{Settings, set};
 
 const DAY_S: f64 = 86_400.0;
-/// How near a plan comes to its aim, in m.
+/// How near a plan comes to its aimpoint, in m.
 const TOLERANCE_M: f64 = 1e3;
 /// Between points at which plans command, in s; windows begin and end at them.
 pub(super) const STEP_S: f64 = 6.0 * 3600.0;
-/// The same where a flight goes past the planet, and how long it goes on behind.
+/// The same where a flight goes past the planet, and how long it continues behind.
 const FINE_S: f64 = 3600.0;
 const BEHIND_S: f64 = 2.0 * 3600.0;
 /// Flights to lead a leg at most, and when it is there: in m, and in s of the arrival.
@@ -52,7 +52,7 @@ pub(super) struct Leg<'a> {
     pub sunlit: SunlitSpacecraft,
     /// Radius of the planet, in m.
     pub radius_m: f64,
-    /// The row of an earlier leg that it goes on from.
+    /// The row of an earlier leg that it continues from.
     begun: Option<FlightRow>,
 }
 
@@ -122,7 +122,7 @@ impl<'a> Leg<'a> {
         Ok(Self { begun: Some(row.clone()), ..Self::new(self.fmu, case, self.stop_s - row.time_s)? })
     }
 
-    /// The momentum that it goes on with, in the body frame as it stands in a window.
+    /// The momentum that it continues with, in the body frame as it stands in a window.
     fn momentum(&self, window: &Window) -> Settings {
         let Some(row) = &self.begun else { return Settings::new() };
         let inertial_from_body = window.inertial_from_body(&self.sunlit, row, window.start_s);
@@ -187,7 +187,7 @@ impl<'a> Leg<'a> {
         Ok([recorded.last(0), recorded.last(1)])
     }
 
-    /// With the velocity at the start that leads these windows to an aim with its time of arrival.
+    /// With the velocity at the start that leads these windows to an aimpoint with its time of arrival.
     pub(super) fn led(&self, windows: &[Window], aimpoint: &BPlaneAimpoint) -> Result<(Self, Met), Failure> {
         let mut leg = self.clone();
         for _ in 0..ROUNDS {
@@ -250,7 +250,7 @@ impl<'a> Leg<'a> {
         Ok(reachable(&self.task(room, windows, true), &self.sunlit, &simulated, &mut sought)?)
     }
 
-    /// A plan whose momentum stays below the limit, and which meets an aim to a kilometre if there is one; `windows` are those before it.
+    /// A plan whose momentum stays below the limit, and which meets an aimpoint to a kilometre if there is one; `windows` are those before it.
     pub(super) fn planned(
         &self,
         room: &Room,

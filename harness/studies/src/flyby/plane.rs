@@ -47,14 +47,14 @@ impl Target {
         })
     }
 
-    /// By how much the altitude of a miss is above that of the aim, in m, without tides.
+    /// By how much the altitude of a miss is above that of the aimpoint, in m, without tides.
     pub(super) fn altitude_offset_m(&self, miss_m: [f64; 2]) -> f64 {
         let periapsis_m =
             |[t_m, r_m]: [f64; 2]| periapsis_of_b_m(t_m.hypot(r_m), self.gm_m3_s2, self.excess_m_s);
         periapsis_m(self.place_m(miss_m)) - periapsis_m(self.aimpoint_m)
     }
 
-    /// Misses of a size whose altitude is off by so much, in m: one either side of the radial through the aim.
+    /// Misses of a size whose altitude is off by so much, in m: one either side of the radial through the aimpoint.
     pub(super) fn misses_m(&self, size_m: f64, altitude_offset_m: f64) -> Option<[[f64; 2]; 2]> {
         let aimpoint_m = self.aimpoint_m[0].hypot(self.aimpoint_m[1]);
         let periapsis_m = periapsis_of_b_m(aimpoint_m, self.gm_m3_s2, self.excess_m_s) + altitude_offset_m;
@@ -71,7 +71,7 @@ impl Target {
         [self.aimpoint_m[0] + miss_m[0], self.aimpoint_m[1] + miss_m[1]]
     }
 
-    /// Misses around the aim that cost so much.
+    /// Misses around the aimpoint that cost so much.
     fn contour_m(&self, cost_m_s: f64) -> Vec<[f64; 2]> {
         let unit = ellipse((0.0, 0.0), [1.0; 2], 0.0).into_iter();
         unit.map(|(t, r)| [t, r].map(|part| part * cost_m_s / self.cost.cost_m_s([t, r]))).collect()
@@ -100,7 +100,7 @@ const WIDER: f64 = 3.5;
 /// What sunlight can still reach.
 const IN_REACH: &str = "in reach of sunlight";
 
-/// A picture of intercepts about the aim, with the planet and what misses cost.
+/// A picture of intercepts about the aimpoint, with the planet and what misses cost.
 pub(super) struct Plane<'a> {
     pub target: &'a Target,
     pub title: String,

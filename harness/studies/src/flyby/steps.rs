@@ -92,7 +92,7 @@ pub(super) const CORRECTIONS: [Correction; 3] = [
     },
 ];
 
-/// A leg that goes on by some windows.
+/// A leg that continues by some windows.
 pub(super) struct Step<'a> {
     pub leg: Leg<'a>,
     pub windows: Vec<Window>,
@@ -123,7 +123,7 @@ impl Step<'_> {
 
 /// The flyby's leg, as far as it is planned.
 pub(super) struct Steps<'a> {
-    /// The leg as its mission is: its B is the aim.
+    /// The leg as its mission is: its B is the aimpoint.
     unmanaged: Met,
     pub target: Target,
     /// Led to the plan of momentum.
@@ -262,7 +262,7 @@ struct Corrected {
     miss_m: [[f64; 2]; 2],
     covariance_m2: Matrix2<f64>,
     greatest_n_m_s: f64,
-    /// Off the aim's altitude, as the FMU reports it, in m.
+    /// Off the aimpoint's altitude, as the FMU reports it, in m.
     altitude_offset_m: f64,
     windows: usize,
 }

@@ -148,7 +148,7 @@ impl Instance {
         }
     }
 
-    /// Refuses values that are no finite numbers: nothing is answered under OK that a master cannot go on with.
+    /// Refuses values that are no finite numbers: nothing is answered under OK that a master cannot continue with.
     pub(super) fn check_finite(&self, initially: bool) -> Result<(), Problem> {
         match self.access.first_not_finite(&self.state.values) {
             None => Ok(()),

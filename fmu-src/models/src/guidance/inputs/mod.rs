@@ -570,7 +570,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The surroundings with the bodies that a command aims at; `None` while position, Sun or Earth is not connected.
+/// The ephemeris with the bodies that a command points at; `None` while position, Sun or Earth is not connected.
 fn connected(
     mut ephemeris_at_time: EphemerisAtTime,
     command: &PointingCommand,

@@ -35,7 +35,7 @@ pub(super) struct Reading<'a> {
     pub changes: Option<Changes>,
     /// Whether the flight begins, everything it needs being known.
     pub begins: bool,
-    /// What flies, where that is another or not known yet.
+    /// The configuration, where that is another or not known yet.
     pub configured: Option<Configured>,
     /// Whether it is.
     pub is_reconfigured: bool,
@@ -45,7 +45,7 @@ pub(super) struct Reading<'a> {
     work_limit: u32,
 }
 
-/// What flies.
+/// The configuration.
 pub(super) struct Configured {
     /// What follows from inputs and tunable parameters, among others.
     pub configuration: Configuration,
@@ -125,7 +125,7 @@ pub(super) fn read<'a>(
     })
 }
 
-/// What flies: anew where the flight begins, was restored or waits for inputs, changed where inputs or tunables say so.
+/// The configuration: anew where the flight begins, was restored or waits for inputs, changed where inputs or tunables say so.
 fn configured(
     context: &Plan<'_>,
     values: &Values,

@@ -140,7 +140,7 @@ fn no_sun_is_sensed_in_the_shadow() {
         assert!(guided.time_s() < 86_400.0 * 90.0);
     }
     let dark_s = guided.time_s();
-    // The orbit is one in closed form: flown from the middle of the shadow and out of it.
+    // The orbit is one in closed form: simulated from the middle of the shadow and out of it.
     let mut flight = named.initialize(0.0, &[("attitude.source", 2.0)]).unwrap();
     flight.step_to(dark_s).unwrap();
     assert!(!flight.boolean("sun.sensedValid"));

@@ -35,7 +35,7 @@ fn on_s(flight: &Flight<'_>, time_s: f64) -> f64 {
     (until_s - time_s).clamp(0.0, 1.0)
 }
 
-/// Flies it second by second, each in `cuts` steps, saved and restored before each second where `saves`; calls `each` with
+/// Simulates it second by second, each in `cuts` steps, saved and restored before each second where `saves`; calls `each` with
 /// the flight after each second.
 fn simulate<'a>(
     named: &'a NamedModel<Guidance>,

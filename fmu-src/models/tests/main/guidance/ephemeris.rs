@@ -1,4 +1,4 @@
-//! Onboard ephemerides: what contradicts the Sun sensors is not flown by, and each mode goes by what paper 001 lets it.
+//! Onboard ephemerides: what contradicts the Sun sensors is not used, and each mode goes by what paper 001 lets it.
 
 use models::Guidance;
 use nalgebra::Vector3;
@@ -69,7 +69,7 @@ fn a_sun_five_degrees_off_is_lost_after_its_persistence_and_the_coarse_one_simul
         assert_eq!(seen(&flight), expected, "{second}");
         assert_eq!(flight.integer("mode.reason"), if second <= 10 { 0 } else { BY_EPHEMERIS }, "{second}");
     }
-    // Safe Hold flies downlink within its keep-in zone: now with the Sun where it is, to the coarse model's error.
+    // Safe Hold commands downlink within its keep-in zone: now with the Sun where it is, to the coarse model's error.
     let elevation_rad = flight.real("sun.elevation");
     let off_rad = (sun_from_minus_y_rad(&flight) - elevation_rad.hypot(flight.real("sun.azimuth"))).abs();
     assert!(off_rad < 3e-4, "{off_rad}");

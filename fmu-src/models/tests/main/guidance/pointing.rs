@@ -151,7 +151,7 @@ fn camera_and_beam_follow_their_targets_where_the_zone_moved_the_attitude() {
     let off = [("hotPole.enabled", 0.0)];
     let toward = |flight: &Flight<'_>, place: Vector3<f64>| to_inertial(flight).inverse() * place.normalize();
     let spacecraft = Vector3::new(3e6, 1e6, 2e6);
-    // The Earth is 157 deg from the Sun: asked at 100 deg it leaves the Sun outside the zone.
+    // The Earth is 157 deg from the Sun: requested at 100 deg it leaves the Sun outside the zone.
     let antenna =
         [("pointing.scenario", 6.0), ("boresight.option", 4.0), ("boresight.azimuth", 100_f64.to_radians())];
     let flight = named.initialize(0.0, &with(&[PLACED, &off, &antenna])).unwrap();

@@ -31,7 +31,7 @@ pub struct ControllerState {
     requested_body_n_m: Vector3<f64>,
     /// What of it could not be given, in N m, body frame.
     missing_body_n_m: Vector3<f64>,
-    /// Whether the reference goes on from the last sample.
+    /// Whether the reference continues from the last sample.
     has_reference: bool,
     was_valid: bool,
     was_rate_only: bool,

@@ -31,7 +31,7 @@ fn spacecraft(wheels: Vec<ReactionWheel>) -> Gyrostat {
     Gyrostat::new(Matrix3::from_diagonal(&INERTIA.into()), wheels).unwrap()
 }
 
-/// Flies on to `end_s` in pieces of at most `piece_s`.
+/// Simulates on to `end_s` in pieces of at most `piece_s`.
 pub(super) fn simulate(
     motion: &mut GyrostatMotion,
     spacecraft: &Gyrostat,

@@ -28,7 +28,7 @@ use crate::{
 /// No segment is shortened below this for what light does, in s.
 const SHORTEST_LIT_S: f64 = 60.0;
 
-/// Where bodies are, EME2000, by the flight's clock.
+/// Ephemeris of bodies, EME2000, by the simulation's clock.
 pub trait BodyEphemeris {
     /// Position and velocity from the Sun.
     fn heliocentric(&mut self, body: Body, at_s: f64) -> CartesianState;
@@ -36,7 +36,7 @@ pub trait BodyEphemeris {
     /// The second derivative of that position, in m/s2.
     fn acceleration_m_s2(&mut self, body: Body, at_s: f64) -> Vector3<f64>;
 
-    /// When the first segment of an ephemeris ends after `at_s`: until there places are smooth.
+    /// When the first segment of an ephemeris ends after `at_s`: until there positions are smooth.
     fn smooth_until_s(&self, at_s: f64) -> f64;
 
     /// Position of the Moon from the Earth, in m.

@@ -106,7 +106,7 @@ fn vectors_of(
 #[test]
 fn the_rate_is_the_derivative_with_a_constraint_in_force() {
     let orbit = TestOrbit::new(12.0);
-    // The hot pole is far from attitudes that look at the planet; in force it is where the aim is elsewhere.
+    // The hot pole is far from attitudes that look at the planet; in force it is where the aimpoint is elsewhere.
     let rows =
         [(zone(KeepInMethod::Nearest), 40, 10), (zone(KeepInMethod::Clamp), 40, 10), (hot_pole(), 10, 4)];
     for (constraints, least, aims) in rows {

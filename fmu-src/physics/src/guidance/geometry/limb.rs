@@ -5,7 +5,7 @@
 //! y = p/p^2 +- sqrt(1 - 1/p^2) w, w the unit vector along rho x sigma: closed, so that moving numbers give their rates.
 //! The plane is normal to the Sun's direction (terminator: 0, 1 or 2 solutions, the one nearer to the downtrack direction is
 //! taken), or holds the local vertical and the azimuth's direction (generic: one solution on the azimuth's side). Where
-//! there is none the aim is the planet's centre. Height counts along the radius of the limb point.
+//! there is none the aimpoint is the planet's centre. Height counts along the radius of the limb point.
 
 use nalgebra::{ComplexField, Vector3};
 

@@ -39,7 +39,7 @@ mod tests {
     use core::f64::consts::FRAC_PI_2;
     use nalgebra::Vector3;
 
-    /// Above +X, flying toward +Y and upward; the Sun in the X-Z plane.
+    /// Above +X, moving toward +Y and upward; the Sun in the X-Z plane.
     fn above_x() -> EphemerisAtTime {
         EphemerisAtTime {
             position: moving(Vector3::x() * 5e6, Vector3::new(100.0, 2000.0, 0.0)),

@@ -21,7 +21,7 @@ pub const SUN_TOLERANCE_RAD: f64 = 2.0 * crate::constants::DEG_RAD;
 /// For how long it may be farther away, in s, assumed.
 pub const SUN_PERSISTENCE_S: f64 = 10.0;
 
-/// Where everything is.
+/// Positions of spacecraft and bodies by precise and coarse models.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyPositions {
     /// By the precise models, or by the only ones; `None` while a place is not known, or outside their span.

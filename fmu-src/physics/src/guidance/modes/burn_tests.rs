@@ -213,7 +213,7 @@ fn a_burn_interrupted_does_not_go_on_by_itself() {
     guidance.sample(&all, &inputs, |_| None);
     assert!(guidance.burn().stop_s().is_some());
     assert_eq!(guidance.burn().velocity_m_s(), &Vector3::zeros());
-    // An entry of a timeline that goes on with its scenario does not begin it anew, one that names it does.
+    // An entry of a timeline that continues with its scenario does not begin it anew, one that names it does.
     let mut guidance = burning;
     let mut planned = inputs;
     planned.entries.scenario = Some(7);

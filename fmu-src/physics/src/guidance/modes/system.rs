@@ -514,7 +514,7 @@ fn in_present_orbit(windows: &Schedule, ephemeris: &EphemerisAtTime) -> Schedule
     })
 }
 
-/// A command that goes on after its end: its scans do not.
+/// A command that continues after its end: its scans do not.
 fn without_scans(command: &PointingCommand) -> PointingCommand {
     let limb = LimbCommand { height_rate_m_s: 0.0, ..command.limb };
     PointingCommand { scan: ScanCommand::default(), limb, ..*command }

@@ -43,7 +43,7 @@ pub(crate) struct TrueThrust {
     pub jitter_rad: f64,
 }
 
-/// A burn to fly.
+/// A burn to simulate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BurnFlight {
     pub settings: BurnSettings,
@@ -185,7 +185,7 @@ impl BurnFlight {
         UnitQuaternion::from_scaled_axis(turn) * self.settings.thrust_body
     }
 
-    /// Flies it for `duration_s`.
+    /// Simulates it for `duration_s`.
     pub(crate) fn simulated(&self, duration_s: u32) -> Simulated {
         let settings = guidance_settings(self.settings);
         let path = self.settings.path.unwrap();

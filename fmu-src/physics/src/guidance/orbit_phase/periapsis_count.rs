@@ -17,7 +17,7 @@ pub struct PeriapsisCount {
 
 impl PeriapsisCount {
     /// The attitude of the orbit phase. Periapsis and period of `law` are replaced by those of the orbit that position and
-    /// velocity give; between disturbed orbits the count goes on. Where a slew begins the spacecraft stood on that orbit, and
+    /// velocity give; between disturbed orbits the count continues. Where a slew begins the spacecraft stood on that orbit, and
     /// Sun and Earth moved evenly since.
     pub fn attitude(
         &mut self,

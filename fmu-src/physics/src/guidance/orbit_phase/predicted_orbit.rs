@@ -1,4 +1,4 @@
-//! The orbit ahead of a sample: the spacecraft on its present orbit, Sun and Earth by the planet's and the Earth's orbits about
+//! Predicted orbit after a sample: the spacecraft on its present orbit, Sun and Earth by the planet's and the Earth's orbits about
 //! the Sun.
 //!
 //! Equation: two-body motion through position and velocity at the sample, about the target planet and about the Sun. What is
@@ -16,7 +16,7 @@ use crate::environment::orbit::TwoBodyOrbit;
 use crate::guidance::geometry::ephemeris_at_time::EphemerisAtTime;
 use crate::guidance::geometry::moving::{MovingVector, rate, value};
 
-/// Everything about the planet at other epochs than the sample's.
+/// Spacecraft, Sun and Earth about the planet, predicted from a sample for other epochs.
 #[derive(Clone, Copy, Debug)]
 pub struct PredictedOrbit<'a> {
     present: &'a EphemerisAtTime,

@@ -10,7 +10,7 @@ use crate::guidance::geometry::lvlh::lvlh_direction;
 use crate::guidance::geometry::moving::{MovingVector, fixed, moving, spherical, value};
 use crate::guidance::geometry::planet_point::{geographic_m, planet_fixed};
 
-/// What an aim is, which decides how it can be scanned.
+/// Kind of an aimpoint, which decides how it can be scanned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AimpointKind {
     /// A direction in EME2000, infinitely far.
@@ -23,7 +23,7 @@ pub enum AimpointKind {
     PlanetPoint,
 }
 
-/// Where to aim.
+/// An aimpoint as a vector from the spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aimpoint {
     /// From the spacecraft, EME2000: a direction of any length, or m to a point. Never zero, never NaN.
@@ -42,7 +42,7 @@ impl Aimpoint {
     }
 }
 
-/// What the aim of an option is.
+/// Kind of an option's aimpoint.
 pub fn aimpoint_kind(option: AimpointOption) -> AimpointKind {
     match option {
         AimpointOption::Vector | AimpointOption::RightAscensionDeclination => AimpointKind::Direction,
@@ -61,7 +61,7 @@ pub fn aimpoint_kind(option: AimpointOption) -> AimpointKind {
     }
 }
 
-/// The commanded aim; `None` where nothing is commanded or it has no direction, such as a zero vector or a body whose place
+/// The commanded aimpoint; `None` where nothing is commanded or it has no direction, such as a zero vector or a body whose place
 /// is not known.
 pub fn aimpoint(
     command: &AimpointCommand,

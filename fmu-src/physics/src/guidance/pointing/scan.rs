@@ -4,7 +4,7 @@
 //! often as it has segments (0: without end); then it holds. At a corner, and within the tolerance of time before it, the
 //! motion that begins counts. Rotations are
 //! right-handed about x, y and z of the frame in turn, the axes staying where they are: Rz Ry Rx. A scan in the body frame
-//! turns the boresight, one in any other frame moves the aim; the attitude law stays as it is.
+//! turns the boresight, one in any other frame moves the aimpoint; the attitude law stays as it is.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -16,7 +16,7 @@ use crate::guidance::geometry::lvlh::lvlh_axes;
 use crate::guidance::geometry::moving::{Moving, MovingMatrix, MovingVector, rotation_about};
 use crate::numerics::spacing::spacing;
 
-/// Which scan frames go with which kind of aim. The paper prints no matrix; the default is an assumption.
+/// Which scan frames go with which kind of aimpoint. The paper prints no matrix; the default is an assumption.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ScanCompatibility {
     /// By [`ScanFrame`], then by [`AimpointKind`].
@@ -42,7 +42,7 @@ impl Default for ScanCompatibility {
 }
 
 impl ScanCompatibility {
-    /// Whether a scan in this frame goes with this kind of aim.
+    /// Whether a scan in this frame goes with this kind of aimpoint.
     pub fn allows(&self, frame: ScanFrame, kind: AimpointKind) -> bool {
         self.allowed[frame as usize][kind as usize]
     }
@@ -53,7 +53,7 @@ impl ScanCompatibility {
 pub struct Scanned {
     /// The boresight, body frame.
     pub boresight_body: MovingVector,
-    /// From the spacecraft to the aim, EME2000.
+    /// From the spacecraft to the aimpoint, EME2000.
     pub toward: MovingVector,
 }
 
@@ -66,8 +66,8 @@ pub struct ScanTime {
     pub tolerance_s: f64,
 }
 
-/// The boresight and aim at a time of a scan; `None` where none is commanded, it does not go with the aim,
-/// or the moved aim has no direction: then the basic pointing stands.
+/// The boresight and aim at a time of a scan; `None` where none is commanded, it does not go with the aimpoint,
+/// or the moved aimpoint has no direction: then the basic pointing stands.
 pub fn scanned(
     boresight_body: &MovingVector,
     aimpoint: &Aimpoint,

@@ -1,6 +1,6 @@
 //! The scenarios of paper 001's Table 5: which vectors each sets, with limb and scan.
 //!
-//! All but the generic one roll -Y toward the Sun. A scan goes on top of any but downlink and burn.
+//! All but the generic one roll -Y toward the Sun. A scan continues  top of any but downlink and burn.
 
 use nalgebra::Vector3;
 
@@ -34,7 +34,7 @@ pub struct GuidanceHardware<'a> {
     pub default_downlink: &'a DefaultDownlink,
     /// What the subsolar point is.
     pub subsolar: SubsolarMethod,
-    /// Which scans go with which aims.
+    /// Which scans go with which aimpoints.
     pub scans: ScanCompatibility,
 }
 
@@ -49,11 +49,11 @@ pub struct PointingProgress {
     pub downlink_sun: Option<SunPlace>,
     /// Where downlink is to have the Sun, and whether it is turned about the Sun line.
     pub requested: SunRequest,
-    /// Where a burn wants its thrust.
+    /// Thrust direction that a burn commands.
     pub burn: Option<BurnPointing>,
 }
 
-/// The vectors of a command, and what is said about them.
+/// The pointing vectors of a command, with its flags.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointingSolution {
     /// For the attitude law.
@@ -68,9 +68,9 @@ pub struct PointingSolution {
     pub reachable: bool,
     /// Whether an angle that was requested is out of its range.
     pub clamped: bool,
-    /// Whether a scan moves boresight or aim.
+    /// Whether a scan moves boresight or aimpoint.
     pub scan_active: bool,
-    /// What is to be said of a downlink.
+    /// Outputs of a downlink.
     pub downlink: DownlinkStatus,
     /// Of a downlink, where its law takes another form; infinite otherwise.
     pub margins: [f64; 2],
@@ -87,7 +87,7 @@ struct Reading<'a> {
     progress: &'a PointingProgress,
 }
 
-/// The vectors of a command, its scan included; `None` where it has no scenario, or boresight or aim no direction: then the
+/// The vectors of a command, its scan included; `None` where it has no scenario, or boresight or aimpoint no direction: then the
 /// last command stays.
 pub fn pointing_solution(
     command: &PointingCommand,
@@ -182,7 +182,7 @@ impl Reading<'_> {
         }
     }
 
-    /// The boresight at the aim with -Y rolled toward the Sun, and the scan on top.
+    /// The boresight at the aimpoint with -Y rolled toward the Sun, and the scan on top.
     fn sunward(&self, boresight: Boresight, aimpoint: Aimpoint) -> PointingSolution {
         let scan = self.progress.scan.and_then(|time| {
             let (scan, scans) = (&self.command.scan, &self.hardware.scans);

@@ -245,7 +245,7 @@ fn the_rate_is_the_derivative_for_every_aimpoint_with_every_scan() {
         for frame in every() {
             let mut command = command(Scenario::Generic);
             command.aimpoint = aimpoint(option);
-            // An aim that leaves the Sun by metres spans no plane with it.
+            // An aimpoint that leaves the Sun by metres spans no plane with it.
             command.external_roll.option = Some(ExternalRollOption::Vector);
             command.scan = scan(frame);
             for scan_s in SCAN_TIMES_S {

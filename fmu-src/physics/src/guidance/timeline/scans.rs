@@ -1,4 +1,4 @@
-//! The scan of a command: a scenario that has scans, numbers of its frame, motions that last, an aim that its frame goes with.
+//! The scan of a command: a scenario that has scans, numbers of its frame, motions that last, an aimpoint that its frame goes with.
 
 use super::commands::{Commands, named};
 use super::description::{CommandDescription, ScanDescription};

@@ -133,7 +133,7 @@ impl<'a> Plant<'a> {
     /// Units of a sample, sunlight on many faces aside: everything that is not read from a polynomial.
     const SAMPLE_UNITS: u32 = 3;
 
-    /// `propagator` belongs to this world; `external` gives the load from outside at any time.
+    /// `propagator` belongs to this context; `external` gives the load from outside at any time.
     pub fn new(
         prepared: PreparedSpacecraft<'a>,
         context: &'a mut SimulationContext,

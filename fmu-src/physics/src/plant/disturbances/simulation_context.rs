@@ -1,4 +1,4 @@
-//! Environment of a simulation, and the spacecraft prepared for it.
+//! Context of a simulation, and the spacecraft prepared for it.
 
 use crate::environment::ephemeris::Ephemeris;
 use crate::environment::orbit::OrbitMethod;
@@ -13,7 +13,7 @@ use crate::plant::settings::work::Work;
 use crate::radiation::SolarModel;
 use crate::spacecraft::{MassProperties, Panel};
 
-/// Environment of a simulation: everything beside its state.
+/// Configuration, environment and work limit of a simulation: everything beside its state.
 #[derive(Clone, Debug)]
 pub struct SimulationContext {
     /// Spacecraft and orbit; the attitude is set during the simulation.

@@ -1,4 +1,4 @@
-//! The spacecraft in flight: world, thrusters, state and mode (attitude followed ideally, or by dynamics) in one.
+//! The spacecraft in simulation: context, thrusters, state and mode (attitude followed ideally, or by dynamics) in one.
 //!
 //! Parameters and inputs are no state: a restored flight is configured anew before it advances.
 

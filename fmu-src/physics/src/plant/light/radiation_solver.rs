@@ -23,7 +23,7 @@ pub struct RadiationSolver {
 }
 
 impl RadiationSolver {
-    /// Prepares `spacecraft` without the panels the configuration leaves out; `planet` is the surface it flies over.
+    /// Prepares `spacecraft` without the panels the configuration leaves out; `planet` is the surface below it.
     ///
     /// # Errors
     /// An impossible planet surface, number of nodes or form of the sunshade.

@@ -127,7 +127,7 @@ pub(crate) fn sun_and_earth(
     BodiesFromCenter { center: configuration.center, ellipse, custom: None }.sun_and_earth(ephemeris, epoch_s)
 }
 
-/// Sun, planets and Moon by the flight's ephemeris and clock.
+/// Sun, planets and Moon by the simulation's ephemeris and clock.
 pub(crate) struct SimulationEphemeris<'a> {
     pub configuration: &'a Configuration,
     pub ephemeris: &'a mut Ephemeris,

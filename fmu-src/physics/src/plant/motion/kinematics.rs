@@ -278,7 +278,7 @@ impl Kinematics<'_> {
         self.guided(law, time_s, &geometry)
     }
 
-    /// Least and greatest angle between Sun and Earth from one time to a later one, in rad, the spacecraft going on along the
+    /// Least and greatest angle between Sun and Earth from one time to a later one, in rad, the spacecraft continuing along the
     /// ellipse that it is on.
     pub(crate) fn separations_rad(&mut self, from_s: f64, to_s: f64) -> [f64; 2] {
         let mut ahead = self.geometry_ahead(from_s);
@@ -303,7 +303,7 @@ impl Kinematics<'_> {
         })
     }
 
-    /// Where everything is later than `from_s`, the spacecraft going on along the ellipse that it is on.
+    /// Where everything is later than `from_s`, the spacecraft continuing along the ellipse that it is on.
     fn geometry_ahead(&mut self, from_s: f64) -> impl FnMut(f64) -> Geometry {
         let configuration = self.configuration;
         let now = self.trajectory.state_at(configuration, from_s);

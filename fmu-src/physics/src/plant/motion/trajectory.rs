@@ -297,7 +297,7 @@ impl Trajectory {
         self.periapses.forget_after(time_s, || radial(&orbit.state_at(time_s)));
     }
 
-    /// The velocity jumps by `delta_v_m_s`, EME2000, at `time_s`: an integrated orbit goes on from there, two-body motion on
+    /// The velocity jumps by `delta_v_m_s`, EME2000, at `time_s`: an integrated orbit continues from there, two-body motion on
     /// another orbit; a place that is held stays.
     ///
     /// # Errors

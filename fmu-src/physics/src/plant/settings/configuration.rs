@@ -1,4 +1,4 @@
-//! What flies, where, and under which light: constant between two changes of a parameter or input.
+//! Spacecraft, orbit and light of a simulation: constant between two changes of a parameter or input.
 
 use std::sync::Arc;
 
@@ -68,7 +68,7 @@ impl AttitudeSource {
 /// An attitude that is known up to now, and what it is to follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DynamicAttitude {
-    /// The attitude now, going on at the present rate.
+    /// The attitude now, continuing at the present rate.
     pub motion: Command,
     /// How that rate changes: the first and second term of its series, in rad/s2 and rad/s3.
     pub rate_terms_body: [Vector3<f64>; 2],

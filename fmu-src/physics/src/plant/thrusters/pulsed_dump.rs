@@ -2,7 +2,7 @@
 //!
 //! Method: what is left of the impulse is shared out by the selection, as much at a time as the mean torque allows. A thruster
 //! whose share is less than its valve's shortest pulse owes it until it is not. At the end, where all is shared out, the pulses are
-//! taken one after another that come nearest to what is owed, a few times, as pulses scatter and the body turns under them.
+//! taken one after another that come nearest to the residual, a few times, as pulses scatter and the body turns under them.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

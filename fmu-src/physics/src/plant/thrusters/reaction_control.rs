@@ -93,7 +93,7 @@ impl Thrusters {
         let mut any = false;
         let is_dumping = self.is_dumping();
         for (k, (thruster, pulse)) in self.settings.thrusters.iter().zip(pulses).enumerate() {
-            // What thrusters do on their own goes on.
+            // What thrusters do on their own continues.
             let is_own = self.burn.is_some_and(|burn| thruster.set == Some(burn.set)) || is_dumping;
             any |= self.schedule[k].command(&thruster.valve, pulse, span_s, !is_own);
         }

@@ -126,7 +126,7 @@ impl Job {
             _more: [usize; MEMBERS - 1],
         }
         let mut list = List { head: JOBOBJECT_BASIC_PROCESS_ID_LIST::default(), _more: [0; MEMBERS - 1] };
-        // SAFETY: the list, whose numbers go on behind its head, is of this size. Of a longer one the first numbers are given.
+        // SAFETY: the list, whose numbers continue behind its head, is of this size. Of a longer one the first numbers are given.
         unsafe {
             QueryInformationJobObject(
                 self.0.as_raw_handle(),

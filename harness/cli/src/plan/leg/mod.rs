@@ -34,9 +34,9 @@ use crate::{
 
 /// Names of the files.
 const NAMES: [&str; 3] = ["mission.toml", "plan.svg", "plan.json"];
-/// How near B comes to the aim, in m.
+/// How near B comes to the aimpoint, in m.
 const TOLERANCE_M: f64 = 1.0;
-/// How long a mission goes on behind the arrival, at least, in s.
+/// How long a mission continues behind the arrival, at least, in s.
 const BEHIND_S: f64 = DAY_S;
 /// Elements, which a start from position and velocity does not read.
 const ELEMENTS: [&str; 7] = [

@@ -97,7 +97,7 @@ impl FlybyTask {
         Target { tolerance: [Some(side_m), Some(side_m), in_time] }
     }
 
-    /// Gives a flight its miss of the aim.
+    /// Gives a flight its miss of the aimpoint.
     pub(super) fn judge(
         &self,
         flight: &mut SimulatedFlight,

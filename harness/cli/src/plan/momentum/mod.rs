@@ -304,7 +304,7 @@ pub(crate) fn run(options: &MomentumOptions, kind: PlanKind) -> Outcome {
     Ok(if is_planned { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// Writes what there is of a plan whose aim is out of reach.
+/// Writes what there is of a plan whose aimpoint is out of reach.
 fn refuse(planned: &Planned<'_>, (report, flyby_task): (&FlybyReport, &FlybyTask)) -> Outcome {
     let picture = drawn(None, Some((report, flyby_task)))?;
     let json = report::out_of_reach_json(report.members())?;

@@ -27,7 +27,7 @@ impl Flight {
         packed(&self.recorded.rows[row].motion.unwrap().from_sun)
     }
 
-    /// Central differences of the aim by the state at a row, whose steps move B by some 2 km.
+    /// Central differences of the aimpoint by the state at a row, whose steps move B by some 2 km.
     fn differences(&mut self, row: usize) -> Matrix3x6<f64> {
         let (time_s, state) = (self.recorded.rows[row].time_s, self.state(row));
         let partials = self.sensitivity.at(time_s);

@@ -149,7 +149,7 @@ fn each_frame_moves_what_it_says() {
     let turned = moved(ScanFrame::LvlhRotation, 0, FRAC_PI_2, &down, &s).unwrap();
     let left = value(&s.position).cross(&value(&s.sun)).normalize();
     assert_relative_eq!(value(&turned.toward).normalize(), left, epsilon = 1e-13);
-    // About up a vertical aim stays.
+    // About up a vertical aimpoint stays.
     let turned = moved(ScanFrame::LvlhRotation, 2, 1.0, &down, &s).unwrap();
     let apart_m = (value(&turned.toward) - value(&down.toward)).norm();
     assert!(apart_m <= 1e-15 * value(&down.toward).norm(), "{apart_m}");

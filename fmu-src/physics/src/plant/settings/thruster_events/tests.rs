@@ -1,4 +1,4 @@
-//! Draws have the mean and deviation that was asked for, are independent, and belong to seed and number alone.
+//! Draws have the requested mean and deviation, are independent, and belong to seed and number alone.
 
 use approx::assert_relative_eq;
 
@@ -22,7 +22,7 @@ fn assert_normal(draws: &[f64], sigma: f64) {
     let mean = draws.iter().sum::<f64>() / n;
     let deviation = (draws.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
     assert!(mean.abs() < 4.0 * sigma / n.sqrt(), "mean {mean:e} of sigma {sigma:e}");
-    assert!((deviation / sigma - 1.0).abs() < 4.0 / (2.0 * n).sqrt(), "{deviation:e}, asked {sigma:e}");
+    assert!((deviation / sigma - 1.0).abs() < 4.0 / (2.0 * n).sqrt(), "{deviation:e}, requested {sigma:e}");
 }
 
 #[test]
