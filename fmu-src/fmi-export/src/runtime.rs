@@ -39,7 +39,7 @@ pub(crate) trait Runtime: Send {
     fn check(&self, saved: &ErasedState) -> Result<(), Failure>;
     /// Bytes that [`Runtime::encode`] needs.
     fn encoded_size(&self, saved: &ErasedState) -> Result<usize, Failure>;
-    /// Writes a saved state into `bytes` and says how many it took.
+    /// Writes a saved state into `bytes` and returns how many it took.
     fn encode(&self, saved: &ErasedState, bytes: &mut [u8]) -> Result<usize, Failure>;
     /// Reads what [`Runtime::encode`] wrote, all of `bytes`; total: any bytes give a state or an error.
     fn decode(&self, bytes: &[u8]) -> Result<ErasedState, Failure>;

@@ -192,7 +192,7 @@ impl Model for Guidance {
     }
 }
 
-/// Says why the mode fell at the sample, or what was lost beside: a request as an event, what comes by itself as a warning.
+/// Reports why the mode fell at the sample, or what was lost beside: a request as an event, what comes by itself as a warning.
 fn log_demotion(
     context: &Plan<'_>,
     sampled_s: f64,

@@ -37,7 +37,7 @@ pub struct PlantSetup {
     /// The centre of its orbit by its file, by which the defaults of the parameters go.
     #[serde(skip)]
     pub center: CenterBody,
-    /// Bodies with what the file says of one.
+    /// Bodies with what the file gives of one.
     #[serde(skip)]
     pub bodies: CenterBodies,
     /// Start values of the downlink windows.

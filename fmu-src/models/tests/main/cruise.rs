@@ -269,7 +269,7 @@ fn parameters_of_the_planet_are_those_of_the_encounter() {
     let flight = named.initialize(0.0, &without).unwrap();
     assert!(flight.real("planet.radius") > 6e8);
     assert_eq!((flight.real("encounter.distance"), flight.real("encounter.lastTime")), (0.0, -1.0));
-    // An encounter has no effect in other dynamics, and a warning says so.
+    // An encounter has no effect in other dynamics, and a warning reports that.
     assert!(!named.warnings().iter().any(|it| it.contains("encounter.body")));
     let circle = [("orbit.center", 2.0), ("encounter.body", 1.0)];
     let flight = named.initialize(0.0, &circle).unwrap();

@@ -21,7 +21,7 @@ const CUSTOM: f64 = 100.0;
 const ON_A_CIRCLE: &str = "elements = { semi_major_axis_m = 4e11, eccentricity = 0.0, inclination_deg = 0, ascending_node_deg = 0, \
      periapsis_argument_deg = 0, true_anomaly_deg = 0 }\nepoch = \"2030-01-01 TDB\"\n";
 
-/// The sailer about an asteroid, with what is said of its motion.
+/// The sailer about an asteroid, with what is reported of its motion.
 fn about_an_asteroid(motion: &str, start: &str) -> String {
     format!(
         "{SAILER}\n[body]\nname = \"Rock\"\ngravitational_parameter_m3_s2 = {GM_M3_S2}\nradii_m = [5000, 5000, 5000]\n\

@@ -188,7 +188,7 @@ fn downlinks_and_periapses_are_those_of_the_new_orbit() {
                     let delta_v = flight.vector("velocity") * share;
                     flight.set_elements("maneuver.deltaV", delta_v.iter());
                 }
-                // Beside whole orbits, where rounding says which one it is.
+                // Beside whole orbits, where rounding decides which one it is.
                 flight.step_to(f64::from(number) * 3600.0 + 17.0).unwrap();
             }
             let apart_m = (closed.vector("position") - found.vector("position")).norm();

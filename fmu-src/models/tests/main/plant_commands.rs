@@ -90,7 +90,7 @@ fn an_error_quaternion_brings_the_sun_onto_the_boresight_once() {
         // Within a second the Sun moves on by 1e-6 rad.
         let off_rad = flight.vector("sun.direction").angle(&boresight);
         assert!(off_rad < 3e-6, "{off_rad}");
-        // The sensor still says what it said: that error is turned out and turns no more, until the kind is chosen anew.
+        // The sensor still measures what it measured: that error is turned out and turns no more, until the kind is chosen anew.
         send(&mut flight, error_quaternion(&Vector3::z(), &sensed));
         flight.step_to(62.0).unwrap();
         assert!(flight.vector("sun.direction").angle(&boresight) < 3e-6);

@@ -4,7 +4,7 @@ use physics::spacecraft::Spacecraft;
 
 use super::shapes::HEAD;
 
-/// Surfaces, then, indented, what is said of them: the line behind the head of the file, key, finding and remedy.
+/// Surfaces, then, indented, what is reported of them: the line behind the head of the file, key, finding and remedy.
 const MISTAKES: &str = include_str!("shape_mistakes.txt");
 
 #[test]

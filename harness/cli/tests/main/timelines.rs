@@ -189,7 +189,7 @@ fn a_plant_takes_a_timeline_without_burns_and_modes() {
         .replace("scenario = \"burn\"", "scenario = \"nadir\"")
         .replace("mode = \"safeHold\"", "scenario = \"nadir\"");
     fs::write(&file, &plant).unwrap();
-    // Panels stand by another rule unless it is chosen, and that is said.
+    // Panels stand by another rule unless it is chosen, and that is reported.
     let without = "[[panels]] of the timeline are without effect: found panel[k].control = sunOffset, sunOffset, allowed: timeline";
     says(&run(&arguments, 0), &[without]);
     assert_eq!(guid(&fmu), guid(&plain));

@@ -29,7 +29,7 @@ use crate::common::effects::unused_map;
 use crate::common::ephemeris;
 pub(super) use dynamics::wheel_array;
 
-/// What parameters and inputs say to one step, beside what [`PlantState::inputs`] hold.
+/// Parameters and inputs of one step, beside what [`PlantState::inputs`] hold.
 pub(super) struct Reading<'a> {
     /// What is another than at the last step; `None` where nothing was set.
     pub changes: Option<Changes>,

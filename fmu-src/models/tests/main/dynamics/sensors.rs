@@ -1,4 +1,4 @@
-//! Sensors: what they say, what their failures do, noise that repeats.
+//! Sensors: what they measure, what their failures do, noise that repeats.
 
 use models::MomentumPlant;
 use nalgebra::{UnitQuaternion, Vector3};

@@ -349,7 +349,7 @@ fn what_cannot_fire_is_refused_or_flagged() {
     assert!((momentum(&flight).norm() - expected).abs() < 1e-9, "{}", momentum(&flight).norm());
 }
 
-/// A main engine alone can be simulated; the dumps there are come by dump.torque, as without thrusters, and that is said.
+/// A main engine alone can be simulated; the dumps there are come by dump.torque, as without thrusters, and that is reported.
 #[test]
 fn thrusters_that_cannot_turn_the_body_leave_dumps_to_dump_torque() {
     let engine = thruster([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], 22.0, "");

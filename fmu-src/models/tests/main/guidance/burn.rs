@@ -197,7 +197,7 @@ fn burns_of_a_timeline_have_their_own_velocity_set_and_start() {
         }
         assert!(!matches!(second, 29 | 49) || flight.vector("burn.velocityError").norm() < 0.02, "{second}");
     });
-    // After its command and 5 s; a second after its command, when the attitude is there; as the parameters say.
+    // After its command and 5 s; a second after its command, when the attitude is there; as the parameters set.
     assert_eq!(began, [(7, 3), (31, 1), (50, 2)]);
     assert!(named.warnings().is_empty(), "{:?}", named.warnings());
 }

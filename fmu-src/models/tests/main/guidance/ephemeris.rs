@@ -37,7 +37,7 @@ fn with_file(span_s: f64, turned_rad: f64) -> NamedModel<Guidance> {
     NamedModel::<Guidance>::shipped().with_schedule(FILE, &file(span_s, turned_rad).0)
 }
 
-/// What sensors say of an attitude that is the commanded one: estimate and Sun.
+/// What sensors measure of an attitude that is the commanded one: estimate and Sun.
 fn sense(flight: &mut Flight<'_>) {
     let to_body = to_inertial(flight).inverse();
     let sun_m = from_mercury(Body::Sun, START_S + flight.time_s()).position_m - position_m();

@@ -1,4 +1,4 @@
-//! Every step of every legal flight is answered in bounded time, with finite outputs or an error that says what to do.
+//! Every step of every legal flight is answered in bounded time, with finite outputs or an error that names what to do.
 
 use std::time::Instant;
 

@@ -62,7 +62,7 @@ pub struct CommandStatus {
     pub degenerate: bool,
     /// Whether a scan moves boresight or aim.
     pub scan_active: bool,
-    /// What is to be said of a downlink.
+    /// What is reported of a downlink.
     pub downlink: DownlinkStatus,
     /// Whether the keep-in zone changed the attitude.
     pub sun_keep_in: bool,

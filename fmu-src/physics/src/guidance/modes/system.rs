@@ -42,7 +42,7 @@ pub const SAMPLE_INTERVAL_S: f64 = 1.0;
 /// Units of about a microsecond that a sample takes at most, a choice of the Sun's place aside.
 pub const SAMPLE_WORK: u32 = 4;
 
-/// Everything that parameters say.
+/// Everything that parameters set.
 #[derive(Clone, Copy, Debug)]
 pub struct GuidanceSettings<'a> {
     /// Instruments, gimbal, scans.

@@ -21,7 +21,7 @@ use crate::numerics::spacing::spacing;
 /// A Sun this little off the zone's boundary is on it, in rad.
 const ON_BOUNDARY_RAD: f64 = 1e-9;
 
-/// What parameters say.
+/// What parameters set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimelineSettings {
     /// The keep-in zone, in force or not.
@@ -96,7 +96,7 @@ impl TimelineLaw<'_> {
         let sun_body = || value(&unconstrained.to_body(&to_sun)).try_normalize(0.0);
         let margin = keep_in.and_then(|zone| Some(-zone.excess_rad(&sun_body()?)?));
         let moves = margin.is_some_and(|margin| margin < -ON_BOUNDARY_RAD);
-        // A place of the Sun on the boundary stays there, whatever rounding says.
+        // A place of the Sun on the boundary stays there, whatever the rounding.
         let is_held = cut || solution.downlink.active;
         let margin = margin.filter(|margin| !is_held || margin.abs() > ON_BOUNDARY_RAD);
         let constraints = Constraints { keep_in, hot_pole: None };

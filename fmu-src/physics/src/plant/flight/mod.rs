@@ -69,7 +69,7 @@ enum Mode {
     Dynamic(Box<AttitudeDynamics>),
 }
 
-/// What parameters and inputs say.
+/// What parameters and inputs set.
 #[derive(Clone, Debug)]
 struct FlightSetup {
     context: SimulationContext,
@@ -78,7 +78,7 @@ struct FlightSetup {
     evaluation: Option<Evaluation>,
 }
 
-/// What parameters say beside the configuration.
+/// What parameters set beside the configuration.
 #[derive(Clone, Debug)]
 pub enum ModeSettings {
     /// Of a flight whose attitude is followed ideally, and of one that waits.
@@ -181,7 +181,7 @@ impl Flight {
         &self.propagator.sun_choice
     }
 
-    /// Takes what parameters and inputs say.
+    /// Takes what parameters and inputs set.
     pub fn configure(&mut self, context: SimulationContext, settings: ModeSettings) {
         self.setup = Some(Box::new(FlightSetup { context, settings, evaluation: None }));
         self.set_left();

@@ -417,7 +417,7 @@ impl Periapses {
         if !period_s.is_finite() {
             return Self::default();
         }
-        // A start at periapsis counts as past it, whatever rounding says.
+        // A start at periapsis counts as past it, whatever the rounding.
         let number = orbit.orbit_number(epoch_s + SAME_PASSAGE * period_s);
         let at_s = |number: i64| orbit.periapsis_epoch_s(number) - configuration.epoch_minus_time_s;
         let every = every(configuration);

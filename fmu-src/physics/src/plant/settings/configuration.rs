@@ -36,7 +36,7 @@ pub enum AttitudeSource {
     Guided(Guided),
     /// A command, followed ideally.
     Commanded(Command),
-    /// A body that turns as its dynamics say.
+    /// A body that turns by its dynamics.
     Dynamic(DynamicAttitude),
 }
 

@@ -38,7 +38,7 @@ struct Burn {
 /// Thrusters of the plant: what they are, what is left in their tanks, and what their valves do.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Thrusters {
-    /// What parameters say; in a state that was restored nothing, until it is said again.
+    /// What parameters set; in a state that was restored nothing, until it is said again.
     #[serde(skip)]
     pub settings: ReactionControlSettings,
     /// Propellant used so far.

@@ -313,7 +313,7 @@ pub(crate) fn wait_for<'p>(pipes: impl Iterator<Item = &'p Pipe>, longest: Durat
 }
 
 /// How a process ended: exit status or the name of the exception (NTSTATUS).
-pub(crate) fn how(status: ExitStatus) -> String {
+pub(crate) fn describe_exit(status: ExitStatus) -> String {
     let Some(code) = status.code() else { return status.to_string() };
     let name = match code as u32 {
         0xc000_0005 => "segmentation fault",
