@@ -121,12 +121,12 @@ fn the_printed_start_values_lead_to_where_the_plan_says() {
             shown(&fmu),
             shown(&csv)
         );
-        let flown = Command::new("sh")
+        let second = Command::new("sh")
             .args(["-c", &line, env!("CARGO_BIN_EXE_heliotorque")])
             .stdin(Stdio::null())
             .output()
             .unwrap();
-        assert!(flown.status.success(), "{}", text(&flown));
+        assert!(second.status.success(), "{}", text(&second));
         check(axis_deg(&csv));
         // The same as a file's `[start]`.
         let with_start = at("with_start.toml");
